@@ -1,0 +1,267 @@
+#include "cbm/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/box.hpp"
+#include "core/mesh/measures.hpp"
+
+namespace acinus::cbm {
+namespace {
+
+using contact::SphereBody;
+using contact::SurroundingKind;
+
+/// Spheres overlap by design: no depth is too deep for a step.
+constexpr double kNoDepth = std::numeric_limits<double>::infinity();
+
+/// Relative overlap over which a contact's weight in the mean rises to one.
+constexpr double kWeightRise = 0.02;
+
+/// How far apart two adhering spheres may stand before they let go, um (bound over all pairs).
+double largest_separation(const State& s, std::span<const Params> params,
+                          std::span<const double> radius, const contact::Surroundings& around) {
+  if (s.n_cell() == 0) return 0;
+  double adhesion = around.vessels.material.adhesion;
+  for (const Params& p : params) adhesion = std::max(adhesion, p.adhesion);
+  for (const auto& p : around.planes) adhesion = std::max(adhesion, p.material.adhesion);
+  for (const auto& m : around.meshes) adhesion = std::max(adhesion, m.material.adhesion);
+  if (adhesion <= 0) return 0;
+  const double softest = *std::ranges::min_element(s.young);
+  const double largest = *std::ranges::max_element(radius);
+  // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst case.
+  const contact::SpherePair pair{largest, softest / 2, adhesion};
+  return -contact::jkr_special(pair).fold.overlap;
+}
+
+bool was_touching(const State& s, int a, int b) {
+  return std::ranges::binary_search(s.touching, std::pair(a, b));
+}
+
+/// A key for surroundings that cannot be a cell number.
+int surrounding_key(SurroundingKind kind, int index) {
+  return ~(index * 4 + static_cast<int>(kind));
+}
+
+void count_overlap(ContactWorkspace& work, int cell, double relative) {
+  const double w = overlap_weight(relative);
+  work.overlap_sum[static_cast<std::size_t>(cell)] += w * std::max(relative, 0.0);
+  work.overlap_weight[static_cast<std::size_t>(cell)] += w;
+}
+
+struct MeshGap {
+  double distance;
+  Vec3 normal;
+};
+/// Signed distance of a point to a static mesh within reach; brute force over near triangles.
+MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) {
+  double best2 = reach * reach;
+  MeshGap gap{reach, Vec3::UnitZ()};
+  for (std::size_t t = 0; t < b.triangle->size(); ++t) {
+    const double far = reach + b.reach[t];
+    if ((x - b.center[t]).squaredNorm() > far * far) continue;
+    const auto& corner = (*b.triangle)[t];
+    const mesh::ClosestPoint c = mesh::find_closest_point(
+        x, b.node[static_cast<std::size_t>(corner[0])], b.node[static_cast<std::size_t>(corner[1])],
+        b.node[static_cast<std::size_t>(corner[2])]);
+    if (c.squared_distance >= best2) continue;
+    best2 = c.squared_distance;
+    Vec3 out = Vec3::Zero();
+    for (int m = 0; m < 3; ++m)
+      out += c.weight[m] * b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
+    out.normalize();
+    const Vec3 apart = x - c.point;
+    const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(best2);
+    gap = {sign * distance, distance > 0 ? Vec3(sign / distance * apart) : out};
+  }
+  return gap;
+}
+
+}  // namespace
+
+double overlap_weight(double relative_overlap) {
+  const double s = std::clamp(relative_overlap / kWeightRise, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+double mean_overlap(const ContactWorkspace& work, std::size_t cell) {
+  const double w = work.overlap_weight[cell];
+  return w > 0 ? work.overlap_sum[cell] / w : 0;
+}
+
+bool refresh_pairs(const State& s, std::span<const Params> params, const ContactParams& c,
+                   std::span<const double> radius, const contact::Surroundings& around,
+                   ContactWorkspace& work) {
+  if (work.list_position.size() == s.position.size() && work.list_radius.size() == s.n_cell()) {
+    double moved = 0, wider = 0;
+    for (std::size_t i = 0; i < s.n_cell(); ++i) {
+      moved = std::max(moved, (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
+      wider = std::max(wider, radius[i] - work.list_radius[i]);
+    }
+    if (2 * (moved + wider) <= c.skin) return false;
+  }
+  const double margin = largest_separation(s, params, radius, around) + c.skin;
+  std::vector<contact::Box> boxes;
+  for (std::size_t i = 0; i < s.n_cell(); ++i) boxes.push_back(contact::sphere_box(center_of(s, i), radius[i]));
+  work.pair = contact::find_pairs(boxes, margin);
+  std::erase_if(work.pair, [&](const std::pair<int, int>& p) {
+    const auto i = static_cast<std::size_t>(p.first), j = static_cast<std::size_t>(p.second);
+    return (center_of(s, i) - center_of(s, j)).norm() > radius[i] + radius[j] + margin;
+  });
+  std::vector<contact::Box> segments;
+  const mesh::Network& network = around.vessels.network;
+  for (std::size_t k = 0; k < network.segment.size(); ++k) {
+    contact::Box box;
+    for (int n : network.segment[k]) box.include(network.node[static_cast<std::size_t>(n)]);
+    segments.push_back(box.grown(std::max(network.radius[k][0], network.radius[k][1])));
+  }
+  work.segment = contact::find_pairs_between(boxes, segments, margin);
+  std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
+    const auto i = static_cast<std::size_t>(p.first);
+    return contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
+  });
+  work.list_position = s.position;
+  work.list_radius.assign(radius.begin(), radius.end());
+  ++work.list_builds;
+  return true;
+}
+
+void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
+                   std::span<const double> radius, const contact::Surroundings& around, double time,
+                   ContactWorkspace& work) {
+  work.sphere.clear();
+  work.obstacle.clear();
+  work.touching.clear();
+  for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight}) v->assign(s.n_cell(), 0.0);
+  auto body = [&](std::size_t i) {
+    return SphereBody{radius[i], s.young[i], params[static_cast<std::size_t>(s.type[i])].poisson};
+  };
+  auto adhesion_of = [&](std::size_t i) { return params[static_cast<std::size_t>(s.type[i])].adhesion; };
+
+  for (auto [a, b] : work.pair) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const Vec3 d = center_of(s, i) - center_of(s, j);
+    const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
+    const bool before = was_touching(s, a, b);
+    if (overlap < 0 && !before) continue;
+    const contact::SpherePair pair = contact::reduced_pair(
+        body(i), body(j), c.adhesion_factor * std::sqrt(adhesion_of(i) * adhesion_of(j)));
+    const contact::SphereForce law = contact::jkr_force(pair, overlap, before);
+    if (!law.touching) continue;
+    work.touching.emplace_back(a, b);
+    work.sphere.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap, law});
+    const double area = kPi * law.contact_radius * law.contact_radius;
+    work.contact_area[i] += area;
+    work.contact_area[j] += area;
+    const double relative = overlap / (radius[i] + radius[j]);
+    count_overlap(work, a, relative);
+    count_overlap(work, b, relative);
+  }
+
+  auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
+                  double overlap, const Vec3& normal) {
+    const int key = surrounding_key(kind, index);
+    const bool before = was_touching(s, static_cast<int>(i), key);
+    if (overlap < 0 && !before) return;
+    const contact::SphereForce law = contact::jkr_force(pair, overlap, before);
+    if (!law.touching) return;
+    work.touching.emplace_back(static_cast<int>(i), key);
+    work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
+    work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
+  };
+  auto flat = [](const contact::Material& m, double shape) { return SphereBody{shape, m.young, m.poisson}; };
+  for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    const Vec3 x = center_of(s, i);
+    for (std::size_t k = 0; k < around.planes.size(); ++k) {
+      const contact::Plane& p = around.planes[k];
+      const contact::Gap g = contact::gap_to_plane(p, x, time);
+      if (p.material.mirror) {
+        if (g.gap >= radius[i]) continue;
+        const contact::SphereForce law = contact::mirror_wall_force(body(i), g.gap);
+        work.obstacle.push_back({static_cast<int>(i), SurroundingKind::kPlane, static_cast<int>(k),
+                                 g.normal, radius[i] - g.gap, law});
+        work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
+        count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], g.gap));
+      } else {
+        meet(i, SurroundingKind::kPlane, static_cast<int>(k),
+             contact::reduced_pair(body(i), flat(p.material, contact::kFlat), c.adhesion_factor * p.material.adhesion),
+             radius[i] - g.gap, g.normal);
+      }
+    }
+    for (std::size_t k = 0; k < around.capsules.size(); ++k) {
+      const contact::Capsule& shell = around.capsules[k];
+      const double r = shell.radius_at(time);
+      if (r <= radius[i]) continue;
+      const contact::Gap g = contact::gap_to_capsule(shell, x, time);
+      meet(i, SurroundingKind::kCapsule, static_cast<int>(k),
+           contact::reduced_pair(body(i), flat(shell.material, -r), c.adhesion_factor * shell.material.adhesion),
+           radius[i] - g.gap, g.normal);
+    }
+    for (std::size_t k = 0; k < around.meshes.size(); ++k) {
+      const contact::StaticMesh& m = around.meshes[k];
+      const double reach = 2 * radius[i];
+      if (!m.body.box.grown(reach).contains(x)) continue;
+      const MeshGap g = gap_to_mesh(m.body, x, reach);
+      meet(i, SurroundingKind::kMesh, static_cast<int>(k),
+           contact::reduced_pair(body(i), flat(m.material, contact::kFlat), c.adhesion_factor * m.material.adhesion),
+           radius[i] - g.distance, g.normal);
+    }
+  }
+  for (auto [cell, segment] : work.segment) {
+    const auto i = static_cast<std::size_t>(cell);
+    const Vec3 x = center_of(s, i);
+    const contact::Gap g = contact::gap_to_segment(around.vessels.network, segment, x);
+    if (!contact::is_local_minimum(around.vessels, segment, x, g)) continue;
+    const contact::Material& m = around.vessels.material;
+    meet(i, SurroundingKind::kVessel, segment,
+         contact::vessel_pair(body(i), {g.radius, m.young, m.poisson}, c.adhesion_factor * m.adhesion),
+         radius[i] - g.gap, g.normal);
+  }
+  std::ranges::sort(work.touching);
+}
+
+void add_contact_loads(const State& s, std::span<const Params> params, const ContactParams& c,
+                       const contact::Surroundings& around, const ContactWorkspace& work,
+                       std::size_t first_row, solve::Links& links) {
+  for (const SphereContact& k : work.sphere) {
+    const double area = kPi * k.law.contact_radius * k.law.contact_radius;
+    links.add_point(cell_address(first_row, static_cast<std::size_t>(k.a)), 1);
+    links.add_point(cell_address(first_row, static_cast<std::size_t>(k.b)), -1);
+    links.close(k.law.force * k.normal, Sym3::outer(std::max(0.0, k.law.stiffness), k.normal),
+                Sym3::identity(c.friction_factor * c.cell_friction * area), false, k.normal, kNoDepth);
+  }
+  for (const ObstacleContact& k : work.obstacle) {
+    const auto i = static_cast<std::size_t>(k.cell);
+    const bool mirror = k.kind == SurroundingKind::kPlane &&
+                        around.planes[static_cast<std::size_t>(k.index)].material.mirror;
+    const double area = kPi * k.law.contact_radius * k.law.contact_radius;
+    const double friction = mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction;
+    links.add_point(cell_address(first_row, i), 1);
+    links.close(k.law.force * k.normal, Sym3::outer(std::max(0.0, k.law.stiffness), k.normal),
+                Sym3::identity(friction * area), true, k.normal, kNoDepth);
+  }
+}
+
+double medium_friction(const Params& p, double radius, double contact_area) {
+  const double surface = 4 * kPi * radius * radius;
+  const double per_area = p.viscosity > 0 ? 6 * kPi * p.viscosity * radius / surface : p.medium_friction;
+  return per_area * std::max(0.0, surface - contact_area);
+}
+
+void add_cell_loads(const State& s, std::span<const Params> params, std::span<const double> radius,
+                    const ContactWorkspace& work, std::span<const Vec3> cell_force,
+                    std::size_t first_row, solve::System& system) {
+  for (std::size_t i = 0; i < s.n_row() * kLanes; ++i) {
+    const Address a = cell_address(first_row, i);
+    const bool cell = i < s.n_cell();
+    const double friction =
+        cell ? medium_friction(params[static_cast<std::size_t>(s.type[i])], radius[i], work.contact_area[i]) : 1.0;
+    system.medium[a / kPointStride * kLanes + a % kLanes] += friction;
+    double* d = system.diagonal.data() + a / kPointStride * kSymStride + a % kLanes;
+    for (int k : {0, 3, 5}) d[k * kLanes] += system.friction_scale * friction;
+    if (cell) add_point(system.external_force.data(), a, cell_force[i]);
+  }
+}
+
+}  // namespace acinus::cbm

@@ -1,0 +1,91 @@
+#pragma once
+/// Contacts of spheres with each other and with surroundings: JKR with hysteresis, and their links.
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cbm/params.hpp"
+#include "cbm/state.hpp"
+#include "core/contact/jkr.hpp"
+#include "core/contact/surroundings.hpp"
+#include "core/solve/system.hpp"
+
+namespace acinus::cbm {
+
+struct ContactParams {
+  double skin = 0.3;           ///< um
+  double cell_friction = 0;    ///< nN s/um^3, cell-cell
+  double adhesion_factor = 1;  ///< ramps up after start-up
+  double friction_factor = 1;  ///< 0 while cells grow to size
+};
+
+/// Two spheres in contact. Force on a is +force * normal.
+struct SphereContact {
+  int a = 0, b = 0;
+  Vec3 normal = Vec3::Zero();  ///< unit, from b to a
+  double overlap = 0;          ///< um
+  contact::SphereForce law;
+};
+
+/// A sphere in contact with a plane, capsule, vessel segment or static mesh.
+struct ObstacleContact {
+  int cell = 0;
+  contact::SurroundingKind kind = contact::SurroundingKind::kPlane;
+  int index = 0;
+  Vec3 normal = Vec3::Zero();  ///< unit, from the obstacle to the cell
+  double overlap = 0;          ///< um
+  contact::SphereForce law;
+};
+
+/// Scratch of the contact search.
+struct ContactWorkspace {
+  std::vector<std::pair<int, int>> pair;       ///< near pairs; written by: refresh_pairs
+  std::vector<std::pair<int, int>> segment;    ///< (cell, vessel segment) near pairs
+  std::vector<double> list_position, list_radius;
+  std::vector<SphereContact> sphere;           ///< written by: find_contacts
+  std::vector<ObstacleContact> obstacle;       ///< written by: find_contacts
+  std::vector<std::pair<int, int>> touching;   ///< new touching set, committed with an accepted step
+  std::vector<double> contact_area;            ///< [n_cell] um^2, sum over all contacts
+  /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out; the DCM-CBM
+  /// interface adds its own.
+  std::vector<double> overlap_sum, overlap_weight;
+  int list_builds = 0;
+};
+
+/// Weight of one contact in the mean overlap: rises smoothly from 0 with the overlap so that a new
+/// contact makes no jump.
+double overlap_weight(double relative_overlap);
+
+/// Mean relative overlap of a cell.   [VanLiedekerke2020, Eq. (22) with smooth weights]
+double mean_overlap(const ContactWorkspace& work, std::size_t cell);
+
+/// Renews the near pairs if a cell moved more than half the skin. Returns whether it did.
+bool refresh_pairs(const State& state, std::span<const Params> params, const ContactParams& c,
+                   std::span<const double> radius, const contact::Surroundings& around,
+                   ContactWorkspace& work);
+
+/// Finds all contacts and evaluates their law at the current positions.
+void find_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
+                   std::span<const double> radius, const contact::Surroundings& around, double time,
+                   ContactWorkspace& work);
+
+/// Adds force, stiffness max(0, dF/d overlap) n n^T and friction gamma pi a^2 of every contact.
+/// @param first_row  where the CBM rows start in the system
+void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
+                       const contact::Surroundings& around, const ContactWorkspace& work,
+                       std::size_t first_row, solve::Links& links);
+
+/// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0
+/// [VanLiedekerke2020, Eq. (19)], and the force on each cell as a whole.
+/// @param cell_force [n_cell] nN
+void add_cell_loads(const State& state, std::span<const Params> params,
+                    std::span<const double> radius, const ContactWorkspace& work,
+                    std::span<const Vec3> cell_force, std::size_t first_row,
+                    solve::System& system);
+
+/// Friction coefficient of one cell with the medium, nN s/um.
+double medium_friction(const Params& p, double radius, double contact_area);
+
+}  // namespace acinus::cbm

@@ -1,0 +1,19 @@
+# One INTERFACE target carries the compile rules of the whole project.
+add_library(acinus_flags INTERFACE)
+add_library(acinus::flags ALIAS acinus_flags)
+target_compile_features(acinus_flags INTERFACE cxx_std_20)
+target_include_directories(acinus_flags INTERFACE ${CMAKE_SOURCE_DIR})
+# No contraction and no fast-math: the same bits on every instruction set and thread count.
+# errno and trapping are given up so that sqrt and selects vectorise; neither changes a result.
+target_compile_options(acinus_flags INTERFACE
+  -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wpedantic -Wno-psabi)
+if(ACINUS_WERROR)
+  target_compile_options(acinus_flags INTERFACE -Werror)
+endif()
+if(ACINUS_ASSERTS)
+  target_compile_definitions(acinus_flags INTERFACE ACINUS_ENABLE_ASSERTS)
+endif()
+if(ACINUS_SANITIZE)
+  target_compile_options(acinus_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(acinus_flags INTERFACE -fsanitize=address,undefined)
+endif()

@@ -1,0 +1,96 @@
+#pragma once
+/// Triangle surfaces as contact sees them: bodies with normals, and the points that probe them.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact/box.hpp"
+#include "core/mesh/topology.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::contact {
+
+/// Where the gap of a surface is sampled.
+enum class Quadrature {
+  kThreePoint,  ///< three interior points per triangle, weights (2/3, 1/6, 1/6)
+  kNodes        ///< the nodes
+};
+
+/// A closed surface at one moment. Does not know whether it is a cell or an obstacle.
+struct SurfaceBody {
+  const std::vector<std::array<int, 3>>* triangle = nullptr;  ///< shared, outward
+  const mesh::Topology* topology = nullptr;  ///< shared; empty for a body that never meets itself
+  std::vector<Vec3> node;                          ///< um
+  // written by refresh_body:
+  std::vector<Vec3> node_normal;      ///< unit, area weighted
+  std::vector<Vec3> triangle_normal;  ///< unit
+  std::vector<Vec3> center;           ///< of each triangle
+  std::vector<double> reach;          ///< um, circumradius about the centre of each triangle
+  Box box;
+};
+
+/// Recomputes everything that follows from the nodes.
+void refresh_body(SurfaceBody& body);
+
+/// Points per site (a triangle, or a node) and number of sites.
+inline int points_per_site(Quadrature q) { return q == Quadrature::kThreePoint ? 3 : 1; }
+inline std::size_t n_sites(const SurfaceBody& b, Quadrature q) {
+  return q == Quadrature::kThreePoint ? b.triangle->size() : b.node.size();
+}
+
+/// The nodes and weights that make up one probing point.
+struct PointStencil {
+  int n = 0;
+  std::array<int, 3> node{};
+  std::array<double, 3> weight{};
+};
+PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point);
+
+inline Vec3 point_position(const SurfaceBody& body, const PointStencil& s) {
+  Vec3 x = Vec3::Zero();
+  for (int k = 0; k < s.n; ++k)
+    x += s.weight[static_cast<std::size_t>(k)] *
+         body.node[static_cast<std::size_t>(s.node[static_cast<std::size_t>(k)])];
+  return x;
+}
+
+/// A probing point of body a near a triangle of body b.
+struct SurfaceContact {
+  int body_a = 0, point = 0;  ///< site * points_per_site + local index
+  int body_b = 0, triangle_b = 0;
+  Vec3 weight_b = Vec3::Zero();  ///< barycentric weights of the closest point
+  Vec3 normal = Vec3::Zero();    ///< d gap / d x_a: from b towards a when apart
+  double gap = 0;                ///< um, negative: a's point is inside b
+};
+
+/// Which triangles of b each site of a may meet; valid until nodes moved more than half the skin.
+struct Candidates {
+  int body_a = 0, body_b = 0;
+  std::vector<int> site;              ///< sites of a with at least one candidate
+  std::vector<std::uint32_t> start;   ///< [n_site + 1]
+  std::vector<int> triangle;          ///< triangles of b, nearest first
+};
+
+struct SearchOptions {
+  Quadrature quadrature = Quadrature::kThreePoint;
+  double range = 0;       ///< um, largest gap of interest
+  double max_depth = 0;   ///< um, deepest (negative) gap looked for
+  double skin = 0;        ///< um
+  double self_range = 0;  ///< um, gap below which a surface meets itself; 0 = never
+};
+
+/// Candidates of every ordered pair of bodies that come near (both passes), and of bodies with
+/// themselves. Bodies of `fixed` are only probed, never probe: they are numbered after `bodies`.
+std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
+                                        std::span<const SurfaceBody> fixed,
+                                        const SearchOptions& options);
+
+/// Closest features of one candidate list, appended in order of sites.
+/// Rejected: normals that do not oppose each other, gaps outside [-max_depth, range].
+void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+                   std::span<const SurfaceBody> fixed, const SearchOptions& options,
+                   std::vector<SurfaceContact>& out);
+
+}  // namespace acinus::contact

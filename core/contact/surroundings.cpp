@@ -1,0 +1,85 @@
+#include "core/contact/surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace acinus::contact {
+namespace {
+
+constexpr double kEnd = 1e-9;  ///< parameters this near 0 or 1 are the segment's end
+
+}  // namespace
+
+Vec3 Plane::point_at(double time) const {
+  const double moved = std::min(std::abs(speed) * std::max(time, 0.0), travel);
+  return point + std::copysign(moved, speed) * normal;
+}
+
+double Capsule::radius_at(double time) const {
+  return std::max(min_radius, radius - speed * std::max(time, 0.0));
+}
+
+void set_network(Vessels& v, mesh::Network network) {
+  v.network = std::move(network);
+  v.segments_of_node.assign(v.network.node.size(), {});
+  for (std::size_t s = 0; s < v.network.segment.size(); ++s)
+    for (int n : v.network.segment[s])
+      v.segments_of_node[static_cast<std::size_t>(n)].push_back(static_cast<int>(s));
+}
+
+Gap gap_to_plane(const Plane& p, const Vec3& x, double time) {
+  return {(x - p.point_at(time)).dot(p.normal), p.normal, 0, 0, 0};
+}
+
+Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time) {
+  const Vec3 d = x - c.center;
+  const double r = d.norm();
+  return {c.radius_at(time) - r, r > 0 ? Vec3(-d / r) : Vec3::UnitZ(), 0, 0, 0};
+}
+
+Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {
+  const auto s = static_cast<std::size_t>(segment);
+  const Vec3& a = network.node[static_cast<std::size_t>(network.segment[s][0])];
+  const Vec3& b = network.node[static_cast<std::size_t>(network.segment[s][1])];
+  const auto [ra, rb] = network.radius[s];
+  const Vec3 axis = b - a;
+  const double length = axis.norm();
+  Gap g;
+  double t = ra >= rb ? 0.0 : 1.0;  // one ball inside the other: the larger end is the surface
+  if (length > std::abs(rb - ra)) {
+    const Vec3 u = axis / length;
+    const double along = (x - a).dot(u);
+    const double across = ((x - a) - along * u).norm();
+    const double slope = (rb - ra) / length;
+    // The closest ball of the cone: its centre is shifted along the axis by the taper.
+    t = std::clamp((along + across * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
+  }
+  const Vec3 d = x - (a + t * axis);
+  g.axis_distance = d.norm();
+  g.radius = ra + t * (rb - ra);
+  g.gap = g.axis_distance - g.radius;
+  g.parameter = t;
+  if (g.axis_distance > 0) {
+    g.normal = d / g.axis_distance;
+  } else {
+    g.normal = axis.unitOrthogonal();  // on the axis every direction is out
+  }
+  return g;
+}
+
+bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap) {
+  if (gap.parameter > kEnd && gap.parameter < 1 - kEnd) return true;
+  const auto s = static_cast<std::size_t>(segment);
+  const int end = vessels.network.segment[s][gap.parameter <= kEnd ? 0 : 1];
+  for (int other : vessels.segments_of_node[static_cast<std::size_t>(end)]) {
+    if (other == segment) continue;
+    const Gap o = gap_to_segment(vessels.network, other, x);
+    const bool at_end = o.parameter <= kEnd || o.parameter >= 1 - kEnd;
+    // The minimum lies on the other segment, or at the shared end, which the lower number owns.
+    if (!at_end || o.gap < gap.gap - kEnd || other < segment) return false;
+  }
+  return true;
+}
+
+}  // namespace acinus::contact

@@ -1,0 +1,93 @@
+#pragma once
+/// What stands around the cells and has no unknowns of its own, by name: planes, a capsule, vessels,
+/// static meshes.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/contact/surface.hpp"
+#include "core/mesh/network.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::contact {
+
+/// Elastic and adhesive constants of a surrounding surface.
+struct Material {
+  double adhesion = 0;  ///< nN/um
+  double young = std::numeric_limits<double>::infinity();  ///< kPa
+  double poisson = 0;
+  bool mirror = false;  ///< stands for an equal cell on the other side: no adhesion, no friction
+};
+
+/// Cells stay where (x - point).normal >= 0. It may move along its normal.
+struct Plane {
+  std::string name;
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
+  double speed = 0;   ///< um/s along the normal
+  double travel = 0;  ///< um, where the motion stops
+  Material material;
+  Vec3 point_at(double time) const;
+};
+
+/// A rigid sphere seen from inside, which may shrink.
+struct Capsule {
+  std::string name;
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+  double speed = 0;  ///< um/s, shrink rate
+  double min_radius = 0;
+  Material material;
+  double radius_at(double time) const;
+};
+
+struct Vessels {
+  mesh::Network network;
+  Material material;
+  std::vector<std::vector<int>> segments_of_node;  ///< for finding chains
+};
+
+struct StaticMesh {
+  std::string name;
+  std::vector<std::array<int, 3>> triangle;
+  SurfaceBody body;     ///< body.triangle points at `triangle`
+  bool inside = false;  ///< cells live inside: triangles are stored facing inward
+  Material material;
+};
+
+struct Surroundings {
+  std::vector<Plane> planes;
+  std::vector<Capsule> capsules;
+  Vessels vessels;
+  std::vector<StaticMesh> meshes;
+  bool empty() const {
+    return planes.empty() && capsules.empty() && vessels.network.segment.empty() && meshes.empty();
+  }
+};
+
+void set_network(Vessels& vessels, mesh::Network network);
+
+enum class SurroundingKind : std::uint8_t { kPlane, kCapsule, kVessel, kMesh };
+
+/// Gap of a point to a surrounding surface.
+struct Gap {
+  double gap = 0;                ///< um, negative inside the obstacle
+  Vec3 normal = Vec3::UnitZ();   ///< d gap / d x, unit
+  double axis_distance = 0;      ///< vessels: um, distance from the axis
+  double radius = 0;             ///< vessels: um, radius at the closest point
+  double parameter = 0;          ///< vessels: 0..1 along the segment
+};
+Gap gap_to_plane(const Plane& p, const Vec3& x, double time);
+Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time);
+
+/// Exact distance to a capsule whose radius runs linearly from one end to the other (round cone).
+Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x);
+
+/// Closest segments of a chain count once: whether the contact of a sphere with `segment` is a local
+/// minimum of the distance along the network, so that a straight chain of any spacing gives exactly one
+/// contact (docs/decisions/0003.md).
+/// @param gap the sphere centre's gap to this segment
+bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap);
+
+}  // namespace acinus::contact

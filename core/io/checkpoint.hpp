@@ -1,0 +1,74 @@
+#pragma once
+/// Checkpoints: the complete state of a run as named arrays, bit for bit.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace acinus::io {
+
+/// Named arrays. Reading never invents a value: what is missing or of another type is an
+/// Error(kFileError).
+class CheckpointData {
+ public:
+  using Value = std::variant<std::vector<double>, std::vector<std::int64_t>,
+                             std::vector<std::uint64_t>, std::string>;
+
+  /// @param name  letters, digits, '_', '-', '.', grouped by '/': "dcm/position". Setting a name
+  /// twice is an
+  ///              Error(kInternal), and so is a name that is also a group of others.
+  void put(const std::string& name, std::vector<double> value);
+  void put(const std::string& name, std::vector<std::int64_t> value);
+  void put(const std::string& name, std::vector<std::uint64_t> value);
+  void put(const std::string& name, std::string value);
+  void put(const std::string& name, const char* value) { put(name, std::string(value)); }
+  void put_number(const std::string& name, double value) { put(name, std::vector<double>{value}); }
+  void put_count(const std::string& name, std::int64_t value) {
+    put(name, std::vector<std::int64_t>{value});
+  }
+
+  bool contains(const std::string& name) const { return value_.count(name) != 0; }
+  const std::vector<double>& numbers(const std::string& name) const;
+  const std::vector<std::int64_t>& integers(const std::string& name) const;
+  const std::vector<std::uint64_t>& bits(const std::string& name) const;
+  const std::string& text(const std::string& name) const;
+  /// Arrays of length one.
+  double number(const std::string& name) const;
+  std::int64_t count(const std::string& name) const;
+
+  const std::map<std::string, Value>& all() const { return value_; }
+  /// Where the data came from, for messages.
+  const std::string& source() const { return source_; }
+  void set_source(std::string source) { source_ = std::move(source); }
+
+ private:
+  void add(const std::string& name, Value value);
+  template <class T>
+  const T& get(const std::string& name) const;
+
+  std::map<std::string, Value> value_;
+  std::string source_ = "checkpoint";
+};
+
+/// Writes folder/checkpoint.h5 and keeps the one before as checkpoint.prev.h5. At every moment,
+/// whatever kills the program or fills the disk, one of the two is complete. Errors:
+/// Error(kFileError); the older files are untouched.
+void save_checkpoint(const std::string& folder, const CheckpointData& data);
+
+struct LoadedCheckpoint {
+  CheckpointData data;
+  std::string file;     ///< the one that was read
+  std::string warning;  ///< not empty when the newest was damaged and the one before was taken
+};
+
+/// Reads the newest checkpoint whose hashes are right. Errors (kFileError): none is usable, or the
+/// newest was written by a newer major version of the format (then the older one is not taken
+/// behind the user's back).
+LoadedCheckpoint load_checkpoint(const std::string& folder);
+
+/// Whether the folder has a checkpoint, usable or not.
+bool has_checkpoint(const std::string& folder);
+
+}  // namespace acinus::io

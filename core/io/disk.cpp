@@ -1,0 +1,102 @@
+#include "core/io/disk.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace acinus::io {
+namespace {
+
+void sync(const std::string& path, int flags) {
+  const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) fail_on_disk(path, "open", errno);
+  const int error = fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  // Some network file systems cannot sync a folder and say EINVAL; there is nothing better to do
+  // there.
+  if (error != 0 && error != EINVAL) fail_on_disk(path, "write to disk", error);
+}
+
+}  // namespace
+
+void write_text_file(const std::string& path, std::string_view text) {
+  const std::string partial = path + ".tmp";
+  const RemoveUnlessMoved cleanup{partial};
+  const int descriptor = open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail_on_disk(partial, "create", errno);
+  int error = 0;
+  while (!text.empty() && error == 0) {
+    const ssize_t n = ::write(descriptor, text.data(), text.size());
+    if (n >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(n));
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error != 0) fail_on_disk(partial, "write", error);
+  replace_file(partial, path);
+}
+
+std::string read_text_file(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rbe");
+  if (file == nullptr) fail_on_disk(path, "open", errno);
+  std::string text;
+  char buffer[65536];
+  errno = 0;
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, file)) text.append(buffer, n);
+  const int error = std::ferror(file) != 0 ? errno : 0;
+  std::fclose(file);
+  if (error != 0) fail_on_disk(path, "read", error);
+  return text;
+}
+
+void replace_file(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) != 0)
+    fail_on_disk(to, "put the new version in place", errno);
+}
+
+void sync_file(const std::string& path) { sync(path, O_RDONLY); }
+void sync_folder(const std::string& folder) {
+  sync(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+}
+
+RemoveUnlessMoved::~RemoveUnlessMoved() { unlink(path.c_str()); }
+
+void fail_on_disk(const std::string& path, const std::string& attempted, int error) {
+  throw Error(fmt::format("{}: cannot {}: {}. {}.", path, attempted, std::strerror(error),
+                          disk_advice(error)),
+              Exit::kFileError);
+}
+
+const char* disk_advice(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "Free space (or raise the limit) there, or choose another folder; finished frames are "
+             "intact";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "Choose a folder you may write to, or change its permissions";
+    case ENOENT:
+    case ENOTDIR:
+      return "Check the path: the folder or file does not exist";
+    case EISDIR:
+      return "Give a file, not a folder";
+    case EIO:
+      return "The disk reports a fault; choose another one";
+    default:
+      return "Check that the file is complete, was written by acinus and is not in use by another "
+             "program";
+  }
+}
+
+}  // namespace acinus::io

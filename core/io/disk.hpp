@@ -1,0 +1,33 @@
+#pragma once
+/// Files that appear whole or not at all. Every failure is an Error(kFileError) with the system's
+/// reason.
+
+#include <string>
+#include <string_view>
+
+namespace acinus::io {
+
+/// Replaces the content of `path` in one step: readers see the old text or the new one.
+void write_text_file(const std::string& path, std::string_view text);
+std::string read_text_file(const std::string& path);
+
+/// Renames over an existing file.
+void replace_file(const std::string& from, const std::string& to);
+/// Waits until a file, or the entries of a folder, are on the disk itself.
+void sync_file(const std::string& path);
+void sync_folder(const std::string& folder);
+
+/// Removes a temporary file at the end of a scope; does nothing once it was renamed.
+struct RemoveUnlessMoved {
+  std::string path;
+  ~RemoveUnlessMoved();
+};
+
+/// Throws Error(kFileError): "<path>: cannot <attempted>: <system text>. <what to do>."
+/// @param error  errno
+[[noreturn]] void fail_on_disk(const std::string& path, const std::string& attempted, int error);
+
+/// What a user can do about a failed file operation, as a sentence without its full stop.
+const char* disk_advice(int error);
+
+}  // namespace acinus::io

@@ -1,0 +1,64 @@
+#pragma once
+/// What one written moment of a run holds, as plain arrays that any model can fill.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace acinus::io {
+
+/// A named array of `components` values per row. Lengths um, times s, forces nN, stresses kPa.
+struct Field {
+  std::string name;
+  std::string unit;
+  int components = 1;
+  std::vector<float> value;  ///< [n_row * components]
+};
+
+/// A ragged table: rows of this frame only. All columns have the same number of rows.
+struct Column {
+  std::string name;
+  std::string unit;
+  int components = 1;
+  std::vector<double> value;
+};
+struct IdColumn {
+  std::string name;
+  std::vector<std::int64_t> value;
+};
+struct Table {
+  std::vector<IdColumn> ids;
+  std::vector<Column> columns;
+};
+
+/// Points: mesh nodes first, then sphere centres. Cells: triangles first, then one vertex per sphere.
+struct Frame {
+  double time_s = 0;
+  std::vector<float> point;                            ///< [(n_mesh_node + n_sphere) * 3] um
+  std::int64_t n_mesh_node = 0;
+  std::int64_t n_sphere = 0;
+  std::vector<std::array<std::int64_t, 3>> triangle;   ///< indices into mesh nodes, this frame only
+  std::vector<Field> point_data;                       ///< rows: points
+  std::vector<std::int64_t> cell_id;                   ///< [n_triangle + n_sphere] lineage id, -1 for surroundings
+  std::vector<std::uint8_t> kind;                      ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall
+  std::vector<Field> cell_data;                        ///< rows: triangles, then spheres
+  Table cells;                                         ///< /cells: one row per biological cell
+  Table interface;                                     ///< /interface: one row per DCM-CBM pair in contact
+};
+
+/// One named scalar of a time series sample.
+struct SeriesValue {
+  std::string name;
+  std::string unit;
+  double value = 0;
+};
+
+struct Event {
+  double time_s = 0;
+  std::string code;                   ///< e.g. "step_rejected", "t0", "stopped"
+  std::vector<std::int64_t> cell_id;  ///< cells concerned
+  std::string message;
+};
+
+}  // namespace acinus::io

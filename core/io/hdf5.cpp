@@ -1,0 +1,395 @@
+#include "core/io/hdf5.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <type_traits>
+
+#include "core/error.hpp"
+
+namespace acinus::io::h5 {
+namespace {
+
+void start_library() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    H5dont_atexit();  // files are closed explicitly; HDF5's exit handler retries failed writes
+                      // instead
+    H5open();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  });
+}
+
+template <class T>
+hid_t native_type() {
+  if constexpr (std::is_same_v<T, float>) {
+    return H5T_NATIVE_FLOAT;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return H5T_NATIVE_DOUBLE;
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return H5T_NATIVE_INT64;
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return H5T_NATIVE_UINT64;
+  } else {
+    static_assert(std::is_same_v<T, std::uint8_t>);
+    return H5T_NATIVE_UINT8;
+  }
+}
+
+template <class T>
+hid_t stored_type() {
+  if constexpr (std::is_same_v<T, float>) {
+    return H5T_IEEE_F32LE;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return H5T_IEEE_F64LE;
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return H5T_STD_I64LE;
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return H5T_STD_U64LE;
+  } else {
+    static_assert(std::is_same_v<T, std::uint8_t>);
+    return H5T_STD_U8LE;
+  }
+}
+
+Handle access_list() {
+  start_library();
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.id(), false, true);  // locks fail on many network file systems
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  return access;
+}
+
+std::string trim(const char* begin, std::size_t width) { return {begin, strnlen(begin, width)}; }
+
+}  // namespace
+
+Handle text_type(std::size_t width, H5T_cset_t set) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(width, 1));  // HDF5 has no text of length 0
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), set);
+  return type;
+}
+
+File::File(std::string path, std::unique_ptr<StagedState> state, Handle handle, bool writing)
+    : path_(std::move(path)),
+      state_(std::move(state)),
+      handle_(std::move(handle)),
+      writing_(writing) {}
+
+File File::create(const std::string& path, Format format) {
+  const Handle access = access_list();
+  auto state = std::make_unique<StagedState>();
+  use_staged_driver(access.id(), state.get());
+  const auto version = format == Format::kEarliest ? H5F_LIBVER_EARLIEST : H5F_LIBVER_V110;
+  const auto newest = format == Format::kEarliest ? H5F_LIBVER_LATEST : H5F_LIBVER_V110;
+  H5Pset_libver_bounds(access.id(), version, newest);
+  Handle handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  if (!handle.valid()) fail(path, "create the file", state->error);
+  return {path, std::move(state), std::move(handle), true};
+}
+
+File File::open(const std::string& path, Access mode) {
+  const Handle access = access_list();
+  auto state = std::make_unique<StagedState>();
+  const bool writing = mode == Access::kAppend;
+  use_staged_driver(access.id(), state.get());
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+  Handle handle(H5Fopen(path.c_str(), writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()),
+                H5Fclose);
+  if (!handle.valid()) fail(path, writing ? "open for writing" : "open for reading", state->error);
+  return {path, std::move(state), std::move(handle), writing};
+}
+
+File::~File() {
+  if (!handle_.valid()) return;
+  if (writing_) state_->discard = true;
+}
+
+void File::fail_here(const std::string& attempted) const { fail(path_, attempted, state_->error); }
+
+void File::flush() {
+  if (H5Fflush(id(), H5F_SCOPE_GLOBAL) < 0 || state_->error != 0) fail_here("write to disk");
+}
+
+void File::close() {
+  const herr_t closed = handle_.close();
+  if (state_->error != 0) fail_here("write to disk");
+  if (closed < 0) fail_here("close the file");
+}
+
+bool File::exists(const std::string& name) const {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string prefix = name.substr(0, end);
+    if (H5Lexists(id(), prefix.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+void File::create_group(const std::string& name) {
+  const Handle group(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                     H5Gclose);
+  if (!group.valid()) fail_here("create group " + name);
+}
+
+std::vector<std::string> File::members(const std::string& name) const {
+  const Handle group(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose);
+  H5G_info_t info{};
+  if (!group.valid() || H5Gget_info(group.id(), &info) < 0) fail_here("read group " + name);
+  std::vector<std::string> result;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    const auto get = [&](char* out, std::size_t size) {
+      return H5Lget_name_by_idx(group.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, out, size,
+                                H5P_DEFAULT);
+    };
+    const auto length = get(nullptr, 0);
+    if (length < 0) fail_here("read group " + name);
+    std::string member(static_cast<std::size_t>(length), '\0');
+    get(member.data(), member.size() + 1);
+    result.push_back(std::move(member));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+Handle File::open_dataset(const std::string& name) const {
+  Handle dataset(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset.valid()) fail_here("open dataset " + name);
+  return dataset;
+}
+
+std::vector<hsize_t> File::shape(const std::string& name) const {
+  const Handle dataset = open_dataset(name);
+  const Handle space(H5Dget_space(dataset.id()), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  if (rank < 1 || rank > 2) fail_here("read dataset " + name + " as rows");
+  std::vector<hsize_t> result(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.id(), result.data(), nullptr);
+  return result;
+}
+
+std::int64_t File::n_row(const std::string& name) const {
+  return static_cast<std::int64_t>(shape(name)[0]);
+}
+
+int File::components(const std::string& name) const {
+  const auto dims = shape(name);
+  return dims.size() == 1 ? 0 : static_cast<int>(dims[1]);
+}
+
+Handle File::create_dataset(const std::string& name, hid_t type, const Storage& storage,
+                            std::string_view unit) {
+  const int rank = storage.components == 0 ? 1 : 2;
+  const hsize_t extent[2] = {0, static_cast<hsize_t>(storage.components)};
+  const hsize_t limit[2] = {H5S_UNLIMITED, static_cast<hsize_t>(storage.components)};
+  const hsize_t chunk[2] = {static_cast<hsize_t>(storage.chunk_rows),
+                            static_cast<hsize_t>(storage.components)};
+  const Handle space(H5Screate_simple(rank, extent, limit), H5Sclose);
+  const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(list.id(), rank, chunk);
+  if (storage.filtered) {
+    H5Pset_shuffle(list.id());
+    H5Pset_deflate(list.id(), 1);
+    H5Pset_fletcher32(list.id());
+  }
+  Handle dataset(
+      H5Dcreate2(id(), name.c_str(), type, space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!dataset.valid()) fail_here("create dataset " + name);
+  write_attribute(name, "unit", unit);
+  return dataset;
+}
+
+template <class T>
+void File::create_rows(const std::string& name, const Storage& storage, std::string_view unit) {
+  create_dataset(name, stored_type<T>(), storage, unit);
+}
+
+void File::create_text_rows(const std::string& name, int width, std::int64_t chunk_rows) {
+  const Handle type = text_type(static_cast<std::size_t>(width), H5T_CSET_UTF8);
+  create_dataset(name, type.id(), {.chunk_rows = chunk_rows}, "text");
+}
+
+void File::write_raw(const std::string& name, hid_t type, std::int64_t first_row,
+                     std::int64_t n_value, const void* value) {
+  if (n_value == 0) return;
+  auto dims = shape(name);
+  const hsize_t per_row = dims.size() == 2 ? dims[1] : 1;
+  const hsize_t n = static_cast<hsize_t>(n_value) / per_row;
+  const hsize_t start[2] = {static_cast<hsize_t>(first_row), 0};
+  const hsize_t count[2] = {n, per_row};
+  Handle dataset = open_dataset(name);
+  dims[0] = std::max(dims[0], start[0] + n);
+  if (H5Dset_extent(dataset.id(), dims.data()) < 0) fail_here("grow dataset " + name);
+  const Handle file_space(H5Dget_space(dataset.id()), H5Sclose);
+  const Handle memory_space(H5Screate_simple(static_cast<int>(dims.size()), count, nullptr),
+                            H5Sclose);
+  H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start, nullptr, count, nullptr);
+  if (H5Dwrite(dataset.id(), type, memory_space.id(), file_space.id(), H5P_DEFAULT, value) < 0) {
+    fail_here("write dataset " + name);
+  }
+  if (dataset.close() < 0 || state_->error != 0)
+    fail_here("write dataset " + name);  // compresses here
+}
+
+template <class T>
+void File::write_rows(const std::string& name, std::int64_t first_row, std::span<const T> value) {
+  write_raw(name, native_type<T>(), first_row, static_cast<std::int64_t>(value.size()),
+            value.data());
+}
+
+void File::write_text_rows(const std::string& name, std::int64_t first_row,
+                           std::span<const std::string> value) {
+  std::size_t width = 0;
+  {
+    const Handle dataset = open_dataset(name);
+    const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+    width = H5Tget_size(type.id());
+  }
+  std::string packed(width * value.size(), '\0');
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    value[i].copy(packed.data() + i * width, width);
+    if (value[i].size() > width) std::memcpy(packed.data() + (i + 1) * width - 3, "...", 3);
+  }
+  const Handle type = text_type(width, H5T_CSET_UTF8);
+  write_raw(name, type.id(), first_row, static_cast<std::int64_t>(value.size()), packed.data());
+}
+
+void File::read_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n,
+                    void* value) const {
+  if (n == 0) return;
+  const auto dims = shape(name);
+  const hsize_t start[2] = {static_cast<hsize_t>(first_row), 0};
+  const hsize_t count[2] = {static_cast<hsize_t>(n), dims.size() == 2 ? dims[1] : 1};
+  if (first_row < 0 || n < 0 || start[0] + count[0] > dims[0]) {
+    throw Error(path_ + ": dataset " + name + " has " + std::to_string(dims[0]) +
+                    " rows, but rows up to " + std::to_string(first_row + n) +
+                    " should be there. The file is damaged or incomplete.",
+                Exit::kFileError);
+  }
+  const Handle dataset = open_dataset(name);
+  const Handle file_space(H5Dget_space(dataset.id()), H5Sclose);
+  const Handle memory_space(H5Screate_simple(static_cast<int>(dims.size()), count, nullptr),
+                            H5Sclose);
+  H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start, nullptr, count, nullptr);
+  if (H5Dread(dataset.id(), type, memory_space.id(), file_space.id(), H5P_DEFAULT, value) < 0) {
+    fail_here("read dataset " + name);
+  }
+}
+
+template <class T>
+bool File::holds(const std::string& name) const {
+  const Handle dataset = open_dataset(name);
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+  return H5Tequal(type.id(), stored_type<T>()) > 0;
+}
+
+template <class T>
+std::vector<T> File::read_rows(const std::string& name, std::int64_t first_row,
+                               std::int64_t n) const {
+  if (!holds<T>(name)) {
+    throw Error(path_ + ": dataset " + name +
+                    " has an unexpected type. The file was not written by acinus.",
+                Exit::kFileError);
+  }
+  const auto dims = shape(name);
+  // A damaged index must not make us ask for more memory than the dataset can hold.
+  const std::int64_t possible = std::clamp<std::int64_t>(n, 0, static_cast<std::int64_t>(dims[0]));
+  std::vector<T> value(static_cast<std::size_t>(possible) * (dims.size() == 2 ? dims[1] : 1));
+  read_raw(name, native_type<T>(), first_row, n, value.data());
+  return value;
+}
+
+std::vector<std::string> File::read_text_rows(const std::string& name, std::int64_t first_row,
+                                              std::int64_t n) const {
+  std::size_t width = 0;
+  {
+    const Handle dataset = open_dataset(name);
+    const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+    if (H5Tget_class(type.id()) != H5T_STRING) fail_here("read dataset " + name + " as text");
+    width = H5Tget_size(type.id());
+  }
+  const auto possible = static_cast<std::size_t>(std::clamp<std::int64_t>(n, 0, n_row(name)));
+  std::string packed(width * possible, '\0');
+  const Handle type = text_type(width, H5T_CSET_UTF8);
+  read_raw(name, type.id(), first_row, n, packed.data());
+  std::vector<std::string> value;
+  for (std::size_t i = 0; i < possible; ++i)
+    value.push_back(trim(packed.data() + i * width, width));
+  return value;
+}
+
+template <class T>
+void File::write_array(const std::string& name, std::span<const T> value) {
+  const hsize_t n = value.size();
+  const Handle space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Handle dataset(H5Dcreate2(id(), name.c_str(), stored_type<T>(), space.id(), links.id(),
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
+  if (!dataset.valid()) fail_here("create dataset " + name);
+  if (n > 0 &&
+      H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) {
+    fail_here("write dataset " + name);
+  }
+}
+
+void File::copy_object_from(const File& source, const std::string& name) {
+  if (H5Ocopy(source.id(), name.c_str(), id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+    fail_here("copy " + name + " from " + source.path());
+  }
+}
+
+void File::copy_rows_from(const File& source, const std::string& name, std::int64_t n) {
+  auto dims = source.shape(name);
+  const std::string attempted = "copy dataset " + name + " from " + source.path();
+  if (n < 0 || static_cast<hsize_t>(n) > dims[0]) fail_here(attempted + " (it has too few rows)");
+  const Handle from = source.open_dataset(name);
+  const Handle type(H5Dget_type(from.id()), H5Tclose);
+  const Handle list(H5Dget_create_plist(from.id()), H5Pclose);
+  hsize_t chunk[2] = {0, 0};
+  const int rank = static_cast<int>(dims.size());
+  if (H5Pget_chunk(list.id(), rank, chunk) != rank) fail_here(attempted);
+  hsize_t limit[2] = {H5S_UNLIMITED, rank == 2 ? dims[1] : 0};
+  dims[0] = static_cast<hsize_t>(n);
+  const Handle space(H5Screate_simple(rank, dims.data(), limit), H5Sclose);
+  Handle to(
+      H5Dcreate2(id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!to.valid()) fail_here(attempted);
+  std::vector<char> buffer;
+  for (hsize_t row = 0; row < dims[0]; row += chunk[0]) {
+    const hsize_t corner[2] = {row, 0};
+    hsize_t size = 0;
+    std::uint32_t skipped_filters = 0;
+    if (H5Dget_chunk_storage_size(from.id(), corner, &size) < 0)
+      source.fail_here("read dataset " + name);
+    if (size == 0) continue;  // padding that was never written
+    buffer.resize(size);
+    if (H5Dread_chunk(from.id(), H5P_DEFAULT, corner, &skipped_filters, buffer.data()) < 0) {
+      source.fail_here("read dataset " + name);
+    }
+    if (H5Dwrite_chunk(to.id(), H5P_DEFAULT, skipped_filters, corner, size, buffer.data()) < 0)
+      fail_here(attempted);
+  }
+  if (to.close() < 0 || state_->error != 0) fail_here(attempted);
+  write_attribute(name, "unit", source.read_text_attribute(name, "unit"));
+}
+
+#define ACINUS_H5_INSTANTIATE(T)                                                             \
+  template void File::create_rows<T>(const std::string&, const Storage&, std::string_view);  \
+  template void File::write_rows<T>(const std::string&, std::int64_t, std::span<const T>);   \
+  template std::vector<T> File::read_rows<T>(const std::string&, std::int64_t, std::int64_t) \
+      const;                                                                                 \
+  template void File::write_array<T>(const std::string&, std::span<const T>);                \
+  template bool File::holds<T>(const std::string&) const;
+ACINUS_H5_INSTANTIATE(float)
+ACINUS_H5_INSTANTIATE(double)
+ACINUS_H5_INSTANTIATE(std::int64_t)
+ACINUS_H5_INSTANTIATE(std::uint64_t)
+ACINUS_H5_INSTANTIATE(std::uint8_t)
+#undef ACINUS_H5_INSTANTIATE
+
+}  // namespace acinus::io::h5

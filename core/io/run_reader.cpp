@@ -1,0 +1,132 @@
+#include "core/io/run_reader.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/io/run_rows.hpp"
+
+namespace acinus::io {
+namespace {
+
+using h5::Access;
+using h5::File;
+
+Table read_table(const File& file, const std::string& where, const TableInfo& info,
+                 std::int64_t begin, std::int64_t end) {
+  Table table;
+  for (const auto& id : info.ids) {
+    table.ids.push_back({id, file.read_rows<std::int64_t>(where + "/" + id, begin, end - begin)});
+  }
+  for (const auto& column : info.columns) {
+    table.columns.push_back(
+        {column.name, column.unit, column.components,
+         file.read_rows<double>(where + "/" + column.name, begin, end - begin)});
+  }
+  return table;
+}
+
+}  // namespace
+
+RunReader::RunReader(const std::string& path) : path_(path) {
+  const File file = File::open(path, Access::kRead);
+  check_run_schema(file);
+  counts_ = read_counts(file);
+  if (counts_.frame == 0) return;
+  layout_ = read_layout(file);
+  frame_ = read_frame_index(file, layout_, counts_.frame);
+}
+
+const FrameIndex& RunReader::index(int k) const {
+  check(k >= 0 && k < n_frame(),
+        fmt::format("{}: has no frame {}, only 0 to {}", path_, k, n_frame() - 1));
+  return frame_[static_cast<std::size_t>(k)];
+}
+
+double RunReader::time_s(int k) const { return index(k).time_s; }
+
+Frame RunReader::frame(int k) const {
+  const FrameIndex& f = index(k);
+  const File file = File::open(path_, Access::kRead);
+  Frame frame;
+  frame.time_s = f.time_s;
+  frame.n_sphere = f.n_sphere();
+  frame.n_mesh_node = f.n_point - f.n_sphere();
+  frame.point = file.read_rows<float>("/VTKHDF/Points", f.point_offset, f.n_point);
+  const auto id = file.read_rows<std::int64_t>("/VTKHDF/Connectivity", f.connectivity_offset,
+                                               3 * f.n_triangle());
+  for (std::size_t i = 0; i + 2 < id.size(); i += 3)
+    frame.triangle.push_back({id[i], id[i + 1], id[i + 2]});
+  for (const auto& field : layout_.point_data) {
+    frame.point_data.push_back(
+        {field.name, field.unit, field.components,
+         file.read_rows<float>("/VTKHDF/PointData/" + field.name,
+                               f.point_data_offset.at(field.name), f.n_point)});
+  }
+  const auto where = [&](const std::string& name) { return f.cell_data_offset.at(name); };
+  frame.cell_id =
+      file.read_rows<std::int64_t>("/VTKHDF/CellData/cell_id", where("cell_id"), f.n_cell);
+  frame.kind = file.read_rows<std::uint8_t>("/VTKHDF/CellData/kind", where("kind"), f.n_cell);
+  for (const auto& field : layout_.cell_data) {
+    frame.cell_data.push_back(
+        {field.name, field.unit, field.components,
+         file.read_rows<float>("/VTKHDF/CellData/" + field.name, where(field.name), f.n_cell)});
+  }
+  const auto begin = [&](auto end) {
+    return k == 0 ? 0 : frame_[static_cast<std::size_t>(k) - 1].*end;
+  };
+  frame.cells =
+      read_table(file, "/cells", layout_.cells, begin(&FrameIndex::cells_end), f.cells_end);
+  frame.interface = read_table(file, "/interface", layout_.interface,
+                               begin(&FrameIndex::interface_end), f.interface_end);
+  return frame;
+}
+
+Table RunReader::cells(int k) const {
+  const FrameIndex& f = index(k);
+  const File file = File::open(path_, Access::kRead);
+  const std::int64_t begin = k == 0 ? 0 : index(k - 1).cells_end;
+  return read_table(file, "/cells", layout_.cells, begin, f.cells_end);
+}
+
+std::map<std::string, std::vector<double>> RunReader::series() const {
+  const File file = File::open(path_, Access::kRead);
+  std::map<std::string, std::vector<double>> result;
+  for (const auto& name : read_series_names(file)) {
+    result[name] = file.read_rows<double>("/series/" + name, 0, counts_.series);
+  }
+  return result;
+}
+
+std::map<std::string, std::string> RunReader::series_unit() const {
+  const File file = File::open(path_, Access::kRead);
+  std::map<std::string, std::string> result;
+  for (const auto& name : read_series_names(file))
+    result[name] = file.read_text_attribute("/series/" + name, "unit");
+  return result;
+}
+
+std::vector<Event> RunReader::events() const {
+  const File file = File::open(path_, Access::kRead);
+  const std::int64_t n = counts_.event;
+  const auto time = file.read_rows<double>("/events/time", 0, n);
+  const auto code = file.read_text_rows("/events/code", 0, n);
+  const auto message = file.read_text_rows("/events/message", 0, n);
+  const auto offset = file.read_rows<std::int64_t>("/events/cell_offset", 0, n + 1);
+  const auto cell = file.read_rows<std::int64_t>("/events/cell_id", 0, offset.back());
+  std::vector<Event> event;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    event.push_back(
+        {time[i], code[i], {cell.begin() + offset[i], cell.begin() + offset[i + 1]}, message[i]});
+  }
+  return event;
+}
+
+std::map<std::string, std::string> RunReader::provenance() const {
+  const File file = File::open(path_, Access::kRead);
+  std::map<std::string, std::string> result;
+  for (const auto& key : file.members("/provenance"))
+    result[key] = file.read_text("/provenance/" + key);
+  return result;
+}
+
+}  // namespace acinus::io

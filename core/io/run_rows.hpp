@@ -1,0 +1,76 @@
+#pragma once
+/// The datasets of a run file: how each is stored, written and read back. Used by RunFile and
+/// RunReader only.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/io/frame.hpp"
+#include "core/io/hdf5.hpp"
+#include "core/io/run_file.hpp"
+#include "core/io/run_layout.hpp"
+
+namespace acinus::io {
+
+/// Rows per chunk of the large arrays. Filtered frames start on a chunk: a chunk that two frames
+/// share would be compressed anew in place, and a kill at that moment would damage the finished
+/// frame.
+inline constexpr std::int64_t kChunkRows = 16384;
+inline constexpr std::int64_t kTableChunkRows = 4096;  ///< /cells and /interface, unfiltered
+inline constexpr std::int64_t kIndexChunkRows = 1024;
+inline constexpr int kCodeWidth = 32;
+inline constexpr int kMessageWidth = 512;
+
+void create_index_rows(h5::File& file, bool filtered);
+void create_field_rows(h5::File& file, const RunLayout& layout, bool filtered);
+void create_event_rows(h5::File& file);
+void create_series_rows(h5::File& file, std::span<const std::string> name,
+                        std::span<const std::string> unit);
+
+/// One frame on its way into the file.
+struct FrameWrite {
+  h5::File& file;
+  const Frame& frame;
+  const FrameIndex* last;         ///< the frame before; null for the first
+  const StaticHashes& last_hash;  ///< not known after a restart
+  bool filtered;
+  FrameIndex index;   ///< out: where it went
+  StaticHashes hash;  ///< out: of this frame
+};
+
+/// Writes a frame's arrays after those of the last one. Topology and cell data whose hash did not
+/// change are not written again: the index repeats their place.
+void write_frame(FrameWrite& w);
+/// Writes row `k` of /VTKHDF/Steps and of the tables' frame_offset.
+void write_index(h5::File& file, std::int64_t k, const FrameIndex& index);
+
+/// @param value  [row][n_series]
+void write_series(h5::File& file, std::span<const std::string> name, std::int64_t first_row,
+                  std::span<const double> value);
+/// Returns the number of rows of /events/cell_id afterwards.
+std::int64_t write_events(h5::File& file, std::int64_t first_row, std::int64_t n_cell_written,
+                          std::span<const Event> event);
+/// Writes the counts that make rows valid. To be called after a flush.
+void write_counts(h5::File& file, const RunFileCounts& counts);
+
+/// Throws Error(kFileError) unless the file is a run file of a version that can be read.
+void check_run_schema(const h5::File& file);
+RunFileCounts read_counts(const h5::File& file);
+RunLayout read_layout(const h5::File& file);
+std::vector<FrameIndex> read_frame_index(const h5::File& file, const RunLayout& layout,
+                                         std::int64_t n_frame);
+/// In the order of the samples.
+std::vector<std::string> read_series_names(const h5::File& file);
+
+/// Copies into a file without /VTKHDF, /cells, /interface; sets NSteps.
+void copy_frames(const h5::File& from, h5::File& to, const RunLayout& layout,
+                 const std::vector<FrameIndex>& frame);
+void copy_series(const h5::File& from, h5::File& to, std::int64_t n_row);
+/// Returns the number of rows of /events/cell_id kept.
+std::int64_t copy_events(const h5::File& from, h5::File& to, std::int64_t n_row);
+
+void check_series_names(std::span<const SeriesValue> sample);
+
+}  // namespace acinus::io

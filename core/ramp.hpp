@@ -1,0 +1,18 @@
+#pragma once
+/// A value that runs linearly from one number to another between two times.
+
+namespace acinus {
+
+struct Ramp {
+  double from = 0, to = 0;    ///< values
+  double start = 0, end = 0;  ///< s
+
+  static Ramp constant(double value) { return {value, value, 0, 0}; }
+  double at(double time) const {
+    if (time >= end) return to;
+    if (time <= start) return from;
+    return from + (to - from) * (time - start) / (end - start);
+  }
+};
+
+}  // namespace acinus

@@ -1,0 +1,41 @@
+#pragma once
+/// Conjugate gradients with block-Jacobi preconditioning.
+
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/solve/operator.hpp"
+
+namespace acinus::solve {
+
+struct CgOptions {
+  double tolerance = 1e-3;  ///< on sqrt(r^T D^-1 r), relative to sqrt(b^T D^-1 b)
+  int max_iterations = 2000;
+};
+
+struct CgResult {
+  Status status;
+  int iterations = 0;
+  double residual = 0;  ///< relative, in the norm above, from the true residual b - A x
+};
+
+/// Scratch, sized on first use.
+struct CgWorkspace {
+  std::vector<double> residual, direction, preconditioned, product;
+};
+
+/// Which unknowns a solve may change: blocks [first, last). Others keep x and act through A.
+struct BlockRange {
+  std::size_t first = 0;
+  std::size_t last = static_cast<std::size_t>(-1);
+};
+
+/// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand side,
+/// not to the first residual, so that a good start saves iterations. The stop is confirmed with the
+/// true residual; if rounding fooled the recurrence, the iteration restarts from it.
+/// With a range, only that part of x changes (the rest is a frozen partner): used by the partitioned twin.
+CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
+                  const CgOptions& options, CgWorkspace& work, BlockRange range = {});
+
+}  // namespace acinus::solve

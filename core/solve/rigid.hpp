@@ -1,0 +1,34 @@
+#pragma once
+/// Rigid-body correction of a linear solve, per contact-connected group of cells.
+///
+/// Medium friction can be 1e-8 of contact friction, so a small CG residual may hide a large rigid drift
+/// of a whole cluster. Every cluster's six rigid modes are therefore solved exactly (Galerkin) on the
+/// true residual. docs/decisions/0002.md says why the projected matrix is that of the whole operator.
+
+#include <span>
+#include <vector>
+
+#include "core/solve/operator.hpp"
+
+namespace acinus::solve {
+
+struct RigidWorkspace {
+  std::vector<int> group;  ///< [n_block * kLanes] group of each cell, -1: empty lane
+  std::vector<double> residual, mode, product;
+};
+
+struct RigidResult {
+  int corrected_groups = 0;
+  double largest_move = 0;  ///< um, the largest rigid displacement put right
+};
+
+/// Corrects x (the displacement) for A x = b.
+/// @param position  [n_row][3][lane] um
+/// @param active    [n_block * kLanes] 1 where the lane holds a cell
+/// @param threshold um: groups whose rigid error is provably below it are left alone
+RigidResult correct_rigid_modes(const Operator& op, std::span<const double> b, std::span<double> x,
+                                std::span<const double> position,
+                                std::span<const std::uint8_t> active, double threshold,
+                                RigidWorkspace& work);
+
+}  // namespace acinus::solve

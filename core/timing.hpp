@@ -1,0 +1,75 @@
+#pragma once
+/// Where the time went, how much memory was used, and on which machine.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace acinus {
+
+/// Seconds of a clock that never jumps; only differences mean something.
+double wall_seconds();
+
+/// CPU seconds of all threads of this process since its start.
+double cpu_seconds();
+
+/// CPU seconds of the calling thread.
+double thread_cpu_seconds();
+
+/// Largest resident memory of this process so far.
+std::uint64_t peak_rss_bytes();
+
+/// One named stage. Times include those of stages nested in it.
+struct StageTime {
+  std::string name;
+  double wall = 0.0;        ///< s
+  double cpu = 0.0;         ///< s, all threads of the process
+  double thread_cpu = 0.0;  ///< s, the thread that opened the scope
+  std::uint64_t calls = 0;
+};
+
+/// Accumulated stage times in order of first use. Not thread safe: scopes are opened outside
+/// parallel regions. A scope costs about a microsecond and allocates only when it meets a new name.
+class Timings {
+ public:
+  /// Measures from construction to destruction. The Timings must outlive it.
+  class Scope {
+   public:
+    Scope(Timings& timings, std::string_view stage);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    Timings& timings_;
+    std::size_t stage_;
+    double wall_, cpu_, thread_cpu_;
+  };
+
+  [[nodiscard]] Scope scope(std::string_view stage) { return Scope(*this, stage); }
+
+  const std::vector<StageTime>& stages() const { return stages_; }
+
+  /// The stage of this name; all zero if it never ran.
+  StageTime stage(std::string_view name) const;
+
+  void clear() { stages_.clear(); }
+
+ private:
+  std::size_t find_or_add(std::string_view name);
+  std::vector<StageTime> stages_;
+};
+
+/// The widest of "avx512f", "avx2", "sse2" this processor runs; "generic" off x86.
+std::string_view best_instruction_set();
+
+struct Machine {
+  std::string cpu_model;        ///< "unknown" if the system does not tell
+  int cores = 1;                ///< logical cores this process may use
+  std::string instruction_set;  ///< best_instruction_set()
+};
+
+Machine describe_machine();
+
+}  // namespace acinus

@@ -1,0 +1,315 @@
+#include "coupling/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/error.hpp"
+#include "coupling/audit_body.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Where between two neighbouring crossings a passing edge is probed.
+constexpr std::array<double, 3> kProbe{0.25, 0.5, 0.75};
+
+/// Calls f(point on a-b) at probes of every piece between neighbouring crossings.
+template <class F>
+void probe_pieces(const Vec3& a, const Vec3& b, const std::vector<double>& crossing, F&& f) {
+  for (std::size_t c = 0; c + 1 < crossing.size(); ++c)
+    for (const double probe : kProbe)
+      f(Vec3(a + (crossing[c] + probe * (crossing[c + 1] - crossing[c])) * (b - a)));
+}
+
+/// Deepest point of the surface of `a` on the forbidden side of `b`, um.
+double surface_depth(const AuditBody& a, const AuditBody& b, Side forbidden) {
+  double depth = 0;
+  const auto look = [&](const Vec3& point) {
+    if (forbidden == Side::kInside && !b.box.holds(point)) return false;
+    if (b.side(point) != forbidden) return false;
+    depth = std::max(depth, b.distance(point));
+    return true;
+  };
+  std::vector<char> bad(static_cast<std::size_t>(a.n_node));
+  for (std::size_t s = 0; s < a.sample.size(); ++s) {
+    const bool is_bad = look(a.sample[s]);
+    if (s < bad.size()) bad[s] = is_bad;
+  }
+  for (const auto& [i, j] : a.edge) {
+    if (bad[static_cast<std::size_t>(i)] || bad[static_cast<std::size_t>(j)]) continue;
+    const Vec3 &from = a.sample[static_cast<std::size_t>(i)],
+               &to = a.sample[static_cast<std::size_t>(j)];
+    probe_pieces(from, to, b.crossings(from, to), look);
+  }
+  return depth;
+}
+
+/// Depth of the volume centroid of `a` if it lies in both bodies, um.
+double common_centroid_depth(const AuditBody& a, const AuditBody& b) {
+  if (a.side(a.centroid) != Side::kInside || b.side(a.centroid) != Side::kInside) return 0;
+  return std::min(a.distance(a.centroid), b.distance(a.centroid));
+}
+
+double body_depth(const AuditBody& a, const AuditBody& b) {
+  return std::max({surface_depth(a, b, Side::kInside), surface_depth(b, a, Side::kInside),
+                   common_centroid_depth(a, b), common_centroid_depth(b, a)});
+}
+
+struct RoundCone {
+  Vec3 a, b;
+  double radius_a, radius_b;
+  Box box() const {
+    Box hull = box_around(a, a, radius_a);
+    const Box end = box_around(b, b, radius_b);
+    return {hull.low.cwiseMin(end.low), hull.high.cwiseMax(end.high)};
+  }
+  double radius(double t) const { return radius_a + t * (radius_b - radius_a); }
+};
+
+/// Depth below the surface of the union of balls along the axis: max over t of r(t) - |p - c(t)|.
+/// The best ball is the one whose surface normal passes through p: with the slope s = (ra - rb)/L
+/// it sits s/sqrt(1 - s^2) times the distance from the axis behind the foot of p.
+double cone_depth(const RoundCone& cone, const Vec3& p) {
+  const Vec3 along = cone.b - cone.a;
+  const double length = along.norm();
+  const double drop = cone.radius_a - cone.radius_b;
+  double t = drop > 0 ? 0 : 1;  // one ball swallows the other
+  if (std::abs(drop) < length) {
+    const double slope = drop / length;
+    const double foot = (p - cone.a).dot(along) / length;
+    const double off = (p - cone.a - foot / length * along).norm();
+    t = std::clamp((foot - off * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
+  }
+  return cone.radius(t) - (p - cone.a - t * along).norm();
+}
+
+/// The point of segment p-q nearest to segment a-b. With one segment's parameter fixed the other's
+/// best is a clamped projection; the pair that minimises is found from the unclamped solution in
+/// two rounds.
+Vec3 nearest_on_segment(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+  const Vec3 u = q - p, v = b - a, w = p - a;
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
+  const double det = uu * vv - uv * uv;
+  const auto project = [](const Vec3& x, const Vec3& from, const Vec3& way, double squared) {
+    return squared > 0 ? std::clamp((x - from).dot(way) / squared, 0.0, 1.0) : 0.0;
+  };
+  double s = det > 1e-14 * uu * vv ? (uv * v.dot(w) - vv * u.dot(w)) / det : 0.5;
+  s = std::clamp(s, 0.0, 1.0);
+  const double t = project(p + s * u, a, v, vv);
+  s = project(a + t * v, p, u, uu);
+  return p + s * u;
+}
+
+double vessel_depth(const AuditBody& cell, const RoundCone& cone) {
+  const Box box = cone.box();
+  double depth = 0;
+  const auto on_surface = [&](const Vec3& x) { depth = std::max(depth, cone_depth(cone, x)); };
+  for (const Vec3& x : cell.sample)
+    if (box.holds(x)) on_surface(x);
+  for (const auto& [i, j] : cell.edge) {
+    const Vec3 &from = cell.sample[static_cast<std::size_t>(i)],
+               &to = cell.sample[static_cast<std::size_t>(j)];
+    if (box.meets(box_around(from, to))) on_surface(nearest_on_segment(from, to, cone.a, cone.b));
+  }
+  // A thin vessel can end in or pass through the middle of a triangle, away from every sample.
+  const std::vector<double> crossing = cell.crossings(cone.a, cone.b);
+  const auto on_axis = [&](const Vec3& x) {
+    const Vec3 near = cell.closest_point(x);
+    on_surface(near);
+    if (cell.side(x) != Side::kInside) return;
+    const double length = (cone.b - cone.a).norm();
+    const double t = length > 0 ? (x - cone.a).norm() / length : 0.0;
+    depth = std::max(depth, cone.radius(t) + (x - near).norm());
+  };
+  on_axis(cone.a);
+  on_axis(cone.b);
+  for (const double t : crossing) on_surface(cone.a + t * (cone.b - cone.a));
+  std::vector<double> stop{0.0};
+  stop.insert(stop.end(), crossing.begin(), crossing.end());
+  stop.push_back(1.0);
+  if (!crossing.empty()) probe_pieces(cone.a, cone.b, stop, on_axis);
+  return depth;
+}
+
+double sphere_depth(const AuditBody& cell, const AuditSphere& sphere) {
+  const double distance = cell.distance(sphere.center);
+  const double sign = cell.side(sphere.center) == Side::kInside ? 1 : -1;
+  return sphere.radius + sign * distance;
+}
+
+void keep_worst(WorstPair& worst, double depth, std::int64_t a, std::int64_t b) {
+  if (depth > worst.depth_um) worst = {depth, {a, b}};
+}
+
+void check_finite(std::span<const Vec3> nodes, const std::string& what) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    check(nodes[i].allFinite(), fmt::format("audit: {}: node {} is not finite", what, i),
+          Exit::kCannotContinue);
+}
+
+/// All bodies of a frame under one numbering: cells, spheres, vessel segments, statics.
+struct Bodies {
+  std::vector<AuditBody> cell, fixed;
+  std::vector<RoundCone> cone;
+};
+
+Bodies prepare(const AuditFrame& frame) {
+  for (const AuditMesh& m : frame.meshes) check_finite(m.node, fmt::format("cell {}", m.id));
+  for (const AuditSphere& s : frame.spheres)
+    check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
+  Bodies bodies;
+  for (const AuditMesh& m : frame.meshes) bodies.cell.emplace_back(m.node, m.triangle);
+  for (std::size_t i = 0; i < frame.statics.size(); ++i) {
+    check_finite(frame.statics[i].node, fmt::format("static mesh {}", i));
+    bodies.fixed.emplace_back(frame.statics[i].node, frame.statics[i].triangle);
+    check(bodies.fixed.back().closed(), fmt::format("audit: static mesh {} is not closed", i));
+  }
+  if (!frame.vessels) return bodies;
+  const mesh::Network& net = *frame.vessels;
+  for (std::size_t s = 0; s < net.segment.size(); ++s)
+    bodies.cone.push_back({net.node[static_cast<std::size_t>(net.segment[s][0])],
+                           net.node[static_cast<std::size_t>(net.segment[s][1])], net.radius[s][0],
+                           net.radius[s][1]});
+  return bodies;
+}
+
+void audit_shapes(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+  const int n = static_cast<int>(bodies.cell.size());
+  std::vector<char> crosses(bodies.cell.size());
+#pragma omp parallel for schedule(dynamic)
+  for (int c = 0; c < n; ++c)
+    crosses[static_cast<std::size_t>(c)] =
+        bodies.cell[static_cast<std::size_t>(c)].self_intersects();
+  for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
+    const AuditBody& cell = bodies.cell[c];
+    result.n_inverted += cell.volume <= 0;
+    result.n_self_intersecting += crosses[c];
+    if (cell.quality < result.min_triangle_quality || result.worst_triangle_cell < 0) {
+      result.min_triangle_quality = cell.quality;
+      result.worst_triangle_cell = frame.meshes[c].id;
+    }
+  }
+}
+
+/// Planes, capsules and envelopes: every cell has to be on their good side, near or not.
+void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+  for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
+    const AuditMesh& cell = frame.meshes[c];
+    std::int64_t wall = 0;
+    for (const AuditPlane& plane : frame.planes) {
+      for (const Vec3& x : cell.node)
+        keep_worst(result.dcm_wall, -(x - plane.point).dot(plane.normal), cell.id, wall);
+      ++wall;
+    }
+    for (const AuditCapsule& capsule : frame.capsules) {
+      for (const Vec3& x : cell.node)
+        keep_worst(result.dcm_wall, (x - capsule.center).norm() - capsule.radius, cell.id, wall);
+      ++wall;
+    }
+    for (std::size_t f = 0; f < bodies.fixed.size(); ++f, ++wall)
+      if (frame.statics[f].inside) {
+        const AuditBody &body = bodies.cell[c], &fixed = bodies.fixed[f];
+        keep_worst(result.dcm_wall, surface_depth(body, fixed, Side::kOutside), cell.id, wall);
+        keep_worst(result.dcm_wall, surface_depth(fixed, body, Side::kInside), cell.id, wall);
+      }
+  }
+}
+
+struct Pair {
+  enum class Kind { kCellCell, kCellSphere, kCellVessel, kCellFixed, kSphereSphere } kind;
+  std::size_t a, b;
+  double depth = 0;
+};
+
+std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
+  std::vector<Box> box;
+  for (const AuditBody& b : bodies.cell) box.push_back(b.box);
+  for (const AuditSphere& s : frame.spheres)
+    box.push_back(box_around(s.center, s.center, s.radius));
+  for (const RoundCone& c : bodies.cone) box.push_back(c.box());
+  for (const AuditBody& b : bodies.fixed) box.push_back(b.box);
+  const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
+  const std::size_t fixed = cone + bodies.cone.size();
+  std::vector<Pair> pair;
+  for (const auto& [i, j] : meeting_boxes(box)) {  // i < j: the cell comes first
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    if (a < sphere) {
+      if (b < sphere)
+        pair.push_back({Pair::Kind::kCellCell, a, b});
+      else if (b < cone)
+        pair.push_back({Pair::Kind::kCellSphere, a, b - sphere});
+      else if (b < fixed)
+        pair.push_back({Pair::Kind::kCellVessel, a, b - cone});
+      else if (!frame.statics[b - fixed].inside)
+        pair.push_back({Pair::Kind::kCellFixed, a, b - fixed});
+    } else if (a < cone && b < cone) {
+      pair.push_back({Pair::Kind::kSphereSphere, a - sphere, b - sphere});
+    }
+  }
+  return pair;
+}
+
+double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pair) {
+  switch (pair.kind) {
+    case Pair::Kind::kCellCell:
+      return body_depth(bodies.cell[pair.a], bodies.cell[pair.b]);
+    case Pair::Kind::kCellSphere:
+      return sphere_depth(bodies.cell[pair.a], frame.spheres[pair.b]);
+    case Pair::Kind::kCellVessel:
+      return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
+    case Pair::Kind::kCellFixed:
+      return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
+    case Pair::Kind::kSphereSphere: {
+      const AuditSphere &a = frame.spheres[pair.a], &b = frame.spheres[pair.b];
+      return a.radius + b.radius - (a.center - b.center).norm();
+    }
+  }
+  return 0;
+}
+
+void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
+  const auto other = static_cast<std::int64_t>(pair.b);
+  switch (pair.kind) {
+    case Pair::Kind::kCellCell:
+      return keep_worst(result.dcm_dcm, pair.depth, frame.meshes[pair.a].id,
+                        frame.meshes[pair.b].id);
+    case Pair::Kind::kCellSphere:
+      return keep_worst(result.dcm_cbm, pair.depth, frame.meshes[pair.a].id,
+                        frame.spheres[pair.b].id);
+    case Pair::Kind::kCellVessel:
+      return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
+    case Pair::Kind::kCellFixed: {
+      const auto before = static_cast<std::int64_t>(frame.planes.size() + frame.capsules.size());
+      return keep_worst(result.dcm_wall, pair.depth, frame.meshes[pair.a].id, before + other);
+    }
+    case Pair::Kind::kSphereSphere:
+      return keep_worst(result.cbm_cbm, pair.depth, frame.spheres[pair.a].id,
+                        frame.spheres[pair.b].id);
+  }
+}
+
+}  // namespace
+
+AuditResult audit(const AuditFrame& frame) {
+  AuditResult result;
+  const Bodies bodies = prepare(frame);
+  audit_shapes(frame, bodies, result);
+  audit_walls(frame, bodies, result);
+  std::vector<Pair> pairs = find_pairs(frame, bodies);
+  const auto n = static_cast<std::ptrdiff_t>(pairs.size());
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    Pair& pair = pairs[static_cast<std::size_t>(k)];
+    pair.depth = pair_depth(frame, bodies, pair);
+  }
+  for (const Pair& pair : pairs)
+    keep_pair(frame, pair, result);  // in list order, whoever computed it
+  result.max_penetration_um = std::max({result.dcm_dcm.depth_um, result.dcm_vessel.depth_um,
+                                        result.dcm_wall.depth_um, result.dcm_cbm.depth_um});
+  result.max_overlap_cbm_um = result.cbm_cbm.depth_um;
+  return result;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,86 @@
+#pragma once
+/// How deep do bodies really overlap? An independent check of every written frame: exact inside
+/// tests and distances on the triangles themselves. It shares no code with the contact search,
+/// which is blind past its depth limit and would not see a cell that has tunnelled through another.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/network.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::coupling {
+
+struct AuditMesh {
+  std::int64_t id = 0;
+  std::span<const Vec3> node;                    ///< um
+  std::span<const std::array<int, 3>> triangle;  ///< closed, outward
+};
+struct AuditSphere {
+  std::int64_t id = 0;
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+};
+struct AuditPlane {  ///< cells stay where (x - point) . normal >= 0; normal of length 1
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+};
+struct AuditCapsule {  ///< cells live inside this sphere
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+};
+struct AuditStatic {  ///< a closed mesh that does not move
+  std::span<const Vec3> node;
+  std::span<const std::array<int, 3>> triangle;
+  bool inside = false;  ///< cells live inside it; triangles are outward all the same
+};
+
+/// Everything in one frame. Spans may be empty; they must outlive the call.
+struct AuditFrame {
+  std::span<const AuditMesh> meshes;
+  std::span<const AuditSphere> spheres;
+  const mesh::Network* vessels = nullptr;
+  std::span<const AuditPlane> planes;
+  std::span<const AuditCapsule> capsules;
+  std::span<const AuditStatic> statics;
+};
+
+struct WorstPair {
+  double depth_um = 0;
+  std::vector<std::int64_t> ids;  ///< the two partners, empty if nothing overlaps
+};
+
+struct AuditResult {
+  double max_penetration_um = 0;  ///< largest of the four dcm_ depths
+  WorstPair dcm_dcm;              ///< ids of the cells
+  WorstPair dcm_vessel;           ///< cell id, vessel segment
+  WorstPair dcm_wall;             ///< cell id, index counted through planes, capsules, statics
+  WorstPair dcm_cbm;              ///< mesh cell id, sphere id
+  double max_overlap_cbm_um = 0;  ///< max of Ri + Rj - distance over spheres
+  WorstPair cbm_cbm;              ///< sphere ids
+  double min_triangle_quality =
+      1;  ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 flat
+  std::int64_t worst_triangle_cell = -1;
+  int n_inverted = 0;           ///< cells of non-positive volume
+  int n_self_intersecting = 0;  ///< cells with two triangles that cross
+};
+
+/// Depths (um) by kind of partner:
+/// - cell in cell or closed mesh: over nodes, edge midpoints and triangle centroids of one strictly
+///   inside the other, the distance to the other's surface, both ways; edges that pass through
+///   without leaving a sample inside count with the depth along the part inside; a volume centroid
+///   inside both counts with the smaller of its two depths, so coinciding cells are seen. Inside =
+///   parity of ray crossings with exact predicates.
+/// - cell in vessel: depth of its surface in the round cone (the balls along the axis); where the
+/// axis
+///   itself runs inside the cell, radius + distance to the cell's surface.
+/// - cell behind a plane or outside a capsule: the farthest node.
+/// - cell and sphere: radius - distance to the cell's surface, or radius + distance if the centre
+/// is inside. Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel,
+/// and the result does not depend on the number of threads. Throws Error if a coordinate is not
+/// finite or a static is not closed.
+AuditResult audit(const AuditFrame& frame);
+
+}  // namespace acinus::coupling

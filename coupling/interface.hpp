@@ -1,0 +1,80 @@
+#pragma once
+/// The interface between the two models: contact of a deformable surface with a compliant sphere.
+///
+/// Tension as between two deformable cells. Under compression the sphere yields: pressure = -k_s gap
+/// with 1/k_s = 1/k_rep + 1/k_w and the Winkler constant k_w = 4 E* / (3 pi R sqrt(d)) that matches
+/// the sphere's half of a Hertz contact at the relative overlap d. A rigid sphere would be about 40
+/// times too stiff.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cbm/contact.hpp"
+#include "core/solve/system.hpp"
+#include "dcm/contact.hpp"
+
+namespace acinus::coupling {
+
+struct InterfaceParams {
+  double friction = 0;         ///< nN s/um^3, DCM-CBM
+  double friction_factor = 1;  ///< 0 while cells grow to size
+};
+
+/// A surface point of a deformable cell near a sphere.
+struct InterfaceContact {
+  int body = 0, point = 0;     ///< of dcm::ContactWorkspace
+  int sphere = 0;              ///< cell of cbm::State
+  double gap = 0;              ///< um, negative: the point is inside the sphere
+  Vec3 normal = Vec3::Zero();  ///< d gap / d x_point: away from the sphere's centre
+};
+
+/// What one deformable cell and one sphere exert on each other, for users to read.
+struct InterfaceForce {
+  std::int64_t dcm_id = 0, cbm_id = 0;
+  Vec3 force = Vec3::Zero();  ///< nN, on the deformable cell; the sphere gets the opposite
+  double area = 0;            ///< um^2 in touch
+  double gap = 0;             ///< um, smallest
+};
+
+struct InterfaceWorkspace {
+  std::vector<InterfaceContact> contact;  ///< written by: find_interface
+};
+
+/// Smallest relative overlap that enters the compliance of a sphere.
+inline constexpr double kLeastOverlap = 0.01;
+
+/// Series stiffness k_s of a sphere's surface under a deformable one, nN/um^3.
+double compliant_stiffness(double repulsion, double reduced_young, double radius,
+                           double relative_overlap);
+
+/// Finds all interface contacts. Adds their touching shares to the surface points, and their areas
+/// and overlaps to the spheres. @pre both models' find_contacts
+void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& dcm_contact,
+                    const dcm::LaneData& lanes, const cbm::State& cbm_state,
+                    std::span<const double> cbm_radius, dcm::ContactWorkspace& dcm_work,
+                    cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work);
+
+/// What add_interface_loads reads, named because there is much of it.
+struct InterfaceView {
+  const dcm::State& dcm_state;
+  std::span<const dcm::Params> dcm_params;
+  const dcm::ContactParams& dcm_contact;
+  const dcm::LaneData& lanes;
+  const dcm::ContactWorkspace& dcm_work;
+  const cbm::State& cbm_state;
+  std::span<const cbm::Params> cbm_params;
+  std::span<const double> cbm_radius;
+  const cbm::ContactWorkspace& cbm_work;
+  const InterfaceParams& params;
+  const InterfaceWorkspace& work;
+};
+
+/// Adds the links: one number, opposite signs, both models' unknowns in one system.
+void add_interface_loads(const InterfaceView& view, std::size_t cbm_first_row,
+                         solve::Links& links);
+
+/// The forces per pair of cells, ordered by (dcm, cbm) position in the arrays.
+std::vector<InterfaceForce> compute_interface_forces(const InterfaceView& view);
+
+}  // namespace acinus::coupling

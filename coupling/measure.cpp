@@ -1,0 +1,179 @@
+#include "coupling/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "coupling/step.hpp"
+#include "dcm/stress.hpp"
+#include "dcm/terms/area.hpp"
+#include "dcm/terms/volume.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Reference values a step of this length ahead are those of now, to rounding.
+constexpr double kNow = 1e-9;
+
+void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, const Vec3& arm) {
+  const double w = 1 / reference_volume;
+  m.stress[0] += w * force.x() * arm.x();
+  m.stress[1] += w * 0.5 * (force.x() * arm.y() + force.y() * arm.x());
+  m.stress[2] += w * 0.5 * (force.x() * arm.z() + force.z() * arm.x());
+  m.stress[3] += w * force.y() * arm.y();
+  m.stress[4] += w * 0.5 * (force.y() * arm.z() + force.z() * arm.y());
+  m.stress[5] += w * force.z() * arm.z();
+}
+
+/// Which link of the system is which: assemble() adds them in this order.
+struct LinkRanges {
+  std::size_t dcm_end, sphere_end, obstacle_end, interface_end;
+};
+LinkRanges link_ranges(const Workspace& w) {
+  LinkRanges r{};
+  r.dcm_end = w.dcm.surface.size() + w.dcm.obstacle.size();
+  r.sphere_end = r.dcm_end + w.cbm.sphere.size();
+  r.obstacle_end = r.sphere_end + w.cbm.obstacle.size();
+  r.interface_end = r.obstacle_end + w.interface.contact.size();
+  return r;
+}
+
+}  // namespace
+
+void observe(const World& world, Workspace& w) {
+  find_all_contacts(world, kNow, w);
+  assemble(world, kNow, w);
+}
+
+std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  std::vector<CellMeasure> cells;
+  const std::size_t n_body = w.dcm.body.size();
+  for (std::size_t k = 0; k < n_body; ++k) {
+    const std::size_t lane = w.dcm.lane_of_body[k];
+    const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
+    const int l = static_cast<int>(lane % kLanes);
+    CellMeasure m;
+    m.id = s.dcm.lineage[lane];
+    m.deformable = true;
+    m.type = s.dcm.group[lane / kLanes].type;
+    m.leader = lane < w.leader.size() && w.leader[lane];
+    m.center = dcm::cell_center(s.dcm, lane);
+    m.radius = w.lanes.radius[lane];
+    m.volume = dcm::compute_volumes(g)[l];
+    m.area = dcm::compute_areas(g)[l];
+    const double v0 = 4.0 / 3 * kPi * std::pow(m.radius, 3);
+    m.cytosol_pressure =
+        dcm::cytosol_pressure(world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus, m.volume, v0);
+    m.migration_force = w.forces.dcm[lane].norm();
+    for (std::size_t p = 0; p < w.dcm.share[k].size(); ++p)
+      m.contact_area += std::min(1.0, w.dcm.share[k][p]) *
+                        dcm::point_area(*w.dcm.body[k].topology, world.params.dcm_contact.quadrature,
+                                        static_cast<int>(p), m.radius);
+    cells.push_back(m);
+  }
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
+    CellMeasure m;
+    m.id = s.cbm.lineage[c];
+    m.type = s.cbm.type[c];
+    const std::size_t at = s.dcm.n_lane() + c;
+    m.leader = at < w.leader.size() && w.leader[at];
+    m.center = cbm::center_of(s.cbm, c);
+    m.radius = w.cbm_radius[c];
+    m.volume = 4.0 / 3 * kPi * std::pow(m.radius, 3);
+    m.area = 4 * kPi * m.radius * m.radius;
+    m.contact_area = std::min(w.cbm.contact_area[c], m.area);
+    m.migration_force = w.forces.cbm[c].norm();
+    cells.push_back(m);
+  }
+
+  auto reference_volume = [&](std::size_t cell) { return 4.0 / 3 * kPi * std::pow(cells[cell].radius, 3); };
+  auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
+    add_stress(cells[cell], reference_volume(cell), force, arm);
+  };
+  std::set<std::pair<std::size_t, std::size_t>> touching;
+  auto touch = [&](std::size_t a, std::size_t b) { touching.insert({std::min(a, b), std::max(a, b)}); };
+  const LinkRanges range = link_ranges(w);
+  const solve::Links& links = w.system.links;
+  auto force_of = [&](std::size_t l) { return links.force[l]; };
+
+  for (std::size_t k = 0; k < w.dcm.surface.size(); ++k) {
+    const contact::SurfaceContact& c = w.dcm.surface[k];
+    const auto a = static_cast<std::size_t>(c.body_a), b = static_cast<std::size_t>(c.body_b);
+    const Vec3 x = contact::point_position(
+        w.dcm.body[a], contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
+    press(a, force_of(k), x - cells[a].center);
+    if (b >= n_body) continue;
+    press(b, -force_of(k), x - c.gap * c.normal - cells[b].center);
+    if (a != b && force_of(k).squaredNorm() > 0) touch(a, b);
+  }
+  for (std::size_t k = 0; k < w.dcm.obstacle.size(); ++k) {
+    const dcm::ObstacleContact& c = w.dcm.obstacle[k];
+    const auto a = static_cast<std::size_t>(c.body);
+    press(a, force_of(w.dcm.surface.size() + k),
+          contact::point_position(w.dcm.body[a], contact::point_stencil(w.dcm.body[a],
+                                  world.params.dcm_contact.quadrature, c.point)) - cells[a].center);
+  }
+  for (std::size_t k = 0; k < w.cbm.sphere.size(); ++k) {
+    const cbm::SphereContact& c = w.cbm.sphere[k];
+    const std::size_t a = n_body + static_cast<std::size_t>(c.a), b = n_body + static_cast<std::size_t>(c.b);
+    const Vec3 f = c.law.force * c.normal;
+    press(a, f, -(cells[a].radius - 0.5 * c.overlap) * c.normal);
+    press(b, -f, (cells[b].radius - 0.5 * c.overlap) * c.normal);
+    touch(a, b);
+  }
+  for (const cbm::ObstacleContact& c : w.cbm.obstacle) {
+    const std::size_t a = n_body + static_cast<std::size_t>(c.cell);
+    press(a, c.law.force * c.normal, -(cells[a].radius - c.overlap) * c.normal);
+  }
+  for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
+    const InterfaceContact& c = w.interface.contact[k];
+    const auto a = static_cast<std::size_t>(c.body);
+    const std::size_t b = n_body + static_cast<std::size_t>(c.sphere);
+    const Vec3 x = contact::point_position(
+        w.dcm.body[a], contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
+    const Vec3 f = force_of(range.obstacle_end + k);
+    press(a, f, x - cells[a].center);
+    press(b, -f, x - cells[b].center);
+    if (f.squaredNorm() > 0) touch(a, b);
+  }
+  for (const auto& [a, b] : touching) {
+    ++cells[a].contacts;
+    ++cells[b].contacts;
+  }
+  for (CellMeasure& m : cells) {
+    m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
+    if (!m.deformable) m.cytosol_pressure = m.pressure;
+  }
+  return cells;
+}
+
+NodeMeasure measure_nodes(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  NodeMeasure n;
+  std::vector<double> contact(s.dcm.position.size(), 0.0);
+  const solve::Links& links = w.system.links;
+  for (std::size_t l = 0; l < links.size(); ++l)
+    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
+      if (links.address[k] < contact.size())
+        add_point(contact.data(), links.address[k], links.weight[k] * links.force[l]);
+  for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
+    const std::size_t lane = w.dcm.lane_of_body[b];
+    const dcm::Group& group = s.dcm.group[lane / kLanes];
+    const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
+    const auto tension = dcm::compute_node_tension(world.params.dcm[static_cast<std::size_t>(group.type)], g,
+                                                   static_cast<int>(lane % kLanes));
+    const double r2 = w.lanes.radius[lane] * w.lanes.radius[lane];
+    for (int i = 0; i < group.topology->n_node; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Vec3 f = load_point(contact.data(), dcm::node_address(s.dcm, lane, i));
+      n.force.push_back(f);
+      n.pressure.push_back(-f.dot(w.dcm.body[b].node_normal[k]) / (group.topology->rest_node_area[k] * r2));
+      n.tension.push_back(tension[k]);
+    }
+  }
+  return n;
+}
+
+}  // namespace acinus::coupling

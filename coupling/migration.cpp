@@ -1,0 +1,109 @@
+#include "coupling/migration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A cell of either model as the choice of leaders sees it.
+struct Seen {
+  double distance, angle, height, radius;  ///< cylinder coordinates about the vein axis
+};
+
+Seen see(const Motility& m, const Vec3& center, double radius) {
+  const Vec3 d = center - m.axis_point;
+  return {std::hypot(d.x(), d.y()), std::atan2(d.y(), d.x()), d.z(), radius};
+}
+
+Vec3 toward_axis(const Motility& m, const Vec3& center) {
+  Vec3 d = m.axis_point - center;
+  d.z() = 0;
+  const double r = d.norm();
+  return r > 0 ? Vec3(d / r) : Vec3::Zero();
+}
+
+}  // namespace
+
+Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step) {
+  const auto first = static_cast<std::int64_t>(std::floor(time / grid));
+  const double end = time + step;
+  Vec3 sum = Vec3::Zero();
+  for (std::int64_t k = first; static_cast<double>(k) * grid < end; ++k) {
+    const double from = std::max(time, static_cast<double>(k) * grid);
+    const double to = std::min(end, static_cast<double>(k + 1) * grid);
+    if (to <= from) continue;
+    sum += (to - from) * normal3({seed, Purpose::kMotility, static_cast<std::uint64_t>(lineage),
+                                  static_cast<std::uint64_t>(k), 0});
+  }
+  return sum / step;
+}
+
+bool choose_leaders(const World& world, std::span<const double> dcm_radius,
+                    std::span<const double> cbm_radius, std::vector<std::uint8_t>& leader,
+                    std::int64_t& interval) {
+  const State& s = world.state;
+  const Motility& m = world.params.motility;
+  const auto now = static_cast<std::int64_t>(std::floor((s.clock.time - s.clock.origin) / m.leader_grid + 1e-9));
+  const std::size_t n_lane = s.dcm.n_lane(), n = n_lane + s.cbm.n_cell();
+  if (now == interval && leader.size() == n) return false;
+  interval = now;
+
+  std::vector<Seen> seen(n);
+  std::vector<std::uint8_t> exists(n, 1), before = leader;
+  before.resize(n, 0);
+  for (std::size_t l = 0; l < n_lane; ++l) {
+    exists[l] = s.dcm.active(l) ? 1 : 0;
+    if (exists[l]) seen[l] = see(m, dcm::cell_center(s.dcm, l), dcm_radius[l]);
+  }
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+    seen[n_lane + c] = see(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
+
+  leader.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!exists[i] || seen[i].distance <= m.axis_radius + seen[i].radius) continue;
+    const double diameter = 2 * seen[i].radius;
+    const double slack = before[i] ? seen[i].radius / 6 : 0;
+    bool leads = true;
+    for (std::size_t j = 0; j < n && leads; ++j) {
+      if (j == i || !exists[j] || seen[j].distance >= seen[i].distance - slack) continue;
+      const double turn = std::remainder(seen[j].angle - seen[i].angle, 2 * kPi);
+      leads = std::abs(turn) * seen[i].distance >= diameter ||
+              std::abs(seen[j].height - seen[i].height) >= diameter;
+    }
+    leader[i] = leads ? 1 : 0;
+  }
+  return true;
+}
+
+void compute_cell_forces(const World& world, const Controls& controls, double step,
+                         std::span<const double> dcm_medium, std::span<const double> cbm_medium,
+                         std::span<const std::uint8_t> leader, CellForces& forces) {
+  const State& s = world.state;
+  const Motility& m = world.params.motility;
+  forces.dcm.assign(s.dcm.n_lane(), Vec3::Zero());
+  forces.cbm.assign(s.cbm.n_cell(), Vec3::Zero());
+  if (!controls.motility) return;
+  const double time = s.clock.time - s.clock.origin;
+  auto active = [&](std::int64_t lineage, double diffusion, double medium) {
+    if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
+    return Vec3(medium * std::sqrt(2 * diffusion / m.grid) * mean_random(m.seed, lineage, m.grid, time, step));
+  };
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
+    if (!s.dcm.active(l)) continue;
+    const dcm::Params& p = world.params.dcm[static_cast<std::size_t>(s.dcm.group[l / kLanes].type)];
+    forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, dcm_medium[l]);
+    if (m.leader_force > 0 && leader[l])
+      forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
+  }
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
+    const cbm::Params& p = world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])];
+    forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, cbm_medium[c]);
+    if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
+      forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
+  }
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,212 @@
+#include "coupling/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/judge.hpp"
+#include "coupling/partitioned.hpp"
+#include "dcm/terms/medium.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Contact parameters of the present phase.
+struct PhaseParams {
+  dcm::ContactParams dcm;
+  cbm::ContactParams cbm;
+  InterfaceParams interface;
+};
+PhaseParams phase_params(const World& world) {
+  const Controls controls = controls_at(world.state.clock, world.params.start_up);
+  PhaseParams p{world.params.dcm_contact, world.params.cbm_contact, world.params.interface};
+  p.dcm.adhesion_factor = p.cbm.adhesion_factor = controls.adhesion;
+  p.dcm.friction_factor = p.cbm.friction_factor = p.interface.friction_factor = controls.friction;
+  return p;
+}
+
+InterfaceView view_interface(const World& world, const PhaseParams& phase, const Workspace& w) {
+  return {world.state.dcm, world.params.dcm, phase.dcm,    w.lanes, w.dcm,      world.state.cbm,
+          world.params.cbm, w.cbm_radius,    w.cbm, phase.interface, w.interface};
+}
+
+void commit(World& world, double step, int cg_iterations, Workspace& w) {
+  State& s = world.state;
+  for (std::size_t k = 0; k < s.dcm.position.size(); ++k) s.dcm.position[k] += w.move[k];
+  for (std::size_t k = 0; k < s.cbm.position.size(); ++k)
+    s.cbm.position[k] += w.move[s.dcm.position.size() + k];
+  s.cbm.touching = w.cbm.touching;
+  s.leader = w.leader;
+  s.leader_interval = w.leader_interval;
+  s.last_move = w.move;
+  s.clock.time += step;
+  s.clock.last_step = step;
+  s.clock.accepted += 1;
+  s.clock.cg_iterations += cg_iterations;
+}
+
+/// Length of the next step from the error of this one. A quarter more or less is not worth a change.
+double next_step(const Numerics& n, double step, double error) {
+  if (!n.adaptive) return n.max_step;
+  const double factor = error > 0 ? std::clamp(0.9 * std::sqrt(n.tolerance / error), 0.5, 1.5) : 1.5;
+  return std::clamp(step * factor, n.min_step, n.max_step);
+}
+
+}  // namespace
+
+void size_workspace(const World& world, Workspace& w) {
+  std::vector<solve::Block> blocks = dcm::make_blocks(world.state.dcm);
+  const std::vector<solve::Block> spheres = cbm::make_blocks(world.state.cbm);
+  blocks.insert(blocks.end(), spheres.begin(), spheres.end());
+  dcm::size_rank_one(world.state.dcm, world.params.dcm, w.system);
+  w.system.halo.ranks = world.ranks;
+  solve::set_blocks(w.system, std::move(blocks));
+  w.active = active_lanes(world.state);
+  w.rhs.assign(w.system.n_dof(), 0.0);
+  w.move.assign(w.system.n_dof(), 0.0);
+  w.dcm.body.clear();
+  w.dcm.list_position.clear();
+  w.cbm.list_position.clear();
+  w.dcm.fixed.clear();
+  for (const contact::StaticMesh& m : world.params.around.meshes) w.dcm.fixed.push_back(m.body);
+}
+
+void find_all_contacts(const World& world, double step, Workspace& w) {
+  const State& s = world.state;
+  const contact::Surroundings& around = world.params.around;
+  const PhaseParams phase = phase_params(world);
+  // Growth and moving walls are tracked to the end of the step, so that slow motion leaves no lag.
+  const double end = s.clock.time + step;
+  const double wall_time = s.clock.phase == Phase::kRun ? end - s.clock.origin : 0;
+  w.lanes = dcm::make_lane_data(s.dcm, end);
+  w.cbm_radius = cbm::radii_at(s.cbm, end);
+  w.leader = s.leader;
+  w.leader_interval = s.leader_interval;
+  if (world.params.motility.leader_force > 0 && s.clock.phase == Phase::kRun)
+    choose_leaders(world, w.lanes.radius, w.cbm_radius, w.leader, w.leader_interval);
+  {
+    const auto scope = w.timings.scope("contact lists");
+    dcm::refresh_bodies(s.dcm, w.dcm);
+    dcm::refresh_lists(s.dcm, phase.dcm, w.lanes, around, w.dcm);
+    cbm::refresh_pairs(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, w.cbm);
+  }
+  const auto scope = w.timings.scope("contacts");
+  dcm::find_contacts(s.dcm, phase.dcm, w.lanes, around, wall_time, w.dcm);
+  cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, wall_time, w.cbm);
+  find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
+}
+
+void assemble(const World& world, double step, Workspace& w, Selection selection) {
+  const auto scope = w.timings.scope("assembly");
+  const State& s = world.state;
+  const PhaseParams phase = phase_params(world);
+  const std::size_t first = cbm_first_row(s);
+  w.system.friction_scale = 1 / step;
+  solve::clear_loads(w.system);
+  w.position = gather_positions(s);
+
+  dcm::compute_free_areas(s.dcm, phase.dcm, w.lanes, w.dcm, w.free_area);
+  w.dcm_medium.assign(s.dcm.n_lane(), 0.0);
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
+    if (!s.dcm.active(l)) continue;
+    const dcm::Group& g = s.dcm.group[l / kLanes];
+    double area = 0;
+    for (int i = 0; i < g.topology->n_node; ++i)
+      area += w.free_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + l % kLanes];
+    w.dcm_medium[l] = area * dcm::medium_friction_per_area(world.params.dcm[static_cast<std::size_t>(g.type)],
+                                                           w.lanes.radius[l], g.topology->rest_area);
+  }
+  w.cbm_medium.resize(s.cbm.n_cell());
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+    w.cbm_medium[c] = cbm::medium_friction(world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])],
+                                           w.cbm_radius[c], w.cbm.contact_area[c]);
+  compute_cell_forces(world, controls_at(s.clock, world.params.start_up), step, w.dcm_medium, w.cbm_medium,
+                      w.leader, w.forces);
+
+  dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.free_area, w.forces.dcm, w.system);
+  cbm::add_cell_loads(s.cbm, world.params.cbm, w.cbm_radius, w.cbm, w.forces.cbm, first, w.system);
+  solve::Links& links = w.system.links;
+  dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm, links);
+  cbm::add_contact_loads(s.cbm, world.params.cbm, phase.cbm, world.params.around, w.cbm, first, links);
+  if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
+  w.op.prepare(w.system);
+  w.op.add_link_forces(w.system.force, w.system.external_force);
+}
+
+std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {
+  const PhaseParams phase = phase_params(world);
+  return compute_interface_forces(view_interface(world, phase, w));
+}
+
+Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
+  const auto scope = w.timings.scope("solve");
+  const State& s = world.state;
+  const solve::CgOptions& options = world.params.numerics.cg;
+  for (std::size_t k = 0; k < w.rhs.size(); ++k) w.rhs[k] = w.system.force[k] + w.system.external_force[k];
+  // The last step's velocity is a good first guess.
+  if (s.last_move.size() == w.move.size() && s.clock.last_step > 0) {
+    const double ratio = step / s.clock.last_step;
+    for (std::size_t k = 0; k < w.move.size(); ++k) w.move[k] = ratio * s.last_move[k];
+  } else {
+    std::ranges::fill(w.move, 0.0);
+  }
+  const solve::CgResult result =
+      w.partitioned ? solve_partitioned(w.op, w.rhs, w.move, s.dcm.group.size(), options, w.cg)
+                    : solve::solve_cg(w.op, w.rhs, w.move, options, w.cg);
+  cg_iterations += result.iterations;
+  if (!result.status.ok) return result.status;
+  // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
+  solve::correct_rigid_modes(w.op, w.rhs, w.move, w.position, w.active, options.tolerance, w.rigid);
+  return Status::fine();
+}
+
+StepResult advance(World& world, Workspace& w, double limit) {
+  State& s = world.state;
+  const Numerics& n = world.params.numerics;
+  StepResult result;
+  double wanted = s.clock.step > 0 ? std::min(s.clock.step, n.max_step) : n.max_step;
+  int cg_iterations = 0;
+  for (;;) {
+    const double step = std::min(wanted, limit);
+    find_all_contacts(world, step, w);                               // 1 life, 2 contact
+    assemble(world, step, w);                                        // 3 solve
+    const Status solved = solve_step(world, step, w, cg_iterations);
+    Verdict verdict;                                                 // 4 judge
+    if (solved.ok) {
+      const auto scope = w.timings.scope("judge");
+      verdict = judge_step(world, step, w);
+    } else {
+      verdict.good = false;
+      verdict.cause = solved.cause;
+    }
+    if (verdict.good && n.adaptive && verdict.error > 4 * n.tolerance && step > n.min_step) {
+      verdict.good = false;
+      verdict.cause = "the estimated error is too large";
+    }
+    const std::int64_t attempt = s.clock.accepted + s.clock.rejected + result.rejections + 1;
+    if (verdict.good && w.reject_every > 0 && attempt % w.reject_every == 0 && step > 2 * n.min_step) {
+      verdict.good = false;
+      verdict.cause = "rejected on request";
+    }
+    if (verdict.good) {
+      const Balance b = measure_balance(world, w);
+      s.balance.momentum = std::max(s.balance.momentum, b.momentum);
+      s.balance.torque = std::max(s.balance.torque, b.torque);
+      commit(world, step, cg_iterations, w);
+      s.clock.rejected += result.rejections;
+      // A step cut short by an event says little about the next one's length.
+      s.clock.step = step < wanted ? wanted : next_step(n, step, verdict.error);
+      result.accepted = true;
+      result.step = step;
+      result.error = verdict.error;
+      result.max_move = verdict.max_move;
+      return result;
+    }
+    ++result.rejections;
+    result.cause = verdict.cause;
+    result.cells = verdict.cells;
+    if (step <= n.min_step) return result;
+    wanted = std::max(0.5 * step, n.min_step);
+  }
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,74 @@
+#include "coupling/world.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace acinus::coupling {
+
+double time_since_start(const World& w) {
+  const Clock& c = w.state.clock;
+  if (c.phase == Phase::kRun) return c.time - c.origin;
+  const StartUp& p = w.params.start_up;
+  return c.time - (p.growth_time + p.adhesion_ramp + p.max_settle);
+}
+
+Controls controls_at(const Clock& clock, const StartUp& start_up) {
+  switch (clock.phase) {
+    case Phase::kGrow: return {0, 0, false};
+    case Phase::kAdhere: {
+      const double done = start_up.adhesion_ramp > 0
+                              ? (clock.time - clock.phase_start) / start_up.adhesion_ramp
+                              : 1.0;
+      return {std::clamp(done, 0.0, 1.0), 1, false};
+    }
+    case Phase::kSettle: return {1, 1, false};
+    case Phase::kRun: break;
+  }
+  return {};
+}
+
+std::vector<std::uint8_t> active_lanes(const State& s) {
+  std::vector<std::uint8_t> active(s.dcm.n_lane() + s.cbm.n_row() * kLanes, 0);
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) active[l] = s.dcm.active(l) ? 1 : 0;
+  std::fill_n(active.begin() + static_cast<std::ptrdiff_t>(s.dcm.n_lane()), s.cbm.n_cell(), std::uint8_t{1});
+  return active;
+}
+
+std::vector<double> gather_positions(const State& s) {
+  std::vector<double> x = s.dcm.position;
+  x.insert(x.end(), s.cbm.position.begin(), s.cbm.position.end());
+  return x;
+}
+
+std::uint64_t hash_state(const State& s) {
+  XXH64_state_t* hash = XXH64_createState();
+  XXH64_reset(hash, 0);
+  auto add = [&](const auto& v) {
+    if (!v.empty()) XXH64_update(hash, v.data(), v.size() * sizeof(v[0]));
+  };
+  add(s.dcm.position);
+  add(s.cbm.position);
+  add(s.dcm.lineage);
+  add(s.cbm.lineage);
+  add(s.cbm.young);
+  for (const auto& [a, b] : s.cbm.touching) add(std::array{a, b});
+  add(s.last_move);
+  add(s.leader);
+  add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
+  add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted});
+  const std::uint64_t value = XXH64_digest(hash);
+  XXH64_freeState(hash);
+  return value;
+}
+
+std::string name_dcm(const State& s, std::size_t lane) {
+  return fmt::format("DCM cell {}", s.dcm.lineage[lane]);
+}
+std::string name_cbm(const State& s, std::size_t cell) {
+  return fmt::format("CBM cell {}", s.cbm.lineage[cell]);
+}
+
+}  // namespace acinus::coupling

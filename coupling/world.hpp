@@ -1,0 +1,128 @@
+#pragma once
+/// The hybrid world: both models' cells, their surroundings, and the constants of a run.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cbm/contact.hpp"
+#include "cbm/params.hpp"
+#include "cbm/state.hpp"
+#include "core/contact/surroundings.hpp"
+#include "core/ranks.hpp"
+#include "core/solve/cg.hpp"
+#include "coupling/interface.hpp"
+#include "dcm/contact.hpp"
+#include "dcm/params.hpp"
+#include "dcm/state.hpp"
+
+namespace acinus::coupling {
+
+/// Where a run stands. Start-up brings small seeds to size and rest; then comes t = 0.
+enum class Phase : std::int64_t { kGrow, kAdhere, kSettle, kRun };
+
+struct StartUp {
+  bool enabled = false;
+  double growth_time = 3600;    ///< s
+  double adhesion_ramp = 900;   ///< s
+  double max_settle = 3 * 3600; ///< s
+  double speed_tolerance = 0.01 / 60;         ///< um/s
+  double pressure_tolerance = 0.01 / 3600;    ///< 1/s, relative
+};
+
+struct Motility {
+  std::uint64_t seed = 1;
+  bool random = false;
+  double grid = 60;          ///< s, time grid of the random force
+  double leader_force = 0;   ///< nN toward the vein axis
+  double leader_grid = 600;  ///< s
+  Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through this point
+  double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
+};
+
+struct Numerics {
+  double max_step = 60, min_step = 1e-3;  ///< s
+  bool adaptive = true;
+  double tolerance = 0.01;  ///< um, error per step
+  double max_move = 0.3;    ///< displacement cap in mean edge lengths, 0 = none
+  solve::CgOptions cg;
+};
+
+/// Constants of a run.
+struct Params {
+  std::vector<dcm::Params> dcm;
+  std::vector<cbm::Params> cbm;
+  dcm::ContactParams dcm_contact;
+  cbm::ContactParams cbm_contact;
+  InterfaceParams interface;
+  StartUp start_up;
+  Motility motility;
+  Numerics numerics;
+  contact::Surroundings around;
+};
+
+struct Clock {
+  double time = 0;         ///< s since the beginning of start-up
+  double origin = 0;       ///< s, time of t = 0; meaningful in Phase::kRun
+  Phase phase = Phase::kRun;
+  double phase_start = 0;  ///< s
+  double step = 0;         ///< s, length of the next step
+  double last_step = 0;    ///< s, length of the last accepted step; 0 = none
+  std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
+};
+
+/// Largest |sum| / sum |.| over all steps.
+struct Balance {
+  double momentum = 0;         ///< all pair forces, friction included
+  double torque = 0;           ///< conservative pair forces
+  double friction_torque = 0;  ///< pair friction, which need not balance (docs/decisions)
+};
+
+/// Exactly what a checkpoint holds.
+struct State {
+  dcm::State dcm;
+  cbm::State cbm;
+  Clock clock;
+  Balance balance;
+  std::vector<double> last_move;        ///< [n_row][3][lane] um, displacement of the last step
+  std::vector<std::uint8_t> leader;     ///< [dcm lanes, then cbm cells]
+  std::int64_t leader_interval = -1;    ///< grid interval the leaders were chosen in
+  std::vector<double> settle_pressure;  ///< kPa per cell at the last look of the settling phase
+  double settle_time = -1;              ///< s, when that was
+};
+
+struct World {
+  Params params;
+  State state;
+  Ranks ranks = Ranks::serial();
+};
+
+/// Time since t = 0, s. During start-up, whose end is not known, the time left to its latest possible
+/// end as a negative number.
+double time_since_start(const World& world);
+
+/// Adhesion, cell-cell friction and motility of the present phase.
+struct Controls {
+  double adhesion = 1, friction = 1;
+  bool motility = true;
+};
+Controls controls_at(const Clock& clock, const StartUp& start_up);
+
+/// Where the CBM rows start.
+inline std::size_t cbm_first_row(const State& s) { return s.dcm.n_row(); }
+
+/// [dcm lanes, then cbm cells] 1 where a cell is; lanes of CBM rows included for the solver.
+std::vector<std::uint8_t> active_lanes(const State& state);
+
+/// Positions of all unknowns in one array, [n_row][3][lane].
+std::vector<double> gather_positions(const State& state);
+
+/// Hash of the whole state in storage order: equal bits give equal hashes.
+std::uint64_t hash_state(const State& state);
+
+/// "DCM cell 12" of a lane index, "CBM cell 40" of a sphere index.
+std::string name_dcm(const State& state, std::size_t lane);
+std::string name_cbm(const State& state, std::size_t cell);
+
+}  // namespace acinus::coupling

@@ -1,0 +1,213 @@
+#include "dcm/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace acinus::dcm {
+namespace {
+
+using contact::SurroundingKind;
+
+
+contact::SearchOptions search_options(const ContactParams& c, const State& state,
+                                      const LaneData& lanes) {
+  double range = 0;
+  for (std::size_t l = 0; l < state.n_lane(); ++l)
+    if (state.active(l))
+      range = std::max(range, contact_range(c, *state.group[l / kLanes].topology, lanes.radius[l]));
+  return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
+}
+
+/// Segments within reach of every site of a body.
+SegmentCandidates find_segments(int body, const contact::SurfaceBody& b, const ContactParams& c,
+                                double range, const mesh::Network& network) {
+  SegmentCandidates list;
+  list.body = body;
+  list.start.push_back(0);
+  const double margin = std::max(range, c.max_depth) + c.skin;
+  std::vector<int> near;
+  for (std::size_t s = 0; s < network.segment.size(); ++s) {
+    contact::Box box;
+    for (int n : network.segment[s]) box.include(network.node[static_cast<std::size_t>(n)]);
+    const double r = std::max(network.radius[s][0], network.radius[s][1]);
+    if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
+  }
+  if (near.empty()) return list;
+  for (std::size_t site = 0; site < contact::n_sites(b, c.quadrature); ++site) {
+    const bool face = c.quadrature == contact::Quadrature::kThreePoint;
+    const Vec3& at = face ? b.center[site] : b.node[site];
+    const double reach = (face ? b.reach[site] : 0) + margin;
+    const std::size_t before = list.segment.size();
+    for (int s : near)
+      if (contact::gap_to_segment(network, s, at).gap < reach) list.segment.push_back(s);
+    if (list.segment.size() == before) continue;
+    list.site.push_back(static_cast<int>(site));
+    list.start.push_back(static_cast<std::uint32_t>(list.segment.size()));
+  }
+  return list;
+}
+
+}  // namespace
+
+double contact_range(const ContactParams& c, const mesh::Topology& t, double radius) {
+  return std::max(c.range_factor * t.mean_rest_length * radius, c.friction_range);
+}
+
+contact::Well surface_well(const ContactParams& c, const Params& a, const Params& b,
+                           const mesh::Topology& t, double radius) {
+  return {c.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), c.repulsion,
+          c.range_factor * t.mean_rest_length * radius};
+}
+
+double point_area(const mesh::Topology& t, contact::Quadrature q, int point, double radius) {
+  const double share = q == contact::Quadrature::kThreePoint
+                           ? t.rest_triangle_area[static_cast<std::size_t>(point / 3)] / 3
+                           : t.rest_node_area[static_cast<std::size_t>(point)];
+  return share * radius * radius;
+}
+
+void refresh_bodies(const State& state, ContactWorkspace& work) {
+  std::size_t n = 0;
+  for (std::size_t l = 0; l < state.n_lane(); ++l) n += state.active(l) ? 1 : 0;
+  if (work.body.size() != n) {
+    work.body.assign(n, {});
+    work.lane_of_body.clear();
+    work.list_position.clear();
+    for (std::size_t l = 0; l < state.n_lane(); ++l)
+      if (state.active(l)) work.lane_of_body.push_back(l);
+  }
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < n; ++k) {
+    contact::SurfaceBody& b = work.body[k];
+    b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
+    b.triangle = &b.topology->triangle;
+    copy_nodes(state, work.lane_of_body[k], b.node);
+    contact::refresh_body(b);
+  }
+}
+
+bool refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
+                   const contact::Surroundings& around, ContactWorkspace& work) {
+  const contact::SearchOptions options = search_options(c, state, lanes);
+  if (work.list_position.size() == state.position.size()) {
+    double moved2 = 0;
+    for (std::size_t row = 0; row < state.n_row(); ++row)
+      for (int l = 0; l < kLanes; ++l) {
+        const Address a = make_address(row, l);
+        moved2 = std::max(moved2, (load_point(state.position.data(), a) -
+                                   load_point(work.list_position.data(), a)).squaredNorm());
+      }
+    // A growing cell also reaches farther; that eats into the skin like movement does.
+    double wider = 0;
+    for (std::size_t k = 0; k < work.lane_of_body.size(); ++k) {
+      const std::size_t l = work.lane_of_body[k];
+      const mesh::Topology& t = *state.group[l / kLanes].topology;
+      wider = std::max(wider, contact_range(c, t, lanes.radius[l]) -
+                                  contact_range(c, t, work.list_radius[l]));
+    }
+    if (2 * std::sqrt(moved2) + wider <= c.skin) return false;
+  }
+  work.list = contact::find_candidates(work.body, work.fixed, options);
+  work.found.resize(work.list.size());
+  work.segment_list.resize(work.body.size());
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t k = 0; k < work.body.size(); ++k)
+    work.segment_list[k] = find_segments(static_cast<int>(k), work.body[k], c, options.range,
+                                         around.vessels.network);
+  work.list_position = state.position;
+  work.list_radius = lanes.radius;
+  ++work.list_builds;
+  return true;
+}
+
+void find_contacts(const State& state, const ContactParams& c, const LaneData& lanes,
+                   const contact::Surroundings& around, double time, ContactWorkspace& work) {
+  const contact::SearchOptions options = search_options(c, state, lanes);
+#pragma omp parallel for schedule(dynamic, 2)
+  for (std::size_t k = 0; k < work.list.size(); ++k) {
+    work.found[k].clear();
+    contact::find_contacts(work.list[k], work.body, work.fixed, options, work.found[k]);
+  }
+  work.surface.clear();
+  for (const auto& f : work.found) work.surface.insert(work.surface.end(), f.begin(), f.end());
+
+  const int per_site = contact::points_per_site(c.quadrature);
+  std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
+#pragma omp parallel for schedule(dynamic, 2)
+  for (std::size_t k = 0; k < work.body.size(); ++k) {
+    const contact::SurfaceBody& b = work.body[k];
+    const int n_point = static_cast<int>(contact::n_sites(b, c.quadrature)) * per_site;
+    auto probe = [&](SurroundingKind kind, int index, auto gap_of) {
+      for (int p = 0; p < n_point; ++p) {
+        const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
+        const contact::Gap g = gap_of(x);
+        if (g.gap < options.range)
+          obstacle[k].push_back({static_cast<int>(k), p, kind, index, g.gap, g.normal});
+      }
+    };
+    const Vec3 middle = 0.5 * (b.box.low + b.box.high);
+    const double half = 0.5 * (b.box.high - b.box.low).norm();
+    for (std::size_t i = 0; i < around.planes.size(); ++i) {
+      auto gap_of = [&](const Vec3& x) { return contact::gap_to_plane(around.planes[i], x, time); };
+      if (gap_of(middle).gap - half < options.range)
+        probe(SurroundingKind::kPlane, static_cast<int>(i), gap_of);
+    }
+    for (std::size_t i = 0; i < around.capsules.size(); ++i) {
+      auto gap_of = [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, time); };
+      if (gap_of(middle).gap - half < options.range)
+        probe(SurroundingKind::kCapsule, static_cast<int>(i), gap_of);
+    }
+    // One contact per point: the nearest segment of the network.
+    const SegmentCandidates& list = work.segment_list[k];
+    for (std::size_t s = 0; s < list.site.size(); ++s)
+      for (int q = 0; q < per_site; ++q) {
+        const int p = list.site[s] * per_site + q;
+        const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
+        ObstacleContact best{static_cast<int>(k), p, SurroundingKind::kVessel, -1, options.range, {}};
+        for (std::uint32_t e = list.start[s]; e < list.start[s + 1]; ++e) {
+          const contact::Gap g =
+              contact::gap_to_segment(around.vessels.network, list.segment[e], x);
+          if (g.gap < best.gap) {
+            best.index = list.segment[e];
+            best.gap = g.gap;
+            best.normal = g.normal;
+          }
+        }
+        if (best.index >= 0) obstacle[k].push_back(best);
+      }
+  }
+  work.obstacle.clear();
+  for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());
+
+  work.share.resize(work.body.size());
+  for (std::size_t k = 0; k < work.body.size(); ++k)
+    work.share[k].assign(contact::n_sites(work.body[k], c.quadrature) * static_cast<std::size_t>(per_site), 0.0);
+  for (const contact::SurfaceContact& s : work.surface)
+    if (s.body_a != s.body_b)
+      work.share[static_cast<std::size_t>(s.body_a)][static_cast<std::size_t>(s.point)] +=
+          contact::contact_share(s.gap, c.friction_range);
+  for (const ObstacleContact& o : work.obstacle)
+    work.share[static_cast<std::size_t>(o.body)][static_cast<std::size_t>(o.point)] +=
+        contact::contact_share(o.gap, c.friction_range);
+}
+
+void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,
+                        const ContactWorkspace& work, std::vector<double>& free_area) {
+  free_area.assign(state.n_row() * kLanes, 0.0);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < work.body.size(); ++k) {
+    const std::size_t lane = work.lane_of_body[k];
+    const contact::SurfaceBody& b = work.body[k];
+    const std::size_t first = state.group[lane / kLanes].first_row;
+    for (std::size_t p = 0; p < work.share[k].size(); ++p) {
+      const double area = point_area(*b.topology, c.quadrature, static_cast<int>(p), lanes.radius[lane]) *
+                          (1 - std::min(1.0, work.share[k][p]));
+      const contact::PointStencil s = contact::point_stencil(b, c.quadrature, static_cast<int>(p));
+      for (int m = 0; m < s.n; ++m)
+        free_area[(first + static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) * kLanes +
+                  lane % kLanes] += s.weight[static_cast<std::size_t>(m)] * area;
+    }
+  }
+}
+
+}  // namespace acinus::dcm

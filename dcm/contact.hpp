@@ -1,0 +1,104 @@
+#pragma once
+/// Contacts of deformable cells with each other and with surroundings: from closest features to links.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact/surface.hpp"
+#include "core/contact/surroundings.hpp"
+#include "core/contact/well.hpp"
+#include "core/solve/system.hpp"
+#include "dcm/loads.hpp"
+#include "dcm/params.hpp"
+#include "dcm/state.hpp"
+
+namespace acinus::dcm {
+
+/// Constants of the surface contact, the same for all cells.
+struct ContactParams {
+  contact::Quadrature quadrature = contact::Quadrature::kThreePoint;
+  double repulsion = 5;         ///< nN/um^3, k_rep
+  double range_factor = 0.3;    ///< cohesive range in mean reference edges of the point's owner
+  double friction_range = 0.3;  ///< um, independent of the mesh
+  double max_depth = 1.5;       ///< um
+  double skin = 0.3;            ///< um
+  double cell_friction = 0;     ///< nN s/um^3, cell-cell
+  double adhesion_factor = 1;   ///< ramps up after start-up
+  double friction_factor = 1;   ///< 0 while cells grow to size
+};
+
+/// Folds of one surface are kept this far apart, um.
+inline constexpr double kSelfGap = 0.15;
+
+/// A surface point near a plane, a capsule or a vessel.
+struct ObstacleContact {
+  int body = 0, point = 0;
+  contact::SurroundingKind kind = contact::SurroundingKind::kPlane;
+  int index = 0;
+  double gap = 0;
+  Vec3 normal = Vec3::Zero();
+};
+
+/// Vessel segments that each site of a body may meet.
+struct SegmentCandidates {
+  int body = 0;
+  std::vector<int> site;
+  std::vector<std::uint32_t> start;
+  std::vector<int> segment;
+};
+
+/// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
+struct ContactWorkspace {
+  std::vector<std::size_t> lane_of_body;
+  std::vector<contact::SurfaceBody> body;        ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;       ///< static meshes
+  std::vector<double> list_position;             ///< positions when the lists were made
+  std::vector<double> list_radius;               ///< and the radii of that moment
+  std::vector<contact::Candidates> list;         ///< written by: refresh_lists
+  std::vector<SegmentCandidates> segment_list;   ///< written by: refresh_lists
+  std::vector<std::vector<contact::SurfaceContact>> found;  ///< [list] scratch of one search
+  std::vector<contact::SurfaceContact> surface;  ///< written by: find_contacts
+  std::vector<ObstacleContact> obstacle;         ///< written by: find_contacts
+  /// [body][point] sum of the touching shares of all contacts of a point; written by: find_contacts,
+  /// then added to by the DCM-CBM interface.
+  std::vector<std::vector<double>> share;
+  int list_builds = 0;
+};
+
+/// Largest gap at which a contact of this cell does anything, um.
+double contact_range(const ContactParams& c, const mesh::Topology& t, double radius);
+
+/// The cohesive law of a point of type a against type b (adhesion: geometric mean).
+contact::Well surface_well(const ContactParams& c, const Params& a, const Params& b,
+                           const mesh::Topology& t, double radius);
+
+/// Surface area that a probing point stands for, um^2: its share of the reference surface.
+double point_area(const mesh::Topology& t, contact::Quadrature q, int point, double radius);
+
+/// Copies the nodes out of the lanes and recomputes normals and boxes.
+void refresh_bodies(const State& state, ContactWorkspace& work);
+
+/// Finds candidate lists again if a node moved more than half the skin since the last time.
+/// Returns whether it did. @pre refresh_bodies
+bool refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
+                   const contact::Surroundings& around, ContactWorkspace& work);
+
+/// Finds all contacts between cells and with surroundings, and each point's touching share.
+void find_contacts(const State& state, const ContactParams& c, const LaneData& lanes,
+                   const contact::Surroundings& around, double time, ContactWorkspace& work);
+
+/// Scale that keeps the touching areas of one point from adding up to more than its area.
+inline double share_scale(double total_share) { return total_share > 1 ? 1 / total_share : 1; }
+
+/// Adds force, stiffness and friction of every contact found. Cell-cell contacts are seen from both
+/// sides and carry half the weight each.
+void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
+                       const LaneData& lanes, const contact::Surroundings& around,
+                       const ContactWorkspace& work, solve::Links& links);
+
+/// Area of each node that touches the medium, [n_row][lane] um^2. @pre all shares are known
+void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,
+                        const ContactWorkspace& work, std::vector<double>& free_area);
+
+}  // namespace acinus::dcm

@@ -1,0 +1,84 @@
+#include "dcm/loads.hpp"
+
+#include <algorithm>
+
+#include "dcm/terms/area.hpp"
+#include "dcm/terms/bending.hpp"
+#include "dcm/terms/body_load.hpp"
+#include "dcm/terms/cortex.hpp"
+#include "dcm/terms/local_area.hpp"
+#include "dcm/terms/medium.hpp"
+#include "dcm/terms/volume.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+bool any_volume(std::span<const Params> params) {
+  return std::ranges::any_of(params, [](const Params& p) { return p.bulk_modulus > 0; });
+}
+bool any_area(std::span<const Params> params) {
+  return std::ranges::any_of(params, [](const Params& p) { return p.area_modulus > 0; });
+}
+
+}  // namespace
+
+LaneData make_lane_data(const State& state, double time) {
+  LaneData data{reference_radii(state, time), std::vector<double>(state.n_lane(), 0.0)};
+  for (std::size_t l = 0; l < state.n_lane(); ++l) data.active[l] = state.active(l) ? 1.0 : 0.0;
+  return data;
+}
+
+GroupView view_group(const State& state, const LaneData& lanes, const solve::System& s,
+                     std::size_t k) {
+  const Group& g = state.group[k];
+  return {g.topology,
+          &shared_mesh_pattern(*g.topology),
+          k,
+          g.first_row,
+          s.block.empty() ? 0 : s.block[k].first_pair,
+          state.position.data() + g.first_row * kPointStride,
+          lanes.radius.data() + k * kLanes,
+          lanes.active.data() + k * kLanes};
+}
+
+void size_rank_one(const State& state, std::span<const Params> params, solve::System& s) {
+  s.rank_one.resize((any_volume(params) ? 1 : 0) + (any_area(params) ? 1 : 0));
+  for (solve::RankOne& family : s.rank_one) {
+    family.vector.resize(state.position.size());
+    family.coefficient.resize(state.n_lane());
+  }
+}
+
+void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
+               std::span<const double> free_area, std::span<const Vec3> cell_force,
+               solve::System& s) {
+  const bool volume = any_volume(params), area = any_area(params);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < state.group.size(); ++k) {
+    const GroupView g = view_group(state, lanes, s, k);
+    const Params& p = params[static_cast<std::size_t>(state.group[k].type)];
+    if (p.spring_stiffness > 0 || p.nodal_friction > 0) add_cortex(p, g, s);
+    if (p.bending_stiffness > 0) add_bending(p, g, s);
+    if (p.local_area_modulus > 0) add_local_area(p, g, s);
+    if (volume) add_volume(p, g, s, s.rank_one[0]);
+    if (area) add_area(p, g, s, s.rank_one[volume ? 1 : 0]);
+    add_medium(p, g, free_area.data() + g.first_row * kLanes, s);
+    add_body_load(g, cell_force.subspan(k * kLanes, kLanes), s);
+  }
+}
+
+std::vector<std::string> skipped_terms(std::span<const Params> params) {
+  std::vector<std::string> skipped;
+  auto unless = [&](const char* name, auto used) {
+    if (std::ranges::none_of(params, used)) skipped.emplace_back(name);
+  };
+  unless("dcm cortex springs", [](const Params& p) { return p.spring_stiffness > 0; });
+  unless("dcm nodal friction", [](const Params& p) { return p.nodal_friction > 0; });
+  unless("dcm bending", [](const Params& p) { return p.bending_stiffness > 0; });
+  unless("dcm volume", [](const Params& p) { return p.bulk_modulus > 0; });
+  unless("dcm global area", [](const Params& p) { return p.area_modulus > 0; });
+  unless("dcm local area", [](const Params& p) { return p.local_area_modulus > 0; });
+  return skipped;
+}
+
+}  // namespace acinus::dcm

@@ -1,0 +1,39 @@
+#pragma once
+/// The list of a deformable cell's own terms; a term with a zero coefficient is never entered.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/solve/system.hpp"
+#include "dcm/group_view.hpp"
+#include "dcm/params.hpp"
+#include "dcm/state.hpp"
+
+namespace acinus::dcm {
+
+/// Per-lane numbers the kernels need, made once a step.
+struct LaneData {
+  std::vector<double> radius;  ///< [n_lane] um, reference radius at the end of the step; empty: 1
+  std::vector<double> active;  ///< [n_lane] 1 or 0
+};
+LaneData make_lane_data(const State& state, double time);
+
+/// The view of one group. Blocks of the deformable cells come first in the system.
+GroupView view_group(const State& state, const LaneData& lanes, const solve::System& system,
+                     std::size_t group);
+
+/// Sizes the rank-one families that these parameters need (volume, area); empty when none.
+void size_rank_one(const State& state, std::span<const Params> params, solve::System& system);
+
+/// Adds all terms within cells: cortex, bending, volume, area, medium, body load.
+/// @param free_area  [n_row][lane] um^2, area of each node that touches the medium
+/// @param cell_force [n_lane] nN, on the cell as a whole
+void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
+               std::span<const double> free_area, std::span<const Vec3> cell_force,
+               solve::System& system);
+
+/// Names of the terms that no type of cell uses.
+std::vector<std::string> skipped_terms(std::span<const Params> params);
+
+}  // namespace acinus::dcm

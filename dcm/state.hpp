@@ -1,0 +1,74 @@
+#pragma once
+/// State of all deformable cells: exactly what a checkpoint holds.
+///
+/// Cells stand in groups of eight lanes that share one mesh topology and one cell type. A lane index
+/// (group * kLanes + lane) names a cell within the arrays; its lineage id names it for ever.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/lanes.hpp"
+#include "core/mesh/topology.hpp"
+#include "core/ramp.hpp"
+#include "core/solve/system.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::dcm {
+
+inline constexpr std::int64_t kEmptyLane = -1;
+
+struct Group {
+  const mesh::Topology* topology = nullptr;  ///< shared, never owned
+  std::size_t first_row = 0;                 ///< first node row in State::position
+  int type = 0;                              ///< index into the params
+};
+
+struct State {
+  std::vector<Group> group;
+  std::vector<double> position;  ///< [rows][3][lane] um; empty lanes hold a rest icosphere
+  // Per lane, [n_group * kLanes]:
+  std::vector<std::int64_t> lineage;  ///< kEmptyLane where no cell is
+  std::vector<Ramp> volume;           ///< um^3, reference volume V0(t); Eq. (18) is its linear growth
+  std::vector<Vec3> pull;                          ///< nN, constant load spread over the cell
+
+  std::size_t n_lane() const { return lineage.size(); }
+  std::size_t n_row() const { return position.size() / kPointStride; }
+  bool active(std::size_t lane) const { return lineage[lane] != kEmptyLane; }
+};
+
+/// A new cell to be placed: a sphere of the given reference radius.
+struct NewCell {
+  std::int64_t lineage = 0;
+  int type = 0;
+  const mesh::Topology* topology = nullptr;
+  Vec3 center = Vec3::Zero();
+  double radius = 0;  ///< um, (3 V0 / 4 pi)^(1/3)
+  Vec3 pull = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();  ///< orientation of the mesh
+};
+
+/// Groups cells by type and topology in the order given (put them in space-filling order first).
+State make_state(const std::vector<NewCell>& cells);
+
+/// Number of cells (not lanes).
+int count_cells(const State& state);
+
+/// Reference radius (3 V0 / 4 pi)^(1/3) of every lane, um. Empty lanes: 1.
+std::vector<double> reference_radii(const State& state, double time);
+
+/// Address of a node in arrays that start with the DCM rows.
+inline Address node_address(const State& state, std::size_t lane, int node) {
+  return make_address(state.group[lane / kLanes].first_row + static_cast<std::size_t>(node),
+                      static_cast<int>(lane % kLanes));
+}
+
+/// Mean of the nodes weighted by their share of the rest surface.
+Vec3 cell_center(const State& state, std::size_t lane);
+
+/// Copies the nodes of one cell out of the lanes.
+void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
+
+/// The blocks of unknowns these cells contribute, in order.
+std::vector<solve::Block> make_blocks(const State& state);
+
+}  // namespace acinus::dcm

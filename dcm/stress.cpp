@@ -1,0 +1,32 @@
+#include "dcm/stress.hpp"
+
+#include <cmath>
+
+#include "dcm/terms/area.hpp"
+
+namespace acinus::dcm {
+
+std::vector<double> compute_node_tension(const Params& p, const GroupView& g, int lane) {
+  const mesh::Topology& t = *g.topology;
+  std::vector<double> tension(static_cast<std::size_t>(t.n_node), 0.0);
+  for (std::size_t e = 0; e < t.edge.size(); ++e) {
+    const auto i = static_cast<std::size_t>(t.edge[e][0]), j = static_cast<std::size_t>(t.edge[e][1]);
+    const double length = (load_point(g.position, make_address(j, lane)) -
+                           load_point(g.position, make_address(i, lane))).norm();
+    const double pull = p.spring_stiffness * (length - t.rest_length[e] * g.radius[lane]) / length;
+    tension[i] += pull;
+    tension[j] += pull;
+  }
+  double membrane = 0;
+  if (p.area_modulus > 0) {
+    const double a0 = t.rest_area * g.radius[lane] * g.radius[lane];
+    membrane = p.area_modulus * (compute_areas(g)[lane] - a0) / a0;
+  }
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    const int neighbours = t.ring_start[i + 1] - t.ring_start[i];
+    tension[i] = std::sqrt(3.0) / neighbours * tension[i] + membrane;
+  }
+  return tension;
+}
+
+}  // namespace acinus::dcm

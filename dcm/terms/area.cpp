@@ -1,0 +1,54 @@
+#include "dcm/terms/area.hpp"
+
+#include "dcm/terms/rank_one.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+/// gradient += dA/dx; area = A.
+ACINUS_KERNEL void area_kernel(const GroupView& g, double* gradient, double* area) {
+  Lane sum = lane_of(0);
+  for (const auto& f : g.topology->triangle) {
+    const Lane3 x0 = load3(g.position + f[0] * kPointStride);
+    const Lane3 x1 = load3(g.position + f[1] * kPointStride);
+    const Lane3 x2 = load3(g.position + f[2] * kPointStride);
+    const Lane3 c = cross(x1 - x0, x2 - x0);
+    const Lane norm = lane_sqrt(dot(c, c));
+    sum += 0.5 * norm;
+    if (!gradient) continue;
+    const Lane3 half_normal = (0.5 / norm) * c;
+    add3(gradient + f[0] * kPointStride, cross(half_normal, x2 - x1));
+    add3(gradient + f[1] * kPointStride, cross(half_normal, x0 - x2));
+    add3(gradient + f[2] * kPointStride, cross(half_normal, x1 - x0));
+  }
+  store(area, sum);
+}
+
+}  // namespace
+
+void add_area(const Params& p, const GroupView& g, solve::System& s, solve::RankOne& family) {
+  double* gradient = family.vector.data() + g.first_row * kPointStride;
+  double area[kLanes], pull[kLanes];
+  area_kernel(g, gradient, area);
+  for (int l = 0; l < kLanes; ++l) {
+    const double a0 = g.topology->rest_area * g.radius[l] * g.radius[l];
+    pull[l] = -g.active[l] * p.area_modulus * (area[l] - a0) / a0;
+    family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
+        s.stiffness_scale * g.active[l] * p.area_modulus / a0;
+  }
+  add_scaled(g.topology->n_node, pull, gradient, s.force.data() + g.first_row * kPointStride);
+}
+
+Lane compute_areas(const GroupView& g) {
+  double area[kLanes];
+  area_kernel(g, nullptr, area);
+  return load(area);
+}
+
+double area_energy(const Params& p, const GroupView& g, int lane) {
+  const double a0 = g.topology->rest_area * g.radius[lane] * g.radius[lane];
+  const double stretch = compute_areas(g)[lane] - a0;
+  return g.active[lane] * p.area_modulus * stretch * stretch / (2 * a0);
+}
+
+}  // namespace acinus::dcm

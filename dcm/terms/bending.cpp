@@ -1,0 +1,72 @@
+#include "dcm/terms/bending.hpp"
+
+#include <cmath>
+
+namespace acinus::dcm {
+namespace {
+
+ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
+                                  double* force, double* diagonal, double* upper) {
+  const mesh::Topology& t = *g.topology;
+  const Lane k = p.bending_stiffness * load(g.active);
+  for (int e = 0; e < t.n_edge; ++e) {
+    const auto& h = t.hinge[static_cast<std::size_t>(e)];
+    const Lane3 x1 = load3(g.position + h[0] * kPointStride);
+    const Lane3 x2 = load3(g.position + h[1] * kPointStride);
+    const Lane3 x3 = load3(g.position + h[2] * kPointStride);
+    const Lane3 x4 = load3(g.position + h[3] * kPointStride);
+    const Lane3 edge = x4 - x3;
+    const Lane3 n1 = cross(x1 - x3, x1 - x4), n2 = cross(x2 - x4, x2 - x3);
+    const Lane s1 = dot(n1, n1), s2 = dot(n2, n2);
+    const Lane length = lane_sqrt(dot(edge, edge)), inverse_length = 1.0 / length;
+    const Lane inverse_norms = 1.0 / lane_sqrt(s1 * s2);
+    const Lane cos_theta = dot(n1, n2) * inverse_norms;
+    const Lane sin_theta = -dot(cross(n1, n2), edge) * inverse_length * inverse_norms;
+    const double c0 = t.rest_angle_cos[static_cast<std::size_t>(e)];
+    const double s0 = t.rest_angle_sin[static_cast<std::size_t>(e)];
+    const Lane moment = k * (sin_theta * c0 - cos_theta * s0);
+    const Lane stiffness = stiffness_scale * k * lane_max0(cos_theta * c0 + sin_theta * s0);
+
+    const Lane3 a1 = (1.0 / s1) * n1, a2 = (1.0 / s2) * n2;
+    const Lane3 d13 = x1 - x3, d14 = x1 - x4, d23 = x2 - x3, d24 = x2 - x4;
+    const Lane3 grad[4] = {length * a1, length * a2,
+                           (dot(d14, edge) * inverse_length) * a1 + (dot(d24, edge) * inverse_length) * a2,
+                           (-dot(d13, edge) * inverse_length) * a1 + (-dot(d23, edge) * inverse_length) * a2};
+    for (int m = 0; m < 4; ++m) {
+      add3(force + h[static_cast<std::size_t>(m)] * kPointStride, -moment * grad[m]);
+      add_outer_sym(diagonal + h[static_cast<std::size_t>(m)] * kSymStride, stiffness, grad[m]);
+    }
+    const auto& slots = g.pattern->hinge_pair[static_cast<std::size_t>(e)];
+    for (std::size_t q = 0; q < 6; ++q) {
+      const int a = kHingePairs[q][slots[q].flipped ? 1 : 0];
+      const int b = kHingePairs[q][slots[q].flipped ? 0 : 1];
+      add_outer(upper + slots[q].pair * kMatStride, stiffness, grad[a], grad[b]);
+    }
+  }
+}
+
+}  // namespace
+
+void add_bending(const Params& p, const GroupView& g, solve::System& s) {
+  bending_kernel(p, g, s.stiffness_scale, s.force.data() + g.first_row * kPointStride,
+                 s.diagonal.data() + g.first_row * kSymStride,
+                 s.upper.data() + g.first_pair * kMatStride);
+}
+
+double bending_energy(const Params& p, const GroupView& g, int lane) {
+  double energy = 0;
+  for (std::size_t e = 0; e < g.topology->hinge.size(); ++e) {
+    const auto& h = g.topology->hinge[e];
+    Vec3 x[4];
+    for (std::size_t m = 0; m < 4; ++m)
+      x[m] = load_point(g.position, make_address(static_cast<std::size_t>(h[m]), lane));
+    const Vec3 edge = x[3] - x[2];
+    const Vec3 n1 = (x[0] - x[2]).cross(x[0] - x[3]), n2 = (x[1] - x[3]).cross(x[1] - x[2]);
+    const double theta = -std::atan2(n1.cross(n2).dot(edge) / edge.norm(), n1.dot(n2));
+    const double rest = std::atan2(g.topology->rest_angle_sin[e], g.topology->rest_angle_cos[e]);
+    energy += p.bending_stiffness * (1 - std::cos(theta - rest));
+  }
+  return g.active[lane] * energy;
+}
+
+}  // namespace acinus::dcm

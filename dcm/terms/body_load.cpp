@@ -1,0 +1,30 @@
+#include "dcm/terms/body_load.hpp"
+
+namespace acinus::dcm {
+
+void add_body_load(const GroupView& g, std::span<const Vec3> cell_force, solve::System& s) {
+  for (int i = 0; i < g.topology->n_node; ++i) {
+    const double share = g.topology->rest_node_area[static_cast<std::size_t>(i)] / g.topology->rest_area;
+    const std::size_t row = g.first_row + static_cast<std::size_t>(i);
+    for (int l = 0; l < kLanes; ++l)
+      if (g.active[l] != 0)
+        add_point(s.external_force.data(), make_address(row, l),
+                  share * cell_force[static_cast<std::size_t>(l)]);
+  }
+}
+
+void add_surface_load(const GroupView& g, int lane, std::span<const Vec3> traction,
+                      solve::System& s) {
+  const double r2 = g.radius[lane] * g.radius[lane];
+  for (std::size_t i = 0; i < traction.size(); ++i)
+    add_point(s.external_force.data(), make_address(g.first_row + i, lane),
+              g.topology->rest_node_area[i] * r2 * traction[i]);
+}
+
+void add_nodal_load(const GroupView& g, int lane, std::span<const Vec3> node_force,
+                    solve::System& s) {
+  for (std::size_t i = 0; i < node_force.size(); ++i)
+    add_point(s.external_force.data(), make_address(g.first_row + i, lane), node_force[i]);
+}
+
+}  // namespace acinus::dcm

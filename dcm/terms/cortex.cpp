@@ -1,0 +1,65 @@
+#include "dcm/terms/cortex.hpp"
+
+#include <cmath>
+
+namespace acinus::dcm {
+namespace {
+
+ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double stiffness_scale,
+                                 double friction_scale, double* force, double* diagonal,
+                                 double* upper) {
+  const mesh::Topology& t = *g.topology;
+  const Lane radius = load(g.radius), active = load(g.active);
+  const Lane k = p.spring_stiffness * active;
+  const Lane friction = (p.nodal_friction * friction_scale) * active;
+  const double* rest = t.rest_length.data();
+  for (int e = 0; e < t.n_edge; ++e) {
+    const int i = t.edge[static_cast<std::size_t>(e)][0], j = t.edge[static_cast<std::size_t>(e)][1];
+    const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
+    const Lane length = lane_sqrt(dot(d, d));
+    const Lane inverse = 1.0 / length;
+    const Lane3 u = inverse * d;
+    const Lane l0 = rest[e] * radius;
+    const Lane3 f = (k * (length - l0)) * u;
+    add3(force + i * kPointStride, f);
+    add3(force + j * kPointStride, {-f.x, -f.y, -f.z});
+
+    // along u: stiffness and dashpot; across: tension's geometric part and, if isotropic, dashpot
+    const Lane geometric = stiffness_scale * lane_max0(k * (1.0 - l0 * inverse));
+    const Lane across = p.axial_friction ? geometric : geometric + friction;
+    const Lane along = stiffness_scale * k + friction;
+    add_outer_sym(diagonal + i * kSymStride, along - across, u);
+    add_outer_sym(diagonal + j * kSymStride, along - across, u);
+    add_identity_sym(diagonal + i * kSymStride, across);
+    add_identity_sym(diagonal + j * kSymStride, across);
+    double* block = upper + e * kMatStride;
+    add_outer(block, across - along, u, u);
+    add_to(block, -across);
+    add_to(block + 4 * kLanes, -across);
+    add_to(block + 8 * kLanes, -across);
+  }
+}
+
+}  // namespace
+
+void add_cortex(const Params& p, const GroupView& g, solve::System& s) {
+  cortex_kernel(p, g, s.stiffness_scale, s.friction_scale,
+                s.force.data() + g.first_row * kPointStride,
+                s.diagonal.data() + g.first_row * kSymStride,
+                s.upper.data() + g.first_pair * kMatStride);
+}
+
+double cortex_energy(const Params& p, const GroupView& g, int lane) {
+  double energy = 0;
+  for (std::size_t e = 0; e < g.topology->edge.size(); ++e) {
+    const auto& [i, j] = g.topology->edge[e];
+    const double length = (load_point(g.position, make_address(static_cast<std::size_t>(j), lane)) -
+                           load_point(g.position, make_address(static_cast<std::size_t>(i), lane)))
+                              .norm();
+    const double stretch = length - g.topology->rest_length[e] * g.radius[lane];
+    energy += 0.5 * p.spring_stiffness * stretch * stretch;
+  }
+  return g.active[lane] * energy;
+}
+
+}  // namespace acinus::dcm

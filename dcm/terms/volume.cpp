@@ -1,0 +1,58 @@
+#include "dcm/terms/volume.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dcm/terms/rank_one.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+/// gradient += dV/dx; returns V. Coordinates are taken from node 0 to keep digits.
+ACINUS_KERNEL void volume_kernel(const GroupView& g, double* gradient, double* volume) {
+  const Lane3 origin = load3(g.position);
+  Lane v = lane_of(0);
+  for (const auto& f : g.topology->triangle) {
+    const Lane3 a = load3(g.position + f[0] * kPointStride) - origin;
+    const Lane3 b = load3(g.position + f[1] * kPointStride) - origin;
+    const Lane3 c = load3(g.position + f[2] * kPointStride) - origin;
+    const Lane3 bc = cross(b, c);
+    v += dot(a, bc) * (1.0 / 6);
+    if (!gradient) continue;
+    const Lane sixth = lane_of(1.0 / 6);
+    add3(gradient + f[0] * kPointStride, sixth * bc);
+    add3(gradient + f[1] * kPointStride, sixth * cross(c, a));
+    add3(gradient + f[2] * kPointStride, sixth * cross(a, b));
+  }
+  store(volume, v);
+}
+
+}  // namespace
+
+void add_volume(const Params& p, const GroupView& g, solve::System& s, solve::RankOne& family) {
+  double* gradient = family.vector.data() + g.first_row * kPointStride;
+  double volume[kLanes], pressure[kLanes];
+  volume_kernel(g, gradient, volume);
+  for (int l = 0; l < kLanes; ++l) {
+    const double v0 = 4.0 / 3 * kPi * g.radius[l] * g.radius[l] * g.radius[l];
+    const double v = std::max(volume[l], 1e-3 * v0);
+    pressure[l] = g.active[l] * cytosol_pressure(p.bulk_modulus, v, v0);
+    family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
+        s.stiffness_scale * g.active[l] * p.bulk_modulus / v;
+  }
+  add_scaled(g.topology->n_node, pressure, gradient, s.force.data() + g.first_row * kPointStride);
+}
+
+Lane compute_volumes(const GroupView& g) {
+  double volume[kLanes];
+  volume_kernel(g, nullptr, volume);
+  return load(volume);
+}
+
+double volume_energy(const Params& p, const GroupView& g, int lane) {
+  const double v = compute_volumes(g)[lane];
+  const double v0 = 4.0 / 3 * kPi * g.radius[lane] * g.radius[lane] * g.radius[lane];
+  return g.active[lane] * p.bulk_modulus * (v * std::log(v / v0) - v + v0);
+}
+
+}  // namespace acinus::dcm

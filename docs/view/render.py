@@ -1,0 +1,527 @@
+#!/usr/bin/python3
+"""Draws one frame of a run as a picture, without a screen.
+
+    render.py RUN_FOLDER --frame last --out picture.png --color pressure --clip y
+
+Deformable cells are drawn as smooth surfaces, centre-based cells as spheres of their radius, vessels and walls in
+translucent red. --clip removes the half nearer to the camera and closes the cut cells. Needs the Debian packages
+python3-vtk9 and python3-h5py, and xvfb where there is no screen. Reads run.vtkhdf itself, not through VTK's readers:
+those of Debian 12 show all frames at once.
+"""
+import argparse
+import os
+import shutil
+import sys
+
+DCM, CBM, VESSEL = 0, 1, 2
+KIND_COLOR = {DCM: (0.93, 0.62, 0.36), CBM: (0.36, 0.58, 0.82)}
+KIND_NAME = {DCM: "deformable (DCM)", CBM: "centre-based (CBM)"}
+VESSEL_COLOR = (0.80, 0.10, 0.12)
+INK = (0.13, 0.15, 0.19)
+# Control points of the colour maps: one for values of one sign, one for both signs.
+SEQUENTIAL = [(0.33, 0.33, 0.66), (0.22, 0.55, 0.74), (0.35, 0.74, 0.66), (0.75, 0.86, 0.45), (0.98, 0.79, 0.28)]
+DIVERGING = [(0.13, 0.30, 0.62), (0.49, 0.68, 0.84), (0.95, 0.95, 0.93), (0.95, 0.63, 0.45), (0.70, 0.09, 0.17)]
+# Direction from the picture's centre to the camera, and what is up.
+CAMERA = {"iso": ((1.0, -1.35, 0.85), (0, 0, 1)), "top": ((0, 0, 1), (0, 1, 0)), "side": ((0, -1, 0.0), (0, 0, 1))}
+
+
+class UserError(Exception):
+    """Something to tell the user without a traceback."""
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("run", help="run folder, or the run.vtkhdf itself")
+    parser.add_argument("--frame", default="last", help="number from 0, negative from the end, or last")
+    parser.add_argument("--out", required=True, help="PNG file")
+    parser.add_argument("--color", default=None, help="kind, cell, or a field, e.g. pressure (default) or radius")
+    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, as labelled")
+    parser.add_argument("--clip", choices="xyz", help="cut through the middle, across this axis")
+    parser.add_argument("--camera", choices=CAMERA, default="iso")
+    parser.add_argument("--zoom", type=float, default=1.0)
+    parser.add_argument("--size", default="1600x1200", help="WIDTHxHEIGHT in pixels")
+    parser.add_argument("--no-labels", action="store_true", help="without colour bar and time")
+    return parser.parse_args()
+
+
+def ensure_display():
+    """VTK of Debian 12 draws only through X: start again under a virtual screen if there is none."""
+    if os.environ.get("DISPLAY") or os.environ.get("ACINUS_RENDER_CHILD"):
+        return
+    if shutil.which("xvfb-run") is None:
+        raise UserError("no screen and no xvfb-run: install the package xvfb")
+    os.environ["ACINUS_RENDER_CHILD"] = "1"
+    command = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", sys.executable, os.path.abspath(__file__)]
+    os.execvp(command[0], command + sys.argv[1:])
+
+
+class Frame:
+    """One moment of a run: arrays of numpy."""
+
+    def __init__(self, path, which):
+        import h5py
+        if os.path.isdir(path):
+            path = os.path.join(path, "run.vtkhdf")
+        try:
+            file = h5py.File(path, "r")
+        except OSError as error:
+            raise UserError(f"{path}: cannot be read: {error}") from None
+        with file:
+            root = file["VTKHDF"]
+            steps = root["Steps"]
+            n_frame = int(steps.attrs["NSteps"])
+            k = n_frame - 1 if which == "last" else parse_integer(which, "--frame")
+            k += n_frame if k < 0 else 0
+            if not 0 <= k < n_frame:
+                raise UserError(f"{path}: has no frame {which}, only 0 to {n_frame - 1}")
+            self.time = float(steps["Values"][k])
+            part = int(steps["PartOffsets"][k])
+            n_point, n_cell = int(root["NumberOfPoints"][part]), int(root["NumberOfCells"][part])
+            n_id = int(root["NumberOfConnectivityIds"][part])
+            self.n_triangle = (n_id - n_cell) // 2
+            self.n_sphere = n_cell - self.n_triangle
+            first = int(steps["PointOffsets"][k])
+            self.point = root["Points"][first:first + n_point]
+            first = int(steps["ConnectivityIdOffsets"][k, 0])
+            self.triangle = root["Connectivity"][first:first + 3 * self.n_triangle].reshape(-1, 3)
+            self.point_data = self.read(root, steps, "PointData", k, n_point)
+            self.cell_data = self.read(root, steps, "CellData", k, n_cell)
+            self.unit = {}
+            for group in ("PointData", "CellData"):
+                for name, values in root[group].items():
+                    unit = values.attrs["unit"]
+                    self.unit[name] = unit.decode() if isinstance(unit, bytes) else str(unit)
+        self.kind, self.cell_id = self.cell_data["kind"], self.cell_data["cell_id"]
+
+    @staticmethod
+    def read(root, steps, group, k, n):
+        offsets = steps[group + "Offsets"]
+        result = {}
+        for name, values in root[group].items():
+            first = int(offsets[name][k])
+            result[name] = values[first:first + n]
+        return result
+
+    def colored_by(self, name):
+        """Values per cell (rows: triangles, spheres) and per point; one of them is None. Pressures become Pa."""
+        for per_cell, data in ((True, self.cell_data), (False, self.point_data)):
+            if name not in data:
+                continue
+            values = data[name].astype(float)
+            if values.ndim == 2:
+                values = (values ** 2).sum(axis=1) ** 0.5
+            unit = self.unit[name]
+            if unit == "kPa":
+                values, unit = 1000 * values, "Pa"
+            return (values, None, unit) if per_cell else (None, values, unit)
+        known = sorted(set(self.cell_data) | set(self.point_data) | {"kind", "cell"})
+        raise UserError(f"--color {name}: the run has no such field, only {', '.join(known)}")
+
+
+def parse_integer(text, option):
+    try:
+        return int(text)
+    except ValueError:
+        raise UserError(f'{option} {text}: must be a number or "last"') from None
+
+
+def cell_color(cell_id):
+    """A colour for a cell by its id: neighbours in number are far apart in hue, all are equally light."""
+    import colorsys
+    return colorsys.hsv_to_rgb((0.61803398875 * (int(cell_id) + 1)) % 1.0, 0.42, 0.92)
+
+
+class Painter:
+    """Turns field values into colours, the same for every body."""
+
+    def __init__(self, frame, name, limits):
+        import numpy as np
+        import vtk
+        self.frame, self.name, self.table = frame, name, None
+        if name in ("kind", "cell"):
+            return
+        self.per_cell, self.per_point, self.unit = frame.colored_by(name)
+        if self.per_cell is not None:
+            shown = self.per_cell[frame.kind != VESSEL]
+        else:  # only points that a drawn cell uses
+            used = np.unique(frame.triangle[frame.kind[:frame.n_triangle] != VESSEL])
+            spheres = np.arange(len(frame.point) - frame.n_sphere, len(frame.point))
+            shown = self.per_point[np.concatenate([used, spheres])]
+        low, high = limits or (np.percentile(shown, (1, 99)) if len(shown) else (0, 1))
+        if limits is None and low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
+            low, high = -max(-low, high), max(-low, high)
+        if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
+            low, high = low - 0.5, high + 0.5
+        stops = DIVERGING if low < 0 < high else SEQUENTIAL
+        self.table = vtk.vtkColorTransferFunction()
+        self.table.SetColorSpaceToLab()
+        for i, color in enumerate(stops):
+            self.table.AddRGBPoint(low + (high - low) * i / (len(stops) - 1), *color)
+
+    def paint(self, poly, row, points):
+        """Colours a body whose cells all come from frame row `row`; `points` are its frame points, or None."""
+        import numpy as np
+        from vtk.util.numpy_support import numpy_to_vtk
+        n_cell, n_point = poly.GetNumberOfCells(), poly.GetNumberOfPoints()
+        if self.table is None:
+            color = KIND_COLOR[int(self.frame.kind[row])] if self.name == "kind" else cell_color(self.frame.cell_id[row])
+            rgb, target = np.tile(color, (n_cell, 1)), poly.GetCellData()
+        elif self.per_cell is not None:
+            rgb, target = np.tile(self.table.GetColor(self.per_cell[row]), (n_cell, 1)), poly.GetCellData()
+        else:
+            values = self.per_point[points]
+            values = np.broadcast_to(values, n_point) if values.ndim == 0 else values
+            rgb, target = np.array([self.table.GetColor(v) for v in values]), poly.GetPointData()
+        array = numpy_to_vtk((255 * rgb).astype(np.uint8), deep=True)
+        array.SetName("color")
+        target.SetScalars(array)
+
+
+def make_poly(points, triangles):
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    poly, vtk_points, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=np.float32), deep=True))
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64)
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True),
+                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, dtype=np.int64).ravel(), deep=True))
+    poly.SetPoints(vtk_points)
+    poly.SetPolys(cells)
+    return poly
+
+
+def with_normals(poly):
+    import vtk
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputData(poly)
+    normals.SplittingOff()
+    normals.ConsistencyOff()
+    normals.ComputePointNormalsOn()
+    normals.Update()
+    return normals.GetOutput()
+
+
+def bodies(frame):
+    """(surface, frame row, its frame points) of every DCM and CBM cell, one by one."""
+    import numpy as np
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+    kind, ids = frame.kind[:frame.n_triangle], frame.cell_id[:frame.n_triangle]
+    rows = np.flatnonzero(kind == DCM)
+    rows = rows[np.argsort(ids[rows], kind="stable")]
+    for group in np.split(rows, np.flatnonzero(np.diff(ids[rows])) + 1) if len(rows) else []:
+        points, local = np.unique(frame.triangle[group], return_inverse=True)
+        yield with_normals(make_poly(frame.point[points], local.reshape(-1, 3))), group[0], points
+    if frame.n_sphere == 0:
+        return
+    ball = vtk.vtkSphereSource()
+    ball.SetRadius(1)
+    resolution = 48 if frame.n_sphere < 500 else 24 if frame.n_sphere < 5000 else 12
+    ball.SetThetaResolution(resolution)
+    ball.SetPhiResolution(resolution)
+    ball.Update()
+    unit = vtk_to_numpy(ball.GetOutput().GetPoints().GetData())
+    faces = vtk_to_numpy(ball.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    n_node = len(frame.point) - frame.n_sphere
+    radius = frame.cell_data.get("radius")
+    if radius is None:
+        raise UserError("the run has spheres but no field radius")
+    for s in range(frame.n_sphere):
+        row = frame.n_triangle + s
+        if frame.kind[row] == CBM:
+            poly = make_poly(unit * radius[row] + frame.point[n_node + s], faces)
+            poly.GetPointData().SetNormals(ball.GetOutput().GetPointData().GetNormals())
+            yield poly, row, np.array(n_node + s)
+
+
+def cut(poly, plane):
+    """The part of a closed surface on the plane's normal side, closed again; whole or None where nothing is cut."""
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+    import numpy as np
+    points = vtk_to_numpy(poly.GetPoints().GetData())
+    side = (points - np.array(plane.GetOrigin())) @ np.array(plane.GetNormal())
+    if side.min() >= 0:
+        return poly, None
+    if side.max() <= 0:
+        return None, None
+    clip = vtk.vtkClipPolyData()
+    clip.SetInputData(poly)
+    clip.SetClipFunction(plane)
+    clip.Update()
+    cutter = vtk.vtkCutter()
+    cutter.SetInputData(poly)
+    cutter.SetCutFunction(plane)
+    stripper = vtk.vtkStripper()  # joins the segments of the cut into loops
+    stripper.SetInputConnection(cutter.GetOutputPort())
+    stripper.JoinContiguousSegmentsOn()
+    stripper.Update()
+    loops = vtk.vtkPolyData()
+    loops.SetPoints(stripper.GetOutput().GetPoints())
+    loops.SetPolys(stripper.GetOutput().GetLines())
+    fill = vtk.vtkTriangleFilter()  # a loop may be concave: ear clipping
+    fill.SetInputData(loops)
+    fill.Update()
+    return clip.GetOutput(), fill.GetOutput()
+
+
+def joined(polys):
+    import vtk
+    append = vtk.vtkAppendPolyData()
+    for poly in polys:
+        append.AddInputData(poly)
+    append.Update()
+    return append.GetOutput()
+
+
+def add_actor(renderer, poly, opacity=1.0, color=None, flat=False):
+    import vtk
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(poly)
+    if color is None:
+        mapper.SetColorModeToDirectScalars()
+    else:
+        mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    if color is not None:
+        look.SetColor(*color)
+    look.SetOpacity(opacity)
+    look.SetInterpolationToPhong()
+    look.SetAmbient(0.30 if flat else 0.12)
+    look.SetDiffuse(0.70 if flat else 0.88)
+    look.SetSpecular(0.0 if flat else 0.22)
+    look.SetSpecularPower(28)
+    renderer.AddActor(actor)
+
+
+def add_outline(renderer, polys):
+    """The rim of each cut cell, so that neighbours of one colour stay apart."""
+    import vtk
+    rims = []
+    for poly in polys:
+        edges = vtk.vtkFeatureEdges()
+        edges.SetInputData(poly)
+        edges.BoundaryEdgesOn()
+        edges.FeatureEdgesOff()
+        edges.NonManifoldEdgesOff()
+        edges.ManifoldEdgesOff()
+        edges.ColoringOff()
+        edges.Update()
+        rims.append(edges.GetOutput())
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(joined(rims))
+    mapper.ScalarVisibilityOff()
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*INK)
+    actor.GetProperty().SetLineWidth(2)
+    actor.GetProperty().LightingOff()
+    renderer.AddActor(actor)
+
+
+def clip_plane(frame, axis, camera):
+    """Through the middle of the cells; the half toward the camera goes."""
+    import numpy as np
+    import vtk
+    i = "xyz".index(axis)
+    used = np.unique(frame.triangle[frame.kind[:frame.n_triangle] != VESSEL])
+    spheres = np.arange(len(frame.point) - frame.n_sphere, len(frame.point))
+    points = frame.point[np.concatenate([used, spheres])] if len(used) + frame.n_sphere else frame.point
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    normal = np.zeros(3)
+    normal[i] = -1.0 if CAMERA[camera][0][i] >= 0 else 1.0
+    plane = vtk.vtkPlane()
+    plane.SetOrigin(*middle.astype(float))
+    plane.SetNormal(*normal)
+    return plane
+
+
+def lifted(cap, plane, i):
+    """Spheres overlap, and so do their cuts: each lies a hair above the one before, or they would flicker."""
+    import vtk
+    move, normal = vtk.vtkTransform(), plane.GetNormal()
+    move.Translate(*(-0.002 * (i % 50) * n for n in normal))
+    result = vtk.vtkTransformPolyDataFilter()
+    result.SetTransform(move)
+    result.SetInputData(cap)
+    result.Update()
+    return result.GetOutput()
+
+
+def add_bodies(renderer, frame, painter, plane):
+    surfaces, caps = [], []
+    for poly, row, points in bodies(frame):
+        painter.paint(poly, row, points)
+        cap = None
+        if plane is not None:
+            poly, cap = cut(poly, plane)
+        if poly is not None and poly.GetNumberOfCells():
+            surfaces.append(poly)
+        if cap is not None and cap.GetNumberOfCells():
+            if painter.table is None or painter.per_cell is not None:
+                painter.paint(cap, row, None)
+            caps.append(lifted(cap, plane, len(caps)))
+    if surfaces:
+        add_actor(renderer, joined(surfaces))
+    if caps:
+        add_actor(renderer, joined(caps), flat=True)
+        add_outline(renderer, caps)
+
+
+def add_vessels(renderer, frame, plane):
+    import vtk
+    triangles = frame.triangle[frame.kind[:frame.n_triangle] == VESSEL]
+    if len(triangles) == 0:
+        return
+    poly = with_normals(make_poly(frame.point, triangles))
+    if plane is not None:
+        clip = vtk.vtkClipPolyData()
+        clip.SetInputData(poly)
+        clip.SetClipFunction(plane)
+        clip.Update()
+        poly = clip.GetOutput()
+    add_actor(renderer, poly, opacity=0.45, color=VESSEL_COLOR)
+
+
+def style_text(text, size, bold=False):
+    text.SetColor(*INK)
+    text.SetFontFamilyToArial()
+    text.SetFontSize(size)
+    text.ShadowOff()
+    text.ItalicOff()
+    text.SetBold(bold)
+
+
+def add_labels(renderer, frame, painter, height):
+    import vtk
+    label = vtk.vtkTextActor()
+    seconds = frame.time
+    text = f"t = {seconds:.3g} s" if abs(seconds) < 600 else f"t = {seconds / 3600:.1f} h"
+    label.SetInput(text if abs(seconds) < 5 * 86400 else f"t = {seconds / 86400:.1f} d")
+    style_text(label.GetTextProperty(), height // 30, bold=True)
+    label.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    label.SetPosition(0.03, 0.93)
+    renderer.AddActor2D(label)
+    if painter.table is not None:
+        bar = vtk.vtkScalarBarActor()
+        bar.SetLookupTable(painter.table)
+        bar.SetTitle(f"{painter.name.replace('_', ' ')} [{painter.unit}]\n ")
+        bar.SetNumberOfLabels(5)
+        bar.SetLabelFormat("%-#.3g")
+        bar.UnconstrainedFontSizeOn()
+        style_text(bar.GetTitleTextProperty(), height // 42)
+        style_text(bar.GetLabelTextProperty(), height // 48)
+        bar.SetPosition(0.89, 0.28)
+        bar.SetWidth(0.07)
+        bar.SetHeight(0.44)
+        renderer.AddActor2D(bar)
+    elif painter.name == "kind":
+        import numpy as np
+        shown = [k for k in (DCM, CBM) if np.any(frame.kind == k)]
+        for i, k in enumerate(shown):
+            entry = vtk.vtkTextActor()
+            entry.SetInput("\u25cf " + KIND_NAME[k])
+            style_text(entry.GetTextProperty(), height // 38, bold=True)
+            entry.GetTextProperty().SetColor(*(0.85 * c for c in KIND_COLOR[k]))
+            entry.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+            entry.SetPosition(0.03, 0.09 - 0.045 * i)
+            renderer.AddActor2D(entry)
+
+
+def shade_corners(renderer, frame):
+    """Ambient occlusion: less light where cells meet, so that shapes read without hard shadows."""
+    import vtk
+    used = frame.point if len(frame.point) else None
+    if used is None:
+        return
+    size = float((used.max(axis=0) - used.min(axis=0)).max())
+    steps, occlusion = vtk.vtkRenderStepsPass(), vtk.vtkSSAOPass()
+    occlusion.SetRadius(0.08 * max(size, 1e-3))
+    occlusion.SetBias(0.002 * max(size, 1e-3))
+    occlusion.SetKernelSize(96)
+    occlusion.BlurOn()
+    occlusion.SetDelegatePass(steps)
+    renderer.SetPass(occlusion)
+
+
+def place_camera(renderer, arguments):
+    direction, up = CAMERA[arguments.camera]
+    camera = renderer.GetActiveCamera()
+    camera.SetFocalPoint(0, 0, 0)
+    camera.SetPosition(*direction)
+    camera.SetViewUp(*up)
+    camera.SetViewAngle(24)
+    renderer.ResetCamera()
+    camera.Zoom(1.45 * arguments.zoom)
+    renderer.ResetCameraClippingRange()
+
+
+def draw(arguments):
+    import vtk
+    try:
+        width, height = (int(n) for n in arguments.size.lower().split("x"))
+    except ValueError:
+        raise UserError(f"--size {arguments.size}: must be WIDTHxHEIGHT, e.g. 1600x1200") from None
+    frame = Frame(arguments.run, arguments.frame)
+    color = arguments.color or ("pressure" if "pressure" in frame.cell_data else "kind")
+    painter = Painter(frame, color, arguments.range)
+    plane = clip_plane(frame, arguments.clip, arguments.camera) if arguments.clip else None
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(0.86, 0.88, 0.91)
+    renderer.SetBackground2(1.0, 1.0, 1.0)
+    renderer.GradientBackgroundOn()
+    add_bodies(renderer, frame, painter, plane)
+    add_vessels(renderer, frame, plane)
+    shade_corners(renderer, frame)
+    lights = vtk.vtkLightKit()
+    lights.SetKeyLightIntensity(0.95)
+    lights.SetKeyToFillRatio(2.2)
+    lights.AddLightsToRenderer(renderer)
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetAlphaBitPlanes(1)
+    window.SetSize(2 * width, 2 * height)  # drawn twice as large and averaged: smooth edges on any driver
+    window.AddRenderer(renderer)
+    renderer.SetUseDepthPeeling(1)
+    renderer.SetMaximumNumberOfPeels(8)
+    renderer.SetOcclusionRatio(0.01)
+    place_camera(renderer, arguments)
+    if not arguments.no_labels:
+        add_labels(renderer, frame, painter, 2 * height)
+    window.Render()
+    grab = vtk.vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    half = vtk.vtkImageShrink3D()
+    half.SetInputConnection(grab.GetOutputPort())
+    half.SetShrinkFactors(2, 2, 1)
+    half.MeanOn()
+    writer = vtk.vtkPNGWriter()
+    writer.SetInputConnection(half.GetOutputPort())
+    writer.SetFileName(arguments.out)
+    writer.Write()
+    if writer.GetErrorCode():
+        raise UserError(f"{arguments.out}: cannot be written")
+
+
+def main():
+    arguments = read_arguments()
+    try:
+        ensure_display()
+        draw(arguments)
+    except UserError as error:
+        print(f"render.py: {error}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"render.py: {error}. Install the packages python3-vtk9 and python3-h5py.", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,292 @@
+#include "runs/cli.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "core/units.hpp"
+#include "runs/bench.hpp"
+#include "runs/run.hpp"
+#include "runs/scene/explain.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/scene/registry.hpp"
+#include "runs/scene/schema.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Everything the command line can set.
+struct Arguments {
+  RunOptions run;
+  std::string until, checkpoint_every, max_walltime, progress;
+  bool resolved = false, markdown = false;
+  std::string key;               ///< explain
+  std::string name, folder;      ///< new
+  std::string bench, json_file;  ///< bench
+  int seeds = 3;
+};
+
+void add_set(CLI::App& command, RunOptions& run) {
+  command
+      .add_option("--set", run.set,
+                  "replace a value of the scene, e.g. --set time.end=\"2 h\"; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_run_options(CLI::App& command, Arguments& arguments) {
+  RunOptions& run = arguments.run;
+  command.add_option("SCENE", run.scene_file, "scene file")->required();
+  command.add_option("--out", run.out, "run folder (default: <scene name>.run in this folder)")
+      ->type_name("DIR");
+  add_set(command, run);
+  command.add_option("--threads", run.threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--until", arguments.until, "stop at this simulated time, e.g. \"2 h\"")
+      ->type_name("TIME");
+  command
+      .add_option("--checkpoint-every", arguments.checkpoint_every,
+                  "wall time between checkpoints (default: 10min)")
+      ->type_name("WALL");
+  command
+      .add_option("--max-walltime", arguments.max_walltime,
+                  "stop with a checkpoint after this wall time, e.g. 23h30m")
+      ->type_name("WALL");
+  command.add_flag("--timings", run.timings, "print the time of each stage at the end");
+  command.add_flag("--quiet", run.quiet, "warnings and errors only");
+  command.add_option("--progress", arguments.progress, "form of the progress lines")
+      ->type_name("json")
+      ->check(CLI::IsMember({"json"}));
+}
+
+CLI::App* add_command(CLI::App& app, const char* name, const char* meaning, const char* example) {
+  CLI::App* command = app.add_subcommand(name, meaning);
+  command->footer(std::string("Example: ") + example);
+  return command;
+}
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+  CLI::App* run = add_command(app, "run", "simulate a scene",
+                              "acinus run runs/scenes/two_cells.json --set time.end=\"30 min\"");
+  add_run_options(*run, arguments);
+  CLI::Option* resume = run->add_flag("--resume", arguments.run.resume,
+                                      "go on from the checkpoint in the run folder");
+  run->add_flag("--overwrite", arguments.run.overwrite, "replace the results in the run folder")
+      ->excludes(resume);
+
+  CLI::App* again = add_command(app, "resume", "the same as run --resume",
+                                "acinus resume runs/scenes/two_cells.json");
+  add_run_options(*again, arguments);
+
+  CLI::App* validate = add_command(app, "check", "validate a scene without running it",
+                                   "acinus check runs/scenes/two_cells.json --resolved");
+  validate->add_option("SCENE", arguments.run.scene_file, "scene file")->required();
+  add_set(*validate, arguments.run);
+  validate->add_flag("--resolved", arguments.resolved, "print the scene with every default");
+
+  add_command(app, "schema", "print the JSON Schema of scenes",
+              "acinus schema > scene.schema.json");
+
+  CLI::App* explain =
+      add_command(app, "explain", "say what a scene key means; without KEY, list all",
+                  "acinus explain cell.radius");
+  CLI::Option* key = explain->add_option("KEY", arguments.key, "path or last name of a key");
+  explain->add_flag("--markdown", arguments.markdown, "all keys as a Markdown page")->excludes(key);
+
+  add_command(app, "list", "list the shipped scenes and the experiments", "acinus list");
+
+  CLI::App* fresh = add_command(app, "new", "copy a shipped scene into a folder to change it",
+                                "acinus new two_cells my_cells");
+  fresh->add_option("SCENE", arguments.name, "name of a shipped scene")->required();
+  fresh->add_option("DIR", arguments.folder, "folder, made if needed")->required();
+
+  CLI::App* bench =
+      add_command(app, "bench", "measure speed and error; without NAME, list the names",
+                  "acinus bench dcm27 --json dcm27.json");
+  bench->add_option("NAME", arguments.bench, "benchmark");
+  bench->add_option("--json", arguments.json_file, "also write the rows here")->type_name("FILE");
+  bench->add_option("--threads", arguments.run.threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  bench->add_option("--seeds", arguments.seeds, "repetitions of random cases (default: 3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+}
+
+/// Adds the flag's name to what is wrong with its value.
+template <class Parse>
+double flag_value(const char* flag, const std::string& text, Parse parse) {
+  try {
+    const double value = parse(text);
+    check(value > 0, fmt::format("\"{}\": must be > 0", text));
+    return value;
+  } catch (const Error& error) {
+    throw Error(std::string(flag) + " " + error.what(), error.code());
+  }
+}
+
+int do_run(Arguments& arguments) {
+  RunOptions& run = arguments.run;
+  if (!arguments.until.empty()) {
+    run.until_s = flag_value("--until", arguments.until,
+                             [](const std::string& text) { return parse_quantity(text, kTime); });
+  }
+  if (!arguments.checkpoint_every.empty()) {
+    run.checkpoint_every_s =
+        flag_value("--checkpoint-every", arguments.checkpoint_every, parse_wall_time);
+  }
+  if (!arguments.max_walltime.empty()) {
+    run.max_walltime_s = flag_value("--max-walltime", arguments.max_walltime, parse_wall_time);
+  }
+  run.progress_json = arguments.progress == "json";
+  const Scene scene = read_scene(run.scene_file, run.set);
+  if (run.out.empty()) run.out = scene.name + ".run";
+  return run_scene(scene, run);
+}
+
+int do_check(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.run.scene_file, arguments.run.set);
+  if (arguments.resolved) {
+    fmt::print("{}", scene.resolved_json);
+  } else {
+    fmt::print("{}: valid scene \"{}\", {} cell type{}, cells from {}, end {}, hash {}\n",
+               scene.file, scene.name, scene.cell_types.size(),
+               scene.cell_types.size() == 1 ? "" : "s", scene.cells.source,
+               format_quantity(scene.time.end, kTime, "h"), scene.sha);
+  }
+  return 0;
+}
+
+int do_explain(const Arguments& arguments) {
+  if (arguments.markdown) {
+    fmt::print("{}", explain_markdown());
+  } else {
+    fmt::print("{}", arguments.key.empty() ? explain_all() : explain_key(arguments.key));
+  }
+  return 0;
+}
+
+int do_list() {
+  fmt::print("scenes in {}\n", scene_folder());
+  for (const ShippedScene& scene : shipped_scenes()) {
+    fmt::print("  {:20}  {}\n", scene.name, scene.description);
+  }
+  for (const Entry& entry : all_entries()) {
+    if (entry.path == "experiment")
+      fmt::print("experiments (scene key experiment)\n  {}\n", entry.range);
+  }
+  return 0;
+}
+
+int do_new(const Arguments& arguments) {
+  const std::vector<std::string> written = copy_scene(arguments.name, arguments.folder);
+  for (const std::string& file : written) fmt::print("wrote {}\n", file);
+  fmt::print("run it with: acinus run {}\n", written.front());
+  return 0;
+}
+
+int do_bench(const Arguments& arguments) {
+  const std::vector<std::string> names = list_benches();
+  if (arguments.bench.empty()) {
+    for (const std::string& name : names) fmt::print("{}\n", name);
+    return 0;
+  }
+  if (std::find(names.begin(), names.end(), arguments.bench) == names.end()) {
+    const std::string hint = nearest_name(arguments.bench, names);
+    throw Error(fmt::format("no benchmark \"{}\". {}Known: {}", arguments.bench,
+                            hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint),
+                            fmt::join(names, ", ")));
+  }
+  return run_bench(arguments.bench, arguments.json_file, arguments.run.threads, arguments.seeds);
+}
+
+}  // namespace
+
+double parse_wall_time(const std::string& text) {
+  const auto fail = [&text](const char* why) {
+    throw Error(fmt::format("\"{}\": {}; a wall time is written like 10min, 23h30m or \"600 s\"",
+                            text, why));
+  };
+  double sum = 0;
+  std::size_t at = 0;
+  const auto skip_space = [&] {
+    while (at < text.size() && text[at] == ' ') ++at;
+  };
+  bool any = false;
+  for (skip_space(); at < text.size(); skip_space()) {
+    double value = 0;
+    const char* first = text.data() + at;
+    const auto [end, code] =
+        std::from_chars(first, text.data() + text.size(), value, std::chars_format::fixed);
+    if (code != std::errc() || !std::isfinite(value) || value < 0) fail("not a positive number");
+    at += static_cast<std::size_t>(end - first);
+    skip_space();
+    std::string unit;
+    while (at < text.size() && std::isalpha(static_cast<unsigned char>(text[at]))) {
+      unit += text[at++];
+    }
+    if (unit == "s") {
+      sum += value;
+    } else if (unit == "m" || unit == "min") {
+      sum += 60 * value;
+    } else if (unit == "h") {
+      sum += 3600 * value;
+    } else if (unit == "d" || unit == "day" || unit == "days") {
+      sum += 86400 * value;
+    } else {
+      fail(unit.empty() ? "has no unit" : "unknown unit");
+    }
+    any = true;
+  }
+  if (!any) fail("is empty");
+  if (!std::isfinite(sum)) fail("too long");
+  return sum;
+}
+
+std::string version_text() {
+  return fmt::format("acinus {} (git {}, {}, {})", ACINUS_VERSION, ACINUS_GIT, ACINUS_COMPILER,
+                     ACINUS_FLAGS);
+}
+
+int run_cli(int argc, const char* const* argv) {
+  Arguments arguments;
+  CLI::App app("Simulator of living tissue: deformable triangulated cells (DCM) and spheres (CBM).",
+               "acinus");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Help on a command: acinus run --help\n"
+      "Exit codes: 0 done, 1 internal error, 2 bad scene or command line, 3 cannot continue,\n"
+      "4 disk or file error, 75 stopped with a checkpoint written");
+  add_commands(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(Exit::kDone) : static_cast<int>(Exit::kBadInput);
+  }
+  for (int i = 0; i < argc; ++i) {
+    arguments.run.command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  }
+  const std::string command = app.get_subcommands().front()->get_name();
+  if (command == "resume") arguments.run.resume = true;
+  if (command == "run" || command == "resume") return do_run(arguments);
+  if (command == "check") return do_check(arguments);
+  if (command == "explain") return do_explain(arguments);
+  if (command == "list") return do_list();
+  if (command == "new") return do_new(arguments);
+  if (command == "bench") return do_bench(arguments);
+  fmt::print("{}", scene_schema());
+  return 0;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "runs/experiments/experiment.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// The box between the walls at a time, clipped by every plane that faces along an axis.
+struct WallBox {
+  Vec3 low = Vec3::Constant(-std::numeric_limits<double>::infinity());
+  Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
+};
+WallBox wall_box(const contact::Surroundings& around, double time) {
+  WallBox box;
+  for (const contact::Plane& p : around.planes)
+    for (int k = 0; k < 3; ++k) {
+      if (p.normal[k] > 0.999) box.low[k] = std::max(box.low[k], p.point_at(time)[k]);
+      if (p.normal[k] < -0.999) box.high[k] = std::min(box.high[k], p.point_at(time)[k]);
+    }
+  return box;
+}
+
+/// Mean x of the cells of one model within one radius of that model's extreme cell.
+double innermost_layer(const Snapshot& s, bool deformable, double sign) {
+  double extreme = -std::numeric_limits<double>::infinity(), radius = 0;
+  for (const coupling::CellMeasure& c : s.cells)
+    if (c.deformable == deformable && sign * c.center.x() > extreme) {
+      extreme = sign * c.center.x();
+      radius = c.radius;
+    }
+  double sum = 0;
+  int n = 0;
+  for (const coupling::CellMeasure& c : s.cells)
+    if (c.deformable == deformable && sign * c.center.x() > extreme - radius) {
+      sum += c.center.x();
+      ++n;
+    }
+  return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s, Measures& m) {
+  double mean_x[2] = {0, 0}, pressure[2] = {0, 0};
+  int count[2] = {0, 0};
+  for (const coupling::CellMeasure& c : s.cells) {
+    const int k = c.deformable ? 0 : 1;
+    mean_x[k] += c.center.x();
+    pressure[k] += c.pressure;
+    ++count[k];
+  }
+  if (count[0] == 0 && count[1] == 0) return;
+  const WallBox box = wall_box(world.params.around, std::max(0.0, s.time));
+  const double area = (box.high.y() - box.low.y()) * (box.high.z() - box.low.z());
+  m["time_s"].push_back(s.time);
+  m["box_length_um"].push_back(box.high.x() - box.low.x());
+  double middle = 0.5 * (box.low.x() + box.high.x());
+  const bool both = count[0] > 0 && count[1] > 0;
+  const bool dcm_left = !both || mean_x[0] / count[0] < mean_x[1] / count[1];
+  if (both)
+    middle = 0.5 * (innermost_layer(s, true, dcm_left ? 1 : -1) + innermost_layer(s, false, dcm_left ? -1 : 1));
+  for (int k = 0; k < 2; ++k) {
+    if (count[k] == 0) continue;
+    const bool left = (k == 0) == dcm_left;
+    const double length = !both ? box.high.x() - box.low.x() : left ? middle - box.low.x() : box.high.x() - middle;
+    const std::string name = k == 0 ? "dcm" : "cbm";
+    m["pressure_" + name + "_Pa"].push_back(1e3 * pressure[k] / count[k]);
+    m["density_" + name + "_per_mm3"].push_back(1e9 * count[k] / (length * area));
+  }
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,153 @@
+#include "runs/place_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "coupling/generate/packing.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// How deep a cell may start in an obstacle, um: contact forces push it out in the first steps.
+constexpr double kStartDepth = 0.3;
+
+double start_radius(const Scene& scene, double radius) {
+  return scene.start_up.enabled ? scene.start_up.initial_radius : radius;
+}
+
+double nearest_gap(const contact::Surroundings& around, const Vec3& x, std::string* name) {
+  double nearest = std::numeric_limits<double>::infinity();
+  auto look = [&](double gap, auto label) {
+    if (gap >= nearest) return;
+    nearest = gap;
+    if (name) *name = label();
+  };
+  for (const auto& p : around.planes)
+    look(contact::gap_to_plane(p, x, 0).gap, [&] { return fmt::format("wall \"{}\"", p.name); });
+  for (const auto& c : around.capsules)
+    look(contact::gap_to_capsule(c, x, 0).gap, [&] { return std::string("the capsule"); });
+  const auto& network = around.vessels.network;
+  for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)
+    look(contact::gap_to_segment(network, s, x).gap, [&] { return fmt::format("vessel segment {}", s); });
+  return nearest;
+}
+
+/// Darts thrown into a box, at least min_distance apart and clear of the surroundings.
+std::vector<Vec3> fill_box(const Scene& scene, double radius, const contact::Surroundings& around) {
+  const CellsBlock& c = scene.cells;
+  UniformStream random(scene.seed, Purpose::kPlacement, 0);
+  std::vector<Vec3> seeds;
+  constexpr int kTries = 200000;
+  const double clear = start_radius(scene, radius);
+  for (int tries = 0; tries < kTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
+    Vec3 x;
+    for (int k = 0; k < 3; ++k) x[k] = random.uniform(c.low[k], c.high[k]);
+    const bool free = std::ranges::all_of(
+        seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
+    if (!free || nearest_gap(around, x, nullptr) < clear) continue;
+    seeds.push_back(x);
+    tries = 0;
+  }
+  check(static_cast<int>(seeds.size()) == c.count,
+        fmt::format("{}: /cells/count: room for only {} of {} cells at least {} um apart between {} and {} um. "
+                    "Lower count or min_distance, or enlarge low and high.",
+                    scene.file, seeds.size(), c.count, c.min_distance,
+                    fmt::format("({}, {}, {})", c.low.x(), c.low.y(), c.low.z()),
+                    fmt::format("({}, {}, {})", c.high.x(), c.high.y(), c.high.z())));
+  return seeds;
+}
+
+}  // namespace
+
+bool in_zoom(const Scene& scene, const Vec3& x) {
+  return std::ranges::any_of(scene.zoom, [&](const Region& r) {
+    if (r.kind == "all") return true;
+    if (r.kind == "sphere") return (x - r.center).norm() <= r.radius;
+    if (r.kind == "box") return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
+    if (r.kind == "half_space") return (x - r.point).dot(r.normal) <= 0;
+    const Vec3 d = x - scene.axis_point;
+    const double distance = d.head<2>().norm();
+    return distance >= r.min_distance && distance <= r.max_distance;
+  });
+}
+
+std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
+                                    const contact::Surroundings& around) {
+  const CellsBlock& c = scene.cells;
+  const std::string type = scene.cell_types.begin()->first;
+  const double radius = scene.cell_types.begin()->second.radius;
+  const double diameter = 2 * radius;
+  UniformStream stream(scene.seed, Purpose::kJitter, 0);
+  const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
+
+  std::vector<PlacedCell> cells;
+  if (c.source == "list") {
+    for (const CellEntry& e : c.list) {
+      const std::string& name = e.type.empty() ? type : e.type;
+      PlacedCell p;
+      p.center = e.position;
+      p.type = name;
+      p.radius = e.radius.value_or(scene.cell_types.at(name).radius);
+      p.pull = e.pull;
+      p.deformable = e.model.empty() ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
+                                     : e.model == "dcm";
+      p.where = fmt::format("/cells/list/{}", cells.size());
+      cells.push_back(p);
+    }
+  } else {
+    std::vector<Vec3> centers;
+    if (c.source == "clump")
+      centers = coupling::make_clump({c.lattice == "bcc" ? coupling::Lattice::kBcc : coupling::Lattice::kFcc, c.count,
+                                      c.spacing * diameter, c.jitter * diameter}, uniform);
+    else if (c.source == "box")
+      centers = coupling::make_box({coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter}, uniform);
+    else if (c.source == "fill")
+      centers = fill_box(scene, radius, around);
+    else if (lobule)
+      centers = lobule->seeds;
+    for (const Vec3& x : centers) {
+      PlacedCell p;
+      p.center = x;
+      p.type = type;
+      p.radius = radius;
+      p.oriented = false;
+      p.deformable = c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, x));
+      p.where = fmt::format("generated cell {}", cells.size());
+      cells.push_back(p);
+    }
+  }
+  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].lineage = static_cast<std::int64_t>(k);
+  return cells;
+}
+
+void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
+                  const contact::Surroundings& around) {
+  std::string message;
+  int bad = 0;
+  for (const PlacedCell& c : cells) {
+    std::string name;
+    const double r = start_radius(scene, c.radius);
+    const double gap = nearest_gap(around, c.center, &name);
+    if (gap >= r - kStartDepth) continue;
+    if (++bad <= 10)
+      message += fmt::format("{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is allowed.\n",
+                             scene.file, c.where, c.center.x(), c.center.y(), c.center.z(), r - gap, name, kStartDepth);
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (std::size_t j = i + 1; j < cells.size(); ++j) {
+      const double d = (cells[i].center - cells[j].center).norm();
+      const double least = 0.5 * std::max(start_radius(scene, cells[i].radius), start_radius(scene, cells[j].radius));
+      if (d >= least) continue;
+      if (++bad <= 10)
+        message += fmt::format("{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} um, is needed.\n",
+                               scene.file, cells[i].where, cells[j].where, d, least);
+    }
+  if (bad > 10) message += fmt::format("... and {} more.\n", bad - 10);
+  check(bad == 0, message + "Move these cells, or start them small with the start_up block (acinus explain start_up.enabled).");
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,40 @@
+#pragma once
+/// Where the cells of a scene start, and which model each of them is.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vec.hpp"
+#include "coupling/generate/lobule.hpp"
+#include "coupling/world.hpp"
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+struct PlacedCell {
+  std::int64_t lineage = 0;  ///< number in the order of generation: the same whatever the model
+  Vec3 center = Vec3::Zero();
+  std::string type;
+  double radius = 0;         ///< um at rest
+  bool deformable = false;
+  bool oriented = true;      ///< keep the mesh as it is; generated cells get a random orientation
+  Vec3 pull = Vec3::Zero();
+  std::string where;         ///< for messages: "/cells/list/3" or "generated cell 12"
+};
+
+/// All cells of the scene. Depends on the seed and the geometry, not on the models.
+/// @param lobule  empty unless the scene has one
+/// @throws Error when a source cannot place what is asked
+std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
+                                    const contact::Surroundings& around);
+
+/// Whether a point lies in the union of the zoom regions.
+bool in_zoom(const Scene& scene, const Vec3& x);
+
+/// Every cell that starts inside a vessel or another obstacle, or outside a wall, in one message.
+/// @throws Error if there is any
+void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
+                  const contact::Surroundings& around);
+
+}  // namespace acinus::runs

@@ -1,0 +1,30 @@
+#pragma once
+/// Progress of a run: one line on a terminal, one line a minute otherwise, or JSON lines.
+
+#include <string>
+
+#include "coupling/world.hpp"
+#include "runs/run.hpp"
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+class Progress {
+ public:
+  Progress(const Scene& scene, const RunOptions& options, double end);
+  /// Called after every step; prints when it is time to.
+  void step(const coupling::World& world);
+  /// Ends the terminal line.
+  void finish();
+  /// A message of its own line, also to the log.
+  void note(const std::string& text);
+
+ private:
+  void print(const coupling::World& world);
+
+  const RunOptions& options_;
+  double end_, started_, last_ = -1e300;
+  bool terminal_, line_open_ = false;
+};
+
+}  // namespace acinus::runs

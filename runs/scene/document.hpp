@@ -1,0 +1,37 @@
+#pragma once
+/// A scene's JSON tree after merging the files it `extends` and the values replaced from the
+/// command line (`--set`); every value still knows where it was written.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "runs/scene/json_text.hpp"
+
+namespace acinus::runs {
+
+struct Document {
+  std::vector<Source> sources;
+  Node root;
+};
+
+/// Reads a file and, below it, everything it `extends` (a path relative to that file); the names of
+/// the extending file win, objects are merged, all else is replaced. "extends" and "$schema" are
+/// taken out of the tree.
+/// @throws Error (kFileError) if a file cannot be read, Error (kBadInput) for its contents and for
+///         files that extend each other in a circle.
+Document read_document(const std::string& path);
+
+/// The same for a text in memory; `folder` is where its relative paths start.
+Document parse_document(const std::string& text, const std::string& label,
+                        const std::string& folder);
+
+/// Applies one PATH=VALUE: names separated by . or /, list elements by number from 0, VALUE a JSON
+/// text or, if it is none, a bare string. Objects on the way are made when missing.
+/// @throws Error naming the flag.
+void apply_set(Document& document, const std::string& assignment);
+
+/// The bytes of a regular file of at most `limit` bytes. @throws Error (kFileError).
+std::string read_file(const std::string& path, std::size_t limit);
+
+}  // namespace acinus::runs

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "runs/scene/registry.hpp"
+
+namespace acinus::runs {
+
+bool Range::contains(double value) const {
+  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string range_text(const Range& range, Dimension dimension, const char* unit) {
+  const auto bound = [&](double value) { return format_quantity(value, dimension, unit); };
+  const bool has_low = std::isfinite(range.low), has_high = std::isfinite(range.high);
+  if (has_low && has_high) {
+    if (!range.low_open && !range.high_open) {
+      return fmt::format("from {} to {}", bound(range.low), bound(range.high));
+    }
+    return fmt::format("{} {} and {} {}", range.low_open ? ">" : ">=", bound(range.low),
+                       range.high_open ? "<" : "<=", bound(range.high));
+  }
+  if (has_low) return fmt::format("{} {}", range.low_open ? ">" : ">=", bound(range.low));
+  if (has_high) return fmt::format("{} {}", range.high_open ? "<" : "<=", bound(range.high));
+  return "";
+}
+
+std::vector<std::string> choices_of(const Key& key) {
+  std::vector<std::string> choices;
+  std::string part;
+  for (const char* c = key.choices; *c != '\0'; ++c) {
+    if (*c == '|') {
+      choices.push_back(part);
+      part.clear();
+    } else {
+      part += *c;
+    }
+  }
+  if (!part.empty()) choices.push_back(part);
+  return choices;
+}
+
+namespace {
+
+/// Turns the visit of a default scene into the list of entries.
+class EntryCollector final : public Visitor {
+ public:
+  void real(const Key& key, double& value) override {
+    add(key, key.unit[0] ? "quantity" : "number", in_quotes(key, value), bounds(key));
+  }
+  void optional_real(const Key& key, std::optional<double>&) override {
+    add(key, key.unit[0] ? "quantity" : "number", "\"auto\"", bounds(key));
+  }
+  void integer(const Key& key, int& value) override {
+    add(key, "whole number", std::to_string(value), bounds(key));
+  }
+  void seed(const Key& key, std::uint64_t& value) override {
+    add(key, "whole number", std::to_string(value), "from 0 to 2^64 - 1");
+  }
+  void flag(const Key& key, bool& value) override {
+    add(key, "true or false", value ? "true" : "false", "");
+  }
+  void text(const Key& key, std::string& value) override {
+    const char* type = key.is_file ? "path" : key.is_name ? "name" : "text";
+    add(key, type, key.automatic[0] ? "\"auto\"" : "\"" + value + "\"", bounds(key));
+  }
+  void vector(const Key& key, Vec3& value) override {
+    add(key, key.unit[0] ? "three quantities" : "three numbers",
+        fmt::format("[{}, {}, {}]", in_quotes(key, value.x()), in_quotes(key, value.y()),
+                    in_quotes(key, value.z())),
+        bounds(key));
+  }
+  void counts(const Key& key, std::array<int, 3>& value) override {
+    add(key, "three whole numbers", fmt::format("[{}]", fmt::join(value, ", ")), bounds(key));
+  }
+  void object(const Key& key, const Members& members) override {
+    add_block(key, "block", "");
+    inside(key.name, "", [&] { members(*this); });
+  }
+  void optional_object(const Key& key, bool, const std::function<void(bool)>&,
+                       const Members& members) override {
+    add_block(key, "block or null", "null");
+    inside(key.name, "", [&] { members(*this); });
+  }
+  void list(const Key& key, const Elements& elements) override {
+    add_block(key, "list of blocks", "[]");
+    inside(std::string(key.name) + ".<number>", key.item, [&] { elements.visit_sample(*this); });
+  }
+  void map(const Key& key, const Elements& elements) override {
+    add_block(key, "blocks by name", "");
+    inside(std::string(key.name) + ".<name>", key.item, [&] { elements.visit_sample(*this); });
+  }
+  void when(bool, const char* condition, const Members& members) override {
+    condition_ = condition;
+    members(*this);
+    condition_.clear();
+  }
+
+  std::vector<Entry> entries;
+
+ private:
+  static std::string in_quotes(const Key& key, double value) {
+    const std::string text = format_quantity(value, key.dimension, key.unit);
+    return key.unit[0] ? "\"" + text + "\"" : text;
+  }
+
+  static std::string bounds(const Key& key) {
+    std::string text = key.choices[0] ? fmt::format("{}", fmt::join(choices_of(key), ", "))
+                                      : range_text(key.range, key.dimension, key.unit);
+    if (key.automatic[0]) {
+      text += fmt::format("{}\"auto\" = {}", text.empty() ? "" : "; ", key.automatic);
+    }
+    return text;
+  }
+
+  void add(const Key& key, const char* type, std::string initial, std::string range) {
+    Entry entry;
+    entry.path = path_ + key.name;
+    entry.short_path = short_path_ + key.name;
+    entry.type = type;
+    entry.dimension = key.dimension;
+    entry.unit = key.unit;
+    entry.initial = key.required ? "" : std::move(initial);
+    entry.range = std::move(range);
+    entry.meaning = key.meaning;
+    entry.symbol = key.symbol;
+    entry.condition = condition_;
+    entries.push_back(std::move(entry));
+  }
+
+  void add_block(const Key& key, const char* type, const char* initial) {
+    add(key, type, initial, "");
+    entries.back().is_block = true;
+  }
+
+  /// @param item  short path of the elements of a list or map; "" = the path goes on
+  void inside(const std::string& name, const std::string& item,
+              const std::function<void()>& members) {
+    const std::string path = path_, short_path = short_path_;
+    path_ += name + ".";
+    short_path_ = item.empty() ? short_path_ + name + "." : item + ".";
+    members();
+    path_ = path;
+    short_path_ = short_path;
+  }
+
+  std::string path_, short_path_, condition_;
+};
+
+}  // namespace
+
+const std::vector<Entry>& all_entries() {
+  static const std::vector<Entry> entries = [] {
+    EntryCollector collector;
+    Entry extends;
+    extends.path = extends.short_path = "extends";
+    extends.type = "path";
+    extends.initial = "none";
+    extends.meaning = "scene file this one changes, relative to this file: blocks are merged";
+    collector.entries.push_back(extends);
+    Scene scene;
+    describe(collector, scene);
+    return collector.entries;
+  }();
+  return entries;
+}
+
+}  // namespace acinus::runs

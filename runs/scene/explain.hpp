@@ -1,0 +1,19 @@
+#pragma once
+/// What the registry says about keys, for people.
+
+#include <string>
+
+namespace acinus::runs {
+
+/// Meaning, type, default, range, unit and paper symbol of one key or of all keys of that name.
+/// @param query  "time.end", "cell.radius", "/cells/list/0/position" or just "radius"
+/// @throws Error for a key that does not exist, with the nearest ones.
+std::string explain_key(const std::string& query);
+
+/// One line per key: path, default, meaning.
+std::string explain_all();
+
+/// All keys as a Markdown page, kept as docs/scene_keys.md.
+std::string explain_markdown();
+
+}  // namespace acinus::runs

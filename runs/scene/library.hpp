@@ -1,0 +1,30 @@
+#pragma once
+/// The scenes that come with the program.
+
+#include <string>
+#include <vector>
+
+namespace acinus::runs {
+
+struct ShippedScene {
+  std::string name;  ///< file name without ".json"
+  std::string file;
+  std::string description;
+};
+
+/// Folder of the shipped scenes: runs/scenes beside the folder of the program, else of the source
+/// tree.
+/// @throws Error (kFileError) if there is none.
+std::string scene_folder();
+
+/// All shipped scenes by name. A scene that cannot be parsed has its error as description.
+std::vector<ShippedScene> shipped_scenes();
+
+/// Copies a shipped scene, the scenes it extends and the files they name into a new or existing
+/// folder, which then works by itself.
+/// @return paths written, the scene first
+/// @throws Error: unknown scene (with a hint), a file that exists already, a file that cannot be
+///         written (kFileError)
+std::vector<std::string> copy_scene(const std::string& name, const std::string& folder);
+
+}  // namespace acinus::runs

@@ -1,0 +1,210 @@
+#include "runs/scene/rules.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+
+#include "core/nearest.hpp"
+#include "core/units.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
+
+std::string time_text(double value) { return "\"" + format_quantity(value, kTime, "s") + "\""; }
+
+std::vector<std::string> type_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, type] : scene.cell_types) names.push_back(name);
+  return names;
+}
+
+void check_time(const Scene& scene, Report& report) {
+  const TimeBlock& time = scene.time;
+  if (time.step < time.min_step) {
+    report.add_relation({"/time/step", "/time/min_step"}, time_text(time.step),
+                        fmt::format("must not be below /time/min_step = {}. Raise step or lower "
+                                    "min_step",
+                                    time_text(time.min_step)));
+  }
+}
+
+void check_start_up(const Scene& scene, Report& report) {
+  if (!scene.start_up.enabled) return;
+  const double initial = scene.start_up.initial_radius;
+  for (const auto& [name, type] : scene.cell_types) {
+    if (initial < type.radius) continue;
+    const std::string pointer = "/cell_types/" + name + "/radius";
+    report.add_relation({"/start_up/initial_radius", pointer}, length(initial),
+                        fmt::format("must be below {} = {}: cells grow during start-up", pointer,
+                                    length(type.radius)));
+  }
+  for (std::size_t i = 0; i < scene.cells.list.size(); ++i) {
+    const std::optional<double>& radius = scene.cells.list[i].radius;
+    if (!radius || initial < *radius) continue;
+    const std::string pointer = fmt::format("/cells/list/{}/radius", i);
+    report.add_relation({pointer, "/start_up/initial_radius"}, length(*radius),
+                        fmt::format("must exceed /start_up/initial_radius = {}: cells grow during "
+                                    "start-up",
+                                    length(initial)));
+  }
+}
+
+void check_list(const Scene& scene, Report& report) {
+  const CellsBlock& cells = scene.cells;
+  const std::vector<std::string> names = type_names(scene);
+  if (cells.list.empty()) {
+    report.add_relation({"/cells/list", "/cells/source"}, "",
+                        "has no entry, but /cells/source = \"list\". Add cells, or take another "
+                        "source: clump, box, lobule");
+  }
+  for (std::size_t i = 0; i < cells.list.size(); ++i) {
+    const CellEntry& cell = cells.list[i];
+    const std::string pointer = fmt::format("/cells/list/{}/type", i);
+    if (cell.type.empty()) {
+      if (names.size() > 1) {
+        report.add_relation({pointer}, "",
+                            fmt::format("is missing: there are {} cell types: {}", names.size(),
+                                        fmt::join(names, ", ")));
+      }
+    } else if (!names.empty() && scene.cell_types.count(cell.type) == 0) {
+      const std::string hint = nearest_name(cell.type, names);
+      report.add_relation({pointer, "/cell_types"}, "",
+                          hint.empty()
+                              ? fmt::format("unknown cell type. Known: {}", fmt::join(names, ", "))
+                              : fmt::format("unknown cell type. Did you mean \"{}\"?", hint));
+    }
+  }
+}
+
+void check_cells(const Scene& scene, Report& report) {
+  const CellsBlock& cells = scene.cells;
+  if (cells.source == "list") {
+    check_list(scene, report);
+  } else if (scene.cell_types.size() > 1) {
+    report.add_relation({"/cells/source", "/cell_types"}, "\"" + cells.source + "\"",
+                        fmt::format("makes cells of one type, but there are {} cell types. Use "
+                                    "source \"list\" to mix types",
+                                    scene.cell_types.size()));
+  }
+  if (cells.source == "lobule" && !scene.lobule) {
+    report.add_relation({"/cells/source", "/lobule"}, "\"lobule\"",
+                        "needs a lobule block (acinus explain lobule)");
+  }
+  if (scene.experiment == "lobule" && !scene.lobule) {
+    report.add_relation({"/experiment", "/lobule"}, "\"lobule\"",
+                        "needs a lobule block (acinus explain lobule)");
+  }
+  if (!scene.zoom.empty() && cells.model != "zoom") {
+    report.add_relation({"/zoom", "/cells/model"}, "",
+                        fmt::format("zoom regions need /cells/model = \"zoom\", not \"{}\". Remove "
+                                    "the regions (--set zoom=[]) or change the model",
+                                    cells.model));
+  }
+  bool all_chosen = cells.source == "list" && !cells.list.empty();
+  for (const CellEntry& cell : cells.list) all_chosen = all_chosen && !cell.model.empty();
+  if (scene.zoom.empty() && cells.model == "zoom" && !all_chosen) {
+    report.add_relation(
+        {"/cells/model", "/zoom"}, "\"zoom\"",
+        "needs at least one region in /zoom. Add one, or choose \"dcm\" or \"cbm\"");
+  }
+}
+
+/// low < high in every coordinate.
+void check_box(const Vec3& low, const Vec3& high, const std::string& pointer, Report& report) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (low[axis] < high[axis]) continue;
+    const std::string above = fmt::format("{}/high/{}", pointer, axis);
+    report.add_relation({fmt::format("{}/low/{}", pointer, axis), above}, length(low[axis]),
+                        fmt::format("must be below {} = {}", above, length(high[axis])));
+  }
+}
+
+void check_direction(const Vec3& normal, const std::string& pointer, Report& report) {
+  if (normal.norm() > 1e-12) return;
+  report.add_relation({pointer}, "[0, 0, 0]",
+                      "must not be zero: it is the direction of the plane's normal");
+}
+
+void check_zoom(const Scene& scene, Report& report) {
+  for (std::size_t i = 0; i < scene.zoom.size(); ++i) {
+    const Region& region = scene.zoom[i];
+    const std::string pointer = fmt::format("/zoom/{}", i);
+    if (region.kind == "box") check_box(region.low, region.high, pointer, report);
+    if (region.kind == "half_space") check_direction(region.normal, pointer + "/normal", report);
+    if (region.kind == "axis_distance" && region.min_distance >= region.max_distance) {
+      report.add_relation(
+          {pointer + "/min_distance", pointer + "/max_distance"}, length(region.min_distance),
+          fmt::format("must be below {}/max_distance = {}", pointer, length(region.max_distance)));
+    }
+  }
+}
+
+void check_lobule(const Scene& scene, Report& report) {
+  if (!scene.lobule) return;
+  const LobuleBlock& lobule = *scene.lobule;
+  const auto below = [&report](const char* small_name, double small, const char* large_name,
+                               double large) {
+    if (small < large) return;
+    const std::string pointer_a = std::string("/lobule/") + small_name;
+    const std::string pointer_b = std::string("/lobule/") + large_name;
+    report.add_relation({pointer_a, pointer_b}, length(small),
+                        fmt::format("must be below {} = {}", pointer_b, length(large)));
+  };
+  below("central_vein_radius", lobule.central_vein_radius, "lesion_radius", lobule.lesion_radius);
+  below("lesion_radius", lobule.lesion_radius, "radius", lobule.radius);
+  below("portal_vein_radius", lobule.portal_vein_radius, "radius", lobule.radius);
+  below("sinusoid_radius", lobule.sinusoid_radius, "radius", lobule.radius);
+}
+
+void check_surroundings(const Scene& scene, Report& report) {
+  if (scene.vessels.crop) {
+    check_box((*scene.vessels.crop)[0], (*scene.vessels.crop)[1], "/vessels/crop", report);
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const WallEntry& wall = scene.walls[i];
+    const std::string pointer = fmt::format("/walls/{}", i);
+    check_direction(wall.normal, pointer + "/normal", report);
+    if (wall.speed != 0 && wall.travel == 0) {
+      report.add_relation({pointer + "/travel", pointer + "/speed"}, length(wall.travel),
+                          "must be > 0 um for a wall that moves");
+    }
+    if (!names.insert(wall.name).second) {
+      report.add_relation({pointer + "/name"}, "\"" + wall.name + "\"",
+                          "another wall has this name");
+    }
+  }
+  names.clear();
+  for (std::size_t i = 0; i < scene.static_meshes.size(); ++i) {
+    if (!names.insert(scene.static_meshes[i].name).second) {
+      report.add_relation({fmt::format("/static_meshes/{}/name", i)},
+                          "\"" + scene.static_meshes[i].name + "\"", "another mesh has this name");
+    }
+  }
+  const CapsuleEntry& capsule = scene.capsule;
+  if (!capsule.enabled) return;
+  if (capsule.min_radius > capsule.radius) {
+    report.add_relation(
+        {"/capsule/min_radius", "/capsule/radius"}, length(capsule.min_radius),
+        fmt::format("must not exceed /capsule/radius = {}", length(capsule.radius)));
+  } else if (capsule.speed > 0 && capsule.min_radius == 0) {
+    report.add_relation({"/capsule/min_radius", "/capsule/speed"}, length(capsule.min_radius),
+                        "must be > 0 um for a capsule that shrinks");
+  }
+}
+
+}  // namespace
+
+void check_rules(const Scene& scene, Report& report) {
+  check_time(scene, report);
+  check_start_up(scene, report);
+  check_cells(scene, report);
+  check_zoom(scene, report);
+  check_lobule(scene, report);
+  check_surroundings(scene, report);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,199 @@
+#include "runs/scene/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "runs/scene/registry.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kNamePattern = "^[A-Za-z0-9_-]{1,100}$";
+
+/// Builds one object schema per block; the innermost open one is the last of the stack.
+class SchemaBuilder final : public Visitor {
+ public:
+  SchemaBuilder() { stack_.push_back(block_schema("")); }
+
+  void real(const Key& key, double& value) override {
+    Json schema = real_schema(key);
+    set_default(key, schema, real_json(key, value));
+    put(key, std::move(schema));
+  }
+  void optional_real(const Key& key, std::optional<double>&) override {
+    Json schema;
+    schema["anyOf"] = Json::array({Json{{"const", "auto"}}, real_schema(key)});
+    set_default(key, schema, "auto");
+    put(key, std::move(schema));
+  }
+  void integer(const Key& key, int& value) override {
+    Json schema = integer_schema(key);
+    set_default(key, schema, value);
+    put(key, std::move(schema));
+  }
+  void seed(const Key& key, std::uint64_t& value) override {
+    put(key, Json{{"type", "integer"}, {"minimum", 0}, {"default", value}});
+  }
+  void flag(const Key& key, bool& value) override {
+    put(key, Json{{"type", "boolean"}, {"default", value}});
+  }
+  void text(const Key& key, std::string& value) override {
+    Json schema{{"type", "string"}};
+    if (key.choices[0]) {
+      schema["enum"] = choices_of(key);
+      if (key.automatic[0]) schema["enum"].push_back("auto");
+    }
+    if (key.is_name) schema["pattern"] = kNamePattern;
+    set_default(key, schema, key.automatic[0] ? "auto" : value);
+    put(key, std::move(schema));
+  }
+  void vector(const Key& key, Vec3& value) override {
+    Json schema = three(real_schema(key));
+    set_default(key, schema,
+                Json::array({real_json(key, value.x()), real_json(key, value.y()),
+                             real_json(key, value.z())}));
+    put(key, std::move(schema));
+  }
+  void counts(const Key& key, std::array<int, 3>& value) override {
+    Json schema = three(integer_schema(key));
+    set_default(key, schema, value);
+    put(key, std::move(schema));
+  }
+  void object(const Key& key, const Members& members) override { put(key, inner(members)); }
+  void optional_object(const Key& key, bool, const std::function<void(bool)>&,
+                       const Members& members) override {
+    Json schema;
+    schema["anyOf"] = Json::array({Json{{"type", "null"}}, inner(members)});
+    schema["default"] = nullptr;
+    put(key, std::move(schema));
+  }
+  void list(const Key& key, const Elements& elements) override {
+    Json schema{{"type", "array"}};
+    schema["items"] = inner([&](Visitor& visitor) { elements.visit_sample(visitor); });
+    schema["default"] = Json::array();
+    put(key, std::move(schema));
+  }
+  void map(const Key& key, const Elements& elements) override {
+    Json schema{{"type", "object"}, {"minProperties", key.required ? 1 : 0}};
+    schema["propertyNames"] = Json{{"pattern", kNamePattern}};
+    schema["additionalProperties"] =
+        inner([&](Visitor& visitor) { elements.visit_sample(visitor); });
+    put(key, std::move(schema));
+  }
+  void when(bool, const char*, const Members& members) override {
+    conditional_ = true;  // a key that is required only sometimes is not required for the schema
+    members(*this);
+    conditional_ = false;
+  }
+
+  Json finished() { return std::move(stack_.front()); }
+
+ private:
+  static Json block_schema(const char* meaning) {
+    Json schema{{"type", "object"}};
+    if (meaning[0]) schema["description"] = meaning;
+    schema["additionalProperties"] = false;
+    schema["properties"] = Json::object();
+    return schema;
+  }
+
+  static Json real_schema(const Key& key) {
+    if (key.unit[0]) {
+      // The unit is checked by the program: as a pattern it would have to list every spelling.
+      return Json{{"type", "string"},
+                  {"pattern", "^ *[+-]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)? *[^0-9 ].*$"},
+                  {"examples", Json::array({dimension_example(key.dimension)})},
+                  {"$comment", dimension_formula(key.dimension)}};
+    }
+    Json schema{{"type", "number"}};
+    add_bounds(key, schema);
+    return schema;
+  }
+
+  static Json integer_schema(const Key& key) {
+    Json schema{{"type", "integer"}};
+    if (key.choices[0]) {
+      schema["enum"] = Json::array();
+      for (const std::string& choice : choices_of(key)) schema["enum"].push_back(std::stoi(choice));
+    }
+    add_bounds(key, schema);
+    return schema;
+  }
+
+  static void add_bounds(const Key& key, Json& schema) {
+    if (std::isfinite(key.range.low)) {
+      schema[key.range.low_open ? "exclusiveMinimum" : "minimum"] = key.range.low;
+    }
+    if (std::isfinite(key.range.high)) {
+      schema[key.range.high_open ? "exclusiveMaximum" : "maximum"] = key.range.high;
+    }
+  }
+
+  static Json three(Json items) {
+    return Json{{"type", "array"}, {"items", std::move(items)}, {"minItems", 3}, {"maxItems", 3}};
+  }
+
+  static Json real_json(const Key& key, double value) {
+    if (key.unit[0]) return format_quantity(value, key.dimension, key.unit);
+    return value;
+  }
+
+  static void set_default(const Key& key, Json& schema, Json value) {
+    if (!key.required) schema["default"] = std::move(value);
+  }
+
+  Json inner(const Members& members) {
+    stack_.push_back(block_schema(""));
+    const bool conditional = std::exchange(conditional_, false);
+    members(*this);
+    conditional_ = conditional;
+    Json schema = std::move(stack_.back());
+    stack_.pop_back();
+    return schema;
+  }
+
+  void put(const Key& key, Json schema) {
+    std::string meaning = key.meaning;
+    const std::string range =
+        key.unit[0] ? range_text(key.range, key.dimension, key.unit) : std::string();
+    if (!range.empty()) meaning += ". Range: " + range;
+    if (key.automatic[0]) meaning += std::string(". \"auto\": ") + key.automatic;
+    if (key.symbol[0]) meaning += std::string(". Paper: ") + key.symbol;
+    schema["description"] = meaning;
+    if (key.required && !conditional_) stack_.back()["required"].push_back(key.name);
+    stack_.back()["properties"][key.name] = std::move(schema);
+  }
+
+  std::vector<Json> stack_;
+  bool conditional_ = false;
+};
+
+}  // namespace
+
+std::string scene_schema() {
+  SchemaBuilder builder;
+  Scene scene;
+  describe(builder, scene);
+  Json root;
+  root["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  root["title"] = "acinus scene";
+  root.update(builder.finished());
+  root["properties"]["extends"] = Json{
+      {"type", "string"},
+      {"description", "scene file this one changes, relative to this file: blocks are merged"}};
+  root["properties"]["$schema"] = Json{{"type", "string"}};
+  // A scene that extends another may leave the required keys to it.
+  if (root.contains("required")) {
+    Json required = std::move(root["required"]);
+    root.erase("required");
+    root["anyOf"] = Json::array(
+        {Json{{"required", std::move(required)}}, Json{{"required", Json::array({"extends"})}}});
+  }
+  return root.dump(2) + "\n";
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,98 @@
+#include "runs/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "runs/build_world.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Every number in a file is finite; what is not is an error of ours and is shown as null.
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+}  // namespace
+
+void add_audit(RunTotals& t, const coupling::AuditResult& a) {
+  t.max_penetration_um = std::max(t.max_penetration_um, a.max_penetration_um);
+  t.dcm_dcm_um = std::max(t.dcm_dcm_um, a.dcm_dcm.depth_um);
+  t.dcm_vessel_um = std::max(t.dcm_vessel_um, a.dcm_vessel.depth_um);
+  t.dcm_wall_um = std::max(t.dcm_wall_um, a.dcm_wall.depth_um);
+  t.dcm_cbm_um = std::max(t.dcm_cbm_um, a.dcm_cbm.depth_um);
+  t.max_overlap_cbm_um = std::max(t.max_overlap_cbm_um, a.max_overlap_cbm_um);
+  t.min_triangle_quality = std::min(t.min_triangle_quality, a.min_triangle_quality);
+  t.self_intersecting = std::max(t.self_intersecting, static_cast<double>(a.n_self_intersecting));
+  t.inverted = std::max(t.inverted, static_cast<double>(a.n_inverted));
+}
+
+void write_summary(const std::string& folder, const SummaryInput& in) {
+  const coupling::State& s = in.world.state;
+  const RunTotals& t = in.totals;
+  const int dcm_cells = dcm::count_cells(s.dcm), cbm_cells = static_cast<int>(s.cbm.n_cell());
+  Json j;
+  j["scene"] = in.scene.name;
+  j["scene_sha"] = in.scene.sha;
+  j["version"] = ACINUS_VERSION;
+  j["git"] = ACINUS_GIT;
+  j["seed"] = in.scene.seed;
+  j["status"] = in.status;
+  if (!in.cause.empty()) j["cause"] = in.cause;
+  j["simulated_s"] = number(std::max(0.0, coupling::time_since_start(in.world)));
+  j["start_up_s"] = number(s.clock.phase == coupling::Phase::kRun ? s.clock.origin : s.clock.time);
+  j["wall_s"] = number(t.wall_s);
+  j["cpu_s"] = number(t.cpu_s);
+  j["peak_rss_bytes"] = peak_rss_bytes();
+  j["ranks"] = in.world.ranks.size();
+  j["threads"] = in.threads;
+  j["instruction_set"] = std::string(best_instruction_set());
+  j["steps"] = {{"accepted", s.clock.accepted}, {"rejected", s.clock.rejected}, {"newton", s.clock.accepted},
+                {"cg", s.clock.cg_iterations}};
+  j["cells"] = {{"dcm", dcm_cells}, {"cbm", cbm_cells}, {"start", dcm_cells + cbm_cells}, {"end", dcm_cells + cbm_cells},
+                {"divisions", 0}, {"deaths", 0}, {"switched", 0}};
+  j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
+  j["balance"] = {{"momentum", number(s.balance.momentum)}, {"torque", number(s.balance.torque)},
+                  {"friction_torque", number(s.balance.friction_torque)}};
+  j["state_hash"] = fmt::format("{:016x}", coupling::hash_state(s));
+  j["max_penetration_um"] = number(t.max_penetration_um);
+  j["penetration_um"] = {{"dcm_dcm", number(t.dcm_dcm_um)}, {"dcm_vessel", number(t.dcm_vessel_um)},
+                         {"dcm_wall", number(t.dcm_wall_um)}, {"dcm_cbm", number(t.dcm_cbm_um)}};
+  j["max_overlap_cbm_um"] = number(t.max_overlap_cbm_um);
+  j["min_triangle_quality"] = number(t.min_triangle_quality);
+  j["self_intersecting_cells"] = static_cast<int>(t.self_intersecting);
+  j["skipped"] = in.skipped;
+  j["notes"] = in.notes;
+  Json timings = Json::object();
+  for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
+  j["timings"] = timings;
+  Json measures = Json::object();
+  for (const auto& [name, values] : in.measures) {
+    Json list = Json::array();
+    for (double v : values) list.push_back(number(v));
+    measures[name] = list;
+  }
+  if (in.scene.experiment == "lobule") measures["max_overlap_with_vessels_um"] = number(t.dcm_vessel_um);
+  j["measures"] = measures;
+
+  const std::string path = folder + "/summary.json", draft = path + ".tmp";
+  std::ofstream out(draft);
+  out << j.dump(2) << '\n';
+  out.close();
+  check(out.good(), fmt::format("{}: cannot be written ({}). Free space or choose another --out.", draft, std::strerror(errno)),
+        Exit::kFileError);
+  std::error_code moved;
+  std::filesystem::rename(draft, path, moved);
+  check(!moved, fmt::format("{}: cannot be put in place ({}).", path, moved.message()), Exit::kFileError);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,52 @@
+#pragma once
+/// Reads a reference table: comma separated, first line the header, text in double quotes may hold
+/// commas.
+
+#include <cstddef>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace acinus::test {
+
+using Row = std::vector<std::string>;
+
+inline Row split_row(const std::string& line) {
+  Row row(1);
+  bool quoted = false;
+  for (const char letter : line) {
+    if (letter == '"') {
+      quoted = !quoted;
+    } else if (letter == ',' && !quoted) {
+      row.emplace_back();
+    } else if (letter != '\r') {
+      row.back() += letter;
+    }
+  }
+  return row;
+}
+
+/// Rows without the header; empty if the file is not there, which tests answer by GTEST_SKIP.
+inline std::vector<Row> read_reference(const std::string& name) {
+  std::ifstream file(std::string(ACINUS_SHARED_DIR) + "/reference/" + name);
+  std::vector<Row> rows;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    if (!line.empty()) rows.push_back(split_row(line));
+  }
+  return rows;
+}
+
+inline double number(const Row& row, std::size_t column) { return std::stod(row.at(column)); }
+
+// The tables are in SI, the program in um, s, nN.
+inline constexpr double kMetre = 1e6, kNewton = 1e9, kPascal = 1e-3, kJoulePerSquareMetre = 1e3;
+
+inline double relative(double value, double exact) {
+  return value == exact
+             ? 0.0
+             : (value > exact ? value - exact : exact - value) / (exact < 0.0 ? -exact : exact);
+}
+
+}  // namespace acinus::test

@@ -1,0 +1,224 @@
+#include "core/io/run_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+#include "core/io/run_reader.hpp"
+#include "tests/core/io/expect_frame.hpp"
+#include "tests/core/io/sample.hpp"
+
+namespace acinus::io {
+namespace {
+
+using test::changing_frame;
+using test::expect_same_frame;
+using test::Folder;
+using test::make_frame;
+
+std::vector<SeriesValue> sample(double time) {
+  return {{"time", "s", time}, {"dt", "s", 0.5 * time}};
+}
+
+/// Frames 0..n-1, 7 samples and 2 events per frame.
+void write_run(RunFile* run, int first, int n) {
+  for (int k = first; k < first + n; ++k) {
+    for (int i = 0; i < 7; ++i) run->append_series(sample(7 * k + i));
+    run->append_event({1.0 * k, "division", {k, k + 1}, "cell " + std::to_string(k) + " divided"});
+    run->append_event({1.0 * k, "note", {}, ""});
+    run->append(changing_frame(k));
+  }
+}
+
+void expect_run(const std::string& path, int n) {
+  const RunReader reader(path);
+  ASSERT_EQ(reader.n_frame(), n);
+  for (int k = 0; k < n; ++k) expect_same_frame(reader.frame(k), changing_frame(k));
+  const auto series = reader.series();
+  ASSERT_EQ(std::ssize(series.at("time")), 7 * n);
+  for (int i = 0; i < 7 * n; ++i) {
+    EXPECT_EQ(series.at("time")[static_cast<std::size_t>(i)], i);
+    EXPECT_EQ(series.at("dt")[static_cast<std::size_t>(i)], 0.5 * i);
+  }
+  const auto event = reader.events();
+  ASSERT_EQ(std::ssize(event), 2 * n);
+  for (int k = 0; k < n; ++k) {
+    const Event& e = event[static_cast<std::size_t>(2 * k)];
+    EXPECT_EQ(e.code, "division");
+    EXPECT_EQ(e.cell_id, (std::vector<std::int64_t>{k, k + 1}));
+    EXPECT_EQ(e.message, "cell " + std::to_string(k) + " divided");
+    EXPECT_TRUE(event[static_cast<std::size_t>(2 * k + 1)].cell_id.empty());
+  }
+}
+
+void expect_error(Exit code, const std::string& part, const std::function<void()>& action) {
+  try {
+    action();
+    ADD_FAILURE() << "no error, expected one with \"" << part << "\"";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+class RunFileTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(RunFileTest, ReadsBackFramesWithChangingNumbersOfCells) {
+  const Folder folder("run_file_back");
+  RunFile run =
+      RunFile::create(folder / "run.vtkhdf", {{"seed", "1"}, {"empty", ""}}, {GetParam(), 5});
+  write_run(&run, 0, 17);
+  run.set_provenance("end", "today");
+  run.set_provenance("seed", "22");
+  run.close();
+  expect_run(folder / "run.vtkhdf", 17);
+  EXPECT_EQ(RunReader(folder / "run.vtkhdf").provenance(),
+            (std::map<std::string, std::string>{{"empty", ""}, {"end", "today"}, {"seed", "22"}}));
+}
+
+TEST_P(RunFileTest, TruncatesAndContinuesAsIfNeverInterrupted) {
+  const Folder folder("run_file_cut");
+  const std::string path = folder / "run.vtkhdf";
+  RunFileCounts at[10];
+  {
+    RunFile run = RunFile::create(path, {{"seed", "1"}}, {GetParam(), 5});
+    for (int k = 0; k < 10; ++k) {
+      write_run(&run, k, 1);
+      at[k] = run.counts();
+    }
+  }
+  for (const int keep : {10, 7, 6, 3, 1}) {  // after frames of every kind, the empty one included
+    RunFile run = RunFile::open_for_append(path, at[keep - 1]);
+    EXPECT_EQ(run.n_frame(), keep);
+    expect_run(path, keep);
+    write_run(&run, keep, 10 - keep);
+    run.close();
+    expect_run(path, 10);
+  }
+  RunFile run = RunFile::open_for_append(path, {});
+  write_run(&run, 0, 2);
+  run.close();
+  expect_run(path, 2);
+  EXPECT_EQ(RunReader(path).provenance().at("seed"), "1");
+  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Compression, RunFileTest, testing::Values("fast", "none"),
+                         [](const auto& set) { return std::string(set.param); });
+
+TEST(RunFile, SamplesBetweenFramesSurviveARestart) {
+  const Folder folder("run_file_between");
+  const std::string path = folder / "run.vtkhdf";
+  RunFileCounts keep;
+  {
+    RunFile run = RunFile::create(path, {});
+    run.append(make_frame(0, 1, 1));
+    for (int i = 0; i < 5; ++i) run.append_series(sample(i));
+    keep = run.counts();
+    EXPECT_EQ(keep.series, 5);
+    run.flush();
+    for (int i = 5; i < 9; ++i) run.append_series(sample(i));
+  }
+  RunFile run = RunFile::open_for_append(path, keep);
+  run.append_series(sample(50));
+  run.close();
+  EXPECT_EQ(RunReader(path).series().at("time"), (std::vector<double>{0, 1, 2, 3, 4, 50}));
+}
+
+TEST(RunFile, RefusesToContinueWhatIsNotThere) {
+  const Folder folder("run_file_short");
+  const std::string path = folder / "run.vtkhdf";
+  RunFile::create(path, {}).append(make_frame(0, 1, 1));
+  expect_error(Exit::kFileError, "holds 1 frames", [&] {
+    RunFile::open_for_append(path, {2, 0, 0});
+  });
+  expect_error(Exit::kFileError, "cannot open for reading: No such file",
+               [&] { RunFile::open_for_append(folder / "none.vtkhdf", {}); });
+  write_text_file(folder / "text.vtkhdf", "not HDF5");
+  expect_error(Exit::kFileError, "cannot open for reading",
+               [&] { RunFile::open_for_append(folder / "text.vtkhdf", {}); });
+}
+
+TEST(RunFile, UnchangedTopologyIsWrittenOnce) {
+  const Folder folder("run_file_static");
+  RunFile run = RunFile::create(folder / "run.vtkhdf", {});
+  // 4000 octahedra: 32000 triangles; random coordinates would hide the effect, these are enough.
+  run.append(make_frame(0, 4000, 0));
+  const auto first = std::filesystem::file_size(folder / "run.vtkhdf");
+  run.append(make_frame(1, 4000, 0));
+  const auto second = std::filesystem::file_size(folder / "run.vtkhdf") - first;
+  std::printf("first frame %zu bytes, second %zu bytes\n", static_cast<std::size_t>(first),
+              static_cast<std::size_t>(second));
+  const RunReader reader(folder / "run.vtkhdf");
+  expect_same_frame(reader.frame(0), make_frame(0, 4000, 0));
+  expect_same_frame(reader.frame(1), make_frame(1, 4000, 0));
+}
+
+TEST(RunFile, NothingThatIsNotFiniteReachesTheFile) {
+  const Folder folder("run_file_nan");
+  const std::string path = folder / "run.vtkhdf";
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              inf = std::numeric_limits<float>::infinity();
+  RunFile run = RunFile::create(path, {});
+  run.append(make_frame(0, 1, 1));
+  const std::string before = read_text_file(path);
+  const auto refuse = [&](const std::string& part, const std::function<void(Frame&)>& spoil) {
+    Frame frame = make_frame(1, 1, 1);
+    spoil(frame);
+    expect_error(Exit::kInternal, part, [&] { run.append(frame); });
+  };
+  refuse("point coordinates: value 4 of 21 is nan", [&](Frame& f) { f.point[4] = nan; });
+  refuse("\"force\"", [&](Frame& f) { f.point_data[0].value[2] = -inf; });
+  refuse("\"pressure\"", [&](Frame& f) { f.cell_data[1].value[8] = nan; });
+  refuse("\"stress\"", [&](Frame& f) { f.cells.columns[1].value[3] = inf; });
+  refuse("\"gap\"", [&](Frame& f) { f.interface.columns[0].value[0] = nan; });
+  refuse("time is nan", [&](Frame& f) { f.time_s = nan; });
+  expect_error(Exit::kInternal, "series \"dt\" is nan", [&] {
+    const std::vector<SeriesValue> value{{"time", "s", 0}, {"dt", "s", nan}};
+    run.append_series(value);
+  });
+  expect_error(Exit::kInternal, "event time is inf", [&] { run.append_event({inf, "x", {}, ""}); });
+  run.close();
+  EXPECT_TRUE(read_text_file(path) == before);
+}
+
+TEST(RunFile, FramesMustFitTogether) {
+  const Folder folder("run_file_fit");
+  RunFile run = RunFile::create(folder / "run.vtkhdf", {});
+  run.append(make_frame(0, 1, 1));
+  const auto refuse = [&](const std::string& part, const std::function<void(Frame&)>& spoil) {
+    Frame frame = make_frame(1, 1, 1);
+    spoil(frame);
+    expect_error(Exit::kInternal, part, [&] { run.append(frame); });
+  };
+  refuse("does not come after", [](Frame& f) { f.time_s = 0; });
+  refuse("point data changed", [](Frame& f) { f.point_data.clear(); });
+  refuse("cell data changed", [](Frame& f) { f.cell_data[0].unit = "m"; });
+  refuse("/cells columns changed", [](Frame& f) { f.cells.columns.pop_back(); });
+  refuse("given twice", [](Frame& f) { f.cell_data[0].name = "kind"; });
+  refuse("cannot be the name", [](Frame& f) { f.cell_data[0].name = "a/b"; });
+  refuse("uses node 6 of 6", [](Frame& f) { f.triangle[0][1] = 6; });
+  refuse("rows of 3 are needed", [](Frame& f) { f.point_data[0].value.pop_back(); });
+  refuse("cell ids", [](Frame& f) { f.cell_id.pop_back(); });
+  refuse("has no unit", [](Frame& f) { f.cell_data[0].unit = ""; });
+  run.append(make_frame(1, 1, 1));
+  run.append_series(sample(0));
+  const std::vector<SeriesValue> other{{"time", "s", 1}};
+  expect_error(Exit::kInternal, "other names", [&] { run.append_series(other); });
+}
+
+TEST(RunFile, LongMessagesAreMarkedAsCut) {
+  const Folder folder("run_file_long");
+  RunFile run = RunFile::create(folder / "run.vtkhdf", {});
+  run.append_event({0, "long", {}, std::string(2000, 'x')});
+  run.close();
+  const auto event = RunReader(folder / "run.vtkhdf").events();
+  ASSERT_EQ(event.size(), 1U);
+  EXPECT_EQ(event[0].message, std::string(509, 'x') + "...");
+}
+
+}  // namespace
+}  // namespace acinus::io

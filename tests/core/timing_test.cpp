@@ -1,0 +1,64 @@
+#include "core/timing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <vector>
+
+namespace acinus {
+namespace {
+
+void burn(double seconds) {
+  const double start = thread_cpu_seconds();
+  while (thread_cpu_seconds() - start < seconds) {
+  }
+}
+
+TEST(Timings, AccumulatesByNameInOrderOfFirstUse) {
+  Timings timings;
+  for (int step = 0; step < 3; ++step) {
+    const auto outer = timings.scope("step");
+    const auto inner = timings.scope("solve");
+    burn(2e-3);
+  }
+  ASSERT_EQ(timings.stages().size(), 2u);
+  EXPECT_EQ(timings.stages()[0].name, "step");
+  const StageTime solve = timings.stage("solve"), step = timings.stage("step");
+  EXPECT_EQ(solve.calls, 3u);
+  EXPECT_GE(solve.thread_cpu, 6e-3);
+  // Process time includes the thread's; the clocks are read one after another, a few us apart.
+  EXPECT_GE(solve.cpu, solve.thread_cpu - 1e-4);
+  EXPECT_GE(solve.wall, solve.thread_cpu - 1e-4);
+  EXPECT_GE(step.wall, solve.wall);
+  EXPECT_EQ(timings.stage("absent").calls, 0u);
+}
+
+TEST(Timings, ClearWhileAScopeIsOpenIsHarmless) {
+  Timings timings;
+  {
+    const auto scope = timings.scope("step");
+    timings.clear();
+  }
+  EXPECT_TRUE(timings.stages().empty());
+}
+
+TEST(Timings, PeakMemorySeesALargeBlock) {
+  const std::uint64_t before = peak_rss_bytes();
+  EXPECT_GT(before, 1u << 20);
+  const std::vector<char> block(before + (32u << 20), 1);
+  EXPECT_GE(peak_rss_bytes(), before + (16u << 20));
+  EXPECT_EQ(block.back(), 1);
+}
+
+TEST(Timings, MachineIsDescribed) {
+  const Machine machine = describe_machine();
+  std::printf("%s, %d cores, %s, peak %.1f MB, cpu %.3f s\n", machine.cpu_model.c_str(),
+              machine.cores, machine.instruction_set.c_str(),
+              1e-6 * static_cast<double>(peak_rss_bytes()), cpu_seconds());
+  EXPECT_FALSE(machine.cpu_model.empty());
+  EXPECT_GE(machine.cores, 1);
+  EXPECT_EQ(machine.instruction_set, best_instruction_set());
+}
+
+}  // namespace
+}  // namespace acinus

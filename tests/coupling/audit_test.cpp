@@ -1,0 +1,342 @@
+#include "coupling/audit.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/mesh/surface.hpp"
+#include "core/mesh/topology.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+using mesh::Surface;
+
+Surface ball(const Vec3& center, double radius, int n_node = 162) {
+  const mesh::Topology& topology = mesh::shared_icosphere(n_node);
+  Surface out;
+  out.triangle = topology.triangle;
+  for (const Vec3& x : topology.rest) out.node.push_back(center + radius * x);
+  return out;
+}
+
+/// Box with corners low and high, 12 triangles.
+Surface brick(const Vec3& low, const Vec3& high) {
+  Surface out;
+  for (int i = 0; i < 8; ++i)
+    out.node.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
+                          (i & 4 ? high : low).z());
+  for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1},
+                                   {4, 5, 7, 6},
+                                   {0, 1, 5, 4},
+                                   {2, 6, 7, 3},
+                                   {0, 4, 6, 2},
+                                   {1, 3, 7, 5}}) {
+    out.triangle.push_back({a, b, c});
+    out.triangle.push_back({a, c, d});
+  }
+  return out;
+}
+
+/// Audits bodies numbered 100, 101, ... with the other members of `frame` as they are.
+AuditResult audit_bodies(const std::vector<Surface>& bodies, AuditFrame frame = {}) {
+  std::vector<AuditMesh> mesh;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    mesh.push_back({100 + static_cast<std::int64_t>(i), bodies[i].node, bodies[i].triangle});
+  frame.meshes = mesh;
+  return audit(frame);
+}
+
+using Ids = std::vector<std::int64_t>;
+
+/// Depth of the samples of `a` in a convex body `b`: there the distance to the surface is the
+/// smallest distance to a face plane.
+double convex_depth(const Surface& a, const Surface& b) {
+  std::vector<Vec3> sample = a.node;
+  for (const auto& t : a.triangle) {
+    const Vec3 &x = a.node[static_cast<std::size_t>(t[0])],
+               &y = a.node[static_cast<std::size_t>(t[1])],
+               &z = a.node[static_cast<std::size_t>(t[2])];
+    sample.insert(sample.end(), {(x + y) / 2, (y + z) / 2, (z + x) / 2, (x + y + z) / 3});
+  }
+  double depth = 0;
+  for (const Vec3& p : sample) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& t : b.triangle) {
+      const Vec3& x = b.node[static_cast<std::size_t>(t[0])];
+      const Vec3 n = (b.node[static_cast<std::size_t>(t[1])] - x)
+                         .cross(b.node[static_cast<std::size_t>(t[2])] - x)
+                         .normalized();
+      nearest = std::min(nearest, (x - p).dot(n));
+    }
+    depth = std::max(depth, nearest);
+  }
+  return depth;
+}
+
+TEST(Audit, OverlappingBricksHaveTheirExactDepth) {
+  // The edges of the small brick lie 0.25 deep; its face diagonal's middle and corners likewise.
+  const auto r = audit_bodies({brick({0, 0, 0}, {10, 10, 10}), brick({9.75, 2, 2}, {12, 8, 8})});
+  EXPECT_DOUBLE_EQ(r.dcm_dcm.depth_um, 0.25);
+  EXPECT_EQ(r.dcm_dcm.ids, (Ids{100, 101}));
+  EXPECT_DOUBLE_EQ(r.max_penetration_um, 0.25);
+  EXPECT_EQ(r.n_inverted, 0);
+  EXPECT_EQ(r.n_self_intersecting, 0);
+}
+
+TEST(Audit, OverlappingCellsHaveTheDepthOfTheirGeometry) {
+  for (const double distance : {23.9, 23.5, 23.0, 20.0, 14.0}) {
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0.6, 0.8, 0), Vec3(0.36, 0.48, 0.8)}) {
+      const Surface a = ball(Vec3::Zero(), 12), b = ball(distance * way, 12);
+      const double expected = std::max(convex_depth(a, b), convex_depth(b, a));
+      const auto r = audit_bodies({a, b});
+      EXPECT_NEAR(r.dcm_dcm.depth_um, expected, 1e-12 * 12)
+          << distance;  // round-off of coordinates
+      EXPECT_NEAR(r.dcm_dcm.depth_um, 24 - distance,
+                  0.4);  // facets differ from the sphere by 0.2 um
+    }
+  }
+}
+
+TEST(Audit, TouchingBodiesDoNotOverlap) {
+  const Surface a = brick({0, 0, 0}, {4, 4, 4});
+  for (const Vec3& low :
+       {Vec3(4, 0, 0), Vec3(4, 1, 1), Vec3(4, 4, 0), Vec3(4, 4, 4), Vec3(4, 2, -2)}) {
+    const auto r = audit_bodies({a, brick(low, low + Vec3(4, 4, 4))});
+    EXPECT_EQ(r.dcm_dcm.depth_um, 0) << low.transpose();
+    EXPECT_TRUE(r.dcm_dcm.ids.empty());
+  }
+}
+
+TEST(Audit, TunnelledCellsAreSeen) {
+  const Surface large = ball(Vec3::Zero(), 12);
+  const auto concentric = audit_bodies({large, ball(Vec3::Zero(), 3)});
+  EXPECT_NEAR(concentric.dcm_dcm.depth_um, 9, 0.5);
+  const auto deep = audit_bodies({large, ball({14, 0, 0}, 12)});
+  EXPECT_NEAR(deep.dcm_dcm.depth_um, 10, 0.5);
+  // Coinciding cells have every sample on the other's surface: only the centroid tells.
+  const Surface coarse = ball(Vec3::Zero(), 12, 42);
+  const auto same = audit_bodies({coarse, coarse});
+  EXPECT_NEAR(same.dcm_dcm.depth_um, 12, 1);
+  EXPECT_GT(audit_bodies({large, ball({0.3, 0, 0}, 12)}).dcm_dcm.depth_um, 11);
+  std::printf("concentric %.3f, 10 um in %.3f, coinciding %.3f\n", concentric.dcm_dcm.depth_um,
+              deep.dcm_dcm.depth_um, same.dcm_dcm.depth_um);
+}
+
+TEST(Audit, ASpikePushedThroughIsSeen) {
+  // One node of the left cell is pulled through the right cell and out at its far side.
+  Surface left = ball({-12.5, 0, 0}, 12);
+  const Surface right = ball({12.5, 0, 0}, 12);
+  ASSERT_EQ(audit_bodies({left, right}).dcm_dcm.depth_um, 0);
+  const auto tip = std::max_element(left.node.begin(), left.node.end(),
+                                    [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
+  *tip = {30, 0, 0};
+  const auto r = audit_bodies({left, right});
+  std::printf("spike depth %.3f\n", r.dcm_dcm.depth_um);
+  EXPECT_GT(r.dcm_dcm.depth_um, 9);  // the spike is a few um wide and passes by the centre, 12 deep
+  EXPECT_LT(r.dcm_dcm.depth_um, 12);
+}
+
+TEST(Audit, CrossedBarsWithoutASampleInsideCount) {
+  // The long diagonal of a side passes x = 0 at z = 3/7, so 3/7 + 1/2 above the other bar's bottom.
+  const auto r =
+      audit_bodies({brick({-8, -1, -1}, {20, 1, 1}), brick({-1, -8, -0.5}, {1, 20, 1.5})});
+  EXPECT_NEAR(r.dcm_dcm.depth_um, 13.0 / 14, 1e-14);
+}
+
+double brute_cone_depth(const Vec3& x, const Vec3& a, const Vec3& b, double ra, double rb) {
+  double depth = -1e300;
+  for (int i = 0; i <= 20000; ++i) {
+    const double t = i / 20000.0;
+    depth = std::max(depth, ra + t * (rb - ra) - (x - a - t * (b - a)).norm());
+  }
+  return depth;
+}
+
+TEST(Audit, CellAgainstTaperedVesselIsTheDepthInTheRoundCone) {
+  const Surface cell = ball({0, 0, 14.5}, 12);
+  for (const auto& [ra, rb] : {std::array{3.0, 3.0}, {5.0, 2.0}, {1.0, 6.0}, {40.0, 2.0}}) {
+    const mesh::Network net{{Vec3(-20, 3, 0), Vec3(18, -2, 1)}, {{0, 1}}, {{ra, rb}}};
+    double expected = 0;
+    for (const Vec3& x : cell.node)
+      expected = std::max(expected, brute_cone_depth(x, net.node[0], net.node[1], ra, rb));
+    AuditFrame frame;
+    frame.vessels = &net;
+    const auto r = audit_bodies({cell}, frame);
+    // Edges and faces may lie deeper than the nodes, by at most the sagitta of an edge of 4 um on
+    // the wall.
+    EXPECT_GE(r.dcm_vessel.depth_um, expected - 1e-4);
+    EXPECT_LE(r.dcm_vessel.depth_um, expected + 0.7);
+    EXPECT_EQ(r.dcm_vessel.ids, (Ids{100, 0}));
+  }
+}
+
+TEST(Audit, FlatFaceOnAVesselHasItsExactDepth) {
+  const mesh::Network net{{Vec3(-50, 0, 0), Vec3(50, 0, 0)}, {{0, 1}}, {{4.7, 4.7}}};
+  AuditFrame frame;
+  frame.vessels = &net;
+  EXPECT_NEAR(audit_bodies({brick({-5, -9, 4.5}, {6, 8, 14})}, frame).dcm_vessel.depth_um, 0.2,
+              1e-12);
+  EXPECT_EQ(audit_bodies({brick({-5, -9, 4.75}, {6, 8, 14})}, frame).dcm_vessel.depth_um, 0);
+}
+
+TEST(Audit, ThinVesselsBetweenTheSamplesAreSeen) {
+  const Surface cell = brick({-10, -10, -10}, {10, 10, 10});
+  AuditFrame frame;
+  const mesh::Network ending{{Vec3(3, 5.5, 10.2), Vec3(3, 5.5, 40)}, {{0, 1}}, {{0.3, 0.3}}};
+  frame.vessels = &ending;
+  EXPECT_NEAR(audit_bodies({cell}, frame).dcm_vessel.depth_um, 0.1, 1e-12);
+  const mesh::Network through{{Vec3(0.5, 0.5, -40), Vec3(0.5, 0.5, 40)}, {{0, 1}}, {{0.3, 0.3}}};
+  frame.vessels = &through;  // axis 9.5 um inside the nearest side
+  EXPECT_NEAR(audit_bodies({cell}, frame).dcm_vessel.depth_um, 9.8, 1e-12);
+  const mesh::Network within{{Vec3(-1, 0, 0), Vec3(1, 0, 0)}, {{0, 1}}, {{0.3, 0.3}}};
+  frame.vessels = &within;
+  EXPECT_NEAR(audit_bodies({cell}, frame).dcm_vessel.depth_um, 9.3, 1e-12);
+}
+
+TEST(Audit, PlanesAndCapsulesCountTheFarthestNode) {
+  const Surface cell = brick({0, 0, -0.5}, {4, 4, 6});
+  AuditFrame frame;
+  const AuditPlane planes[] = {{{9, 0, 0}, {-1, 0, 0}}, {{0, 0, 0}, {0, 0, 1}}};
+  frame.planes = planes;
+  auto r = audit_bodies({cell}, frame);
+  EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 0.5);
+  EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 1}));
+  const AuditCapsule capsule[] = {{{2, 2, 2.75}, 3}};
+  frame.capsules = capsule;
+  r = audit_bodies({cell}, frame);
+  EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, std::sqrt(4 + 4 + 3.25 * 3.25) - 3);
+  EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 2}));
+}
+
+TEST(Audit, StaticMeshesFromOutsideAndInside) {
+  const Surface block = brick({0, 0, 0}, {50, 50, 10}), room = brick({-9, -9, -9}, {60, 60, 60});
+  AuditFrame frame;
+  std::vector<AuditStatic> statics{{block.node, block.triangle, false},
+                                   {room.node, room.triangle, true}};
+  frame.statics = statics;
+  EXPECT_EQ(audit_bodies({brick({5, 5, 10}, {9, 9, 14})}, frame).dcm_wall.depth_um, 0);
+  auto r = audit_bodies({brick({5, 5, 9.5}, {9, 9, 14})}, frame);
+  EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 0.5);
+  EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 0}));
+  r = audit_bodies({brick({55, 20, 20}, {61, 30, 30})}, frame);
+  EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 1);
+  EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 1}));
+  r = audit_bodies({brick({80, 20, 20}, {85, 30, 30})}, frame);  // left the room altogether
+  EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 25);
+  Surface open = block;
+  open.triangle.pop_back();
+  statics = {{open.node, open.triangle, false}};
+  frame.statics = statics;
+  EXPECT_THROW(audit_bodies({block}, frame), Error);
+}
+
+TEST(Audit, SpheresAgainstCellsAndEachOther) {
+  const Surface cell = brick({0, 0, 0}, {20, 20, 20});
+  AuditFrame frame;
+  std::vector<AuditSphere> spheres{
+      {7, {10.3, 9.1, 31.5}, 12}, {8, {60, 0, 0}, 5}, {9, {66, 0, 0}, 2}};
+  frame.spheres = spheres;
+  auto r = audit_bodies({cell}, frame);
+  EXPECT_NEAR(r.dcm_cbm.depth_um, 0.5, 1e-13);
+  EXPECT_EQ(r.dcm_cbm.ids, (Ids{100, 7}));
+  EXPECT_DOUBLE_EQ(r.max_overlap_cbm_um, 1);
+  EXPECT_EQ(r.cbm_cbm.ids, (Ids{8, 9}));
+  EXPECT_NEAR(r.max_penetration_um, 0.5, 1e-13);  // spheres among themselves do not count here
+  spheres = {{7, {10, 10, 12}, 3}};               // swallowed, 8 um below the top
+  frame.spheres = spheres;
+  EXPECT_DOUBLE_EQ(audit_bodies({cell}, frame).dcm_cbm.depth_um, 11);
+  spheres = {{7, {10, 10, 32}, 12}};
+  frame.spheres = spheres;
+  EXPECT_EQ(audit_bodies({cell}, frame).dcm_cbm.depth_um, 0);
+}
+
+TEST(Audit, BrokenCellsAreCounted) {
+  Surface inverted = ball({100, 0, 0}, 12);
+  for (auto& t : inverted.triangle) std::swap(t[0], t[1]);
+  Surface crossing = ball({0, 0, 0}, 12);
+  crossing.node[0] *= -1.5;  // pulled through the opposite side
+  Surface folded = ball({0, 100, 0}, 12);
+  {  // a node moved just past its opposite edge: only triangles with common corners cross
+    const auto& t = folded.triangle[0];
+    const Vec3 middle = (folded.node[static_cast<std::size_t>(t[1])] +
+                         folded.node[static_cast<std::size_t>(t[2])]) /
+                        2;
+    folded.node[static_cast<std::size_t>(t[0])] +=
+        1.6 * (middle - folded.node[static_cast<std::size_t>(t[0])]);
+  }
+  Surface flat = brick({300, 0, 0}, {304, 4, 4});
+  flat.node[7] = flat.node[3];  // an edge of length zero: two triangles without area
+  const Surface sound = ball({0, 0, 200}, 12);
+  auto r = audit_bodies({sound, inverted, crossing});
+  EXPECT_EQ(r.n_inverted, 1);
+  EXPECT_EQ(r.n_self_intersecting, 1);
+  r = audit_bodies({sound, folded});
+  EXPECT_EQ(r.n_self_intersecting, 1);
+  r = audit_bodies({sound});
+  EXPECT_EQ(r.n_self_intersecting, 0);
+  EXPECT_GT(r.min_triangle_quality, 0.95);
+  r = audit_bodies({sound, flat});
+  EXPECT_EQ(r.min_triangle_quality, 0);
+  EXPECT_EQ(r.worst_triangle_cell, 101);
+  Surface lost = ball({0, 0, 0}, 12);
+  lost.node[5].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(audit_bodies({lost}), Error);
+}
+
+TEST(Audit, EmptyFrameIsClean) {
+  const auto r = audit({});
+  EXPECT_EQ(r.max_penetration_um, 0);
+  EXPECT_EQ(r.min_triangle_quality, 1);
+}
+
+TEST(Audit, HundredTouchingCellsGiveTheSameOnAnyThreadsAndPrintTheirTime) {
+  std::vector<Surface> cells;
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 5; ++y)
+      for (int z = 0; z < 5; ++z)  // close packing, each pair pressed 0.2 um into the other
+        cells.push_back(
+            ball(23.8 * Vec3(x + 0.5 * ((y + z) % 2), std::sqrt(0.75) * (y + (z % 2) / 3.0),
+                             std::sqrt(2.0 / 3) * z),
+                 12));
+  mesh::Network net;
+  for (int s = 0; s < 150; ++s) {
+    net.node.emplace_back(s % 10 * 10, s / 10 * 7, 0);
+    net.node.emplace_back(s % 10 * 10 + 5, s / 10 * 7, 30);
+    net.segment.push_back({2 * s, 2 * s + 1});
+    net.radius.push_back({1, 2});
+  }
+  AuditFrame frame;
+  frame.vessels = &net;
+  AuditResult result[2];
+  for (const int threads : {1, 2}) {
+    const int before = omp_get_max_threads();
+    omp_set_num_threads(threads);
+    const std::clock_t cpu = std::clock();
+    const auto start = std::chrono::steady_clock::now();
+    result[threads - 1] = audit_bodies(cells, frame);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    omp_set_num_threads(before);
+    std::printf(
+        "100 cells, 150 vessel segments, %d thread(s): %.3f s (CPU %.3f s), deepest %.3f um, in "
+        "vessels %.3f "
+        "um\n",
+        threads, took.count(), static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC,
+        result[threads - 1].dcm_dcm.depth_um, result[threads - 1].dcm_vessel.depth_um);
+    RecordProperty("seconds_" + std::to_string(threads), std::to_string(took.count()));
+  }
+  EXPECT_EQ(result[0].dcm_dcm.depth_um, result[1].dcm_dcm.depth_um);
+  EXPECT_EQ(result[0].dcm_dcm.ids, result[1].dcm_dcm.ids);
+  EXPECT_EQ(result[0].dcm_vessel.ids, result[1].dcm_vessel.ids);
+  EXPECT_GT(result[0].dcm_dcm.depth_um, 0);
+}
+
+}  // namespace
+}  // namespace acinus::coupling

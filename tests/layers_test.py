@@ -1,0 +1,144 @@
+"""Fails on an include that breaks the floor table, and on files that outgrew their limits.
+
+usage: layers_test.py ROOT
+
+The rules are first tried on a temporary tree that breaks each of them once; then ROOT is judged.
+Prints file:line and the rule broken; exit code 1 if there is any.
+"""
+
+import os
+import re
+import sys
+import tempfile
+
+# A folder includes only folders on floors below its own, and itself.
+FLOORS = {"runs": 5, "calibration": 4, "coupling": 3, "dcm": 2, "cbm": 2, "core": 1}
+MIRRORS = ("tests", "bench")  # may include every floor; no floor includes them
+JSON_FOLDERS = ("runs", "calibration") + MIRRORS
+MAX_LINES = 500
+MAX_README_LINES = 40
+SOURCES = (".hpp", ".cpp")
+COUNTED = SOURCES + (".py", ".sh", ".cmake", "CMakeLists.txt")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+SKIPPED = re.compile(r"^(build.*|out|\.git|__pycache__|.*\.run)$")
+
+
+def check_include(path, bracket, target, beside):
+    """The rule that this include of the file `path` breaks, or None.
+
+    beside: whether `target` names a file in the folder of `path` (the compiler would take it).
+    """
+    folder = path.split("/")[0]
+    top = target.split("/")[0]
+    if top == "nlohmann" and (folder not in JSON_FOLDERS or not path.endswith(".cpp")):
+        return "nlohmann-json belongs in .cpp files of runs/ and calibration/ only"
+    if top in (".", "..") or (bracket == '"' and beside and top not in FLOORS):
+        return "include paths start at the root of the repository"
+    if top in MIRRORS and folder in FLOORS:
+        return f"{folder}/ must not include {top}/"
+    if folder not in FLOORS or top not in FLOORS or top == folder:
+        return None
+    if FLOORS[top] == FLOORS[folder]:
+        return f"{folder}/ and {top}/ stand on the same floor and must not know each other"
+    if FLOORS[top] > FLOORS[folder]:
+        return f"{folder}/ (floor {FLOORS[folder]}) must not climb to {top}/ (floor {FLOORS[top]})"
+    return None
+
+
+def check_file(root, path):
+    """All findings of one file as (line, message)."""
+    with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+        lines = file.read().splitlines()
+    if path.endswith("/README.md") and not path.startswith("docs/"):
+        if len(lines) > MAX_README_LINES:
+            message = f"{len(lines)} lines: a folder's README has at most {MAX_README_LINES}"
+            yield MAX_README_LINES + 1, message
+    if path.endswith(COUNTED) and len(lines) > MAX_LINES:
+        yield MAX_LINES + 1, f"{len(lines)} lines: split a file above {MAX_LINES}"
+    if path.endswith(SOURCES):
+        for number, line in enumerate(lines, 1):
+            found = INCLUDE.match(line)
+            if found:
+                bracket, target = found.groups()
+                neighbour = os.path.join(root, os.path.dirname(path), target)
+                broken = check_include(path, bracket, target, os.path.isfile(neighbour))
+                if broken:
+                    yield number, f'includes "{target}": {broken}'
+
+
+def check_tree(root):
+    """All findings below root as "path:line: message", and the number of sources read."""
+    findings, n_source = [], 0
+    for folder, folders, names in os.walk(root):
+        folders[:] = sorted(name for name in folders if not SKIPPED.match(name))
+        for name in sorted(names):
+            path = os.path.relpath(os.path.join(folder, name), root).replace(os.sep, "/")
+            if path.endswith(COUNTED + (".md",)):
+                n_source += path.endswith(SOURCES)
+                findings += [f"{path}:{line}: {text}" for line, text in check_file(root, path)]
+    return findings, n_source
+
+
+def test_rules():
+    """Each violation must be found at its line, and nothing else; returns what went wrong."""
+    allowed = {
+        "core/mesh/a.hpp": '#include "core/vec.hpp"\n#include <Eigen/Core>\n',
+        "dcm/a.cpp": '#include "dcm/a.hpp"\n#include "core/vec.hpp"\n// #include "cbm/a.hpp"\n',
+        "cbm/a.cpp": '#include "cbm/a.hpp"\n#include "core/vec.hpp"\n',
+        "coupling/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n',
+        "runs/version.cpp": '#include "acinus_version.hpp"\n',
+        "calibration/a.cpp": '#include "coupling/a.hpp"\n#include <nlohmann/json.hpp>\n',
+        "runs/a.cpp": '#include "calibration/a.hpp"\n  #  include <nlohmann/json.hpp>\n',
+        "tests/a.cpp": '#include "runs/a.hpp"\n#include "tests/support.hpp"\n',
+        "bench/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n',
+        "build/a.cpp": '#include "../runs/a.hpp"\n',
+        "core/long.cpp": "\n" * MAX_LINES,
+        "core/README.md": "\n" * MAX_README_LINES,
+        "README.md": "\n" * (MAX_README_LINES + 60),
+    }
+    broken = {  # file: (content, line of the violation)
+        "core/b.hpp": ('\n#include "dcm/a.hpp"\n', 2),
+        "core/c.hpp": ('#include <vector>\n#  include <cbm/a.hpp>\n', 2),
+        "dcm/b.cpp": ('#include "cbm/a.hpp"\n', 1),
+        "cbm/b.cpp": ('#include "dcm/a.hpp"\n', 1),
+        "dcm/c.cpp": ('#include "coupling/a.hpp"\n', 1),
+        "coupling/b.cpp": ('#include "runs/a.hpp"\n', 1),
+        "coupling/c.cpp": ('#include "calibration/a.hpp"\n', 1),
+        "calibration/b.cpp": ('#include "runs/a.hpp"\n', 1),
+        "core/d.cpp": ('#include "tests/support.hpp"\n', 1),
+        "core/e.cpp": ('#include <nlohmann/json.hpp>\n', 1),
+        "runs/b.hpp": ('#include <nlohmann/json_fwd.hpp>\n', 1),
+        "core/mesh/f.cpp": ('#include "a.hpp"\n', 1),
+        "runs/c.cpp": ('#include "../core/vec.hpp"\n', 1),
+        "dcm/long.cpp": ("\n" * (MAX_LINES + 1), MAX_LINES + 1),
+        "dcm/README.md": ("\n" * (MAX_README_LINES + 1), MAX_README_LINES + 1),
+    }
+    with tempfile.TemporaryDirectory() as root:
+        contents = {**allowed, **{path: content for path, (content, _) in broken.items()}}
+        for path, content in contents.items():
+            full = os.path.join(root, path)
+            os.makedirs(os.path.dirname(full), exist_ok=True)
+            with open(full, "w", encoding="utf-8") as file:
+                file.write(content)
+        findings, _ = check_tree(root)
+    found = {":".join(finding.split(":")[:2]) for finding in findings}
+    expected = {f"{path}:{line}" for path, (_, line) in broken.items()}
+    wrong = [f"self-test: not found: {place}" for place in sorted(expected - found)]
+    wrong += [f"self-test: found without cause: {place}" for place in sorted(found - expected)]
+    return wrong, len(broken)
+
+
+def main():
+    if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
+        sys.exit(__doc__)
+    wrong, n_rule = test_rules()
+    findings, n_source = check_tree(sys.argv[1])
+    for finding in wrong + findings:
+        print(finding)
+    print(f"{n_rule} planted violations tried, {n_source} sources read, {len(findings)} findings")
+    # A wrong folder must not pass for a clean one.
+    if wrong or findings or n_source == 0:
+        sys.exit(1)
+
+
+main()
