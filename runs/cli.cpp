@@ -198,6 +198,7 @@ int do_new(const Arguments& arguments) {
 int do_bench(const Arguments& arguments) {
   const std::vector<std::string> names = list_benches();
   if (arguments.bench.empty()) {
+    if (names.empty()) fmt::print("no benchmarks in this build\n");
     for (const std::string& name : names) fmt::print("{}\n", name);
     return 0;
   }

@@ -39,7 +39,15 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
   auto& [r, p, z, q] = work;
 
   std::ranges::copy(b, r.begin());
-  if (!whole) restrict_to(op.system(), range, r);
+  if (!whole) {
+    // What the rest does to the range belongs to the right-hand side of this smaller system.
+    std::ranges::copy(x, p.begin());
+    restrict_to(op.system(), range, p);
+    for_each_index(n, [&](std::size_t k) { p[k] = x[k] - p[k]; });
+    apply_distributed(op, p, q);
+    for_each_index(n, [&](std::size_t k) { r[k] -= q[k]; });
+    restrict_to(op.system(), range, r);
+  }
   op.precondition(r, z);
   const double rhs = std::sqrt(op.dot(r, z));
   CgResult result;
@@ -48,7 +56,10 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
     return result;
   }
   if (rhs == 0) {
-    if (whole) std::ranges::fill(x, 0.0);
+    if (whole)
+      std::ranges::fill(x, 0.0);
+    else
+      std::ranges::copy(p, x.begin());  // the rest as it was, zero within the range
     return result;
   }
   const double goal = options.tolerance * rhs;

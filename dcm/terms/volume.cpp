@@ -8,6 +8,9 @@
 namespace acinus::dcm {
 namespace {
 
+/// Of V0: where the pressure of a collapsing cell stops rising.
+constexpr double kSmallestVolume = 1e-3;
+
 /// gradient += dV/dx; returns V. Coordinates are taken from node 0 to keep digits.
 ACINUS_KERNEL void volume_kernel(const GroupView& g, double* gradient, double* volume) {
   const Lane3 origin = load3(g.position);
@@ -35,7 +38,7 @@ void add_volume(const Params& p, const GroupView& g, solve::System& s, solve::Ra
   volume_kernel(g, gradient, volume);
   for (int l = 0; l < kLanes; ++l) {
     const double v0 = 4.0 / 3 * kPi * g.radius[l] * g.radius[l] * g.radius[l];
-    const double v = std::max(volume[l], 1e-3 * v0);
+    const double v = std::max(volume[l], kSmallestVolume * v0);
     pressure[l] = g.active[l] * cytosol_pressure(p.bulk_modulus, v, v0);
     family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
         s.stiffness_scale * g.active[l] * p.bulk_modulus / v;
@@ -52,7 +55,10 @@ Lane compute_volumes(const GroupView& g) {
 double volume_energy(const Params& p, const GroupView& g, int lane) {
   const double v = compute_volumes(g)[lane];
   const double v0 = 4.0 / 3 * kPi * g.radius[lane] * g.radius[lane] * g.radius[lane];
-  return g.active[lane] * p.bulk_modulus * (v * std::log(v / v0) - v + v0);
+  // Below the bound the pressure stays what it is there, so the energy goes on in a straight line.
+  const double bound = std::max(v, kSmallestVolume * v0);
+  const double energy = p.bulk_modulus * (bound * std::log(bound / v0) - bound + v0);
+  return g.active[lane] * (energy + cytosol_pressure(p.bulk_modulus, bound, v0) * (bound - v));
 }
 
 }  // namespace acinus::dcm

@@ -3,39 +3,44 @@
 
     render.py RUN_FOLDER --frame last --out picture.png --color pressure --clip y
 
-Deformable cells are drawn as smooth surfaces, centre-based cells as spheres of their radius, vessels and walls in
-translucent red. --clip removes the half nearer to the camera and closes the cut cells. Needs the Debian packages
-python3-vtk9 and python3-h5py, and xvfb where there is no screen. Reads run.vtkhdf itself, not through VTK's readers:
-those of Debian 12 show all frames at once.
+Deformable cells are drawn as smooth surfaces, centre-based cells as spheres of their radius,
+vessels and walls in translucent red. --clip removes the half nearer to the camera and closes the
+cut cells. Needs the Debian packages python3-vtk9 and python3-h5py, and xvfb where there is no
+screen. Reads run.vtkhdf itself, not through VTK's readers: Debian 12's shows all frames at once.
 """
 import argparse
 import os
 import shutil
 import sys
 
-DCM, CBM, VESSEL = 0, 1, 2
+sys.dont_write_bytecode = True  # no __pycache__ in the source tree
+from run_frame import CBM, DCM, VESSEL, Frame, UserError
+
 KIND_COLOR = {DCM: (0.93, 0.62, 0.36), CBM: (0.36, 0.58, 0.82)}
 KIND_NAME = {DCM: "deformable (DCM)", CBM: "centre-based (CBM)"}
 VESSEL_COLOR = (0.80, 0.10, 0.12)
 INK = (0.13, 0.15, 0.19)
 # Control points of the colour maps: one for values of one sign, one for both signs.
-SEQUENTIAL = [(0.33, 0.33, 0.66), (0.22, 0.55, 0.74), (0.35, 0.74, 0.66), (0.75, 0.86, 0.45), (0.98, 0.79, 0.28)]
-DIVERGING = [(0.13, 0.30, 0.62), (0.49, 0.68, 0.84), (0.95, 0.95, 0.93), (0.95, 0.63, 0.45), (0.70, 0.09, 0.17)]
+SEQUENTIAL = [(0.33, 0.33, 0.66), (0.22, 0.55, 0.74), (0.35, 0.74, 0.66), (0.75, 0.86, 0.45),
+              (0.98, 0.79, 0.28)]
+DIVERGING = [(0.13, 0.30, 0.62), (0.49, 0.68, 0.84), (0.95, 0.95, 0.93), (0.95, 0.63, 0.45),
+             (0.70, 0.09, 0.17)]
 # Direction from the picture's centre to the camera, and what is up.
-CAMERA = {"iso": ((1.0, -1.35, 0.85), (0, 0, 1)), "top": ((0, 0, 1), (0, 1, 0)), "side": ((0, -1, 0.0), (0, 0, 1))}
-
-
-class UserError(Exception):
-    """Something to tell the user without a traceback."""
+CAMERA = {"iso": ((1.0, -1.35, 0.85), (0, 0, 1)), "top": ((0, 0, 1), (0, 1, 0)),
+          "side": ((0, -1, 0), (0, 0, 1))}
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", help="run folder, or the run.vtkhdf itself")
-    parser.add_argument("--frame", default="last", help="number from 0, negative from the end, or last")
+    parser.add_argument("--frame", default="last",
+                        help="number from 0, negative from the end, or last")
     parser.add_argument("--out", required=True, help="PNG file")
-    parser.add_argument("--color", default=None, help="kind, cell, or a field, e.g. pressure (default) or radius")
-    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours, as labelled")
+    parser.add_argument("--color", default=None,
+                        help="kind, cell, or a field, e.g. pressure (default) or radius")
+    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
+                        help="of the colours, as labelled")
     parser.add_argument("--clip", choices="xyz", help="cut through the middle, across this axis")
     parser.add_argument("--camera", choices=CAMERA, default="iso")
     parser.add_argument("--zoom", type=float, default=1.0)
@@ -45,88 +50,18 @@ def read_arguments():
 
 
 def ensure_display():
-    """VTK of Debian 12 draws only through X: start again under a virtual screen if there is none."""
+    """VTK of Debian 12 draws only through X: without a screen, start again on a virtual one."""
     if os.environ.get("DISPLAY") or os.environ.get("ACINUS_RENDER_CHILD"):
         return
     if shutil.which("xvfb-run") is None:
         raise UserError("no screen and no xvfb-run: install the package xvfb")
     os.environ["ACINUS_RENDER_CHILD"] = "1"
-    command = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", sys.executable, os.path.abspath(__file__)]
-    os.execvp(command[0], command + sys.argv[1:])
-
-
-class Frame:
-    """One moment of a run: arrays of numpy."""
-
-    def __init__(self, path, which):
-        import h5py
-        if os.path.isdir(path):
-            path = os.path.join(path, "run.vtkhdf")
-        try:
-            file = h5py.File(path, "r")
-        except OSError as error:
-            raise UserError(f"{path}: cannot be read: {error}") from None
-        with file:
-            root = file["VTKHDF"]
-            steps = root["Steps"]
-            n_frame = int(steps.attrs["NSteps"])
-            k = n_frame - 1 if which == "last" else parse_integer(which, "--frame")
-            k += n_frame if k < 0 else 0
-            if not 0 <= k < n_frame:
-                raise UserError(f"{path}: has no frame {which}, only 0 to {n_frame - 1}")
-            self.time = float(steps["Values"][k])
-            part = int(steps["PartOffsets"][k])
-            n_point, n_cell = int(root["NumberOfPoints"][part]), int(root["NumberOfCells"][part])
-            n_id = int(root["NumberOfConnectivityIds"][part])
-            self.n_triangle = (n_id - n_cell) // 2
-            self.n_sphere = n_cell - self.n_triangle
-            first = int(steps["PointOffsets"][k])
-            self.point = root["Points"][first:first + n_point]
-            first = int(steps["ConnectivityIdOffsets"][k, 0])
-            self.triangle = root["Connectivity"][first:first + 3 * self.n_triangle].reshape(-1, 3)
-            self.point_data = self.read(root, steps, "PointData", k, n_point)
-            self.cell_data = self.read(root, steps, "CellData", k, n_cell)
-            self.unit = {}
-            for group in ("PointData", "CellData"):
-                for name, values in root[group].items():
-                    unit = values.attrs["unit"]
-                    self.unit[name] = unit.decode() if isinstance(unit, bytes) else str(unit)
-        self.kind, self.cell_id = self.cell_data["kind"], self.cell_data["cell_id"]
-
-    @staticmethod
-    def read(root, steps, group, k, n):
-        offsets = steps[group + "Offsets"]
-        result = {}
-        for name, values in root[group].items():
-            first = int(offsets[name][k])
-            result[name] = values[first:first + n]
-        return result
-
-    def colored_by(self, name):
-        """Values per cell (rows: triangles, spheres) and per point; one of them is None. Pressures become Pa."""
-        for per_cell, data in ((True, self.cell_data), (False, self.point_data)):
-            if name not in data:
-                continue
-            values = data[name].astype(float)
-            if values.ndim == 2:
-                values = (values ** 2).sum(axis=1) ** 0.5
-            unit = self.unit[name]
-            if unit == "kPa":
-                values, unit = 1000 * values, "Pa"
-            return (values, None, unit) if per_cell else (None, values, unit)
-        known = sorted(set(self.cell_data) | set(self.point_data) | {"kind", "cell"})
-        raise UserError(f"--color {name}: the run has no such field, only {', '.join(known)}")
-
-
-def parse_integer(text, option):
-    try:
-        return int(text)
-    except ValueError:
-        raise UserError(f'{option} {text}: must be a number or "last"') from None
+    screen = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
+    os.execvp(screen[0], screen + [sys.executable, os.path.abspath(__file__)] + sys.argv[1:])
 
 
 def cell_color(cell_id):
-    """A colour for a cell by its id: neighbours in number are far apart in hue, all are equally light."""
+    """A colour for a cell by its id: neighbours in number are far apart in hue."""
     import colorsys
     return colorsys.hsv_to_rgb((0.61803398875 * (int(cell_id) + 1)) % 1.0, 0.42, 0.92)
 
@@ -143,10 +78,8 @@ class Painter:
         self.per_cell, self.per_point, self.unit = frame.colored_by(name)
         if self.per_cell is not None:
             shown = self.per_cell[frame.kind != VESSEL]
-        else:  # only points that a drawn cell uses
-            used = np.unique(frame.triangle[frame.kind[:frame.n_triangle] != VESSEL])
-            spheres = np.arange(len(frame.point) - frame.n_sphere, len(frame.point))
-            shown = self.per_point[np.concatenate([used, spheres])]
+        else:
+            shown = self.per_point[frame.own_points()]
         low, high = limits or (np.percentile(shown, (1, 99)) if len(shown) else (0, 1))
         if limits is None and low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
             low, high = -max(-low, high), max(-low, high)
@@ -159,15 +92,17 @@ class Painter:
             self.table.AddRGBPoint(low + (high - low) * i / (len(stops) - 1), *color)
 
     def paint(self, poly, row, points):
-        """Colours a body whose cells all come from frame row `row`; `points` are its frame points, or None."""
+        """Colours a body that comes from frame row `row`; `points` are its frame points."""
         import numpy as np
         from vtk.util.numpy_support import numpy_to_vtk
         n_cell, n_point = poly.GetNumberOfCells(), poly.GetNumberOfPoints()
         if self.table is None:
-            color = KIND_COLOR[int(self.frame.kind[row])] if self.name == "kind" else cell_color(self.frame.cell_id[row])
+            color = (KIND_COLOR[int(self.frame.kind[row])] if self.name == "kind"
+                     else cell_color(self.frame.cell_id[row]))
             rgb, target = np.tile(color, (n_cell, 1)), poly.GetCellData()
         elif self.per_cell is not None:
-            rgb, target = np.tile(self.table.GetColor(self.per_cell[row]), (n_cell, 1)), poly.GetCellData()
+            color = self.table.GetColor(self.per_cell[row])
+            rgb, target = np.tile(color, (n_cell, 1)), poly.GetCellData()
         else:
             values = self.per_point[points]
             values = np.broadcast_to(values, n_point) if values.ndim == 0 else values
@@ -184,8 +119,9 @@ def make_poly(points, triangles):
     poly, vtk_points, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
     vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=np.float32), deep=True))
     offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64)
+    corners = np.ascontiguousarray(triangles, dtype=np.int64).ravel()
     cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True),
-                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, dtype=np.int64).ravel(), deep=True))
+                  numpy_to_vtkIdTypeArray(corners, deep=True))
     poly.SetPoints(vtk_points)
     poly.SetPolys(cells)
     return poly
@@ -236,7 +172,7 @@ def bodies(frame):
 
 
 def cut(poly, plane):
-    """The part of a closed surface on the plane's normal side, closed again; whole or None where nothing is cut."""
+    """The part of a closed surface on the plane's normal side, and the lid that closes the cut."""
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
     import numpy as np
@@ -328,9 +264,9 @@ def clip_plane(frame, axis, camera):
     import numpy as np
     import vtk
     i = "xyz".index(axis)
-    used = np.unique(frame.triangle[frame.kind[:frame.n_triangle] != VESSEL])
-    spheres = np.arange(len(frame.point) - frame.n_sphere, len(frame.point))
-    points = frame.point[np.concatenate([used, spheres])] if len(used) + frame.n_sphere else frame.point
+    points = frame.point[frame.own_points()]
+    if len(points) == 0:
+        raise UserError("--clip: the frame has no cells")
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     normal = np.zeros(3)
     normal[i] = -1.0 if CAMERA[camera][0][i] >= 0 else 1.0
@@ -341,7 +277,7 @@ def clip_plane(frame, axis, camera):
 
 
 def lifted(cap, plane, i):
-    """Spheres overlap, and so do their cuts: each lies a hair above the one before, or they would flicker."""
+    """Spheres overlap, and so do their cuts: each lies a hair above the one before."""
     import vtk
     move, normal = vtk.vtkTransform(), plane.GetNormal()
     move.Translate(*(-0.002 * (i % 50) * n for n in normal))
@@ -435,10 +371,9 @@ def add_labels(renderer, frame, painter, height):
 def shade_corners(renderer, frame):
     """Ambient occlusion: less light where cells meet, so that shapes read without hard shadows."""
     import vtk
-    used = frame.point if len(frame.point) else None
-    if used is None:
+    if len(frame.point) == 0:
         return
-    size = float((used.max(axis=0) - used.min(axis=0)).max())
+    size = float((frame.point.max(axis=0) - frame.point.min(axis=0)).max())
     steps, occlusion = vtk.vtkRenderStepsPass(), vtk.vtkSSAOPass()
     occlusion.SetRadius(0.08 * max(size, 1e-3))
     occlusion.SetBias(0.002 * max(size, 1e-3))
@@ -485,7 +420,7 @@ def draw(arguments):
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
     window.SetAlphaBitPlanes(1)
-    window.SetSize(2 * width, 2 * height)  # drawn twice as large and averaged: smooth edges on any driver
+    window.SetSize(2 * width, 2 * height)  # averaged later: smooth edges on any driver
     window.AddRenderer(renderer)
     renderer.SetUseDepthPeeling(1)
     renderer.SetMaximumNumberOfPeels(8)
@@ -518,7 +453,7 @@ def main():
         print(f"render.py: {error}", file=sys.stderr)
         return 2
     except ImportError as error:
-        print(f"render.py: {error}. Install the packages python3-vtk9 and python3-h5py.", file=sys.stderr)
+        print(f"render.py: {error}. Install python3-vtk9 and python3-h5py.", file=sys.stderr)
         return 2
     return 0
 

@@ -21,6 +21,16 @@ std::vector<std::string> type_names(const Scene& scene) {
   return names;
 }
 
+/// low < high in every coordinate.
+void check_box(const Vec3& low, const Vec3& high, const std::string& pointer, Report& report) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (low[axis] < high[axis]) continue;
+    const std::string above = fmt::format("{}/high/{}", pointer, axis);
+    report.add_relation({fmt::format("{}/low/{}", pointer, axis), above}, length(low[axis]),
+                        fmt::format("must be below {} = {}", above, length(high[axis])));
+  }
+}
+
 void check_time(const Scene& scene, Report& report) {
   const TimeBlock& time = scene.time;
   if (time.step < time.min_step) {
@@ -58,7 +68,7 @@ void check_list(const Scene& scene, Report& report) {
   if (cells.list.empty()) {
     report.add_relation({"/cells/list", "/cells/source"}, "",
                         "has no entry, but /cells/source = \"list\". Add cells, or take another "
-                        "source: clump, box, lobule");
+                        "source: clump, box, fill, lobule");
   }
   for (std::size_t i = 0; i < cells.list.size(); ++i) {
     const CellEntry& cell = cells.list[i];
@@ -103,22 +113,13 @@ void check_cells(const Scene& scene, Report& report) {
                                     "the regions (--set zoom=[]) or change the model",
                                     cells.model));
   }
+  if (cells.source == "fill") check_box(cells.low, cells.high, "/cells", report);
   bool all_chosen = cells.source == "list" && !cells.list.empty();
   for (const CellEntry& cell : cells.list) all_chosen = all_chosen && !cell.model.empty();
   if (scene.zoom.empty() && cells.model == "zoom" && !all_chosen) {
     report.add_relation(
         {"/cells/model", "/zoom"}, "\"zoom\"",
         "needs at least one region in /zoom. Add one, or choose \"dcm\" or \"cbm\"");
-  }
-}
-
-/// low < high in every coordinate.
-void check_box(const Vec3& low, const Vec3& high, const std::string& pointer, Report& report) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (low[axis] < high[axis]) continue;
-    const std::string above = fmt::format("{}/high/{}", pointer, axis);
-    report.add_relation({fmt::format("{}/low/{}", pointer, axis), above}, length(low[axis]),
-                        fmt::format("must be below {} = {}", above, length(high[axis])));
   }
 }
 

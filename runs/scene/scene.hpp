@@ -1,7 +1,7 @@
 #pragma once
 /// A scene after reading: every default filled in, every quantity in base units (um, s, nN).
-/// Plain data. A key's default is its initialiser here and nowhere else; the registry (registry.hpp)
-/// reads it from here and adds path, unit, range and meaning.
+/// Plain data. A key's default is its initialiser here and nowhere else; the registry
+/// (registry.hpp) reads it from here and adds path, unit, range and meaning.
 
 #include <array>
 #include <cstdint>
@@ -111,7 +111,7 @@ struct CellEntry {
 };
 
 struct CellsBlock {
-  std::string source = "list";    ///< list | clump | box | lobule
+  std::string source = "list";    ///< list | clump | box | fill | lobule
   std::string model = "zoom";     ///< dcm | cbm | zoom (zoom regions say which cells are DCM)
   std::vector<CellEntry> list;
   int count = 13;                 ///< clump: cells kept, nearest the centre first
@@ -119,6 +119,8 @@ struct CellsBlock {
   double spacing = 1.0;           ///< clump, box: centre distance in cell diameters
   double jitter = 0.0;            ///< clump, box: random displacement in cell diameters
   std::array<int, 3> grid{3, 3, 3};  ///< box: cells along x, y, z
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< fill: corners of the box, um
+  double min_distance = 20;                      ///< fill: smallest centre distance, um
 };
 
 struct LobuleBlock {

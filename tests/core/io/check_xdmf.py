@@ -1,6 +1,6 @@
 """Loads run.xmf and compares every frame with what the writer expected.
 
-usage: check_xdmf.py FOLDER     FOLDER/fast and FOLDER/none hold run.xmf, run.vtkhdf and expected.txt
+usage: check_xdmf.py FOLDER    with run.xmf, run.vtkhdf, expected.txt in FOLDER/fast and FOLDER/none
 Uses VTK's own XDMF reader where there is one (ParaView's Python has it, Debian's python3-vtk9 does
 not) and otherwise follows the XML with h5py. Exit code 77: neither is installed.
 """
@@ -50,7 +50,8 @@ class VtkRun:
             return []
         if isinstance(data, vtkDataSet):
             return [data] if data.GetNumberOfCells() else []
-        return [leaf for i in range(data.GetNumberOfBlocks()) for leaf in self.leaves(data.GetBlock(i))]
+        children = [data.GetBlock(i) for i in range(data.GetNumberOfBlocks())]
+        return [leaf for child in children for leaf in self.leaves(child)]
 
     @staticmethod
     def block(leaf):
@@ -96,7 +97,8 @@ class PlainRun:
 
 def check_frame(k, blocks, row):
     _, n_node, n_triangle, n_sphere, id_sum = row[:5]
-    n_cell = [sum(len(b.cell_data["kind"]) for b in blocks if b.is_triangle == t) for t in (True, False)]
+    n_cell = [sum(len(b.cell_data["kind"]) for b in blocks if b.is_triangle == triangle)
+              for triangle in (True, False)]
     assert n_cell == [n_triangle, n_sphere], f"frame {k}: {n_cell} cells"
     for b in blocks:
         assert b.points.shape == (n_node + n_sphere, 3), f"frame {k}: {b.points.shape} points"

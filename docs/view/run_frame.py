@@ -1,0 +1,93 @@
+"""Reads one frame of a run.vtkhdf with h5py; used by render.py and easy to use in scripts.
+
+    frame = Frame("lobule.run", "last")
+    frame.point, frame.triangle, frame.cell_data["pressure"], frame.unit["pressure"]
+"""
+import os
+
+DCM, CBM, VESSEL = 0, 1, 2
+
+
+class UserError(Exception):
+    """Something to tell the user without a traceback."""
+
+
+class Frame:
+    """One moment of a run: arrays of numpy."""
+
+    def __init__(self, path, which):
+        import h5py
+        if os.path.isdir(path):
+            path = os.path.join(path, "run.vtkhdf")
+        try:
+            file = h5py.File(path, "r")
+        except OSError as error:
+            raise UserError(f"{path}: cannot be read: {error}") from None
+        with file:
+            root = file["VTKHDF"]
+            steps = root["Steps"]
+            n_frame = int(steps.attrs["NSteps"])
+            k = n_frame - 1 if which == "last" else parse_integer(which, "--frame")
+            k += n_frame if k < 0 else 0
+            if not 0 <= k < n_frame:
+                raise UserError(f"{path}: has no frame {which}, only 0 to {n_frame - 1}")
+            self.time = float(steps["Values"][k])
+            part = int(steps["PartOffsets"][k])
+            n_point, n_cell = int(root["NumberOfPoints"][part]), int(root["NumberOfCells"][part])
+            n_id = int(root["NumberOfConnectivityIds"][part])
+            self.n_triangle = (n_id - n_cell) // 2
+            self.n_sphere = n_cell - self.n_triangle
+            first = int(steps["PointOffsets"][k])
+            self.point = root["Points"][first:first + n_point]
+            first = int(steps["ConnectivityIdOffsets"][k, 0])
+            self.triangle = root["Connectivity"][first:first + 3 * self.n_triangle].reshape(-1, 3)
+            self.point_data = self.read(root, steps, "PointData", k, n_point)
+            self.cell_data = self.read(root, steps, "CellData", k, n_cell)
+            self.unit = {}
+            for group in ("PointData", "CellData"):
+                for name, values in root[group].items():
+                    unit = values.attrs["unit"]
+                    self.unit[name] = unit.decode() if isinstance(unit, bytes) else str(unit)
+        self.kind, self.cell_id = self.cell_data["kind"], self.cell_data["cell_id"]
+
+    @staticmethod
+    def read(root, steps, group, k, n):
+        offsets = steps[group + "Offsets"]
+        result = {}
+        for name, values in root[group].items():
+            first = int(offsets[name][k])
+            result[name] = values[first:first + n]
+        return result
+
+    def colored_by(self, name):
+        """Values per cell (rows: triangles, spheres) and per point; one of them is None.
+
+        Vectors become their length, kPa become Pa.
+        """
+        for per_cell, data in ((True, self.cell_data), (False, self.point_data)):
+            if name not in data:
+                continue
+            values = data[name].astype(float)
+            if values.ndim == 2:
+                values = (values ** 2).sum(axis=1) ** 0.5
+            unit = self.unit[name]
+            if unit == "kPa":
+                values, unit = 1000 * values, "Pa"
+            return (values, None, unit) if per_cell else (None, values, unit)
+        known = sorted(set(self.cell_data) | set(self.point_data) | {"kind", "cell"})
+        raise UserError(f"--color {name}: the run has no such field, only {', '.join(known)}")
+
+    def own_points(self):
+        """Indices of the points that belong to cells, not to vessels or walls."""
+        import numpy as np
+        used = np.unique(self.triangle[self.kind[:self.n_triangle] != VESSEL])
+        n_node = len(self.point) - self.n_sphere
+        spheres = n_node + np.flatnonzero(self.kind[self.n_triangle:] != VESSEL)
+        return np.concatenate([used, spheres]).astype(int)
+
+
+def parse_integer(text, option):
+    try:
+        return int(text)
+    except ValueError:
+        raise UserError(f'{option} {text}: must be a number or "last"') from None

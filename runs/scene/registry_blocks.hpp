@@ -1,0 +1,71 @@
+#pragma once
+/// Parts of the registry: one function per scene block, spread over the registry_*.cpp files.
+
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runs/scene/registry.hpp"
+
+namespace acinus::runs {
+
+inline constexpr Range kPositive{.low = 0, .low_open = true};
+inline constexpr Range kNotNegative{.low = 0};
+inline constexpr Range kFraction{.low = 0, .high = 1};
+inline constexpr Range kAtLeastOne{.low = 1};
+
+template <class Block>
+using Describe = void (*)(Visitor&, Block&);
+
+template <class Block>
+void block(Visitor& visitor, const Key& key, Block& value, Describe<Block> members) {
+  visitor.object(key, [&value, members](Visitor& inner) { members(inner, value); });
+}
+
+template <class Block>
+void blocks(Visitor& visitor, const Key& key, std::vector<Block>& list, Describe<Block> members) {
+  Elements elements;
+  elements.size = [&list] { return list.size(); };
+  elements.resize = [&list](std::size_t n) { list.resize(n); };
+  elements.visit = [&list, members](Visitor& inner, std::size_t i) { members(inner, list[i]); };
+  elements.visit_sample = [members](Visitor& inner) {
+    Block sample;
+    members(inner, sample);
+  };
+  visitor.list(key, elements);
+}
+
+template <class Block>
+void named_blocks(Visitor& visitor, const Key& key, std::map<std::string, Block>& map,
+                  Describe<Block> members) {
+  Elements elements;
+  elements.size = [&map] { return map.size(); };
+  elements.names = [&map] {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : map) names.push_back(name);
+    return names;
+  };
+  elements.add = [&map](const std::string& name) { map.try_emplace(name); };
+  elements.visit = [&map, members](Visitor& inner, std::size_t i) {
+    members(inner, std::next(map.begin(), static_cast<std::ptrdiff_t>(i))->second);
+  };
+  elements.visit_sample = [members](Visitor& inner) {
+    Block sample;
+    members(inner, sample);
+  };
+  visitor.map(key, elements);
+}
+
+void describe_cell_type(Visitor& v, CellType& b);
+void describe_cells(Visitor& v, CellsBlock& b);
+void describe_region(Visitor& v, Region& b);
+void describe_lobule(Visitor& v, LobuleBlock& b);
+void describe_vessels(Visitor& v, VesselBlock& b);
+void describe_wall(Visitor& v, WallEntry& b);
+void describe_capsule(Visitor& v, CapsuleEntry& b);
+void describe_static_mesh(Visitor& v, StaticMeshEntry& b);
+
+}  // namespace acinus::runs

@@ -1,0 +1,265 @@
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+namespace {
+
+void describe_dcm(Visitor& v, DcmBlock& b) {
+  v.integer({.name = "nodes",
+             .meaning = "nodes of the cell's surface mesh",
+             .choices = "42|162|642|2562",
+             .symbol = "N"},
+            b.nodes);
+  v.real({.name = "cortex_young",
+          .meaning = "Young's modulus of the cortex",
+          .dimension = kStress,
+          .unit = "kPa",
+          .range = kNotNegative,
+          .symbol = "E_cor"},
+         b.cortex_young);
+  v.real({.name = "cortex_thickness",
+          .meaning = "thickness of the cortex",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "h_cor"},
+         b.cortex_thickness);
+  v.real({.name = "cortex_poisson",
+          .meaning = "Poisson ratio of the cortex",
+          .range = {.low = 0, .high = 0.5},
+          .symbol = "nu_cor"},
+         b.cortex_poisson);
+  v.real({.name = "area_modulus",
+          .meaning = "resistance of the whole surface to area change",
+          .dimension = kTension,
+          .unit = "N/m",
+          .range = kNotNegative,
+          .symbol = "K_A"},
+         b.area_modulus);
+  v.real({.name = "local_area_modulus",
+          .meaning = "resistance of each triangle to area change; keeps the mesh regular",
+          .dimension = kTension,
+          .unit = "N/m",
+          .range = kNotNegative},
+         b.local_area_modulus);
+  v.real({.name = "bulk_modulus",
+          .meaning = "resistance of the cell to volume change",
+          .dimension = kStress,
+          .unit = "Pa",
+          .range = kNotNegative,
+          .symbol = "K_V"},
+         b.bulk_modulus);
+  v.real({.name = "nodal_friction",
+          .meaning = "friction between neighbouring nodes of a cell",
+          .dimension = kFriction,
+          .unit = "N s/m",
+          .range = kNotNegative,
+          .symbol = "gamma_int"},
+         b.nodal_friction);
+  v.text(
+      {.name = "nodal_friction_kind",
+       .meaning = "isotropic resists any relative motion of two nodes, axial only along the edge",
+       .choices = "isotropic|axial"},
+      b.nodal_friction_kind);
+  v.real({.name = "ecm_friction",
+          .meaning = "friction of a DCM cell with the matrix, per area",
+          .dimension = kFrictionPerArea,
+          .unit = "N s/m^3",
+          .range = kPositive,
+          .symbol = "gamma_ECM+"},
+         b.ecm_friction);
+}
+
+void describe_cbm(Visitor& v, CbmBlock& b) {
+  v.optional_real({.name = "young",
+                   .meaning = "Young's modulus of the sphere",
+                   .dimension = kStress,
+                   .unit = "Pa",
+                   .range = kPositive,
+                   .symbol = "E",
+                   .automatic = "3 K_V (1 - 2 nu)"},
+                  b.young);
+  v.real({.name = "young_spread",
+          .meaning = "relative standard deviation of the modulus from cell to cell, cut at 3 sigma",
+          .range = {.low = 0, .high = 0.3}},
+         b.young_spread);
+  v.real({.name = "poisson",
+          .meaning = "Poisson ratio of the sphere",
+          .range = {.low = 0, .high = 0.5, .high_open = true},
+          .symbol = "nu"},
+         b.poisson);
+  v.real({.name = "ecm_friction",
+          .meaning = "friction of a CBM cell with the matrix, per area",
+          .dimension = kFrictionPerArea,
+          .unit = "N s/m^3",
+          .range = kPositive,
+          .symbol = "gamma_ECM+"},
+         b.ecm_friction);
+}
+
+void describe_cell(Visitor& v, CellEntry& b) {
+  v.vector({.name = "position",
+            .meaning = "centre of the cell",
+            .dimension = kLength,
+            .unit = "um",
+            .required = true},
+           b.position);
+  v.text({.name = "type", .meaning = "name of its cell type", .automatic = "the only type"},
+         b.type);
+  v.optional_real({.name = "radius",
+                   .meaning = "radius at rest of this cell",
+                   .dimension = kLength,
+                   .unit = "um",
+                   .range = kPositive,
+                   .automatic = "the radius of its type"},
+                  b.radius);
+  v.text({.name = "model",
+          .meaning = "model of this cell",
+          .choices = "dcm|cbm",
+          .automatic = "as cells.model and zoom say"},
+         b.model);
+  v.vector({.name = "pull",
+            .meaning = "constant force spread over the cell",
+            .dimension = kForce,
+            .unit = "nN"},
+           b.pull);
+}
+
+}  // namespace
+
+void describe_cell_type(Visitor& v, CellType& b) {
+  v.real({.name = "radius",
+          .meaning = "radius at rest, (3 V0 / 4 pi)^(1/3)",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_c"},
+         b.radius);
+  v.real({.name = "adhesion",
+          .meaning = "adhesion energy per area; a pair of types has the geometric mean",
+          .dimension = kTension,
+          .unit = "J/m^2",
+          .range = kNotNegative,
+          .symbol = "W"},
+         b.adhesion);
+  v.real({.name = "diffusion",
+          .meaning = "diffusion coefficient of the random motion",
+          .dimension = kDiffusion,
+          .unit = "m^2/s",
+          .range = kNotNegative,
+          .symbol = "D"},
+         b.diffusion);
+  block(v, {.name = "dcm", .meaning = "the cell as a deformable triangulated surface"}, b.dcm,
+        describe_dcm);
+  block(v, {.name = "cbm", .meaning = "the cell as an elastic sphere"}, b.cbm, describe_cbm);
+}
+
+void describe_cells(Visitor& v, CellsBlock& b) {
+  v.text({.name = "source",
+          .meaning = "where the cells come from",
+          .choices = "list|clump|box|fill|lobule"},
+         b.source);
+  v.text({.name = "model",
+          .meaning = "model of the cells; zoom: DCM inside the zoom regions",
+          .choices = "dcm|cbm|zoom"},
+         b.model);
+  blocks(v, {.name = "list", .meaning = "cells one by one (source = list)", .item = "cells.list"},
+         b.list, describe_cell);
+  v.integer({.name = "count",
+             .meaning = "cells of a clump (nearest to its centre first) or of a filled box",
+             .range = {.low = 1, .high = 1e6}},
+            b.count);
+  v.text({.name = "lattice", .meaning = "packing of a clump", .choices = "fcc|bcc"}, b.lattice);
+  v.real({.name = "spacing",
+          .meaning = "centre distance in a clump or box, in cell diameters",
+          .range = {.low = 0, .high = 100, .low_open = true}},
+         b.spacing);
+  v.real({.name = "jitter",
+          .meaning = "random displacement in a clump or box, in cell diameters",
+          .range = kFraction},
+         b.jitter);
+  v.counts({.name = "grid",
+            .meaning = "cells of a box along x, y and z",
+            .range = {.low = 1, .high = 1000}},
+           b.grid);
+  v.when(b.source == "fill", "source = fill", [&b](Visitor& w) {
+    w.vector({.name = "low",
+              .meaning = "low corner of the box that random cells fill",
+              .dimension = kLength,
+              .unit = "um",
+              .required = true},
+             b.low);
+    w.vector({.name = "high",
+              .meaning = "high corner of the box that random cells fill",
+              .dimension = kLength,
+              .unit = "um",
+              .required = true},
+             b.high);
+    w.real({.name = "min_distance",
+            .meaning = "smallest centre distance of random cells",
+            .dimension = kLength,
+            .unit = "um",
+            .range = kPositive},
+           b.min_distance);
+  });
+}
+
+void describe_region(Visitor& v, Region& b) {
+  v.text({.name = "kind",
+          .meaning = "shape of the region; cells with their centre in it are DCM",
+          .choices = "sphere|box|half_space|axis_distance|all",
+          .required = true},
+         b.kind);
+  v.when(b.kind == "sphere", "kind = sphere", [&b](Visitor& w) {
+    w.vector(
+        {.name = "center", .meaning = "centre of the sphere", .dimension = kLength, .unit = "um"},
+        b.center);
+    w.real({.name = "radius",
+            .meaning = "radius of the sphere",
+            .dimension = kLength,
+            .unit = "um",
+            .range = kPositive,
+            .required = true},
+           b.radius);
+  });
+  v.when(b.kind == "box", "kind = box", [&b](Visitor& w) {
+    w.vector({.name = "low",
+              .meaning = "corner with the smallest coordinates",
+              .dimension = kLength,
+              .unit = "um",
+              .required = true},
+             b.low);
+    w.vector({.name = "high",
+              .meaning = "corner with the largest coordinates",
+              .dimension = kLength,
+              .unit = "um",
+              .required = true},
+             b.high);
+  });
+  v.when(b.kind == "half_space", "kind = half_space", [&b](Visitor& w) {
+    w.vector({.name = "point",
+              .meaning = "a point of the bounding plane",
+              .dimension = kLength,
+              .unit = "um",
+              .required = true},
+             b.point);
+    w.vector({.name = "normal", .meaning = "direction out of the region", .required = true},
+             b.normal);
+  });
+  v.when(b.kind == "axis_distance", "kind = axis_distance", [&b](Visitor& w) {
+    w.real({.name = "min_distance",
+            .meaning = "smallest distance from the vein axis",
+            .dimension = kLength,
+            .unit = "um",
+            .range = kNotNegative},
+           b.min_distance);
+    w.real({.name = "max_distance",
+            .meaning = "largest distance from the vein axis",
+            .dimension = kLength,
+            .unit = "um",
+            .range = kPositive,
+            .required = true},
+           b.max_distance);
+  });
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,214 @@
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+
+void describe_lobule(Visitor& v, LobuleBlock& b) {
+  v.text({.name = "shape",
+          .meaning = "one of six slices of the hexagon, or all of it",
+          .choices = "pie|hexagon"},
+         b.shape);
+  v.real({.name = "radius",
+          .meaning = "distance from the axis to a corner",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_lob"},
+         b.radius);
+  v.real({.name = "height",
+          .meaning = "height along the vein axis",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.height);
+  v.real({.name = "lesion_radius",
+          .meaning = "radius of the dead zone round the central vein",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_nec"},
+         b.lesion_radius);
+  v.real({.name = "central_vein_radius",
+          .meaning = "radius of the central vein",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_cv"},
+         b.central_vein_radius);
+  v.real({.name = "portal_vein_radius",
+          .meaning = "radius of the portal veins",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_pv"},
+         b.portal_vein_radius);
+  v.real({.name = "sinusoid_radius",
+          .meaning = "radius of the sinusoids",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_sin"},
+         b.sinusoid_radius);
+  v.real({.name = "vessel_fraction",
+          .meaning = "part of the volume taken by sinusoids",
+          .range = {.low = 0, .high = 0.5}},
+         b.vessel_fraction);
+  v.real({.name = "branch_density",
+          .meaning = "branch points of the sinusoids per volume",
+          .dimension = kNumberDensity,
+          .unit = "1/um^3",
+          .range = kPositive},
+         b.branch_density);
+  v.real({.name = "min_distance",
+          .meaning = "smallest distance of two cell centres at the start",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.min_distance);
+  v.integer({.name = "cells",
+             .meaning = "cells wanted outside the dead zone",
+             .range = {.low = 1, .high = 1e6}},
+            b.cells);
+}
+
+void describe_vessels(Visitor& v, VesselBlock& b) {
+  v.text(
+      {.name = "file",
+       .meaning = "network file, relative to the scene's folder; \"\" = none, or the lobule's own",
+       .is_file = true},
+      b.file);
+  v.real({.name = "unit",
+          .meaning = "length of one unit of the file",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.unit);
+  v.real({.name = "scale", .meaning = "factor on positions and radii", .range = kPositive},
+         b.scale);
+  v.real({.name = "radius_scale", .meaning = "further factor on radii", .range = kPositive},
+         b.radius_scale);
+  v.vector({.name = "shift",
+            .meaning = "displacement after scaling",
+            .dimension = kLength,
+            .unit = "um"},
+           b.shift);
+  v.flag({.name = "center",
+          .meaning = "first move the middle of the network's bounding box to the origin"},
+         b.center);
+  v.optional_object(
+      {.name = "crop", .meaning = "keep only segments with a part inside this box; null = all"},
+      b.crop.has_value(),
+      [&b](bool present) {
+        b.crop =
+            present ? std::optional(std::array<Vec3, 2>{Vec3::Zero(), Vec3::Zero()}) : std::nullopt;
+      },
+      [&b](Visitor& w) {
+        std::array<Vec3, 2> sample{Vec3::Zero(), Vec3::Zero()};
+        std::array<Vec3, 2>& box = b.crop ? *b.crop : sample;
+        w.vector({.name = "low",
+                  .meaning = "corner with the smallest coordinates",
+                  .dimension = kLength,
+                  .unit = "um",
+                  .required = true},
+                 box[0]);
+        w.vector({.name = "high",
+                  .meaning = "corner with the largest coordinates",
+                  .dimension = kLength,
+                  .unit = "um",
+                  .required = true},
+                 box[1]);
+      });
+  v.real({.name = "young",
+          .meaning = "Young's modulus of the vessels",
+          .dimension = kStress,
+          .unit = "Pa",
+          .range = kPositive,
+          .symbol = "E_sin"},
+         b.young);
+  v.real({.name = "poisson",
+          .meaning = "Poisson ratio of the vessels",
+          .range = {.low = 0, .high = 0.5},
+          .symbol = "nu_sin"},
+         b.poisson);
+  v.real({.name = "adhesion",
+          .meaning = "adhesion energy between cell and vessel, per area",
+          .dimension = kTension,
+          .unit = "J/m^2",
+          .range = kNotNegative,
+          .symbol = "W"},
+         b.adhesion);
+}
+
+void describe_wall(Visitor& v, WallEntry& b) {
+  v.text({.name = "name",
+          .meaning = "name in messages and files",
+          .automatic = "wall and a number",
+          .is_name = true},
+         b.name);
+  v.vector({.name = "point", .meaning = "a point of the wall", .dimension = kLength, .unit = "um"},
+           b.point);
+  v.vector({.name = "normal", .meaning = "direction to the side where the cells are"}, b.normal);
+  v.real({.name = "speed",
+          .meaning = "speed along the normal from t = 0",
+          .dimension = kSpeed,
+          .unit = "um/h"},
+         b.speed);
+  v.real({.name = "travel",
+          .meaning = "distance after which the wall stops",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kNotNegative},
+         b.travel);
+}
+
+void describe_capsule(Visitor& v, CapsuleEntry& b) {
+  v.vector(
+      {.name = "center", .meaning = "centre of the capsule", .dimension = kLength, .unit = "um"},
+      b.center);
+  v.real({.name = "radius",
+          .meaning = "inner radius at t = 0",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .required = true},
+         b.radius);
+  v.real({.name = "speed",
+          .meaning = "rate at which the radius shrinks from t = 0",
+          .dimension = kSpeed,
+          .unit = "um/h",
+          .range = kNotNegative},
+         b.speed);
+  v.real({.name = "min_radius",
+          .meaning = "radius at which shrinking stops",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kNotNegative},
+         b.min_radius);
+}
+
+void describe_static_mesh(Visitor& v, StaticMeshEntry& b) {
+  v.text({.name = "name",
+          .meaning = "name in messages and files",
+          .automatic = "mesh and a number",
+          .is_name = true},
+         b.name);
+  v.text({.name = "file",
+          .meaning = "surface file, relative to the scene's folder",
+          .required = true,
+          .is_file = true},
+         b.file);
+  v.real({.name = "unit",
+          .meaning = "length of one unit of the file",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.unit);
+  v.real({.name = "scale", .meaning = "factor on positions", .range = kPositive}, b.scale);
+  v.vector({.name = "shift",
+            .meaning = "displacement after scaling",
+            .dimension = kLength,
+            .unit = "um"},
+           b.shift);
+  v.flag({.name = "inside", .meaning = "true: the cells live inside the surface"}, b.inside);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,244 @@
+/// What every term of the deformable cell owes: gradient, balance, invariance, a semi-definite matrix.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cstdio>
+
+#include "tests/dcm/cells.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+using reference::kEps;
+
+class EveryTerm : public testing::TestWithParam<Term> {
+ protected:
+  const Params params = table_one();
+  void add(Cells& c) const { GetParam().add(params, c.view(), c.system); }
+  double energy(const Cells& c, std::size_t lane) const {
+    return GetParam().energy(params, c.view(), static_cast<int>(lane));
+  }
+};
+
+double largest_force(const Cells& c, std::size_t lane) {
+  double f = 0;
+  for (int i = 0; i < c.n_node(); ++i) f = std::max(f, c.force(lane, i).norm());
+  return f;
+}
+
+TEST_P(EveryTerm, EnergyIsThatOfThePlainTwin) {
+  const Cells c = make_deformed_cells();
+  double worst = 0;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    if (l == kNoCell) continue;
+    const double plain = GetParam().plain(params, c.plain(l));
+    EXPECT_GT(plain, 0);
+    worst = std::max(worst, std::abs(energy(c, l) - plain) / plain);
+  }
+  std::printf("%s: energy against plain twin %.1e\n", GetParam().name, worst);
+  // V ln(V/V0) - V + V0 and 1 - cos lose what the strain squared is below 1: at most four digits.
+  EXPECT_LT(worst, 1e4 * 64 * kEps);
+}
+
+TEST_P(EveryTerm, ForceIsMinusEnergyGradient) {
+  Cells c = make_deformed_cells(42);
+  add(c);
+  double worst = 0;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    if (l == kNoCell) continue;
+    const double scale = largest_force(c, l);
+    EXPECT_GT(scale, 0);
+    const double h = 1e-4;  // um: h^2 E''' and kEps E / h are both near 1e-8 of the force
+    for (int i = 0; i < c.n_node(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 x = c.node(l, i);
+        c.move(l, i, x + h * Vec3::Unit(k));
+        const double more = energy(c, l);
+        c.move(l, i, x - h * Vec3::Unit(k));
+        const double less = energy(c, l);
+        c.move(l, i, x);
+        worst = std::max(worst, std::abs(c.force(l, i)[k] + (more - less) / (2 * h)) / scale);
+      }
+  }
+  std::printf("%s: force against differences %.1e of the largest\n", GetParam().name, worst);
+  EXPECT_LT(worst, 1e-6);
+}
+
+TEST_P(EveryTerm, NetForceAndTorqueVanish) {
+  Cells c = make_deformed_cells();
+  add(c);
+  double worst = 0;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    if (l == kNoCell) continue;
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    double sum_force = 0, sum_torque = 0;
+    for (int i = 0; i < c.n_node(); ++i) {
+      const Vec3 f = c.force(l, i), x = c.node(l, i);
+      force += f;
+      torque += x.cross(f);
+      sum_force += f.norm();
+      sum_torque += x.norm() * f.norm();
+    }
+    worst = std::max({worst, force.norm() / sum_force, torque.norm() / sum_torque});
+  }
+  std::printf("%s: net force and torque %.1e of the sum\n", GetParam().name, worst);
+  EXPECT_LT(worst, 64 * kEps);
+}
+
+TEST_P(EveryTerm, TurnsWithTheCell) {
+  Cells c = make_deformed_cells();
+  add(c);
+  Cells turned = make_deformed_cells();
+  auto random = reference::stream(2);
+  const Mat3 q = reference::random_rotation(random);
+  const Vec3 shift = reference::random_vector(random, 20);
+  for (std::size_t l = 0; l < kLanes; ++l)
+    for (int i = 0; i < c.n_node(); ++i) turned.move(l, i, q * c.node(l, i) + shift);
+  add(turned);
+  double worst = 0;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    if (l == kNoCell) continue;
+    const double scale = largest_force(c, l);
+    for (int i = 0; i < c.n_node(); ++i)
+      worst = std::max(worst, (turned.force(l, i) - q * c.force(l, i)).norm() / scale);
+    EXPECT_NEAR(energy(turned, l), energy(c, l), 1e-10 * energy(c, l));
+  }
+  std::printf("%s: rotation %.1e of the largest force\n", GetParam().name, worst);
+  // Coordinates near 40 um, edges near 2 um strained by a tenth: 1e3 kEps; a margin of ten.
+  EXPECT_LT(worst, 1e4 * kEps);
+}
+
+TEST_P(EveryTerm, EmptyLaneGetsNothing) {
+  Cells c = make_deformed_cells();
+  add(c);
+  EXPECT_EQ(largest_force(c, kNoCell), 0);
+  EXPECT_EQ(energy(c, kNoCell), 0);
+  for (const auto& rank_one : c.system.rank_one) EXPECT_EQ(rank_one.coefficient[kNoCell], 0);
+  for (std::size_t k = kNoCell; k < c.system.diagonal.size(); k += kLanes) ASSERT_EQ(c.system.diagonal[k], 0);
+  for (std::size_t k = kNoCell; k < c.system.upper.size(); k += kLanes) ASSERT_EQ(c.system.upper[k], 0);
+}
+
+TEST_P(EveryTerm, StiffnessIsSymmetricAndSemiDefinite) {
+  Cells c = make_deformed_cells();
+  add(c);
+  const auto matrices = lane_matrices(c);
+  for (std::size_t l : {std::size_t{0}, std::size_t{6}}) {
+    const Eigen::MatrixXd& k = matrices[l];
+    const double scale = k.cwiseAbs().maxCoeff();
+    EXPECT_GT(scale, 0);
+    EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 16 * kEps * scale);
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
+    std::printf("%s lane %zu: eigenvalues %.1e .. %.3e nN/um\n", GetParam().name, l, values.minCoeff(),
+                values.maxCoeff());
+    EXPECT_GE(values.minCoeff(), -1e-12 * values.maxCoeff());
+  }
+}
+
+/// -dF/dx of one lane by differences, um steps h.
+Eigen::MatrixXd force_differences(Cells& c, const Term& term, const Params& p, std::size_t lane) {
+  const int n = 3 * c.n_node();
+  Eigen::MatrixXd k(n, n);
+  const double h = 1e-4;
+  const auto forces = [&] {
+    solve::clear_loads(c.system);
+    term.add(p, c.view(), c.system);
+    Eigen::VectorXd f(n);
+    for (int i = 0; i < c.n_node(); ++i) f.segment<3>(3 * i) = c.force(lane, i);
+    return f;
+  };
+  for (int column = 0; column < n; ++column) {
+    const Vec3 x = c.node(lane, column / 3), step = h * Vec3::Unit(column % 3);
+    c.move(lane, column / 3, x + step);
+    const Eigen::VectorXd more = forces();
+    c.move(lane, column / 3, x - step);
+    k.col(column) = (forces() - more) / (2 * h);
+    c.move(lane, column / 3, x);
+  }
+  solve::clear_loads(c.system);
+  return k;
+}
+
+// At rest every dropped piece is multiplied by zero, so the matrix is the true Hessian there.
+TEST_P(EveryTerm, StiffnessIsTheHessianAtRest) {
+  Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
+  const Eigen::MatrixXd differences = force_differences(c, GetParam(), params, 1);
+  add(c);
+  const Eigen::MatrixXd k = lane_matrices(c)[1];
+  const double worst = (k - differences).cwiseAbs().maxCoeff() / k.cwiseAbs().maxCoeff();
+  std::printf("%s: Hessian at rest against differences %.1e\n", GetParam().name, worst);
+  EXPECT_LT(worst, 1e-7);
+}
+
+TEST_P(EveryTerm, RestShapeOfAnyRadiusHasNoForce) {
+  const std::vector<double> radii{1, 3, 8.8, 12, 15.119, 24, 40, 120};
+  Cells c = make_rest_cells(mesh::shared_icosphere(162), radii);
+  add(c);
+  Cells rough = make_rest_cells(mesh::shared_icosphere(162), radii);
+  auto random = reference::stream(4);
+  for (std::size_t l = 0; l < kLanes; ++l)  // what a 1 % wrong size and shape costs
+    for (int i = 0; i < c.n_node(); ++i)
+      rough.move(l, i, 1.01 * rough.node(l, i) + reference::random_vector(random, 0.003 * radii[l]));
+  add(rough);
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    EXPECT_LT(largest_force(c, l), 100 * kEps * largest_force(rough, l) / 0.01) << radii[l];
+    // 1 - cos theta0 rounds: kEps per hinge; the others square a strain of kEps.
+    EXPECT_LT(std::abs(energy(c, l)), 1e4 * kEps * (1 + params.bulk_modulus * radii[l] * radii[l] * radii[l]));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Dcm, EveryTerm, testing::ValuesIn(all_terms()),
+                         [](const auto& term) { return std::string(term.param.name); });
+
+TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
+  Params p;
+  p.spring_stiffness = 0.433;
+  Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
+  auto random = reference::stream(3);
+  for (int i = 0; i < c.n_node(); ++i)  // every edge at least 5 % longer than at rest
+    c.move(1, i, 1.15 * c.node(1, i) + reference::random_vector(random, 0.1));
+  const Eigen::MatrixXd differences = force_differences(c, all_terms()[0], p, 1);
+  add_cortex(p, c.view(), c.system);
+  const Eigen::MatrixXd k = lane_matrices(c)[1];
+  const double worst = (k - differences).cwiseAbs().maxCoeff() / k.cwiseAbs().maxCoeff();
+  std::printf("taut cortex: Hessian against differences %.1e\n", worst);
+  EXPECT_LT(worst, 1e-7);
+}
+
+// Explicit steps ask for friction alone.
+TEST(Terms, StiffnessScaleSwitchesTheMatrixOff) {
+  Cells c = make_deformed_cells(42);
+  c.system.stiffness_scale = 0;
+  for (const Term& term : all_terms()) term.add(table_one(), c.view(), c.system);
+  for (double d : c.system.diagonal) ASSERT_EQ(d, 0);
+  for (double u : c.system.upper) ASSERT_EQ(u, 0);
+  for (const auto& family : c.system.rank_one)
+    for (double k : family.coefficient) ASSERT_EQ(k, 0);
+  EXPECT_GT(largest_force(c, 0), 0);
+}
+
+TEST(Terms, SumOfLoadsIsTheSumOfTerms) {
+  Cells c = make_deformed_cells(42);
+  const Params p = table_one();
+  for (const Term& term : all_terms()) term.add(p, c.view(), c.system);
+  const std::vector<double> apart = c.system.force;
+  c.reset();
+  const std::vector<double> free_area(c.state.n_row() * kLanes, 0.0);
+  const std::vector<Vec3> cell_force(c.state.n_lane(), Vec3(1, 2, 3));
+  add_loads(c.state, std::span(&p, 1), c.lanes, free_area, cell_force, c.system);
+  double scale = 0, worst = 0;
+  for (std::size_t k = 0; k < apart.size(); ++k) {
+    scale = std::max(scale, std::abs(apart[k]));
+    worst = std::max(worst, std::abs(apart[k] - c.system.force[k]));
+  }
+  EXPECT_LT(worst, 64 * kEps * scale);
+  Vec3 total = Vec3::Zero();
+  for (int i = 0; i < c.n_node(); ++i)
+    total += load_point(c.system.external_force.data(), node_address(c.state, 0, i));
+  EXPECT_LT((total - Vec3(1, 2, 3)).norm(), 64 * kEps * 4);
+  EXPECT_TRUE(skipped_terms(std::span(&p, 1)).size() == 1);  // nodal friction
+}
+
+}  // namespace
+}  // namespace acinus::dcm

@@ -1,0 +1,301 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "runs/scene/json_text.hpp"
+#include "runs/scene/reader.hpp"
+#include "tests/runs/scene_texts.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using namespace scene_texts;
+
+TEST(SceneErrors, UnknownKeyHasPlaceAndHint) {
+  EXPECT_EQ(failure("{\n  \"time\": {\"end\": \"2 h\"},\n  \"cell_types\": {\"hepatocyte\": "
+                    "{\n    \"raduis\": \"12 um\"}},\n  \"cells\": {\"model\": \"cbm\", \"list\": "
+                    "[{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}]}\n}"),
+            "scene.json:4:5 /cell_types/hepatocyte/raduis: unknown key. Did you mean \"radius\"? "
+            "(acinus explain cell.radius)");
+  EXPECT_EQ(failure(minimal("\"time\"", "\"contakt\": {}, \"time\"")),
+            "scene.json:2:3 /contakt: unknown key. Did you mean \"contact\"? "
+            "(acinus explain contact)");
+  EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"stp\": \"1 s\"")),
+            "scene.json:2:26 /time/stp: unknown key. Did you mean \"step\"? "
+            "(acinus explain time.step)");
+  EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
+            "scene.json:2:26 /time/quux: unknown key. Known here: end, step, min_step, adaptive, "
+            "tolerance, max_move");
+}
+
+TEST(SceneErrors, AllMistakesAreReportedAtOnceInOrder) {
+  const std::string text = R"({
+  "time": {"end": 7200, "step": "1 kPa", "min_step": "0 s"},
+  "cell_types": {"hepatocyte": {"radius": "-1 um"}},
+  "cells": {"model": "dmc", "list": [{"position": ["0 um", 5, "0 um"], "type": "hepatocite"}]},
+  "seed": -1, "motility": {"random": "false"}
+})";
+  EXPECT_EQ(failure(text),
+            "scene.json:2:19 /time/end = 7200: a bare number; needed a time as a text with its "
+            "unit, e.g. \"24 h\"\n"
+            "scene.json:2:33 /time/step = \"1 kPa\": has dimension force/length^2 (a stress), "
+            "needed a time, e.g. \"24 h\"\n"
+            "scene.json:2:54 /time/min_step = \"0 s\": must be > 0 s\n"
+            "scene.json:3:43 /cell_types/hepatocyte/radius = \"-1 um\": must be > 0 um\n"
+            "scene.json:4:22 /cells/model = \"dmc\": unknown choice. Did you mean \"dcm\"?\n"
+            "scene.json:4:60 /cells/list/0/position/1 = 5: a bare number; needed a length as a "
+            "text with its unit, e.g. \"12 um\"\n"
+            "scene.json:4:80 /cells/list/0/type = \"hepatocite\": unknown cell type. Did you mean "
+            "\"hepatocyte\"?\n"
+            "scene.json:5:11 /seed = -1: must be a whole number from 0 to 2^64 - 1\n"
+            "scene.json:5:38 /motility/random = \"false\": must be true or false, without quotes");
+}
+
+TEST(SceneErrors, MissingKeysAreNamed) {
+  EXPECT_EQ(failure("{}"),
+            "scene.json:1:1 /time/end: is missing: simulated time after t = 0, e.g. \"24 h\" "
+            "(acinus explain time.end)\n"
+            "scene.json:1:1 /cell_types: is missing: kinds of cells by name; at least one "
+            "(acinus explain cell_types)\n"
+            "scene.json:1:1 /cells/list: has no entry, but /cells/source = \"list\". Add cells, or "
+            "take another source: clump, box, fill, lobule\n"
+            "scene.json:1:1 /cells/model = \"zoom\": needs at least one region in /zoom. Add one, "
+            "or choose \"dcm\" or \"cbm\"");
+  EXPECT_EQ(failure(minimal("\"position\": [\"0 um\", \"0 um\", \"0 um\"]", "")),
+            "scene.json:4:38 /cells/list/0/position: is missing: centre of the cell, e.g. "
+            "\"12 um\" (acinus explain cells.list.position)");
+  EXPECT_EQ(failure(with_block(R"("capsule": {})")),
+            "scene.json:1:14 /capsule/radius: is missing: inner radius at t = 0, e.g. \"12 um\" "
+            "(acinus explain capsule.radius)");
+}
+
+TEST(SceneErrors, ColumnsCountCharactersNotBytes) {
+  EXPECT_EQ(failure(minimal("{\"end\"", "/* \xC3\xA4\xE2\x82\xAC */ {\"raduis\": 1, \"end\""))
+                .substr(0, 35),
+            "scene.json:2:21 /time/raduis: unkno");
+}
+
+TEST(SceneErrors, DuplicateKeysAreRefused) {
+  EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\",\n    \"end\": \"3 h\"")),
+            "scene.json:3:5 /time/end: given twice, first in line 2. Keep one of them");
+}
+
+TEST(SceneErrors, SyntaxErrorsHaveAPlace) {
+  const auto starts = [](const std::string& text, const std::string& expected) {
+    EXPECT_EQ(failure(text).substr(0, expected.size()), expected);
+  };
+  starts("", "scene.json:1:1 /: not valid JSON: unexpected end of input");
+  starts("{\n  \"time\": {\"end\": \"2 h\",}\n}",
+         "scene.json:2:25 /time: not valid JSON: unexpected '}'; expected string literal. Is there "
+         "a comma too many?");
+  starts("{\n  \"seed\": 01\n}", "scene.json:2:12 /: not valid JSON");
+  starts("{\n  \"seed\": tru\n}", "scene.json:2:11 /: not valid JSON: invalid literal");
+  starts("{\"seed\": 1} x", "scene.json:1:13 /: not valid JSON");
+  starts("{\"seed\": 1e999}", "scene.json:1:10 /: not valid JSON: number overflow");
+  starts("{\n\"name\": \"a\nb\"}", "scene.json:2:11 /: not valid JSON: invalid string: control");
+  starts("{\n\"name\": \"abc", "scene.json:2:9 /: not valid JSON: invalid string: missing closing");
+  starts("{\n\"na\xFFme\": 1}", "scene.json:2:4 /: the byte 0xff is not UTF-8 text");
+  starts(std::string("{\0}", 3), "scene.json:1:2 /: a zero byte");
+  starts("[1]", "scene.json:1:1 /: a scene is an object, { ... }, not [1]");
+  starts("7", "scene.json:1:1 /: a scene is an object");
+  starts("\xEF\xBB\xBF{\"seed\": 01}", "scene.json:1:11 /: not valid JSON");
+}
+
+TEST(SceneErrors, DepthAndSizeAreLimited) {
+  EXPECT_EQ(failure(std::string(100000, '[')), "scene.json:1:65 /: nested deeper than 64 levels");
+  std::string deep = "1";
+  for (int i = 0; i < 100; ++i) deep = "{\"a\": " + deep + "}";
+  EXPECT_NE(failure(deep).find("nested deeper than 64"), std::string::npos);
+  std::string names = "{";
+  for (int i = 0; i < 10001; ++i) names += "\"k" + std::to_string(i) + "\": 1, ";
+  EXPECT_NE(failure(names).find("more than 10000 names"), std::string::npos);
+  std::string values = "{\"walls\": [";
+  for (std::size_t i = 0; i <= kMaxValues; ++i) values += "1,";
+  EXPECT_NE(failure(values).find("values in one file"), std::string::npos);
+  const std::string message = failure(minimal("\"2 h\"", "\"" + std::string(1 << 20, 'x') + "\""));
+  EXPECT_LT(message.size(), 400u);
+}
+
+TEST(SceneErrors, LongListsOfMistakesAreCut) {
+  std::string list;
+  for (int i = 0; i < 500; ++i) list += "{\"position\": 1}, ";
+  list += "{\"position\": 1}";
+  const std::string message =
+      failure(minimal("{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}", list));
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 200);
+  EXPECT_NE(message.find("... and 301 more"), std::string::npos);
+}
+
+struct BrokenRule {
+  const char* name;
+  std::string text;
+  const char* message;
+};
+
+TEST(SceneErrors, RulesBetweenKeys) {
+  const std::string zoom_start = R"("zoom": [)";
+  const auto zoomed = [&](const std::string& region) {
+    return changed(with_block(zoom_start + region + "]"), "\"dcm\"", "\"zoom\"");
+  };
+  const auto wall = [](const std::string& body) { return with_block("\"walls\": [" + body + "]"); };
+  const std::string at = "scene.json:";
+  const BrokenRule rules[] = {
+      {"step below min_step", minimal("\"2 h\"", R"("2 h", "step": "1 s", "min_step": "2 s")"),
+       R"(scene.json:2:34 /time/step = "1 s": must not be below /time/min_step = "2 s". )"
+       R"(Raise step or lower min_step)"},
+      {"default step below min_step", minimal("\"2 h\"", R"("2 h", "min_step": "70 s")"),
+       R"(scene.json:2:38 /time/step = "60 s": must not be below /time/min_step = "70 s". )"
+       R"(Raise step or lower min_step)"},
+      {"skin", with_block(R"("contact": {"skin": "0 um"})"),
+       R"(scene.json:1:23 /contact/skin = "0 um": must be > 0 um)"},
+      {"zoom without its model", with_block(R"("zoom": [{"kind": "all"}])"),
+       R"(scene.json:1:11 /zoom = [{...}]: zoom regions need /cells/model = "zoom", not )"
+       R"("dcm". Remove the regions (--set zoom=[]) or change the model)"},
+      {"model zoom without regions", minimal("\"dcm\"", "\"zoom\""),
+       R"(scene.json:4:22 /cells/model = "zoom": needs at least one region in /zoom. Add )"
+       R"(one, or choose "dcm" or "cbm")"},
+      {"lobule cells without lobule", minimal("\"cells\": {", R"("cells": {"source": "lobule", )"),
+       R"(scene.json:4:23 /cells/source = "lobule": needs a lobule block (acinus explain lobule))"},
+      {"lobule experiment without lobule", with_block(R"("experiment": "lobule")"),
+       R"(scene.json:1:17 /experiment = "lobule": needs a lobule block (acinus explain lobule))"},
+      {"empty list", minimal("[{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}]", "[]"),
+       R"(scene.json:4:37 /cells/list = []: has no entry, but /cells/source = "list". Add )"
+       R"(cells, or take another source: clump, box, fill, lobule)"},
+      {"no cell type", minimal("{\"hepatocyte\": {}}", "{}"),
+       R"(scene.json:3:17 /cell_types: is empty: kinds of cells by name; at least one)"},
+      {"bad type name", minimal("\"hepatocyte\"", "\"a/b\""),
+       R"(scene.json:3:18 /cell_types/a~1b: must be a name of letters, digits, _ and -)"},
+      {"two types, none chosen", minimal("\"hepatocyte\": {}", R"("a": {}, "b": {})"),
+       R"(scene.json:4:38 /cells/list/0/type: is missing: there are 2 cell types: a, b)"},
+      {"two types in a clump",
+       changed(minimal("\"hepatocyte\": {}", R"("a": {}, "b": {})"), "\"cells\": {",
+               R"("cells": {"source": "clump", )"),
+       R"(scene.json:4:23 /cells/source = "clump": makes cells of one type, but there are )"
+       R"(2 cell types. Use source "list" to mix types)"},
+      {"wall normal", wall(R"({"normal": [0, 0, 0]})"),
+       R"(scene.json:1:24 /walls/0/normal = [0, 0, 0]: must not be zero: it is the )"
+       R"(direction of the plane's normal)"},
+      {"wall that moves nowhere", wall(R"({"speed": "1 um/h"})"),
+       R"(scene.json:1:23 /walls/0/travel = "0 um": must be > 0 um for a wall that moves)"},
+      {"wall names", wall(R"({"name": "a"}, {"name": "a"})"),
+       R"(scene.json:1:37 /walls/1/name = "a": another wall has this name)"},
+      {"crop",
+       with_block(R"("vessels": {"crop": {"low": ["0 um", "3 um", "0 um"], )"
+                  R"("high": ["1 um", "2 um", "3 um"]}})"),
+       R"(scene.json:1:40 /vessels/crop/low/1 = "3 um": must be below )"
+       R"(/vessels/crop/high/1 = "2 um")"},
+      {"zoom box",
+       zoomed(
+           R"({"kind": "box", "low": ["0 um", "3 um", "0 um"], "high": ["1 um", "2 um", "3 um"]})"),
+       R"(scene.json:1:44 /zoom/0/low/1 = "3 um": must be below /zoom/0/high/1 = "2 um")"},
+      {"zoom half space",
+       zoomed(R"({"kind": "half_space", "point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 0]})"),
+       R"(scene.json:1:80 /zoom/0/normal = [0, 0, 0]: must not be zero: it is the )"
+       R"(direction of the plane's normal)"},
+      {"zoom axis distance",
+       zoomed(R"({"kind": "axis_distance", "min_distance": "50 um", "max_distance": "40 um"})"),
+       R"(scene.json:1:54 /zoom/0/min_distance = "50 um": must be below )"
+       R"(/zoom/0/max_distance = "40 um")"},
+      {"zoom sphere", zoomed(R"({"kind": "sphere"})"),
+       R"(scene.json:1:12 /zoom/0/radius: is missing: radius of the sphere, e.g. "12 um" )"
+       R"((acinus explain zoom.radius))"},
+      {"zoom key of another kind", zoomed(R"({"kind": "all", "radius": "1 um"})"),
+       R"(scene.json:1:38 /zoom/0/radius = "1 um": is used only with kind = sphere. Remove it)"},
+      {"zoom kind", zoomed(R"({"kind": "ball", "radius": "1 um"})"),
+       R"(scene.json:1:21 /zoom/0/kind = "ball": unknown choice. Did you mean "all"?)"},
+      {"start-up radius", with_block(R"("start_up": {"enabled": true, "initial_radius": "12 um"})"),
+       R"(scene.json:1:51 /start_up/initial_radius = "12 um": must be below )"
+       R"(/cell_types/hepatocyte/radius = "12 um": cells grow during start-up)"},
+      {"lesion below the vein", with_block(R"("lobule": {"lesion_radius": "9 um"})"),
+       R"(scene.json:1:31 /lobule/central_vein_radius = "10 um": must be below )"
+       R"(/lobule/lesion_radius = "9 um")"},
+      {"lesion above the lobule", with_block(R"("lobule": {"lesion_radius": "300 um"})"),
+       R"(scene.json:1:31 /lobule/lesion_radius = "300 um": must be below /lobule/radius )"
+       R"(= "280 um")"},
+      {"fill box",
+       minimal("\"cells\": {", R"("cells": {"source": "fill", "low": ["0 um", "0 um", "0 um"], )"
+                               R"("high": ["9 um", "9 um", "0 um"], )"),
+       R"(scene.json:4:55 /cells/low/2 = "0 um": must be below /cells/high/2 = "0 um")"},
+      {"fill without box", minimal("\"cells\": {", R"("cells": {"source": "fill", )"),
+       "scene.json:4:12 /cells/low: is missing: low corner of the box that random cells fill, "
+       "e.g. \"12 um\" (acinus explain cells.low)\n"
+       "scene.json:4:12 /cells/high: is missing: high corner of the box that random cells fill, "
+       "e.g. \"12 um\" (acinus explain cells.high)"},
+      {"nodes", minimal("\"hepatocyte\": {}", R"("hepatocyte": {"dcm": {"nodes": 100}})"),
+       R"(scene.json:3:50 /cell_types/hepatocyte/dcm/nodes = 100: must be one of 42, 162, )"
+       R"(642, 2562)"},
+      {"noise grid", with_block(R"("motility": {"grid": "0 s"})"),
+       R"(scene.json:1:24 /motility/grid = "0 s": must be > 0 s)"},
+      {"capsule radii", with_block(R"("capsule": {"radius": "5 um", "min_radius": "6 um"})"),
+       R"(scene.json:1:47 /capsule/min_radius = "6 um": must not exceed /capsule/radius = "5 um")"},
+      {"capsule that shrinks to nothing",
+       with_block(R"("capsule": {"radius": "5 um", "speed": "1 um/h"})"),
+       R"(scene.json:1:42 /capsule/min_radius = "0 um": must be > 0 um for a capsule that )"
+       R"(shrinks)"},
+      {"auto where there is none", minimal("\"2 h\"", "\"auto\""),
+       R"(scene.json:2:19 /time/end = "auto": does not start with a number; needed a )"
+       R"(time, e.g. "24 h")"},
+      {"unit where none belongs", minimal("\"2 h\"", R"("2 h", "max_move": "0.3 um")"),
+       R"(scene.json:2:38 /time/max_move = "0.3 um": must be a plain number, without unit )"
+       R"(and quotes)"},
+      {"block that is no block", with_block(R"("contact": 3)"),
+       R"(scene.json:1:14 /contact = 3: must be a block, { ... })"},
+      {"list that is no list", with_block(R"("walls": {})"),
+       R"(scene.json:1:12 /walls = {}: must be a list, [ ... ])"},
+      {"vector with two parts", with_block(R"("axis_point": ["0 um", "0 um"])"),
+       R"(scene.json:1:17 /axis_point = ["0 um", "0 um"]: must be a list of three, e.g. )"
+       R"(["12 um", "12 um", "12 um"])"},
+      {"half a cell", with_block(R"("cells2": 0, "solver": {"max_iterations": 1.5})"),
+       "scene.json:1:3 /cells2: unknown key. Did you mean \"cells\"? (acinus explain cells)\n"
+       R"(scene.json:1:45 /solver/max_iterations = 1.5: must be a whole number, without quotes)"},
+  };
+  for (const BrokenRule& rule : rules) EXPECT_EQ(failure(rule.text), rule.message) << rule.name;
+}
+
+TEST(SceneFuzz, MutatedTextsNeverFailOtherwiseThanByError) {
+  std::mt19937 random(20240607);
+  const std::vector<std::string> originals{kMinimal, kFull};
+  const std::string alphabet = "{}[]\",:/*\\0123456789eE+-. umhkPaN^_\n\xC3\xFF\x01";
+  int n_valid = 0, n_error = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = originals[static_cast<std::size_t>(i) % 2];
+    const auto place = [&](std::size_t size) {
+      return std::uniform_int_distribution<std::size_t>(0, size - 1)(random);
+    };
+    for (std::size_t n = 1 + place(3); n > 0; --n) {
+      const std::size_t at = place(text.size()), length = 1 + place(8);
+      switch (place(4)) {
+        case 0:
+          text.erase(at, length);
+          break;
+        case 1:
+          text.insert(at, text.substr(at, length));
+          break;
+        case 2:
+          text[at] = alphabet[place(alphabet.size())];
+          break;
+        default:
+          text.insert(at, 1, alphabet[place(alphabet.size())]);
+          break;
+      }
+    }
+    try {
+      const Scene scene = parse_scene(text, "scene.json");
+      EXPECT_EQ(parse_scene(scene.resolved_json, "scene.json").sha, scene.sha) << text;
+      ++n_valid;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()), "");
+      ++n_error;
+    }
+  }
+  std::printf("2000 mutated scenes: %d errors, %d still valid\n", n_error, n_valid);
+  EXPECT_EQ(n_valid + n_error, 2000);
+}
+
+}  // namespace
+}  // namespace acinus::runs

@@ -1,0 +1,115 @@
+#pragma once
+/// Scene texts and helpers shared by the tests of the scene reader.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs::scene_texts {
+namespace fs = std::filesystem;
+
+inline constexpr const char* kMinimal = R"({
+  "time": {"end": "2 h"},
+  "cell_types": {"hepatocyte": {}},
+  "cells": {"model": "dcm", "list": [{"position": ["0 um", "0 um", "0 um"]}]}
+})";
+
+/// Everything the reader can meet; every block present.
+inline constexpr const char* kFull = R"({
+  // a comment
+  "name": "full", "description": "every block", "seed": 18446744073709551615,
+  "experiment": "lobule",
+  "time": {"end": "2 days", "step": "30 s", "min_step": "1 ms", "adaptive": false,
+           "tolerance": "5 nm", "max_move": 0.25},
+  "solver": {"tolerance": 1e-4, "max_iterations": 500},
+  "start_up": {"enabled": true, "initial_radius": "3 um", "growth_time": "1 h"},
+  "cell_types": {
+    "old": {"radius": "11.3 um", "adhesion": "2.5e-5 J/m^2",
+            "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_kind": "axial"},
+            "cbm": {"young": "450 Pa", "poisson": 0.47}},
+    "young": {"diffusion": "3e-16 m^2/s"}},
+  "cells": {"source": "list", "model": "zoom", "list": [
+      {"position": ["1 um", "2.7 um", "-3 um"], "type": "old", "radius": "9 um"},
+      {"position": ["40 um", "0 um", "0 um"], "type": "young", "model": "cbm",
+       "pull": ["0 nN", "0 nN", "0.1 nN"]}], "grid": [2, 3, 4]},
+  "zoom": [{"kind": "sphere", "center": ["0 um", "0 um", "0 um"], "radius": "30 um"},
+           {"kind": "box", "low": ["0 um", "0 um", "0 um"], "high": ["1 um", "2 um", "3 um"]},
+           {"kind": "half_space", "point": ["0 um", "0 um", "0 um"], "normal": [1, 0, 0.5]},
+           {"kind": "axis_distance", "max_distance": "60 um"}, {"kind": "all"}],
+  "axis_point": ["1 um", "0 um", "0 um"],
+  "contact": {"quadrature": "nodes", "range": 0.4, "skin": "0.2 um"},
+  "friction": {"dcm_cbm": "auto", "dcm_vessel": "1e9 N s/m^3", "medium": "liquid"},
+  "motility": {"random": true, "leader_force": "0.3 nN"},
+  "lobule": {"shape": "pie", "height": "72 um"},
+  "vessels": {"unit": "1 mm", "scale": 2, "center": true,
+              "crop": {"low": ["0 um", "0 um", "0 um"], "high": ["1 um", "2 um", "3 um"]}},
+  "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1]},
+            {"name": "top", "point": ["0 um", "0 um", "72 um"], "normal": [0, 0, -1],
+             "speed": "7 um/h", "travel": "10 um"}],
+  "capsule": {"radius": "100 um", "speed": "10 um/h", "min_radius": "60 um"},
+  "output": {"every": "7 min", "compression": "none", "start_up": true}
+  /* the end */
+})";
+
+inline std::string failure(const std::string& text, const std::vector<std::string>& set = {}) {
+  try {
+    parse_scene(text, "scene.json", ".", set);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+  return text;
+}
+
+inline std::string minimal(const std::string& from, const std::string& to) {
+  return changed(kMinimal, from, to);
+}
+
+inline std::string with_block(const std::string& block) {
+  return minimal("{\n  \"time\"", "{ " + block + ",\n  \"time\"");
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "acinus_scene_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    const fs::path file = path_ / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+inline std::string file_failure(const std::string& file, const std::vector<std::string>& set = {}) {
+  try {
+    read_scene(file, set);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace acinus::runs::scene_texts
