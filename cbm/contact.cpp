@@ -28,7 +28,9 @@ double largest_separation(const State& s, std::span<const Params> params,
   for (const auto& p : around.planes) adhesion = std::max(adhesion, p.material.adhesion);
   for (const auto& m : around.meshes) adhesion = std::max(adhesion, m.material.adhesion);
   if (adhesion <= 0) return 0;
-  const double softest = *std::ranges::min_element(s.young);
+  double softest = *std::ranges::min_element(s.young);
+  if (!around.vessels.network.segment.empty())
+    softest = std::min(softest, around.vessels.material.young);
   const double largest = *std::ranges::max_element(radius);
   // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst case.
   const contact::SpherePair pair{largest, softest / 2, adhesion};
@@ -42,6 +44,16 @@ bool was_touching(const State& s, int a, int b) {
 /// A key for surroundings that cannot be a cell number.
 int surrounding_key(SurroundingKind kind, int index) {
   return ~(index * 4 + static_cast<int>(kind));
+}
+
+/// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact
+/// that slides past a joint is still the same contact.
+bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int cell, int segment) {
+  if (was_touching(s, cell, surrounding_key(SurroundingKind::kVessel, segment))) return true;
+  for (int node : vessels.network.segment[static_cast<std::size_t>(segment)])
+    for (int other : vessels.segments_of_node[static_cast<std::size_t>(node)])
+      if (was_touching(s, cell, surrounding_key(SurroundingKind::kVessel, other))) return true;
+  return false;
 }
 
 void count_overlap(ContactWorkspace& work, int cell, double relative) {
@@ -162,7 +174,9 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
   auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
                   double overlap, const Vec3& normal) {
     const int key = surrounding_key(kind, index);
-    const bool before = was_touching(s, static_cast<int>(i), key);
+    const bool before = kind == SurroundingKind::kVessel
+                            ? was_touching_vessel(s, around.vessels, static_cast<int>(i), index)
+                            : was_touching(s, static_cast<int>(i), key);
     if (overlap < 0 && !before) return;
     const contact::SphereForce law = contact::jkr_force(pair, overlap, before);
     if (!law.touching) return;

@@ -69,15 +69,25 @@ Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {
 }
 
 bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap) {
-  if (gap.parameter > kEnd && gap.parameter < 1 - kEnd) return true;
-  const auto s = static_cast<std::size_t>(segment);
-  const int end = vessels.network.segment[s][gap.parameter <= kEnd ? 0 : 1];
-  for (int other : vessels.segments_of_node[static_cast<std::size_t>(end)]) {
-    if (other == segment) continue;
-    const Gap o = gap_to_segment(vessels.network, other, x);
-    const bool at_end = o.parameter <= kEnd || o.parameter >= 1 - kEnd;
-    // The minimum lies on the other segment, or at the shared end, which the lower number owns.
-    if (!at_end || o.gap < gap.gap - kEnd || other < segment) return false;
+  const auto at_start = [](const Gap& g) { return g.parameter <= kEnd; };
+  const auto at_finish = [](const Gap& g) { return g.parameter >= 1 - kEnd; };
+  const auto& joint = vessels.network.segment;
+  const auto& own = joint[static_cast<std::size_t>(segment)];
+  for (int k : {0, 1}) {
+    const int node = own[static_cast<std::size_t>(k)];
+    const bool here = k == 0 ? at_start(gap) : at_finish(gap);
+    for (int other : vessels.segments_of_node[static_cast<std::size_t>(node)]) {
+      if (other == segment) continue;
+      const Gap o = gap_to_segment(vessels.network, other, x);
+      const bool starts_here = joint[static_cast<std::size_t>(other)][0] == node;
+      const bool there = starts_here ? at_start(o) : at_finish(o);
+      if (here || there) {
+        // Both describe the surface about this joint, and the nearer one counts: segments may
+        // differ in radius where they meet. On a tie a side wall goes first, then the lower number.
+        if (o.gap < gap.gap - kEnd) return false;
+        if (here && o.gap <= gap.gap + kEnd && (!there || other < segment)) return false;
+      }
+    }
   }
   return true;
 }

@@ -86,7 +86,7 @@ Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x);
 
 /// Closest segments of a chain count once: whether the contact of a sphere with `segment` is a local
 /// minimum of the distance along the network, so that a straight chain of any spacing gives exactly one
-/// contact (docs/decisions/0003.md).
+/// contact (docs/decisions/0003.md). Where segments of different radius meet, the nearest one counts.
 /// @param gap the sphere centre's gap to this segment
 bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap);
 

@@ -364,9 +364,11 @@ void File::copy_rows_from(const File& source, const std::string& name, std::int6
     const hsize_t corner[2] = {row, 0};
     hsize_t size = 0;
     std::uint32_t skipped_filters = 0;
-    if (H5Dget_chunk_storage_size(from.id(), corner, &size) < 0)
+    haddr_t address = HADDR_UNDEF;
+    if (H5Dget_chunk_info_by_coord(from.id(), corner, &skipped_filters, &address, &size) < 0) {
       source.fail_here("read dataset " + name);
-    if (size == 0) continue;  // padding that was never written
+    }
+    if (address == HADDR_UNDEF) continue;  // padding that was never written
     buffer.resize(size);
     if (H5Dread_chunk(from.id(), H5P_DEFAULT, corner, &skipped_filters, buffer.data()) < 0) {
       source.fail_here("read dataset " + name);

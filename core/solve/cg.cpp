@@ -6,13 +6,6 @@
 namespace acinus::solve {
 namespace {
 
-/// f(k) for every array index, split evenly over threads.
-template <class F>
-void for_each_index(std::size_t n, F f) {
-#pragma omp parallel for simd schedule(static)
-  for (std::size_t k = 0; k < n; ++k) f(k);
-}
-
 /// Clears the entries outside the range.
 void restrict_to(const System& s, BlockRange range, std::vector<double>& v) {
   const std::size_t n = s.block.size();
@@ -22,11 +15,12 @@ void restrict_to(const System& s, BlockRange range, std::vector<double>& v) {
   std::fill(v.begin() + static_cast<std::ptrdiff_t>(last * kPointStride), v.end(), 0.0);
 }
 
-/// y = A x over all ranks.
-void apply_distributed(const Operator& op, std::span<double> x, std::span<double> y) {
+/// y = A x over all ranks; returns x . y.
+double apply_distributed(const Operator& op, std::span<double> x, std::span<double> y) {
   op.system().halo.update(x);
-  op.apply(x, y);
+  const double product = op.apply(x, y);
   op.system().halo.add_back(y);
+  return product;
 }
 
 }  // namespace
@@ -43,9 +37,9 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
     // What the rest does to the range belongs to the right-hand side of this smaller system.
     std::ranges::copy(x, p.begin());
     restrict_to(op.system(), range, p);
-    for_each_index(n, [&](std::size_t k) { p[k] = x[k] - p[k]; });
+    for (std::size_t k = 0; k < n; ++k) p[k] = x[k] - p[k];
     apply_distributed(op, p, q);
-    for_each_index(n, [&](std::size_t k) { r[k] -= q[k]; });
+    for (std::size_t k = 0; k < n; ++k) r[k] -= q[k];
     restrict_to(op.system(), range, r);
   }
   op.precondition(r, z);
@@ -67,7 +61,7 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
   // Each pass starts from the true residual; a second pass only runs when rounding ate the first.
   for (int pass = 0; pass < 4; ++pass) {
     apply_distributed(op, x, q);
-    for_each_index(n, [&](std::size_t k) { r[k] = b[k] - q[k]; });
+    for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - q[k];
     if (!whole) restrict_to(op.system(), range, r);
     op.precondition(r, z);
     double rho = op.dot(r, z);
@@ -76,20 +70,13 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
     std::ranges::copy(z, p.begin());
     while (result.iterations < options.max_iterations) {
       ++result.iterations;
-      apply_distributed(op, p, q);
+      const double curvature = apply_distributed(op, p, q);  // p is zero outside the range
       if (!whole) restrict_to(op.system(), range, q);
-      const double curvature = op.dot(p, q);
       if (!(curvature > 0)) {
         result.status = Status::failed("the matrix is not positive definite");
         return result;
       }
-      const double alpha = rho / curvature;
-      for_each_index(n, [&](std::size_t k) {
-        x[k] += alpha * p[k];
-        r[k] -= alpha * q[k];
-      });
-      op.precondition(r, z);
-      const double rho_next = op.dot(r, z);
+      const double rho_next = op.descend(rho / curvature, p, q, x, r, z);
       if (!std::isfinite(rho_next)) {
         result.status = Status::failed("the linear solve became infinite");
         return result;
@@ -97,7 +84,7 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
       if (std::sqrt(rho_next) <= goal) break;
       const double beta = rho_next / rho;
       rho = rho_next;
-      for_each_index(n, [&](std::size_t k) { p[k] = z[k] + beta * p[k]; });
+      op.redirect(z, beta, p);
     }
     if (result.iterations >= options.max_iterations) {
       result.status = Status::failed("the linear solve did not converge");

@@ -77,40 +77,70 @@ ACINUS_KERNEL void invert_sym(int n_point, double* d) {
   }
 }
 
+/// x += alpha p, r -= alpha q, z = D^-1 r of one block; returns r . z.
+ACINUS_KERNEL double descend_block(int n_point, double alpha, const double* inverse, const double* p,
+                                   const double* q, double* x, double* r, double* z) {
+  Lane s = lane_of(0);
+  for (int i = 0; i < n_point; ++i) {
+    const int at = i * kPointStride;
+    Lane3 ri;
+    ri.x = load(r + at) - alpha * load(q + at);
+    ri.y = load(r + at + kLanes) - alpha * load(q + at + kLanes);
+    ri.z = load(r + at + 2 * kLanes) - alpha * load(q + at + 2 * kLanes);
+    for (int c = 0; c < kPointStride; c += kLanes) store(x + at + c, load(x + at + c) + alpha * load(p + at + c));
+    store3(r + at, ri);
+    const Lane3 zi = sym_times(inverse + i * kSymStride, ri);
+    store3(z + at, zi);
+    s += dot(ri, zi);
+  }
+  double sum = 0;
+  for (int l = 0; l < kLanes; ++l) sum += s[l];
+  return sum;
+}
+
+bool is_zero(const Sym3& m) {
+  return m.xx == 0 && m.yy == 0 && m.zz == 0 && m.xy == 0 && m.xz == 0 && m.yz == 0;
+}
+
 }  // namespace
 
 void Operator::prepare(const System& system) {
   system_ = &system;
   const Links& links = system.links;
   const std::size_t n_block = system.block.size();
-
-  link_matrix_.resize(links.size());
-  link_force_.resize(links.size());
-  entry_link_.resize(links.address.size());
   partial_.resize(n_block);
+  packed_.resize(system.n_row * kLanes);
+
+  link_.clear();
+  entry_.clear();
   for (std::size_t l = 0; l < links.size(); ++l) {
-    link_matrix_[l] = link_matrix(system, l);
-    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
-      entry_link_[k] = static_cast<std::uint32_t>(l);
+    const Sym3 m = link_matrix(system, l);
+    if (is_zero(m)) continue;
+    const auto first = static_cast<std::uint32_t>(entry_.size());
+    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k) {
+      const Address a = links.address[k];
+      entry_.push_back({a / kPointStride * kLanes + a % kPointStride, static_cast<std::uint32_t>(link_.size()),
+                        links.weight[k]});
+    }
+    link_.push_back({m, first, static_cast<std::uint32_t>(entry_.size()), links.external[l] != 0});
   }
+  link_force_.resize(link_.size());
 
   // Counting sort of the entries by block.
-  std::vector<std::uint32_t>& start = entry_start_;
-  start.assign(n_block + 1, 0);
   std::vector<std::uint32_t> block_of_row(system.n_row);
   for (std::size_t b = 0; b < n_block; ++b)
     std::fill_n(block_of_row.begin() + static_cast<std::ptrdiff_t>(system.block[b].first_row),
                 system.block[b].pattern->n_point, static_cast<std::uint32_t>(b));
-  for (Address a : links.address) ++start[block_of_row[a / kPointStride] + 1];
-  for (std::size_t b = 0; b < n_block; ++b) start[b + 1] += start[b];
-  entry_.resize(links.address.size());
-  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-  for (std::uint32_t k = 0; k < links.address.size(); ++k)
-    entry_[next[block_of_row[links.address[k] / kPointStride]]++] = k;
+  block_start_.assign(n_block + 1, 0);
+  for (const Entry& e : entry_) ++block_start_[block_of_row[e.point / kLanes] + 1];
+  for (std::size_t b = 0; b < n_block; ++b) block_start_[b + 1] += block_start_[b];
+  block_entry_.resize(entry_.size());
+  std::vector<std::uint32_t> next(block_start_.begin(), block_start_.end() - 1);
+  for (const Entry& e : entry_) block_entry_[next[block_of_row[e.point / kLanes]]++] = e;
 
   // Diagonal blocks of the whole matrix, inverted.
   inverse_ = system.diagonal;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (parallel())
   for (std::size_t b = 0; b < n_block; ++b) {
     const Block& block = system.block[b];
     const int n = block.pattern->n_point;
@@ -119,15 +149,13 @@ void Operator::prepare(const System& system) {
       if (b * kLanes >= family.coefficient.size()) continue;
       const double* g = family.vector.data() + block.first_row * kPointStride;
       const Lane c = load(family.coefficient.data() + b * kLanes);
-      for (int i = 0; i < n; ++i)
-        add_outer_sym(d + i * kSymStride, c, load3(g + i * kPointStride));
+      for (int i = 0; i < n; ++i) add_outer_sym(d + i * kSymStride, c, load3(g + i * kPointStride));
     }
-    for (std::uint32_t e = start[b]; e < start[b + 1]; ++e) {
-      const std::uint32_t k = entry_[e];
-      const Address a = links.address[k];
-      const Sym3& m = link_matrix_[entry_link_[k]];
-      const double w2 = links.weight[k] * links.weight[k];
-      double* at = inverse_.data() + (a / kPointStride) * kSymStride + a % kPointStride;
+    for (std::uint32_t k = block_start_[b]; k < block_start_[b + 1]; ++k) {
+      const Entry& e = block_entry_[k];
+      const Sym3& m = link_[e.link].matrix;
+      const double w2 = e.weight * e.weight;
+      double* at = inverse_.data() + e.point / kLanes * kSymStride + e.point % kLanes;
       const double v[6] = {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
       for (int c = 0; c < 6; ++c) at[c * kLanes] += w2 * v[c];
     }
@@ -135,25 +163,55 @@ void Operator::prepare(const System& system) {
   }
 }
 
-void Operator::compute_link_forces(std::span<const double> x, bool external_only) const {
-  const Links& links = system_->links;
-#pragma omp parallel for schedule(static)
-  for (std::size_t l = 0; l < links.size(); ++l) {
-    if (external_only && !links.external[l]) {
-      link_force_[l].setZero();
-      continue;
-    }
-    Vec3 r = Vec3::Zero();
-    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
-      r += links.weight[k] * load_point(x.data(), links.address[k]);
-    link_force_[l] = link_matrix_[l] * r;
+void Operator::pack(std::span<const double> x) const {
+#pragma omp parallel for schedule(static) if (parallel())
+  for (std::size_t row = 0; row < system_->n_row; ++row) {
+    const double* from = x.data() + row * kPointStride;
+    Packed* to = packed_.data() + row * kLanes;
+    for (int l = 0; l < kLanes; ++l) to[l] = {{from[l], from[l + kLanes], from[l + 2 * kLanes], 0}};
   }
 }
 
-void Operator::apply(std::span<const double> x, std::span<double> y) const {
+void Operator::compute_link_forces(bool external_only) const {
+#pragma omp parallel for schedule(static) if (parallel())
+  for (std::size_t l = 0; l < link_.size(); ++l) {
+    const Link& link = link_[l];
+    if (external_only && !link.external) {
+      link_force_[l] = {};
+      continue;
+    }
+    double r[3] = {0, 0, 0};
+    for (std::uint32_t k = link.first; k < link.last; ++k) {
+      const Packed& p = packed_[entry_[k].point];
+      for (int c = 0; c < 3; ++c) r[c] += entry_[k].weight * p.v[c];
+    }
+    const Vec3 f = link.matrix * Vec3(r[0], r[1], r[2]);
+    link_force_[l] = {{f.x(), f.y(), f.z(), 0}};
+  }
+}
+
+void Operator::gather_links(std::size_t b, std::span<double> y) const {
+  for (std::uint32_t k = block_start_[b]; k < block_start_[b + 1]; ++k) {
+    const Entry& e = block_entry_[k];
+    const Packed& f = link_force_[e.link];
+    double* at = y.data() + e.point / kLanes * kPointStride + e.point % kLanes;
+    at[0] += e.weight * f.v[0];
+    at[kLanes] += e.weight * f.v[1];
+    at[2 * kLanes] += e.weight * f.v[2];
+  }
+}
+
+double Operator::sum_partials() const {
+  double sum = 0;
+  for (double p : partial_) sum += p;
+  return system_->halo.ranks.sum(sum);
+}
+
+double Operator::apply(std::span<const double> x, std::span<double> y) const {
   const System& s = *system_;
-  compute_link_forces(x, false);
-#pragma omp parallel for schedule(static)
+  pack(x);
+  compute_link_forces(false);
+#pragma omp parallel for schedule(static) if (parallel())
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const Block& block = s.block[b];
     const BlockPattern& pattern = *block.pattern;
@@ -166,17 +224,17 @@ void Operator::apply(std::span<const double> x, std::span<double> y) const {
       if (b * kLanes < family.coefficient.size())
         add_rank_one(pattern.n_point, family.vector.data() + block.first_row * kPointStride,
                      family.coefficient.data() + b * kLanes, xb, yb);
-    for (std::uint32_t e = entry_start_[b]; e < entry_start_[b + 1]; ++e) {
-      const std::uint32_t k = entry_[e];
-      add_point(y.data(), s.links.address[k], s.links.weight[k] * link_force_[entry_link_[k]]);
-    }
+    gather_links(b, y);
+    partial_[b] = dot_range(xb, yb, static_cast<std::size_t>(pattern.n_point) * kPointStride);
   }
+  return sum_partials();
 }
 
 void Operator::apply_external(std::span<const double> x, std::span<double> y) const {
   const System& s = *system_;
-  compute_link_forces(x, true);
-#pragma omp parallel for schedule(static)
+  pack(x);
+  compute_link_forces(true);
+#pragma omp parallel for schedule(static) if (parallel())
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const Block& block = s.block[b];
     for (int i = 0; i < block.pattern->n_point; ++i) {
@@ -187,17 +245,13 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y) co
           y[at] = s.friction_scale * s.medium[row * kLanes + static_cast<std::size_t>(l)] * x[at];
         }
     }
-    for (std::uint32_t e = entry_start_[b]; e < entry_start_[b + 1]; ++e) {
-      const std::uint32_t k = entry_[e];
-      if (s.links.external[entry_link_[k]])
-        add_point(y.data(), s.links.address[k], s.links.weight[k] * link_force_[entry_link_[k]]);
-    }
+    gather_links(b, y);
   }
 }
 
 void Operator::precondition(std::span<const double> x, std::span<double> y) const {
   const System& s = *system_;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (parallel())
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const std::size_t row = s.block[b].first_row;
     sym_times_all(s.block[b].pattern->n_point, inverse_.data() + row * kSymStride,
@@ -205,30 +259,41 @@ void Operator::precondition(std::span<const double> x, std::span<double> y) cons
   }
 }
 
-void Operator::add_link_forces(std::span<double> pair_force,
-                               std::span<double> external_force) const {
+double Operator::descend(double alpha, std::span<const double> p, std::span<const double> q,
+                         std::span<double> x, std::span<double> r, std::span<double> z) const {
+  const System& s = *system_;
+#pragma omp parallel for schedule(static) if (parallel())
+  for (std::size_t b = 0; b < s.block.size(); ++b) {
+    const std::size_t row = s.block[b].first_row, at = row * kPointStride;
+    partial_[b] = descend_block(s.block[b].pattern->n_point, alpha, inverse_.data() + row * kSymStride,
+                                p.data() + at, q.data() + at, x.data() + at, r.data() + at, z.data() + at);
+  }
+  return sum_partials();
+}
+
+void Operator::redirect(std::span<const double> z, double beta, std::span<double> p) const {
+#pragma omp parallel for simd schedule(static) if (parallel())
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + beta * p[k];
+}
+
+void Operator::add_link_forces(std::span<double> pair_force, std::span<double> external_force) const {
   const Links& links = system_->links;
-#pragma omp parallel for schedule(static)
-  for (std::size_t b = 0; b < system_->block.size(); ++b)
-    for (std::uint32_t e = entry_start_[b]; e < entry_start_[b + 1]; ++e) {
-      const std::uint32_t k = entry_[e];
-      const std::uint32_t l = entry_link_[k];
-      double* to = links.external[l] ? external_force.data() : pair_force.data();
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    double* to = links.external[l] ? external_force.data() : pair_force.data();
+    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
       add_point(to, links.address[k], links.weight[k] * links.force[l]);
-    }
+  }
 }
 
 double Operator::dot(std::span<const double> a, std::span<const double> b) const {
   const System& s = *system_;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (parallel())
   for (std::size_t k = 0; k < s.block.size(); ++k) {
     const std::size_t from = s.block[k].first_row * kPointStride;
     partial_[k] = dot_range(a.data() + from, b.data() + from,
                             static_cast<std::size_t>(s.block[k].pattern->n_point) * kPointStride);
   }
-  double sum = 0;
-  for (double p : partial_) sum += p;
-  return s.halo.ranks.sum(sum);
+  return sum_partials();
 }
 
 }  // namespace acinus::solve

@@ -62,7 +62,7 @@ class EntryCollector final : public Visitor {
     add(key, "true or false", value ? "true" : "false", "");
   }
   void text(const Key& key, std::string& value) override {
-    const char* type = key.is_file ? "path" : key.is_name ? "name" : "text";
+    const char* type = key.is_file ? "path" : key.is_name || key.is_label ? "name" : "text";
     add(key, type, key.automatic[0] ? "\"auto\"" : "\"" + value + "\"", bounds(key));
   }
   void vector(const Key& key, Vec3& value) override {
@@ -70,6 +70,9 @@ class EntryCollector final : public Visitor {
         fmt::format("[{}, {}, {}]", in_quotes(key, value.x()), in_quotes(key, value.y()),
                     in_quotes(key, value.z())),
         bounds(key));
+  }
+  void box(const Key& key, std::optional<std::array<Vec3, 2>>&) override {
+    add(key, "two corners or null", "null", "");
   }
   void counts(const Key& key, std::array<int, 3>& value) override {
     add(key, "three whole numbers", fmt::format("[{}]", fmt::join(value, ", ")), bounds(key));

@@ -20,11 +20,19 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = Node::Kind;
 
+constexpr const char* kNameLetters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= 100 &&
-         text.find_first_not_of(
-             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
-             std::string::npos;
+         text.find_first_not_of(kNameLetters) == std::string::npos;
+}
+
+/// A name that may have spaces inside.
+bool is_label(std::string text) {
+  if (text.empty() || text.front() == ' ' || text.back() == ' ') return false;
+  std::erase(text, ' ');
+  return is_name(text);
 }
 
 constexpr const char* kNameRule = "must be a name of letters, digits, _ and -";
@@ -89,6 +97,8 @@ class SceneReader final : public Visitor {
                             : fmt::format("unknown choice. Did you mean \"{}\"?", hint));
     } else if (key.is_name && !is_name(node->text)) {
       report_.add_value(*node, pointer, kNameRule);
+    } else if (key.is_label && !is_label(node->text)) {
+      report_.add_value(*node, pointer, std::string(kNameRule) + ", with spaces inside if wanted");
     } else if (key.is_file) {
       read_file_name(key, *node, pointer, value);
     } else {
@@ -97,14 +107,22 @@ class SceneReader final : public Visitor {
   }
 
   void vector(const Key& key, Vec3& value) override {
+    if (const Node* node = take(key)) read_vector(key, *node, pointer_of(key), value);
+  }
+
+  void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) override {
     const Node* node = take(key);
+    if (node == nullptr || node->kind == Kind::kNull) return;
     const std::string pointer = pointer_of(key);
-    if (node == nullptr || !has_three(*node, pointer, key)) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Node& item = node->items[static_cast<std::size_t>(axis)];
-      double number = 0;
-      if (read_real(key, item, fmt::format("{}/{}", pointer, axis), number)) value[axis] = number;
+    if (node->kind != Kind::kList || node->items.size() != 2) {
+      report_.add_value(*node, pointer, "must be a list of two corners, the lower one first");
+      return;
     }
+    std::array<Vec3, 2> corners{Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t i = 0; i < 2; ++i) {
+      read_vector(key, node->items[i], fmt::format("{}/{}", pointer, i), corners[i]);
+    }
+    value = corners;
   }
 
   void counts(const Key& key, std::array<int, 3>& value) override {
@@ -300,6 +318,15 @@ class SceneReader final : public Visitor {
     }
     value = number;
     return true;
+  }
+
+  void read_vector(const Key& key, const Node& node, const std::string& pointer, Vec3& value) {
+    if (!has_three(node, pointer, key)) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Node& item = node.items[static_cast<std::size_t>(axis)];
+      double number = 0;
+      if (read_real(key, item, fmt::format("{}/{}", pointer, axis), number)) value[axis] = number;
+    }
   }
 
   void read_integer(const Key& key, const Node& node, const std::string& pointer, int& value) {

@@ -43,6 +43,7 @@ struct Key {
   const char* automatic = "";  ///< what "auto" stands for; "" = "auto" is not allowed
   bool is_file = false;        ///< a text that is a path
   bool is_name = false;        ///< a text that is a name: letters, digits, _ and -
+  bool is_label = false;       ///< the same with spaces inside
   const char* item = "";       ///< lists and maps: what `explain` calls one element
 };
 
@@ -73,6 +74,8 @@ class Visitor {
   virtual void flag(const Key& key, bool& value) = 0;
   virtual void text(const Key& key, std::string& value) = 0;
   virtual void vector(const Key& key, Vec3& value) = 0;
+  /// Two opposite corners or null.
+  virtual void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) = 0;
   virtual void counts(const Key& key, std::array<int, 3>& value) = 0;
   /// A block that is always there.
   virtual void object(const Key& key, const Members& members) = 0;

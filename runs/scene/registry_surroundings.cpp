@@ -94,29 +94,12 @@ void describe_vessels(Visitor& v, VesselBlock& b) {
   v.flag({.name = "center",
           .meaning = "first move the middle of the network's bounding box to the origin"},
          b.center);
-  v.optional_object(
-      {.name = "crop", .meaning = "keep only segments with a part inside this box; null = all"},
-      b.crop.has_value(),
-      [&b](bool present) {
-        b.crop =
-            present ? std::optional(std::array<Vec3, 2>{Vec3::Zero(), Vec3::Zero()}) : std::nullopt;
-      },
-      [&b](Visitor& w) {
-        std::array<Vec3, 2> sample{Vec3::Zero(), Vec3::Zero()};
-        std::array<Vec3, 2>& box = b.crop ? *b.crop : sample;
-        w.vector({.name = "low",
-                  .meaning = "corner with the smallest coordinates",
-                  .dimension = kLength,
-                  .unit = "um",
-                  .required = true},
-                 box[0]);
-        w.vector({.name = "high",
-                  .meaning = "corner with the largest coordinates",
-                  .dimension = kLength,
-                  .unit = "um",
-                  .required = true},
-                 box[1]);
-      });
+  v.box({.name = "crop",
+         .meaning = "keep only segments with a part inside this box, given by its lowest and its "
+                    "highest corner; null = all",
+         .dimension = kLength,
+         .unit = "um"},
+        b.crop);
   v.real({.name = "young",
           .meaning = "Young's modulus of the vessels",
           .dimension = kStress,
@@ -142,7 +125,7 @@ void describe_wall(Visitor& v, WallEntry& b) {
   v.text({.name = "name",
           .meaning = "name in messages and files",
           .automatic = "wall and a number",
-          .is_name = true},
+          .is_label = true},
          b.name);
   v.vector({.name = "point", .meaning = "a point of the wall", .dimension = kLength, .unit = "um"},
            b.point);
@@ -189,7 +172,7 @@ void describe_static_mesh(Visitor& v, StaticMeshEntry& b) {
   v.text({.name = "name",
           .meaning = "name in messages and files",
           .automatic = "mesh and a number",
-          .is_name = true},
+          .is_label = true},
          b.name);
   v.text({.name = "file",
           .meaning = "surface file, relative to the scene's folder",

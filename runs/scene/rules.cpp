@@ -22,11 +22,12 @@ std::vector<std::string> type_names(const Scene& scene) {
 }
 
 /// low < high in every coordinate.
-void check_box(const Vec3& low, const Vec3& high, const std::string& pointer, Report& report) {
+void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer,
+               const std::string& high_pointer, Report& report) {
   for (int axis = 0; axis < 3; ++axis) {
     if (low[axis] < high[axis]) continue;
-    const std::string above = fmt::format("{}/high/{}", pointer, axis);
-    report.add_relation({fmt::format("{}/low/{}", pointer, axis), above}, length(low[axis]),
+    const std::string above = fmt::format("{}/{}", high_pointer, axis);
+    report.add_relation({fmt::format("{}/{}", low_pointer, axis), above}, length(low[axis]),
                         fmt::format("must be below {} = {}", above, length(high[axis])));
   }
 }
@@ -113,7 +114,7 @@ void check_cells(const Scene& scene, Report& report) {
                                     "the regions (--set zoom=[]) or change the model",
                                     cells.model));
   }
-  if (cells.source == "fill") check_box(cells.low, cells.high, "/cells", report);
+  if (cells.source == "fill") check_box(cells.low, cells.high, "/cells/low", "/cells/high", report);
   bool all_chosen = cells.source == "list" && !cells.list.empty();
   for (const CellEntry& cell : cells.list) all_chosen = all_chosen && !cell.model.empty();
   if (scene.zoom.empty() && cells.model == "zoom" && !all_chosen) {
@@ -133,7 +134,8 @@ void check_zoom(const Scene& scene, Report& report) {
   for (std::size_t i = 0; i < scene.zoom.size(); ++i) {
     const Region& region = scene.zoom[i];
     const std::string pointer = fmt::format("/zoom/{}", i);
-    if (region.kind == "box") check_box(region.low, region.high, pointer, report);
+    if (region.kind == "box")
+      check_box(region.low, region.high, pointer + "/low", pointer + "/high", report);
     if (region.kind == "half_space") check_direction(region.normal, pointer + "/normal", report);
     if (region.kind == "axis_distance" && region.min_distance >= region.max_distance) {
       report.add_relation(
@@ -162,7 +164,8 @@ void check_lobule(const Scene& scene, Report& report) {
 
 void check_surroundings(const Scene& scene, Report& report) {
   if (scene.vessels.crop) {
-    check_box((*scene.vessels.crop)[0], (*scene.vessels.crop)[1], "/vessels/crop", report);
+    check_box((*scene.vessels.crop)[0], (*scene.vessels.crop)[1], "/vessels/crop/0",
+              "/vessels/crop/1", report);
   }
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {

@@ -13,6 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kNamePattern = "^[A-Za-z0-9_-]{1,100}$";
+constexpr const char* kLabelPattern = "^[A-Za-z0-9_ -]{1,100}$";
 
 /// Builds one object schema per block; the innermost open one is the last of the stack.
 class SchemaBuilder final : public Visitor {
@@ -48,6 +49,7 @@ class SchemaBuilder final : public Visitor {
       if (key.automatic[0]) schema["enum"].push_back("auto");
     }
     if (key.is_name) schema["pattern"] = kNamePattern;
+    if (key.is_label) schema["pattern"] = kLabelPattern;
     set_default(key, schema, key.automatic[0] ? "auto" : value);
     put(key, std::move(schema));
   }
@@ -56,6 +58,14 @@ class SchemaBuilder final : public Visitor {
     set_default(key, schema,
                 Json::array({real_json(key, value.x()), real_json(key, value.y()),
                              real_json(key, value.z())}));
+    put(key, std::move(schema));
+  }
+  void box(const Key& key, std::optional<std::array<Vec3, 2>>&) override {
+    const Json corners{
+        {"type", "array"}, {"items", three(real_schema(key))}, {"minItems", 2}, {"maxItems", 2}};
+    Json schema;
+    schema["anyOf"] = Json::array({Json{{"type", "null"}}, corners});
+    schema["default"] = nullptr;
     put(key, std::move(schema));
   }
   void counts(const Key& key, std::array<int, 3>& value) override {

@@ -36,9 +36,10 @@ class JsonWriter final : public Visitor {
       line(key.name, in_quotes(value));
     }
   }
-  void vector(const Key& key, Vec3& value) override {
-    line(key.name, fmt::format("[{}, {}, {}]", number(key, value.x()), number(key, value.y()),
-                               number(key, value.z())));
+  void vector(const Key& key, Vec3& value) override { line(key.name, three(key, value)); }
+  void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) override {
+    line(key.name, value ? fmt::format("[{}, {}]", three(key, (*value)[0]), three(key, (*value)[1]))
+                         : "null");
   }
   void counts(const Key& key, std::array<int, 3>& value) override {
     line(key.name, fmt::format("[{}]", fmt::join(value, ", ")));
@@ -86,6 +87,11 @@ class JsonWriter final : public Visitor {
   std::string finished() { return "{" + text_ + "\n}\n"; }
 
  private:
+  static std::string three(const Key& key, const Vec3& value) {
+    return fmt::format("[{}, {}, {}]", number(key, value.x()), number(key, value.y()),
+                       number(key, value.z()));
+  }
+
   static std::string number(const Key& key, double value) {
     const std::string text = format_quantity(value, key.dimension, key.unit);
     return key.unit[0] ? "\"" + text + "\"" : text;

@@ -79,8 +79,8 @@ inline Cells make_rest_cells(const mesh::Topology& t, const std::vector<double>&
   return out;
 }
 
-/// Seven cells of different size, place, orientation and shape (sheared by up to 15 %, rough by 10 %
-/// of an edge) and an empty lane among them.
+/// Seven cells of different size, place, orientation and shape (sheared by up to 15 %, rough by 10
+/// % of an edge) and an empty lane among them.
 inline Cells make_deformed_cells(int n_node = 162) {
   auto random = reference::stream(1);
   std::vector<double> radius;
@@ -123,13 +123,17 @@ inline const std::vector<Term>& all_terms() {
          return reference::plain_bending_energy(c, p.bending_stiffness);
        }},
       {"volume",
-       [](const Params& p, const GroupView& g, solve::System& s) { add_volume(p, g, s, s.rank_one[0]); },
+       [](const Params& p, const GroupView& g, solve::System& s) {
+         add_volume(p, g, s, s.rank_one[0]);
+       },
        volume_energy,
        [](const Params& p, const PlainCell& c) {
          return reference::plain_volume_energy(c, p.bulk_modulus);
        }},
       {"area",
-       [](const Params& p, const GroupView& g, solve::System& s) { add_area(p, g, s, s.rank_one[1]); },
+       [](const Params& p, const GroupView& g, solve::System& s) {
+         add_area(p, g, s, s.rank_one[1]);
+       },
        area_energy,
        [](const Params& p, const PlainCell& c) {
          return reference::plain_area_energy(c, p.area_modulus);
@@ -140,8 +144,8 @@ inline const std::vector<Term>& all_terms() {
   return terms;
 }
 
-/// The matrices of all lanes, column by column through the operator. Lanes do not meet without links,
-/// so one product serves the same column of all of them.
+/// The matrices of all lanes, column by column through the operator. Lanes do not meet without
+/// links, so one product serves the same column of all of them.
 inline std::vector<Eigen::MatrixXd> lane_matrices(const Cells& c) {
   solve::Operator op;
   op.prepare(c.system);
@@ -154,7 +158,8 @@ inline std::vector<Eigen::MatrixXd> lane_matrices(const Cells& c) {
     for (int l = 0; l < kLanes; ++l) {
       x[static_cast<std::size_t>(column * kLanes + l)] = 0;
       for (int row = 0; row < n; ++row)
-        out[static_cast<std::size_t>(l)](row, column) = y[static_cast<std::size_t>(row * kLanes + l)];
+        out[static_cast<std::size_t>(l)](row, column) =
+            y[static_cast<std::size_t>(row * kLanes + l)];
     }
   }
   return out;

@@ -1,5 +1,5 @@
-/// Values worked out on paper, on a regular tetrahedron of edge a: circumradius sqrt(3/8) a, dihedral
-/// arccos(1/3), height sqrt(2/3) a, volume a^3/(6 sqrt 2).
+/// Values worked out on paper, on a regular tetrahedron of edge a: circumradius sqrt(3/8) a,
+/// dihedral arccos(1/3), height sqrt(2/3) a, volume a^3/(6 sqrt 2).
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,9 @@ using reference::kEps;
 using test::number, test::relative;
 
 const mesh::Topology& tetrahedron() {
-  static const mesh::Topology t = mesh::make_topology(
-      {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}});
+  static const mesh::Topology t =
+      mesh::make_topology({{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                           {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}});
   return t;
 }
 
@@ -82,7 +83,8 @@ TEST(Area, ForceOfABlownTetrahedron) {
   local.expect_outward(expected);  // equal triangles: the same thing
 }
 
-// The corner of a cube: three right angles and three of arccos(1/sqrt 3) inside, against arccos(1/3).
+// The corner of a cube: three right angles and three of arccos(1/sqrt 3) inside, against
+// arccos(1/3).
 TEST(Bending, EnergyOfACubeCorner) {
   Blown b(1);
   const Vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
@@ -94,9 +96,10 @@ TEST(Bending, EnergyOfACubeCorner) {
   EXPECT_NEAR(bending_energy(p, b.c.view(), 0), expected, 1e-13 * expected);
 }
 
-// Pushing a corner in by dz opens the three hinges of the face below it; moment k_b sin(theta - theta0)
-// over the height of x1 above the edge: |grad theta| = 1 / height. One hinge alone is a half-open book.
-TEST(Bending, ForceOfAHingeIsMomentOverHeight) {
+// A corner turned about one edge by a small angle strains that hinge by the angle and its
+// neighbours by less than twice that; the hinge's own restoring force is k_b angle / height,
+// outward again.
+TEST(Bending, PushedInCornerIsPushedOut) {
   const mesh::Topology& t = mesh::shared_icosphere(42);
   Cells c = make_rest_cells(t, {10});
   const auto& h = t.hinge[7];
@@ -116,7 +119,6 @@ TEST(Bending, ForceOfAHingeIsMomentOverHeight) {
   const double energy = bending_energy(p, c.view(), 0);
   EXPECT_GT(energy, own);
   EXPECT_LT(energy, own * hinges * 4);
-  // The restoring force on x1 points outward.
   add_bending(p, c.view(), c.system);
   EXPECT_GT(c.force(0, h[0]).dot(n), 0.5 * p.bending_stiffness * angle / arm.norm());
 }
@@ -146,8 +148,8 @@ TEST(Cortex, AxialDashpotsResistStretchOnly) {
   EXPECT_LT((k.block<3, 3>(0, 3) - expected).norm(), 1e-15);
 }
 
-// Rotational drag 4.1e-13 N m s of a free cell (R 12 um, nodes on the sphere, 1e-4 N s/m): what makes
-// isotropic dashpots not objective.
+// Rotational drag 4.1e-13 N m s of a free cell (R 12 um, nodes on the sphere, 1e-4 N s/m): what
+// makes isotropic dashpots not objective.
 TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
   const double radius = 12 / 1.01153;
   for (bool is_axial : {false, true}) {
@@ -161,7 +163,8 @@ TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> v(c.system.n_dof()), f(v.size());
       for (int i = 0; i < c.n_node(); ++i)
-        store_point(v.data(), make_address(static_cast<std::size_t>(i), 0), Vec3::Unit(axis).cross(c.node(0, i)));
+        store_point(v.data(), make_address(static_cast<std::size_t>(i), 0),
+                    Vec3::Unit(axis).cross(c.node(0, i)));
       op.apply(v, f);
       const double drag = op.dot(v, f);  // nN um s
       if (is_axial)
@@ -195,8 +198,10 @@ TEST(Volume, PressureMatchesReference) {
       double virial = 0;  // sum f . x = 3 p V
       for (int i = 0; i < c.n_node(); ++i) virial += c.force(0, i).dot(c.node(0, i));
       const double pressure = virial / (3 * ratio * 4.0 / 3 * kPi * 1728);
-      const double error = std::abs(pressure - expected) / (modulus * std::max(0.01, std::abs(ratio - 1)));
-      worst = std::max({worst, error, std::abs(cytosol_pressure(modulus, ratio, 1) - expected) / modulus});
+      const double error =
+          std::abs(pressure - expected) / (modulus * std::max(0.01, std::abs(ratio - 1)));
+      worst = std::max(
+          {worst, error, std::abs(cytosol_pressure(modulus, ratio, 1) - expected) / modulus});
     }
   std::printf("volume_pressure: %zu rows, worst %.1e\n", rows.size(), worst);
   EXPECT_LT(worst, 1e-9);
@@ -231,8 +236,10 @@ TEST(Params, CortexConstantsMatchReference) {
   double worst = 0;
   for (const auto& row : rows) {
     const double young = number(row, 0) * test::kPascal, thickness = number(row, 1) * test::kMetre;
-    worst = std::max({worst, relative(cortex_spring_stiffness(young, thickness), number(row, 3) * 1e3),
-                      relative(cortex_bending_stiffness(young, thickness, number(row, 2)), number(row, 5) * 1e15)});
+    worst =
+        std::max({worst, relative(cortex_spring_stiffness(young, thickness), number(row, 3) * 1e3),
+                  relative(cortex_bending_stiffness(young, thickness, number(row, 2)),
+                           number(row, 5) * 1e15)});
   }
   std::printf("cortex_ks_kb: %zu rows, worst %.1e\n", rows.size(), worst);
   EXPECT_LT(worst, 1e-9);
@@ -254,7 +261,8 @@ TEST(Medium, StokesDragMatchesReference) {
     p.medium_friction = 1e9;  // must not matter
     std::vector<double> free_area(c.state.n_row() * kLanes, 0.0);
     for (int i = 0; i < n; ++i)
-      free_area[static_cast<std::size_t>(i) * kLanes] = t.rest_node_area[static_cast<std::size_t>(i)] * radius * radius;
+      free_area[static_cast<std::size_t>(i) * kLanes] =
+          t.rest_node_area[static_cast<std::size_t>(i)] * radius * radius;
     c.system.friction_scale = 1.0 / 60;
     add_medium(p, c.view(), free_area.data(), c.system);
     double total = 0;
@@ -264,10 +272,12 @@ TEST(Medium, StokesDragMatchesReference) {
       EXPECT_EQ(c.system.medium[i * kLanes + 5], 1);  // empty lane
       EXPECT_DOUBLE_EQ(c.system.diagonal[i * kSymStride], c.system.medium[i * kLanes] / 60);
       // A node's drag is its share of the surface.
-      EXPECT_NEAR(c.system.medium[i * kLanes], number(row, 3) * 1e3 * t.rest_node_area[i] / t.rest_area,
+      EXPECT_NEAR(c.system.medium[i * kLanes],
+                  number(row, 3) * 1e3 * t.rest_node_area[i] / t.rest_area,
                   1e-9 * number(row, 4) * 1e3);
     }
-    worst = std::max({worst, relative(total, number(row, 3) * 1e3), relative(total / n, number(row, 4) * 1e3)});
+    worst = std::max(
+        {worst, relative(total, number(row, 3) * 1e3), relative(total / n, number(row, 4) * 1e3)});
     // 500 N s/m^3 per surface area instead, on the smooth sphere's area in the table.
     p.viscosity = 0;
     p.medium_friction = 500e-9;
@@ -301,7 +311,8 @@ TEST(BodyLoad, SurfaceAndNodalLoadsAddUp) {
   Cells c = make_rest_cells(mesh::shared_icosphere(42), {5, 10});
   add_surface_load(c.view(), 1, std::vector<Vec3>(42, Vec3(0, 0, 0.01)), c.system);
   Vec3 total = Vec3::Zero();
-  for (int i = 0; i < 42; ++i) total += load_point(c.system.external_force.data(), node_address(c.state, 1, i));
+  for (int i = 0; i < 42; ++i)
+    total += load_point(c.system.external_force.data(), node_address(c.state, 1, i));
   EXPECT_NEAR(total.z(), 0.01 * 100 * mesh::shared_icosphere(42).rest_area, 1e-12);
   std::vector<Vec3> load(42, Vec3::Zero());
   load[3] = {1, 2, 3};

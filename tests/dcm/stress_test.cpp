@@ -20,8 +20,8 @@ struct Blown {
   double tension, pressure;  ///< nN/um and kPa
 };
 
-/// A sphere cell blown up uniformly: mean node tension, and the pressure that holds it (virtual work of
-/// swelling, sum f . x = -3 p V).
+/// A sphere cell blown up uniformly: mean node tension, and the pressure that holds it (virtual
+/// work of swelling, sum f . x = -3 p V).
 Blown blow_up(int n_node, double radius, double stretch, const Params& p) {
   Cells c = make_rest_cells(mesh::shared_icosphere(n_node), {radius / stretch});
   for (int i = 0; i < n_node; ++i) c.move(0, i, stretch * c.node(0, i));
@@ -38,9 +38,10 @@ TEST(NodeTension, AgreesWithLaplace) {
   const auto rows = test::read_reference("laplace.csv");
   if (rows.empty()) GTEST_SKIP() << "no reference tables";
   for (int n : {162, 642}) {
-    // Eq. (8) is exact for equilateral triangles. Uniform strain makes F / l the same on all edges, so
-    // the exact pressure is 2 T / R times sum l^2 R / (6 sqrt 3 V): 1 for equilateral facets on a sphere.
-    // An icosphere's facets never become equilateral however fine it is, so that factor does not go to 1.
+    // Eq. (8) is exact for equilateral triangles. Uniform strain makes F / l the same on all edges,
+    // so the exact pressure is 2 T / R times sum l^2 R / (6 sqrt 3 V): 1 for equilateral facets on
+    // a sphere. An icosphere's facets never become equilateral however fine it is, so that factor
+    // does not go to 1.
     const mesh::Topology& t = mesh::shared_icosphere(n);
     double factor = 0;
     for (double l : t.rest_length) factor += l * l / (6 * std::sqrt(3.0) * 4.0 / 3 * kPi);
@@ -56,14 +57,17 @@ TEST(NodeTension, AgreesWithLaplace) {
       const double ratio = number(row, 3);
       EXPECT_LT(std::abs(cytosol_pressure(2.5, ratio, 1) - number(row, 2) * test::kPascal), 1e-9);
     }
-    std::printf("Laplace, %d nodes: pressure against 2 T / R %.3f %%, by facet shape %.3f %%; area R / 3 V %.3f %%\n", n,
-                100 * worst, 100 * (factor - 1), 100 * (t.rest_area / (4 * kPi) - 1));
+    std::printf(
+        "Laplace, %d nodes: pressure against 2 T / R %.3f %%, by facet shape %.3f %%; area R / 3 V "
+        "%.3f %%\n",
+        n, 100 * worst, 100 * (factor - 1), 100 * (t.rest_area / (4 * kPi) - 1));
     EXPECT_NEAR(worst, factor - 1, 1e-9);  // the table has eleven digits
     EXPECT_LT(worst, n == 162 ? 0.03 : 0.0125);
   }
 }
 
-// 2D modulus of the net: T = Y eps / (1 - nu) with Y = (2/sqrt 3) k_s, nu = 1/3, so T = sqrt 3 k_s eps.
+// 2D modulus of the net: T = Y eps / (1 - nu) with Y = (2/sqrt 3) k_s, nu = 1/3, so T = sqrt 3 k_s
+// eps.
 TEST(NodeTension, MatchesTheNetsModulusForSmallStrain) {
   Params p;
   p.spring_stiffness = 0.433;
@@ -77,7 +81,8 @@ TEST(NodeTension, IncludesTheMembrane) {
   p.area_modulus = 0.8;
   const Blown b = blow_up(162, 12, 1.1, p);
   EXPECT_LT(relative(b.tension, 0.8 * 0.21), 1e-12);
-  // Exact but for the facets: 3 p V = 2 T A, and A R / (3 V) of the mesh is above 1 by its roughness.
+  // Exact but for the facets: 3 p V = 2 T A, and A R / (3 V) of the mesh is above 1 by its
+  // roughness.
   EXPECT_LT(relative(b.pressure, 2 * b.tension / 12), 0.01);
 }
 

@@ -1,4 +1,5 @@
-/// What every term of the deformable cell owes: gradient, balance, invariance, a semi-definite matrix.
+/// What every term of the deformable cell owes: gradient, balance, invariance, a semi-definite
+/// matrix.
 
 #include <gtest/gtest.h>
 
@@ -115,8 +116,10 @@ TEST_P(EveryTerm, EmptyLaneGetsNothing) {
   EXPECT_EQ(largest_force(c, kNoCell), 0);
   EXPECT_EQ(energy(c, kNoCell), 0);
   for (const auto& rank_one : c.system.rank_one) EXPECT_EQ(rank_one.coefficient[kNoCell], 0);
-  for (std::size_t k = kNoCell; k < c.system.diagonal.size(); k += kLanes) ASSERT_EQ(c.system.diagonal[k], 0);
-  for (std::size_t k = kNoCell; k < c.system.upper.size(); k += kLanes) ASSERT_EQ(c.system.upper[k], 0);
+  for (std::size_t k = kNoCell; k < c.system.diagonal.size(); k += kLanes)
+    ASSERT_EQ(c.system.diagonal[k], 0);
+  for (std::size_t k = kNoCell; k < c.system.upper.size(); k += kLanes)
+    ASSERT_EQ(c.system.upper[k], 0);
 }
 
 TEST_P(EveryTerm, StiffnessIsSymmetricAndSemiDefinite) {
@@ -130,8 +133,8 @@ TEST_P(EveryTerm, StiffnessIsSymmetricAndSemiDefinite) {
     EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 16 * kEps * scale);
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
-    std::printf("%s lane %zu: eigenvalues %.1e .. %.3e nN/um\n", GetParam().name, l, values.minCoeff(),
-                values.maxCoeff());
+    std::printf("%s lane %zu: eigenvalues %.1e .. %.3e nN/um\n", GetParam().name, l,
+                values.minCoeff(), values.maxCoeff());
     EXPECT_GE(values.minCoeff(), -1e-12 * values.maxCoeff());
   }
 }
@@ -179,12 +182,14 @@ TEST_P(EveryTerm, RestShapeOfAnyRadiusHasNoForce) {
   auto random = reference::stream(4);
   for (std::size_t l = 0; l < kLanes; ++l)  // what a 1 % wrong size and shape costs
     for (int i = 0; i < c.n_node(); ++i)
-      rough.move(l, i, 1.01 * rough.node(l, i) + reference::random_vector(random, 0.003 * radii[l]));
+      rough.move(l, i,
+                 1.01 * rough.node(l, i) + reference::random_vector(random, 0.003 * radii[l]));
   add(rough);
   for (std::size_t l = 0; l < kLanes; ++l) {
     EXPECT_LT(largest_force(c, l), 100 * kEps * largest_force(rough, l) / 0.01) << radii[l];
     // 1 - cos theta0 rounds: kEps per hinge; the others square a strain of kEps.
-    EXPECT_LT(std::abs(energy(c, l)), 1e4 * kEps * (1 + params.bulk_modulus * radii[l] * radii[l] * radii[l]));
+    EXPECT_LT(std::abs(energy(c, l)),
+              1e4 * kEps * (1 + params.bulk_modulus * radii[l] * radii[l] * radii[l]));
   }
 }
 

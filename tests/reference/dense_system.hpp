@@ -1,6 +1,6 @@
 #pragma once
-/// The matrix of a System entry by entry, from the definition of its three operators. The index of an
-/// unknown is its place in the [row][3][lane] arrays.
+/// The matrix of a System entry by entry, from the definition of its three operators. The index of
+/// an unknown is its place in the [row][3][lane] arrays.
 
 #include <Eigen/Dense>
 
@@ -17,7 +17,8 @@ inline Mat3 full_matrix(const Sym3& m) {
 /// Adds a 3x3 block between two points.
 inline void add_block(Eigen::MatrixXd& to, Address a, Address b, const Mat3& m) {
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) to(a + static_cast<Address>(r) * kLanes, b + static_cast<Address>(c) * kLanes) += m(r, c);
+    for (int c = 0; c < 3; ++c)
+      to(a + static_cast<Address>(r) * kLanes, b + static_cast<Address>(c) * kLanes) += m(r, c);
 }
 
 inline Eigen::MatrixXd make_dense(const solve::System& s) {
@@ -29,7 +30,8 @@ inline Eigen::MatrixXd make_dense(const solve::System& s) {
       Mat3 m;
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
-          m(r, c) = s.diagonal[row * kSymStride + static_cast<std::size_t>(kSymIndex[r][c] * kLanes + l)];
+          m(r, c) =
+              s.diagonal[row * kSymStride + static_cast<std::size_t>(kSymIndex[r][c] * kLanes + l)];
       add_block(a, make_address(row, l), make_address(row, l), m);
     }
   for (const solve::Block& block : s.block)
@@ -37,7 +39,8 @@ inline Eigen::MatrixXd make_dense(const solve::System& s) {
       for (int l = 0; l < kLanes; ++l) {
         Mat3 m;
         for (int k = 0; k < 9; ++k)
-          m(k / 3, k % 3) = s.upper[(block.first_pair + p) * kMatStride + static_cast<std::size_t>(k * kLanes + l)];
+          m(k / 3, k % 3) = s.upper[(block.first_pair + p) * kMatStride +
+                                    static_cast<std::size_t>(k * kLanes + l)];
         const auto [i, j] = block.pattern->pair[p];
         const Address at_i = make_address(block.first_row + static_cast<std::size_t>(i), l);
         const Address at_j = make_address(block.first_row + static_cast<std::size_t>(j), l);
@@ -50,7 +53,8 @@ inline Eigen::MatrixXd make_dense(const solve::System& s) {
         Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
         for (int i = 0; i < s.block[b].pattern->n_point; ++i)
           for (Address c = 0; c < 3; ++c) {
-            const Address at = make_address(s.block[b].first_row + static_cast<std::size_t>(i), l) + c * kLanes;
+            const Address at =
+                make_address(s.block[b].first_row + static_cast<std::size_t>(i), l) + c * kLanes;
             g(at) = family.vector[at];
           }
         a += family.coefficient[b * kLanes + static_cast<std::size_t>(l)] * g * g.transpose();
@@ -60,7 +64,8 @@ inline Eigen::MatrixXd make_dense(const solve::System& s) {
                    s.stiffness_scale * full_matrix(s.links.stiffness[k]);
     for (std::uint32_t p = s.links.start[k]; p < s.links.start[k + 1]; ++p)
       for (std::uint32_t q = s.links.start[k]; q < s.links.start[k + 1]; ++q)
-        add_block(a, s.links.address[p], s.links.address[q], s.links.weight[p] * s.links.weight[q] * m);
+        add_block(a, s.links.address[p], s.links.address[q],
+                  s.links.weight[p] * s.links.weight[q] * m);
   }
   return a;
 }

@@ -32,7 +32,8 @@ inline double plain_cortex_energy(const PlainCell& c, double stiffness) {
   for (const auto& t : c.topology->triangle)
     for (std::size_t m = 0; m < 3; ++m) {
       const int i = t[m], j = t[(m + 1) % 3];
-      const double stretch = (at(c.node, i) - at(c.node, j)).norm() - (at(rest, i) - at(rest, j)).norm();
+      const double stretch =
+          (at(c.node, i) - at(c.node, j)).norm() - (at(rest, i) - at(rest, j)).norm();
       sum += 0.25 * stiffness * stretch * stretch;
     }
   return sum;

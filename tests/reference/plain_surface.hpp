@@ -16,7 +16,8 @@ inline double plain_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3
 }
 
 /// Distance to a triangle: to its plane if the foot lies inside, else to the nearest edge.
-inline double plain_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+inline double plain_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
+                                         const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a).normalized();
   const double height = (p - a).dot(n);
   const Vec3 foot = p - height * n;
@@ -27,8 +28,8 @@ inline double plain_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec
                    plain_distance_to_segment(p, c, a)});
 }
 
-/// Whether a ray from p crosses the surface an odd number of times. The direction is odd on purpose:
-/// a ray through an edge would be counted twice.
+/// Whether a ray from p crosses the surface an odd number of times. The direction is odd on
+/// purpose: a ray through an edge would be counted twice.
 inline bool plain_inside(const Vec3& p, std::span<const Vec3> node,
                          std::span<const std::array<int, 3>> triangle) {
   const Vec3 ray(0.61803398875, 0.41421356237, 0.66913060636);

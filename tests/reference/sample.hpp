@@ -20,7 +20,8 @@ inline Mat3 random_rotation(UniformStream& random) {
 }
 
 inline Vec3 random_vector(UniformStream& random, double half_width) {
-  const double x = random.uniform(-half_width, half_width), y = random.uniform(-half_width, half_width);
+  const double x = random.uniform(-half_width, half_width),
+               y = random.uniform(-half_width, half_width);
   return {x, y, random.uniform(-half_width, half_width)};
 }
 

@@ -185,10 +185,14 @@ TEST(SceneErrors, RulesBetweenKeys) {
       {"wall names", wall(R"({"name": "a"}, {"name": "a"})"),
        R"(scene.json:1:37 /walls/1/name = "a": another wall has this name)"},
       {"crop",
-       with_block(R"("vessels": {"crop": {"low": ["0 um", "3 um", "0 um"], )"
-                  R"("high": ["1 um", "2 um", "3 um"]}})"),
-       R"(scene.json:1:40 /vessels/crop/low/1 = "3 um": must be below )"
-       R"(/vessels/crop/high/1 = "2 um")"},
+       with_block(R"("vessels": {"crop": [["0 um", "3 um", "0 um"], ["1 um", "2 um", "3 um"]]})"),
+       R"(scene.json:1:33 /vessels/crop/0/1 = "3 um": must be below )"
+       R"(/vessels/crop/1/1 = "2 um")"},
+      {"half a crop", with_block(R"("vessels": {"crop": [1]})"),
+       "scene.json:1:23 /vessels/crop = [1]: must be a list of two corners, the lower one first"},
+      {"wall name", wall(R"({"name": "a/b"})"),
+       R"(scene.json:1:22 /walls/0/name = "a/b": must be a name of letters, digits, _ and -, )"
+       "with spaces inside if wanted"},
       {"zoom box",
        zoomed(
            R"({"kind": "box", "low": ["0 um", "3 um", "0 um"], "high": ["1 um", "2 um", "3 um"]})"),

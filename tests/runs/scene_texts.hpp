@@ -50,9 +50,9 @@ inline constexpr const char* kFull = R"({
   "motility": {"random": true, "leader_force": "0.3 nN"},
   "lobule": {"shape": "pie", "height": "72 um"},
   "vessels": {"unit": "1 mm", "scale": 2, "center": true,
-              "crop": {"low": ["0 um", "0 um", "0 um"], "high": ["1 um", "2 um", "3 um"]}},
+              "crop": [["0 um", "0 um", "0 um"], ["1 um", "2 um", "3 um"]]},
   "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1]},
-            {"name": "top", "point": ["0 um", "0 um", "72 um"], "normal": [0, 0, -1],
+            {"name": "top wall", "point": ["0 um", "0 um", "72 um"], "normal": [0, 0, -1],
              "speed": "7 um/h", "travel": "10 um"}],
   "capsule": {"radius": "100 um", "speed": "10 um/h", "min_radius": "60 um"},
   "output": {"every": "7 min", "compression": "none", "start_up": true}

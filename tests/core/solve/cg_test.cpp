@@ -22,7 +22,9 @@ struct Solved {
   void run(double tolerance, BlockRange range = {}) {
     result = solve_cg(op, rhs, x, {tolerance, 2000}, work, range);
   }
-  Eigen::VectorXd exact() const { return reference::make_dense(system).ldlt().solve(as_eigen(rhs)); }
+  Eigen::VectorXd exact() const {
+    return reference::make_dense(system).ldlt().solve(as_eigen(rhs));
+  }
   /// sqrt(r D^-1 r) of the residual of x over that of the right-hand side, worked out here.
   double true_residual() const {
     const Eigen::MatrixXd a = reference::make_dense(system);
@@ -43,7 +45,8 @@ TEST(Cg, ConvergesToTheDenseSolution) {
   ASSERT_TRUE(s.result.status.ok) << s.result.status.cause;
   const Eigen::VectorXd exact = s.exact();
   const double error = (as_eigen(s.x) - exact).norm() / exact.norm();
-  std::printf("CG: %d iterations, residual %.1e, error %.1e\n", s.result.iterations, s.result.residual, error);
+  std::printf("CG: %d iterations, residual %.1e, error %.1e\n", s.result.iterations,
+              s.result.residual, error);
   EXPECT_LT(error, 1e-9);  // condition of this matrix is below 1e3
 }
 
@@ -77,7 +80,8 @@ TEST(Cg, WarmStartSavesIterations) {
   cold.run(1e-6);
   for (std::size_t k = 0; k < exact.size(); ++k) warm.x[k] = 0.99 * exact[k];
   warm.run(1e-6);
-  std::printf("CG to 1e-6: %d cold, %d from 99 %%\n", cold.result.iterations, warm.result.iterations);
+  std::printf("CG to 1e-6: %d cold, %d from 99 %%\n", cold.result.iterations,
+              warm.result.iterations);
   EXPECT_LT(warm.result.iterations, cold.result.iterations);
 }
 
@@ -120,7 +124,8 @@ TEST(Cg, ZeroRightHandSideGivesZero) {
 TEST(Cg, ZeroLoadInTheRangeStillFeelsTheFrozenRest) {
   Solved s;
   s.x = random_vector_of(s.system, 5);
-  const std::size_t from = s.system.block[1].first_row * kPointStride, to = s.system.block[2].first_row * kPointStride;
+  const std::size_t from = s.system.block[1].first_row * kPointStride,
+                    to = s.system.block[2].first_row * kPointStride;
   for (std::size_t k = from; k < to; ++k) s.rhs[k] = s.x[k] = 0;
   s.run(1e-10, {1, 2});
   const Eigen::MatrixXd a = reference::make_dense(s.system);

@@ -23,8 +23,10 @@ TEST(Operator, ProductIsThatOfTheDenseMatrix) {
     std::vector<double> y(x.size(), 1e300);  // must be overwritten
     op.apply(x, y);
     const Eigen::VectorXd expected = dense * as_eigen(x);
-    worst = std::max(worst, (as_eigen(y) - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
-    EXPECT_LT((dense - dense.transpose()).cwiseAbs().maxCoeff(), 16 * kEps * dense.cwiseAbs().maxCoeff());
+    worst = std::max(
+        worst, (as_eigen(y) - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
+    EXPECT_LT((dense - dense.transpose()).cwiseAbs().maxCoeff(),
+              16 * kEps * dense.cwiseAbs().maxCoeff());
   }
   std::printf("product against dense %.1e\n", worst);
   EXPECT_LT(worst, 256 * kEps);  // about 200 terms a row
@@ -66,10 +68,13 @@ TEST(Operator, PreconditionerInvertsTheDiagonalBlocks) {
       const Address a = make_address(row, l);
       Mat3 d;
       for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) d(r, c) = dense(a + static_cast<Address>(r * kLanes), a + static_cast<Address>(c * kLanes));
+        for (int c = 0; c < 3; ++c)
+          d(r, c) =
+              dense(a + static_cast<Address>(r * kLanes), a + static_cast<Address>(c * kLanes));
       const Vec3 expected = d.fullPivLu().solve(load_point(x.data(), a));
       const double condition = d.norm() * d.inverse().norm();
-      worst = std::max(worst, (load_point(y.data(), a) - expected).norm() / (expected.norm() * condition * condition));
+      worst = std::max(worst, (load_point(y.data(), a) - expected).norm() /
+                                  (expected.norm() * condition * condition));
     }
   std::printf("preconditioner %.1e (over the squared condition of a block)\n", worst);
   EXPECT_LT(worst, 16 * kEps);  // inverse by cofactors
@@ -80,7 +85,8 @@ TEST(Operator, DotIsTheDotProduct) {
   Operator op;
   op.prepare(s);
   const auto a = random_vector_of(s, 6), b = random_vector_of(s, 7);
-  EXPECT_NEAR(op.dot(a, b), as_eigen(a).dot(as_eigen(b)), 64 * kEps * as_eigen(a).norm() * as_eigen(b).norm());
+  EXPECT_NEAR(op.dot(a, b), as_eigen(a).dot(as_eigen(b)),
+              64 * kEps * as_eigen(a).norm() * as_eigen(b).norm());
 }
 
 TEST(Operator, LinkForcesAreScatteredByWeight) {
@@ -89,18 +95,20 @@ TEST(Operator, LinkForcesAreScatteredByWeight) {
   op.prepare(s);
   std::vector<double> pair(s.n_dof(), 0.5), external(s.n_dof(), 0.25);  // added to, not overwritten
   op.add_link_forces(pair, external);
-  Eigen::VectorXd expected_pair = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(s.n_dof()), 0.5);
+  Eigen::VectorXd expected_pair =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(s.n_dof()), 0.5);
   Eigen::VectorXd expected_external = Eigen::VectorXd::Constant(expected_pair.size(), 0.25);
   for (std::size_t l = 0; l < s.links.size(); ++l)
     for (std::uint32_t k = s.links.start[l]; k < s.links.start[l + 1]; ++k)
       for (Address c = 0; c < 3; ++c)
-        (s.links.external[l] ? expected_external : expected_pair)(s.links.address[k] + c * kLanes) +=
-            s.links.weight[k] * s.links.force[l][c];
+        (s.links.external[l] ? expected_external : expected_pair)(
+            s.links.address[k] + c * kLanes) += s.links.weight[k] * s.links.force[l][c];
   EXPECT_LT((as_eigen(pair) - expected_pair).cwiseAbs().maxCoeff(), 64 * kEps);
   EXPECT_LT((as_eigen(external) - expected_external).cwiseAbs().maxCoeff(), 64 * kEps);
   Vec3 net = Vec3::Zero();
   for (std::size_t row = 0; row < s.n_row; ++row)
-    for (int l = 0; l < kLanes; ++l) net += load_point(pair.data(), make_address(row, l)) - Vec3::Constant(0.5);
+    for (int l = 0; l < kLanes; ++l)
+      net += load_point(pair.data(), make_address(row, l)) - Vec3::Constant(0.5);
   EXPECT_LT(net.norm(), 1024 * kEps);
 }
 
@@ -138,7 +146,8 @@ TEST(Links, AppendKeepsOrderAndStencils) {
   ASSERT_EQ(joined.size(), a.links.size() + b.links.size());
   const std::size_t n = a.links.size();
   for (std::size_t l = 0; l < b.links.size(); ++l) {
-    ASSERT_EQ(joined.start[n + l + 1] - joined.start[n + l], b.links.start[l + 1] - b.links.start[l]);
+    ASSERT_EQ(joined.start[n + l + 1] - joined.start[n + l],
+              b.links.start[l + 1] - b.links.start[l]);
     for (std::uint32_t k = 0; k < b.links.start[l + 1] - b.links.start[l]; ++k) {
       EXPECT_EQ(joined.address[joined.start[n + l] + k], b.links.address[b.links.start[l] + k]);
       EXPECT_EQ(joined.weight[joined.start[n + l] + k], b.links.weight[b.links.start[l] + k]);

@@ -10,7 +10,8 @@
 namespace acinus::solve {
 namespace {
 
-/// nN/um, gamma / h of a cell in a liquid (5e-7 nN s/um^3, R 10 um, 60 s) against contacts of order 1.
+/// nN/um, gamma / h of a cell in a liquid (5e-7 nN s/um^3, R 10 um, 60 s) against contacts of
+/// order 1.
 constexpr double kMedium = 1e-5;
 
 /// Two clusters of spheres, joined inside by links along the line of centres (which resist no rigid
@@ -34,7 +35,8 @@ struct Clusters {
       cluster.push_back(c < 6 ? 0 : c < 13 ? 1 : -1);
       active[static_cast<std::size_t>(c)] = c < 13 ? 1 : 0;
       const double medium = c < 13 ? kMedium : 1;
-      const auto row = static_cast<std::size_t>(c / kLanes), l = static_cast<std::size_t>(c % kLanes);
+      const auto row = static_cast<std::size_t>(c / kLanes),
+                 l = static_cast<std::size_t>(c % kLanes);
       system.medium[row * kLanes + l] = medium;
       for (std::size_t k : {0, 3, 5}) system.diagonal[row * kSymStride + k * kLanes + l] = medium;
       store_point(position.data(), at(c),
@@ -53,7 +55,9 @@ struct Clusters {
       }
     op.prepare(system);
   }
-  static Address at(int c) { return make_address(static_cast<std::size_t>(c / kLanes), c % kLanes); }
+  static Address at(int c) {
+    return make_address(static_cast<std::size_t>(c / kLanes), c % kLanes);
+  }
   Vec3 place(int c) const { return load_point(position.data(), at(c)); }
   Vec3 center(int k) const {
     Vec3 sum = Vec3::Zero();
@@ -115,12 +119,14 @@ TEST(RigidModes, LooseSolveIsCorrectedExactly) {
     const double relative = c.resultant(after, k).norm() / load;
     std::printf("cluster %d: rigid residual %.1e before, %.1e after (of its load)\n", k,
                 c.resultant(before, k).norm() / load, relative);
-    EXPECT_GT(c.resultant(before, k).norm() / load, 1e-3) << "nothing to correct: the test says nothing";
+    EXPECT_GT(c.resultant(before, k).norm() / load, 1e-3)
+        << "nothing to correct: the test says nothing";
     EXPECT_LT(relative, 1e-9);
     EXPECT_LT(distance_from_rigid(c, move, k), 1e-12 * result.largest_move + 1e-14);
   }
   for (int cell = 13; cell < 16; ++cell)
-    EXPECT_EQ(load_point(c.x.data(), Clusters::at(cell)), load_point(loose.data(), Clusters::at(cell)));
+    EXPECT_EQ(load_point(c.x.data(), Clusters::at(cell)),
+              load_point(loose.data(), Clusters::at(cell)));
   double largest = 0;
   for (int cell = 0; cell < 13; ++cell)
     largest = std::max(largest, load_point(move.data(), Clusters::at(cell)).norm());
@@ -150,10 +156,12 @@ TEST(RigidModes, ClustersAreJudgedApart) {
   c.correct(0);
   const std::vector<double> exact = c.x;
   for (int cell = 0; cell < 6; ++cell)
-    add_point(c.x.data(), Clusters::at(cell), Vec3(1, 2, 3) + Vec3(0.01, 0, -0.02).cross(c.place(cell)));
+    add_point(c.x.data(), Clusters::at(cell),
+              Vec3(1, 2, 3) + Vec3(0.01, 0, -0.02).cross(c.place(cell)));
   EXPECT_EQ(c.correct(0.01).corrected_groups, 1);
   for (int cell = 0; cell < 13; ++cell) {
-    const Vec3 error = load_point(c.x.data(), Clusters::at(cell)) - load_point(exact.data(), Clusters::at(cell));
+    const Vec3 error =
+        load_point(c.x.data(), Clusters::at(cell)) - load_point(exact.data(), Clusters::at(cell));
     if (cell < 6)
       EXPECT_LT(error.norm(), 1e-5);
     else
@@ -167,16 +175,19 @@ TEST(RigidModes, SurroundingsHoldACluster) {
   Clusters c;
   for (int cell = 0; cell < 6; ++cell) {
     c.system.links.add_point(Clusters::at(cell), 1);
-    c.system.links.close(Vec3::Zero(), Sym3::outer(3, Vec3::UnitZ()), Sym3::identity(1e-3), true, Vec3::UnitZ(), 0);
+    c.system.links.close(Vec3::Zero(), Sym3::outer(3, Vec3::UnitZ()), Sym3::identity(1e-3), true,
+                         Vec3::UnitZ(), 0);
   }
   c.op.prepare(c.system);
   ASSERT_TRUE(solve_cg(c.op, c.rhs, c.x, {1e-2, 2000}, c.cg).status.ok);
   c.correct(0);
   const std::vector<double> after = c.residual();
-  for (int k : {0, 1}) EXPECT_LT(c.resultant(after, k).norm(), 1e-9 * c.resultant(c.rhs, k).norm()) << k;
+  for (int k : {0, 1})
+    EXPECT_LT(c.resultant(after, k).norm(), 1e-9 * c.resultant(c.rhs, k).norm()) << k;
 }
 
-// Isotropic pair friction resists rigid rotation of a cluster of spheres: it must be in the matrix too.
+// Isotropic pair friction resists rigid rotation of a cluster of spheres: it must be in the matrix
+// too.
 TEST(RigidModes, FrictionOfPairsIsSeen) {
   Clusters c;
   for (Sym3& g : c.system.links.friction) g = Sym3::identity(0.5);
@@ -185,7 +196,8 @@ TEST(RigidModes, FrictionOfPairsIsSeen) {
   c.correct(0);
   const std::vector<double> after = c.residual();
   for (int k : {0, 1}) {
-    std::printf("cluster %d with pair friction: %.1e\n", k, c.resultant(after, k).norm() / c.resultant(c.rhs, k).norm());
+    std::printf("cluster %d with pair friction: %.1e\n", k,
+                c.resultant(after, k).norm() / c.resultant(c.rhs, k).norm());
     EXPECT_LT(c.resultant(after, k).norm(), 1e-9 * c.resultant(c.rhs, k).norm());
   }
 }

@@ -20,21 +20,25 @@ inline Sym3 random_sym(UniformStream& random) {
 }
 
 /// Adds s v v^T for a vector over two points of one lane.
-inline void add_pair(System& s, const Block& block, std::size_t pair, int lane, const Vec3& a, const Vec3& b) {
+inline void add_pair(System& s, const Block& block, std::size_t pair, int lane, const Vec3& a,
+                     const Vec3& b) {
   const auto [i, j] = block.pattern->pair[pair];
   constexpr int kRow[6] = {0, 0, 0, 1, 1, 2}, kColumn[6] = {0, 1, 2, 1, 2, 2};
   for (int k = 0; k < 6; ++k) {
     const auto at = static_cast<std::size_t>(k * kLanes + lane);
-    s.diagonal[(block.first_row + static_cast<std::size_t>(i)) * kSymStride + at] += a[kRow[k]] * a[kColumn[k]];
-    s.diagonal[(block.first_row + static_cast<std::size_t>(j)) * kSymStride + at] += b[kRow[k]] * b[kColumn[k]];
+    s.diagonal[(block.first_row + static_cast<std::size_t>(i)) * kSymStride + at] +=
+        a[kRow[k]] * a[kColumn[k]];
+    s.diagonal[(block.first_row + static_cast<std::size_t>(j)) * kSymStride + at] +=
+        b[kRow[k]] * b[kColumn[k]];
   }
   for (int k = 0; k < 9; ++k)
-    s.upper[(block.first_pair + pair) * kMatStride + static_cast<std::size_t>(k * kLanes + lane)] += a[k / 3] * b[k % 3];
+    s.upper[(block.first_pair + pair) * kMatStride + static_cast<std::size_t>(k * kLanes + lane)] +=
+        a[k / 3] * b[k % 3];
 }
 
-/// Two groups of deformable cells and two rows of spheres; two rank-one families, the second of which
-/// covers the first group only; pair links of 2 to 6 points, links with surroundings, and one link
-/// within a single cell.
+/// Two groups of deformable cells and two rows of spheres; two rank-one families, the second of
+/// which covers the first group only; pair links of 2 to 6 points, links with surroundings, and one
+/// link within a single cell.
 inline System make_system(std::uint64_t seed) {
   auto random = reference::stream(seed);
   System s;
@@ -76,7 +80,8 @@ inline System make_system(std::uint64_t seed) {
     if (!external)
       for (int p = 0; p < half; ++p) s.links.add_point(anywhere(), -1.0 / half);
     const Sym3 stiffness = random_sym(random), friction = random_sym(random);
-    s.links.close(reference::random_vector(random, 1), stiffness, friction, external, Vec3::UnitX(), 0);
+    s.links.close(reference::random_vector(random, 1), stiffness, friction, external, Vec3::UnitX(),
+                  0);
   }
   return s;
 }

@@ -1,0 +1,436 @@
+#include "cbm/contact.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/solve/operator.hpp"
+#include "tests/core/contact/reference_table.hpp"
+#include "tests/reference/sample.hpp"
+
+namespace acinus::cbm {
+namespace {
+
+using contact::SurroundingKind;
+using reference::kEps;
+
+/// Spheres with everything around them that a step needs.
+struct Spheres {
+  State state;
+  std::vector<Params> params = std::vector<Params>(1);
+  ContactParams options;
+  contact::Surroundings around;
+  double time = 0;
+  ContactWorkspace work;
+  solve::Links links;
+
+  explicit Spheres(const std::vector<NewCell>& cells) : state(make_state(cells)) {
+    params[0].adhesion = 0.01;
+    params[0].medium_friction = 0.5;
+    params[0].vessel_friction = 0.5;
+    options.cell_friction = 10;
+  }
+  std::vector<double> radius() const { return radii_at(state, time); }
+  void find() {
+    refresh_pairs(state, params, options, radius(), around, work);
+    find_contacts(state, params, options, radius(), around, time, work);
+    links.clear();
+    add_contact_loads(state, params, options, around, work, 0, links);
+  }
+  /// As after an accepted step.
+  void accept() { state.touching = work.touching; }
+  void move(std::size_t cell, const Vec3& to) {
+    store_point(state.position.data(), cell_address(0, cell), to);
+  }
+};
+
+NewCell sphere(const Vec3& center, double radius = 12, double young = 0.45) {
+  NewCell c;
+  c.center = center;
+  c.radius = radius;
+  c.young = young;
+  return c;
+}
+
+Spheres random_spheres(std::uint64_t seed, int n, double width) {
+  auto random = reference::stream(seed);
+  std::vector<NewCell> cells;
+  for (int k = 0; k < n; ++k) {
+    cells.push_back(sphere(reference::random_vector(random, width), random.uniform(9, 15),
+                           random.uniform(0.3, 0.6)));
+    cells.back().type = k % 3 == 0 ? 1 : 0;
+  }
+  Spheres s(cells);
+  s.params.push_back(s.params[0]);
+  s.params[1].adhesion = 0.05;
+  s.params[1].poisson = 0.4;
+  return s;
+}
+
+TEST(SpherePairs, BalanceForceAndTorque) {
+  Spheres s = random_spheres(1, 60, 40);
+  s.find();
+  ASSERT_GT(s.links.size(), 100u);
+  Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
+  double sum = 0, sum_torque = 0;
+  for (std::size_t l = 0; l < s.links.size(); ++l) {
+    for (std::uint32_t k = s.links.start[l]; k < s.links.start[l + 1]; ++k) {
+      const Vec3 f = s.links.weight[k] * s.links.force[l];
+      const Vec3 x = load_point(s.state.position.data(), s.links.address[k]);
+      net += f;
+      torque += x.cross(f);
+      sum += f.norm();
+      sum_torque += x.norm() * f.norm();
+    }
+    EXPECT_EQ(s.links.external[l], 0);
+  }
+  std::printf("%zu sphere pairs: net force %.1e, torque %.1e of the sum\n", s.links.size(),
+              net.norm() / sum, torque.norm() / sum_torque);
+  EXPECT_LT(net.norm(), 64 * kEps * sum);
+  EXPECT_LT(torque.norm(), 64 * kEps * sum_torque);
+}
+
+TEST(SpherePairs, ForceIsJkrAlongTheLineOfCentres) {
+  Spheres s({sphere({0, 0, 0}, 12, 0.4), sphere({0, 22, 0}, 11, 0.5)});
+  s.find();
+  ASSERT_EQ(s.links.size(), 1u);
+  const auto pair = contact::reduced_pair({12, 0.4, 0.47}, {11, 0.5, 0.47}, 0.01);
+  const auto law = contact::jkr_force(pair, 1, false);
+  EXPECT_LT((s.links.force[0] - law.force * Vec3(0, -1, 0)).norm(), 1e-12 * std::abs(law.force));
+  EXPECT_EQ(s.links.address[0], cell_address(0, 0));
+  EXPECT_EQ(s.links.weight[0], 1);
+  EXPECT_NEAR(s.links.stiffness[0].yy, std::max(0.0, law.stiffness), 1e-12);
+  EXPECT_EQ(s.links.stiffness[0].xx, 0);
+  const double area = kPi * law.contact_radius * law.contact_radius;
+  EXPECT_NEAR(s.links.friction[0].xx, 10 * area, 1e-9);
+  EXPECT_NEAR(s.links.friction[0].yy, 10 * area, 1e-9);
+  EXPECT_TRUE(std::isinf(s.links.gap[0])) << "spheres overlap by design";
+}
+
+TEST(SpherePairs, StiffnessIsTheSlopeOfTheForce) {
+  Spheres s({sphere({0, 0, 0}), sphere({23, 0, 0})});
+  s.find();
+  const double k = s.links.stiffness[0].xx, h = 1e-4;
+  s.move(1, {23 - h, 0, 0});
+  s.find();
+  const double more = -s.links.force[0].x();
+  s.move(1, {23 + h, 0, 0});
+  s.find();
+  EXPECT_NEAR((more + s.links.force[0].x()) / (2 * h), k, 1e-6 * k);
+}
+
+TEST(SpherePairs, AdhesionHasHysteresis) {
+  const auto pair = contact::reduced_pair({12, 0.45, 0.47}, {12, 0.45, 0.47}, 0.01);
+  const double least = contact::jkr_special(pair).fold.overlap;  // below zero
+  Spheres s({sphere({0, 0, 0}), sphere({30, 0, 0})});
+  int approach = 0, retreat = 0;
+  for (double distance = 26; distance > 22; distance -= 0.01) {
+    s.move(1, {distance, 0, 0});
+    s.find();
+    const double overlap = 24 - distance;
+    EXPECT_EQ(s.links.size(), overlap >= 0 ? 1u : 0u) << overlap;
+    approach += overlap < 0 ? 1 : 0;
+    s.accept();
+  }
+  double deepest = 0;
+  for (double distance = 22; distance < 26; distance += 0.01) {
+    s.move(1, {distance, 0, 0});
+    s.find();
+    const double overlap = 24 - distance;
+    EXPECT_EQ(s.links.size(), overlap >= least ? 1u : 0u) << overlap;
+    if (s.links.size() == 1 && overlap < 0) {
+      ++retreat;
+      deepest = std::min(deepest, s.work.sphere[0].law.force);
+      EXPECT_LT(s.work.sphere[0].law.force, 0);
+    }
+    s.accept();
+  }
+  std::printf(
+      "JKR: contact from overlap 0, until %.4f um; pull-off %.4f nN of -(3/2) pi W R = %.4f\n",
+      least, deepest, contact::jkr_special(pair).pull_off.force);
+  EXPECT_GT(approach, 100);
+  EXPECT_GT(retreat, 10);
+  EXPECT_NEAR(deepest, contact::jkr_special(pair).pull_off.force, 1e-3 * std::abs(deepest));
+  EXPECT_TRUE(s.state.touching.empty());
+}
+
+// A rejected step must leave no trace: only accepting it changes who touches.
+TEST(SpherePairs, SearchDoesNotChangeTheState) {
+  Spheres s({sphere({0, 0, 0}), sphere({23, 0, 0})});
+  s.find();
+  EXPECT_TRUE(s.state.touching.empty());
+  EXPECT_EQ(s.work.touching.size(), 1u);
+  s.move(1, {24.01, 0, 0});
+  s.find();
+  EXPECT_EQ(s.links.size(), 0u);
+}
+
+TEST(SpherePairs, ListsFindWhatTryingEveryPairFinds) {
+  auto random = reference::stream(2);
+  std::size_t total = 0;
+  for (std::uint64_t seed = 10; seed < 14; ++seed) {
+    Spheres s = random_spheres(seed, 80, 50);
+    s.find();
+    s.accept();
+    for (int round = 0; round < 4; ++round) {
+      for (std::size_t i = 0; i < s.state.n_cell(); ++i)
+        s.move(i, center_of(s.state, i) + (round == 3 ? 0.5 : 0.037) * random.unit_vector());
+      const int builds = s.work.list_builds;
+      s.find();
+      EXPECT_EQ(s.work.list_builds, builds + (round == 3 ? 1 : 0));
+      const auto r = s.radius();
+      std::vector<std::pair<int, int>> expected;
+      double worst = 0;
+      for (int i = 0; i < 80; ++i)
+        for (int j = i + 1; j < 80; ++j) {
+          const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+          const Params &p = s.params[static_cast<std::size_t>(s.state.type[a])],
+                       &q = s.params[static_cast<std::size_t>(s.state.type[b])];
+          const auto pair = contact::reduced_pair({r[a], s.state.young[a], p.poisson},
+                                                  {r[b], s.state.young[b], q.poisson},
+                                                  std::sqrt(p.adhesion * q.adhesion));
+          const bool before = std::ranges::count(s.state.touching, std::pair(i, j)) > 0;
+          const auto law = contact::jkr_force(
+              pair, r[a] + r[b] - (center_of(s.state, a) - center_of(s.state, b)).norm(), before);
+          if (!law.touching) continue;
+          expected.emplace_back(i, j);
+          for (const SphereContact& c : s.work.sphere)
+            if (c.a == i && c.b == j) worst = std::max(worst, std::abs(c.law.force - law.force));
+        }
+      EXPECT_EQ(s.work.touching, expected);
+      EXPECT_EQ(s.work.sphere.size(), expected.size());
+      EXPECT_LT(worst, 1e-12);
+      total += expected.size();
+      s.accept();
+    }
+  }
+  std::printf("sphere lists: %zu contacts as by trying every pair\n", total);
+}
+
+// Adhesion far out of range of the overlap: the lists must reach to where the softest pair lets go.
+TEST(SpherePairs, StretchedAdhesiveContactsStayInTheLists) {
+  Spheres s({sphere({0, 0, 0}, 12, 0.3), sphere({23.9, 0, 0}, 12, 0.3)});
+  s.params[0].adhesion = 0.1;
+  s.find();
+  s.accept();
+  const auto pair = contact::reduced_pair({12, 0.3, 0.47}, {12, 0.3, 0.47}, 0.1);
+  const double last = 24 - contact::jkr_special(pair).fold.overlap;
+  for (double distance = 23.9; distance < last - 0.01; distance += 0.05) {
+    s.move(1, {distance, 0, 0});
+    s.find();
+    ASSERT_EQ(s.links.size(), 1u) << distance;
+    s.accept();
+  }
+}
+
+TEST(Vessels, StretchedAdhesiveContactWithASoftVesselStaysInTheLists) {
+  Spheres s({sphere({0, 0, 16.6}, 12, 5)});
+  mesh::Network n;
+  n.node = {{-50, 0, 0}, {50, 0, 0}};
+  n.segment = {{0, 1}};
+  n.radius = {{4.7, 4.7}};
+  contact::set_network(s.around.vessels, n);
+  s.around.vessels.material = {0.1, 0.1, 0.4, false};
+  s.options.skin = 0.01;
+  s.find();
+  s.accept();
+  const auto pair = contact::vessel_pair({12, 5, 0.47}, {4.7, 0.1, 0.4}, 0.1);
+  const double last = 16.7 - contact::jkr_special(pair).fold.overlap;
+  for (double z = 16.6; z < last - 0.01; z += 0.05) {
+    s.move(0, {0, 0, z});
+    s.find();
+    ASSERT_EQ(s.links.size(), 1u) << z << " of " << last;
+    s.accept();
+  }
+}
+
+TEST(Vessels, OneContactForAnySpacingOfTheChain) {
+  const auto law =
+      contact::jkr_force(contact::vessel_pair({12, 0.45, 0.47}, {4.7, 0.6, 0.4}, 0), 0.5, false);
+  for (int pieces : {1, 2, 7, 20, 43, 85}) {
+    Spheres s({sphere({1.3, 0, 16.2})});
+    mesh::Network n;
+    for (int k = 0; k <= pieces; ++k) n.node.emplace_back(-50 + 100.0 * k / pieces, 0, 0);
+    for (int k = 0; k < pieces; ++k) {
+      n.segment.push_back({k, k + 1});
+      n.radius.push_back({4.7, 4.7});
+    }
+    contact::set_network(s.around.vessels, n);
+    s.around.vessels.material = {0, 0.6, 0.4, false};
+    s.find();
+    ASSERT_EQ(s.links.size(), 1u) << pieces;
+    EXPECT_EQ(s.links.external[0], 1);
+    EXPECT_LT((s.links.force[0] - law.force * Vec3::UnitZ()).norm(), 1e-12) << pieces;
+    EXPECT_NEAR(s.links.friction[0].xx, 0.5 * kPi * law.contact_radius * law.contact_radius, 1e-12);
+    EXPECT_EQ(mean_overlap(s.work, 0), 0) << "vessels are kept out of the mean overlap";
+  }
+}
+
+// A cell that slides along an adhesive vessel keeps its contact where one segment ends.
+TEST(Vessels, StretchedContactSurvivesAJoint) {
+  Spheres s({sphere({-3, 0, 16.6})});
+  mesh::Network n;
+  n.node = {{-50, 0, 0}, {0, 0, 0}, {50, 0, 0}};
+  n.segment = {{0, 1}, {1, 2}};
+  n.radius = {{4.7, 4.7}, {4.7, 4.7}};
+  contact::set_network(s.around.vessels, n);
+  s.around.vessels.material = {0.05, 0.6, 0.4, false};
+  s.find();
+  s.accept();
+  for (double x = -3; x < 3; x += 0.1) {
+    s.move(0, {x, 0, 16.75});  // pulled: the overlap is below zero
+    s.find();
+    ASSERT_EQ(s.links.size(), 1u) << x;
+    s.accept();
+  }
+}
+
+TEST(Walls, MirrorActsAsTheImageCell) {
+  Spheres wall({sphere({0, 0, 11})}), image({sphere({0, 0, 11}), sphere({0, 0, -11})});
+  contact::Plane p;
+  p.material.mirror = true;
+  wall.around.planes = {p};
+  image.params[0].adhesion = 0;
+  wall.find();
+  image.find();
+  ASSERT_EQ(wall.links.size(), 1u);
+  ASSERT_EQ(image.links.size(), 1u);
+  EXPECT_LT((wall.links.force[0] - image.links.force[0]).norm(), 1e-12);
+  EXPECT_EQ(wall.links.friction[0].xx, 0);  // no tangential friction
+  EXPECT_NEAR(mean_overlap(wall.work, 0), 1 - 11.0 / 12, 1e-14);
+  EXPECT_NEAR(mean_overlap(image.work, 0), 1 - 11.0 / 12, 1e-14);
+  EXPECT_NEAR(wall.work.contact_area[0], image.work.contact_area[0], 1e-10);
+  const auto hertz = 4.0 / 3 * 0.45 / (1 - 0.47 * 0.47) * std::sqrt(12.0);
+  EXPECT_NEAR(wall.links.force[0].z(), hertz, 1e-12);
+  wall.move(0, {0, 0, 12.01});
+  wall.find();
+  EXPECT_EQ(wall.links.size(), 0u) << "a mirror never pulls";
+}
+
+TEST(Walls, MovingPlaneAndShrinkingCapsule) {
+  Spheres s({sphere({0, 0, 12.5})});
+  contact::Plane p;
+  p.speed = 0.1;
+  p.travel = 3;
+  p.material.adhesion = 0.01;
+  contact::Capsule shell;
+  shell.radius = 60;
+  shell.center = {0, 0, -35};
+  shell.speed = 0.1;
+  shell.min_radius = 30;
+  s.around.planes = {p};
+  s.around.capsules = {shell};
+  s.find();
+  EXPECT_EQ(s.links.size(), 0u);
+  s.time = 10;
+  s.find();
+  ASSERT_EQ(s.links.size(), 2u);
+  const auto floor = contact::jkr_force(
+      contact::reduced_pair({12, 0.45, 0.47}, {contact::kFlat, contact::kRigid, 0}, 0.01), 0.5,
+      false);
+  const auto cap = contact::jkr_force(
+      contact::reduced_pair({12, 0.45, 0.47}, {-59, contact::kRigid, 0}, 0), 0.5, false);
+  EXPECT_LT((s.links.force[0] - floor.force * Vec3::UnitZ()).norm(), 1e-12);
+  EXPECT_LT((s.links.force[1] + cap.force * Vec3::UnitZ()).norm(), 1e-12);
+}
+
+TEST(MeanOverlap, DoesNotJumpWhenAContactAppears) {
+  Spheres s({sphere({0, 0, 0}), sphere({23, 0, 0}), sphere({-26, 0, 0})});
+  double last = -1, steepest = 0;
+  for (double gap = 26; gap > 22; gap -= 1e-3) {
+    s.move(2, {-gap, 0, 0});
+    s.find();
+    s.accept();
+    const double d = mean_overlap(s.work, 0);
+    if (last >= 0) steepest = std::max(steepest, std::abs(d - last));
+    last = d;
+  }
+  const double own = 1 - 23.0 / 24;
+  std::printf(
+      "mean overlap: largest change in 1 nm of approach %.1e (d of the other contact %.3f)\n",
+      steepest, own);
+  EXPECT_LT(
+      steepest,
+      1e-3 * own * 10);  // of order d per um of approach, in steps of 1 nm; a jump would be d/2
+  EXPECT_NEAR(last, (own + (1 - 22.0 / 24)) / 2, 1e-4);
+  // And back out, through the adhesive branch.
+  for (double gap = 22; gap < 25; gap += 1e-3) {
+    s.move(2, {-gap, 0, 0});
+    s.find();
+    s.accept();
+    const double d = mean_overlap(s.work, 0);
+    steepest = std::max(steepest, std::abs(d - last));
+    last = d;
+  }
+  EXPECT_LT(steepest, 1e-2 * own);
+  EXPECT_NEAR(last, own, 1e-14);
+}
+
+TEST(MediumFriction, ActsOnWhatTouchesNothing) {
+  Spheres s = random_spheres(20, 11, 20);
+  s.find();
+  solve::System system;
+  solve::set_blocks(system, make_blocks(s.state));
+  system.friction_scale = 0.1;
+  std::vector<Vec3> pull(11, Vec3(0, 0, 0.3));
+  add_cell_loads(s.state, s.params, s.radius(), s.work, pull, 0, system);
+  std::vector<double> area(11);
+  for (const SphereContact& c : s.work.sphere)
+    for (int k : {c.a, c.b})
+      area[static_cast<std::size_t>(k)] += kPi * c.law.contact_radius * c.law.contact_radius;
+  const auto r = s.radius();
+  for (std::size_t i = 0; i < 16; ++i) {
+    const double medium = system.medium[i / kLanes * kLanes + i % kLanes];
+    const double diagonal = system.diagonal[i / kLanes * kSymStride + i % kLanes];
+    EXPECT_DOUBLE_EQ(diagonal, 0.1 * medium);
+    if (i >= 11) {
+      EXPECT_EQ(medium, 1);  // an empty lane keeps the matrix regular
+      continue;
+    }
+    const double surface = 4 * kPi * r[i] * r[i];
+    EXPECT_NEAR(s.work.contact_area[i], area[i], 1e-12 * surface);
+    EXPECT_NEAR(medium / 0.5 + std::min(area[i], surface), surface, 1e-12 * surface);
+    EXPECT_EQ(load_point(system.external_force.data(), cell_address(0, i)), pull[i]);
+  }
+  EXPECT_EQ(medium_friction(s.params[0], 12, 1e9), 0) << "never negative";
+  Params liquid;
+  liquid.viscosity = 1e-6;
+  EXPECT_NEAR(medium_friction(liquid, 12, 0), 6 * kPi * 1e-6 * 12, 1e-18);
+  EXPECT_NEAR(medium_friction(liquid, 12, 2 * kPi * 144), 3 * kPi * 1e-6 * 12, 1e-18);
+}
+
+// Whole-cell figures of Table 1: 0.905 N s/m of a cell in the matrix.
+TEST(MediumFriction, OfALoneCellInTheMatrix) {
+  Params p;
+  p.medium_friction = 0.5;
+  EXPECT_NEAR(medium_friction(p, 12, 0), 905, 1);  // nN s/um
+}
+
+TEST(Params, YoungFromBulkMatchesReference) {
+  const auto rows = test::read_reference("elastic_relation.csv");
+  if (rows.empty()) GTEST_SKIP() << "no reference tables";
+  double worst = 0;
+  for (const auto& row : rows)
+    worst = std::max(worst, test::relative(young_from_bulk(test::number(row, 0) * test::kPascal,
+                                                           test::number(row, 1)),
+                                           test::number(row, 2) * test::kPascal));
+  std::printf("elastic_relation: %zu rows, worst %.1e\n", rows.size(), worst);
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_NEAR(young_from_bulk(2.5, 0.47), 0.45, 1e-15);
+}
+
+TEST(State, RadiiFollowTheVolume) {
+  Spheres s({sphere({1, 2, 3}, 12), sphere({4, 5, 6}, 9)});
+  s.state.volume[0] = {4.0 / 3 * kPi * 1728, 8.0 / 3 * kPi * 1728, 0, 86400};
+  EXPECT_NEAR(radii_at(s.state, 0)[0], 12, 1e-13);
+  EXPECT_NEAR(radii_at(s.state, 86400)[0], 15.119, 1e-3);
+  EXPECT_NEAR(radii_at(s.state, 86400)[1], 9, 1e-13);
+  EXPECT_EQ(center_of(s.state, 1), Vec3(4, 5, 6));
+  EXPECT_EQ(make_blocks(random_spheres(3, 17, 10).state).size(), 3u);
+}
+
+}  // namespace
+}  // namespace acinus::cbm

@@ -1,0 +1,92 @@
+#pragma once
+/// Touching cells for the tests of contact.
+
+#include <vector>
+
+#include "core/solve/system.hpp"
+#include "dcm/contact.hpp"
+#include "tests/reference/sample.hpp"
+
+namespace acinus::dcm {
+
+struct Clump {
+  State state;
+  std::vector<Params> params;
+  ContactParams options;
+  contact::Surroundings around;
+  double time = 0;
+  LaneData lanes;
+  ContactWorkspace work;
+  solve::Links links;
+
+  void add_cells(const std::vector<NewCell>& cells) {
+    state = make_state(cells);
+    params.assign(1, {});
+    params[0].adhesion = 0.01;
+    options.cell_friction = 50;
+  }
+  void find() {
+    lanes = make_lane_data(state, time);
+    work.fixed.clear();
+    for (const contact::StaticMesh& m : around.meshes) work.fixed.push_back(m.body);
+    refresh_bodies(state, work);
+    refresh_lists(state, options, lanes, around, work);
+    find_contacts(state, options, lanes, around, time, work);
+    links.clear();
+    add_contact_loads(state, params, options, lanes, around, work, links);
+  }
+  /// Contacts as if no list had been made before.
+  void find_afresh() {
+    work.list_position.clear();
+    find();
+  }
+  /// [n_dof] the force of all links on the nodes.
+  std::vector<double> node_force() const {
+    std::vector<double> f(state.position.size());
+    for (std::size_t l = 0; l < links.size(); ++l)
+      for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
+        add_point(f.data(), links.address[k], links.weight[k] * links.force[l]);
+    return f;
+  }
+  /// f(address) for all nodes of all cells.
+  template <class F>
+  void for_each_node(F f) const {
+    for (std::size_t l = 0; l < state.n_lane(); ++l)
+      for (int i = 0; state.active(l) && i < state.group[l / kLanes].topology->n_node; ++i)
+        f(node_address(state, l, i));
+  }
+  /// Moves every node by t * (its part of a direction).
+  void shift(const std::vector<double>& direction, double t) {
+    for (std::size_t k = 0; k < direction.size(); ++k) state.position[k] += t * direction[k];
+  }
+};
+
+inline NewCell new_cell(std::int64_t lineage, const Vec3& center, double radius,
+                        const Mat3& rotation, int n_node = 162) {
+  NewCell c;
+  c.lineage = lineage;
+  c.topology = &mesh::shared_icosphere(n_node);
+  c.center = center;
+  c.radius = radius;
+  c.rotation = rotation;
+  return c;
+}
+
+/// Five rough cells of three sizes that all touch or overlap their neighbours.
+inline Clump make_clump(std::uint64_t seed) {
+  auto random = reference::stream(seed);
+  Clump c;
+  std::vector<NewCell> cells;
+  const Vec3 place[5] = {{0, 0, 0}, {19.6, 0, 0}, {9.8, 17, 0}, {9.8, 5.6, 16}, {9.8, 5.6, -16.4}};
+  const double radius[5] = {10, 10, 9.8, 10, 10.3};
+  for (int k = 0; k < 5; ++k)
+    cells.push_back(new_cell(k, Vec3(7, -5, 3) + place[k], radius[k],
+                             reference::random_rotation(random), k == 2 ? 42 : 162));
+  c.add_cells(cells);
+  c.for_each_node([&](Address a) {
+    add_point(c.state.position.data(), a, reference::random_vector(random, 0.1));
+  });
+  return c;
+}
+
+}  // namespace acinus::dcm

@@ -1,0 +1,404 @@
+/// Contacts of deformable cells as loads: balance, gradient, invariance, areas.
+
+#include "dcm/contact.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/dcm/clump.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+/// All kinds of surroundings, each in reach of some cell of make_clump.
+contact::Surroundings make_surroundings() {
+  contact::Surroundings s;
+  contact::Plane floor;
+  floor.point = {0, 0, -23.9};
+  floor.material.adhesion = 0.02;
+  contact::Plane mirror;
+  mirror.point = {-3.3, 0, 0};
+  mirror.normal = Vec3::UnitX();
+  mirror.material.mirror = true;
+  s.planes = {floor, mirror};
+  contact::Capsule shell;
+  shell.center = {17, 0, 3};
+  shell.radius = 26.8;  // its lowest point lies where the floor is touched
+  shell.material.adhesion = 0.01;
+  s.capsules = {shell};
+  mesh::Network n;
+  n.node = {{36.6, -20, 0}, {41, 1, 6}, {38, 12, 4}, {45, 30, 10}};
+  n.segment = {{0, 1}, {1, 2}, {2, 3}};
+  n.radius = {{4, 5}, {5, 4}, {4, 4}};
+  contact::set_network(s.vessels, n);
+  s.vessels.material.adhesion = 0.01;
+  contact::StaticMesh block;
+  block.body.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
+                     {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};
+  block.triangle = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 4, 5}, {0, 5, 1},
+                    {1, 5, 6}, {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
+  block.material.adhesion = 0.01;
+  s.meshes.push_back(block);
+  return s;
+}
+
+void connect_meshes(contact::Surroundings& s) {
+  for (contact::StaticMesh& m : s.meshes) {
+    m.body.triangle = &m.triangle;
+    contact::refresh_body(m.body);
+  }
+}
+
+Clump make_surrounded_clump(std::uint64_t seed) {
+  Clump c = make_clump(seed);
+  c.around = make_surroundings();
+  c.params[0].vessel_friction = 0.1;
+  return c;
+}
+
+TEST(ContactLoads, PairsBalanceForceAndTorque) {
+  double worst = 0;
+  std::size_t n = 0;
+  for (std::uint64_t seed = 70; seed < 74; ++seed) {
+    Clump c = make_clump(seed);
+    if (seed % 2 == 1) c.options.quadrature = contact::Quadrature::kNodes;
+    c.find();
+    n += c.links.size();
+    const std::vector<double> force = c.node_force();
+    Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
+    double sum = 0, sum_torque = 0;
+    c.for_each_node([&](Address a) {
+      const Vec3 f = load_point(force.data(), a), x = load_point(c.state.position.data(), a);
+      net += f;
+      torque += x.cross(f);
+      sum += f.norm();
+      sum_torque += f.norm() * x.norm();
+    });
+    EXPECT_GT(sum, 0);
+    worst = std::max({worst, net.norm() / sum, torque.norm() / sum_torque});
+    for (std::size_t l = 0; l < c.links.size(); ++l) {
+      double weights = 0;
+      for (std::uint32_t k = c.links.start[l]; k < c.links.start[l + 1]; ++k)
+        weights += c.links.weight[k];
+      EXPECT_NEAR(weights, 0, 1e-15);
+      EXPECT_EQ(c.links.external[l], 0);
+    }
+  }
+  std::printf("pair contacts: %zu links, net force and torque %.1e of the sum\n", n, worst);
+  EXPECT_LT(worst, 1e-12);
+}
+
+/// Energy of one contact, fJ.
+double contact_energy(const Clump& c, std::size_t link, double gap) {
+  const bool is_surface = link < c.work.surface.size();
+  const auto& surface = c.work.surface;
+  const int body = is_surface ? surface[link].body_a : c.work.obstacle[link - surface.size()].body;
+  const int point = is_surface ? surface[link].point : c.work.obstacle[link - surface.size()].point;
+  const std::size_t lane = c.work.lane_of_body[static_cast<std::size_t>(body)];
+  const mesh::Topology& t = *c.state.group[lane / kLanes].topology;
+  const double radius = c.lanes.radius[lane];
+  double adhesion = c.params[0].adhesion, weight = 1;
+  if (is_surface && surface[link].body_b < static_cast<int>(c.work.body.size())) {
+    weight = 0.5;  // the other side probes as well
+  } else {
+    const auto kind =
+        is_surface ? contact::SurroundingKind::kMesh : c.work.obstacle[link - surface.size()].kind;
+    const auto index =
+        is_surface ? 0 : static_cast<std::size_t>(c.work.obstacle[link - surface.size()].index);
+    if (kind == contact::SurroundingKind::kPlane)
+      adhesion = c.around.planes[index].material.adhesion;
+    if (kind == contact::SurroundingKind::kCapsule)
+      adhesion = c.around.capsules[index].material.adhesion;
+    if (kind == contact::SurroundingKind::kVessel) adhesion = c.around.vessels.material.adhesion;
+    if (kind == contact::SurroundingKind::kMesh) adhesion = c.around.meshes[0].material.adhesion;
+  }
+  const double area = c.options.quadrature == contact::Quadrature::kThreePoint
+                          ? t.rest_triangle_area[static_cast<std::size_t>(point / 3)] / 3
+                          : t.rest_node_area[static_cast<std::size_t>(point)];
+  return weight * area * radius * radius *
+         contact::well_energy(
+             {adhesion, c.options.repulsion, c.options.range_factor * t.mean_rest_length * radius},
+             gap);
+}
+
+std::vector<double> gaps_of(const Clump& c) {
+  std::vector<double> g;
+  for (const auto& s : c.work.surface) g.push_back(s.gap);
+  for (const auto& o : c.work.obstacle) g.push_back(o.gap);
+  return g;
+}
+
+/// Who meets whom, to tell whether a small move kept the closest features.
+std::vector<std::array<int, 4>> features_of(const Clump& c) {
+  std::vector<std::array<int, 4>> f;
+  for (const auto& s : c.work.surface) f.push_back({s.body_a, s.point, s.body_b, s.triangle_b});
+  for (const auto& o : c.work.obstacle)
+    f.push_back({o.body, o.point, -1 - static_cast<int>(o.kind), o.index});
+  return f;
+}
+
+// One contact at a time and all nodes moved at once: -F . dx = E(x + dx) - E(x - dx).
+TEST(ContactLoads, ForceIsMinusEnergyGradient) {
+  double worst = 0;
+  std::size_t tried = 0;
+  std::array<int, 5> kinds{};
+  for (std::uint64_t seed = 80; seed < 84; ++seed) {
+    Clump c = make_surrounded_clump(seed);
+    connect_meshes(c.around);
+    if (seed % 2 == 1) c.options.quadrature = contact::Quadrature::kNodes;
+    c.find();
+    auto random = reference::stream(seed + 10);
+    std::vector<double> direction(c.state.position.size());
+    for (double& d : direction) d = random.uniform(-1, 1);
+    const solve::Links links = c.links;
+    const auto before = features_of(c);
+    const auto gap = gaps_of(c);
+    ASSERT_EQ(links.size(), before.size());
+    const double h = 1e-6;
+    c.shift(direction, h);
+    c.find();
+    const auto after = features_of(c);
+    const auto more = gaps_of(c);
+    c.shift(direction, -2 * h);
+    c.find();
+    const auto less = gaps_of(c);
+    double scale = 0;
+    for (const Vec3& f : links.force) scale = std::max(scale, f.norm());
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      // match by feature: a contact may have appeared or gone
+      const auto find = [&](const std::vector<std::array<int, 4>>& in) {
+        return static_cast<std::size_t>(std::ranges::find(in, before[l]) - in.begin());
+      };
+      const std::size_t up = find(after), down = find(features_of(c));
+      if (up >= more.size() || down >= less.size()) continue;
+      double work = 0;
+      for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
+        work +=
+            links.weight[k] * links.force[l].dot(load_point(direction.data(), links.address[k]));
+      const double slope =
+          (contact_energy(c, down, more[up]) - contact_energy(c, down, less[down])) / (2 * h);
+      worst = std::max(worst, std::abs(work + slope) / scale);
+      EXPECT_EQ(links.gap[l], gap[l]);
+      ++tried;
+      const bool mesh = before[l][2] >= static_cast<int>(c.work.body.size());
+      ++kinds[before[l][2] < 0 ? static_cast<std::size_t>(-1 - before[l][2]) : mesh ? 3 : 4];
+    }
+  }
+  std::printf(
+      "contact gradient: %zu links (planes %d, capsule %d, vessel %d, mesh %d, cells %d), worst "
+      "%.1e of the largest force\n",
+      tried, kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], worst);
+  for (int kind : {0, 1, 2, 3, 4}) EXPECT_GT(kinds[static_cast<std::size_t>(kind)], 20) << kind;
+  // h^2 times the third derivative of the gap, 1/um^2 a thousandfold near an edge; kEps E / h is
+  // 1e-10.
+  EXPECT_LT(worst, 1e-6);
+}
+
+TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
+  Clump c = make_surrounded_clump(85);
+  connect_meshes(c.around);
+  c.find();
+  const auto gap = gaps_of(c);
+  for (std::size_t l = 0; l < c.links.size(); ++l) {
+    const Vec3& n = c.links.normal[l];
+    const double h = 1e-4;
+    const double curvature = (contact_energy(c, l, gap[l] + h) - 2 * contact_energy(c, l, gap[l]) +
+                              contact_energy(c, l, gap[l] - h)) /
+                             (h * h);
+    const double along = n.dot(c.links.stiffness[l] * n);
+    if (std::abs(gap[l]) > 2 * h) {
+      EXPECT_NEAR(along, std::max(0.0, curvature), 1e-3 * (along + 0.1)) << gap[l];
+    }
+    const Vec3 across = n.unitOrthogonal();
+    EXPECT_LT((c.links.stiffness[l] * across).norm(), 1e-14 * (along + 1));
+    EXPECT_NEAR(c.links.force[l].cross(n).norm(), 0, 1e-15);
+  }
+}
+
+TEST(ContactLoads, TurnWithTheCells) {
+  Clump c = make_clump(86), turned = make_clump(86);
+  auto random = reference::stream(87);
+  const Mat3 q = reference::random_rotation(random);
+  const Vec3 shift = reference::random_vector(random, 15);
+  turned.for_each_node([&](Address a) {
+    store_point(turned.state.position.data(), a,
+                q * load_point(turned.state.position.data(), a) + shift);
+  });
+  c.find();
+  turned.find();
+  EXPECT_EQ(c.links.size(), turned.links.size());
+  const auto f = c.node_force(), g = turned.node_force();
+  double worst = 0, scale = 0;
+  c.for_each_node([&](Address a) {
+    worst = std::max(worst, (load_point(g.data(), a) - q * load_point(f.data(), a)).norm());
+    scale = std::max(scale, load_point(f.data(), a).norm());
+  });
+  std::printf("contact forces turn with the cells: %.1e\n", worst / scale);
+  EXPECT_LT(worst, 1e-11 * scale);  // gaps carry 1e-14 um, k_rep turns that into 1e-13 nN
+}
+
+TEST(Contacts, OldListsGiveWhatNewListsGive) {
+  Clump c = make_surrounded_clump(88);
+  connect_meshes(c.around);
+  auto random = reference::stream(89);
+  c.find();
+  const State start = c.state;
+  for (int k = 0; k < 5; ++k) {
+    c.state = start;
+    c.for_each_node([&](Address a) {
+      add_point(c.state.position.data(), a, random.uniform(0, 0.1499) * random.unit_vector());
+    });
+    const int builds = c.work.list_builds;
+    c.find();
+    EXPECT_EQ(c.work.list_builds, builds) << "less than half the skin";
+    const auto features = features_of(c);
+    const auto gap = gaps_of(c);
+    const auto force = c.node_force();
+    Clump fresh = c;
+    connect_meshes(fresh.around);
+    fresh.find_afresh();
+    EXPECT_EQ(fresh.work.list_builds, builds + 1);
+    EXPECT_EQ(features, features_of(fresh));
+    EXPECT_EQ(gap, gaps_of(fresh));
+    EXPECT_EQ(force, fresh.node_force());
+  }
+  store_point(c.state.position.data(), node_address(c.state, 0, 5),
+              c.work.body[0].node[5] + Vec3(0, 0, 0.4));
+  const int builds = c.work.list_builds;
+  c.find();
+  EXPECT_EQ(c.work.list_builds, builds + 1);
+}
+
+TEST(Contacts, GrowthAloneRenewsTheLists) {
+  Clump c = make_clump(90);
+  c.options.friction_range = 0.01;
+  c.find();
+  const int builds = c.work.list_builds;
+  for (Ramp& v : c.state.volume) v = Ramp::constant(v.to * 1.2);  // range grows by 6 % of 0.9 um
+  c.find();
+  EXPECT_EQ(c.work.list_builds, builds);
+  for (Ramp& v : c.state.volume) v = Ramp::constant(v.to * 2.5);
+  c.find();
+  EXPECT_EQ(c.work.list_builds, builds + 1);
+}
+
+TEST(Contacts, SameBitsForAnyNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  std::vector<std::vector<double>> force;
+  for (int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    Clump c = make_surrounded_clump(91);
+    connect_meshes(c.around);
+    c.find();
+    force.push_back(c.node_force());
+  }
+  omp_set_num_threads(before);
+  EXPECT_EQ(force[0], force[1]);
+  EXPECT_EQ(force[0], force[2]);
+}
+
+// A point's weight goes chi to its contacts and 1 - chi to the medium.
+TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
+  for (const auto q : {contact::Quadrature::kThreePoint, contact::Quadrature::kNodes}) {
+    Clump c = make_surrounded_clump(92);
+    connect_meshes(c.around);
+    c.options.quadrature = q;
+    c.find();
+    std::vector<double> free_area;
+    compute_free_areas(c.state, c.options, c.lanes, c.work, free_area);
+    std::vector<double> touching(c.work.body.size());
+    double most = 0;
+    for (std::size_t k = 0; k < c.work.share.size(); ++k)
+      for (double s : c.work.share[k]) most = std::max(most, s);
+    const auto count = [&](int body, int point, double gap) {
+      const auto k = static_cast<std::size_t>(body);
+      const double total = c.work.share[k][static_cast<std::size_t>(point)];
+      touching[k] +=
+          point_area(*c.work.body[k].topology, q, point, c.lanes.radius[c.work.lane_of_body[k]]) *
+          share_scale(total) * contact::contact_share(gap, c.options.friction_range);
+    };
+    for (const auto& s : c.work.surface)
+      if (s.body_a != s.body_b) count(s.body_a, s.point, s.gap);
+    for (const auto& o : c.work.obstacle) count(o.body, o.point, o.gap);
+    double worst = 0;
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+      const std::size_t lane = c.work.lane_of_body[k];
+      const mesh::Topology& t = *c.work.body[k].topology;
+      double free = 0;
+      for (int i = 0; i < t.n_node; ++i) {
+        const double a =
+            free_area[(c.state.group[lane / kLanes].first_row + static_cast<std::size_t>(i)) *
+                          kLanes +
+                      lane % kLanes];
+        EXPECT_GE(a, 0);
+        free += a;
+      }
+      EXPECT_GT(touching[k], 0);
+      const double surface = t.rest_area * c.lanes.radius[lane] * c.lanes.radius[lane];
+      worst = std::max(worst, std::abs(free + touching[k] - surface) / surface);
+    }
+    std::printf(
+        "contact + free area against the surface %.1e; a point touches at most %.2f times\n", worst,
+        most);
+    EXPECT_LT(worst, 1e-12);
+    EXPECT_GT(most, 1) << "some point must meet two partners, or the scale is not tried";
+  }
+}
+
+TEST(ContactLoads, FrictionIsAreaTimesShare) {
+  Clump c = make_surrounded_clump(93);
+  connect_meshes(c.around);
+  c.options.friction_factor = 0.5;
+  c.find();
+  double most = 0;
+  for (std::size_t l = 0; l < c.links.size(); ++l) {
+    const bool is_surface = l < c.work.surface.size();
+    const auto k = static_cast<std::size_t>(
+        is_surface ? c.work.surface[l].body_a : c.work.obstacle[l - c.work.surface.size()].body);
+    const int point =
+        is_surface ? c.work.surface[l].point : c.work.obstacle[l - c.work.surface.size()].point;
+    const bool pair = is_surface && c.work.surface[l].body_b < static_cast<int>(c.work.body.size());
+    const bool mirror =
+        !is_surface &&
+        c.work.obstacle[l - c.work.surface.size()].kind == contact::SurroundingKind::kPlane &&
+        c.work.obstacle[l - c.work.surface.size()].index == 1;
+    const double total = c.work.share[k][static_cast<std::size_t>(point)];
+    const double touching = point_area(*c.work.body[k].topology, c.options.quadrature, point,
+                                       c.lanes.radius[c.work.lane_of_body[k]]) *
+                            contact::contact_share(c.links.gap[l], 0.3) / std::max(1.0, total);
+    const double expected = mirror ? 0 : pair ? touching / 2 * 50 * 0.5 : touching * 0.1;
+    EXPECT_NEAR(c.links.friction[l].xx, expected, 1e-12 * (expected + 1e-3));
+    EXPECT_EQ(c.links.friction[l].xx, c.links.friction[l].zz);
+    EXPECT_EQ(c.links.friction[l].xy, 0);
+    EXPECT_EQ(c.links.external[l], pair ? 0 : 1);
+    most = std::max(most, expected);
+  }
+  EXPECT_GT(most, 1);
+}
+
+TEST(ContactLoads, AdhesionIsTheGeometricMeanAndRamps) {
+  Clump c;
+  const Mat3 one = Mat3::Identity();
+  std::vector<NewCell> cells{new_cell(0, {0, 0, 0}, 10, one), new_cell(1, {20.5, 0, 0}, 10, one)};
+  cells[1].type = 1;
+  c.add_cells(cells);
+  c.params.assign(2, c.params[0]);
+  c.params[0].adhesion = 0.01;
+  c.params[1].adhesion = 0.04;
+  c.find();
+  const auto mixed = c.node_force();
+  c.params[0].adhesion = c.params[1].adhesion = 0.02;
+  c.find();
+  EXPECT_EQ(mixed, c.node_force());
+  c.options.adhesion_factor = 0;
+  c.find();
+  for (std::size_t l = 0; l < c.links.size(); ++l)
+    EXPECT_LE(c.links.force[l].norm(), c.links.gap[l] < 0 ? 1e9 : 0.0);
+}
+
+}  // namespace
+}  // namespace acinus::dcm
