@@ -1,0 +1,127 @@
+/// Forces across the interface: equal and opposite, and the same from one solve or two.
+
+#include "coupling/interface.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Force on every unknown, with and without the interface contacts.
+std::vector<double> forces(const World& world, Workspace& work, bool interface) {
+  find_all_contacts(world, 1.0, work);
+  assemble(world, 1.0, work, {interface});
+  return work.system.force;
+}
+
+TEST(Interface, ForcesOnBothModelsSumToZero) {
+  // A sphere against a face, an edge and a corner of a deformable cell, and a whole cube of both.
+  std::vector<std::vector<TestCell>> scenes{checkered_cube(23.7)};
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 0.85065, 0.52573), Vec3(0.35682, 0, 0.93417), Vec3(1, 1, 1)})
+    scenes.push_back({{Vec3::Zero()}, {23.5 * direction.normalized(), false}});
+  for (const auto& scene : scenes) {
+    const World world = make_test_world(scene);
+    Workspace work;
+    size_workspace(world, work);
+    const std::vector<double> with = forces(world, work, true), without = forces(world, work, false);
+    Vec3 dcm_sum = Vec3::Zero(), cbm_sum = Vec3::Zero();
+    double size = 0;
+    const std::size_t split = cbm_first_row(world.state) * kPointStride;
+    for (std::size_t row = 0; row < work.system.n_row; ++row)
+      for (int l = 0; l < kLanes; ++l) {
+        const Address a = make_address(row, l);
+        const Vec3 f = load_point(with.data(), a) - load_point(without.data(), a);
+        (a < split ? dcm_sum : cbm_sum) += f;
+        size += f.norm();
+      }
+    EXPECT_GT(size, 1e-3);
+    std::printf("interface force of the DCM side %.3g nN, sum of both sides / size %.2g\n", dcm_sum.norm(),
+                (dcm_sum + cbm_sum).norm() / size);
+    EXPECT_LT((dcm_sum + cbm_sum).norm(), 1e-12 * size);
+  }
+}
+
+TEST(Interface, ForceListAddsUpToTheForces) {
+  const World world = make_test_world(checkered_cube(23.7));
+  Workspace work;
+  size_workspace(world, work);
+  const std::vector<double> with = forces(world, work, true);
+  Vec3 listed = Vec3::Zero();
+  double size = 0;
+  for (const InterfaceForce& f : interface_forces(world, work)) {
+    listed += f.force;
+    size += f.force.norm();
+    EXPECT_GT(f.area, 0);
+  }
+  const std::vector<double> without = forces(world, work, false);
+  Vec3 summed = Vec3::Zero();
+  for (std::size_t row = 0; row < cbm_first_row(world.state); ++row)
+    for (int l = 0; l < kLanes; ++l)
+      summed += load_point(with.data(), make_address(row, l)) - load_point(without.data(), make_address(row, l));
+  EXPECT_LT((listed - summed).norm(), 1e-11 * size);
+}
+
+TEST(Interface, PartitionedTwinAgreesWithTheSingleSolve) {
+  std::vector<TestCell> cells = checkered_cube(24.0);
+  cells[0].pull = Vec3(0.2, 0.1, 0);
+  World single = make_test_world(cells);
+  single.params.numerics.cg = {1e-10, 20000};
+  World twin = single;
+  Workspace single_work, twin_work;
+  twin_work.partitioned = true;
+  size_workspace(single, single_work);
+  size_workspace(twin, twin_work);
+  ASSERT_TRUE(run_until(single, single_work, 3600));
+  ASSERT_TRUE(run_until(twin, twin_work, 3600));
+  const std::vector<double> a = gather_positions(single.state), b = gather_positions(twin.state);
+  double largest = 0, moved = 0;
+  const std::vector<double> start = gather_positions(make_test_world(cells).state);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    largest = std::max(largest, std::abs(a[k] - b[k]));
+    moved = std::max(moved, std::abs(a[k] - start[k]));
+  }
+  std::printf("single against partitioned after 1 h: %.3g um apart, moved %.3g um\n", largest, moved);
+  EXPECT_GT(moved, 0.1);
+  EXPECT_LT(largest, 1e-3);
+}
+
+TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
+  // k_w = 4 E* / (3 pi R sqrt d); E* = 0.45/(1 - 0.47^2), R = 12, d = 0.04
+  const double young = 0.45 / (1 - 0.47 * 0.47), winkler = 4 * young / (3 * kPi * 12 * 0.2);
+  EXPECT_NEAR(compliant_stiffness(5, young, 12, 0.04), 5 * winkler / (5 + winkler), 1e-15);
+  EXPECT_EQ(compliant_stiffness(5, young, 12, 0), compliant_stiffness(5, young, 12, kLeastOverlap));
+}
+
+TEST(Step, SameBitsForOneAndTwoThreads) {
+  std::uint64_t hash[2];
+  for (int threads : {1, 2}) {
+    omp_set_num_threads(threads);
+    World world = make_test_world(checkered_cube());
+    world.params.motility.random = true;
+    world.params.numerics.adaptive = true;
+    Workspace work;
+    size_workspace(world, work);
+    for (int k = 0; k < 10; ++k) ASSERT_TRUE(advance(world, work, 1e9).accepted);
+    hash[threads - 1] = hash_state(world.state);
+  }
+  EXPECT_EQ(hash[0], hash[1]);
+}
+
+TEST(Step, PairForcesBalance) {
+  World world = make_test_world(checkered_cube());
+  Workspace work;
+  size_workspace(world, work);
+  for (int k = 0; k < 20; ++k) ASSERT_TRUE(advance(world, work, 1e9).accepted);
+  std::printf("momentum %.3g, torque %.3g\n", world.state.balance.momentum, world.state.balance.torque);
+  EXPECT_LT(world.state.balance.momentum, 1e-9);
+  EXPECT_LT(world.state.balance.torque, 1e-9);
+}
+
+}  // namespace
+}  // namespace acinus::coupling

@@ -1,0 +1,76 @@
+#pragma once
+/// Small hybrid worlds with Table 1 constants, made without a scene.
+
+#include <cmath>
+#include <vector>
+
+#include "core/mesh/topology.hpp"
+#include "coupling/step.hpp"
+#include "coupling/world.hpp"
+
+namespace acinus::coupling {
+
+struct TestCell {
+  Vec3 center;
+  bool deformable = true;
+  Vec3 pull = Vec3::Zero();
+  double radius = 12;
+};
+
+inline World make_test_world(const std::vector<TestCell>& cells, double step = 60, int n_node = 162) {
+  World w;
+  dcm::Params d;
+  d.spring_stiffness = dcm::cortex_spring_stiffness(1, 0.5);
+  d.bending_stiffness = dcm::cortex_bending_stiffness(1, 0.5, 0.5);
+  d.area_modulus = 0.8;
+  d.bulk_modulus = 2.5;
+  d.nodal_friction = 0.1;
+  d.medium_friction = d.vessel_friction = 0.1;
+  d.diffusion = 1e-4;
+  d.adhesion = 0.01;
+  cbm::Params c;
+  c.medium_friction = c.vessel_friction = 0.5;
+  c.diffusion = 1e-4;
+  c.adhesion = 0.01;
+  w.params.dcm = {d};
+  w.params.cbm = {c};
+  w.params.dcm_contact.cell_friction = 50;
+  w.params.cbm_contact.cell_friction = 10;
+  w.params.interface.friction = 2 * 50.0 * 10.0 / 60;
+  w.params.numerics.max_step = step;
+  w.params.numerics.adaptive = false;
+  w.params.numerics.max_move = 0;
+  std::vector<dcm::NewCell> shells;
+  std::vector<cbm::NewCell> spheres;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const auto id = static_cast<std::int64_t>(k);
+    // Turned, so that no two meshes mirror each other.
+    const Mat3 turn = Eigen::AngleAxisd(0.7 * static_cast<double>(k), Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    if (cells[k].deformable)
+      shells.push_back({id, 0, &mesh::shared_icosphere(n_node), cells[k].center, cells[k].radius, cells[k].pull, turn});
+    else
+      spheres.push_back({id, 0, cells[k].center, cells[k].radius, cbm::young_from_bulk(2.5, 0.47), cells[k].pull});
+  }
+  w.state.dcm = dcm::make_state(shells);
+  w.state.cbm = cbm::make_state(spheres);
+  return w;
+}
+
+/// Steps until the time is reached; returns false if a step failed.
+inline bool run_until(World& world, Workspace& work, double time) {
+  while (world.state.clock.time < time - 1e-9)
+    if (!advance(world, work, time - world.state.clock.time).accepted) return false;
+  return true;
+}
+
+/// Four of each model in a checkered cube, just touching: every kind of pair occurs.
+inline std::vector<TestCell> checkered_cube(double spacing = 24.2) {
+  std::vector<TestCell> cells;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 x(k & 1, (k >> 1) & 1, (k >> 2) & 1);
+    cells.push_back({spacing * x, (((k & 1) + ((k >> 1) & 1) + ((k >> 2) & 1)) % 2) == 0});
+  }
+  return cells;
+}
+
+}  // namespace acinus::coupling
