@@ -1,5 +1,8 @@
 #include "dcm/terms/area.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "dcm/terms/rank_one.hpp"
 
 namespace acinus::dcm {
@@ -24,18 +27,42 @@ ACINUS_KERNEL void area_kernel(const GroupView& g, double* gradient, double* are
   store(area, sum);
 }
 
+/// Adds across (I - u u^T) between the ends of every edge.
+ACINUS_KERNEL void tension_kernel(const GroupView& g, const double* across_of_lane, double* diagonal,
+                                  double* upper) {
+  const Lane across = load(across_of_lane);
+  for (int e = 0; e < g.topology->n_edge; ++e) {
+    const int i = g.topology->edge[static_cast<std::size_t>(e)][0];
+    const int j = g.topology->edge[static_cast<std::size_t>(e)][1];
+    const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
+    const Lane3 u = (1.0 / lane_sqrt(dot(d, d))) * d;
+    for (int n : {i, j}) {
+      add_outer_sym(diagonal + n * kSymStride, -across, u);
+      add_identity_sym(diagonal + n * kSymStride, across);
+    }
+    double* block = upper + e * kMatStride;
+    add_outer(block, across, u, u);
+    for (int k : {0, 4, 8}) add_to(block + k * kLanes, -across);
+  }
+}
+
 }  // namespace
 
 void add_area(const Params& p, const GroupView& g, solve::System& s, solve::RankOne& family) {
   double* gradient = family.vector.data() + g.first_row * kPointStride;
-  double area[kLanes], pull[kLanes];
+  double area[kLanes], pull[kLanes], across[kLanes];
   area_kernel(g, gradient, area);
+  bool tense = false;
   for (int l = 0; l < kLanes; ++l) {
     const double a0 = g.topology->rest_area * g.radius[l] * g.radius[l];
     pull[l] = -g.active[l] * p.area_modulus * (area[l] - a0) / a0;
     family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
         s.stiffness_scale * g.active[l] * p.area_modulus / a0;
+    across[l] = s.stiffness_scale * std::max(0.0, -pull[l]) / std::sqrt(3.0);
+    tense = tense || across[l] > 0;
   }
+  if (tense)
+    tension_kernel(g, across, s.diagonal.data() + g.first_row * kSymStride, s.upper.data() + g.first_pair * kMatStride);
   add_scaled(g.topology->n_node, pull, gradient, s.force.data() + g.first_row * kPointStride);
 }
 
