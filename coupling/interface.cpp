@@ -25,8 +25,7 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
   const double reduced_young = v.cbm_state.young[sphere] / (1 - b.poisson * b.poisson);
   Patch p;
   p.well = {v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion),
-            compliant_stiffness(v.dcm_contact.repulsion, reduced_young, v.cbm_radius[sphere],
-                                cbm::mean_overlap(v.cbm_work, sphere)),
+            compliant_stiffness(v.dcm_contact.repulsion, reduced_young, v.cbm_radius[sphere], k.dent),
             v.dcm_contact.range_factor * t.mean_rest_length * v.lanes.radius[lane]};
   p.area = dcm::point_area(t, v.dcm_contact.quadrature, k.point, v.lanes.radius[lane]);
   p.touching = dcm::share_scale(v.dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
@@ -36,10 +35,9 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
 
 }  // namespace
 
-double compliant_stiffness(double repulsion, double reduced_young, double radius,
-                           double relative_overlap) {
+double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent) {
   const double winkler =
-      4 * reduced_young / (3 * kPi * radius * std::sqrt(std::max(relative_overlap, kLeastOverlap)));
+      4 * reduced_young / (3 * kPi * radius * std::sqrt(std::max(dent / radius, kLeastDent)));
   return 1 / (1 / repulsion + 1 / winkler);
 }
 
@@ -78,7 +76,7 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
         const Vec3 d =
             contact::point_position(b, contact::point_stencil(b, c.quadrature, point)) - center;
         const double distance = d.norm(), gap = distance - radius;
-        if (gap < range && distance > 0) found[p].push_back({body, point, sphere, gap, d / distance});
+        if (gap < range && distance > 0) found[p].push_back({body, point, sphere, gap, 0, d / distance});
       }
     }
   }
@@ -86,8 +84,10 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
     const auto [body, sphere] = pairs[p];
     const auto k = static_cast<std::size_t>(body), i = static_cast<std::size_t>(sphere);
     const std::size_t lane = dcm_work.lane_of_body[k];
-    double area = 0;
-    for (const InterfaceContact& m : found[p]) {
+    double area = 0, dent = 0;
+    for (const InterfaceContact& m : found[p]) dent = std::max(dent, -m.gap);
+    for (InterfaceContact& m : found[p]) {
+      m.dent = dent;
       const double share = contact::contact_share(m.gap, c.friction_range);
       dcm_work.share[k][static_cast<std::size_t>(m.point)] += share;
       area += share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, lanes.radius[lane]);

@@ -3,8 +3,9 @@
 ///
 /// Tension as between two deformable cells. Under compression the sphere yields: pressure = -k_s gap
 /// with 1/k_s = 1/k_rep + 1/k_w and the Winkler constant k_w = 4 E* / (3 pi R sqrt(d)) that matches
-/// the sphere's half of a Hertz contact at the relative overlap d. A rigid sphere would be about 40
-/// times too stiff.
+/// the sphere's half of a Hertz contact. d = dent / R, with the dent the deepest point of this pair's
+/// contact at the start of the step (docs/decisions/0008.md). A rigid sphere would be about 40 times
+/// too stiff.
 
 #include <cstdint>
 #include <span>
@@ -26,6 +27,7 @@ struct InterfaceContact {
   int body = 0, point = 0;     ///< of dcm::ContactWorkspace
   int sphere = 0;              ///< cell of cbm::State
   double gap = 0;              ///< um, negative: the point is inside the sphere
+  double dent = 0;             ///< um, deepest point of this pair of cells
   Vec3 normal = Vec3::Zero();  ///< d gap / d x_point: away from the sphere's centre
 };
 
@@ -41,12 +43,11 @@ struct InterfaceWorkspace {
   std::vector<InterfaceContact> contact;  ///< written by: find_interface
 };
 
-/// Smallest relative overlap that enters the compliance of a sphere.
-inline constexpr double kLeastOverlap = 0.01;
+/// Smallest dent, in radii, that enters the compliance of a sphere.
+inline constexpr double kLeastDent = 0.01;
 
 /// Series stiffness k_s of a sphere's surface under a deformable one, nN/um^3.
-double compliant_stiffness(double repulsion, double reduced_young, double radius,
-                           double relative_overlap);
+double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent);
 
 /// Finds all interface contacts. Adds their touching shares to the surface points, and their areas
 /// and overlaps to the spheres. @pre both models' find_contacts

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kVeinMargin = 20;    // um beyond the bottom and top planes
 constexpr double kSeedClearance = 4;  // um from a vessel's wall: a cell of 3 um and 1 um to spare
+constexpr double kRoomyClearance = 10;  ///< um, tried first
 constexpr int kMaxMisses = 200000;
 
 void add_segment(Lobule& lobule, int a, int b, double radius, VesselKind kind) {
@@ -34,25 +35,27 @@ void add_vessels(const LobuleParameters& p, const Domain& domain, const Sinusoid
 
 void add_seeds(const LobuleParameters& p, const Domain& domain, const Sinusoids& sinusoids,
                const Uniform& uniform, Lobule& lobule) {
-  const double clearance = p.sinusoid_radius + kSeedClearance;
-  Buckets sinusoid(clearance), seed(p.min_distance);
+  Buckets sinusoid(p.sinusoid_radius + kRoomyClearance), seed(p.min_distance);
   for (const auto& [a, b] : sinusoids.segment) sinusoid.add(sinusoids.node[a], sinusoids.node[b]);
-  const auto fits = [&](const Vec3& point) {
-    if (depth_inside(domain, point) < p.initial_radius) return false;
+  const auto fits = [&](const Vec3& point, double clearance) {
+    if (depth_inside(domain, point) < p.initial_radius + clearance - kSeedClearance) return false;
     for (const Vein& vein : domain.vein)
-      if (axis_distance(vein, point) < vein.radius + kSeedClearance) return false;
+      if (axis_distance(vein, point) < vein.radius + clearance) return false;
     if (axis_distance(domain.vein.front(), point) < p.lesion_radius) return false;
-    return !seed.any_within(point, p.min_distance) && !sinusoid.any_within(point, clearance);
+    return !seed.any_within(point, p.min_distance) && !sinusoid.any_within(point, p.sinusoid_radius + clearance);
   };
-  for (int misses = 0; static_cast<int>(lobule.seeds.size()) < p.cells && misses < kMaxMisses;
-       ++misses) {
-    Vec3 point;
-    for (int axis = 0; axis < 3; ++axis)
-      point[axis] = domain.low[axis] + uniform() * (domain.high[axis] - domain.low[axis]);
-    if (!fits(point)) continue;
-    seed.add(point, point);
-    lobule.seeds.push_back(point);
-    misses = 0;
+  // The roomiest places first: a sphere that grows between two close vessels can never get out.
+  for (double clearance = kRoomyClearance; clearance >= kSeedClearance; clearance -= 1) {
+    const int patience = clearance > kSeedClearance ? kMaxMisses / 20 : kMaxMisses;
+    for (int misses = 0; static_cast<int>(lobule.seeds.size()) < p.cells && misses < patience; ++misses) {
+      Vec3 point;
+      for (int axis = 0; axis < 3; ++axis)
+        point[axis] = domain.low[axis] + uniform() * (domain.high[axis] - domain.low[axis]);
+      if (!fits(point, clearance)) continue;
+      seed.add(point, point);
+      lobule.seeds.push_back(point);
+      misses = 0;
+    }
   }
 }
 

@@ -92,10 +92,10 @@ TEST(Interface, PartitionedTwinAgreesWithTheSingleSolve) {
 }
 
 TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
-  // k_w = 4 E* / (3 pi R sqrt d); E* = 0.45/(1 - 0.47^2), R = 12, d = 0.04
+  // k_w = 4 E* / (3 pi R sqrt(dent / R)); E* = 0.45/(1 - 0.47^2), R = 12, dent = 0.48
   const double young = 0.45 / (1 - 0.47 * 0.47), winkler = 4 * young / (3 * kPi * 12 * 0.2);
-  EXPECT_NEAR(compliant_stiffness(5, young, 12, 0.04), 5 * winkler / (5 + winkler), 1e-15);
-  EXPECT_EQ(compliant_stiffness(5, young, 12, 0), compliant_stiffness(5, young, 12, kLeastOverlap));
+  EXPECT_NEAR(compliant_stiffness(5, young, 12, 0.48), 5 * winkler / (5 + winkler), 1e-15);
+  EXPECT_EQ(compliant_stiffness(5, young, 12, 0), compliant_stiffness(5, young, 12, 12 * kLeastDent));
 }
 
 TEST(Step, SameBitsForOneAndTwoThreads) {

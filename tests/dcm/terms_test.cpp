@@ -211,6 +211,26 @@ TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
   EXPECT_LT(worst, 1e-7);
 }
 
+// A step is stable where the matrix is at least half the true derivative: a tense membrane resists
+// short waves of the surface, which the rank-one part alone does not see (docs/decisions/0007.md).
+TEST(Area, MatrixHoldsATautSurface) {
+  Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
+  auto random = reference::stream(5);
+  for (int i = 0; i < c.n_node(); ++i)
+    c.move(1, i, 1.05 * c.node(1, i) + reference::random_vector(random, 0.1));
+  const Params p = table_one();
+  const Term& area = all_terms()[3];
+  const Eigen::MatrixXd differences = force_differences(c, area, p, 1);
+  area.add(p, c.view(), c.system);
+  const Eigen::MatrixXd k = lane_matrices(c)[1];
+  const Eigen::MatrixXd j = (differences + differences.transpose()) / 2;
+  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+  const double worst = Solver(j - 2 * k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  const double scale = Solver(j, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  std::printf("taut membrane: J - 2 K at most %.1e, J at most %.3f nN/um\n", worst, scale);
+  EXPECT_LT(worst, 1e-8 * scale);
+}
+
 // Explicit steps ask for friction alone.
 TEST(Terms, StiffnessScaleSwitchesTheMatrixOff) {
   Cells c = make_deformed_cells(42);

@@ -138,12 +138,17 @@ TEST(Cg, ZeroLoadInTheRangeStillFeelsTheFrozenRest) {
 
 TEST(Cg, SameBitsForAnyNumberOfThreads) {
   const int before = omp_get_max_threads();
+  const System system = make_system(6, 80);  // 567 rows: threads do start
+  const auto rhs = random_vector_of(system, 7);
   std::vector<std::vector<double>> x;
   for (int threads : {1, 2}) {
     omp_set_num_threads(threads);
-    Solved s;
-    s.run(1e-8);
-    x.push_back(s.x);
+    Operator op;
+    op.prepare(system);
+    CgWorkspace work;
+    x.emplace_back(rhs.size());
+    const CgResult result = solve_cg(op, rhs, x.back(), {1e-8, 2000}, work);
+    EXPECT_TRUE(result.status.ok) << result.status.cause;
   }
   omp_set_num_threads(before);
   EXPECT_EQ(x[0], x[1]);

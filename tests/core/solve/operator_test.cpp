@@ -21,8 +21,10 @@ TEST(Operator, ProductIsThatOfTheDenseMatrix) {
     op.prepare(s);
     const std::vector<double> x = random_vector_of(s, 200 + seed);
     std::vector<double> y(x.size(), 1e300);  // must be overwritten
-    op.apply(x, y);
+    const double energy = op.apply(x, y);
     const Eigen::VectorXd expected = dense * as_eigen(x);
+    EXPECT_NEAR(energy, as_eigen(x).dot(expected),
+                256 * kEps * as_eigen(x).norm() * expected.norm());
     worst = std::max(
         worst, (as_eigen(y) - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
     EXPECT_LT((dense - dense.transpose()).cwiseAbs().maxCoeff(),
@@ -80,6 +82,27 @@ TEST(Operator, PreconditionerInvertsTheDiagonalBlocks) {
   EXPECT_LT(worst, 16 * kEps);  // inverse by cofactors
 }
 
+TEST(Operator, DescendAndRedirectAreTheStepsOfConjugateGradients) {
+  const System s = make_system(14);
+  Operator op;
+  op.prepare(s);
+  const auto p = random_vector_of(s, 15), q = random_vector_of(s, 16);
+  auto x = random_vector_of(s, 17), r = random_vector_of(s, 18), z = random_vector_of(s, 19);
+  const Eigen::VectorXd x_after = as_eigen(x) + 0.3 * as_eigen(p);
+  const Eigen::VectorXd r_after = as_eigen(r) - 0.3 * as_eigen(q);
+  const double rho = op.descend(0.3, p, q, x, r, z);
+  EXPECT_LT((as_eigen(x) - x_after).cwiseAbs().maxCoeff(), 8 * kEps);
+  EXPECT_LT((as_eigen(r) - r_after).cwiseAbs().maxCoeff(), 8 * kEps);
+  std::vector<double> expected(r.size());
+  op.precondition(r, expected);
+  EXPECT_EQ(z, expected);
+  EXPECT_NEAR(rho, op.dot(r, z), 64 * kEps * as_eigen(r).norm() * as_eigen(z).norm());
+  auto direction = p;
+  op.redirect(z, 0.7, direction);
+  const Eigen::VectorXd redirected = as_eigen(z) + 0.7 * as_eigen(p);
+  EXPECT_LT((as_eigen(direction) - redirected).norm(), 8 * kEps * redirected.norm());
+}
+
 TEST(Operator, DotIsTheDotProduct) {
   const System s = make_system(5);
   Operator op;
@@ -113,30 +136,31 @@ TEST(Operator, LinkForcesAreScatteredByWeight) {
 }
 
 TEST(Operator, SameBitsForAnyNumberOfThreads) {
-  const System s = make_system(9);
-  const auto x = random_vector_of(s, 10), z = random_vector_of(s, 11);
+  const System s = make_system(9, 80);  // 567 rows: threads do start
+  const auto x = random_vector_of(s, 10), other = random_vector_of(s, 11);
   const int before = omp_get_max_threads();
-  std::vector<std::vector<double>> product, external, preconditioned, force;
-  std::vector<double> dot;
+  std::vector<std::vector<std::vector<double>>> seen;
   for (int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Operator op;
     op.prepare(s);
-    for (auto* v : {&product, &external, &preconditioned, &force}) v->emplace_back(s.n_dof());
-    op.apply(x, product.back());
-    op.apply_external(x, external.back());
-    op.precondition(x, preconditioned.back());
-    op.add_link_forces(force.back(), force.back());
-    dot.push_back(op.dot(x, z));
+    std::vector<std::vector<double>> v(5, std::vector<double>(s.n_dof()));
+    std::vector<double> number;
+    number.push_back(op.apply(x, v[0]));
+    op.apply_external(x, v[1]);
+    op.precondition(x, v[2]);
+    op.add_link_forces(v[3], v[3]);
+    number.push_back(op.dot(x, other));
+    auto r = other;
+    number.push_back(op.descend(0.4, x, v[0], v[4], r, v[2]));
+    op.redirect(r, 0.6, v[4]);
+    v.push_back(r);
+    v.push_back(number);
+    seen.push_back(v);
   }
   omp_set_num_threads(before);
-  for (std::size_t k : {std::size_t{1}, std::size_t{2}}) {
-    EXPECT_EQ(product[0], product[k]);
-    EXPECT_EQ(external[0], external[k]);
-    EXPECT_EQ(preconditioned[0], preconditioned[k]);
-    EXPECT_EQ(force[0], force[k]);
-    EXPECT_EQ(dot[0], dot[k]);
-  }
+  EXPECT_EQ(seen[0], seen[1]);
+  EXPECT_EQ(seen[0], seen[2]);
 }
 
 TEST(Links, AppendKeepsOrderAndStencils) {

@@ -39,12 +39,16 @@ inline void add_pair(System& s, const Block& block, std::size_t pair, int lane, 
 /// Two groups of deformable cells and two rows of spheres; two rank-one families, the second of
 /// which covers the first group only; pair links of 2 to 6 points, links with surroundings, and one
 /// link within a single cell.
-inline System make_system(std::uint64_t seed) {
+/// @param copies  more groups than that: enough rows for threads to start
+inline System make_system(std::uint64_t seed, int copies = 1) {
   auto random = reference::stream(seed);
   System s;
   s.friction_scale = 0.7;
   s.stiffness_scale = 1.3;
-  set_blocks(s, {{&kFive, 0, 0}, {&kSeven, 0, 0}, {&kSingle, 0, 0}, {&kSingle, 0, 0}});
+  std::vector<Block> blocks{{&kFive, 0, 0}};
+  for (int k = 0; k < copies; ++k) blocks.push_back({&kSeven, 0, 0});
+  for (int k = 0; k < 2; ++k) blocks.push_back({&kSingle, 0, 0});
+  set_blocks(s, blocks);
   for (double& m : s.medium) m = random.uniform(0.05, 0.2);
   for (std::size_t row = 0; row < s.n_row; ++row)
     for (int k : {0, 3, 5})
@@ -58,8 +62,8 @@ inline System make_system(std::uint64_t seed) {
           const Vec3 a = reference::random_vector(random, 1);
           add_pair(s, block, p, l, a, reference::random_vector(random, 1));
         }
-  for (std::size_t n_block : {std::size_t{4}, std::size_t{1}}) {
-    const std::size_t rows = n_block == 4 ? s.n_row : 5;
+  for (std::size_t n_block : {s.block.size(), std::size_t{1}}) {
+    const std::size_t rows = n_block > 1 ? s.n_row : 5;
     RankOne family{std::vector<double>(rows * kPointStride), std::vector<double>(n_block * kLanes)};
     for (double& v : family.vector) v = random.uniform(-1, 1);
     for (double& v : family.coefficient) v = random.uniform(0, 0.5);
@@ -72,14 +76,16 @@ inline System make_system(std::uint64_t seed) {
       if (std::ranges::count(used, a) == 0) return used.emplace_back(a);
     }
   };
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 60 * copies; ++k) {
     used.clear();
     const bool external = k % 5 == 0;
     const int half = 1 + static_cast<int>(random.index(3));
     for (int p = 0; p < half; ++p) s.links.add_point(anywhere(), 1.0 / half);
     if (!external)
       for (int p = 0; p < half; ++p) s.links.add_point(anywhere(), -1.0 / half);
-    const Sym3 stiffness = random_sym(random), friction = random_sym(random);
+    const bool only_pulls = k % 7 == 3;  // no matrix: cohesive softening beyond the friction range
+    const Sym3 stiffness = only_pulls ? Sym3{} : random_sym(random);
+    const Sym3 friction = only_pulls ? Sym3{} : random_sym(random);
     s.links.close(reference::random_vector(random, 1), stiffness, friction, external, Vec3::UnitX(),
                   0);
   }
