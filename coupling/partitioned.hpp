@@ -10,7 +10,7 @@ namespace acinus::coupling {
 
 /// Solves A x = b by turns: the deformable cells with the spheres frozen, then the spheres with the
 /// deformable cells frozen; what each sees of the other is the interface links' force. Stops when the
-/// interface forces change by less than the tolerance, relative to the right-hand side.
+/// remaining imbalance is below a hundred times the tolerance, relative to the right-hand side.
 /// @param n_dcm_block  blocks [0, n_dcm_block) are deformable, the rest spheres
 solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const double> b,
                                   std::span<double> x, std::size_t n_dcm_block,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -8,6 +9,8 @@
 
 /// Turns every exception into a message and an exit code.
 int main(int argc, char** argv) {
+  // A file-size limit then shows as a failed write, which is reported, instead of killing the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return acinus::runs::run_cli(argc, argv);
   } catch (const acinus::Error& error) {

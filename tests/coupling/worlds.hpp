@@ -2,6 +2,7 @@
 /// Small hybrid worlds with Table 1 constants, made without a scene.
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "core/mesh/topology.hpp"
@@ -58,8 +59,12 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
 
 /// Steps until the time is reached; returns false if a step failed.
 inline bool run_until(World& world, Workspace& work, double time) {
-  while (world.state.clock.time < time - 1e-9)
-    if (!advance(world, work, time - world.state.clock.time).accepted) return false;
+  while (world.state.clock.time < time - 1e-9) {
+    const StepResult step = advance(world, work, time - world.state.clock.time);
+    if (step.accepted) continue;
+    std::printf("step failed: %s\n", step.cause.c_str());
+    return false;
+  }
   return true;
 }
 
