@@ -112,8 +112,8 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const dcm::ObstacleContact& c = w.dcm.obstacle[k];
     const auto a = static_cast<std::size_t>(c.body);
     press(a, force_of(w.dcm.surface.size() + k),
-          contact::point_position(w.dcm.body[a], contact::point_stencil(w.dcm.body[a],
-                                  world.params.dcm_contact.quadrature, c.point)) - cells[a].center);
+          contact::point_position(w.dcm.body[a], dcm::obstacle_stencil(world.params.dcm_contact, w.dcm.body[a], c)) -
+              cells[a].center);
   }
   for (std::size_t k = 0; k < w.cbm.sphere.size(); ++k) {
     const cbm::SphereContact& c = w.cbm.sphere[k];

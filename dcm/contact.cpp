@@ -66,6 +66,11 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
   return share * radius * radius;
 }
 
+contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,
+                                       const ObstacleContact& o) {
+  return contact::point_stencil(body, o.guard ? contact::Quadrature::kNodes : c.quadrature, o.point);
+}
+
 void refresh_bodies(const State& state, ContactWorkspace& work) {
   std::size_t n = 0;
   for (std::size_t l = 0; l < state.n_lane(); ++l) n += state.active(l) ? 1 : 0;
@@ -137,12 +142,17 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   for (std::size_t k = 0; k < work.body.size(); ++k) {
     const contact::SurfaceBody& b = work.body[k];
     const int n_point = static_cast<int>(contact::n_sites(b, c.quadrature)) * per_site;
+    const bool guarded = c.quadrature == contact::Quadrature::kThreePoint;
     auto probe = [&](SurroundingKind kind, int index, auto gap_of) {
       for (int p = 0; p < n_point; ++p) {
         const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
         const contact::Gap g = gap_of(x);
         if (g.gap < options.range)
           obstacle[k].push_back({static_cast<int>(k), p, kind, index, g.gap, g.normal});
+      }
+      for (int node = 0; guarded && node < static_cast<int>(b.node.size()); ++node) {
+        const contact::Gap g = gap_of(b.node[static_cast<std::size_t>(node)]);
+        if (g.gap < 0) obstacle[k].push_back({static_cast<int>(k), node, kind, index, g.gap, g.normal, true});
       }
     };
     const Vec3 middle = 0.5 * (b.box.low + b.box.high);
@@ -159,22 +169,35 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
     }
     // One contact per point: the nearest segment of the network.
     const SegmentCandidates& list = work.segment_list[k];
+    auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
+      ObstacleContact best{static_cast<int>(k), p, SurroundingKind::kVessel, -1, options.range, {}, guard};
+      for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
+        const contact::Gap g = contact::gap_to_segment(around.vessels.network, list.segment[e], x);
+        if (g.gap >= best.gap) continue;
+        best.index = list.segment[e];
+        best.gap = g.gap;
+        best.normal = g.normal;
+      }
+      return best;
+    };
     for (std::size_t s = 0; s < list.site.size(); ++s)
       for (int q = 0; q < per_site; ++q) {
         const int p = list.site[s] * per_site + q;
-        const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
-        ObstacleContact best{static_cast<int>(k), p, SurroundingKind::kVessel, -1, options.range, {}};
-        for (std::uint32_t e = list.start[s]; e < list.start[s + 1]; ++e) {
-          const contact::Gap g =
-              contact::gap_to_segment(around.vessels.network, list.segment[e], x);
-          if (g.gap < best.gap) {
-            best.index = list.segment[e];
-            best.gap = g.gap;
-            best.normal = g.normal;
-          }
-        }
+        const ObstacleContact best = nearest(
+            s, p, false, contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
         if (best.index >= 0) obstacle[k].push_back(best);
       }
+    if (!guarded) continue;
+    // A node belongs to several faces; the deepest of what they see counts, once.
+    std::vector<ObstacleContact> guard(b.node.size());
+    for (std::size_t s = 0; s < list.site.size(); ++s)
+      for (int node : (*b.triangle)[static_cast<std::size_t>(list.site[s])]) {
+        ObstacleContact& seen = guard[static_cast<std::size_t>(node)];
+        const ObstacleContact best = nearest(s, node, true, b.node[static_cast<std::size_t>(node)]);
+        if (best.index >= 0 && best.gap < seen.gap) seen = best;
+      }
+    for (const ObstacleContact& o : guard)
+      if (o.guard) obstacle[k].push_back(o);
   }
   work.obstacle.clear();
   for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());
@@ -187,7 +210,7 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
       work.share[static_cast<std::size_t>(s.body_a)][static_cast<std::size_t>(s.point)] +=
           contact::contact_share(s.gap, c.friction_range);
   for (const ObstacleContact& o : work.obstacle)
-    work.share[static_cast<std::size_t>(o.body)][static_cast<std::size_t>(o.point)] +=
+    if (!o.guard) work.share[static_cast<std::size_t>(o.body)][static_cast<std::size_t>(o.point)] +=
         contact::contact_share(o.gap, c.friction_range);
 }
 

@@ -38,7 +38,17 @@ struct ObstacleContact {
   int index = 0;
   double gap = 0;
   Vec3 normal = Vec3::Zero();
+  /// The point is a node inside the obstacle. Three-point quadrature samples faces only, so the tip of a
+  /// sharp corner would go unseen; such nodes are pushed out, without adhesion or friction.
+  bool guard = false;
 };
+
+/// Share of its area that a guarding node pushes with.
+inline constexpr double kGuardShare = 0.25;
+
+/// The nodes and weights of an obstacle contact's point.
+contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,
+                                       const ObstacleContact& contact);
 
 /// Vessel segments that each site of a body may meet.
 struct SegmentCandidates {

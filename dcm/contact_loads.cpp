@@ -86,6 +86,15 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
     }
   }
   for (const ObstacleContact& o : work.obstacle) {
+    if (o.guard) {
+      const auto k = static_cast<std::size_t>(o.body);
+      const std::size_t lane = work.lane_of_body[k];
+      links.add_point(node_address(state, lane, o.point), 1);
+      close_link(links, {0, c.repulsion, 1}, o.gap,
+                 kGuardShare * point_area(*work.body[k].topology, contact::Quadrature::kNodes, o.point, lanes.radius[lane]),
+                 o.normal, 0, true);
+      continue;
+    }
     const auto [area, scale] = area_and_share(o.body, o.point);
     const double chi = scale * contact::contact_share(o.gap, c.friction_range);
     const contact::Material& m = material_of(around, o.kind, o.index);
