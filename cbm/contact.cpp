@@ -32,7 +32,8 @@ double largest_separation(const State& s, std::span<const Params> params,
   if (!around.vessels.network.segment.empty())
     softest = std::min(softest, around.vessels.material.young);
   const double largest = *std::ranges::max_element(radius);
-  // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst case.
+  // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst
+  // case.
   const contact::SpherePair pair{largest, softest / 2, adhesion};
   return -contact::jkr_special(pair).fold.overlap;
 }
@@ -81,7 +82,8 @@ MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) 
     best2 = c.squared_distance;
     Vec3 out = Vec3::Zero();
     for (int m = 0; m < 3; ++m)
-      out += c.weight[m] * b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
+      out += c.weight[m] *
+             b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
     out.normalize();
     const Vec3 apart = x - c.point;
     const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(best2);
@@ -108,14 +110,17 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
   if (work.list_position.size() == s.position.size() && work.list_radius.size() == s.n_cell()) {
     double moved = 0, wider = 0;
     for (std::size_t i = 0; i < s.n_cell(); ++i) {
-      moved = std::max(moved, (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
+      moved = std::max(
+          moved,
+          (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
       wider = std::max(wider, radius[i] - work.list_radius[i]);
     }
     if (2 * (moved + wider) <= c.skin) return false;
   }
   const double margin = largest_separation(s, params, radius, around) + c.skin;
   std::vector<contact::Box> boxes;
-  for (std::size_t i = 0; i < s.n_cell(); ++i) boxes.push_back(contact::sphere_box(center_of(s, i), radius[i]));
+  for (std::size_t i = 0; i < s.n_cell(); ++i)
+    boxes.push_back(contact::sphere_box(center_of(s, i), radius[i]));
   work.pair = contact::find_pairs(boxes, margin);
   std::erase_if(work.pair, [&](const std::pair<int, int>& p) {
     const auto i = static_cast<std::size_t>(p.first), j = static_cast<std::size_t>(p.second);
@@ -145,11 +150,14 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
   work.sphere.clear();
   work.obstacle.clear();
   work.touching.clear();
-  for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight}) v->assign(s.n_cell(), 0.0);
+  for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight})
+    v->assign(s.n_cell(), 0.0);
   auto body = [&](std::size_t i) {
     return SphereBody{radius[i], s.young[i], params[static_cast<std::size_t>(s.type[i])].poisson};
   };
-  auto adhesion_of = [&](std::size_t i) { return params[static_cast<std::size_t>(s.type[i])].adhesion; };
+  auto adhesion_of = [&](std::size_t i) {
+    return params[static_cast<std::size_t>(s.type[i])].adhesion;
+  };
 
   for (auto [a, b] : work.pair) {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
@@ -184,7 +192,9 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
     work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
     work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
   };
-  auto flat = [](const contact::Material& m, double shape) { return SphereBody{shape, m.young, m.poisson}; };
+  auto flat = [](const contact::Material& m, double shape) {
+    return SphereBody{shape, m.young, m.poisson};
+  };
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
     const Vec3 x = center_of(s, i);
     for (std::size_t k = 0; k < around.planes.size(); ++k) {
@@ -196,10 +206,12 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
         work.obstacle.push_back({static_cast<int>(i), SurroundingKind::kPlane, static_cast<int>(k),
                                  g.normal, radius[i] - g.gap, law});
         work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
-        count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], g.gap));
+        count_overlap(work, static_cast<int>(i),
+                      contact::mirror_wall_compression(radius[i], g.gap));
       } else {
         meet(i, SurroundingKind::kPlane, static_cast<int>(k),
-             contact::reduced_pair(body(i), flat(p.material, contact::kFlat), c.adhesion_factor * p.material.adhesion),
+             contact::reduced_pair(body(i), flat(p.material, contact::kFlat),
+                                   c.adhesion_factor * p.material.adhesion),
              radius[i] - g.gap, g.normal);
       }
     }
@@ -209,7 +221,8 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
       if (r <= radius[i]) continue;
       const contact::Gap g = contact::gap_to_capsule(shell, x, time);
       meet(i, SurroundingKind::kCapsule, static_cast<int>(k),
-           contact::reduced_pair(body(i), flat(shell.material, -r), c.adhesion_factor * shell.material.adhesion),
+           contact::reduced_pair(body(i), flat(shell.material, -r),
+                                 c.adhesion_factor * shell.material.adhesion),
            radius[i] - g.gap, g.normal);
     }
     for (std::size_t k = 0; k < around.meshes.size(); ++k) {
@@ -218,7 +231,8 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
       if (!m.body.box.grown(reach).contains(x)) continue;
       const MeshGap g = gap_to_mesh(m.body, x, reach);
       meet(i, SurroundingKind::kMesh, static_cast<int>(k),
-           contact::reduced_pair(body(i), flat(m.material, contact::kFlat), c.adhesion_factor * m.material.adhesion),
+           contact::reduced_pair(body(i), flat(m.material, contact::kFlat),
+                                 c.adhesion_factor * m.material.adhesion),
            radius[i] - g.distance, g.normal);
     }
   }
@@ -229,7 +243,8 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
     if (!contact::is_local_minimum(around.vessels, segment, x, g)) continue;
     const contact::Material& m = around.vessels.material;
     meet(i, SurroundingKind::kVessel, segment,
-         contact::vessel_pair(body(i), {g.radius, m.young, m.poisson}, c.adhesion_factor * m.adhesion),
+         contact::vessel_pair(body(i), {g.radius, m.young, m.poisson},
+                              c.adhesion_factor * m.adhesion),
          radius[i] - g.gap, g.normal);
   }
   std::ranges::sort(work.touching);
@@ -243,14 +258,16 @@ void add_contact_loads(const State& s, std::span<const Params> params, const Con
     links.add_point(cell_address(first_row, static_cast<std::size_t>(k.a)), 1);
     links.add_point(cell_address(first_row, static_cast<std::size_t>(k.b)), -1);
     links.close(k.law.force * k.normal, Sym3::outer(std::max(0.0, k.law.stiffness), k.normal),
-                Sym3::identity(c.friction_factor * c.cell_friction * area), false, k.normal, kNoDepth);
+                Sym3::identity(c.friction_factor * c.cell_friction * area), false, k.normal,
+                kNoDepth);
   }
   for (const ObstacleContact& k : work.obstacle) {
     const auto i = static_cast<std::size_t>(k.cell);
     const bool mirror = k.kind == SurroundingKind::kPlane &&
                         around.planes[static_cast<std::size_t>(k.index)].material.mirror;
     const double area = kPi * k.law.contact_radius * k.law.contact_radius;
-    const double friction = mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction;
+    const double friction =
+        mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction;
     links.add_point(cell_address(first_row, i), 1);
     links.close(k.law.force * k.normal, Sym3::outer(std::max(0.0, k.law.stiffness), k.normal),
                 Sym3::identity(friction * area), true, k.normal, kNoDepth);
@@ -259,7 +276,8 @@ void add_contact_loads(const State& s, std::span<const Params> params, const Con
 
 double medium_friction(const Params& p, double radius, double contact_area) {
   const double surface = 4 * kPi * radius * radius;
-  const double per_area = p.viscosity > 0 ? 6 * kPi * p.viscosity * radius / surface : p.medium_friction;
+  const double per_area =
+      p.viscosity > 0 ? 6 * kPi * p.viscosity * radius / surface : p.medium_friction;
   return per_area * std::max(0.0, surface - contact_area);
 }
 
@@ -269,8 +287,9 @@ void add_cell_loads(const State& s, std::span<const Params> params, std::span<co
   for (std::size_t i = 0; i < s.n_row() * kLanes; ++i) {
     const Address a = cell_address(first_row, i);
     const bool cell = i < s.n_cell();
-    const double friction =
-        cell ? medium_friction(params[static_cast<std::size_t>(s.type[i])], radius[i], work.contact_area[i]) : 1.0;
+    const double friction = cell ? medium_friction(params[static_cast<std::size_t>(s.type[i])],
+                                                   radius[i], work.contact_area[i])
+                                 : 1.0;
     system.medium[a / kPointStride * kLanes + a % kLanes] += friction;
     double* d = system.diagonal.data() + a / kPointStride * kSymStride + a % kLanes;
     for (int k : {0, 3, 5}) d[k * kLanes] += system.friction_scale * friction;

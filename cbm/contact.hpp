@@ -41,15 +41,15 @@ struct ObstacleContact {
 
 /// Scratch of the contact search.
 struct ContactWorkspace {
-  std::vector<std::pair<int, int>> pair;       ///< near pairs; written by: refresh_pairs
-  std::vector<std::pair<int, int>> segment;    ///< (cell, vessel segment) near pairs
+  std::vector<std::pair<int, int>> pair;     ///< near pairs; written by: refresh_pairs
+  std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
-  std::vector<SphereContact> sphere;           ///< written by: find_contacts
-  std::vector<ObstacleContact> obstacle;       ///< written by: find_contacts
-  std::vector<std::pair<int, int>> touching;   ///< new touching set, committed with an accepted step
-  std::vector<double> contact_area;            ///< [n_cell] um^2, sum over all contacts
-  /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out; the DCM-CBM
-  /// interface adds its own.
+  std::vector<SphereContact> sphere;          ///< written by: find_contacts
+  std::vector<ObstacleContact> obstacle;      ///< written by: find_contacts
+  std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
+  std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
+  /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out; the
+  /// DCM-CBM interface adds its own.
   std::vector<double> overlap_sum, overlap_weight;
   int list_builds = 0;
 };
@@ -82,8 +82,7 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
 /// @param cell_force [n_cell] nN
 void add_cell_loads(const State& state, std::span<const Params> params,
                     std::span<const double> radius, const ContactWorkspace& work,
-                    std::span<const Vec3> cell_force, std::size_t first_row,
-                    solve::System& system);
+                    std::span<const Vec3> cell_force, std::size_t first_row, solve::System& system);
 
 /// Friction coefficient of one cell with the medium, nN s/um.
 double medium_friction(const Params& p, double radius, double contact_area);

@@ -13,7 +13,8 @@ struct Params {
 };
 
 /// Young's modulus that matches a deformable cell's bulk modulus, E = 3 K_V (1 - 2 nu), kPa.
-/// [VanLiedekerke2020, section 2.3, whose printed form is inverted: this one gives Table 1's 450 Pa]
+/// [VanLiedekerke2020, section 2.3, whose printed form is inverted: this one gives Table 1's 450
+/// Pa]
 inline double young_from_bulk(double bulk_modulus, double poisson) {
   return 3 * bulk_modulus * (1 - 2 * poisson);
 }

@@ -20,7 +20,8 @@ State make_state(const std::vector<NewCell>& cells) {
 
 std::vector<double> radii_at(const State& s, double time) {
   std::vector<double> r(s.n_cell());
-  for (std::size_t c = 0; c < r.size(); ++c) r[c] = std::cbrt(s.volume[c].at(time) / (4.0 / 3 * kPi));
+  for (std::size_t c = 0; c < r.size(); ++c)
+    r[c] = std::cbrt(s.volume[c].at(time) / (4.0 / 3 * kPi));
   return r;
 }
 

@@ -20,8 +20,8 @@ struct State {
   std::vector<Ramp> volume;           ///< [n_cell] um^3, intrinsic volume
   std::vector<double> young;          ///< [n_cell] kPa
   std::vector<Vec3> pull;             ///< [n_cell] nN, constant load
-  /// Adhesive contacts that exist, as (cell, cell) or (cell, ~surroundings key); sorted. JKR contact has
-  /// hysteresis, so this is state.
+  /// Adhesive contacts that exist, as (cell, cell) or (cell, ~surroundings key); sorted. JKR
+  /// contact has hysteresis, so this is state.
   std::vector<std::pair<int, int>> touching;
 
   std::size_t n_cell() const { return lineage.size(); }

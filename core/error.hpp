@@ -47,12 +47,12 @@ struct [[nodiscard]] Status {
 }  // namespace acinus
 
 #ifdef ACINUS_ENABLE_ASSERTS
-#define ACINUS_ASSERT(condition)                                                              \
-  do {                                                                                        \
-    if (!(condition)) {                                                                       \
-      std::fprintf(stderr, "%s:%d: internal error: %s\n", __FILE__, __LINE__, #condition);    \
-      std::abort();                                                                           \
-    }                                                                                         \
+#define ACINUS_ASSERT(condition)                                                           \
+  do {                                                                                     \
+    if (!(condition)) {                                                                    \
+      std::fprintf(stderr, "%s:%d: internal error: %s\n", __FILE__, __LINE__, #condition); \
+      std::abort();                                                                        \
+    }                                                                                      \
   } while (false)
 #else
 #define ACINUS_ASSERT(condition) static_cast<void>(0)

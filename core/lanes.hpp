@@ -2,8 +2,9 @@
 /// Eight cells side by side: a Lane holds one number of each of the eight cells of a group.
 ///
 /// Layout of every per-point array: [point][component][lane]. A point's address is the index of its
-/// x component; y and z follow at +kLanes and +2 kLanes. Kernels marked ACINUS_KERNEL are compiled for
-/// AVX-512, AVX2 and baseline x86-64 and picked at run time; lane arithmetic gives the same bits on each.
+/// x component; y and z follow at +kLanes and +2 kLanes. Kernels marked ACINUS_KERNEL are compiled
+/// for AVX-512, AVX2 and baseline x86-64 and picked at run time; lane arithmetic gives the same
+/// bits on each.
 
 #include <cmath>
 #include <cstddef>
@@ -82,9 +83,7 @@ ACINUS_INLINE Lane3 operator-(const Lane3& a, const Lane3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 ACINUS_INLINE Lane3 operator*(Lane s, const Lane3& a) { return {s * a.x, s * a.y, s * a.z}; }
-ACINUS_INLINE Lane dot(const Lane3& a, const Lane3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+ACINUS_INLINE Lane dot(const Lane3& a, const Lane3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 ACINUS_INLINE Lane3 cross(const Lane3& a, const Lane3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

@@ -275,9 +275,15 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
     case Pair::Kind::kCellCell:
       return keep_worst(result.dcm_dcm, pair.depth, frame.meshes[pair.a].id,
                         frame.meshes[pair.b].id);
-    case Pair::Kind::kCellSphere:
-      return keep_worst(result.dcm_cbm, pair.depth, frame.meshes[pair.a].id,
-                        frame.spheres[pair.b].id);
+    case Pair::Kind::kCellSphere: {
+      const std::int64_t mesh = frame.meshes[pair.a].id, sphere = frame.spheres[pair.b].id;
+      const auto dent = std::ranges::find_if(frame.dents, [&](const AuditDent& d) {
+        return d.mesh_id == mesh && d.sphere_id == sphere;
+      });
+      const double explained = dent == frame.dents.end() ? 0 : std::max(0.0, dent->depth);
+      keep_worst(result.dcm_cbm_beyond_dent, std::max(0.0, pair.depth - explained), mesh, sphere);
+      return keep_worst(result.dcm_cbm, pair.depth, mesh, sphere);
+    }
     case Pair::Kind::kCellVessel:
       return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
     case Pair::Kind::kCellFixed: {
@@ -306,8 +312,9 @@ AuditResult audit(const AuditFrame& frame) {
   }
   for (const Pair& pair : pairs)
     keep_pair(frame, pair, result);  // in list order, whoever computed it
-  result.max_penetration_um = std::max({result.dcm_dcm.depth_um, result.dcm_vessel.depth_um,
-                                        result.dcm_wall.depth_um, result.dcm_cbm.depth_um});
+  result.max_penetration_um =
+      std::max({result.dcm_dcm.depth_um, result.dcm_vessel.depth_um, result.dcm_wall.depth_um,
+                result.dcm_cbm_beyond_dent.depth_um});
   result.max_overlap_cbm_um = result.cbm_cbm.depth_um;
   return result;
 }

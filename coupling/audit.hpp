@@ -23,6 +23,11 @@ struct AuditSphere {
   Vec3 center = Vec3::Zero();
   double radius = 0;
 };
+/// How deep a sphere is known to be dented by a cell, from the force between them.
+struct AuditDent {
+  std::int64_t mesh_id = 0, sphere_id = 0;
+  double depth = 0;  ///< um
+};
 struct AuditPlane {  ///< cells stay where (x - point) . normal >= 0; normal of length 1
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
@@ -41,6 +46,7 @@ struct AuditStatic {  ///< a closed mesh that does not move
 struct AuditFrame {
   std::span<const AuditMesh> meshes;
   std::span<const AuditSphere> spheres;
+  std::span<const AuditDent> dents;  ///< pairs not listed are taken as not dented
   const mesh::Network* vessels = nullptr;
   std::span<const AuditPlane> planes;
   std::span<const AuditCapsule> capsules;
@@ -53,11 +59,15 @@ struct WorstPair {
 };
 
 struct AuditResult {
-  double max_penetration_um = 0;  ///< largest of the four dcm_ depths
+  /// Largest of dcm_dcm, dcm_vessel, dcm_wall and dcm_cbm_beyond_dent. A soft sphere yields where a
+  /// cell presses on it, as two spheres overlap by their law; only what goes deeper counts
+  /// (docs/decisions/0009.md).
+  double max_penetration_um = 0;
   WorstPair dcm_dcm;              ///< ids of the cells
   WorstPair dcm_vessel;           ///< cell id, vessel segment
   WorstPair dcm_wall;             ///< cell id, index counted through planes, capsules, statics
-  WorstPair dcm_cbm;              ///< mesh cell id, sphere id
+  WorstPair dcm_cbm;              ///< mesh cell id, sphere id: geometric depth in the round sphere
+  WorstPair dcm_cbm_beyond_dent;  ///< the same, less the dent the pair's force explains
   double max_overlap_cbm_um = 0;  ///< max of Ri + Rj - distance over spheres
   WorstPair cbm_cbm;              ///< sphere ids
   double min_triangle_quality =

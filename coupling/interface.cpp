@@ -20,13 +20,15 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
   const auto body = static_cast<std::size_t>(k.body), sphere = static_cast<std::size_t>(k.sphere);
   const std::size_t lane = v.dcm_work.lane_of_body[body];
   const mesh::Topology& t = *v.dcm_work.body[body].topology;
-  const dcm::Params& a = v.dcm_params[static_cast<std::size_t>(v.dcm_state.group[lane / kLanes].type)];
+  const dcm::Params& a =
+      v.dcm_params[static_cast<std::size_t>(v.dcm_state.group[lane / kLanes].type)];
   const cbm::Params& b = v.cbm_params[static_cast<std::size_t>(v.cbm_state.type[sphere])];
   const double reduced_young = v.cbm_state.young[sphere] / (1 - b.poisson * b.poisson);
   Patch p;
-  p.well = {v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion),
-            compliant_stiffness(v.dcm_contact.repulsion, reduced_young, v.cbm_radius[sphere], k.dent),
-            v.dcm_contact.range_factor * t.mean_rest_length * v.lanes.radius[lane]};
+  p.well = {
+      v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion),
+      compliant_stiffness(v.dcm_contact.repulsion, reduced_young, v.cbm_radius[sphere], k.dent),
+      v.dcm_contact.range_factor * t.mean_rest_length * v.lanes.radius[lane]};
   p.area = dcm::point_area(t, v.dcm_contact.quadrature, k.point, v.lanes.radius[lane]);
   p.touching = dcm::share_scale(v.dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
                contact::contact_share(k.gap, v.dcm_contact.friction_range);
@@ -76,7 +78,8 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
         const Vec3 d =
             contact::point_position(b, contact::point_stencil(b, c.quadrature, point)) - center;
         const double distance = d.norm(), gap = distance - radius;
-        if (gap < range && distance > 0) found[p].push_back({body, point, sphere, gap, 0, d / distance});
+        if (gap < range && distance > 0)
+          found[p].push_back({body, point, sphere, gap, 0, d / distance});
       }
     }
   }
@@ -90,7 +93,8 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
       m.dent = dent;
       const double share = contact::contact_share(m.gap, c.friction_range);
       dcm_work.share[k][static_cast<std::size_t>(m.point)] += share;
-      area += share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, lanes.radius[lane]);
+      area += share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point,
+                                      lanes.radius[lane]);
     }
     cbm_work.contact_area[i] += area;
     // A deformable neighbour enters the sphere's mean overlap with its reference radius.
@@ -119,8 +123,8 @@ void add_interface_loads(const InterfaceView& v, std::size_t cbm_first_row, solv
     links.add_point(cbm::cell_address(cbm_first_row, static_cast<std::size_t>(k.sphere)), -1);
     links.close(-p.area * contact::well_traction(p.well, k.gap) * k.normal,
                 Sym3::outer(p.area * contact::well_stiffness(p.well, k.gap), k.normal),
-                Sym3::identity(v.params.friction_factor * v.params.friction * p.area * p.touching), false, k.normal,
-                std::numeric_limits<double>::infinity());
+                Sym3::identity(v.params.friction_factor * v.params.friction * p.area * p.touching),
+                false, k.normal, std::numeric_limits<double>::infinity());
   }
 }
 
@@ -131,8 +135,9 @@ std::vector<InterfaceForce> compute_interface_forces(const InterfaceView& v) {
     if (k.body != body || k.sphere != sphere) {
       body = k.body;
       sphere = k.sphere;
-      forces.push_back({v.dcm_state.lineage[v.dcm_work.lane_of_body[static_cast<std::size_t>(body)]],
-                        v.cbm_state.lineage[static_cast<std::size_t>(sphere)], Vec3::Zero(), 0, k.gap});
+      forces.push_back(
+          {v.dcm_state.lineage[v.dcm_work.lane_of_body[static_cast<std::size_t>(body)]],
+           v.cbm_state.lineage[static_cast<std::size_t>(sphere)], Vec3::Zero(), 0, k.gap});
     }
     const Patch p = make_patch(v, k);
     InterfaceForce& f = forces.back();

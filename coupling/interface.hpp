@@ -1,11 +1,11 @@
 #pragma once
 /// The interface between the two models: contact of a deformable surface with a compliant sphere.
 ///
-/// Tension as between two deformable cells. Under compression the sphere yields: pressure = -k_s gap
-/// with 1/k_s = 1/k_rep + 1/k_w and the Winkler constant k_w = 4 E* / (3 pi R sqrt(d)) that matches
-/// the sphere's half of a Hertz contact. d = dent / R, with the dent the deepest point of this pair's
-/// contact at the start of the step (docs/decisions/0008.md). A rigid sphere would be about 40 times
-/// too stiff.
+/// Tension as between two deformable cells. Under compression the sphere yields: pressure = -k_s
+/// gap with 1/k_s = 1/k_rep + 1/k_w and the Winkler constant k_w = 4 E* / (3 pi R sqrt(d)) that
+/// matches the sphere's half of a Hertz contact. d = dent / R, with the dent the deepest point of
+/// this pair's contact at the start of the step (docs/decisions/0008.md). A rigid sphere would be
+/// about 40 times too stiff.
 
 #include <cstdint>
 #include <span>
@@ -72,8 +72,7 @@ struct InterfaceView {
 };
 
 /// Adds the links: one number, opposite signs, both models' unknowns in one system.
-void add_interface_loads(const InterfaceView& view, std::size_t cbm_first_row,
-                         solve::Links& links);
+void add_interface_loads(const InterfaceView& view, std::size_t cbm_first_row, solve::Links& links);
 
 /// The forces per pair of cells, ordered by (dcm, cbm) position in the arrays.
 std::vector<InterfaceForce> compute_interface_forces(const InterfaceView& view);

@@ -24,7 +24,8 @@ std::int64_t lineage_of(const State& s, std::size_t lane) {
 std::size_t lane_of(const Workspace& w, Address a) {
   const auto& blocks = w.system.block;
   const std::size_t row = a / kPointStride;
-  const auto it = std::ranges::upper_bound(blocks, row, {}, [](const solve::Block& b) { return b.first_row; });
+  const auto it =
+      std::ranges::upper_bound(blocks, row, {}, [](const solve::Block& b) { return b.first_row; });
   return static_cast<std::size_t>(it - blocks.begin() - 1) * kLanes + a % kLanes;
 }
 
@@ -34,7 +35,8 @@ void for_each_cell(const Workspace& w, F f) {
   for (std::size_t b = 0; b < w.system.block.size(); ++b)
     for (int l = 0; l < kLanes; ++l) {
       const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
-      if (w.active[lane]) f(lane, make_address(w.system.block[b].first_row, l), w.system.block[b].pattern->n_point);
+      if (w.active[lane])
+        f(lane, make_address(w.system.block[b].first_row, l), w.system.block[b].pattern->n_point);
     }
 }
 
@@ -65,7 +67,8 @@ double estimate_error(const World& world, double step, const Workspace& w) {
   const State& s = world.state;
   if (s.clock.last_step <= 0 || s.last_move.size() != w.move.size()) return 0;
   const double ratio = step / s.clock.last_step;
-  const bool noise = world.params.motility.random && controls_at(s.clock, world.params.start_up).motility;
+  const bool noise =
+      world.params.motility.random && controls_at(s.clock, world.params.start_up).motility;
   double sum2 = 0, largest2 = 0, n = 0;
   for_each_cell(w, [&](std::size_t, Address first, int n_point) {
     auto change = [&](int i) {
@@ -100,15 +103,19 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
     double largest = 0;
     for (int i = 0; i < n_point; ++i) {
       const Vec3 m = load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
-      if (!m.allFinite()) return reject(fmt::format("{}: its displacement is not finite", name_lane(s, lane)), lane);
+      if (!m.allFinite())
+        return reject(fmt::format("{}: its displacement is not finite", name_lane(s, lane)), lane);
       largest = std::max(largest, m.norm());
     }
     v.max_move = std::max(v.max_move, largest);
     const bool deformable = lane < s.dcm.n_lane();
-    const double edge = deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length * w.lanes.radius[lane]
-                                   : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
+    const double edge =
+        deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length * w.lanes.radius[lane]
+                   : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
     if (largest > move_limit(world.params.numerics.max_move, edge))
-      return reject(fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, lane), largest, step), lane);
+      return reject(
+          fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, lane), largest, step),
+          lane);
     if (deformable && find_turned_face(s.dcm, lane, w.move) >= 0)
       return reject(fmt::format("{}: a face would turn over", name_lane(s, lane)), lane);
   });
@@ -125,8 +132,10 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
     if (links.gap[l] + opening < deep && opening < -kClosing) {
       const std::size_t a = lane_of(w, links.address[links.start[l]]);
       const std::size_t b = lane_of(w, links.address[links.start[l + 1] - 1]);
-      reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a), -(links.gap[l] + opening),
-                         links.external[l] ? std::string("its surroundings") : name_lane(s, b)), a);
+      reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
+                         -(links.gap[l] + opening),
+                         links.external[l] ? std::string("its surroundings") : name_lane(s, b)),
+             a);
       if (!links.external[l] && b != a) v.cells.push_back(lineage_of(s, b));
       return v;
     }

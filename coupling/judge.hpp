@@ -19,16 +19,16 @@ struct Verdict {
   double max_move = 0;  ///< um
 };
 
-/// Largest displacement a cell may make in one step, um: max_move mean edges of its mesh; spheres as
-/// a 162-node mesh of their radius. Infinite when max_move is 0.
+/// Largest displacement a cell may make in one step, um: max_move mean edges of its mesh; spheres
+/// as a 162-node mesh of their radius. Infinite when max_move is 0.
 double move_limit(double max_move, double mean_edge);
 inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, in radii
 
 Verdict judge_step(const World& world, double step, const Workspace& work);
 
 /// Error estimate, um: half the change of velocity times the step, as the larger of the rms and a
-/// fifth of the maximum over nodes. With random motility every cell's mean displacement is left out:
-/// it is white noise, which the method integrates exactly. 0 without a step to compare with.
+/// fifth of the maximum over nodes. With random motility every cell's mean displacement is left
+/// out: it is white noise, which the method integrates exactly. 0 without a step to compare with.
 double estimate_error(const World& world, double step, const Workspace& work);
 
 /// Force balance of the step just solved.   @pre work.rhs, work.move

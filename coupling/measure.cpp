@@ -64,13 +64,14 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.volume = dcm::compute_volumes(g)[l];
     m.area = dcm::compute_areas(g)[l];
     const double v0 = 4.0 / 3 * kPi * std::pow(m.radius, 3);
-    m.cytosol_pressure =
-        dcm::cytosol_pressure(world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus, m.volume, v0);
+    m.cytosol_pressure = dcm::cytosol_pressure(
+        world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus, m.volume, v0);
     m.migration_force = w.forces.dcm[lane].norm();
     for (std::size_t p = 0; p < w.dcm.share[k].size(); ++p)
-      m.contact_area += std::min(1.0, w.dcm.share[k][p]) *
-                        dcm::point_area(*w.dcm.body[k].topology, world.params.dcm_contact.quadrature,
-                                        static_cast<int>(p), m.radius);
+      m.contact_area +=
+          std::min(1.0, w.dcm.share[k][p]) * dcm::point_area(*w.dcm.body[k].topology,
+                                                             world.params.dcm_contact.quadrature,
+                                                             static_cast<int>(p), m.radius);
     cells.push_back(m);
   }
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
@@ -88,12 +89,16 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     cells.push_back(m);
   }
 
-  auto reference_volume = [&](std::size_t cell) { return 4.0 / 3 * kPi * std::pow(cells[cell].radius, 3); };
+  auto reference_volume = [&](std::size_t cell) {
+    return 4.0 / 3 * kPi * std::pow(cells[cell].radius, 3);
+  };
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], reference_volume(cell), force, arm);
   };
   std::set<std::pair<std::size_t, std::size_t>> touching;
-  auto touch = [&](std::size_t a, std::size_t b) { touching.insert({std::min(a, b), std::max(a, b)}); };
+  auto touch = [&](std::size_t a, std::size_t b) {
+    touching.insert({std::min(a, b), std::max(a, b)});
+  };
   const LinkRanges range = link_ranges(w);
   const solve::Links& links = w.system.links;
   auto force_of = [&](std::size_t l) { return links.force[l]; };
@@ -102,7 +107,8 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const contact::SurfaceContact& c = w.dcm.surface[k];
     const auto a = static_cast<std::size_t>(c.body_a), b = static_cast<std::size_t>(c.body_b);
     const Vec3 x = contact::point_position(
-        w.dcm.body[a], contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
+        w.dcm.body[a],
+        contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
     press(a, force_of(k), x - cells[a].center);
     if (b >= n_body) continue;
     press(b, -force_of(k), x - c.gap * c.normal - cells[b].center);
@@ -112,12 +118,14 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const dcm::ObstacleContact& c = w.dcm.obstacle[k];
     const auto a = static_cast<std::size_t>(c.body);
     press(a, force_of(w.dcm.surface.size() + k),
-          contact::point_position(w.dcm.body[a], dcm::obstacle_stencil(world.params.dcm_contact, w.dcm.body[a], c)) -
+          contact::point_position(
+              w.dcm.body[a], dcm::obstacle_stencil(world.params.dcm_contact, w.dcm.body[a], c)) -
               cells[a].center);
   }
   for (std::size_t k = 0; k < w.cbm.sphere.size(); ++k) {
     const cbm::SphereContact& c = w.cbm.sphere[k];
-    const std::size_t a = n_body + static_cast<std::size_t>(c.a), b = n_body + static_cast<std::size_t>(c.b);
+    const std::size_t a = n_body + static_cast<std::size_t>(c.a),
+                      b = n_body + static_cast<std::size_t>(c.b);
     const Vec3 f = c.law.force * c.normal;
     press(a, f, -(cells[a].radius - 0.5 * c.overlap) * c.normal);
     press(b, -f, (cells[b].radius - 0.5 * c.overlap) * c.normal);
@@ -132,7 +140,8 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const auto a = static_cast<std::size_t>(c.body);
     const std::size_t b = n_body + static_cast<std::size_t>(c.sphere);
     const Vec3 x = contact::point_position(
-        w.dcm.body[a], contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
+        w.dcm.body[a],
+        contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
     const Vec3 f = force_of(range.obstacle_end + k);
     press(a, f, x - cells[a].center);
     press(b, -f, x - cells[b].center);
@@ -162,14 +171,15 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
     const std::size_t lane = w.dcm.lane_of_body[b];
     const dcm::Group& group = s.dcm.group[lane / kLanes];
     const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
-    const auto tension = dcm::compute_node_tension(world.params.dcm[static_cast<std::size_t>(group.type)], g,
-                                                   static_cast<int>(lane % kLanes));
+    const auto tension = dcm::compute_node_tension(
+        world.params.dcm[static_cast<std::size_t>(group.type)], g, static_cast<int>(lane % kLanes));
     const double r2 = w.lanes.radius[lane] * w.lanes.radius[lane];
     for (int i = 0; i < group.topology->n_node; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Vec3 f = load_point(contact.data(), dcm::node_address(s.dcm, lane, i));
       n.force.push_back(f);
-      n.pressure.push_back(-f.dot(w.dcm.body[b].node_normal[k]) / (group.topology->rest_node_area[k] * r2));
+      n.pressure.push_back(-f.dot(w.dcm.body[b].node_normal[k]) /
+                           (group.topology->rest_node_area[k] * r2));
       n.tension.push_back(tension[k]);
     }
   }

@@ -15,10 +15,11 @@ struct CellMeasure {
   bool deformable = false;
   int type = 0;
   bool leader = false;
-  Vec3 center = Vec3::Zero();      ///< um
-  double radius = 0;               ///< um, reference radius (3 V0 / 4 pi)^(1/3)
-  double volume = 0, area = 0;     ///< um^3, um^2; of a sphere: its intrinsic values
-  /// kPa, p = tr(sum f (x) (x_contact - c)) / (-3 V0): positive when contacts press. Both models alike.
+  Vec3 center = Vec3::Zero();   ///< um
+  double radius = 0;            ///< um, reference radius (3 V0 / 4 pi)^(1/3)
+  double volume = 0, area = 0;  ///< um^3, um^2; of a sphere: its intrinsic values
+  /// kPa, p = tr(sum f (x) (x_contact - c)) / (-3 V0): positive when contacts press. Both models
+  /// alike.
   double pressure = 0;
   double cytosol_pressure = 0;     ///< kPa, -K_V ln(V/V0); a sphere has none: its pressure again
   std::array<double, 6> stress{};  ///< kPa, xx xy xz yy yz zz of (1/V0) sum f (x) (x_contact - c)
@@ -35,9 +36,10 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& work
 
 /// Fields on the nodes of the deformable cells, body by body.   @pre observe
 struct NodeMeasure {
-  std::vector<Vec3> force;         ///< nN, contact force
-  std::vector<double> pressure;    ///< kPa, normal contact traction, positive pressing inward
-  std::vector<double> tension;     ///< nN/um, cortex tension [VanLiedekerke2020, Eq. (8)] plus membrane
+  std::vector<Vec3> force;       ///< nN, contact force
+  std::vector<double> pressure;  ///< kPa, normal contact traction, positive pressing inward
+  std::vector<double>
+      tension;  ///< nN/um, cortex tension [VanLiedekerke2020, Eq. (8)] plus membrane
 };
 NodeMeasure measure_nodes(const World& world, const Workspace& work);
 

@@ -46,7 +46,8 @@ bool choose_leaders(const World& world, std::span<const double> dcm_radius,
                     std::int64_t& interval) {
   const State& s = world.state;
   const Motility& m = world.params.motility;
-  const auto now = static_cast<std::int64_t>(std::floor((s.clock.time - s.clock.origin) / m.leader_grid + 1e-9));
+  const auto now =
+      static_cast<std::int64_t>(std::floor((s.clock.time - s.clock.origin) / m.leader_grid + 1e-9));
   const std::size_t n_lane = s.dcm.n_lane(), n = n_lane + s.cbm.n_cell();
   if (now == interval && leader.size() == n) return false;
   interval = now;
@@ -89,7 +90,8 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
   const double time = s.clock.time - s.clock.origin;
   auto active = [&](std::int64_t lineage, double diffusion, double medium) {
     if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
-    return Vec3(medium * std::sqrt(2 * diffusion / m.grid) * mean_random(m.seed, lineage, m.grid, time, step));
+    return Vec3(medium * std::sqrt(2 * diffusion / m.grid) *
+                mean_random(m.seed, lineage, m.grid, time, step));
   };
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;

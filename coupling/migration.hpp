@@ -1,5 +1,6 @@
 #pragma once
-/// Active forces on whole cells: random motility, the pull of leaders toward the vein, constant pulls.
+/// Active forces on whole cells: random motility, the pull of leaders toward the vein, constant
+/// pulls.
 
 #include <cstdint>
 #include <vector>
@@ -13,10 +14,10 @@ namespace acinus::coupling {
 /// rejected steps leave no trace.
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
 
-/// Chooses the leaders if the grid interval changed: cells with no other cell of either model nearer
-/// the vein axis within one diameter in arc and height. Hysteresis: a leader stays one until another
-/// is nearer by a sixth of a radius. At the vein wall nobody leads.
-/// Returns true if the choice was renewed. Pure in time and positions: a retry chooses the same.
+/// Chooses the leaders if the grid interval changed: cells with no other cell of either model
+/// nearer the vein axis within one diameter in arc and height. Hysteresis: a leader stays one until
+/// another is nearer by a sixth of a radius. At the vein wall nobody leads. Returns true if the
+/// choice was renewed. Pure in time and positions: a retry chooses the same.
 bool choose_leaders(const World& world, std::span<const double> dcm_radius,
                     std::span<const double> cbm_radius, std::vector<std::uint8_t>& leader,
                     std::int64_t& interval);
@@ -26,9 +27,9 @@ struct CellForces {
   std::vector<Vec3> dcm, cbm;
 };
 
-/// Adds everything active. Random force of a component: Gamma_med sqrt(2 D / grid) xi, with Gamma_med
-/// the cell's present friction with the medium alone.
-/// [VanLiedekerke2020, Eq. (1) term 9 and Eq. (19), with the noise of docs/decisions/0004.md]
+/// Adds everything active. Random force of a component: Gamma_med sqrt(2 D / grid) xi, with
+/// Gamma_med the cell's present friction with the medium alone. [VanLiedekerke2020, Eq. (1) term 9
+/// and Eq. (19), with the noise of docs/decisions/0004.md]
 /// @param dcm_medium, cbm_medium  friction of each cell with the medium, nN s/um
 void compute_cell_forces(const World& world, const Controls& controls, double step,
                          std::span<const double> dcm_medium, std::span<const double> cbm_medium,

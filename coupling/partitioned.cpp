@@ -10,7 +10,8 @@ solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const dou
                                   std::span<double> x, std::size_t n_dcm_block,
                                   const solve::CgOptions& options, solve::CgWorkspace& work) {
   constexpr int kMaxExchanges = 2000;
-  constexpr double kAgree = 100;   // each side's own solve leaves noise of its tolerance in the exchange
+  constexpr double kAgree =
+      100;  // each side's own solve leaves noise of its tolerance in the exchange
   constexpr int kExtrapolate = 4;  // exchanges between two extrapolations
   const std::size_t n_block = op.system().block.size();
   solve::CgResult total;
@@ -19,7 +20,8 @@ solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const dou
   const double rhs = std::sqrt(op.dot(b, scaled));
   std::vector<double> before(x.begin(), x.end()), change(x.size(), 0.0);
   for (int exchange = 1; exchange <= kMaxExchanges; ++exchange) {
-    for (const solve::BlockRange range : {solve::BlockRange{0, n_dcm_block}, solve::BlockRange{n_dcm_block, n_block}}) {
+    for (const solve::BlockRange range :
+         {solve::BlockRange{0, n_dcm_block}, solve::BlockRange{n_dcm_block, n_block}}) {
       const solve::CgResult alone = solve::solve_cg(op, b, x, options, work, range);
       total.iterations += alone.iterations;
       if (!alone.status.ok) {
@@ -27,8 +29,8 @@ solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const dou
         return total;
       }
     }
-    // Exchanges converge like a geometric series with one slow ratio (the drift of the whole cluster):
-    // its limit is extrapolated now and then (Aitken).
+    // Exchanges converge like a geometric series with one slow ratio (the drift of the whole
+    // cluster): its limit is extrapolated now and then (Aitken).
     double same = 0, size = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
       const double now = x[k] - before[k];

@@ -11,20 +11,22 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kLook = 600;             ///< s between looks at a settling tissue
-constexpr double kPressureFloor = 1e-3;   ///< kPa: changes relative to less than this mean nothing
-constexpr double kSameTime = 1e-9;        ///< s
+constexpr double kLook = 600;            ///< s between looks at a settling tissue
+constexpr double kPressureFloor = 1e-3;  ///< kPa: changes relative to less than this mean nothing
+constexpr double kSameTime = 1e-9;       ///< s
 
 double largest_speed(const State& s) {
   if (s.clock.last_step <= 0) return std::numeric_limits<double>::infinity();
   double largest2 = 0;
   for (std::size_t row = 0; row < s.last_move.size() / kPointStride; ++row)
     for (int l = 0; l < kLanes; ++l)
-      largest2 = std::max(largest2, load_point(s.last_move.data(), make_address(row, l)).squaredNorm());
+      largest2 =
+          std::max(largest2, load_point(s.last_move.data(), make_address(row, l)).squaredNorm());
   return std::sqrt(largest2) / s.clock.last_step;
 }
 
-/// Mean change of the cells' pressures since the last look, relative to their mean size, per second.
+/// Mean change of the cells' pressures since the last look, relative to their mean size, per
+/// second.
 double pressure_drift(World& world, Workspace& work) {
   State& s = world.state;
   observe(world, work);
@@ -64,7 +66,8 @@ void begin_start_up(World& world, double initial_radius) {
     const Vec3 center = dcm::cell_center(s.dcm, l);
     for (int i = 0; i < s.dcm.group[l / kLanes].topology->n_node; ++i) {
       const Address a = dcm::node_address(s.dcm, l, i);
-      store_point(s.dcm.position.data(), a, center + shrink * (load_point(s.dcm.position.data(), a) - center));
+      store_point(s.dcm.position.data(), a,
+                  center + shrink * (load_point(s.dcm.position.data(), a) - center));
     }
     s.dcm.volume[l] = {initial_volume, full, 0, end};
   }
@@ -77,11 +80,15 @@ double time_to_phase_event(const World& world) {
   const StartUp& p = world.params.start_up;
   const double in_phase = c.time - c.phase_start;
   switch (c.phase) {
-    case Phase::kGrow: return p.growth_time - in_phase;
-    case Phase::kAdhere: return p.adhesion_ramp - in_phase;
+    case Phase::kGrow:
+      return p.growth_time - in_phase;
+    case Phase::kAdhere:
+      return p.adhesion_ramp - in_phase;
     case Phase::kSettle:
-      return std::min(p.max_settle, kLook * (std::floor(in_phase / kLook + kSameTime) + 1)) - in_phase;
-    case Phase::kRun: break;
+      return std::min(p.max_settle, kLook * (std::floor(in_phase / kLook + kSameTime) + 1)) -
+             in_phase;
+    case Phase::kRun:
+      break;
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -108,8 +115,10 @@ std::string update_phase(World& world, Workspace& work) {
   if (!rest && !capped) return {};
   enter(c, Phase::kRun);
   c.origin = c.time;
-  return fmt::format("t = 0 after {:.2f} h of start-up: {} (fastest node {:.2g} um/min, pressures change {:.2g} %/h)",
-                     c.time / 3600, rest ? "at rest" : "settling reached its cap", 60 * speed, 3.6e5 * drift);
+  return fmt::format(
+      "t = 0 after {:.2f} h of start-up: {} (fastest node {:.2g} um/min, pressures change {:.2g} "
+      "%/h)",
+      c.time / 3600, rest ? "at rest" : "settling reached its cap", 60 * speed, 3.6e5 * drift);
 }
 
 }  // namespace acinus::coupling

@@ -1,6 +1,6 @@
 #pragma once
-/// Start-up: small seeds grow to size without adhesion, then adhesion ramps up, then the tissue comes to
-/// rest; that moment is t = 0.
+/// Start-up: small seeds grow to size without adhesion, then adhesion ramps up, then the tissue
+/// comes to rest; that moment is t = 0.
 
 #include <string>
 
@@ -12,7 +12,8 @@ namespace acinus::coupling {
 /// Shrinks every cell to the initial radius and starts the growth phase. Centres stay.
 void begin_start_up(World& world, double initial_radius);
 
-/// Time left until the present phase or its next look at the tissue ends, s; infinite in Phase::kRun.
+/// Time left until the present phase or its next look at the tissue ends, s; infinite in
+/// Phase::kRun.
 double time_to_phase_event(const World& world);
 
 /// Moves on to the next phase when its time has come. Returns what happened, empty if nothing.

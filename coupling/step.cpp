@@ -25,8 +25,9 @@ PhaseParams phase_params(const World& world) {
 }
 
 InterfaceView view_interface(const World& world, const PhaseParams& phase, const Workspace& w) {
-  return {world.state.dcm, world.params.dcm, phase.dcm,    w.lanes, w.dcm,      world.state.cbm,
-          world.params.cbm, w.cbm_radius,    w.cbm, phase.interface, w.interface};
+  return {world.state.dcm, world.params.dcm, phase.dcm,        w.lanes,
+          w.dcm,           world.state.cbm,  world.params.cbm, w.cbm_radius,
+          w.cbm,           phase.interface,  w.interface};
 }
 
 void commit(World& world, double step, int cg_iterations, Workspace& w) {
@@ -44,10 +45,12 @@ void commit(World& world, double step, int cg_iterations, Workspace& w) {
   s.clock.cg_iterations += cg_iterations;
 }
 
-/// Length of the next step from the error of this one. A quarter more or less is not worth a change.
+/// Length of the next step from the error of this one. A quarter more or less is not worth a
+/// change.
 double next_step(const Numerics& n, double step, double error) {
   if (!n.adaptive) return n.max_step;
-  const double factor = error > 0 ? std::clamp(0.9 * std::sqrt(n.tolerance / error), 0.5, 1.5) : 1.5;
+  const double factor =
+      error > 0 ? std::clamp(0.9 * std::sqrt(n.tolerance / error), 0.5, 1.5) : 1.5;
   return std::clamp(step * factor, n.min_step, n.max_step);
 }
 
@@ -112,21 +115,25 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
     double area = 0;
     for (int i = 0; i < g.topology->n_node; ++i)
       area += w.free_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + l % kLanes];
-    w.dcm_medium[l] = area * dcm::medium_friction_per_area(world.params.dcm[static_cast<std::size_t>(g.type)],
-                                                           w.lanes.radius[l], g.topology->rest_area);
+    w.dcm_medium[l] =
+        area * dcm::medium_friction_per_area(world.params.dcm[static_cast<std::size_t>(g.type)],
+                                             w.lanes.radius[l], g.topology->rest_area);
   }
   w.cbm_medium.resize(s.cbm.n_cell());
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    w.cbm_medium[c] = cbm::medium_friction(world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])],
-                                           w.cbm_radius[c], w.cbm.contact_area[c]);
-  compute_cell_forces(world, controls_at(s.clock, world.params.start_up), step, w.dcm_medium, w.cbm_medium,
-                      w.leader, w.forces);
+    w.cbm_medium[c] =
+        cbm::medium_friction(world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])],
+                             w.cbm_radius[c], w.cbm.contact_area[c]);
+  compute_cell_forces(world, controls_at(s.clock, world.params.start_up), step, w.dcm_medium,
+                      w.cbm_medium, w.leader, w.forces);
 
   dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.free_area, w.forces.dcm, w.system);
   cbm::add_cell_loads(s.cbm, world.params.cbm, w.cbm_radius, w.cbm, w.forces.cbm, first, w.system);
   solve::Links& links = w.system.links;
-  dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm, links);
-  cbm::add_contact_loads(s.cbm, world.params.cbm, phase.cbm, world.params.around, w.cbm, first, links);
+  dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm,
+                         links);
+  cbm::add_contact_loads(s.cbm, world.params.cbm, phase.cbm, world.params.around, w.cbm, first,
+                         links);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
   w.op.prepare(w.system);
   w.op.add_link_forces(w.system.force, w.system.external_force);
@@ -141,7 +148,8 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   const auto scope = w.timings.scope("solve");
   const State& s = world.state;
   const solve::CgOptions& options = world.params.numerics.cg;
-  for (std::size_t k = 0; k < w.rhs.size(); ++k) w.rhs[k] = w.system.force[k] + w.system.external_force[k];
+  for (std::size_t k = 0; k < w.rhs.size(); ++k)
+    w.rhs[k] = w.system.force[k] + w.system.external_force[k];
   // The last step's velocity is a good first guess.
   if (s.last_move.size() == w.move.size() && s.clock.last_step > 0) {
     const double ratio = step / s.clock.last_step;
@@ -167,10 +175,10 @@ StepResult advance(World& world, Workspace& w, double limit) {
   int cg_iterations = 0;
   for (;;) {
     const double step = std::min(wanted, limit);
-    find_all_contacts(world, step, w);                               // 1 life, 2 contact
-    assemble(world, step, w);                                        // 3 solve
+    find_all_contacts(world, step, w);  // 1 life, 2 contact
+    assemble(world, step, w);           // 3 solve
     const Status solved = solve_step(world, step, w, cg_iterations);
-    Verdict verdict;                                                 // 4 judge
+    Verdict verdict;  // 4 judge
     if (solved.ok) {
       const auto scope = w.timings.scope("judge");
       verdict = judge_step(world, step, w);
@@ -183,7 +191,8 @@ StepResult advance(World& world, Workspace& w, double limit) {
       verdict.cause = "the estimated error is too large";
     }
     const std::int64_t attempt = s.clock.accepted + s.clock.rejected + result.rejections + 1;
-    if (verdict.good && w.reject_every > 0 && attempt % w.reject_every == 0 && step > 2 * n.min_step) {
+    if (verdict.good && w.reject_every > 0 && attempt % w.reject_every == 0 &&
+        step > 2 * n.min_step) {
       verdict.good = false;
       verdict.cause = "rejected on request";
     }

@@ -13,15 +13,16 @@ namespace acinus::coupling {
 /// What came of a step.
 struct StepResult {
   bool accepted = false;
-  double step = 0;       ///< s, length of the accepted step
-  double error = 0;      ///< um, its estimated error
-  double max_move = 0;   ///< um
-  int rejections = 0;    ///< attempts thrown away before it
-  std::string cause;     ///< why the last attempt was rejected
+  double step = 0;                  ///< s, length of the accepted step
+  double error = 0;                 ///< um, its estimated error
+  double max_move = 0;              ///< um
+  int rejections = 0;               ///< attempts thrown away before it
+  std::string cause;                ///< why the last attempt was rejected
   std::vector<std::int64_t> cells;  ///< lineage ids of the cells concerned
 };
 
-/// Sizes everything for the present set of cells. Call after the set changed and before the first step.
+/// Sizes everything for the present set of cells. Call after the set changed and before the first
+/// step.
 void size_workspace(const World& world, Workspace& work);
 
 /// Which loads to assemble; tests look at one model with and without the interface.
@@ -29,8 +30,8 @@ struct Selection {
   bool interface = true;
 };
 
-/// Stages 1 and 2: reference values at the end of the step, migration choices, contacts of the present
-/// positions. State is not touched.
+/// Stages 1 and 2: reference values at the end of the step, migration choices, contacts of the
+/// present positions. State is not touched.
 void find_all_contacts(const World& world, double step, Workspace& work);
 
 /// First half of stage 3: both models and the interface add their loads to one system.

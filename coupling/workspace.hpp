@@ -20,17 +20,17 @@ struct Workspace {
   dcm::ContactWorkspace dcm;
   cbm::ContactWorkspace cbm;
   InterfaceWorkspace interface;
-  dcm::LaneData lanes;                      ///< written by: set_references
-  std::vector<double> cbm_radius;           ///< written by: set_references
-  std::vector<double> free_area;            ///< [dcm rows][lane]; written by: assemble
+  dcm::LaneData lanes;                         ///< written by: set_references
+  std::vector<double> cbm_radius;              ///< written by: set_references
+  std::vector<double> free_area;               ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble
-  CellForces forces;                        ///< written by: assemble
-  std::vector<double> position;             ///< [n_row][3][lane]; written by: assemble
-  std::vector<std::uint8_t> active;         ///< written by: size_workspace
-  std::vector<double> rhs;                  ///< written by: solve_step
-  std::vector<double> move;                 ///< displacement of the step; written by: solve_step
+  CellForces forces;                           ///< written by: assemble
+  std::vector<double> position;                ///< [n_row][3][lane]; written by: assemble
+  std::vector<std::uint8_t> active;            ///< written by: size_workspace
+  std::vector<double> rhs;                     ///< written by: solve_step
+  std::vector<double> move;                    ///< displacement of the step; written by: solve_step
   std::vector<double> product, external_product;  ///< written by: judge
-  std::vector<std::uint8_t> leader;         ///< choice for this step; written by: choose stage
+  std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
   Timings timings;
   int reject_every = 0;      ///< tests: throw away every n-th attempt, as if judged bad

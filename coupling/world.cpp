@@ -17,15 +17,18 @@ double time_since_start(const World& w) {
 
 Controls controls_at(const Clock& clock, const StartUp& start_up) {
   switch (clock.phase) {
-    case Phase::kGrow: return {0, 0, false};
+    case Phase::kGrow:
+      return {0, 0, false};
     case Phase::kAdhere: {
       const double done = start_up.adhesion_ramp > 0
                               ? (clock.time - clock.phase_start) / start_up.adhesion_ramp
                               : 1.0;
       return {std::clamp(done, 0.0, 1.0), 1, false};
     }
-    case Phase::kSettle: return {1, 1, false};
-    case Phase::kRun: break;
+    case Phase::kSettle:
+      return {1, 1, false};
+    case Phase::kRun:
+      break;
   }
   return {};
 }
@@ -33,7 +36,8 @@ Controls controls_at(const Clock& clock, const StartUp& start_up) {
 std::vector<std::uint8_t> active_lanes(const State& s) {
   std::vector<std::uint8_t> active(s.dcm.n_lane() + s.cbm.n_row() * kLanes, 0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) active[l] = s.dcm.active(l) ? 1 : 0;
-  std::fill_n(active.begin() + static_cast<std::ptrdiff_t>(s.dcm.n_lane()), s.cbm.n_cell(), std::uint8_t{1});
+  std::fill_n(active.begin() + static_cast<std::ptrdiff_t>(s.dcm.n_lane()), s.cbm.n_cell(),
+              std::uint8_t{1});
   return active;
 }
 

@@ -24,19 +24,19 @@ enum class Phase : std::int64_t { kGrow, kAdhere, kSettle, kRun };
 
 struct StartUp {
   bool enabled = false;
-  double growth_time = 3600;    ///< s
-  double adhesion_ramp = 900;   ///< s
-  double max_settle = 3 * 3600; ///< s
-  double speed_tolerance = 0.01 / 60;         ///< um/s
-  double pressure_tolerance = 0.01 / 3600;    ///< 1/s, relative
+  double growth_time = 3600;                ///< s
+  double adhesion_ramp = 900;               ///< s
+  double max_settle = 3 * 3600;             ///< s
+  double speed_tolerance = 0.01 / 60;       ///< um/s
+  double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative
 };
 
 struct Motility {
   std::uint64_t seed = 1;
   bool random = false;
-  double grid = 60;          ///< s, time grid of the random force
-  double leader_force = 0;   ///< nN toward the vein axis
-  double leader_grid = 600;  ///< s
+  double grid = 60;                ///< s, time grid of the random force
+  double leader_force = 0;         ///< nN toward the vein axis
+  double leader_grid = 600;        ///< s
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through this point
   double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
 };
@@ -63,8 +63,8 @@ struct Params {
 };
 
 struct Clock {
-  double time = 0;         ///< s since the beginning of start-up
-  double origin = 0;       ///< s, time of t = 0; meaningful in Phase::kRun
+  double time = 0;    ///< s since the beginning of start-up
+  double origin = 0;  ///< s, time of t = 0; meaningful in Phase::kRun
   Phase phase = Phase::kRun;
   double phase_start = 0;  ///< s
   double step = 0;         ///< s, length of the next step
@@ -98,8 +98,8 @@ struct World {
   Ranks ranks = Ranks::serial();
 };
 
-/// Time since t = 0, s. During start-up, whose end is not known, the time left to its latest possible
-/// end as a negative number.
+/// Time since t = 0, s. During start-up, whose end is not known, the time left to its latest
+/// possible end as a negative number.
 double time_since_start(const World& world);
 
 /// Adhesion, cell-cell friction and motility of the present phase.

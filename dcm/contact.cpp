@@ -8,7 +8,6 @@ namespace {
 
 using contact::SurroundingKind;
 
-
 contact::SearchOptions search_options(const ContactParams& c, const State& state,
                                       const LaneData& lanes) {
   double range = 0;
@@ -68,7 +67,17 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
 
 contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,
                                        const ObstacleContact& o) {
-  return contact::point_stencil(body, o.guard ? contact::Quadrature::kNodes : c.quadrature, o.point);
+  const int n_node = static_cast<int>(body.node.size());
+  if (!o.guard) return contact::point_stencil(body, c.quadrature, o.point);
+  if (o.point < n_node) return {1, {o.point, 0, 0}, {1, 0, 0}};
+  return {
+      3, (*body.triangle)[static_cast<std::size_t>(o.point - n_node)], {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+}
+
+double guard_area(const mesh::Topology& t, int point, double radius) {
+  const auto k = static_cast<std::size_t>(point), n_node = static_cast<std::size_t>(t.n_node);
+  return kGuardShare * radius * radius *
+         (k < n_node ? t.rest_node_area[k] : t.rest_triangle_area[k - n_node]);
 }
 
 void refresh_bodies(const State& state, ContactWorkspace& work) {
@@ -100,15 +109,16 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
       for (int l = 0; l < kLanes; ++l) {
         const Address a = make_address(row, l);
         moved2 = std::max(moved2, (load_point(state.position.data(), a) -
-                                   load_point(work.list_position.data(), a)).squaredNorm());
+                                   load_point(work.list_position.data(), a))
+                                      .squaredNorm());
       }
     // A growing cell also reaches farther; that eats into the skin like movement does.
     double wider = 0;
     for (std::size_t k = 0; k < work.lane_of_body.size(); ++k) {
       const std::size_t l = work.lane_of_body[k];
       const mesh::Topology& t = *state.group[l / kLanes].topology;
-      wider = std::max(wider, contact_range(c, t, lanes.radius[l]) -
-                                  contact_range(c, t, work.list_radius[l]));
+      wider = std::max(
+          wider, contact_range(c, t, lanes.radius[l]) - contact_range(c, t, work.list_radius[l]));
     }
     if (2 * std::sqrt(moved2) + wider <= c.skin) return false;
   }
@@ -117,8 +127,8 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
   work.segment_list.resize(work.body.size());
 #pragma omp parallel for schedule(dynamic, 4)
   for (std::size_t k = 0; k < work.body.size(); ++k)
-    work.segment_list[k] = find_segments(static_cast<int>(k), work.body[k], c, options.range,
-                                         around.vessels.network);
+    work.segment_list[k] =
+        find_segments(static_cast<int>(k), work.body[k], c, options.range, around.vessels.network);
   work.list_position = state.position;
   work.list_radius = lanes.radius;
   ++work.list_builds;
@@ -143,6 +153,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
     const contact::SurfaceBody& b = work.body[k];
     const int n_point = static_cast<int>(contact::n_sites(b, c.quadrature)) * per_site;
     const bool guarded = c.quadrature == contact::Quadrature::kThreePoint;
+    auto guard_position = [&](std::size_t p) {
+      return p < b.node.size() ? b.node[p] : b.center[p - b.node.size()];
+    };
     auto probe = [&](SurroundingKind kind, int index, auto gap_of) {
       for (int p = 0; p < n_point; ++p) {
         const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
@@ -150,9 +163,11 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
         if (g.gap < options.range)
           obstacle[k].push_back({static_cast<int>(k), p, kind, index, g.gap, g.normal});
       }
-      for (int node = 0; guarded && node < static_cast<int>(b.node.size()); ++node) {
-        const contact::Gap g = gap_of(b.node[static_cast<std::size_t>(node)]);
-        if (g.gap < 0) obstacle[k].push_back({static_cast<int>(k), node, kind, index, g.gap, g.normal, true});
+      for (std::size_t p = 0; guarded && p < n_guards(b); ++p) {
+        const contact::Gap g = gap_of(guard_position(p));
+        if (g.gap < 0)
+          obstacle[k].push_back(
+              {static_cast<int>(k), static_cast<int>(p), kind, index, g.gap, g.normal, true});
       }
     };
     const Vec3 middle = 0.5 * (b.box.low + b.box.high);
@@ -163,14 +178,17 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
         probe(SurroundingKind::kPlane, static_cast<int>(i), gap_of);
     }
     for (std::size_t i = 0; i < around.capsules.size(); ++i) {
-      auto gap_of = [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, time); };
+      auto gap_of = [&](const Vec3& x) {
+        return contact::gap_to_capsule(around.capsules[i], x, time);
+      };
       if (gap_of(middle).gap - half < options.range)
         probe(SurroundingKind::kCapsule, static_cast<int>(i), gap_of);
     }
     // One contact per point: the nearest segment of the network.
     const SegmentCandidates& list = work.segment_list[k];
     auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
-      ObstacleContact best{static_cast<int>(k), p, SurroundingKind::kVessel, -1, options.range, {}, guard};
+      ObstacleContact best{
+          static_cast<int>(k), p, SurroundingKind::kVessel, -1, options.range, {}, guard};
       for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
         const contact::Gap g = contact::gap_to_segment(around.vessels.network, list.segment[e], x);
         if (g.gap >= best.gap) continue;
@@ -189,13 +207,17 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
       }
     if (!guarded) continue;
     // A node belongs to several faces; the deepest of what they see counts, once.
-    std::vector<ObstacleContact> guard(b.node.size());
-    for (std::size_t s = 0; s < list.site.size(); ++s)
-      for (int node : (*b.triangle)[static_cast<std::size_t>(list.site[s])]) {
-        ObstacleContact& seen = guard[static_cast<std::size_t>(node)];
-        const ObstacleContact best = nearest(s, node, true, b.node[static_cast<std::size_t>(node)]);
+    std::vector<ObstacleContact> guard(n_guards(b));
+    for (std::size_t s = 0; s < list.site.size(); ++s) {
+      const auto& corner = (*b.triangle)[static_cast<std::size_t>(list.site[s])];
+      const int face = static_cast<int>(b.node.size()) + list.site[s];
+      for (int p : {corner[0], corner[1], corner[2], face}) {
+        ObstacleContact& seen = guard[static_cast<std::size_t>(p)];
+        const ObstacleContact best =
+            nearest(s, p, true, guard_position(static_cast<std::size_t>(p)));
         if (best.index >= 0 && best.gap < seen.gap) seen = best;
       }
+    }
     for (const ObstacleContact& o : guard)
       if (o.guard) obstacle[k].push_back(o);
   }
@@ -204,14 +226,16 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
 
   work.share.resize(work.body.size());
   for (std::size_t k = 0; k < work.body.size(); ++k)
-    work.share[k].assign(contact::n_sites(work.body[k], c.quadrature) * static_cast<std::size_t>(per_site), 0.0);
+    work.share[k].assign(
+        contact::n_sites(work.body[k], c.quadrature) * static_cast<std::size_t>(per_site), 0.0);
   for (const contact::SurfaceContact& s : work.surface)
     if (s.body_a != s.body_b)
       work.share[static_cast<std::size_t>(s.body_a)][static_cast<std::size_t>(s.point)] +=
           contact::contact_share(s.gap, c.friction_range);
   for (const ObstacleContact& o : work.obstacle)
-    if (!o.guard) work.share[static_cast<std::size_t>(o.body)][static_cast<std::size_t>(o.point)] +=
-        contact::contact_share(o.gap, c.friction_range);
+    if (!o.guard)
+      work.share[static_cast<std::size_t>(o.body)][static_cast<std::size_t>(o.point)] +=
+          contact::contact_share(o.gap, c.friction_range);
 }
 
 void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,
@@ -223,8 +247,9 @@ void compute_free_areas(const State& state, const ContactParams& c, const LaneDa
     const contact::SurfaceBody& b = work.body[k];
     const std::size_t first = state.group[lane / kLanes].first_row;
     for (std::size_t p = 0; p < work.share[k].size(); ++p) {
-      const double area = point_area(*b.topology, c.quadrature, static_cast<int>(p), lanes.radius[lane]) *
-                          (1 - std::min(1.0, work.share[k][p]));
+      const double area =
+          point_area(*b.topology, c.quadrature, static_cast<int>(p), lanes.radius[lane]) *
+          (1 - std::min(1.0, work.share[k][p]));
       const contact::PointStencil s = contact::point_stencil(b, c.quadrature, static_cast<int>(p));
       for (int m = 0; m < s.n; ++m)
         free_area[(first + static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) * kLanes +

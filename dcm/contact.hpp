@@ -1,5 +1,6 @@
 #pragma once
-/// Contacts of deformable cells with each other and with surroundings: from closest features to links.
+/// Contacts of deformable cells with each other and with surroundings: from closest features to
+/// links.
 
 #include <cstdint>
 #include <span>
@@ -38,17 +39,24 @@ struct ObstacleContact {
   int index = 0;
   double gap = 0;
   Vec3 normal = Vec3::Zero();
-  /// The point is a node inside the obstacle. Three-point quadrature samples faces only, so the tip of a
-  /// sharp corner would go unseen; such nodes are pushed out, without adhesion or friction.
+  /// The point is a node (0 .. n_node - 1) or a face centre (n_node ..) inside the obstacle.
+  /// Three-point quadrature would not see the tip of a sharp corner, nor a vessel's tip in the
+  /// middle of a face; such points are pushed out, without adhesion or friction.
   bool guard = false;
 };
 
-/// Share of its area that a guarding node pushes with.
+/// Share of its area that a guarding point pushes with.
 inline constexpr double kGuardShare = 0.25;
 
 /// The nodes and weights of an obstacle contact's point.
 contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,
                                        const ObstacleContact& contact);
+
+/// Guarding points of a body, and the reference area each stands for, um^2.
+inline std::size_t n_guards(const contact::SurfaceBody& b) {
+  return b.node.size() + b.triangle->size();
+}
+double guard_area(const mesh::Topology& t, int point, double radius);
 
 /// Vessel segments that each site of a body may meet.
 struct SegmentCandidates {
@@ -61,17 +69,17 @@ struct SegmentCandidates {
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
 struct ContactWorkspace {
   std::vector<std::size_t> lane_of_body;
-  std::vector<contact::SurfaceBody> body;        ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> fixed;       ///< static meshes
-  std::vector<double> list_position;             ///< positions when the lists were made
-  std::vector<double> list_radius;               ///< and the radii of that moment
-  std::vector<contact::Candidates> list;         ///< written by: refresh_lists
-  std::vector<SegmentCandidates> segment_list;   ///< written by: refresh_lists
+  std::vector<contact::SurfaceBody> body;                   ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;                  ///< static meshes
+  std::vector<double> list_position;                        ///< positions when the lists were made
+  std::vector<double> list_radius;                          ///< and the radii of that moment
+  std::vector<contact::Candidates> list;                    ///< written by: refresh_lists
+  std::vector<SegmentCandidates> segment_list;              ///< written by: refresh_lists
   std::vector<std::vector<contact::SurfaceContact>> found;  ///< [list] scratch of one search
-  std::vector<contact::SurfaceContact> surface;  ///< written by: find_contacts
-  std::vector<ObstacleContact> obstacle;         ///< written by: find_contacts
-  /// [body][point] sum of the touching shares of all contacts of a point; written by: find_contacts,
-  /// then added to by the DCM-CBM interface.
+  std::vector<contact::SurfaceContact> surface;             ///< written by: find_contacts
+  std::vector<ObstacleContact> obstacle;                    ///< written by: find_contacts
+  /// [body][point] sum of the touching shares of all contacts of a point; written by:
+  /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;
   int list_builds = 0;
 };

@@ -9,15 +9,18 @@ namespace {
 
 using contact::SurroundingKind;
 
-
 const contact::Material& material_of(const contact::Surroundings& around, SurroundingKind kind,
                                      int index) {
   const auto i = static_cast<std::size_t>(index);
   switch (kind) {
-    case SurroundingKind::kPlane: return around.planes[i].material;
-    case SurroundingKind::kCapsule: return around.capsules[i].material;
-    case SurroundingKind::kMesh: return around.meshes[i].material;
-    case SurroundingKind::kVessel: break;
+    case SurroundingKind::kPlane:
+      return around.planes[i].material;
+    case SurroundingKind::kCapsule:
+      return around.capsules[i].material;
+    case SurroundingKind::kMesh:
+      return around.meshes[i].material;
+    case SurroundingKind::kVessel:
+      break;
   }
   return around.vessels.material;
 }
@@ -49,8 +52,8 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
   };
   auto area_and_share = [&](int body, int point) {
     const auto k = static_cast<std::size_t>(body);
-    const double area = point_area(*work.body[k].topology, c.quadrature, point,
-                                   lanes.radius[work.lane_of_body[k]]);
+    const double area =
+        point_area(*work.body[k].topology, c.quadrature, point, lanes.radius[work.lane_of_body[k]]);
     return std::pair(area, share_scale(work.share[k][static_cast<std::size_t>(point)]));
   };
   auto well_of = [&](int body, double adhesion) {
@@ -67,18 +70,21 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
     const Params& a = params_of(s.body_a);
     add_stencil(s.body_a, s.point);
     if (s.body_b >= n_body) {  // a static mesh: probed from one side only, no unknowns behind it
-      const contact::Material& m = around.meshes[static_cast<std::size_t>(s.body_b - n_body)].material;
+      const contact::Material& m =
+          around.meshes[static_cast<std::size_t>(s.body_b - n_body)].material;
       close_link(links, well_of(s.body_a, m.adhesion), s.gap, area, s.normal,
                  m.mirror ? 0 : chi * a.vessel_friction, true);
       continue;
     }
     const std::size_t lane_b = work.lane_of_body[static_cast<std::size_t>(s.body_b)];
-    const auto& corner =
-        (*work.body[static_cast<std::size_t>(s.body_b)].triangle)[static_cast<std::size_t>(s.triangle_b)];
+    const auto& corner = (*work.body[static_cast<std::size_t>(s.body_b)]
+                               .triangle)[static_cast<std::size_t>(s.triangle_b)];
     for (int m = 0; m < 3; ++m)
-      links.add_point(node_address(state, lane_b, corner[static_cast<std::size_t>(m)]), -s.weight_b[m]);
+      links.add_point(node_address(state, lane_b, corner[static_cast<std::size_t>(m)]),
+                      -s.weight_b[m]);
     if (s.body_a == s.body_b) {
-      close_link(links, {0, c.repulsion, 1}, std::min(0.0, s.gap - kSelfGap), area / 2, s.normal, 0, false);
+      close_link(links, {0, c.repulsion, 1}, std::min(0.0, s.gap - kSelfGap), area / 2, s.normal, 0,
+                 false);
     } else {
       const double adhesion = std::sqrt(a.adhesion * params_of(s.body_b).adhesion);
       close_link(links, well_of(s.body_a, adhesion), s.gap, area / 2, s.normal,
@@ -89,10 +95,13 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
     if (o.guard) {
       const auto k = static_cast<std::size_t>(o.body);
       const std::size_t lane = work.lane_of_body[k];
-      links.add_point(node_address(state, lane, o.point), 1);
+      const contact::PointStencil stencil = obstacle_stencil(c, work.body[k], o);
+      for (int m = 0; m < stencil.n; ++m)
+        links.add_point(node_address(state, lane, stencil.node[static_cast<std::size_t>(m)]),
+                        stencil.weight[static_cast<std::size_t>(m)]);
       close_link(links, {0, c.repulsion, 1}, o.gap,
-                 kGuardShare * point_area(*work.body[k].topology, contact::Quadrature::kNodes, o.point, lanes.radius[lane]),
-                 o.normal, 0, true);
+                 guard_area(*work.body[k].topology, o.point, lanes.radius[lane]), o.normal, 0,
+                 true);
       continue;
     }
     const auto [area, scale] = area_and_share(o.body, o.point);

@@ -1,6 +1,6 @@
 #pragma once
-/// Which pairs of nodes of one cell mesh interact, and where each edge, hinge and triangle finds its
-/// block. One per topology, made once.
+/// Which pairs of nodes of one cell mesh interact, and where each edge, hinge and triangle finds
+/// its block. One per topology, made once.
 
 #include <array>
 #include <vector>

@@ -23,7 +23,8 @@ struct Params {
 };
 
 /// Cortex spring constant of a triangular spring net, k_s = (sqrt 3 / 2) E h.
-/// [VanLiedekerke2020, Eq. (7), inverted there: a net with constant k has the 2D modulus (2/sqrt 3) k]
+/// [VanLiedekerke2020, Eq. (7), inverted there: a net with constant k has the 2D modulus (2/sqrt 3)
+/// k]
 inline double cortex_spring_stiffness(double young_kpa, double thickness_um) {
   return std::sqrt(3.0) / 2 * young_kpa * thickness_um;
 }

@@ -35,8 +35,9 @@ State make_state(const std::vector<NewCell>& cells) {
     s.volume[lane] = Ramp::constant(4.0 / 3 * kPi * c.radius * c.radius * c.radius);
     s.pull[lane] = c.pull;
     for (int i = 0; i < c.topology->n_node; ++i)
-      store_point(s.position.data(), node_address(s, lane, i),
-                  c.center + c.radius * (c.rotation * c.topology->rest[static_cast<std::size_t>(i)]));
+      store_point(
+          s.position.data(), node_address(s, lane, i),
+          c.center + c.radius * (c.rotation * c.topology->rest[static_cast<std::size_t>(i)]));
   }
   return s;
 }
@@ -71,8 +72,7 @@ void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
 
 std::vector<solve::Block> make_blocks(const State& s) {
   std::vector<solve::Block> blocks;
-  for (const Group& g : s.group)
-    blocks.push_back({&shared_mesh_pattern(*g.topology).blocks, 0, 0});
+  for (const Group& g : s.group) blocks.push_back({&shared_mesh_pattern(*g.topology).blocks, 0, 0});
   return blocks;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// State of all deformable cells: exactly what a checkpoint holds.
 ///
-/// Cells stand in groups of eight lanes that share one mesh topology and one cell type. A lane index
-/// (group * kLanes + lane) names a cell within the arrays; its lineage id names it for ever.
+/// Cells stand in groups of eight lanes that share one mesh topology and one cell type. A lane
+/// index (group * kLanes + lane) names a cell within the arrays; its lineage id names it for ever.
 
 #include <cstdint>
 #include <vector>
@@ -28,8 +28,8 @@ struct State {
   std::vector<double> position;  ///< [rows][3][lane] um; empty lanes hold a rest icosphere
   // Per lane, [n_group * kLanes]:
   std::vector<std::int64_t> lineage;  ///< kEmptyLane where no cell is
-  std::vector<Ramp> volume;           ///< um^3, reference volume V0(t); Eq. (18) is its linear growth
-  std::vector<Vec3> pull;                          ///< nN, constant load spread over the cell
+  std::vector<Ramp> volume;  ///< um^3, reference volume V0(t); Eq. (18) is its linear growth
+  std::vector<Vec3> pull;    ///< nN, constant load spread over the cell
 
   std::size_t n_lane() const { return lineage.size(); }
   std::size_t n_row() const { return position.size() / kPointStride; }

@@ -10,9 +10,11 @@ std::vector<double> compute_node_tension(const Params& p, const GroupView& g, in
   const mesh::Topology& t = *g.topology;
   std::vector<double> tension(static_cast<std::size_t>(t.n_node), 0.0);
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
-    const auto i = static_cast<std::size_t>(t.edge[e][0]), j = static_cast<std::size_t>(t.edge[e][1]);
+    const auto i = static_cast<std::size_t>(t.edge[e][0]),
+               j = static_cast<std::size_t>(t.edge[e][1]);
     const double length = (load_point(g.position, make_address(j, lane)) -
-                           load_point(g.position, make_address(i, lane))).norm();
+                           load_point(g.position, make_address(i, lane)))
+                              .norm();
     const double pull = p.spring_stiffness * (length - t.rest_length[e] * g.radius[lane]) / length;
     tension[i] += pull;
     tension[j] += pull;

@@ -40,10 +40,12 @@ struct BenchCase {
   std::function<void(coupling::World&)> prepare = [](coupling::World&) {};
 };
 
-constexpr const char* kDcm27 = R"({"name": "dcm27", "time": {"end": "12 h", "step": "120 s", "adaptive": false, "max_move": 0},
+constexpr const char* kDcm27 =
+    R"({"name": "dcm27", "time": {"end": "12 h", "step": "120 s", "adaptive": false, "max_move": 0},
   "cell_types": {"cell": {}}, "cells": {"source": "clump", "model": "dcm", "count": 27, "spacing": 0.98, "jitter": 0.01},
   "motility": {"random": false}, "contact": {"quadrature": "QUADRATURE"}})";
-constexpr const char* kCbm10k = R"({"name": "cbm10k", "time": {"end": "12 h", "step": "60 s", "adaptive": false, "max_move": 0},
+constexpr const char* kCbm10k =
+    R"({"name": "cbm10k", "time": {"end": "12 h", "step": "60 s", "adaptive": false, "max_move": 0},
   "solver": {"tolerance": 1e-6}, "friction": {"cbm_cbm": "5e8 N s/m^3"},
   "cell_types": {"cell": {}}, "cells": {"source": "clump", "model": "cbm", "count": COUNT, "spacing": 0.95, "jitter": 0.01},
   "motility": {"random": true}})";
@@ -58,10 +60,11 @@ void grow(coupling::World& world) {
 }
 
 std::map<std::string, std::vector<BenchCase>> bench_cases() {
-  return {{"dcm27",
-           {{"27 growing DCM cells, 3-point", with(kDcm27, "QUADRATURE", "3-point"), 30, 60, 5, grow},
-            {"27 growing DCM cells, nodes", with(kDcm27, "QUADRATURE", "nodes"), 30, 60, 5, grow}}},
-          {"cbm10k", {{"10000 CBM cells", with(kCbm10k, "COUNT", "10000"), 20, 20, 5}}}};
+  return {
+      {"dcm27",
+       {{"27 growing DCM cells, 3-point", with(kDcm27, "QUADRATURE", "3-point"), 30, 60, 5, grow},
+        {"27 growing DCM cells, nodes", with(kDcm27, "QUADRATURE", "nodes"), 30, 60, 5, grow}}},
+      {"cbm10k", {{"10000 CBM cells", with(kCbm10k, "COUNT", "10000"), 20, 20, 5}}}};
 }
 
 BenchRow run_case(const BenchCase& c) {
@@ -115,27 +118,38 @@ std::vector<std::string> list_benches() {
 int run_bench(const std::string& name, const std::string& json_file, int threads, int) {
   const auto all = bench_cases();
   const auto found = all.find(name);
-  check(found != all.end(), fmt::format("bench {}: no such case; there are: {}", name, fmt::join(list_benches(), ", ")));
+  check(found != all.end(), fmt::format("bench {}: no such case; there are: {}", name,
+                                        fmt::join(list_benches(), ", ")));
   if (threads <= 0) threads = omp_get_num_procs();
   omp_set_num_threads(threads);
   const Machine machine = describe_machine();
-  fmt::print("{}  commit {}  {}  {}  {} threads; medians of repetitions from one saved state\n", name, ACINUS_GIT,
-             machine.cpu_model, machine.instruction_set, threads);
-  Json j = {{"name", name}, {"commit", ACINUS_GIT}, {"machine", machine.cpu_model},
-            {"instruction_set", machine.instruction_set}, {"threads", threads}, {"rows", Json::array()}};
+  fmt::print("{}  commit {}  {}  {}  {} threads; medians of repetitions from one saved state\n",
+             name, ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
+  Json j = {{"name", name},
+            {"commit", ACINUS_GIT},
+            {"machine", machine.cpu_model},
+            {"instruction_set", machine.instruction_set},
+            {"threads", threads},
+            {"rows", Json::array()}};
   for (const BenchCase& c : found->second) {
     const BenchRow row = run_case(c);
-    fmt::print("{:32s} {:6d} cells  {:9.2f} us CPU per cell-step  {:6.1f} CG iterations per step  {:.3f} s wall for {} steps\n",
-               row.name, row.cells, row.cpu_us_per_cell_step, row.cg_per_step, row.wall_s, row.steps);
+    fmt::print(
+        "{:32s} {:6d} cells  {:9.2f} us CPU per cell-step  {:6.1f} CG iterations per step  {:.3f} "
+        "s wall for {} steps\n",
+        row.name, row.cells, row.cpu_us_per_cell_step, row.cg_per_step, row.wall_s, row.steps);
     Json stages = Json::object();
     for (const StageTime& s : row.stages) {
       const double us = 1e6 * s.cpu / (row.cells * static_cast<double>(row.steps));
       fmt::print("    {:20s} {:9.2f} us CPU per cell-step\n", s.name, us);
       stages[s.name] = us;
     }
-    j["rows"].push_back({{"case", row.name}, {"cells", row.cells}, {"steps", row.steps},
-                         {"cpu_us_per_cell_step", row.cpu_us_per_cell_step}, {"wall_s", row.wall_s},
-                         {"cg_iterations_per_step", row.cg_per_step}, {"stage_cpu_us_per_cell_step", stages}});
+    j["rows"].push_back({{"case", row.name},
+                         {"cells", row.cells},
+                         {"steps", row.steps},
+                         {"cpu_us_per_cell_step", row.cpu_us_per_cell_step},
+                         {"wall_s", row.wall_s},
+                         {"cg_iterations_per_step", row.cg_per_step},
+                         {"stage_cpu_us_per_cell_step", stages}});
   }
   if (!json_file.empty()) {
     std::ofstream out(json_file);

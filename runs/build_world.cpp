@@ -23,8 +23,10 @@ mesh::Network read_vessels(const VesselBlock& v) {
   mesh::Network n = mesh::read_network(v.file);
   n = mesh::transform_network(n, {v.unit, v.scale, v.radius_scale, v.center, v.shift});
   if (v.crop) n = mesh::crop_network(n, *v.crop);
-  check(!n.segment.empty(), fmt::format("{}: no vessel segment is left inside /vessels/crop. Enlarge the box, or move "
-                                        "the network with shift or center.", v.file));
+  check(!n.segment.empty(),
+        fmt::format("{}: no vessel segment is left inside /vessels/crop. Enlarge the box, or move "
+                    "the network with shift or center.",
+                    v.file));
   return mesh::resample_network(n);
 }
 
@@ -41,20 +43,28 @@ contact::Material mirror() {
   return m;
 }
 
-void add_surroundings(const Scene& scene, const coupling::Lobule* lobule, contact::Surroundings& around) {
+void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
+                      contact::Surroundings& around) {
   mesh::Network network;
-  if (!scene.vessels.file.empty()) network = read_vessels(scene.vessels);
-  else if (lobule) network = lobule->vessels;
+  if (!scene.vessels.file.empty())
+    network = read_vessels(scene.vessels);
+  else if (lobule)
+    network = lobule->vessels;
   contact::set_network(around.vessels, std::move(network));
-  around.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson, false};
+  around.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
+                             false};
   if (lobule)
     for (const coupling::MirrorPlane& p : lobule->planes)
       around.planes.push_back({p.name, p.point, p.normal, 0, 0, mirror()});
   for (const WallEntry& w : scene.walls)
     around.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel, mirror()});
   if (scene.capsule.enabled)
-    around.capsules.push_back({"capsule", scene.capsule.center, scene.capsule.radius, scene.capsule.speed,
-                               scene.capsule.min_radius, {}});
+    around.capsules.push_back({"capsule",
+                               scene.capsule.center,
+                               scene.capsule.radius,
+                               scene.capsule.speed,
+                               scene.capsule.min_radius,
+                               {}});
   for (const StaticMeshEntry& m : scene.static_meshes) {
     for (mesh::Surface& s : mesh::read_closed_surfaces(m.file, m.unit * m.scale)) {
       contact::StaticMesh body;
@@ -74,8 +84,8 @@ void add_surroundings(const Scene& scene, const coupling::Lobule* lobule, contac
   }
 }
 
-void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells, const std::vector<std::string>& types,
-               coupling::State& state) {
+void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
+               const std::vector<std::string>& types, coupling::State& state) {
   std::vector<Vec3> centers;
   for (const PlacedCell& c : cells) centers.push_back(c.center);
   std::vector<dcm::NewCell> shells;
@@ -85,12 +95,15 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells, const s
     const CellType& t = scene.cell_types.at(c.type);
     const int type = static_cast<int>(std::ranges::find(types, c.type) - types.begin());
     if (c.deformable) {
-      shells.push_back({c.lineage, type, &mesh::shared_icosphere(t.dcm.nodes), c.center, c.radius, c.pull,
-                        c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage)});
+      shells.push_back(
+          {c.lineage, type, &mesh::shared_icosphere(t.dcm.nodes), c.center, c.radius, c.pull,
+           c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage)});
     } else {
-      const double mean = t.cbm.young.value_or(cbm::young_from_bulk(t.dcm.bulk_modulus, t.cbm.poisson));
-      const double young = truncated_normal({scene.seed, Purpose::kYoungModulus, static_cast<std::uint64_t>(c.lineage), 0, 0},
-                                            mean, t.cbm.young_spread * mean, 3);
+      const double mean =
+          t.cbm.young.value_or(cbm::young_from_bulk(t.dcm.bulk_modulus, t.cbm.poisson));
+      const double young = truncated_normal(
+          {scene.seed, Purpose::kYoungModulus, static_cast<std::uint64_t>(c.lineage), 0, 0}, mean,
+          t.cbm.young_spread * mean, 3);
       spheres.push_back({c.lineage, type, c.center, c.radius, young, c.pull});
     }
   }
@@ -104,7 +117,8 @@ dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
   const DcmBlock& d = type.dcm;
   dcm::Params p;
   p.spring_stiffness = dcm::cortex_spring_stiffness(d.cortex_young, d.cortex_thickness);
-  p.bending_stiffness = dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);
+  p.bending_stiffness =
+      dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);
   p.area_modulus = d.area_modulus;
   p.local_area_modulus = d.local_area_modulus;
   p.bulk_modulus = d.bulk_modulus;
@@ -140,19 +154,24 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     const LobuleBlock& b = *scene.lobule;
     UniformStream stream(scene.seed, Purpose::kNetwork, 0);
     lobule = coupling::make_lobule(
-        {b.shape, b.radius, b.height, b.lesion_radius, b.central_vein_radius, b.portal_vein_radius, b.sinusoid_radius,
-         b.vessel_fraction, b.branch_density, b.min_distance, b.cells,
-         scene.start_up.enabled ? scene.start_up.initial_radius : scene.cell_types.begin()->second.radius},
+        {b.shape, b.radius, b.height, b.lesion_radius, b.central_vein_radius, b.portal_vein_radius,
+         b.sinusoid_radius, b.vessel_fraction, b.branch_density, b.min_distance, b.cells,
+         scene.start_up.enabled ? scene.start_up.initial_radius
+                                : scene.cell_types.begin()->second.radius},
         [&stream] { return stream.uniform(); });
     p.motility.axis_radius = b.central_vein_radius;
     if (static_cast<int>(lobule->seeds.size()) < b.cells)
-      built.notes.push_back(fmt::format("room for {} of the {} cells asked for", lobule->seeds.size(), b.cells));
+      built.notes.push_back(
+          fmt::format("room for {} of the {} cells asked for", lobule->seeds.size(), b.cells));
     const double cell_volume = 4.0 / 3 * kPi * std::pow(scene.cell_types.begin()->second.radius, 3);
-    const double lesion = b.shape == "pie" ? kPi * b.lesion_radius * b.lesion_radius / 6 : kPi * b.lesion_radius * b.lesion_radius;
-    built.notes.push_back(fmt::format(
-        "lobule {}: height {} um, {} cells at least {} um apart fill {:.2f} of the volume outside the lesion",
-        b.shape, b.height, lobule->seeds.size(), b.min_distance,
-        static_cast<double>(lobule->seeds.size()) * cell_volume / (lobule->volume - lesion * b.height)));
+    const double lesion = b.shape == "pie" ? kPi * b.lesion_radius * b.lesion_radius / 6
+                                           : kPi * b.lesion_radius * b.lesion_radius;
+    built.notes.push_back(
+        fmt::format("lobule {}: height {} um, {} cells at least {} um apart fill {:.2f} of the "
+                    "volume outside the lesion",
+                    b.shape, b.height, lobule->seeds.size(), b.min_distance,
+                    static_cast<double>(lobule->seeds.size()) * cell_volume /
+                        (lobule->volume - lesion * b.height)));
   }
   add_surroundings(scene, lobule ? &*lobule : nullptr, p.around);
   built.vessel_length = mesh::total_length(p.around.vessels.network);
@@ -173,16 +192,18 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   p.cbm_contact.cell_friction = scene.friction.cbm_cbm;
   const double a = scene.friction.dcm_dcm, b = scene.friction.cbm_cbm;
   p.interface.friction = scene.friction.dcm_cbm.value_or(a + b > 0 ? 2 * a * b / (a + b) : 0);
-  p.start_up = {scene.start_up.enabled, scene.start_up.growth_time, scene.start_up.adhesion_ramp,
-                scene.start_up.max_duration, scene.start_up.speed_tolerance, scene.start_up.pressure_tolerance};
+  p.start_up = {scene.start_up.enabled,         scene.start_up.growth_time,
+                scene.start_up.adhesion_ramp,   scene.start_up.max_duration,
+                scene.start_up.speed_tolerance, scene.start_up.pressure_tolerance};
   p.motility.seed = scene.seed;
   p.motility.random = scene.motility.random;
   p.motility.grid = scene.motility.grid;
   p.motility.leader_force = scene.motility.leader_force;
   p.motility.leader_grid = scene.motility.leader_grid;
   p.motility.axis_point = scene.axis_point;
-  p.numerics = {scene.time.step, scene.time.min_step, scene.time.adaptive, scene.time.tolerance, scene.time.max_move,
-                {scene.solver.tolerance, scene.solver.max_iterations}};
+  p.numerics = {scene.time.step,     scene.time.min_step,
+                scene.time.adaptive, scene.time.tolerance,
+                scene.time.max_move, {scene.solver.tolerance, scene.solver.max_iterations}};
 
   const std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.around);
   check_starts(scene, cells, p.around);

@@ -14,6 +14,7 @@
 #include "core/nearest.hpp"
 #include "core/units.hpp"
 #include "runs/bench.hpp"
+#include "runs/build_world.hpp"
 #include "runs/run.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/library.hpp"
@@ -88,8 +89,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                                 "acinus resume runs/scenes/two_cells.json");
   add_run_options(*again, arguments);
 
-  CLI::App* validate = add_command(app, "check", "validate a scene without running it",
-                                   "acinus check runs/scenes/two_cells.json --resolved");
+  CLI::App* validate =
+      add_command(app, "check", "validate a scene and its geometry without running it",
+                  "acinus check runs/scenes/two_cells.json --resolved");
   validate->add_option("SCENE", arguments.run.scene_file, "scene file")->required();
   add_set(*validate, arguments.run);
   validate->add_flag("--resolved", arguments.resolved, "print the scene with every default");
@@ -156,13 +158,20 @@ int do_run(Arguments& arguments) {
 
 int do_check(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.run.scene_file, arguments.run.set);
+  const BuiltWorld built =
+      build_world(scene, Ranks::serial());  // throws for geometry that does not fit
   if (arguments.resolved) {
     fmt::print("{}", scene.resolved_json);
   } else {
-    fmt::print("{}: valid scene \"{}\", {} cell type{}, cells from {}, end {}, hash {}\n",
-               scene.file, scene.name, scene.cell_types.size(),
-               scene.cell_types.size() == 1 ? "" : "s", scene.cells.source,
-               format_quantity(scene.time.end, kTime, "h"), scene.sha);
+    const coupling::State& state = built.world.state;
+    fmt::print(
+        "{}: valid scene \"{}\", {} cell type{}, {} DCM + {} CBM cells from {}, {:.0f} um of "
+        "vessels, "
+        "end {:.4g} h, hash {}\n",
+        scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
+        dcm::count_cells(state.dcm), state.cbm.n_cell(), scene.cells.source, built.vessel_length,
+        scene.time.end / 3600, scene.sha);
+    for (const std::string& note : built.notes) fmt::print("{}\n", note);
   }
   return 0;
 }

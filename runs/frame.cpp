@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/contact/jkr.hpp"
+
 namespace acinus::runs {
 namespace {
 
@@ -15,10 +17,13 @@ void push(io::Field& field, double value) { field.value.push_back(static_cast<fl
 
 io::Table cell_table(const std::vector<CellMeasure>& cells) {
   io::Table t;
-  io::IdColumn id{"id", {}}, kind{"kind", {}}, type{"type", {}}, leader{"leader", {}}, contacts{"contacts", {}};
-  io::Column center{"center", "um", 3, {}}, radius{"radius", "um", 1, {}}, volume{"volume", "um^3", 1, {}},
-      area{"area", "um^2", 1, {}}, pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
-      stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}}, active{"migration_force", "nN", 1, {}};
+  io::IdColumn id{"id", {}}, kind{"kind", {}}, type{"type", {}}, leader{"leader", {}},
+      contacts{"contacts", {}};
+  io::Column center{"center", "um", 3, {}}, radius{"radius", "um", 1, {}},
+      volume{"volume", "um^3", 1, {}}, area{"area", "um^2", 1, {}},
+      pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
+      stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}},
+      active{"migration_force", "nN", 1, {}};
   for (const CellMeasure& c : cells) {
     id.value.push_back(c.id);
     kind.value.push_back(c.deformable ? kShell : kSphere);
@@ -61,13 +66,15 @@ Snapshot take_snapshot(const coupling::World& world, coupling::Workspace& work) 
           coupling::measure_nodes(world, work), coupling::interface_forces(world, work)};
 }
 
-io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w, const Snapshot& snapshot,
-                     const coupling::VesselSurface& vessels) {
+io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
+                     const Snapshot& snapshot, const coupling::VesselSurface& vessels) {
   io::Frame f;
   f.time_s = snapshot.time;
-  io::Field force{"force", "nN", 3, {}}, contact{"contact_pressure", "kPa", 1, {}}, tension{"tension", "nN/um", 1, {}};
-  io::Field type{"cell_type", "1", 1, {}}, volume{"volume", "um^3", 1, {}}, pressure{"pressure", "kPa", 1, {}},
-      cytosol{"cytosol_pressure", "kPa", 1, {}}, radius{"radius", "um", 1, {}}, leader{"leader", "1", 1, {}};
+  io::Field force{"force", "nN", 3, {}}, contact{"contact_pressure", "kPa", 1, {}},
+      tension{"tension", "nN/um", 1, {}};
+  io::Field type{"cell_type", "1", 1, {}}, volume{"volume", "um^3", 1, {}},
+      pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
+      radius{"radius", "um", 1, {}}, leader{"leader", "1", 1, {}};
   auto push_point = [&](const Vec3& x) {
     for (int k = 0; k < 3; ++k) f.point.push_back(static_cast<float>(x[k]));
   };
@@ -92,7 +99,8 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
     for (const Vec3& x : w.dcm.body[b].node) {
       push_point(x);
-      push_node(snapshot.nodes.force[node], snapshot.nodes.pressure[node], snapshot.nodes.tension[node]);
+      push_node(snapshot.nodes.force[node], snapshot.nodes.pressure[node],
+                snapshot.nodes.tension[node]);
       ++node;
     }
     for (const auto& t : *w.dcm.body[b].triangle) {
@@ -101,7 +109,8 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
     }
     base += static_cast<std::int64_t>(w.dcm.body[b].node.size());
   }
-  auto push_surface = [&](const std::vector<Vec3>& nodes, const std::vector<std::array<int, 3>>& triangles) {
+  auto push_surface = [&](const std::vector<Vec3>& nodes,
+                          const std::vector<std::array<int, 3>>& triangles) {
     for (const Vec3& x : nodes) {
       push_point(x);
       push_node(Vec3::Zero(), 0, 0);
@@ -113,7 +122,8 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
     base += static_cast<std::int64_t>(nodes.size());
   };
   push_surface(vessels.surface.node, vessels.surface.triangle);
-  for (const contact::StaticMesh& m : world.params.around.meshes) push_surface(m.body.node, m.triangle);
+  for (const contact::StaticMesh& m : world.params.around.meshes)
+    push_surface(m.body.node, m.triangle);
   f.n_mesh_node = base;
   for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k) {
     push_point(snapshot.cells[k].center);
@@ -122,13 +132,44 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
     ++f.n_sphere;
   }
   f.point_data = {std::move(force), std::move(contact), std::move(tension)};
-  f.cell_data = {std::move(type), std::move(volume), std::move(pressure), std::move(cytosol), std::move(radius), std::move(leader)};
+  f.cell_data = {std::move(type),    std::move(volume), std::move(pressure),
+                 std::move(cytosol), std::move(radius), std::move(leader)};
   f.cells = cell_table(snapshot.cells);
   f.interface = interface_table(snapshot.interface);
   return f;
 }
 
-coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w, const Snapshot& snapshot) {
+namespace {
+
+/// Half the JKR overlap of two such spheres under the pair's force: how far the sphere's own side
+/// yields.
+std::vector<coupling::AuditDent> explained_dents(const coupling::World& world,
+                                                 const Snapshot& snapshot) {
+  const cbm::State& s = world.state.cbm;
+  auto find = [&](std::int64_t id, bool deformable) {
+    return std::ranges::find_if(snapshot.cells, [&](const CellMeasure& c) {
+      return c.id == id && c.deformable == deformable;
+    });
+  };
+  std::vector<coupling::AuditDent> dents;
+  for (const coupling::InterfaceForce& f : snapshot.interface) {
+    const auto cell = find(f.dcm_id, true), sphere = find(f.cbm_id, false);
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(s.lineage, f.cbm_id) - s.lineage.begin());
+    const cbm::Params& p = world.params.cbm[static_cast<std::size_t>(s.type[k])];
+    const contact::SphereBody body{sphere->radius, s.young[k], p.poisson};
+    const double press = f.force.dot((cell->center - sphere->center).normalized());
+    dents.push_back(
+        {f.dcm_id, f.cbm_id,
+         0.5 * contact::jkr_overlap(contact::reduced_pair(body, body, p.adhesion), press)});
+  }
+  return dents;
+}
+
+}  // namespace
+
+coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,
+                                  const Snapshot& snapshot) {
   const contact::Surroundings& around = world.params.around;
   const double time = std::max(0.0, snapshot.time);
   std::vector<coupling::AuditMesh> meshes;
@@ -140,7 +181,8 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   std::vector<coupling::AuditPlane> planes;
   for (const contact::Plane& p : around.planes) planes.push_back({p.point_at(time), p.normal});
   std::vector<coupling::AuditCapsule> capsules;
-  for (const contact::Capsule& c : around.capsules) capsules.push_back({c.center, c.radius_at(time)});
+  for (const contact::Capsule& c : around.capsules)
+    capsules.push_back({c.center, c.radius_at(time)});
   std::vector<std::vector<std::array<int, 3>>> outward;
   std::vector<coupling::AuditStatic> statics;
   outward.reserve(around.meshes.size());
@@ -153,6 +195,8 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   coupling::AuditFrame frame;
   frame.meshes = meshes;
   frame.spheres = spheres;
+  const std::vector<coupling::AuditDent> dents = explained_dents(world, snapshot);
+  frame.dents = dents;
   frame.vessels = &around.vessels.network;
   frame.planes = planes;
   frame.capsules = capsules;

@@ -23,8 +23,8 @@ struct Snapshot {
 Snapshot take_snapshot(const coupling::World& world, coupling::Workspace& work);
 
 /// Fills the arrays of a frame. @pre take_snapshot of the same moment
-io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work, const Snapshot& snapshot,
-                     const coupling::VesselSurface& vessels);
+io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,
+                     const Snapshot& snapshot, const coupling::VesselSurface& vessels);
 
 /// Independent check of overlaps at this moment. @pre take_snapshot of the same moment
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& work,

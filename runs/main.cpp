@@ -9,7 +9,8 @@
 
 /// Turns every exception into a message and an exit code.
 int main(int argc, char** argv) {
-  // A file-size limit then shows as a failed write, which is reported, instead of killing the program.
+  // A file-size limit then shows as a failed write, which is reported, instead of killing the
+  // program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return acinus::runs::run_cli(argc, argv);

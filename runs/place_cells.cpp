@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/mesh/measures.hpp"
 #include "core/random.hpp"
 #include "coupling/generate/packing.hpp"
 
@@ -17,6 +21,32 @@ constexpr double kStartDepth = 0.3;
 
 double start_radius(const Scene& scene, double radius) {
   return scene.start_up.enabled ? scene.start_up.initial_radius : radius;
+}
+
+/// Sizes beyond these are slips of the unit; the run file stores single precision.
+constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthest = 1e6;  // um
+
+/// Distance to a rigid surface, negative where cells may not be; no less than `enough` is told
+/// apart.
+double gap_to_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
+  const std::vector<Vec3>& node = m.body.node;
+  if (!m.inside) {
+    Vec3 low = node.front(), high = low;
+    for (const Vec3& y : node) low = low.cwiseMin(y), high = high.cwiseMax(y);
+    const double away = (x - x.cwiseMax(low).cwiseMin(high)).norm();
+    if (away >= enough) return away;
+  }
+  double squared = std::numeric_limits<double>::infinity();
+  for (const auto& t : m.triangle) {
+    const auto corner = [&](int k) {
+      return node[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    };
+    squared = std::min(
+        squared, mesh::find_closest_point(x, corner(0), corner(1), corner(2)).squared_distance);
+  }
+  // Triangles of a surface that is lived in face inward: its winding number is -1 inside.
+  const bool within = std::abs(mesh::compute_winding_number(x, node, m.triangle)) > 0.5;
+  return within == m.inside ? std::sqrt(squared) : -std::sqrt(squared);
 }
 
 double nearest_gap(const contact::Surroundings& around, const Vec3& x, std::string* name) {
@@ -32,7 +62,10 @@ double nearest_gap(const contact::Surroundings& around, const Vec3& x, std::stri
     look(contact::gap_to_capsule(c, x, 0).gap, [&] { return std::string("the capsule"); });
   const auto& network = around.vessels.network;
   for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)
-    look(contact::gap_to_segment(network, s, x).gap, [&] { return fmt::format("vessel segment {}", s); });
+    look(contact::gap_to_segment(network, s, x).gap,
+         [&] { return fmt::format("vessel segment {}", s); });
+  for (const auto& m : around.meshes)
+    look(gap_to_mesh(m, x, nearest), [&] { return fmt::format("static mesh \"{}\"", m.name); });
   return nearest;
 }
 
@@ -46,19 +79,58 @@ std::vector<Vec3> fill_box(const Scene& scene, double radius, const contact::Sur
   for (int tries = 0; tries < kTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = random.uniform(c.low[k], c.high[k]);
-    const bool free = std::ranges::all_of(
-        seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
+    const bool free =
+        std::ranges::all_of(seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
     if (!free || nearest_gap(around, x, nullptr) < clear) continue;
     seeds.push_back(x);
     tries = 0;
   }
   check(static_cast<int>(seeds.size()) == c.count,
-        fmt::format("{}: /cells/count: room for only {} of {} cells at least {} um apart between {} and {} um. "
+        fmt::format("{}: /cells/count: room for only {} of {} cells at least {} um apart between "
+                    "{} and {} um. "
                     "Lower count or min_distance, or enlarge low and high.",
                     scene.file, seeds.size(), c.count, c.min_distance,
                     fmt::format("({}, {}, {})", c.low.x(), c.low.y(), c.low.z()),
                     fmt::format("({}, {}, {})", c.high.x(), c.high.y(), c.high.z())));
   return seeds;
+}
+
+/// Pairs of cells closer than half the larger radius, in the order of the list. A sweep along x
+/// keeps this far from quadratic in a tissue.
+std::vector<std::pair<std::size_t, std::size_t>> find_crowded(
+    const Scene& scene, const std::vector<PlacedCell>& cells) {
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(cells[k].center.x(), k); });
+  double largest = 0;
+  for (const PlacedCell& c : cells) largest = std::max(largest, start_radius(scene, c.radius));
+  std::vector<std::pair<std::size_t, std::size_t>> crowded;
+  for (std::size_t a = 0; a < order.size(); ++a)
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      const PlacedCell &p = cells[order[a]], &q = cells[order[b]];
+      if (q.center.x() - p.center.x() >= 0.5 * largest) break;
+      const double least =
+          0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius));
+      if ((p.center - q.center).norm() < least) crowded.push_back(std::minmax(order[a], order[b]));
+    }
+  std::ranges::sort(crowded);
+  return crowded;
+}
+
+/// A wrong unit often shows as an absurd size or place; the numbers then overflow far from here.
+void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
+  for (const PlacedCell& c : cells) {
+    if (!(c.radius >= kSmallestRadius && c.radius <= kLargestRadius))
+      throw Error(fmt::format(
+          "{}: {} has the radius {:.4g} um; from {} to {} um is allowed. Check its unit.",
+          scene.file, c.where, c.radius, kSmallestRadius, kLargestRadius));
+    if (!(c.center.cwiseAbs().maxCoeff() <= kFarthest))
+      throw Error(
+          fmt::format("{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
+                      "along each axis "
+                      "is allowed. Check its unit.",
+                      scene.file, c.where, c.center.x(), c.center.y(), c.center.z(), kFarthest));
+  }
 }
 
 }  // namespace
@@ -67,7 +139,8 @@ bool in_zoom(const Scene& scene, const Vec3& x) {
   return std::ranges::any_of(scene.zoom, [&](const Region& r) {
     if (r.kind == "all") return true;
     if (r.kind == "sphere") return (x - r.center).norm() <= r.radius;
-    if (r.kind == "box") return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
+    if (r.kind == "box")
+      return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
     if (r.kind == "half_space") return (x - r.point).dot(r.normal) <= 0;
     const Vec3 d = x - scene.axis_point;
     const double distance = d.head<2>().norm();
@@ -93,18 +166,23 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.type = name;
       p.radius = e.radius.value_or(scene.cell_types.at(name).radius);
       p.pull = e.pull;
-      p.deformable = e.model.empty() ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
-                                     : e.model == "dcm";
+      p.deformable = e.model.empty()
+                         ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
+                         : e.model == "dcm";
       p.where = fmt::format("/cells/list/{}", cells.size());
       cells.push_back(p);
     }
   } else {
     std::vector<Vec3> centers;
     if (c.source == "clump")
-      centers = coupling::make_clump({c.lattice == "bcc" ? coupling::Lattice::kBcc : coupling::Lattice::kFcc, c.count,
-                                      c.spacing * diameter, c.jitter * diameter}, uniform);
+      centers = coupling::make_clump(
+          {c.lattice == "bcc" ? coupling::Lattice::kBcc : coupling::Lattice::kFcc, c.count,
+           c.spacing * diameter, c.jitter * diameter},
+          uniform);
     else if (c.source == "box")
-      centers = coupling::make_box({coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter}, uniform);
+      centers = coupling::make_box(
+          {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
+          uniform);
     else if (c.source == "fill")
       centers = fill_box(scene, radius, around);
     else if (lobule)
@@ -126,6 +204,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
 
 void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
                   const contact::Surroundings& around) {
+  check_sizes(scene, cells);
   std::string message;
   int bad = 0;
   for (const PlacedCell& c : cells) {
@@ -134,20 +213,25 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
     const double gap = nearest_gap(around, c.center, &name);
     if (gap >= r - kStartDepth) continue;
     if (++bad <= 10)
-      message += fmt::format("{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is allowed.\n",
-                             scene.file, c.where, c.center.x(), c.center.y(), c.center.z(), r - gap, name, kStartDepth);
+      message += fmt::format(
+          "{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is "
+          "allowed.\n",
+          scene.file, c.where, c.center.x(), c.center.y(), c.center.z(), r - gap, name,
+          kStartDepth);
   }
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    for (std::size_t j = i + 1; j < cells.size(); ++j) {
-      const double d = (cells[i].center - cells[j].center).norm();
-      const double least = 0.5 * std::max(start_radius(scene, cells[i].radius), start_radius(scene, cells[j].radius));
-      if (d >= least) continue;
-      if (++bad <= 10)
-        message += fmt::format("{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} um, is needed.\n",
-                               scene.file, cells[i].where, cells[j].where, d, least);
-    }
+  for (const auto& [i, j] : find_crowded(scene, cells))
+    if (++bad <= 10)
+      message += fmt::format(
+          "{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} "
+          "um, is needed.\n",
+          scene.file, cells[i].where, cells[j].where, (cells[i].center - cells[j].center).norm(),
+          0.5 *
+              std::max(start_radius(scene, cells[i].radius), start_radius(scene, cells[j].radius)));
   if (bad > 10) message += fmt::format("... and {} more.\n", bad - 10);
-  check(bad == 0, message + "Move these cells, or start them small with the start_up block (acinus explain start_up.enabled).");
+  check(bad == 0,
+        message + (scene.start_up.enabled ? "Move these cells, or lower start_up.initial_radius."
+                                          : "Move these cells, or start them small with the "
+                                            "start_up block (acinus explain start_up.enabled)."));
 }
 
 }  // namespace acinus::runs

@@ -16,11 +16,11 @@ struct PlacedCell {
   std::int64_t lineage = 0;  ///< number in the order of generation: the same whatever the model
   Vec3 center = Vec3::Zero();
   std::string type;
-  double radius = 0;         ///< um at rest
+  double radius = 0;  ///< um at rest
   bool deformable = false;
-  bool oriented = true;      ///< keep the mesh as it is; generated cells get a random orientation
+  bool oriented = true;  ///< keep the mesh as it is; generated cells get a random orientation
   Vec3 pull = Vec3::Zero();
-  std::string where;         ///< for messages: "/cells/list/3" or "generated cell 12"
+  std::string where;  ///< for messages: "/cells/list/3" or "generated cell 12"
 };
 
 /// All cells of the scene. Depends on the seed and the geometry, not on the models.
@@ -32,7 +32,8 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
 /// Whether a point lies in the union of the zoom regions.
 bool in_zoom(const Scene& scene, const Vec3& x);
 
-/// Every cell that starts inside a vessel or another obstacle, or outside a wall, in one message.
+/// Every cell that starts inside a vessel or another obstacle, outside a wall or in another cell,
+/// in one message; before that, the first of an absurd size or place.
 /// @throws Error if there is any
 void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
                   const contact::Surroundings& around);

@@ -12,6 +12,8 @@ namespace acinus::runs {
 class Progress {
  public:
   Progress(const Scene& scene, const RunOptions& options, double end);
+  /// Rate and time left count from here: a resumed run has not simulated its past in this process.
+  void begin(const coupling::World& world);
   /// Called after every step; prints when it is time to.
   void step(const coupling::World& world);
   /// Ends the terminal line.
@@ -24,6 +26,7 @@ class Progress {
 
   const RunOptions& options_;
   double end_, started_, last_ = -1e300;
+  double first_time_ = 0;  ///< s simulated before this start of the program
   bool terminal_, line_open_ = false;
 };
 

@@ -41,6 +41,22 @@ std::string now_text() {
   return text;
 }
 
+/// What to type to go on: the same scene, changes and folder.
+std::string resume_command(const RunOptions& options) {
+  const auto quoted = [](const std::string& text) {
+    constexpr const char* kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=-+,:";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+    std::string inside;
+    for (char c : text) inside += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return "'" + inside + "'";
+  };
+  std::string command =
+      "acinus resume " + quoted(options.scene_file) + " --out " + quoted(options.out);
+  for (const std::string& change : options.set) command += " --set " + quoted(change);
+  return command;
+}
+
 /// One run from its first to its last step.
 class Run {
  public:
@@ -56,7 +72,8 @@ class Run {
   double time_to_next_event() const;
   void write_frame();
   void write_series(const coupling::StepResult& step);
-  void add_event(const std::string& code, const std::string& message, const std::vector<std::int64_t>& cells = {});
+  void add_event(const std::string& code, const std::string& message,
+                 const std::vector<std::int64_t>& cells = {});
   void save();
   void close(const std::string& status, const std::string& cause);
   std::string reason_to_stop() const;
@@ -89,8 +106,10 @@ Run::Run(const Scene& scene, const RunOptions& options)
 std::vector<std::string> Run::skipped() const {
   const coupling::State& s = world().state;
   std::vector<std::string> list;
-  if (s.dcm.group.empty()) list.emplace_back("deformable cells");
-  else list = dcm::skipped_terms(world().params.dcm);
+  if (s.dcm.group.empty())
+    list.emplace_back("deformable cells");
+  else
+    list = dcm::skipped_terms(world().params.dcm);
   if (s.cbm.n_cell() == 0) list.emplace_back("centre-based cells");
   if (s.dcm.group.empty() || s.cbm.n_cell() == 0) list.emplace_back("DCM-CBM interface");
   if (world().params.around.empty()) list.emplace_back("surroundings");
@@ -104,11 +123,18 @@ void Run::start_or_resume() {
   const io::RunFileOptions file_options{scene_.output.compression, 64};
   if (!options_.resume) {
     file_ = io::RunFile::create(path,
-                                {{"scene", scene_.resolved_json}, {"scene_sha", scene_.sha},
-                                 {"command_line", options_.command_line}, {"version", ACINUS_VERSION}, {"git", ACINUS_GIT},
-                                 {"compiler", ACINUS_COMPILER}, {"flags", ACINUS_FLAGS}, {"seed", std::to_string(scene_.seed)},
-                                 {"ranks", std::to_string(world().ranks.size())}, {"threads", std::to_string(options_.threads)},
-                                 {"units", "um, s, nN"}, {"start", now_text()}},
+                                {{"scene", scene_.resolved_json},
+                                 {"scene_sha", scene_.sha},
+                                 {"command_line", options_.command_line},
+                                 {"version", ACINUS_VERSION},
+                                 {"git", ACINUS_GIT},
+                                 {"compiler", ACINUS_COMPILER},
+                                 {"flags", ACINUS_FLAGS},
+                                 {"seed", std::to_string(scene_.seed)},
+                                 {"ranks", std::to_string(world().ranks.size())},
+                                 {"threads", std::to_string(options_.threads)},
+                                 {"units", "um, s, nN"},
+                                 {"start", now_text()}},
                                 file_options);
     return;
   }
@@ -120,10 +146,11 @@ void Run::start_or_resume() {
   check(t.size() == 13, loaded.data.source() + ": the run's totals are damaged.", Exit::kFileError);
   wall_before_ = t[0];
   cpu_before_ = t[1];
-  totals_ = {t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8], t[9], t[10], 0, 0, 0};
+  totals_ = {t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[12], t[7], t[8], t[9], t[10], 0, 0, 0};
   last_frame_ = t[11];
   const std::vector<std::int64_t>& counts = loaded.data.integers("file/counts");
-  check(counts.size() == 3, loaded.data.source() + ": the run file's counts are damaged.", Exit::kFileError);
+  check(counts.size() == 3, loaded.data.source() + ": the run file's counts are damaged.",
+        Exit::kFileError);
   for (const auto& [name, value] : loaded.data.all())
     if (name.starts_with("measures/")) measures_[name.substr(9)] = loaded.data.numbers(name);
   file_ = io::RunFile::open_for_append(path, {counts[0], counts[1], counts[2]}, file_options);
@@ -134,9 +161,12 @@ double Run::time_to_next_event() const {
   const coupling::Clock& c = world().state.clock;
   if (c.phase != coupling::Phase::kRun) return coupling::time_to_phase_event(world());
   const double t = time();
-  auto to_next = [&](double every) { return (std::floor((t + kSameTime) / every) + 1) * every - t; };
+  auto to_next = [&](double every) {
+    return (std::floor((t + kSameTime) / every) + 1) * every - t;
+  };
   double limit = std::min(end_ - t, to_next(scene_.output.every));
-  if (world().params.motility.leader_force > 0) limit = std::min(limit, to_next(world().params.motility.leader_grid));
+  if (world().params.motility.leader_force > 0)
+    limit = std::min(limit, to_next(world().params.motility.leader_grid));
   return limit;
 }
 
@@ -145,29 +175,33 @@ void Run::write_frame() {
   const Snapshot snapshot = take_snapshot(world(), work_);
   const coupling::AuditResult audit = audit_world(world(), work_, snapshot);
   add_audit(totals_, audit);
-  if (world().state.clock.phase == coupling::Phase::kRun) sample_experiment(scene_, world(), snapshot, measures_);
+  if (world().state.clock.phase == coupling::Phase::kRun)
+    sample_experiment(scene_, world(), snapshot, measures_);
   if (world().ranks.is_root()) file_->append(make_frame(world(), work_, snapshot, vessel_surface_));
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
-    add_event("self_intersection", fmt::format("{} cells cross themselves", audit.n_self_intersecting));
+    add_event("self_intersection",
+              fmt::format("{} cells cross themselves", audit.n_self_intersecting));
 }
 
 void Run::write_series(const coupling::StepResult& step) {
   const coupling::State& s = world().state;
-  const std::array<io::SeriesValue, 10> sample{{{"time", "s", time()},
-                                                {"dt", "s", step.step},
-                                                {"dcm_cells", "1", static_cast<double>(dcm::count_cells(s.dcm))},
-                                                {"cbm_cells", "1", static_cast<double>(s.cbm.n_cell())},
-                                                {"max_move", "um", step.max_move},
-                                                {"error", "um", step.error},
-                                                {"rejections", "1", static_cast<double>(step.rejections)},
-                                                {"cg_iterations", "1", static_cast<double>(s.clock.cg_iterations)},
-                                                {"balance_momentum", "1", s.balance.momentum},
-                                                {"balance_torque", "1", s.balance.torque}}};
+  const std::array<io::SeriesValue, 10> sample{
+      {{"time", "s", time()},
+       {"dt", "s", step.step},
+       {"dcm_cells", "1", static_cast<double>(dcm::count_cells(s.dcm))},
+       {"cbm_cells", "1", static_cast<double>(s.cbm.n_cell())},
+       {"max_move", "um", step.max_move},
+       {"error", "um", step.error},
+       {"rejections", "1", static_cast<double>(step.rejections)},
+       {"cg_iterations", "1", static_cast<double>(s.clock.cg_iterations)},
+       {"balance_momentum", "1", s.balance.momentum},
+       {"balance_torque", "1", s.balance.torque}}};
   file_->append_series(sample);
 }
 
-void Run::add_event(const std::string& code, const std::string& message, const std::vector<std::int64_t>& cells) {
+void Run::add_event(const std::string& code, const std::string& message,
+                    const std::vector<std::int64_t>& cells) {
   file_->append_event({time(), code, cells, message});
 }
 
@@ -177,11 +211,13 @@ void Run::save() {
   io::CheckpointData data;
   data.put("scene", scene_.resolved_json);
   put_state(world().state, data);
-  const double wall = wall_before_ + wall_seconds() - started_, cpu = cpu_before_ + cpu_seconds() - started_cpu_;
+  const double wall = wall_before_ + wall_seconds() - started_,
+               cpu = cpu_before_ + cpu_seconds() - started_cpu_;
   const RunTotals& t = totals_;
-  data.put("totals", std::vector<double>{wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um, t.dcm_wall_um,
-                                         t.dcm_cbm_um, t.max_overlap_cbm_um, t.min_triangle_quality, t.self_intersecting,
-                                         t.inverted, last_frame_, 0});
+  data.put("totals", std::vector<double>{
+                         wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um,
+                         t.dcm_wall_um, t.dcm_cbm_um, t.max_overlap_cbm_um, t.min_triangle_quality,
+                         t.self_intersecting, t.inverted, last_frame_, t.dcm_cbm_beyond_um});
   for (const auto& [name, values] : measures_) data.put("measures/" + name, values);
   const io::RunFileCounts c = file_->counts();
   data.put("file/counts", std::vector<std::int64_t>{c.frame, c.series, c.event});
@@ -196,24 +232,29 @@ void Run::close(const std::string& status, const std::string& cause) {
   file_->close();
   totals_.wall_s = wall_before_ + wall_seconds() - started_;
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
-  write_summary(options_.out, {scene_, options_, world(), totals_, measures_, work_.timings, skipped(), built_.notes, status,
-                               cause, options_.threads});
+  write_summary(options_.out, {scene_, options_, world(), totals_, measures_, work_.timings,
+                               skipped(), built_.notes, status, cause, options_.threads});
   progress_.finish();
 }
 
 std::string Run::reason_to_stop() const {
   if (g_signal != 0) return fmt::format("signal {}", static_cast<int>(g_signal));
-  if (options_.max_walltime_s && wall_seconds() - started_ > *options_.max_walltime_s) return "the wall-time limit";
+  if (options_.max_walltime_s && wall_seconds() - started_ > *options_.max_walltime_s)
+    return "the wall-time limit";
   if (std::filesystem::exists(options_.out + "/STOP")) return "the file STOP";
   return {};
 }
 
 int Run::fail(const coupling::StepResult& step) {
   const std::string cause = fmt::format(
-      "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good state is in {}. Try a larger "
+      "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good state is "
+      "in {}. Try a larger "
       "contact.repulsion, a smaller load or adhesion, or a smaller time.min_step.",
       world().params.numerics.min_step, time() / 3600, step.cause,
-      step.cells.empty() ? std::string("none named") : fmt::format("{}", fmt::join(step.cells, ", ")), options_.out);
+      step.cells.empty() ? std::string("none named")
+                         : fmt::format("{}", fmt::join(step.cells, ", ")),
+      options_.out);
+  spdlog::error(cause);
   add_event("cannot_continue", cause, step.cells);
   if (time() > last_frame_ + kSameTime) write_frame();
   close("failed", cause);
@@ -222,7 +263,9 @@ int Run::fail(const coupling::StepResult& step) {
 }
 
 int Run::loop() {
-  if (!options_.resume && (world().state.clock.phase == coupling::Phase::kRun || scene_.output.start_up)) write_frame();
+  if (!options_.resume &&
+      (world().state.clock.phase == coupling::Phase::kRun || scene_.output.start_up))
+    write_frame();
   bool first = true;
   for (;;) {
     const bool running = world().state.clock.phase == coupling::Phase::kRun;
@@ -230,7 +273,10 @@ int Run::loop() {
     if (const std::string why = reason_to_stop(); !why.empty() && !first) {
       add_event("stopped", "stopped by " + why);
       close("stopped", "stopped by " + why);
-      progress_.note(fmt::format("stopped by {}; continue with: acinus resume {}", why, options_.scene_file));
+      progress_.note(
+          fmt::format("stopped by {}; continue with: {}", why, resume_command(options_)));
+      std::filesystem::remove(options_.out +
+                              "/STOP");  // obeyed; left there it would stop the resumed run too
       return static_cast<int>(Exit::kStopped);
     }
     first = false;
@@ -261,9 +307,12 @@ int Run::loop() {
 int Run::go() {
   if (options_.threads <= 0) options_.threads = omp_get_num_procs();
   omp_set_num_threads(options_.threads);
-  check(world().ranks.size() == 1, "this version runs on one rank; start it without mpirun and use --threads.");
+  check(world().ranks.size() == 1,
+        "this version runs on one rank; start it without mpirun and use --threads.");
   prepare_folder(options_.out, options_);
   auto log = spdlog::basic_logger_mt("run", options_.out + "/run.log", !options_.resume);
+  log->flush_on(spdlog::level::info);  // few lines; someone may be following them, and a kill must
+                                       // not lose them
   spdlog::set_default_logger(log);
   spdlog::info("acinus {} {}: {}", ACINUS_VERSION, ACINUS_GIT, options_.command_line);
   for (int s : {SIGTERM, SIGUSR1, SIGINT}) std::signal(s, remember_signal);
@@ -272,18 +321,31 @@ int Run::go() {
   start_or_resume();
   coupling::size_workspace(world(), work_);
   const coupling::State& s = world().state;
-  progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {} threads", scene_.name,
-                             dcm::count_cells(s.dcm), s.cbm.n_cell(), built_.vessel_length, options_.threads));
+  progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {} threads",
+                             scene_.name, dcm::count_cells(s.dcm), s.cbm.n_cell(),
+                             built_.vessel_length, options_.threads));
   for (const std::string& note : built_.notes) progress_.note(note);
-  if (const auto skip = skipped(); !skip.empty()) progress_.note(fmt::format("skipped: {}", fmt::join(skip, ", ")));
-  const int code = loop();
+  if (const auto skip = skipped(); !skip.empty())
+    progress_.note(fmt::format("skipped: {}", fmt::join(skip, ", ")));
+  progress_.begin(world());
+  int code = 0;
+  try {
+    code = loop();
+  } catch (const std::exception& error) {
+    spdlog::error(error.what());
+    throw;
+  }
   if (code == 0) {
-    progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600, totals_.wall_s, options_.out));
-    progress_.note("to look at it: ParaView 5.12 or newer opens run.vtkhdf; older ones open run.xmf with \"XDMF Reader\"");
+    progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
+                               totals_.wall_s, options_.out));
+    progress_.note(
+        "to look at it: ParaView 5.12 or newer opens run.vtkhdf; older ones open run.xmf with "
+        "\"XDMF Reader\"");
   }
   if (options_.timings)
     for (const StageTime& stage : work_.timings.stages())
-      fmt::print("{:20s} {:9.3f} s wall {:9.3f} s CPU {:8d} calls\n", stage.name, stage.wall, stage.cpu, stage.calls);
+      fmt::print("{:20s} {:9.3f} s wall {:9.3f} s CPU {:8d} calls\n", stage.name, stage.wall,
+                 stage.cpu, stage.calls);
   return code;
 }
 

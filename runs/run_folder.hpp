@@ -14,7 +14,8 @@ namespace acinus::runs {
 ///         Error(kFileError) when it cannot be made or written
 void prepare_folder(const std::string& folder, const RunOptions& options);
 
-/// Refuses a checkpoint made from another scene: only the end time, the output and the name may differ.
+/// Refuses a checkpoint made from another scene: only the end time, the output and the name may
+/// differ.
 /// @throws Error(kBadInput) listing the differing keys
 void check_same_scene(const io::CheckpointData& checkpoint, const Scene& scene);
 

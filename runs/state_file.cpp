@@ -20,13 +20,17 @@ std::vector<double> flatten(const std::vector<Ramp>& ramps) {
 }
 std::vector<Ramp> unflatten(const std::vector<double>& v) {
   std::vector<Ramp> ramps;
-  for (std::size_t k = 0; k + 3 < v.size(); k += 4) ramps.push_back({v[k], v[k + 1], v[k + 2], v[k + 3]});
+  for (std::size_t k = 0; k + 3 < v.size(); k += 4)
+    ramps.push_back({v[k], v[k + 1], v[k + 2], v[k + 3]});
   return ramps;
 }
 
-void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found, std::size_t expected) {
-  check(found == expected, fmt::format("{}: {} has {} entries, this scene makes {}. The checkpoint belongs to another "
-                                       "scene; resume with the scene it was made from.", data.source(), what, found, expected));
+void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
+                std::size_t expected) {
+  check(found == expected,
+        fmt::format("{}: {} has {} entries, this scene makes {}. The checkpoint belongs to another "
+                    "scene; resume with the scene it was made from.",
+                    data.source(), what, found, expected));
 }
 
 }  // namespace
@@ -44,8 +48,10 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   d.put("cbm/touching", touching);
   const coupling::Clock& c = s.clock;
   d.put("clock/times", std::vector<double>{c.time, c.origin, c.phase_start, c.step, c.last_step});
-  d.put("clock/counts", std::vector<std::int64_t>{static_cast<std::int64_t>(c.phase), c.accepted, c.rejected, c.cg_iterations});
-  d.put("balance", std::vector<double>{s.balance.momentum, s.balance.torque, s.balance.friction_torque});
+  d.put("clock/counts", std::vector<std::int64_t>{static_cast<std::int64_t>(c.phase), c.accepted,
+                                                  c.rejected, c.cg_iterations});
+  d.put("balance",
+        std::vector<double>{s.balance.momentum, s.balance.torque, s.balance.friction_torque});
   d.put("solver/last_move", s.last_move);
   d.put("leaders/cell", as_integers(s.leader));
   d.put_count("leaders/interval", s.leader_interval);
@@ -57,7 +63,9 @@ void get_state(const io::CheckpointData& d, coupling::State& s) {
   check_same(d, "dcm/position", d.numbers("dcm/position").size(), s.dcm.position.size());
   check_same(d, "cbm/position", d.numbers("cbm/position").size(), s.cbm.position.size());
   check(d.integers("dcm/lineage") == s.dcm.lineage && d.integers("cbm/lineage") == s.cbm.lineage,
-        d.source() + ": the cells are not those of this scene. Resume with the scene the checkpoint was made from.");
+        d.source() +
+            ": the cells are not those of this scene. Resume with the scene the checkpoint was "
+            "made from.");
   s.dcm.position = d.numbers("dcm/position");
   s.dcm.volume = unflatten(d.numbers("dcm/volume"));
   s.cbm.position = d.numbers("cbm/position");
@@ -73,7 +81,8 @@ void get_state(const io::CheckpointData& d, coupling::State& s) {
   check_same(d, "clock/times", times.size(), 5);
   check_same(d, "clock/counts", counts.size(), 4);
   check_same(d, "balance", balance.size(), 3);
-  s.clock = {times[0], times[1], static_cast<coupling::Phase>(counts[0]), times[2], times[3], times[4],
+  s.clock = {times[0],  times[1],  static_cast<coupling::Phase>(counts[0]),
+             times[2],  times[3],  times[4],
              counts[1], counts[2], counts[3]};
   s.balance = {balance[0], balance[1], balance[2]};
   s.last_move = d.numbers("solver/last_move");

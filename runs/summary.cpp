@@ -30,6 +30,7 @@ void add_audit(RunTotals& t, const coupling::AuditResult& a) {
   t.dcm_vessel_um = std::max(t.dcm_vessel_um, a.dcm_vessel.depth_um);
   t.dcm_wall_um = std::max(t.dcm_wall_um, a.dcm_wall.depth_um);
   t.dcm_cbm_um = std::max(t.dcm_cbm_um, a.dcm_cbm.depth_um);
+  t.dcm_cbm_beyond_um = std::max(t.dcm_cbm_beyond_um, a.dcm_cbm_beyond_dent.depth_um);
   t.max_overlap_cbm_um = std::max(t.max_overlap_cbm_um, a.max_overlap_cbm_um);
   t.min_triangle_quality = std::min(t.min_triangle_quality, a.min_triangle_quality);
   t.self_intersecting = std::max(t.self_intersecting, static_cast<double>(a.n_self_intersecting));
@@ -56,17 +57,28 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["ranks"] = in.world.ranks.size();
   j["threads"] = in.threads;
   j["instruction_set"] = std::string(best_instruction_set());
-  j["steps"] = {{"accepted", s.clock.accepted}, {"rejected", s.clock.rejected}, {"newton", s.clock.accepted},
+  j["steps"] = {{"accepted", s.clock.accepted},
+                {"rejected", s.clock.rejected},
+                {"newton", s.clock.accepted},
                 {"cg", s.clock.cg_iterations}};
-  j["cells"] = {{"dcm", dcm_cells}, {"cbm", cbm_cells}, {"start", dcm_cells + cbm_cells}, {"end", dcm_cells + cbm_cells},
-                {"divisions", 0}, {"deaths", 0}, {"switched", 0}};
+  j["cells"] = {{"dcm", dcm_cells},
+                {"cbm", cbm_cells},
+                {"start", dcm_cells + cbm_cells},
+                {"end", dcm_cells + cbm_cells},
+                {"divisions", 0},
+                {"deaths", 0},
+                {"switched", 0}};
   j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
-  j["balance"] = {{"momentum", number(s.balance.momentum)}, {"torque", number(s.balance.torque)},
+  j["balance"] = {{"momentum", number(s.balance.momentum)},
+                  {"torque", number(s.balance.torque)},
                   {"friction_torque", number(s.balance.friction_torque)}};
   j["state_hash"] = fmt::format("{:016x}", coupling::hash_state(s));
   j["max_penetration_um"] = number(t.max_penetration_um);
-  j["penetration_um"] = {{"dcm_dcm", number(t.dcm_dcm_um)}, {"dcm_vessel", number(t.dcm_vessel_um)},
-                         {"dcm_wall", number(t.dcm_wall_um)}, {"dcm_cbm", number(t.dcm_cbm_um)}};
+  j["penetration_um"] = {{"dcm_dcm", number(t.dcm_dcm_um)},
+                         {"dcm_vessel", number(t.dcm_vessel_um)},
+                         {"dcm_wall", number(t.dcm_wall_um)},
+                         {"dcm_cbm_beyond_dent", number(t.dcm_cbm_beyond_um)}};
+  j["max_overlap_dcm_cbm_um"] = number(t.dcm_cbm_um);
   j["max_overlap_cbm_um"] = number(t.max_overlap_cbm_um);
   j["min_triangle_quality"] = number(t.min_triangle_quality);
   j["self_intersecting_cells"] = static_cast<int>(t.self_intersecting);
@@ -81,18 +93,22 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
     for (double v : values) list.push_back(number(v));
     measures[name] = list;
   }
-  if (in.scene.experiment == "lobule") measures["max_overlap_with_vessels_um"] = number(t.dcm_vessel_um);
+  if (in.scene.experiment == "lobule")
+    measures["max_overlap_with_vessels_um"] = number(t.dcm_vessel_um);
   j["measures"] = measures;
 
   const std::string path = folder + "/summary.json", draft = path + ".tmp";
   std::ofstream out(draft);
   out << j.dump(2) << '\n';
   out.close();
-  check(out.good(), fmt::format("{}: cannot be written ({}). Free space or choose another --out.", draft, std::strerror(errno)),
+  check(out.good(),
+        fmt::format("{}: cannot be written ({}). Free space or choose another --out.", draft,
+                    std::strerror(errno)),
         Exit::kFileError);
   std::error_code moved;
   std::filesystem::rename(draft, path, moved);
-  check(!moved, fmt::format("{}: cannot be put in place ({}).", path, moved.message()), Exit::kFileError);
+  check(!moved, fmt::format("{}: cannot be put in place ({}).", path, moved.message()),
+        Exit::kFileError);
 }
 
 }  // namespace acinus::runs

@@ -17,6 +17,7 @@ namespace acinus::runs {
 struct RunTotals {
   double wall_s = 0, cpu_s = 0;
   double max_penetration_um = 0, dcm_dcm_um = 0, dcm_vessel_um = 0, dcm_wall_um = 0, dcm_cbm_um = 0;
+  double dcm_cbm_beyond_um = 0;  ///< deeper than the dent that the pair's force explains
   double max_overlap_cbm_um = 0;
   double min_triangle_quality = 1;
   double self_intersecting = 0, inverted = 0;  ///< cells in any audited frame

@@ -10,7 +10,8 @@ namespace {
 using Key = std::uint64_t;
 using CellIndex = std::array<std::int64_t, 3>;
 
-/// Boxes hashed by the grid cell of their centre; x runs fastest so a row of cells is one key range.
+/// Boxes hashed by the grid cell of their centre; x runs fastest so a row of cells is one key
+/// range.
 class Grid {
  public:
   Grid(std::span<const Box> boxes, double width, const Vec3& origin)
@@ -84,7 +85,8 @@ std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std:
     const Box reach = a[i].grown(margin);
     const std::size_t first = pairs.size();
     grid.for_each_near(grid.cell(a[i]), [&](int j) {
-      if (reach.overlaps(b[static_cast<std::size_t>(j)])) pairs.emplace_back(static_cast<int>(i), j);
+      if (reach.overlaps(b[static_cast<std::size_t>(j)]))
+        pairs.emplace_back(static_cast<int>(i), j);
     });
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
   }

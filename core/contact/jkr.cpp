@@ -76,6 +76,14 @@ JkrPoint jkr_at_radius(const SpherePair& pair, double contact_radius) {
           4.0 * pair.modulus * a * a * a / (3.0 * pair.radius) - 2.0 * pair.modulus * a * pull};
 }
 
+double jkr_overlap(const SpherePair& pair, double force) {
+  // Eq. (20) is a quadratic in a^(3/2).
+  const double c = 4 * pair.modulus / (3 * pair.radius);
+  const double b = std::sqrt(8 * kPi * pair.adhesion * pair.modulus);
+  const double root = std::sqrt(std::max(0.0, b * b + 4 * c * force));
+  return jkr_at_radius(pair, std::pow((b + root) / (2 * c), 2.0 / 3)).overlap;
+}
+
 double jkr_energy(const SpherePair& pair, double contact_radius) {
   const double a = contact_radius;
   const double hertz = pair.modulus * a * a * a * a * a / (pair.radius * pair.radius);

@@ -35,6 +35,12 @@ struct JkrPoint {
 /// Eq. (20) and (21) for a given contact radius (um, >= 0).
 JkrPoint jkr_at_radius(const SpherePair& pair, double contact_radius);
 
+/// Overlap at which a pair under a held load rests, um: the inverse of Eq. (20) and (21) on the
+/// branch that is stable under load. A pull beyond the pull-off force gives the overlap at
+/// pull-off.
+/// @param force  nN, positive = pressed together
+double jkr_overlap(const SpherePair& pair, double force);
+
 /// Elastic plus surface energy in fJ against separated spheres; dU/d delta = F along the curve.
 /// U = 8 E a^5/(15 R^2) - (4/3) sqrt(2 pi W E) a^(7/2)/R + pi W a^2
 double jkr_energy(const SpherePair& pair, double contact_radius);

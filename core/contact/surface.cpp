@@ -9,9 +9,11 @@
 namespace acinus::contact {
 namespace {
 
-constexpr double kFacing = 0.2;      ///< normals with a larger dot product do not oppose each other
-constexpr double kListFacing = 0.7;  ///< the same for lists: leaves room for turning within the skin
-constexpr double kSelfRings = 3.0;   ///< self contact starts this many rest edges away on the surface
+constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not oppose each other
+constexpr double kListFacing =
+    0.7;  ///< the same for lists: leaves room for turning within the skin
+constexpr double kSelfRings =
+    3.0;  ///< self contact starts this many rest edges away on the surface
 constexpr double kNoDirection = 1e-9;  ///< um, below which the closest point gives no normal
 
 struct Site {
@@ -43,9 +45,9 @@ bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::s
   return (from - rest_center(t, triangle)).norm() > kSelfRings * t.mean_rest_length;
 }
 
-/// Whether a body is so far from star-shaped that it might meet itself. While all normals are within
-/// about 70 degrees of the direction from the centre, facing sides open at 40 degrees or more and come
-/// close at the bottom of a cleft only, where they are neighbours along the surface.
+/// Whether a body is so far from star-shaped that it might meet itself. While all normals are
+/// within about 70 degrees of the direction from the centre, facing sides open at 40 degrees or
+/// more and come close at the bottom of a cleft only, where they are neighbours along the surface.
 bool may_fold(const SurfaceBody& b) {
   constexpr double kStar = 0.35;
   Vec3 center = Vec3::Zero();
@@ -105,8 +107,9 @@ void refresh_body(SurfaceBody& b) {
     const Vec3& x2 = b.node[static_cast<std::size_t>(triangle[t][2])];
     const Vec3 n = (x1 - x0).cross(x2 - x0);
     b.center[t] = (x0 + x1 + x2) / 3;
-    b.reach[t] = std::sqrt(std::max({(x0 - b.center[t]).squaredNorm(), (x1 - b.center[t]).squaredNorm(),
-                                     (x2 - b.center[t]).squaredNorm()}));
+    b.reach[t] =
+        std::sqrt(std::max({(x0 - b.center[t]).squaredNorm(), (x1 - b.center[t]).squaredNorm(),
+                            (x2 - b.center[t]).squaredNorm()}));
     const double norm = n.norm();
     b.triangle_normal[t] = norm > 0 ? Vec3(n / norm) : Vec3::Zero();
     for (int c : triangle[t]) b.node_normal[static_cast<std::size_t>(c)] += n;
@@ -141,11 +144,13 @@ std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
     lists.push_back({a, b + static_cast<int>(bodies.size()), {}, {}, {}});
   if (o.self_range > 0)
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
-      if (bodies[static_cast<std::size_t>(a)].topology && may_fold(bodies[static_cast<std::size_t>(a)]))
+      if (bodies[static_cast<std::size_t>(a)].topology &&
+          may_fold(bodies[static_cast<std::size_t>(a)]))
         lists.push_back({a, a, {}, {}, {}});
 #pragma omp parallel for schedule(dynamic, 4)
   for (std::size_t k = 0; k < lists.size(); ++k)
-    fill(lists[k], body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b), o);
+    fill(lists[k], body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b),
+         o);
   std::erase_if(lists, [](const Candidates& c) { return c.site.empty(); });
   std::ranges::sort(lists, {}, [](const Candidates& c) { return std::pair(c.body_a, c.body_b); });
   return lists;
@@ -172,9 +177,10 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
         const double far = best + b.reach[t] + kNoDirection;
         if ((x - b.center[t]).squaredNorm() > far * far) continue;
         const auto& corner = (*b.triangle)[t];
-        const mesh::ClosestPoint c = mesh::find_closest_point(
-            x, b.node[static_cast<std::size_t>(corner[0])], b.node[static_cast<std::size_t>(corner[1])],
-            b.node[static_cast<std::size_t>(corner[2])]);
+        const mesh::ClosestPoint c =
+            mesh::find_closest_point(x, b.node[static_cast<std::size_t>(corner[0])],
+                                     b.node[static_cast<std::size_t>(corner[1])],
+                                     b.node[static_cast<std::size_t>(corner[2])]);
         // Ties (an edge two triangles share) go to the lower number: the order of the list, which
         // depends on when it was made, must not show.
         const bool tie = c.squared_distance == best2 && static_cast<int>(t) < triangle;

@@ -22,7 +22,7 @@ enum class Quadrature {
 struct SurfaceBody {
   const std::vector<std::array<int, 3>>* triangle = nullptr;  ///< shared, outward
   const mesh::Topology* topology = nullptr;  ///< shared; empty for a body that never meets itself
-  std::vector<Vec3> node;                          ///< um
+  std::vector<Vec3> node;                    ///< um
   // written by refresh_body:
   std::vector<Vec3> node_normal;      ///< unit, area weighted
   std::vector<Vec3> triangle_normal;  ///< unit
@@ -68,9 +68,9 @@ struct SurfaceContact {
 /// Which triangles of b each site of a may meet; valid until nodes moved more than half the skin.
 struct Candidates {
   int body_a = 0, body_b = 0;
-  std::vector<int> site;              ///< sites of a with at least one candidate
-  std::vector<std::uint32_t> start;   ///< [n_site + 1]
-  std::vector<int> triangle;          ///< triangles of b, nearest first
+  std::vector<int> site;             ///< sites of a with at least one candidate
+  std::vector<std::uint32_t> start;  ///< [n_site + 1]
+  std::vector<int> triangle;         ///< triangles of b, nearest first
 };
 
 struct SearchOptions {

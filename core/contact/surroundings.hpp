@@ -1,6 +1,6 @@
 #pragma once
-/// What stands around the cells and has no unknowns of its own, by name: planes, a capsule, vessels,
-/// static meshes.
+/// What stands around the cells and has no unknowns of its own, by name: planes, a capsule,
+/// vessels, static meshes.
 
 #include <cstdint>
 #include <limits>
@@ -15,7 +15,7 @@ namespace acinus::contact {
 
 /// Elastic and adhesive constants of a surrounding surface.
 struct Material {
-  double adhesion = 0;  ///< nN/um
+  double adhesion = 0;                                     ///< nN/um
   double young = std::numeric_limits<double>::infinity();  ///< kPa
   double poisson = 0;
   bool mirror = false;  ///< stands for an equal cell on the other side: no adhesion, no friction
@@ -72,11 +72,11 @@ enum class SurroundingKind : std::uint8_t { kPlane, kCapsule, kVessel, kMesh };
 
 /// Gap of a point to a surrounding surface.
 struct Gap {
-  double gap = 0;                ///< um, negative inside the obstacle
-  Vec3 normal = Vec3::UnitZ();   ///< d gap / d x, unit
-  double axis_distance = 0;      ///< vessels: um, distance from the axis
-  double radius = 0;             ///< vessels: um, radius at the closest point
-  double parameter = 0;          ///< vessels: 0..1 along the segment
+  double gap = 0;               ///< um, negative inside the obstacle
+  Vec3 normal = Vec3::UnitZ();  ///< d gap / d x, unit
+  double axis_distance = 0;     ///< vessels: um, distance from the axis
+  double radius = 0;            ///< vessels: um, radius at the closest point
+  double parameter = 0;         ///< vessels: 0..1 along the segment
 };
 Gap gap_to_plane(const Plane& p, const Vec3& x, double time);
 Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time);
@@ -84,9 +84,10 @@ Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time);
 /// Exact distance to a capsule whose radius runs linearly from one end to the other (round cone).
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x);
 
-/// Closest segments of a chain count once: whether the contact of a sphere with `segment` is a local
-/// minimum of the distance along the network, so that a straight chain of any spacing gives exactly one
-/// contact (docs/decisions/0003.md). Where segments of different radius meet, the nearest one counts.
+/// Closest segments of a chain count once: whether the contact of a sphere with `segment` is a
+/// local minimum of the distance along the network, so that a straight chain of any spacing gives
+/// exactly one contact (docs/decisions/0003.md). Where segments of different radius meet, the
+/// nearest one counts.
 /// @param gap the sphere centre's gap to this segment
 bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap);
 

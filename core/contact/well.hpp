@@ -9,9 +9,9 @@ namespace acinus::contact {
 /// The area under the traction is W exactly; the traction vanishes at d = 0, where the normal of a
 /// closest point is undefined. Continuous with its first derivative.
 struct Well {
-  double adhesion = 0;    ///< W, nN/um
-  double repulsion = 0;   ///< k, nN/um^3
-  double range = 1;       ///< um
+  double adhesion = 0;   ///< W, nN/um
+  double repulsion = 0;  ///< k, nN/um^3
+  double range = 1;      ///< um
 };
 
 /// Energy per area, fJ/um^2.
@@ -38,7 +38,8 @@ inline double well_stiffness(const Well& w, double gap) {
   return std::max(0.0, w.adhesion / (w.range * w.range) * 12 * (1 - u) * (1 - 3 * u));
 }
 
-/// Share of an area that counts as touching: 1 up to half the range, falling smoothly to 0 at the range.
+/// Share of an area that counts as touching: 1 up to half the range, falling smoothly to 0 at the
+/// range.
 inline double contact_share(double gap, double range) {
   if (gap <= 0.5 * range) return 1;
   if (gap >= range) return 0;

@@ -32,19 +32,20 @@ struct Table {
   std::vector<Column> columns;
 };
 
-/// Points: mesh nodes first, then sphere centres. Cells: triangles first, then one vertex per sphere.
+/// Points: mesh nodes first, then sphere centres. Cells: triangles first, then one vertex per
+/// sphere.
 struct Frame {
   double time_s = 0;
-  std::vector<float> point;                            ///< [(n_mesh_node + n_sphere) * 3] um
+  std::vector<float> point;  ///< [(n_mesh_node + n_sphere) * 3] um
   std::int64_t n_mesh_node = 0;
   std::int64_t n_sphere = 0;
-  std::vector<std::array<std::int64_t, 3>> triangle;   ///< indices into mesh nodes, this frame only
-  std::vector<Field> point_data;                       ///< rows: points
-  std::vector<std::int64_t> cell_id;                   ///< [n_triangle + n_sphere] lineage id, -1 for surroundings
-  std::vector<std::uint8_t> kind;                      ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall
-  std::vector<Field> cell_data;                        ///< rows: triangles, then spheres
-  Table cells;                                         ///< /cells: one row per biological cell
-  Table interface;                                     ///< /interface: one row per DCM-CBM pair in contact
+  std::vector<std::array<std::int64_t, 3>> triangle;  ///< indices into mesh nodes, this frame only
+  std::vector<Field> point_data;                      ///< rows: points
+  std::vector<std::int64_t> cell_id;  ///< [n_triangle + n_sphere] lineage id, -1 for surroundings
+  std::vector<std::uint8_t> kind;     ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall
+  std::vector<Field> cell_data;       ///< rows: triangles, then spheres
+  Table cells;                        ///< /cells: one row per biological cell
+  Table interface;                    ///< /interface: one row per DCM-CBM pair in contact
 };
 
 /// One named scalar of a time series sample.

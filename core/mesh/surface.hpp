@@ -10,7 +10,7 @@
 namespace acinus::mesh {
 
 struct Surface {
-  std::vector<Vec3> node;                   ///< um
+  std::vector<Vec3> node;                    ///< um
   std::vector<std::array<int, 3>> triangle;  ///< counter-clockwise seen from outside
 };
 

@@ -29,7 +29,8 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
                   const CgOptions& options, CgWorkspace& work, BlockRange range) {
   const std::size_t n = b.size();
   const bool whole = range.first == 0 && range.last >= op.system().block.size();
-  for (auto* v : {&work.residual, &work.direction, &work.preconditioned, &work.product}) v->resize(n);
+  for (auto* v : {&work.residual, &work.direction, &work.preconditioned, &work.product})
+    v->resize(n);
   auto& [r, p, z, q] = work;
 
   std::ranges::copy(b, r.begin());

@@ -31,11 +31,11 @@ struct BlockRange {
   std::size_t last = static_cast<std::size_t>(-1);
 };
 
-/// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand side,
-/// not to the first residual, so that a good start saves iterations. The stop is confirmed with the
-/// true residual; if rounding fooled the recurrence, the iteration restarts from it.
-/// With a range, only that part of x changes (the rest is a frozen partner): used by the partitioned twin.
-/// Its right-hand side is then b - A x_rest within the range.
+/// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
+/// side, not to the first residual, so that a good start saves iterations. The stop is confirmed
+/// with the true residual; if rounding fooled the recurrence, the iteration restarts from it. With
+/// a range, only that part of x changes (the rest is a frozen partner): used by the partitioned
+/// twin. Its right-hand side is then b - A x_rest within the range.
 CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
                   const CgOptions& options, CgWorkspace& work, BlockRange range = {});
 

@@ -43,7 +43,8 @@ ACINUS_KERNEL void block_times(int n_point, const std::array<int, 2>* pair, std:
 ACINUS_KERNEL void add_rank_one(int n_point, const double* g, const double* coefficient,
                                 const double* x, double* y) {
   Lane s = lane_of(0);
-  for (int i = 0; i < n_point; ++i) s += dot(load3(g + i * kPointStride), load3(x + i * kPointStride));
+  for (int i = 0; i < n_point; ++i)
+    s += dot(load3(g + i * kPointStride), load3(x + i * kPointStride));
   s *= load(coefficient);
   for (int i = 0; i < n_point; ++i) add3(y + i * kPointStride, s * load3(g + i * kPointStride));
 }
@@ -78,8 +79,9 @@ ACINUS_KERNEL void invert_sym(int n_point, double* d) {
 }
 
 /// x += alpha p, r -= alpha q, z = D^-1 r of one block; returns r . z.
-ACINUS_KERNEL double descend_block(int n_point, double alpha, const double* inverse, const double* p,
-                                   const double* q, double* x, double* r, double* z) {
+ACINUS_KERNEL double descend_block(int n_point, double alpha, const double* inverse,
+                                   const double* p, const double* q, double* x, double* r,
+                                   double* z) {
   Lane s = lane_of(0);
   for (int i = 0; i < n_point; ++i) {
     const int at = i * kPointStride;
@@ -87,7 +89,8 @@ ACINUS_KERNEL double descend_block(int n_point, double alpha, const double* inve
     ri.x = load(r + at) - alpha * load(q + at);
     ri.y = load(r + at + kLanes) - alpha * load(q + at + kLanes);
     ri.z = load(r + at + 2 * kLanes) - alpha * load(q + at + 2 * kLanes);
-    for (int c = 0; c < kPointStride; c += kLanes) store(x + at + c, load(x + at + c) + alpha * load(p + at + c));
+    for (int c = 0; c < kPointStride; c += kLanes)
+      store(x + at + c, load(x + at + c) + alpha * load(p + at + c));
     store3(r + at, ri);
     const Lane3 zi = sym_times(inverse + i * kSymStride, ri);
     store3(z + at, zi);
@@ -119,8 +122,8 @@ void Operator::prepare(const System& system) {
     const auto first = static_cast<std::uint32_t>(entry_.size());
     for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k) {
       const Address a = links.address[k];
-      entry_.push_back({a / kPointStride * kLanes + a % kPointStride, static_cast<std::uint32_t>(link_.size()),
-                        links.weight[k]});
+      entry_.push_back({a / kPointStride * kLanes + a % kPointStride,
+                        static_cast<std::uint32_t>(link_.size()), links.weight[k]});
     }
     link_.push_back({m, first, static_cast<std::uint32_t>(entry_.size()), links.external[l] != 0});
   }
@@ -265,8 +268,9 @@ double Operator::descend(double alpha, std::span<const double> p, std::span<cons
 #pragma omp parallel for schedule(static) if (parallel())
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const std::size_t row = s.block[b].first_row, at = row * kPointStride;
-    partial_[b] = descend_block(s.block[b].pattern->n_point, alpha, inverse_.data() + row * kSymStride,
-                                p.data() + at, q.data() + at, x.data() + at, r.data() + at, z.data() + at);
+    partial_[b] =
+        descend_block(s.block[b].pattern->n_point, alpha, inverse_.data() + row * kSymStride,
+                      p.data() + at, q.data() + at, x.data() + at, r.data() + at, z.data() + at);
   }
   return sum_partials();
 }
@@ -276,7 +280,8 @@ void Operator::redirect(std::span<const double> z, double beta, std::span<double
   for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + beta * p[k];
 }
 
-void Operator::add_link_forces(std::span<double> pair_force, std::span<double> external_force) const {
+void Operator::add_link_forces(std::span<double> pair_force,
+                               std::span<double> external_force) const {
   const Links& links = system_->links;
   for (std::size_t l = 0; l < links.size(); ++l) {
     double* to = links.external[l] ? external_force.data() : pair_force.data();

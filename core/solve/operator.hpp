@@ -8,9 +8,10 @@
 
 namespace acinus::solve {
 
-/// A System made ready for products. Links whose matrix is zero (they only pull) are left out; the others
-/// work on a packed copy of the vector, because a point's components lie three cache lines apart in the
-/// lane layout. Every block gathers its own rows in a fixed order: the same bits for any number of threads.
+/// A System made ready for products. Links whose matrix is zero (they only pull) are left out; the
+/// others work on a packed copy of the vector, because a point's components lie three cache lines
+/// apart in the lane layout. Every block gathers its own rows in a fixed order: the same bits for
+/// any number of threads.
 class Operator {
  public:
   /// Reads the system; call again after its loads changed. Cost: linear in blocks and links.
@@ -23,8 +24,8 @@ class Operator {
   void precondition(std::span<const double> x, std::span<double> y) const;
 
   /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = D^-1 r; returns r . z.
-  double descend(double alpha, std::span<const double> p, std::span<const double> q, std::span<double> x,
-                 std::span<double> r, std::span<double> z) const;
+  double descend(double alpha, std::span<const double> p, std::span<const double> q,
+                 std::span<double> x, std::span<double> r, std::span<double> z) const;
 
   /// p = z + beta p.
   void redirect(std::span<const double> z, double beta, std::span<double> p) const;
@@ -65,13 +66,13 @@ class Operator {
 
   const System* system_ = nullptr;
   std::vector<Link> link_;
-  std::vector<Entry> entry_;                   ///< in link order
-  std::vector<std::uint32_t> block_start_;     ///< [n_block + 1] CSR into block_entry_
-  std::vector<Entry> block_entry_;             ///< sorted by block, link order within
-  std::vector<double> inverse_;                ///< [n_row][6][lane]
-  mutable std::vector<Packed> packed_;         ///< scratch of a product
-  mutable std::vector<Packed> link_force_;     ///< scratch of a product
-  mutable std::vector<double> partial_;        ///< scratch of a dot product
+  std::vector<Entry> entry_;                ///< in link order
+  std::vector<std::uint32_t> block_start_;  ///< [n_block + 1] CSR into block_entry_
+  std::vector<Entry> block_entry_;          ///< sorted by block, link order within
+  std::vector<double> inverse_;             ///< [n_row][6][lane]
+  mutable std::vector<Packed> packed_;      ///< scratch of a product
+  mutable std::vector<Packed> link_force_;  ///< scratch of a product
+  mutable std::vector<double> partial_;     ///< scratch of a dot product
 };
 
 }  // namespace acinus::solve

@@ -23,7 +23,8 @@ struct Group {
 
 int find_root(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) {
-    parent[static_cast<std::size_t>(i)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
+    parent[static_cast<std::size_t>(i)] =
+        parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
     i = parent[static_cast<std::size_t>(i)];
   }
   return i;
@@ -168,8 +169,8 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> b, s
   for (Group& g : groups) {
     if (!g.correct) continue;
     g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
-    result.largest_move =
-        std::max(result.largest_move, g.motion.head<3>().norm() + g.motion.tail<3>().norm() * g.reach);
+    result.largest_move = std::max(result.largest_move,
+                                   g.motion.head<3>().norm() + g.motion.tail<3>().norm() * g.reach);
   }
   for_each_point(s, work.group, [&](Address a, std::size_t g) {
     if (groups[g].correct)

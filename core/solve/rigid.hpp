@@ -1,9 +1,10 @@
 #pragma once
 /// Rigid-body correction of a linear solve, per contact-connected group of cells.
 ///
-/// Medium friction can be 1e-8 of contact friction, so a small CG residual may hide a large rigid drift
-/// of a whole cluster. Every cluster's six rigid modes are therefore solved exactly (Galerkin) on the
-/// true residual. docs/decisions/0002.md says why the projected matrix is that of the whole operator.
+/// Medium friction can be 1e-8 of contact friction, so a small CG residual may hide a large rigid
+/// drift of a whole cluster. Every cluster's six rigid modes are therefore solved exactly
+/// (Galerkin) on the true residual. docs/decisions/0002.md says why the projected matrix is that of
+/// the whole operator.
 
 #include <span>
 #include <vector>

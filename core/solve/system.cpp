@@ -17,8 +17,8 @@ void Links::clear() {
   gap.clear();
 }
 
-void Links::close(const Vec3& f, const Sym3& k, const Sym3& g, bool is_external,
-                  const Vec3& opens, double gap_now) {
+void Links::close(const Vec3& f, const Sym3& k, const Sym3& g, bool is_external, const Vec3& opens,
+                  double gap_now) {
   start.push_back(static_cast<std::uint32_t>(address.size()));
   force.push_back(f);
   stiffness.push_back(k);

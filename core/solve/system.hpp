@@ -1,9 +1,10 @@
 #pragma once
 /// The linear system of one step, (Gamma/h + K) dx = F, as loads that the models add to.
 ///
-/// Unknowns: blocks of eight lanes; a DCM group has one row per mesh node, eight spheres share a block
-/// with a single row. Three neutral operators: lane blocks (pairs of points of one cell), rank-one
-/// families (one vector per cell: volume, global area) and links (contact stencils between any points).
+/// Unknowns: blocks of eight lanes; a DCM group has one row per mesh node, eight spheres share a
+/// block with a single row. Three neutral operators: lane blocks (pairs of points of one cell),
+/// rank-one families (one vector per cell: volume, global area) and links (contact stencils between
+/// any points).
 
 #include <array>
 #include <cstdint>
@@ -36,19 +37,19 @@ struct RankOne {
   std::vector<double> coefficient;  ///< [n_block][lane]
 };
 
-/// Contact stencils. Link l joins the points start[l] .. start[l+1]; its weights sum to 0 (a pair) or
-/// to 1 (a contact with surroundings, which have no unknowns). The relative vector is r = sum w x; the
-/// force on point k is w_k force, so action equals reaction by construction.
+/// Contact stencils. Link l joins the points start[l] .. start[l+1]; its weights sum to 0 (a pair)
+/// or to 1 (a contact with surroundings, which have no unknowns). The relative vector is r = sum w
+/// x; the force on point k is w_k force, so action equals reaction by construction.
 struct Links {
   std::vector<std::uint32_t> start{0};
   std::vector<Address> address;
   std::vector<double> weight;
-  std::vector<Vec3> force;        ///< nN, on the side with positive weights
-  std::vector<Sym3> stiffness;    ///< nN/um, positive semi-definite
-  std::vector<Sym3> friction;     ///< nN s/um, positive semi-definite
+  std::vector<Vec3> force;             ///< nN, on the side with positive weights
+  std::vector<Sym3> stiffness;         ///< nN/um, positive semi-definite
+  std::vector<Sym3> friction;          ///< nN s/um, positive semi-definite
   std::vector<std::uint8_t> external;  ///< 1: other side is surroundings
-  std::vector<Vec3> normal;       ///< direction in which r opens the gap
-  std::vector<double> gap;        ///< um, for judging a step; +infinity where depth does not matter
+  std::vector<Vec3> normal;            ///< direction in which r opens the gap
+  std::vector<double> gap;  ///< um, for judging a step; +infinity where depth does not matter
 
   std::size_t size() const { return force.size(); }
   void clear();
@@ -66,8 +67,8 @@ struct Links {
 /// Loads of one step. The caller clears; models add.
 struct System {
   std::vector<Block> block;
-  std::size_t n_row = 0;   ///< point rows over all blocks
-  std::size_t n_pair = 0;  ///< pair rows over all blocks
+  std::size_t n_row = 0;       ///< point rows over all blocks
+  std::size_t n_pair = 0;      ///< pair rows over all blocks
   double friction_scale = 1;   ///< 1/h, 1/s: what friction is multiplied by in the matrix
   double stiffness_scale = 1;  ///< 1: linearly implicit; 0: friction only (explicit Euler)
 

@@ -8,8 +8,8 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr double kVeinMargin = 20;    // um beyond the bottom and top planes
-constexpr double kSeedClearance = 4;  // um from a vessel's wall: a cell of 3 um and 1 um to spare
+constexpr double kVeinMargin = 20;      // um beyond the bottom and top planes
+constexpr double kSeedClearance = 4;    // um from a vessel's wall: a cell of 3 um and 1 um to spare
 constexpr double kRoomyClearance = 10;  ///< um, tried first
 constexpr int kMaxMisses = 200000;
 
@@ -42,12 +42,14 @@ void add_seeds(const LobuleParameters& p, const Domain& domain, const Sinusoids&
     for (const Vein& vein : domain.vein)
       if (axis_distance(vein, point) < vein.radius + clearance) return false;
     if (axis_distance(domain.vein.front(), point) < p.lesion_radius) return false;
-    return !seed.any_within(point, p.min_distance) && !sinusoid.any_within(point, p.sinusoid_radius + clearance);
+    return !seed.any_within(point, p.min_distance) &&
+           !sinusoid.any_within(point, p.sinusoid_radius + clearance);
   };
   // The roomiest places first: a sphere that grows between two close vessels can never get out.
   for (double clearance = kRoomyClearance; clearance >= kSeedClearance; clearance -= 1) {
     const int patience = clearance > kSeedClearance ? kMaxMisses / 20 : kMaxMisses;
-    for (int misses = 0; static_cast<int>(lobule.seeds.size()) < p.cells && misses < patience; ++misses) {
+    for (int misses = 0; static_cast<int>(lobule.seeds.size()) < p.cells && misses < patience;
+         ++misses) {
       Vec3 point;
       for (int axis = 0; axis < 3; ++axis)
         point[axis] = domain.low[axis] + uniform() * (domain.high[axis] - domain.low[axis]);

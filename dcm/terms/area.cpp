@@ -28,8 +28,8 @@ ACINUS_KERNEL void area_kernel(const GroupView& g, double* gradient, double* are
 }
 
 /// Adds across (I - u u^T) between the ends of every edge.
-ACINUS_KERNEL void tension_kernel(const GroupView& g, const double* across_of_lane, double* diagonal,
-                                  double* upper) {
+ACINUS_KERNEL void tension_kernel(const GroupView& g, const double* across_of_lane,
+                                  double* diagonal, double* upper) {
   const Lane across = load(across_of_lane);
   for (int e = 0; e < g.topology->n_edge; ++e) {
     const int i = g.topology->edge[static_cast<std::size_t>(e)][0];
@@ -62,7 +62,8 @@ void add_area(const Params& p, const GroupView& g, solve::System& s, solve::Rank
     tense = tense || across[l] > 0;
   }
   if (tense)
-    tension_kernel(g, across, s.diagonal.data() + g.first_row * kSymStride, s.upper.data() + g.first_pair * kMatStride);
+    tension_kernel(g, across, s.diagonal.data() + g.first_row * kSymStride,
+                   s.upper.data() + g.first_pair * kMatStride);
   add_scaled(g.topology->n_node, pull, gradient, s.force.data() + g.first_row * kPointStride);
 }
 

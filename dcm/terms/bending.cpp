@@ -29,9 +29,10 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
 
     const Lane3 a1 = (1.0 / s1) * n1, a2 = (1.0 / s2) * n2;
     const Lane3 d13 = x1 - x3, d14 = x1 - x4, d23 = x2 - x3, d24 = x2 - x4;
-    const Lane3 grad[4] = {length * a1, length * a2,
-                           (dot(d14, edge) * inverse_length) * a1 + (dot(d24, edge) * inverse_length) * a2,
-                           (-dot(d13, edge) * inverse_length) * a1 + (-dot(d23, edge) * inverse_length) * a2};
+    const Lane3 grad[4] = {
+        length * a1, length * a2,
+        (dot(d14, edge) * inverse_length) * a1 + (dot(d24, edge) * inverse_length) * a2,
+        (-dot(d13, edge) * inverse_length) * a1 + (-dot(d23, edge) * inverse_length) * a2};
     for (int m = 0; m < 4; ++m) {
       add3(force + h[static_cast<std::size_t>(m)] * kPointStride, -moment * grad[m]);
       add_outer_sym(diagonal + h[static_cast<std::size_t>(m)] * kSymStride, stiffness, grad[m]);

@@ -4,7 +4,8 @@ namespace acinus::dcm {
 
 void add_body_load(const GroupView& g, std::span<const Vec3> cell_force, solve::System& s) {
   for (int i = 0; i < g.topology->n_node; ++i) {
-    const double share = g.topology->rest_node_area[static_cast<std::size_t>(i)] / g.topology->rest_area;
+    const double share =
+        g.topology->rest_node_area[static_cast<std::size_t>(i)] / g.topology->rest_area;
     const std::size_t row = g.first_row + static_cast<std::size_t>(i);
     for (int l = 0; l < kLanes; ++l)
       if (g.active[l] != 0)

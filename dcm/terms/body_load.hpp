@@ -1,6 +1,6 @@
 #pragma once
-/// Forces on a cell as a whole, spread over its surface: migration, random motility, a prescribed pull;
-/// and prescribed loads on single nodes.
+/// Forces on a cell as a whole, spread over its surface: migration, random motility, a prescribed
+/// pull; and prescribed loads on single nodes.
 
 #include <span>
 
@@ -9,12 +9,13 @@
 
 namespace acinus::dcm {
 
-/// Adds F A_i / sum A on every node of every lane: area weights move the cell without distorting it.
-/// [VanLiedekerke2020, Eq. (1), term 9]
+/// Adds F A_i / sum A on every node of every lane: area weights move the cell without distorting
+/// it. [VanLiedekerke2020, Eq. (1), term 9]
 /// @param cell_force [kLanes] nN
 void add_body_load(const GroupView& g, std::span<const Vec3> cell_force, solve::System& system);
 
-/// Adds a traction per rest area, kPa, times each node's rest area (an optical stretcher, for example).
+/// Adds a traction per rest area, kPa, times each node's rest area (an optical stretcher, for
+/// example).
 /// @param traction [n_node] kPa on the nodes of one lane
 void add_surface_load(const GroupView& g, int lane, std::span<const Vec3> traction,
                       solve::System& system);

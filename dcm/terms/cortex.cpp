@@ -14,7 +14,8 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
   const Lane friction = (p.nodal_friction * friction_scale) * active;
   const double* rest = t.rest_length.data();
   for (int e = 0; e < t.n_edge; ++e) {
-    const int i = t.edge[static_cast<std::size_t>(e)][0], j = t.edge[static_cast<std::size_t>(e)][1];
+    const int i = t.edge[static_cast<std::size_t>(e)][0],
+              j = t.edge[static_cast<std::size_t>(e)][1];
     const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
     const Lane length = lane_sqrt(dot(d, d));
     const Lane inverse = 1.0 / length;
@@ -43,10 +44,9 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
 }  // namespace
 
 void add_cortex(const Params& p, const GroupView& g, solve::System& s) {
-  cortex_kernel(p, g, s.stiffness_scale, s.friction_scale,
-                s.force.data() + g.first_row * kPointStride,
-                s.diagonal.data() + g.first_row * kSymStride,
-                s.upper.data() + g.first_pair * kMatStride);
+  cortex_kernel(
+      p, g, s.stiffness_scale, s.friction_scale, s.force.data() + g.first_row * kPointStride,
+      s.diagonal.data() + g.first_row * kSymStride, s.upper.data() + g.first_pair * kMatStride);
 }
 
 double cortex_energy(const Params& p, const GroupView& g, int lane) {

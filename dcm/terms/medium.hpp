@@ -7,12 +7,13 @@
 
 namespace acinus::dcm {
 
-/// Medium friction per surface area of a cell, nN s/um^3: gamma_ECM, or the Stokes drag 6 pi eta R of the
-/// whole cell spread evenly over its rest surface.
+/// Medium friction per surface area of a cell, nN s/um^3: gamma_ECM, or the Stokes drag 6 pi eta R
+/// of the whole cell spread evenly over its rest surface.
 double medium_friction_per_area(const Params& p, double radius, double rest_area);
 
-/// Adds gamma A_i v_i on every node, with A_i the part of the node's area that touches no neighbour.
-/// [VanLiedekerke2020, Eq. (1), term 3] Empty lanes get 1 so that the matrix stays regular.
+/// Adds gamma A_i v_i on every node, with A_i the part of the node's area that touches no
+/// neighbour. [VanLiedekerke2020, Eq. (1), term 3] Empty lanes get 1 so that the matrix stays
+/// regular.
 /// @param free_area  [n_node][lane] um^2
 void add_medium(const Params& p, const GroupView& g, const double* free_area,
                 solve::System& system);

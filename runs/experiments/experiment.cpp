@@ -2,7 +2,8 @@
 
 namespace acinus::runs {
 
-void sample_experiment(const Scene& scene, const coupling::World& world, const Snapshot& snapshot, Measures& measures) {
+void sample_experiment(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
+                       Measures& measures) {
   if (scene.experiment == "lobule") sample_lobule(scene, world, snapshot, measures);
   if (scene.experiment == "patch") sample_patch(scene, world, snapshot, measures);
 }

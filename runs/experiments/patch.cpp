@@ -61,11 +61,14 @@ void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s,
   const bool both = count[0] > 0 && count[1] > 0;
   const bool dcm_left = !both || mean_x[0] / count[0] < mean_x[1] / count[1];
   if (both)
-    middle = 0.5 * (innermost_layer(s, true, dcm_left ? 1 : -1) + innermost_layer(s, false, dcm_left ? -1 : 1));
+    middle = 0.5 * (innermost_layer(s, true, dcm_left ? 1 : -1) +
+                    innermost_layer(s, false, dcm_left ? -1 : 1));
   for (int k = 0; k < 2; ++k) {
     if (count[k] == 0) continue;
     const bool left = (k == 0) == dcm_left;
-    const double length = !both ? box.high.x() - box.low.x() : left ? middle - box.low.x() : box.high.x() - middle;
+    const double length = !both  ? box.high.x() - box.low.x()
+                          : left ? middle - box.low.x()
+                                 : box.high.x() - middle;
     const std::string name = k == 0 ? "dcm" : "cbm";
     m["pressure_" + name + "_Pa"].push_back(1e3 * pressure[k] / count[k]);
     m["density_" + name + "_per_mm3"].push_back(1e9 * count[k] / (length * area));

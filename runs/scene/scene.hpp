@@ -15,168 +15,171 @@
 namespace acinus::runs {
 
 struct TimeBlock {
-  double end = 0;             ///< s after t = 0
-  double step = 60;           ///< s, the longest step
-  double min_step = 1e-3;     ///< s
-  bool adaptive = true;       ///< step-size controller on
-  double tolerance = 0.01;    ///< um, error a step may make (controller)
-  double max_move = 0.3;      ///< displacement cap, in mean edge lengths; 0 = no cap
+  double end = 0;           ///< s after t = 0
+  double step = 60;         ///< s, the longest step
+  double min_step = 1e-3;   ///< s
+  bool adaptive = true;     ///< step-size controller on
+  double tolerance = 0.01;  ///< um, error a step may make (controller)
+  double max_move = 0.3;    ///< displacement cap, in mean edge lengths; 0 = no cap
 };
 
 struct SolverBlock {
-  double tolerance = 1e-3;    ///< CG, relative to the right-hand side
+  double tolerance = 1e-3;  ///< CG, relative to the right-hand side
   int max_iterations = 2000;
 };
 
 struct StartUpBlock {
   bool enabled = false;
-  double initial_radius = 3;       ///< um
-  double growth_time = 3600;       ///< s
-  double adhesion_ramp = 900;      ///< s
-  double max_duration = 3 * 3600;  ///< s, cap on the settling after growth
-  double speed_tolerance = 0.01 / 60;          ///< um/s
-  double pressure_tolerance = 0.01 / 3600;     ///< 1/s, relative pressure change
+  double initial_radius = 3;                ///< um
+  double growth_time = 3600;                ///< s
+  double adhesion_ramp = 900;               ///< s
+  double max_duration = 3 * 3600;           ///< s, cap on the settling after growth
+  double speed_tolerance = 0.01 / 60;       ///< um/s
+  double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative pressure change
 };
 
 struct DcmBlock {  ///< deformable cell parameters of a cell type (Table 1)
   int nodes = 162;
-  double cortex_young = 1.0;           ///< kPa
-  double cortex_thickness = 0.5;       ///< um
+  double cortex_young = 1.0;      ///< kPa
+  double cortex_thickness = 0.5;  ///< um
   double cortex_poisson = 0.5;
-  double area_modulus = 0.8;           ///< nN/um, K_A, global term
-  double local_area_modulus = 0;       ///< nN/um, per triangle, for mesh quality
-  double bulk_modulus = 2.5;           ///< kPa, K_V
-  double nodal_friction = 0.1;         ///< nN s/um per edge
+  double area_modulus = 0.8;                      ///< nN/um, K_A, global term
+  double local_area_modulus = 0;                  ///< nN/um, per triangle, for mesh quality
+  double bulk_modulus = 2.5;                      ///< kPa, K_V
+  double nodal_friction = 0.1;                    ///< nN s/um per edge
   std::string nodal_friction_kind = "isotropic";  ///< or "axial"
-  double ecm_friction = 0.1;           ///< nN s/um^3
+  double ecm_friction = 0.1;                      ///< nN s/um^3
 };
 
-struct CbmBlock {  ///< centre-based parameters of a cell type (Table 1)
-  std::optional<double> young;   ///< kPa; empty = 3 K_V (1 - 2 nu)
-  double young_spread = 0.1;     ///< relative standard deviation per cell, truncated at 3 sigma
+struct CbmBlock {               ///< centre-based parameters of a cell type (Table 1)
+  std::optional<double> young;  ///< kPa; empty = 3 K_V (1 - 2 nu)
+  double young_spread = 0.1;    ///< relative standard deviation per cell, truncated at 3 sigma
   double poisson = 0.47;
-  double ecm_friction = 0.5;     ///< nN s/um^3
+  double ecm_friction = 0.5;  ///< nN s/um^3
 };
 
 struct CellType {
-  double radius = 12;            ///< um at rest
-  double adhesion = 0.01;        ///< nN/um (mJ/m^2... 1e-5 J/m^2), pair value = sqrt(Wa Wb)
-  double diffusion = 1e-4;       ///< um^2/s, motility D (1e-16 m^2/s)
+  double radius = 12;       ///< um at rest
+  double adhesion = 0.01;   ///< nN/um (mJ/m^2... 1e-5 J/m^2), pair value = sqrt(Wa Wb)
+  double diffusion = 1e-4;  ///< um^2/s, motility D (1e-16 m^2/s)
   DcmBlock dcm;
   CbmBlock cbm;
 };
 
 struct ContactBlock {
   std::string quadrature = "3-point";  ///< or "nodes"
-  double repulsion = 5;        ///< kPa/um (nN/um^3), k_rep
-  std::optional<double> range; ///< cohesive range in mean reference edges; empty = 0.3 (3-point), 0.5 (nodes)
-  double max_depth = 1.5;      ///< um, deepest gap a contact point looks for
-  double skin = 0.3;           ///< um
+  double repulsion = 5;                ///< kPa/um (nN/um^3), k_rep
+  std::optional<double>
+      range;  ///< cohesive range in mean reference edges; empty = 0.3 (3-point), 0.5 (nodes)
+  double max_depth = 1.5;  ///< um, deepest gap a contact point looks for
+  double skin = 0.3;       ///< um
 };
 
 struct FrictionBlock {
-  double dcm_dcm = 50;                   ///< nN s/um^3
-  double cbm_cbm = 10;                   ///< nN s/um^3
-  std::optional<double> dcm_cbm;         ///< empty = harmonic mean of the two
-  std::optional<double> dcm_vessel;      ///< empty = the type's dcm ecm_friction
-  std::optional<double> cbm_vessel;      ///< empty = the type's cbm ecm_friction
-  double range = 0.3;                    ///< um, friction range of DCM contacts
-  std::string medium = "ecm";            ///< or "liquid"
-  double viscosity = 1e-6;               ///< nN s/um^2 (1e-3 Pa s), medium = liquid: Stokes drag
+  double dcm_dcm = 50;               ///< nN s/um^3
+  double cbm_cbm = 10;               ///< nN s/um^3
+  std::optional<double> dcm_cbm;     ///< empty = harmonic mean of the two
+  std::optional<double> dcm_vessel;  ///< empty = the type's dcm ecm_friction
+  std::optional<double> cbm_vessel;  ///< empty = the type's cbm ecm_friction
+  double range = 0.3;                ///< um, friction range of DCM contacts
+  std::string medium = "ecm";        ///< or "liquid"
+  double viscosity = 1e-6;           ///< nN s/um^2 (1e-3 Pa s), medium = liquid: Stokes drag
 };
 
 struct MotilityBlock {
   bool random = true;
-  double grid = 60;               ///< s, time grid of the random force
-  double leader_force = 0;        ///< nN, toward the vein axis
-  double leader_grid = 600;       ///< s, re-evaluation of who leads
+  double grid = 60;          ///< s, time grid of the random force
+  double leader_force = 0;   ///< nN, toward the vein axis
+  double leader_grid = 600;  ///< s, re-evaluation of who leads
 };
 
 /// A region of space; which members count depends on `kind`.
 struct Region {
-  std::string kind;                 ///< sphere | box | half_space | axis_distance | all
-  Vec3 center = Vec3::Zero();       ///< sphere; um
-  double radius = 0;                ///< sphere; um
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();     ///< box; um
-  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< half_space: (x - point).normal <= 0 is inside
+  std::string kind;            ///< sphere | box | half_space | axis_distance | all
+  Vec3 center = Vec3::Zero();  ///< sphere; um
+  double radius = 0;           ///< sphere; um
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< box; um
+  Vec3 point = Vec3::Zero(),
+       normal = Vec3::UnitZ();                ///< half_space: (x - point).normal <= 0 is inside
   double min_distance = 0, max_distance = 0;  ///< axis_distance: distance from the vein axis, um
 };
 
 struct CellEntry {
-  Vec3 position = Vec3::Zero();   ///< um
-  std::string type;               ///< empty = the only type
-  std::optional<double> radius;   ///< um
-  std::string model;              ///< "", "dcm" or "cbm" (overrides model and zoom)
-  Vec3 pull = Vec3::Zero();       ///< nN, constant force spread over the cell
+  Vec3 position = Vec3::Zero();  ///< um
+  std::string type;              ///< empty = the only type
+  std::optional<double> radius;  ///< um
+  std::string model;             ///< "", "dcm" or "cbm" (overrides model and zoom)
+  Vec3 pull = Vec3::Zero();      ///< nN, constant force spread over the cell
 };
 
 struct CellsBlock {
-  std::string source = "list";    ///< list | clump | box | fill | lobule
-  std::string model = "zoom";     ///< dcm | cbm | zoom (zoom regions say which cells are DCM)
+  std::string source = "list";  ///< list | clump | box | fill | lobule
+  std::string model = "zoom";   ///< dcm | cbm | zoom (zoom regions say which cells are DCM)
   std::vector<CellEntry> list;
-  int count = 13;                 ///< clump: cells kept, nearest the centre first
-  std::string lattice = "fcc";    ///< clump: fcc | bcc
-  double spacing = 1.0;           ///< clump, box: centre distance in cell diameters
-  double jitter = 0.0;            ///< clump, box: random displacement in cell diameters
+  int count = 13;                    ///< clump: cells kept, nearest the centre first
+  std::string lattice = "fcc";       ///< clump: fcc | bcc
+  double spacing = 1.0;              ///< clump, box: centre distance in cell diameters
+  double jitter = 0.0;               ///< clump, box: random displacement in cell diameters
   std::array<int, 3> grid{3, 3, 3};  ///< box: cells along x, y, z
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< fill: corners of the box, um
   double min_distance = 20;                      ///< fill: smallest centre distance, um
 };
 
 struct LobuleBlock {
-  std::string shape = "pie";        ///< pie | hexagon
-  double radius = 280, height = 48, lesion_radius = 150;              ///< um
+  std::string shape = "pie";                              ///< pie | hexagon
+  double radius = 280, height = 48, lesion_radius = 150;  ///< um
   double central_vein_radius = 10, portal_vein_radius = 15, sinusoid_radius = 4.7;  ///< um
-  double vessel_fraction = 0.12;    ///< target volume fraction of sinusoids
-  double branch_density = 4.8e-5;   ///< branch points per um^3
-  double min_distance = 20;         ///< um, smallest centre distance of seeds
-  int cells = 90;                   ///< wanted survivors
+  double vessel_fraction = 0.12;   ///< target volume fraction of sinusoids
+  double branch_density = 4.8e-5;  ///< branch points per um^3
+  double min_distance = 20;        ///< um, smallest centre distance of seeds
+  int cells = 90;                  ///< wanted survivors
 };
 
 struct VesselBlock {
-  std::string file;                 ///< empty = none, or generated by the lobule; resolved against the scene's folder
-  double unit = 1;                  ///< um per file unit
-  double scale = 1;                 ///< factor on positions and radii
-  double radius_scale = 1;          ///< further factor on radii
-  Vec3 shift = Vec3::Zero();        ///< um, after scaling
-  bool center = false;              ///< move the network's bounding box centre to the origin before the shift
+  std::string
+      file;  ///< empty = none, or generated by the lobule; resolved against the scene's folder
+  double unit = 1;            ///< um per file unit
+  double scale = 1;           ///< factor on positions and radii
+  double radius_scale = 1;    ///< further factor on radii
+  Vec3 shift = Vec3::Zero();  ///< um, after scaling
+  bool center = false;  ///< move the network's bounding box centre to the origin before the shift
   std::optional<std::array<Vec3, 2>> crop;  ///< keep segments with a part inside this box, um
-  double young = 0.6;               ///< kPa
+  double young = 0.6;                       ///< kPa
   double poisson = 0.4;
-  double adhesion = 0;              ///< nN/um
+  double adhesion = 0;  ///< nN/um
 };
 
-struct WallEntry {                  ///< mirror wall: cells stay where (x - point).normal >= 0
+struct WallEntry {  ///< mirror wall: cells stay where (x - point).normal >= 0
   std::string name;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
-  double speed = 0;                 ///< um/s along the normal (a moving wall), from t = 0
-  double travel = 0;                ///< um, where the motion stops
+  double speed = 0;   ///< um/s along the normal (a moving wall), from t = 0
+  double travel = 0;  ///< um, where the motion stops
 };
 
-struct CapsuleEntry {               ///< rigid sphere seen from inside
+struct CapsuleEntry {  ///< rigid sphere seen from inside
   bool enabled = false;
   Vec3 center = Vec3::Zero();
   double radius = 0;
-  double speed = 0;                 ///< um/s, shrink rate from t = 0
+  double speed = 0;  ///< um/s, shrink rate from t = 0
   double min_radius = 0;
 };
 
 struct StaticMeshEntry {
   std::string name, file;
-  double unit = 1;                  ///< um per file unit
+  double unit = 1;  ///< um per file unit
   double scale = 1;
   Vec3 shift = Vec3::Zero();
-  bool inside = false;              ///< true: cells live inside it (normals are flipped)
+  bool inside = false;  ///< true: cells live inside it (normals are flipped)
 };
 
 struct OutputBlock {
-  double every = 1800;              ///< s
-  std::string compression = "fast"; ///< none | fast
-  bool start_up = false;            ///< also write frames at t < 0
+  double every = 1800;               ///< s
+  std::string compression = "fast";  ///< none | fast
+  bool start_up = false;             ///< also write frames at t < 0
 };
 
 struct Scene {
-  std::string file;                 ///< path it was read from
+  std::string file;  ///< path it was read from
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
@@ -186,8 +189,8 @@ struct Scene {
   StartUpBlock start_up;
   std::map<std::string, CellType> cell_types;
   CellsBlock cells;
-  std::vector<Region> zoom;         ///< union of regions
-  Vec3 axis_point = Vec3::Zero();   ///< the vein axis is vertical (z) through this point
+  std::vector<Region> zoom;        ///< union of regions
+  Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical (z) through this point
   ContactBlock contact;
   FrictionBlock friction;
   MotilityBlock motility;
@@ -198,8 +201,9 @@ struct Scene {
   std::vector<StaticMeshEntry> static_meshes;
   OutputBlock output;
 
-  std::string resolved_json;        ///< every key with its value, canonical order, as written to provenance
-  std::string sha;                  ///< hash of resolved_json
+  std::string
+      resolved_json;  ///< every key with its value, canonical order, as written to provenance
+  std::string sha;    ///< hash of resolved_json
 };
 
 }  // namespace acinus::runs

@@ -338,5 +338,27 @@ TEST(Audit, HundredTouchingCellsGiveTheSameOnAnyThreadsAndPrintTheirTime) {
   EXPECT_GT(result[0].dcm_dcm.depth_um, 0);
 }
 
+TEST(Audit, DentExplainedByTheForceIsNotAPenetrationButTunnellingIs) {
+  const mesh::Topology t = mesh::make_icosphere(162);
+  auto audit_at = [&](double distance, double dent) {
+    std::vector<Vec3> node;
+    for (const Vec3& x : t.rest) node.push_back(12 * x);
+    const std::vector<AuditMesh> meshes{{1, node, t.triangle}};
+    const std::vector<AuditSphere> spheres{{2, Vec3(distance, 0, 0), 12}};
+    const std::vector<AuditDent> dents{{1, 2, dent}};
+    AuditFrame frame;
+    frame.meshes = meshes;
+    frame.spheres = spheres;
+    frame.dents = dents;
+    return audit(frame);
+  };
+  const AuditResult pressed = audit_at(23.5, 0.4);
+  EXPECT_GT(pressed.dcm_cbm.depth_um, 0.4);
+  EXPECT_NEAR(pressed.dcm_cbm_beyond_dent.depth_um, pressed.dcm_cbm.depth_um - 0.4, 1e-12);
+  EXPECT_EQ(pressed.max_penetration_um, pressed.dcm_cbm_beyond_dent.depth_um);
+  const AuditResult tunnelled = audit_at(2, 0.19);  // centres nearly together, hardly any force
+  EXPECT_GT(tunnelled.max_penetration_um, 10);
+}
+
 }  // namespace
 }  // namespace acinus::coupling

@@ -1,5 +1,5 @@
-/// Thirteen adhering cells for six hours with steps from 7.5 s to 10 min, controller and cap off: every
-/// step size must survive, and the error must fall with the step.
+/// Thirteen adhering cells for six hours with steps from 7.5 s to 10 min, controller and cap off:
+/// every step size must survive, and the error must fall with the step.
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/random.hpp"
 #include "coupling/audit.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/measure.hpp"
-#include "core/random.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -27,7 +27,8 @@ struct Outcome {
 Outcome run(double step) {
   UniformStream random(1, Purpose::kJitter, 0);
   std::vector<TestCell> cells;
-  for (const Vec3& x : make_clump({Lattice::kFcc, 13, 1.015 * 24, 0.01 * 24}, [&] { return random.uniform(); }))
+  for (const Vec3& x :
+       make_clump({Lattice::kFcc, 13, 1.015 * 24, 0.01 * 24}, [&] { return random.uniform(); }))
     cells.push_back({x});
   World w = make_test_world(cells, step);
   w.params.numerics.cg.tolerance = 1e-4;
@@ -39,7 +40,8 @@ Outcome run(double step) {
     observe(w, work);
     std::vector<AuditMesh> meshes;
     for (std::size_t b = 0; b < work.dcm.body.size(); ++b)
-      meshes.push_back({static_cast<std::int64_t>(b), work.dcm.body[b].node, *work.dcm.body[b].triangle});
+      meshes.push_back(
+          {static_cast<std::int64_t>(b), work.dcm.body[b].node, *work.dcm.body[b].triangle});
     AuditFrame frame;
     frame.meshes = meshes;
     out.penetration = std::max(out.penetration, audit(frame).max_penetration_um);
@@ -90,9 +92,12 @@ TEST(ClumpSlow, EveryStepSizeSurvivesAndErrorsFall) {
     const Outcome o = run(step);
     ASSERT_TRUE(o.completed) << "dt = " << step;
     error[static_cast<std::size_t>(k)] = relative_error(o.pressure, reference.pressure);
-    std::printf("dt %5.0f s against 7.5 s: pressure %.3g %%, volume %.3g %%, centres (aligned) %.3g um; penetration %.3f um\n",
-                step, 100 * error[static_cast<std::size_t>(k)], 100 * relative_error(o.volume, reference.volume),
-                aligned_distance(o.center, reference.center), o.penetration);
+    std::printf(
+        "dt %5.0f s against 7.5 s: pressure %.3g %%, volume %.3g %%, centres (aligned) %.3g um; "
+        "penetration %.3f um\n",
+        step, 100 * error[static_cast<std::size_t>(k)],
+        100 * relative_error(o.volume, reference.volume),
+        aligned_distance(o.center, reference.center), o.penetration);
     if (step == 60) EXPECT_LT(o.penetration, 0.3);
     ++k;
   }

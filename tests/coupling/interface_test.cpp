@@ -23,13 +23,15 @@ std::vector<double> forces(const World& world, Workspace& work, bool interface) 
 TEST(Interface, ForcesOnBothModelsSumToZero) {
   // A sphere against a face, an edge and a corner of a deformable cell, and a whole cube of both.
   std::vector<std::vector<TestCell>> scenes{checkered_cube(23.7)};
-  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(0, 0.85065, 0.52573), Vec3(0.35682, 0, 0.93417), Vec3(1, 1, 1)})
+  for (const Vec3& direction :
+       {Vec3(1, 0, 0), Vec3(0, 0.85065, 0.52573), Vec3(0.35682, 0, 0.93417), Vec3(1, 1, 1)})
     scenes.push_back({{Vec3::Zero()}, {23.5 * direction.normalized(), false}});
   for (const auto& scene : scenes) {
     const World world = make_test_world(scene);
     Workspace work;
     size_workspace(world, work);
-    const std::vector<double> with = forces(world, work, true), without = forces(world, work, false);
+    const std::vector<double> with = forces(world, work, true),
+                              without = forces(world, work, false);
     Vec3 dcm_sum = Vec3::Zero(), cbm_sum = Vec3::Zero();
     double size = 0;
     const std::size_t split = cbm_first_row(world.state) * kPointStride;
@@ -41,8 +43,8 @@ TEST(Interface, ForcesOnBothModelsSumToZero) {
         size += f.norm();
       }
     EXPECT_GT(size, 1e-3);
-    std::printf("interface force of the DCM side %.3g nN, sum of both sides / size %.2g\n", dcm_sum.norm(),
-                (dcm_sum + cbm_sum).norm() / size);
+    std::printf("interface force of the DCM side %.3g nN, sum of both sides / size %.2g\n",
+                dcm_sum.norm(), (dcm_sum + cbm_sum).norm() / size);
     EXPECT_LT((dcm_sum + cbm_sum).norm(), 1e-12 * size);
   }
 }
@@ -63,12 +65,14 @@ TEST(Interface, ForceListAddsUpToTheForces) {
   Vec3 summed = Vec3::Zero();
   for (std::size_t row = 0; row < cbm_first_row(world.state); ++row)
     for (int l = 0; l < kLanes; ++l)
-      summed += load_point(with.data(), make_address(row, l)) - load_point(without.data(), make_address(row, l));
+      summed += load_point(with.data(), make_address(row, l)) -
+                load_point(without.data(), make_address(row, l));
   EXPECT_LT((listed - summed).norm(), 1e-11 * size);
 }
 
 TEST(Interface, PartitionedTwinAgreesWithTheSingleSolve) {
-  // A square of two cells of each model with coarse meshes: the exchange is slow, the physics the same.
+  // A square of two cells of each model with coarse meshes: the exchange is slow, the physics the
+  // same.
   std::vector<TestCell> cells = checkered_cube(24.0);
   cells.resize(4);
   cells[0].pull = Vec3(0.2, 0.1, 0);
@@ -88,7 +92,8 @@ TEST(Interface, PartitionedTwinAgreesWithTheSingleSolve) {
     largest = std::max(largest, std::abs(a[k] - b[k]));
     moved = std::max(moved, std::abs(a[k] - start[k]));
   }
-  std::printf("single against partitioned after 1 h: %.3g um apart, moved %.3g um\n", largest, moved);
+  std::printf("single against partitioned after 1 h: %.3g um apart, moved %.3g um\n", largest,
+              moved);
   EXPECT_GT(moved, 0.1);
   EXPECT_LT(largest, 1e-3);
 }
@@ -97,7 +102,8 @@ TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
   // k_w = 4 E* / (3 pi R sqrt(dent / R)); E* = 0.45/(1 - 0.47^2), R = 12, dent = 0.48
   const double young = 0.45 / (1 - 0.47 * 0.47), winkler = 4 * young / (3 * kPi * 12 * 0.2);
   EXPECT_NEAR(compliant_stiffness(5, young, 12, 0.48), 5 * winkler / (5 + winkler), 1e-15);
-  EXPECT_EQ(compliant_stiffness(5, young, 12, 0), compliant_stiffness(5, young, 12, 12 * kLeastDent));
+  EXPECT_EQ(compliant_stiffness(5, young, 12, 0),
+            compliant_stiffness(5, young, 12, 12 * kLeastDent));
 }
 
 TEST(Step, SameBitsForOneAndTwoThreads) {
@@ -120,7 +126,8 @@ TEST(Step, PairForcesBalance) {
   Workspace work;
   size_workspace(world, work);
   for (int k = 0; k < 20; ++k) ASSERT_TRUE(advance(world, work, 1e9).accepted);
-  std::printf("momentum %.3g, torque %.3g\n", world.state.balance.momentum, world.state.balance.torque);
+  std::printf("momentum %.3g, torque %.3g\n", world.state.balance.momentum,
+              world.state.balance.torque);
   EXPECT_LT(world.state.balance.momentum, 1e-9);
   EXPECT_LT(world.state.balance.torque, 1e-9);
 }

@@ -26,11 +26,14 @@ TEST(Motion, LoneCellMovesAtForceOverDrag) {
       size_workspace(w, work);
       const Vec3 start = center(w, deformable);
       ASSERT_TRUE(run_until(w, work, 3600));
-      const double surface = deformable ? mesh::shared_icosphere(162).rest_area * 144 : 4 * kPi * 144;
-      const double drag = viscosity > 0 ? dcm::stokes_drag(viscosity, 12) : (deformable ? 0.1 : 0.5) * surface;
+      const double surface =
+          deformable ? mesh::shared_icosphere(162).rest_area * 144 : 4 * kPi * 144;
+      const double drag =
+          viscosity > 0 ? dcm::stokes_drag(viscosity, 12) : (deformable ? 0.1 : 0.5) * surface;
       const Vec3 expected = 3600 / drag * pull;
       const double error = (center(w, deformable) - start - expected).norm() / expected.norm();
-      std::printf("%s drag, %s: relative error %.2g\n", deformable ? "DCM" : "CBM", viscosity > 0 ? "liquid" : "matrix", error);
+      std::printf("%s drag, %s: relative error %.2g\n", deformable ? "DCM" : "CBM",
+                  viscosity > 0 ? "liquid" : "matrix", error);
       EXPECT_LT(error, 1e-6);
     }
 }
@@ -66,7 +69,8 @@ TEST(Motion, RandomMotilityDiffusesAsSixDt) {
 TEST(Motion, RejectedStepsLeaveNoTraceInTheNoise) {
   for (bool deformable : {true, false}) {
     const double plain = spread(deformable, 60, 0, 300), broken = spread(deformable, 60, 3, 300);
-    std::printf("%s with and without rejections: %.6f %.6f\n", deformable ? "DCM" : "CBM", plain, broken);
+    std::printf("%s with and without rejections: %.6f %.6f\n", deformable ? "DCM" : "CBM", plain,
+                broken);
     EXPECT_NEAR(broken, plain, 1e-5);
   }
 }
@@ -97,7 +101,8 @@ TEST(Motion, TimeOrderIsOne) {
     for (std::size_t k = 0; k < x.size(); ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
     return std::sqrt(sum);
   };
-  const double coarse = std::log2(distance(a, b) / distance(b, c)), fine = std::log2(distance(b, c) / distance(c, d));
+  const double coarse = std::log2(distance(a, b) / distance(b, c)),
+               fine = std::log2(distance(b, c) / distance(c, d));
   std::printf("time order by halvings from 7.5 s: %.3f, from 3.75 s: %.3f\n", coarse, fine);
   EXPECT_GT(fine, 0.9);
   EXPECT_LT(fine, 1.1);

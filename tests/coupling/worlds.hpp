@@ -18,7 +18,8 @@ struct TestCell {
   double radius = 12;
 };
 
-inline World make_test_world(const std::vector<TestCell>& cells, double step = 60, int n_node = 162) {
+inline World make_test_world(const std::vector<TestCell>& cells, double step = 60,
+                             int n_node = 162) {
   World w;
   dcm::Params d;
   d.spring_stiffness = dcm::cortex_spring_stiffness(1, 0.5);
@@ -46,11 +47,14 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const auto id = static_cast<std::int64_t>(k);
     // Turned, so that no two meshes mirror each other.
-    const Mat3 turn = Eigen::AngleAxisd(0.7 * static_cast<double>(k), Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Mat3 turn = Eigen::AngleAxisd(0.7 * static_cast<double>(k), Vec3(1, 2, 3).normalized())
+                          .toRotationMatrix();
     if (cells[k].deformable)
-      shells.push_back({id, 0, &mesh::shared_icosphere(n_node), cells[k].center, cells[k].radius, cells[k].pull, turn});
+      shells.push_back({id, 0, &mesh::shared_icosphere(n_node), cells[k].center, cells[k].radius,
+                        cells[k].pull, turn});
     else
-      spheres.push_back({id, 0, cells[k].center, cells[k].radius, cbm::young_from_bulk(2.5, 0.47), cells[k].pull});
+      spheres.push_back({id, 0, cells[k].center, cells[k].radius, cbm::young_from_bulk(2.5, 0.47),
+                         cells[k].pull});
   }
   w.state.dcm = dcm::make_state(shells);
   w.state.cbm = cbm::make_state(spheres);

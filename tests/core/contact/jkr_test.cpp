@@ -269,5 +269,15 @@ TEST(Jkr, CallRate) {
   EXPECT_TRUE(std::isfinite(total));
 }
 
+TEST(Jkr, OverlapUnderALoadIsTheInverseOfTheForce) {
+  const SpherePair pair{6, 0.2888, 0.01};
+  for (double overlap : {0.0, 0.376, 1.0, 4.0}) {
+    const double force = jkr_force(pair, overlap, true).force;
+    EXPECT_NEAR(jkr_overlap(pair, force), overlap, 1e-9);
+  }
+  const JkrSpecial special = jkr_special(pair);
+  EXPECT_NEAR(jkr_overlap(pair, 2 * special.pull_off.force), special.pull_off.overlap, 1e-9);
+}
+
 }  // namespace
 }  // namespace acinus::contact

@@ -1,0 +1,235 @@
+#include "runs/run.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "core/error.hpp"
+#include "tests/runs/program.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using program::Json;
+using program::Outcome;
+using program::Process;
+using program::Words;
+namespace fs = std::filesystem;
+
+class Run : public program::ProgramTest {
+ protected:
+  /// Runs to the end and returns the summary.
+  Json finish(const Words& words, const std::string& run) const {
+    const Outcome outcome = call(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return summary(run);
+  }
+  /// The state, the counters and every frame of two runs agree to the last bit.
+  void expect_same(const std::string& a, const std::string& b) const {
+    const Json p = summary(a), q = summary(b);
+    EXPECT_EQ(p["state_hash"], q["state_hash"]) << a << " " << b;
+    EXPECT_EQ(p["steps"], q["steps"]) << a << " " << b;
+    EXPECT_EQ(p["balance"], q["balance"]) << a << " " << b;
+    EXPECT_EQ(p["penetration_um"], q["penetration_um"]) << a << " " << b;
+    const io::RunReader x = reader(a), y = reader(b);
+    EXPECT_EQ(x.n_frame(), y.n_frame());
+    EXPECT_EQ(x.series(), y.series());
+    program::expect_first_frames(x, y, a + " " + b);
+  }
+};
+
+TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
+  write("pair.json", program::kGrowing);
+  const Json s = finish({"run", "pair.json", "--out", "a"}, "a");
+  EXPECT_EQ(names_in("a"), (std::vector<std::string>{"checkpoint.h5", "run.log", "run.vtkhdf",
+                                                     "run.xmf", "summary.json"}));
+  for (const char* key : {"scene",
+                          "scene_sha",
+                          "version",
+                          "git",
+                          "seed",
+                          "status",
+                          "simulated_s",
+                          "wall_s",
+                          "cpu_s",
+                          "peak_rss_bytes",
+                          "ranks",
+                          "threads",
+                          "steps",
+                          "cells",
+                          "balance",
+                          "state_hash",
+                          "max_penetration_um",
+                          "max_overlap_cbm_um",
+                          "min_triangle_quality",
+                          "skipped",
+                          "timings",
+                          "measures"})
+    EXPECT_TRUE(s.contains(key)) << key;
+  for (const char* key : {"accepted", "rejected", "newton", "cg"})
+    EXPECT_TRUE(s["steps"].contains(key)) << key;
+  for (const char* key : {"dcm", "cbm", "start", "end", "divisions", "deaths", "switched"})
+    EXPECT_TRUE(s["cells"].contains(key)) << key;
+  EXPECT_EQ(s["scene"], "pair");
+  EXPECT_EQ(s["seed"], 3);
+  EXPECT_EQ(s["status"], "completed");
+  EXPECT_EQ(s["simulated_s"], 360.0);
+  EXPECT_EQ(s["cells"]["dcm"], 2);
+  EXPECT_EQ(s["cells"]["cbm"], 2);
+  EXPECT_EQ(s["ranks"], 1);
+  EXPECT_GT(s["steps"]["accepted"], 20);
+  EXPECT_GT(s["peak_rss_bytes"], 1000000);
+  EXPECT_FALSE(s["timings"].empty());
+  // Pair forces are added with opposite signs from one number: round-off of sums of some 1e3 terms.
+  EXPECT_LE(s["balance"]["momentum"], 1e-9);
+  EXPECT_LE(s["balance"]["torque"], 1e-9);
+  EXPECT_GT(s["min_triangle_quality"], 0.5);
+
+  const io::RunReader run = reader("a");
+  EXPECT_EQ(run.time_s(run.n_frame() - 1), 360.0);
+  EXPECT_LT(run.time_s(0), 0) << "output.start_up";
+  for (int k = 0; k < run.n_frame(); ++k) {
+    const io::Frame frame = run.frame(k);
+    EXPECT_EQ(frame.n_mesh_node, 84);
+    EXPECT_EQ(frame.n_sphere, 2);
+    EXPECT_EQ(frame.cells.ids.at(0).value.size(), 4u);
+  }
+  EXPECT_EQ(static_cast<int>(run.series().at("time").size()), s["steps"]["accepted"]);
+  const auto provenance = run.provenance();
+  for (const char* key : {"scene", "command_line", "version", "git", "compiler", "flags", "seed",
+                          "ranks", "threads", "start", "end"})
+    EXPECT_TRUE(provenance.contains(key)) << key;
+}
+
+TEST_F(Run, DoesNotDependOnTheNumberOfThreads) {
+  write("pair.json", program::kGrowing);
+  finish(run_words("pair.json", "one", {"--threads", "1"}), "one");
+  finish(run_words("pair.json", "two", {"--threads", "2"}), "two");
+  expect_same("one", "two");
+}
+
+TEST_F(Run, CheckpointsAndFramesDoNotChangeIt) {
+  write("pair.json", program::kPair);
+  finish(run_words("pair.json", "plain"), "plain");
+  finish(run_words("pair.json", "saved", {"--checkpoint-every", "0.001s"}), "saved");
+  expect_same("plain", "saved");
+  EXPECT_TRUE(fs::exists(path("saved/checkpoint.prev.h5")));
+}
+
+TEST_F(Run, ToHalfAndResumedIsTheWholeRun) {
+  write("pair.json", program::kPair);
+  finish(run_words("pair.json", "whole"), "whole");
+  const Json half = finish(run_words("pair.json", "parts", {"--until", "4 min"}), "parts");
+  EXPECT_EQ(half["simulated_s"], 240.0);
+  EXPECT_EQ(reader("parts").n_frame(), 3);
+  finish(run_words("pair.json", "parts", {"--resume"}), "parts");
+  expect_same("whole", "parts");
+}
+
+TEST_F(Run, AnEarlierEndAndResumedWithALaterOneIsTheWholeRun) {
+  write("pair.json", program::kPair);
+  finish(run_words("pair.json", "whole"), "whole");
+  finish(run_words("pair.json", "parts", {"--set", "time.end=2 min"}), "parts");
+  finish(run_words("pair.json", "parts", {"--resume"}), "parts");
+  expect_same("whole", "parts");
+}
+
+TEST_F(Run, OneStepPerProcessIsTheWholeRun) {
+  write("pair.json", program::kGrowing);
+  finish(run_words("pair.json", "whole"), "whole");
+  Words words = run_words("pair.json", "steps", {"--max-walltime", "0.000001s"});
+  int starts = 1;
+  Outcome outcome = call(words);
+  words.emplace_back("--resume");
+  for (; outcome.code == 75 && starts < 500; ++starts) {
+    if (starts == 1) {
+      EXPECT_EQ(summary("steps")["status"], "stopped");
+      EXPECT_EQ(summary("steps")["cause"], "stopped by the wall-time limit");
+    }
+    outcome = call(words);
+  }
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_GE(starts, summary("whole")["steps"]["accepted"]) << "a process made more than one step";
+  expect_same("whole", "steps");
+  RecordProperty("starts", starts);
+}
+
+TEST_F(Run, StopsOnSignalsAndOnTheStopFileAndGoesOn) {
+  write("pair.json", program::kPair);
+  const Words often{"--set", "time.end=16 min", "--set", "output.every=30 s"};
+  finish(run_words("pair.json", "whole", often), "whole");
+  for (const int signal : {SIGTERM, SIGUSR1, SIGINT}) {
+    const std::string run = "signal" + std::to_string(signal);
+    Words words{"run", "pair.json", "--out", run, "--progress", "json", "--threads", "1"};
+    words.insert(words.end(), often.begin(), often.end());
+    Process process(folder_, words);
+    ASSERT_TRUE(process.await("\"running\"")) << "handlers are set before the first step";
+    process.send(signal);
+    const Outcome outcome = process.wait();
+    EXPECT_EQ(outcome.code, 75) << outcome.text;
+    EXPECT_EQ(summary(run)["status"], "stopped");
+    EXPECT_LT(summary(run)["simulated_s"], 960);
+
+    Words again{"resume", "pair.json", "--out", run, "--threads", "1"};
+    again.insert(again.end(), often.begin(), often.end());
+    write(run + "/STOP", "");
+    const Outcome stopped = call(again);
+    EXPECT_EQ(stopped.code, 75) << stopped.text;
+    EXPECT_NE(stopped.text.find("continue with: acinus resume pair.json --out " + run +
+                                " --set 'time.end=16 min'"),
+              std::string::npos)
+        << stopped.text;
+    EXPECT_FALSE(fs::exists(path(run + "/STOP"))) << "obeyed once";
+    const Outcome last = call(again);
+    EXPECT_EQ(last.code, 0) << last.text;
+    expect_same("whole", run);
+  }
+}
+
+TEST_F(Run, KilledAtAnyMomentKeepsItsFinishedFrames) {
+  write("pair.json", program::kPair);
+  const Words often{"--set", "output.every=30 s", "--checkpoint-every", "0.03s"};
+  finish(run_words("pair.json", "whole", often), "whole");
+  const io::RunReader whole = reader("whole");
+  const double wall = summary("whole")["wall_s"];
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> moment(0.05, 1.1);
+  int killed = 0, resumed = 0, frames = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::string run = "trial" + std::to_string(trial), what = run;
+    Words words = run_words("pair.json", run, often);
+    {
+      Process process(folder_, words);
+      usleep(static_cast<useconds_t>(1e6 * wall * moment(random)));  // the random moment itself
+      process.send(SIGKILL);
+      if (process.wait().code == -1) ++killed;
+    }
+    const bool saved = fs::exists(path(run) / "checkpoint.h5");
+    if (saved) {
+      const io::RunReader part = reader(run);
+      program::expect_first_frames(part, whole, what);
+      frames += part.n_frame();
+      ++resumed;
+    } else if (fs::exists(path(run) / "run.vtkhdf")) {
+      // Killed before the first checkpoint: the file may not be made yet, but what is in it is
+      // right.
+      try {
+        const io::RunReader part = reader(run);
+        program::expect_first_frames(part, whole, what);
+        frames += part.n_frame();
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), Exit::kFileError) << error.what();
+      }
+    }
+    words.emplace_back(saved ? "--resume" : "--overwrite");
+    finish(words, run);
+    expect_same("whole", run);
+    fs::remove_all(path(run));
+  }
+  std::printf("killed %d of 20, %d finished frames read, %d resumed from a checkpoint\n", killed,
+              frames, resumed);
+  EXPECT_GE(killed, 10);
+  EXPECT_GE(resumed, 5);
+}
+
+}  // namespace
+}  // namespace acinus::runs
