@@ -11,6 +11,9 @@ namespace {
 
 /// A predicted gap below minus this share of the search depth, still closing, is too deep.
 constexpr double kDeep = 2.0 / 3;
+/// The same with step-size control, um: a contact that appears within a step is only felt in the
+/// next, so a cell that snaps forward would stand this deep in a hard obstacle until then.
+constexpr double kControlledDepth = 0.2;
 constexpr double kClosing = 0.1;  ///< um a deep contact may still close in one step
 
 std::string name_lane(const State& s, std::size_t lane) {
@@ -122,7 +125,9 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
   if (!v.good) return v;
 
   const solve::Links& links = w.system.links;
-  const double deep = -kDeep * world.params.dcm_contact.max_depth;
+  const double deep =
+      -(world.params.numerics.adaptive ? kControlledDepth
+                                       : kDeep * world.params.dcm_contact.max_depth);
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (links.gap[l] > 0.5 * world.params.dcm_contact.max_depth) continue;
     Vec3 r = Vec3::Zero();

@@ -143,12 +143,18 @@ class ProgramTest : public testing::Test {
   fs::path folder_;
 };
 
+inline std::vector<io::Frame> read_frames(const io::RunReader& run) {
+  std::vector<io::Frame> frames;
+  for (int k = 0; k < run.n_frame(); ++k) frames.push_back(run.frame(k));
+  return frames;
+}
+
 /// The frames of a are the first frames of b, bit for bit.
-inline void expect_first_frames(const io::RunReader& a, const io::RunReader& b,
+inline void expect_first_frames(const std::vector<io::Frame>& a, const std::vector<io::Frame>& b,
                                 const std::string& what) {
-  ASSERT_LE(a.n_frame(), b.n_frame()) << what;
-  for (int k = 0; k < a.n_frame(); ++k) {
-    const io::Frame p = a.frame(k), q = b.frame(k);
+  ASSERT_LE(a.size(), b.size()) << what;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const io::Frame &p = a[k], &q = b[k];
     EXPECT_EQ(p.time_s, q.time_s) << what << " frame " << k;
     EXPECT_EQ(p.point, q.point) << what << " frame " << k;
     EXPECT_EQ(p.triangle, q.triangle) << what << " frame " << k;
