@@ -356,6 +356,7 @@ std::string format_quantity(double value, Dimension dimension, std::string_view 
   check(scale.dimension == dimension,
         fmt::format("unit \"{}\" has dimension {}, needed {}", unit, described(scale.dimension),
                     described(dimension)));
+  if (value == 0) return "0" + gap + std::string(unit);
   if (scale.numerator == scale.denominator) {
     // Powers of ten only shift the exponent of the shortest digits, so nothing has to be searched.
     std::array<char, 64> buffer{};

@@ -101,12 +101,12 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
     v.cause = std::move(why);
     v.cells = {lineage_of(s, lane)};
   };
+  double worst = 1;  // of all cells that move too far, the one that does so most is named
   for_each_cell(w, [&](std::size_t lane, Address first, int n_point) {
-    if (!v.good) return;
     double largest = 0;
     for (int i = 0; i < n_point; ++i) {
       const Vec3 m = load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
-      if (!m.allFinite())
+      if (!m.allFinite() && v.good)
         return reject(fmt::format("{}: its displacement is not finite", name_lane(s, lane)), lane);
       largest = std::max(largest, m.norm());
     }
@@ -115,10 +115,14 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
     const double edge =
         deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length * w.lanes.radius[lane]
                    : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
-    if (largest > move_limit(world.params.numerics.max_move, edge))
+    const double excess = largest / move_limit(world.params.numerics.max_move, edge);
+    if (excess > worst) {
+      worst = excess;
       return reject(
           fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, lane), largest, step),
           lane);
+    }
+    if (!v.good) return;
     if (deformable && find_turned_face(s.dcm, lane, w.move) >= 0)
       return reject(fmt::format("{}: a face would turn over", name_lane(s, lane)), lane);
   });
@@ -154,8 +158,9 @@ Balance measure_balance(const World&, Workspace& w) {
   w.external_product.resize(w.move.size());
   w.op.apply(w.move, w.product);
   w.op.apply_external(w.move, w.external_product);
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), center = Vec3::Zero();
-  double force_size = 0, torque_size = 0, n = 0;
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero(),
+       center = Vec3::Zero();
+  double force_size = 0, torque_size = 0, rest_torque_size = 0, n = 0;
   auto for_each_point = [&](auto f) {
     for_each_cell(w, [&](std::size_t, Address first, int n_point) {
       for (int i = 0; i < n_point; ++i) f(first + static_cast<Address>(i * kPointStride));
@@ -175,10 +180,13 @@ Balance measure_balance(const World&, Workspace& w) {
     force_size += conservative.norm() + rest.norm();
     torque += arm.cross(conservative);
     torque_size += arm.norm() * conservative.norm();
+    rest_torque += arm.cross(rest);
+    rest_torque_size += arm.norm() * rest.norm();
   });
   Balance b;
   b.momentum = force_size > 0 ? force.norm() / force_size : 0;
   b.torque = torque_size > 0 ? torque.norm() / torque_size : 0;
+  b.friction_torque = rest_torque_size > 0 ? rest_torque.norm() / rest_torque_size : 0;
   return b;
 }
 

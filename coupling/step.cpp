@@ -200,6 +200,7 @@ StepResult advance(World& world, Workspace& w, double limit) {
       const Balance b = measure_balance(world, w);
       s.balance.momentum = std::max(s.balance.momentum, b.momentum);
       s.balance.torque = std::max(s.balance.torque, b.torque);
+      s.balance.friction_torque = std::max(s.balance.friction_torque, b.friction_torque);
       commit(world, step, cg_iterations, w);
       s.clock.rejected += result.rejections;
       // A step cut short by an event says little about the next one's length.

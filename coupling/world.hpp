@@ -74,9 +74,10 @@ struct Clock {
 
 /// Largest |sum| / sum |.| over all steps.
 struct Balance {
-  double momentum = 0;         ///< all pair forces, friction included
-  double torque = 0;           ///< conservative pair forces
-  double friction_torque = 0;  ///< pair friction, which need not balance (docs/decisions)
+  double momentum = 0;  ///< all pair forces, friction included
+  double torque = 0;    ///< conservative pair forces
+  double friction_torque =
+      0;  ///< pair friction and the pair forces' change in a step, which need not balance
 };
 
 /// Exactly what a checkpoint holds.
