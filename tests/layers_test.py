@@ -30,7 +30,7 @@ def check_include(path, bracket, target, beside):
     """
     folder = path.split("/")[0]
     top = target.split("/")[0]
-    if top == "nlohmann" and (folder not in JSON_FOLDERS or not path.endswith(".cpp")):
+    if top == "nlohmann" and folder not in MIRRORS and (folder not in JSON_FOLDERS or not path.endswith(".cpp")):
         return "nlohmann-json belongs in .cpp files of runs/ and calibration/ only"
     if top in (".", "..") or (bracket == '"' and beside and top not in FLOORS):
         return "include paths start at the root of the repository"
