@@ -64,7 +64,7 @@ double aligned_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
   }
   Mat3 h = Mat3::Zero();
   for (std::size_t k = 0; k < a.size(); ++k) h += (a[k] - ca) * (b[k] - cb).transpose();
-  const Eigen::JacobiSVD<Mat3, Eigen::ComputeFullU | Eigen::ComputeFullV> svd(h);
+  const Eigen::JacobiSVD<Mat3> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 flip = Mat3::Identity();
   flip(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
   const Mat3 turn = svd.matrixV() * flip * svd.matrixU().transpose();
