@@ -101,6 +101,12 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
   const std::size_t lane = c.work.lane_of_body[static_cast<std::size_t>(body)];
   const mesh::Topology& t = *c.state.group[lane / kLanes].topology;
   const double radius = c.lanes.radius[lane];
+  if (!is_surface && c.work.obstacle[link - surface.size()].guard) {
+    // A node or face centre inside an obstacle: a quarter of its area, repulsion alone.
+    const auto n_node = static_cast<std::size_t>(t.n_node), p = static_cast<std::size_t>(point);
+    const double rest = p < n_node ? t.rest_node_area[p] : t.rest_triangle_area[p - n_node];
+    return gap < 0 ? 0.25 * rest * radius * radius * 0.5 * c.options.repulsion * gap * gap : 0;
+  }
   double adhesion = c.params[0].adhesion, weight = 1;
   if (is_surface && surface[link].body_b < static_cast<int>(c.work.body.size())) {
     weight = 0.5;  // the other side probes as well
@@ -137,7 +143,7 @@ std::vector<std::array<int, 4>> features_of(const Clump& c) {
   std::vector<std::array<int, 4>> f;
   for (const auto& s : c.work.surface) f.push_back({s.body_a, s.point, s.body_b, s.triangle_b});
   for (const auto& o : c.work.obstacle)
-    f.push_back({o.body, o.point, -1 - static_cast<int>(o.kind), o.index});
+    f.push_back({o.body, o.guard ? -1 - o.point : o.point, -1 - static_cast<int>(o.kind), o.index});
   return f;
 }
 
@@ -323,7 +329,8 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     };
     for (const auto& s : c.work.surface)
       if (s.body_a != s.body_b) count(s.body_a, s.point, s.gap);
-    for (const auto& o : c.work.obstacle) count(o.body, o.point, o.gap);
+    for (const auto& o : c.work.obstacle)
+      if (!o.guard) count(o.body, o.point, o.gap);
     double worst = 0;
     for (std::size_t k = 0; k < touching.size(); ++k) {
       const std::size_t lane = c.work.lane_of_body[k];
@@ -361,6 +368,11 @@ TEST(ContactLoads, FrictionIsAreaTimesShare) {
         is_surface ? c.work.surface[l].body_a : c.work.obstacle[l - c.work.surface.size()].body);
     const int point =
         is_surface ? c.work.surface[l].point : c.work.obstacle[l - c.work.surface.size()].point;
+    if (!is_surface && c.work.obstacle[l - c.work.surface.size()].guard) {
+      EXPECT_EQ(c.links.friction[l].xx, 0);
+      EXPECT_EQ(c.links.external[l], 1);
+      continue;
+    }
     const bool pair = is_surface && c.work.surface[l].body_b < static_cast<int>(c.work.body.size());
     const bool mirror =
         !is_surface &&
