@@ -52,12 +52,6 @@ double contact_range(const ContactParams& c, const mesh::Topology& t, double rad
   return std::max(c.range_factor * t.mean_rest_length * radius, c.friction_range);
 }
 
-contact::Well surface_well(const ContactParams& c, const Params& a, const Params& b,
-                           const mesh::Topology& t, double radius) {
-  return {c.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), c.repulsion,
-          c.range_factor * t.mean_rest_length * radius};
-}
-
 double point_area(const mesh::Topology& t, contact::Quadrature q, int point, double radius) {
   const double share = q == contact::Quadrature::kThreePoint
                            ? t.rest_triangle_area[static_cast<std::size_t>(point / 3)] / 3

@@ -87,10 +87,6 @@ struct ContactWorkspace {
 /// Largest gap at which a contact of this cell does anything, um.
 double contact_range(const ContactParams& c, const mesh::Topology& t, double radius);
 
-/// The cohesive law of a point of type a against type b (adhesion: geometric mean).
-contact::Well surface_well(const ContactParams& c, const Params& a, const Params& b,
-                           const mesh::Topology& t, double radius);
-
 /// Surface area that a probing point stands for, um^2: its share of the reference surface.
 double point_area(const mesh::Topology& t, contact::Quadrature q, int point, double radius);
 

@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
-#include "core/error.hpp"
+#include "core/io/disk.hpp"
 #include "runs/build_world.hpp"
 
 namespace acinus::runs {
@@ -97,18 +93,7 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
     measures["max_overlap_with_vessels_um"] = number(t.dcm_vessel_um);
   j["measures"] = measures;
 
-  const std::string path = folder + "/summary.json", draft = path + ".tmp";
-  std::ofstream out(draft);
-  out << j.dump(2) << '\n';
-  out.close();
-  check(out.good(),
-        fmt::format("{}: cannot be written ({}). Free space or choose another --out.", draft,
-                    std::strerror(errno)),
-        Exit::kFileError);
-  std::error_code moved;
-  std::filesystem::rename(draft, path, moved);
-  check(!moved, fmt::format("{}: cannot be put in place ({}).", path, moved.message()),
-        Exit::kFileError);
+  io::write_text_file(folder + "/summary.json", j.dump(2) + "\n");
 }
 
 }  // namespace acinus::runs
