@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/contact/box.hpp"
 #include "core/mesh/measures.hpp"
@@ -12,9 +11,6 @@ namespace {
 
 using contact::SphereBody;
 using contact::SurroundingKind;
-
-/// Spheres overlap by design: no depth is too deep for a step.
-constexpr double kNoDepth = std::numeric_limits<double>::infinity();
 
 /// Relative overlap over which a contact's weight in the mean rises to one.
 constexpr double kWeightRise = 0.02;
@@ -252,25 +248,31 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
 
 void add_contact_loads(const State& s, std::span<const Params> params, const ContactParams& c,
                        const contact::Surroundings& around, const ContactWorkspace& work,
-                       std::size_t first_row, solve::Links& links) {
+                       std::size_t first_row, solve::System& system) {
+  auto add_link = [&](solve::Point a, solve::Point b, const contact::SphereForce& law,
+                      const Vec3& normal, double friction) {
+    const double area = kPi * law.contact_radius * law.contact_radius;
+    solve::PointLink link{a, b, {}, static_cast<float>(std::max(0.0, law.stiffness)),
+                          static_cast<float>(friction * area)};
+    for (int k = 0; k < 3; ++k)
+      link.normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
+    system.point_links.push_back(link);
+  };
   for (const SphereContact& k : work.sphere) {
-    const double area = kPi * k.law.contact_radius * k.law.contact_radius;
-    links.add_point(cell_address(first_row, static_cast<std::size_t>(k.a)), 1);
-    links.add_point(cell_address(first_row, static_cast<std::size_t>(k.b)), -1);
-    links.close(k.law.force * k.normal, Sym3::outer(std::max(0.0, k.law.stiffness), k.normal),
-                Sym3::identity(c.friction_factor * c.cell_friction * area), false, k.normal,
-                kNoDepth);
+    const auto a = static_cast<std::size_t>(k.a), b = static_cast<std::size_t>(k.b);
+    const Vec3 f = k.law.force * k.normal;
+    add_point(system.force.data(), cell_address(first_row, a), f);
+    add_point(system.force.data(), cell_address(first_row, b), -f);
+    add_link(cell_point(first_row, a), cell_point(first_row, b), k.law, k.normal,
+             c.friction_factor * c.cell_friction);
   }
   for (const ObstacleContact& k : work.obstacle) {
     const auto i = static_cast<std::size_t>(k.cell);
     const bool mirror = k.kind == SurroundingKind::kPlane &&
                         around.planes[static_cast<std::size_t>(k.index)].material.mirror;
-    const double area = kPi * k.law.contact_radius * k.law.contact_radius;
-    const double friction =
-        mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction;
-    links.add_point(cell_address(first_row, i), 1);
-    links.close(k.law.force * k.normal, Sym3::outer(std::max(0.0, k.law.stiffness), k.normal),
-                Sym3::identity(friction * area), true, k.normal, kNoDepth);
+    add_point(system.external_force.data(), cell_address(first_row, i), k.law.force * k.normal);
+    add_link(cell_point(first_row, i), solve::kNowhere, k.law, k.normal,
+             mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction);
   }
 }
 
@@ -291,8 +293,6 @@ void add_cell_loads(const State& s, std::span<const Params> params, std::span<co
                                                    radius[i], work.contact_area[i])
                                  : 1.0;
     system.medium[a / kPointStride * kLanes + a % kLanes] += friction;
-    double* d = system.diagonal.data() + a / kPointStride * kSymStride + a % kLanes;
-    for (int k : {0, 3, 5}) d[k * kLanes] += system.friction_scale * friction;
     if (cell) add_point(system.external_force.data(), a, cell_force[i]);
   }
 }

@@ -75,7 +75,7 @@ void find_contacts(const State& state, std::span<const Params> params, const Con
 /// @param first_row  where the CBM rows start in the system
 void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
                        const contact::Surroundings& around, const ContactWorkspace& work,
-                       std::size_t first_row, solve::Links& links);
+                       std::size_t first_row, solve::System& system);
 
 /// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0
 /// [VanLiedekerke2020, Eq. (19)], and the force on each cell as a whole.

@@ -26,8 +26,10 @@ std::vector<double> radii_at(const State& s, double time) {
 }
 
 std::vector<solve::Block> make_blocks(const State& s) {
-  static const solve::BlockPattern kSinglePoint{1, {}};
-  return std::vector<solve::Block>(s.n_row(), solve::Block{&kSinglePoint, 0, 0});
+  static const solve::BlockPattern kSinglePoint{1, {}, {}, {}};
+  solve::Block block;
+  block.pattern = &kSinglePoint;
+  return std::vector<solve::Block>(s.n_row(), block);
 }
 
 }  // namespace acinus::cbm

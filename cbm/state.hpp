@@ -43,6 +43,10 @@ State make_state(const std::vector<NewCell>& cells);
 inline Address cell_address(std::size_t first_row, std::size_t cell) {
   return make_address(first_row + cell / kLanes, static_cast<int>(cell % kLanes));
 }
+/// Number of a cell's point in the solver.
+inline solve::Point cell_point(std::size_t first_row, std::size_t cell) {
+  return static_cast<solve::Point>(first_row * kLanes + cell);
+}
 inline Vec3 center_of(const State& s, std::size_t cell) {
   return load_point(s.position.data(), cell_address(0, cell));
 }

@@ -23,11 +23,24 @@
 
 namespace acinus {
 
-using Lane = double __attribute__((vector_size(kLanes * sizeof(double))));
+/// Eight numbers side by side: double where forces and positions are meant, float inside the
+/// iterations of the solver.
+template <class T>
+struct LaneType;
+template <>
+struct LaneType<double> {
+  using type = double __attribute__((vector_size(kLanes * sizeof(double))));
+};
+template <>
+struct LaneType<float> {
+  using type = float __attribute__((vector_size(kLanes * sizeof(float))));
+};
+template <class T>
+using LaneOf = typename LaneType<T>::type;
+using Lane = LaneOf<double>;
 
 inline constexpr int kPointStride = 3 * kLanes;  ///< doubles per point row
-inline constexpr int kSymStride = 6 * kLanes;    ///< doubles per symmetric 3x3 block row
-inline constexpr int kMatStride = 9 * kLanes;    ///< doubles per full 3x3 block row
+inline constexpr int kSymStride = 6 * kLanes;    ///< numbers per symmetric 3x3 block row
 
 /// Index of a point's x component in a [point][3][lane] array.
 using Address = std::uint32_t;
@@ -49,13 +62,23 @@ inline void add_point(double* array, Address address, const Vec3& value) {
   array[address + 2 * kLanes] += value.z();
 }
 
-ACINUS_INLINE Lane load(const double* p) {
-  Lane v;
-  __builtin_memcpy(&v, p, sizeof(Lane));
-  return v;
+/// Reads eight numbers; T names the lanes wanted, the array may hold the other type.
+template <class T = double, class From>
+ACINUS_INLINE LaneOf<T> load(const From* p) {
+  LaneOf<From> v;
+  __builtin_memcpy(&v, p, sizeof(v));
+  return __builtin_convertvector(v, LaneOf<T>);
 }
-ACINUS_INLINE void store(double* p, Lane v) { __builtin_memcpy(p, &v, sizeof(Lane)); }
-ACINUS_INLINE void add_to(double* p, Lane v) { store(p, load(p) + v); }
+/// Writes eight numbers, rounded if the array holds floats.
+template <class To, class V>
+ACINUS_INLINE void store(To* p, V v) {
+  const LaneOf<To> out = __builtin_convertvector(v, LaneOf<To>);
+  __builtin_memcpy(p, &out, sizeof(out));
+}
+template <class T>
+ACINUS_INLINE void add_to(T* p, LaneOf<T> v) {
+  store(p, load<T>(p) + v);
+}
 ACINUS_INLINE Lane lane_of(double s) { return Lane{s, s, s, s, s, s, s, s}; }
 ACINUS_INLINE Lane lane_sqrt(Lane v) {
   Lane r;
@@ -63,28 +86,59 @@ ACINUS_INLINE Lane lane_sqrt(Lane v) {
   return r;
 }
 ACINUS_INLINE Lane lane_max0(Lane v) { return v > 0.0 ? v : lane_of(0.0); }
+/// Sum over the lanes, in lane order.
+template <class T>
+ACINUS_INLINE double sum_lanes(LaneOf<T> v) {
+  double sum = 0;
+  for (int l = 0; l < kLanes; ++l) sum += static_cast<double>(v[l]);
+  return sum;
+}
 
 /// Three lanes: the same vector quantity of eight cells.
-struct Lane3 {
-  Lane x, y, z;
+template <class T>
+struct Lane3Of {
+  LaneOf<T> x, y, z;
 };
-ACINUS_INLINE Lane3 load3(const double* p) {
-  return {load(p), load(p + kLanes), load(p + 2 * kLanes)};
+using Lane3 = Lane3Of<double>;
+
+template <class T = double, class From>
+ACINUS_INLINE Lane3Of<T> load3(const From* p) {
+  return {load<T>(p), load<T>(p + kLanes), load<T>(p + 2 * kLanes)};
 }
-ACINUS_INLINE void add3(double* p, const Lane3& v) {
+template <class To, class T>
+ACINUS_INLINE void store3(To* p, const Lane3Of<T>& v) {
+  store(p, v.x);
+  store(p + kLanes, v.y);
+  store(p + 2 * kLanes, v.z);
+}
+template <class T>
+ACINUS_INLINE void add3(T* p, const Lane3Of<T>& v) {
   add_to(p, v.x);
   add_to(p + kLanes, v.y);
   add_to(p + 2 * kLanes, v.z);
 }
-ACINUS_INLINE Lane3 operator+(const Lane3& a, const Lane3& b) {
+template <class T>
+ACINUS_INLINE Lane3Of<T> operator+(const Lane3Of<T>& a, const Lane3Of<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-ACINUS_INLINE Lane3 operator-(const Lane3& a, const Lane3& b) {
+template <class T>
+ACINUS_INLINE Lane3Of<T> operator-(const Lane3Of<T>& a, const Lane3Of<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-ACINUS_INLINE Lane3 operator*(Lane s, const Lane3& a) { return {s * a.x, s * a.y, s * a.z}; }
-ACINUS_INLINE Lane dot(const Lane3& a, const Lane3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-ACINUS_INLINE Lane3 cross(const Lane3& a, const Lane3& b) {
+template <class T>
+ACINUS_INLINE Lane3Of<T> operator-(const Lane3Of<T>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class T>
+ACINUS_INLINE Lane3Of<T> operator*(LaneOf<T> s, const Lane3Of<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+ACINUS_INLINE LaneOf<T> dot(const Lane3Of<T>& a, const Lane3Of<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+ACINUS_INLINE Lane3Of<T> cross(const Lane3Of<T>& a, const Lane3Of<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -97,19 +151,6 @@ ACINUS_INLINE void add_outer_sym(double* block, Lane s, const Lane3& a) {
   add_to(block + 3 * kLanes, sa.y * a.y);
   add_to(block + 4 * kLanes, sa.y * a.z);
   add_to(block + 5 * kLanes, sa.z * a.z);
-}
-/// Adds s * a b^T to a full block stored row by row.
-ACINUS_INLINE void add_outer(double* block, Lane s, const Lane3& a, const Lane3& b) {
-  const Lane3 sa = s * a;
-  add_to(block, sa.x * b.x);
-  add_to(block + kLanes, sa.x * b.y);
-  add_to(block + 2 * kLanes, sa.x * b.z);
-  add_to(block + 3 * kLanes, sa.y * b.x);
-  add_to(block + 4 * kLanes, sa.y * b.y);
-  add_to(block + 5 * kLanes, sa.y * b.z);
-  add_to(block + 6 * kLanes, sa.z * b.x);
-  add_to(block + 7 * kLanes, sa.z * b.y);
-  add_to(block + 8 * kLanes, sa.z * b.z);
 }
 /// Adds s * I to a symmetric block.
 ACINUS_INLINE void add_identity_sym(double* block, Lane s) {

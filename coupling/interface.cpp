@@ -111,20 +111,20 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
 }
 
 void add_interface_loads(const InterfaceView& v, std::size_t cbm_first_row, solve::Links& links) {
+  std::size_t at = links.size();
+  links.resize(at + v.work.contact.size());
   for (const InterfaceContact& k : v.work.contact) {
     const Patch p = make_patch(v, k);
     const auto body = static_cast<std::size_t>(k.body);
     const contact::PointStencil s =
         contact::point_stencil(v.dcm_work.body[body], v.dcm_contact.quadrature, k.point);
-    for (int m = 0; m < s.n; ++m)
-      links.add_point(dcm::node_address(v.dcm_state, v.dcm_work.lane_of_body[body],
-                                        s.node[static_cast<std::size_t>(m)]),
-                      s.weight[static_cast<std::size_t>(m)]);
-    links.add_point(cbm::cell_address(cbm_first_row, static_cast<std::size_t>(k.sphere)), -1);
-    links.close(-p.area * contact::well_traction(p.well, k.gap) * k.normal,
-                Sym3::outer(p.area * contact::well_stiffness(p.well, k.gap), k.normal),
-                Sym3::identity(v.params.friction_factor * v.params.friction * p.area * p.touching),
-                false, k.normal, std::numeric_limits<double>::infinity());
+    solve::Link& link = links.link[at];
+    link.a = dcm::side_at(v.dcm_state, v.dcm_work.lane_of_body[body], s);
+    link.b = solve::Side::at(cbm::cell_point(cbm_first_row, static_cast<std::size_t>(k.sphere)));
+    solve::set_law(p.area * contact::well_stiffness(p.well, k.gap),
+                   v.params.friction_factor * v.params.friction * p.area * p.touching,
+                   std::numeric_limits<double>::infinity(), k.normal, link);
+    links.load[at++] = {k.normal, -p.area * contact::well_traction(p.well, k.gap)};
   }
 }
 

@@ -132,20 +132,25 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
   const double deep =
       -(world.params.numerics.adaptive ? kControlledDepth
                                        : kDeep * world.params.dcm_contact.max_depth);
-  for (std::size_t l = 0; l < links.size(); ++l) {
-    if (links.gap[l] > 0.5 * world.params.dcm_contact.max_depth) continue;
+  const double near = 0.5 * world.params.dcm_contact.max_depth;
+  for (const solve::Link& link : links.link) {
+    const double gap = static_cast<double>(link.gap);
+    if (gap > near) continue;
+    const solve::Stencil stencil = solve::stencil_of(link);
     Vec3 r = Vec3::Zero();
-    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
-      r += links.weight[k] * load_point(w.move.data(), links.address[k]);
-    const double opening = links.normal[l].dot(r);
-    if (links.gap[l] + opening < deep && opening < -kClosing) {
-      const std::size_t a = lane_of(w, links.address[links.start[l]]);
-      const std::size_t b = lane_of(w, links.address[links.start[l + 1] - 1]);
-      reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
-                         -(links.gap[l] + opening),
-                         links.external[l] ? std::string("its surroundings") : name_lane(s, b)),
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+      r += stencil.weight[k] * load_point(w.move.data(), stencil.address[k]);
+    double opening = 0;
+    for (int k = 0; k < 3; ++k)
+      opening += static_cast<double>(link.normal[static_cast<std::size_t>(k)]) * r[k];
+    if (gap + opening < deep && opening < -kClosing) {
+      const bool pair = link.b.exists();
+      const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
+      const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
+      reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a), -(gap + opening),
+                         pair ? name_lane(s, b) : std::string("its surroundings")),
              a);
-      if (!links.external[l] && b != a) v.cells.push_back(lineage_of(s, b));
+      if (pair && b != a) v.cells.push_back(lineage_of(s, b));
       return v;
     }
   }

@@ -26,19 +26,6 @@ void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, cons
   m.stress[5] += w * force.z() * arm.z();
 }
 
-/// Which link of the system is which: assemble() adds them in this order.
-struct LinkRanges {
-  std::size_t dcm_end, sphere_end, obstacle_end, interface_end;
-};
-LinkRanges link_ranges(const Workspace& w) {
-  LinkRanges r{};
-  r.dcm_end = w.dcm.surface.size() + w.dcm.obstacle.size();
-  r.sphere_end = r.dcm_end + w.cbm.sphere.size();
-  r.obstacle_end = r.sphere_end + w.cbm.obstacle.size();
-  r.interface_end = r.obstacle_end + w.interface.contact.size();
-  return r;
-}
-
 }  // namespace
 
 void observe(const World& world, Workspace& w) {
@@ -99,9 +86,11 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
   auto touch = [&](std::size_t a, std::size_t b) {
     touching.insert({std::min(a, b), std::max(a, b)});
   };
-  const LinkRanges range = link_ranges(w);
-  const solve::Links& links = w.system.links;
-  auto force_of = [&](std::size_t l) { return links.force[l]; };
+  // assemble() adds links in this order: surface contacts, obstacles, interface
+  auto force_of = [&](std::size_t l) -> Vec3 {
+    const solve::LinkLoad& load = w.system.links.load[l];
+    return load.force * load.normal;
+  };
 
   for (std::size_t k = 0; k < w.dcm.surface.size(); ++k) {
     const contact::SurfaceContact& c = w.dcm.surface[k];
@@ -142,7 +131,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const Vec3 x = contact::point_position(
         w.dcm.body[a],
         contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
-    const Vec3 f = force_of(range.obstacle_end + k);
+    const Vec3 f = force_of(w.dcm.surface.size() + w.dcm.obstacle.size() + k);
     press(a, f, x - cells[a].center);
     press(b, -f, x - cells[b].center);
     if (f.squaredNorm() > 0) touch(a, b);
@@ -163,10 +152,13 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   NodeMeasure n;
   std::vector<double> contact(s.dcm.position.size(), 0.0);
   const solve::Links& links = w.system.links;
-  for (std::size_t l = 0; l < links.size(); ++l)
-    for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
-      if (links.address[k] < contact.size())
-        add_point(contact.data(), links.address[k], links.weight[k] * links.force[l]);
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    const solve::Stencil stencil = solve::stencil_of(links.link[l]);
+    const Vec3 f = links.load[l].force * links.load[l].normal;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+      if (stencil.address[k] < contact.size())
+        add_point(contact.data(), stencil.address[k], stencil.weight[k] * f);
+  }
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
     const std::size_t lane = w.dcm.lane_of_body[b];
     const dcm::Group& group = s.dcm.group[lane / kLanes];

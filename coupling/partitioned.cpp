@@ -15,7 +15,8 @@ solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const dou
   constexpr int kExtrapolate = 4;  // exchanges between two extrapolations
   const std::size_t n_block = op.system().block.size();
   solve::CgResult total;
-  std::vector<double> residual(b.size()), scaled(b.size());
+  std::vector<double> scaled(b.size());
+  std::vector<double>& residual = work.residual;
   op.precondition(b, scaled);
   const double rhs = std::sqrt(op.dot(b, scaled));
   std::vector<double> before(x.begin(), x.end()), change(x.size(), 0.0);
@@ -45,6 +46,7 @@ solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const dou
 
     // After the spheres' turn only the deformable side can disagree: its residual is the change of
     // the interface force since its own turn.
+    residual.resize(b.size());
     op.apply(x, residual);
     for (std::size_t k = 0; k < b.size(); ++k) residual[k] = b[k] - residual[k];
     op.precondition(residual, scaled);

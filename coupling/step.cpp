@@ -57,7 +57,7 @@ double next_step(const Numerics& n, double step, double error) {
 }  // namespace
 
 void size_workspace(const World& world, Workspace& w) {
-  std::vector<solve::Block> blocks = dcm::make_blocks(world.state.dcm);
+  std::vector<solve::Block> blocks = dcm::make_blocks(world.state.dcm, world.params.dcm);
   const std::vector<solve::Block> spheres = cbm::make_blocks(world.state.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
   dcm::size_rank_one(world.state.dcm, world.params.dcm, w.system);
@@ -133,7 +133,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm,
                          links);
   cbm::add_contact_loads(s.cbm, world.params.cbm, phase.cbm, world.params.around, w.cbm, first,
-                         links);
+                         w.system);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
   w.op.prepare(w.system);
   w.op.add_link_forces(w.system.force, w.system.external_force);
@@ -163,7 +163,8 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
-  solve::correct_rigid_modes(w.op, w.rhs, w.move, w.position, w.active, options.tolerance, w.rigid);
+  solve::correct_rigid_modes(w.op, w.cg.residual, w.move, w.position, w.active, options.tolerance,
+                             w.rigid);
   return Status::fine();
 }
 

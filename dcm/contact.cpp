@@ -1,5 +1,7 @@
 #include "dcm/contact.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,8 +66,10 @@ contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::Su
   const int n_node = static_cast<int>(body.node.size());
   if (!o.guard) return contact::point_stencil(body, c.quadrature, o.point);
   if (o.point < n_node) return {1, {o.point, 0, 0}, {1, 0, 0}};
-  return {
-      3, (*body.triangle)[static_cast<std::size_t>(o.point - n_node)], {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+  constexpr double kThird = 1.0f / 3;
+  return {3,
+          (*body.triangle)[static_cast<std::size_t>(o.point - n_node)],
+          {kThird, kThird, 1 - 2 * kThird}};
 }
 
 double guard_area(const mesh::Topology& t, int point, double radius) {
@@ -117,7 +121,6 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
     if (2 * std::sqrt(moved2) + wider <= c.skin) return false;
   }
   work.list = contact::find_candidates(work.body, work.fixed, options);
-  work.found.resize(work.list.size());
   work.segment_list.resize(work.body.size());
 #pragma omp parallel for schedule(dynamic, 4)
   for (std::size_t k = 0; k < work.body.size(); ++k)
@@ -132,12 +135,18 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
 void find_contacts(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, double time, ContactWorkspace& work) {
   const contact::SearchOptions options = search_options(c, state, lanes);
-#pragma omp parallel for schedule(dynamic, 2)
-  for (std::size_t k = 0; k < work.list.size(); ++k) {
-    work.found[k].clear();
-    contact::find_contacts(work.list[k], work.body, work.fixed, options, work.found[k]);
-  }
+  // Each thread takes a run of lists, the first one writes in place: order as with one thread.
   work.surface.clear();
+  const auto n_part = static_cast<std::size_t>(omp_get_max_threads());
+  work.found.resize(n_part - 1);
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t part = 0; part < n_part; ++part) {
+    auto& found = part == 0 ? work.surface : work.found[part - 1];
+    found.clear();
+    for (std::size_t k = part * work.list.size() / n_part;
+         k < (part + 1) * work.list.size() / n_part; ++k)
+      contact::find_contacts(work.list[k], work.body, work.fixed, options, found);
+  }
   for (const auto& f : work.found) work.surface.insert(work.surface.end(), f.begin(), f.end());
 
   const int per_site = contact::points_per_site(c.quadrature);

@@ -75,7 +75,7 @@ struct ContactWorkspace {
   std::vector<double> list_radius;                          ///< and the radii of that moment
   std::vector<contact::Candidates> list;                    ///< written by: refresh_lists
   std::vector<SegmentCandidates> segment_list;              ///< written by: refresh_lists
-  std::vector<std::vector<contact::SurfaceContact>> found;  ///< [list] scratch of one search
+  std::vector<std::vector<contact::SurfaceContact>> found;  ///< [thread] scratch of one search
   std::vector<contact::SurfaceContact> surface;             ///< written by: find_contacts
   std::vector<ObstacleContact> obstacle;                    ///< written by: find_contacts
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
@@ -104,6 +104,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
 
 /// Scale that keeps the touching areas of one point from adding up to more than its area.
 inline double share_scale(double total_share) { return total_share > 1 ? 1 / total_share : 1; }
+
+/// A place on a cell as the solver names it.
+solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& stencil);
 
 /// Adds force, stiffness and friction of every contact found. Cell-cell contacts are seen from both
 /// sides and carry half the weight each.

@@ -1,5 +1,6 @@
 /// From contacts to links: the force, stiffness and friction each contact adds.
 
+#include <algorithm>
 #include <cmath>
 
 #include "dcm/contact.hpp"
@@ -25,91 +26,123 @@ const contact::Material& material_of(const contact::Surroundings& around, Surrou
   return around.vessels.material;
 }
 
-/// Force, stiffness and friction of a contact patch of area w.
-void close_link(solve::Links& links, const contact::Well& well, double gap, double area,
-                const Vec3& normal, double friction, bool external) {
-  links.close(-area * contact::well_traction(well, gap) * normal,
-              Sym3::outer(area * contact::well_stiffness(well, gap), normal),
-              Sym3::identity(area * friction), external, normal, gap);
-}
+/// What a contact patch of this area does.
+struct Patch {
+  contact::Well well;
+  double area = 0, friction = 0;
+};
+
+/// Everything that turns a contact into a link.
+struct Builder {
+  const State& state;
+  std::span<const Params> params;
+  const ContactParams& c;
+  const LaneData& lanes;
+  const contact::Surroundings& around;
+  const ContactWorkspace& work;
+
+  std::size_t lane_of(int body) const { return work.lane_of_body[static_cast<std::size_t>(body)]; }
+  const contact::SurfaceBody& body(int k) const { return work.body[static_cast<std::size_t>(k)]; }
+  const Params& params_of(int body) const {
+    return params[static_cast<std::size_t>(state.group[lane_of(body) / kLanes].type)];
+  }
+  solve::Side side(int body, const contact::PointStencil& s) const {
+    return side_at(state, lane_of(body), s);
+  }
+  double area(int k, int point) const {
+    return point_area(*body(k).topology, c.quadrature, point, lanes.radius[lane_of(k)]);
+  }
+  /// Share of its area with which a point rubs on a partner at this gap.
+  double touching(int k, int point, double gap) const {
+    const auto& share = work.share[static_cast<std::size_t>(k)];
+    return share_scale(share[static_cast<std::size_t>(point)]) *
+           contact::contact_share(gap, c.friction_range);
+  }
+  contact::Well well(int k, double adhesion) const {
+    return {c.adhesion_factor * adhesion, c.repulsion,
+            c.range_factor * body(k).topology->mean_rest_length * lanes.radius[lane_of(k)]};
+  }
+  contact::Well repulsion() const { return {0, c.repulsion, 1}; }
+
+  void surface_link(const contact::SurfaceContact& s, solve::Link& link, solve::LinkLoad& load) const {
+    link.a = side(s.body_a, contact::point_stencil(body(s.body_a), c.quadrature, s.point));
+    const Params& a = params_of(s.body_a);
+    const auto b = static_cast<std::size_t>(s.body_b);
+    if (b >= work.body.size()) {  // a static mesh: probed from one side, no unknowns behind it
+      const contact::Material& m = around.meshes[b - work.body.size()].material;
+      link.b = solve::Side::nowhere();
+      const double friction =
+          m.mirror ? 0 : touching(s.body_a, s.point, s.gap) * a.vessel_friction;
+      fill({well(s.body_a, m.adhesion), area(s.body_a, s.point), friction}, s.gap, s.normal, link,
+           load);
+      return;
+    }
+    const auto weight = s.weights();
+    link.b = side(s.body_b, {3, (*body(s.body_b).triangle)[static_cast<std::size_t>(s.triangle_b)],
+                             weight});
+    const double half = 0.5 * area(s.body_a, s.point);  // seen from both sides
+    if (s.body_a == s.body_b) {
+      fill({repulsion(), half, 0}, std::min(0.0, s.gap - kSelfGap), s.normal, link, load);
+      return;
+    }
+    const double adhesion = std::sqrt(a.adhesion * params_of(s.body_b).adhesion);
+    fill({well(s.body_a, adhesion), half,
+          c.friction_factor * touching(s.body_a, s.point, s.gap) * c.cell_friction},
+         s.gap, s.normal, link, load);
+  }
+
+  void obstacle_link(const ObstacleContact& o, solve::Link& link, solve::LinkLoad& load) const {
+    link.a = side(o.body, obstacle_stencil(c, body(o.body), o));
+    link.b = solve::Side::nowhere();
+    if (o.guard) {
+      fill({repulsion(), guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)]),
+            0},
+           o.gap, o.normal, link, load);
+      return;
+    }
+    const contact::Material& m = material_of(around, o.kind, o.index);
+    const double friction =
+        m.mirror ? 0 : touching(o.body, o.point, o.gap) * params_of(o.body).vessel_friction;
+    fill({well(o.body, m.adhesion), area(o.body, o.point), friction}, o.gap, o.normal, link, load);
+  }
+
+  static void fill(const Patch& p, double gap, const Vec3& normal, solve::Link& link,
+                   solve::LinkLoad& load) {
+    solve::set_law(p.area * contact::well_stiffness(p.well, gap), p.area * p.friction, gap, normal,
+                   link);
+    load = {normal, -p.area * contact::well_traction(p.well, gap)};
+  }
+};
 
 }  // namespace
+
+solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& s) {
+  auto point = [&](int m) {
+    return static_cast<solve::Point>(
+        (state.group[lane / kLanes].first_row +
+         static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) *
+            kLanes +
+        lane % kLanes);
+  };
+  if (s.n == 1) return solve::Side::at(point(0));
+  return {{point(0), point(1), point(2)},
+          {static_cast<float>(s.weight[0]), static_cast<float>(s.weight[1])}};
+}
 
 void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
                        const LaneData& lanes, const contact::Surroundings& around,
                        const ContactWorkspace& work, solve::Links& links) {
-  auto params_of = [&](int body) -> const Params& {
-    const std::size_t lane = work.lane_of_body[static_cast<std::size_t>(body)];
-    return params[static_cast<std::size_t>(state.group[lane / kLanes].type)];
-  };
-  auto add_stencil = [&](int body, int point) {
-    const std::size_t lane = work.lane_of_body[static_cast<std::size_t>(body)];
-    const contact::PointStencil s =
-        contact::point_stencil(work.body[static_cast<std::size_t>(body)], c.quadrature, point);
-    for (int m = 0; m < s.n; ++m)
-      links.add_point(node_address(state, lane, s.node[static_cast<std::size_t>(m)]),
-                      s.weight[static_cast<std::size_t>(m)]);
-  };
-  auto area_and_share = [&](int body, int point) {
-    const auto k = static_cast<std::size_t>(body);
-    const double area =
-        point_area(*work.body[k].topology, c.quadrature, point, lanes.radius[work.lane_of_body[k]]);
-    return std::pair(area, share_scale(work.share[k][static_cast<std::size_t>(point)]));
-  };
-  auto well_of = [&](int body, double adhesion) {
-    const auto k = static_cast<std::size_t>(body);
-    return contact::Well{c.adhesion_factor * adhesion, c.repulsion,
-                         c.range_factor * work.body[k].topology->mean_rest_length *
-                             lanes.radius[work.lane_of_body[k]]};
-  };
-
-  const int n_body = static_cast<int>(work.body.size());
-  for (const contact::SurfaceContact& s : work.surface) {
-    const auto [area, scale] = area_and_share(s.body_a, s.point);
-    const double chi = scale * contact::contact_share(s.gap, c.friction_range);
-    const Params& a = params_of(s.body_a);
-    add_stencil(s.body_a, s.point);
-    if (s.body_b >= n_body) {  // a static mesh: probed from one side only, no unknowns behind it
-      const contact::Material& m =
-          around.meshes[static_cast<std::size_t>(s.body_b - n_body)].material;
-      close_link(links, well_of(s.body_a, m.adhesion), s.gap, area, s.normal,
-                 m.mirror ? 0 : chi * a.vessel_friction, true);
-      continue;
-    }
-    const std::size_t lane_b = work.lane_of_body[static_cast<std::size_t>(s.body_b)];
-    const auto& corner = (*work.body[static_cast<std::size_t>(s.body_b)]
-                               .triangle)[static_cast<std::size_t>(s.triangle_b)];
-    for (int m = 0; m < 3; ++m)
-      links.add_point(node_address(state, lane_b, corner[static_cast<std::size_t>(m)]),
-                      -s.weight_b[m]);
-    if (s.body_a == s.body_b) {
-      close_link(links, {0, c.repulsion, 1}, std::min(0.0, s.gap - kSelfGap), area / 2, s.normal, 0,
-                 false);
-    } else {
-      const double adhesion = std::sqrt(a.adhesion * params_of(s.body_b).adhesion);
-      close_link(links, well_of(s.body_a, adhesion), s.gap, area / 2, s.normal,
-                 c.friction_factor * chi * c.cell_friction, false);
-    }
-  }
-  for (const ObstacleContact& o : work.obstacle) {
-    if (o.guard) {
-      const auto k = static_cast<std::size_t>(o.body);
-      const std::size_t lane = work.lane_of_body[k];
-      const contact::PointStencil stencil = obstacle_stencil(c, work.body[k], o);
-      for (int m = 0; m < stencil.n; ++m)
-        links.add_point(node_address(state, lane, stencil.node[static_cast<std::size_t>(m)]),
-                        stencil.weight[static_cast<std::size_t>(m)]);
-      close_link(links, {0, c.repulsion, 1}, o.gap,
-                 guard_area(*work.body[k].topology, o.point, lanes.radius[lane]), o.normal, 0,
-                 true);
-      continue;
-    }
-    const auto [area, scale] = area_and_share(o.body, o.point);
-    const double chi = scale * contact::contact_share(o.gap, c.friction_range);
-    const contact::Material& m = material_of(around, o.kind, o.index);
-    add_stencil(o.body, o.point);
-    close_link(links, well_of(o.body, m.adhesion), o.gap, area, o.normal,
-               m.mirror ? 0 : chi * params_of(o.body).vessel_friction, true);
+  const Builder build{state, params, c, lanes, around, work};
+  const std::size_t first = links.size(), n = work.surface.size();
+  links.resize(first + n + work.obstacle.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < n + work.obstacle.size(); ++k) {
+    solve::Link& link = links.link[first + k];
+    solve::LinkLoad& load = links.load[first + k];
+    if (k < n)
+      build.surface_link(work.surface[k], link, load);
+    else
+      build.obstacle_link(work.obstacle[k - n], link, load);
   }
 }
 

@@ -31,11 +31,13 @@ LaneData make_lane_data(const State& state, double time) {
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& s,
                      std::size_t k) {
   const Group& g = state.group[k];
+  const solve::Block block = s.block.empty() ? solve::Block{} : s.block[k];
   return {g.topology,
-          &shared_mesh_pattern(*g.topology),
           k,
           g.first_row,
-          s.block.empty() ? 0 : s.block[k].first_pair,
+          block.first_spring,
+          block.first_hinge,
+          block.first_face,
           state.position.data() + g.first_row * kPointStride,
           lanes.radius.data() + k * kLanes,
           lanes.active.data() + k * kLanes};

@@ -70,9 +70,13 @@ void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
     node[static_cast<std::size_t>(i)] = load_point(s.position.data(), node_address(s, lane, i));
 }
 
-std::vector<solve::Block> make_blocks(const State& s) {
+std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> params) {
   std::vector<solve::Block> blocks;
-  for (const Group& g : s.group) blocks.push_back({&shared_mesh_pattern(*g.topology).blocks, 0, 0});
+  for (const Group& g : s.group) {
+    solve::Block block;
+    block.pattern = &shared_mesh_pattern(*g.topology, params[static_cast<std::size_t>(g.type)]);
+    blocks.push_back(block);
+  }
   return blocks;
 }
 

@@ -5,6 +5,7 @@
 /// index (group * kLanes + lane) names a cell within the arrays; its lineage id names it for ever.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/lanes.hpp"
@@ -12,6 +13,7 @@
 #include "core/ramp.hpp"
 #include "core/solve/system.hpp"
 #include "core/vec.hpp"
+#include "dcm/params.hpp"
 
 namespace acinus::dcm {
 
@@ -69,6 +71,6 @@ Vec3 cell_center(const State& state, std::size_t lane);
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
 
 /// The blocks of unknowns these cells contribute, in order.
-std::vector<solve::Block> make_blocks(const State& state);
+std::vector<solve::Block> make_blocks(const State& state, std::span<const Params> params);
 
 }  // namespace acinus::dcm

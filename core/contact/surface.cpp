@@ -123,9 +123,10 @@ void refresh_body(SurfaceBody& b) {
 PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point) {
   if (q == Quadrature::kNodes) return {1, {point, 0, 0}, {1, 0, 0}};
   const auto& corner = (*body.triangle)[static_cast<std::size_t>(point / 3)];
-  PointStencil s{3, corner, {1.0 / 6, 1.0 / 6, 1.0 / 6}};
-  s.weight[static_cast<std::size_t>(point % 3)] = 2.0 / 3;
-  return s;
+  constexpr double kSmall = 1.0f / 6, kLarge = 2.0f / 3;
+  const int local = point % 3;
+  const double w0 = local == 0 ? kLarge : kSmall, w1 = local == 1 ? kLarge : kSmall;
+  return {3, corner, {w0, w1, 1 - w0 - w1}};
 }
 
 std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
@@ -194,22 +195,32 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
       if (triangle < 0) continue;
       const auto& corner = (*b.triangle)[static_cast<std::size_t>(triangle)];
       Vec3 outward = Vec3::Zero();
-      for (int m = 0; m < 3; ++m)
-        outward += closest.weight[m] *
-                   b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
-      outward.normalize();
+      SurfaceContact contact{list.body_a, point, list.body_b, triangle, {}, {}, 0};
+      contact.weight_b = {static_cast<float>(closest.weight[0]),
+                          static_cast<float>(closest.weight[1])};
+      const auto weight = contact.weights();
+      Vec3 place = Vec3::Zero();
+      for (std::size_t m = 0; m < 3; ++m) {
+        const auto node = static_cast<std::size_t>(corner[m]);
+        outward += weight[m] * b.node_normal[node];
+        place += weight[m] * b.node[node];
+      }
+      const double length = outward.norm();
+      if (length > 0) outward /= length;
       const Vec3& facing = o.quadrature == Quadrature::kThreePoint
                                ? a.triangle_normal[static_cast<std::size_t>(list.site[s])]
                                : a.node_normal[static_cast<std::size_t>(list.site[s])];
       if (facing.dot(outward) > kFacing) continue;
-      const Vec3 apart = x - closest.point;
+      const Vec3 apart = x - place;
+      const double distance = apart.norm();
       const double sign = apart.dot(outward) >= 0 ? 1.0 : -1.0;
-      const double gap = sign * best;
+      const double gap = sign * distance;
       // A sheet met through the cell's own inside is not a contact.
       if (self && sign < 0) continue;
       if (gap > (self ? o.self_range : o.range) || gap < -o.max_depth) continue;
-      const Vec3 normal = best > kNoDirection ? Vec3(sign / best * apart) : outward;
-      out.push_back({list.body_a, point, list.body_b, triangle, closest.weight, normal, gap});
+      contact.normal = distance > kNoDirection ? Vec3(sign / distance * apart) : outward;
+      contact.gap = gap;
+      out.push_back(contact);
     }
   }
 }

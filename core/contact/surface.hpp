@@ -44,7 +44,7 @@ inline std::size_t n_sites(const SurfaceBody& b, Quadrature q) {
 struct PointStencil {
   int n = 0;
   std::array<int, 3> node{};
-  std::array<double, 3> weight{};
+  std::array<double, 3> weight{};  ///< the first two are float numbers; the third makes them 1
 };
 PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point);
 
@@ -60,9 +60,16 @@ inline Vec3 point_position(const SurfaceBody& body, const PointStencil& s) {
 struct SurfaceContact {
   int body_a = 0, point = 0;  ///< site * points_per_site + local index
   int body_b = 0, triangle_b = 0;
-  Vec3 weight_b = Vec3::Zero();  ///< barycentric weights of the closest point
-  Vec3 normal = Vec3::Zero();    ///< d gap / d x_a: from b towards a when apart
-  double gap = 0;                ///< um, negative: a's point is inside b
+  /// Barycentric weights of the closest point for the first two corners, as the solver keeps them;
+  /// gap and normal are those of the place these rounded weights name.
+  std::array<float, 2> weight_b{};
+  Vec3 normal = Vec3::Zero();  ///< d gap / d x_a: from b towards a when apart
+  double gap = 0;              ///< um, negative: a's point is inside b
+
+  std::array<double, 3> weights() const {
+    const double w0 = static_cast<double>(weight_b[0]), w1 = static_cast<double>(weight_b[1]);
+    return {w0, w1, 1 - w0 - w1};
+  }
 };
 
 /// Which triangles of b each site of a may meet; valid until nodes moved more than half the skin.

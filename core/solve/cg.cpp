@@ -6,21 +6,62 @@
 namespace acinus::solve {
 namespace {
 
+/// What one pass in float may gain: beyond this its recurrence no longer follows the truth.
+constexpr double kFloatGain = 1e-4;
+/// Passes aim a little below the goal, so that rounding does not cost another pass.
+constexpr double kAim = 0.9;
+constexpr int kMaxPasses = 12;
+
 /// Clears the entries outside the range.
-void restrict_to(const System& s, BlockRange range, std::vector<double>& v) {
+template <class T>
+void restrict_to(const System& s, BlockRange range, std::vector<T>& v) {
   const std::size_t n = s.block.size();
   const std::size_t first = range.first < n ? s.block[range.first].first_row : s.n_row;
   const std::size_t last = range.last < n ? s.block[range.last].first_row : s.n_row;
-  std::fill_n(v.begin(), first * kPointStride, 0.0);
-  std::fill(v.begin() + static_cast<std::ptrdiff_t>(last * kPointStride), v.end(), 0.0);
+  std::fill_n(v.begin(), first * kPointStride, T{0});
+  std::fill(v.begin() + static_cast<std::ptrdiff_t>(last * kPointStride), v.end(), T{0});
 }
 
 /// y = A x over all ranks; returns x . y.
 double apply_distributed(const Operator& op, std::span<double> x, std::span<double> y) {
   op.system().halo.update(x);
-  const double product = op.apply(x, y);
+  const double product = op.apply<double>(x, y);
   op.system().halo.add_back(y);
   return product;
+}
+double apply_distributed(const Operator& op, std::span<float> x, std::span<float> y) {
+  return op.apply<float>(x, y);  // one rank: more are refused before a run starts
+}
+
+enum class PassEnd { kReached, kBrokeDown, kOutOfIterations };
+
+/// Iterates on A e = residual from e = 0 until sqrt(r . z) <= goal.
+template <class T>
+PassEnd run_pass(const Operator& op, std::span<const double> residual, double goal,
+                 const CgOptions& options, bool whole, BlockRange range, int& iterations,
+                 CgVectors<T>& v) {
+  const std::size_t n = residual.size();
+  for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
+    a->resize(n);
+  std::ranges::fill(v.correction, T{0});
+  for (std::size_t k = 0; k < n; ++k) v.residual[k] = static_cast<T>(residual[k]);
+  double rho = op.precondition<T>(v.residual, v.preconditioned);
+  if (!std::isfinite(rho)) return PassEnd::kBrokeDown;
+  std::ranges::copy(v.preconditioned, v.direction.begin());
+  while (std::sqrt(rho) > goal) {
+    if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
+    ++iterations;
+    // outside the range the direction is zero
+    const double curvature = apply_distributed(op, v.direction, v.product);
+    if (!whole) restrict_to(op.system(), range, v.product);
+    if (!(curvature > 0)) return PassEnd::kBrokeDown;
+    const double next = op.descend<T>(rho / curvature, v.direction, v.product, v.correction,
+                                      v.residual, v.preconditioned);
+    if (!std::isfinite(next)) return PassEnd::kBrokeDown;
+    op.redirect<T>(v.preconditioned, next / rho, v.direction);
+    rho = next;
+  }
+  return PassEnd::kReached;
 }
 
 }  // namespace
@@ -29,65 +70,66 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
                   const CgOptions& options, CgWorkspace& work, BlockRange range) {
   const std::size_t n = b.size();
   const bool whole = range.first == 0 && range.last >= op.system().block.size();
-  for (auto* v : {&work.residual, &work.direction, &work.preconditioned, &work.product})
-    v->resize(n);
-  auto& [r, p, z, q] = work;
+  work.residual.resize(n);
+  work.product.resize(n);
+  auto& r = work.residual;
+  auto& q = work.product;
+  auto& scratch = work.full.preconditioned;
+  scratch.resize(n);
 
   std::ranges::copy(b, r.begin());
   if (!whole) {
     // What the rest does to the range belongs to the right-hand side of this smaller system.
-    std::ranges::copy(x, p.begin());
-    restrict_to(op.system(), range, p);
-    for (std::size_t k = 0; k < n; ++k) p[k] = x[k] - p[k];
-    apply_distributed(op, p, q);
+    std::vector<double> inside(x.begin(), x.end()), rest(n);
+    restrict_to(op.system(), range, inside);
+    for (std::size_t k = 0; k < n; ++k) rest[k] = x[k] - inside[k];
+    apply_distributed(op, rest, q);
     for (std::size_t k = 0; k < n; ++k) r[k] -= q[k];
     restrict_to(op.system(), range, r);
   }
-  op.precondition(r, z);
-  const double rhs = std::sqrt(op.dot(r, z));
+  const double rhs = std::sqrt(op.precondition(r, scratch));
   CgResult result;
   if (!std::isfinite(rhs)) {
     result.status = Status::failed("the right-hand side is not finite");
     return result;
   }
   if (rhs == 0) {
-    if (whole)
+    if (whole) {
       std::ranges::fill(x, 0.0);
-    else
-      std::ranges::copy(p, x.begin());  // the rest as it was, zero within the range
+    } else {
+      std::vector<double> inside(x.begin(), x.end());
+      restrict_to(op.system(), range, inside);
+      for (std::size_t k = 0; k < n; ++k) x[k] -= inside[k];
+    }
     return result;
   }
-  const double goal = options.tolerance * rhs;
 
-  // Each pass starts from the true residual; a second pass only runs when rounding ate the first.
-  for (int pass = 0; pass < 4; ++pass) {
+  bool mixed = options.precision == Precision::kMixed && whole;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
     apply_distributed(op, x, q);
     for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - q[k];
     if (!whole) restrict_to(op.system(), range, r);
-    op.precondition(r, z);
-    double rho = op.dot(r, z);
-    result.residual = std::sqrt(rho) / rhs;
+    const double size = std::sqrt(op.precondition(r, scratch));
+    result.residual = size / rhs;
     if (result.residual <= options.tolerance) return result;
-    std::ranges::copy(z, p.begin());
-    while (result.iterations < options.max_iterations) {
-      ++result.iterations;
-      const double curvature = apply_distributed(op, p, q);  // p is zero outside the range
-      if (!whole) restrict_to(op.system(), range, q);
-      if (!(curvature > 0)) {
+    double goal = kAim * options.tolerance * rhs;
+    if (mixed) goal = std::max(goal, kFloatGain * size);
+    const PassEnd end =
+        mixed ? run_pass<float>(op, r, goal, options, whole, range, result.iterations, work.single)
+              : run_pass<double>(op, r, goal, options, whole, range, result.iterations, work.full);
+    if (end == PassEnd::kBrokeDown) {
+      if (!mixed) {
         result.status = Status::failed("the matrix is not positive definite");
         return result;
       }
-      const double rho_next = op.descend(rho / curvature, p, q, x, r, z);
-      if (!std::isfinite(rho_next)) {
-        result.status = Status::failed("the linear solve became infinite");
-        return result;
-      }
-      if (std::sqrt(rho_next) <= goal) break;
-      const double beta = rho_next / rho;
-      rho = rho_next;
-      op.redirect(z, beta, p);
+      mixed = false;
+      continue;
     }
-    if (result.iterations >= options.max_iterations) {
+    if (mixed)
+      for (std::size_t k = 0; k < n; ++k) x[k] += static_cast<double>(work.single.correction[k]);
+    else
+      for (std::size_t k = 0; k < n; ++k) x[k] += work.full.correction[k];
+    if (end == PassEnd::kOutOfIterations) {
       result.status = Status::failed("the linear solve did not converge");
       return result;
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// Conjugate gradients with block-Jacobi preconditioning.
+/// Conjugate gradients with block-Jacobi preconditioning, iterated in float and judged in double.
 
 #include <span>
 #include <vector>
@@ -9,20 +9,36 @@
 
 namespace acinus::solve {
 
+/// Which numbers the iterations run on.
+enum class Precision {
+  kMixed,  ///< float, in passes that each start from the true residual in double
+  kDouble
+};
+
 struct CgOptions {
   double tolerance = 1e-3;  ///< on sqrt(r^T D^-1 r), relative to sqrt(b^T D^-1 b)
   int max_iterations = 2000;
+  Precision precision = Precision::kMixed;
 };
 
 struct CgResult {
   Status status;
   int iterations = 0;
-  double residual = 0;  ///< relative, in the norm above, from the true residual b - A x
+  double residual = 0;  ///< relative, in the norm above, from the true residual b - A x in double
+};
+
+/// Vectors of one pass.
+template <class T>
+struct CgVectors {
+  std::vector<T> correction, residual, direction, preconditioned, product;
 };
 
 /// Scratch, sized on first use.
 struct CgWorkspace {
-  std::vector<double> residual, direction, preconditioned, product;
+  std::vector<double> residual;  ///< b - A x of the solution returned
+  std::vector<double> product;
+  CgVectors<float> single;
+  CgVectors<double> full;
 };
 
 /// Which unknowns a solve may change: blocks [first, last). Others keep x and act through A.
@@ -32,10 +48,11 @@ struct BlockRange {
 };
 
 /// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
-/// side, not to the first residual, so that a good start saves iterations. The stop is confirmed
-/// with the true residual; if rounding fooled the recurrence, the iteration restarts from it. With
-/// a range, only that part of x changes (the rest is a frozen partner): used by the partitioned
-/// twin. Its right-hand side is then b - A x_rest within the range.
+/// side, not to the first residual, so that a good start saves iterations. Passes of iterations
+/// solve for a correction of x; each starts from the true residual in double, which also confirms
+/// the stop. A pass in float that breaks down is repeated in double. With a range, only that part
+/// of x changes (the rest is a frozen partner): used by the partitioned twin. Its right-hand side
+/// is then b - A x_rest within the range.
 CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
                   const CgOptions& options, CgWorkspace& work, BlockRange range = {});
 

@@ -2,77 +2,93 @@
 /// The matrix of a System as an operator, with its block-diagonal preconditioner.
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "core/solve/link_kernels.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::solve {
 
-/// A System made ready for products. Links whose matrix is zero (they only pull) are left out; the
-/// others work on a packed copy of the vector, because a point's components lie three cache lines
-/// apart in the lane layout. Every block gathers its own rows in a fixed order: the same bits for
-/// any number of threads.
+/// A System made ready for products. T is double or float: iterations may run in float, what is
+/// judged and kept is double. Vectors are [n_row][3][lane].
+///
+/// Threads: every thread owns a range of blocks and adds to nothing else; a contact that joins two
+/// ranges is worked out by both. A point's sum runs over its contacts in their order, so the bits
+/// do not depend on the number of threads.
 class Operator {
  public:
-  /// Reads the system; call again after its loads changed. Cost: linear in blocks and links.
+  template <class T>
+  using In = std::type_identity_t<std::span<const T>>;
+  template <class T>
+  using Out = std::type_identity_t<std::span<T>>;
+
+  /// Reads the system; call again after its loads changed. Cost: linear in elements and links.
   void prepare(const System& system);
+  /// As prepare, without the preconditioner: for forces only.
+  void prepare_forces(const System& system);
 
-  /// y = A x; returns x . y. Arrays [n_row][3][lane].
-  double apply(std::span<const double> x, std::span<double> y) const;
+  /// y = A x; returns x . y.
+  template <class T = double>
+  double apply(In<T> x, Out<T> y) const;
 
-  /// y = D^-1 x with the 3x3 diagonal blocks of A.
-  void precondition(std::span<const double> x, std::span<double> y) const;
+  /// z = D^-1 r with the 3x3 diagonal blocks of A; returns r . z.
+  template <class T = double>
+  double precondition(In<T> r, Out<T> z) const;
 
   /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = D^-1 r; returns r . z.
-  double descend(double alpha, std::span<const double> p, std::span<const double> q,
-                 std::span<double> x, std::span<double> r, std::span<double> z) const;
+  template <class T = double>
+  double descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const;
 
   /// p = z + beta p.
-  void redirect(std::span<const double> z, double beta, std::span<double> p) const;
+  template <class T = double>
+  void redirect(In<T> z, double beta, Out<T> p) const;
 
-  /// Adds the force of every link to the points it joins (pair and external links apart).
-  void add_link_forces(std::span<double> pair_force, std::span<double> external_force) const;
+  /// Dot product, summed per block and then in block order.
+  template <class T = double>
+  double dot(In<T> a, In<T> b) const;
 
   /// y = A_external x: friction with the medium and contacts with surroundings only.
   void apply_external(std::span<const double> x, std::span<double> y) const;
 
-  /// Dot product, summed per block and then in block order.
-  double dot(std::span<const double> a, std::span<const double> b) const;
+  /// Adds the force of every link to the points it joins (pair and external links apart).
+  void add_link_forces(std::span<double> pair_force, std::span<double> external_force) const;
 
   const System& system() const { return *system_; }
 
  private:
-  /// One point's components together.
-  struct alignas(32) Packed {
-    double v[4];
+  /// What one thread works on.
+  struct Range {
+    std::size_t first_block = 0, last_block = 0;
+    std::vector<Share> link, point_link;
   };
-  /// A link with a matrix, its entries [first, last).
-  struct Link {
-    Sym3 matrix;
-    std::uint32_t first, last;
-    bool external;
+  /// Vectors on packed points; scratch of a product.
+  template <class T>
+  struct PackedVectors {
+    std::vector<Packed<T>> x, y;  ///< [n_point]
   };
-  struct Entry {
-    std::uint32_t point, link;  ///< packed index row * kLanes + lane
-    double weight;
-  };
-  void pack(std::span<const double> x) const;
-  void compute_link_forces(bool external_only) const;
-  void gather_links(std::size_t block, std::span<double> y) const;
+  template <class T>
+  PackedVectors<T>& packed() const;
+  void divide();
+  void compute_diagonal();
+  LinkSet<Link> links_of(const Range& range) const;
+  LinkSet<PointLink> point_links_of(const Range& range) const;
+  template <class F>
+  void for_each_range(F f) const;
+  /// f(block, first point row, number of points) for the blocks of a range.
+  template <class F>
+  void for_each_block(const Range& range, F f) const;
+  template <class T, class F>
+  void multiply(In<T> x, Out<T> y, bool external_only, F within_block) const;
   double sum_partials() const;
-  bool parallel() const { return system_->n_row > kParallelRows; }
-  /// Below this many point rows starting threads costs more than it saves.
-  static constexpr std::size_t kParallelRows = 400;
 
   const System* system_ = nullptr;
-  std::vector<Link> link_;
-  std::vector<Entry> entry_;                ///< in link order
-  std::vector<std::uint32_t> block_start_;  ///< [n_block + 1] CSR into block_entry_
-  std::vector<Entry> block_entry_;          ///< sorted by block, link order within
-  std::vector<double> inverse_;             ///< [n_row][6][lane]
-  mutable std::vector<Packed> packed_;      ///< scratch of a product
-  mutable std::vector<Packed> link_force_;  ///< scratch of a product
-  mutable std::vector<double> partial_;     ///< scratch of a dot product
+  std::vector<Range> range_;
+  std::vector<float> inverse_;             ///< [n_row][6][lane]
+  std::vector<DiagonalBlock> diagonal_;    ///< [n_point] scratch of compute_diagonal
+  mutable std::vector<double> partial_;    ///< [n_block] scratch of a dot product
+  mutable PackedVectors<double> packed_double_;
+  mutable PackedVectors<float> packed_float_;
 };
 
 }  // namespace acinus::solve

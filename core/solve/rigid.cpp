@@ -14,7 +14,10 @@ using Map3x6 = Eigen::Matrix<double, 3, 6>;
 struct Group {
   Vec3 center = Vec3::Zero();
   double n_point = 0;
-  double reach = 0;  ///< um, farthest point from the centre
+  double squared_reach = 0;  ///< um^2, farthest point from the centre
+  double mass = 0;           ///< of medium friction, and its moments about the centre
+  Vec3 first_moment = Vec3::Zero();
+  Mat3 second_moment = Mat3::Zero();
   Vec6 residual = Vec6::Zero();
   Mat6 matrix = Mat6::Zero();
   Vec6 motion = Vec6::Zero();
@@ -31,29 +34,36 @@ int find_root(std::vector<int>& parent, int i) {
 }
 
 /// Numbers the groups of cells joined by pair links; returns how many there are.
-int number_groups(const System& s, std::span<const std::uint8_t> active, std::vector<int>& group) {
-  std::vector<int> block_of_row(s.n_row);
+int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWorkspace& work) {
+  work.block_of_row.resize(s.n_row);
   for (std::size_t b = 0; b < s.block.size(); ++b)
-    std::fill_n(block_of_row.begin() + static_cast<std::ptrdiff_t>(s.block[b].first_row),
+    std::fill_n(work.block_of_row.begin() + static_cast<std::ptrdiff_t>(s.block[b].first_row),
                 s.block[b].pattern->n_point, static_cast<int>(b));
-  auto cell_of = [&](Address a) {
-    return block_of_row[a / kPointStride] * kLanes + static_cast<int>(a % kLanes);
+  auto cell_of = [&](Point p) {
+    return work.block_of_row[p / kLanes] * kLanes + static_cast<int>(p % kLanes);
   };
-  std::vector<int> parent(active.size());
+  std::vector<int>& parent = work.parent;
+  parent.resize(active.size());
   std::iota(parent.begin(), parent.end(), 0);
-  for (std::size_t l = 0; l < s.links.size(); ++l) {
-    if (s.links.external[l]) continue;
-    const int a = find_root(parent, cell_of(s.links.address[s.links.start[l]]));
-    const int b = find_root(parent, cell_of(s.links.address[s.links.start[l + 1] - 1]));
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  group.assign(active.size(), -1);
+  int last_a = -1, last_b = -1;  // links come sorted by pair of cells
+  auto join = [&](Point at_a, Point at_b) {
+    if (at_b == kNowhere) return;
+    const int a = cell_of(at_a), b = cell_of(at_b);
+    if (a == last_a && b == last_b) return;
+    last_a = a;
+    last_b = b;
+    const int root_a = find_root(parent, a), root_b = find_root(parent, b);
+    parent[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
+  };
+  for (const Link& l : s.links.link) join(l.a.point[0], l.b.point[0]);
+  for (const PointLink& l : s.point_links) join(l.a, l.b);
+  work.group.assign(active.size(), -1);
   int n = 0;
   for (std::size_t c = 0; c < active.size(); ++c) {
     if (!active[c]) continue;
     const auto root = static_cast<std::size_t>(find_root(parent, static_cast<int>(c)));
-    if (group[root] < 0) group[root] = n++;
-    group[c] = group[root];
+    if (work.group[root] < 0) work.group[root] = n++;
+    work.group[c] = work.group[root];
   }
   return n;
 }
@@ -63,6 +73,19 @@ Map3x6 unit_motions(const Vec3& from_center) {
   Map3x6 m;
   m.leftCols<3>().setIdentity();
   for (int k = 0; k < 3; ++k) m.col(3 + k) = Vec3::Unit(k).cross(from_center);
+  return m;
+}
+
+/// Sum of m z^T z over the points of a group.
+Mat6 medium_matrix(const Group& g) {
+  Mat3 cross;  // cross * v = first_moment x v
+  const Vec3& f = g.first_moment;
+  cross << 0, -f.z(), f.y(), f.z(), 0, -f.x(), -f.y(), f.x(), 0;
+  Mat6 m;
+  m.topLeftCorner<3, 3>() = g.mass * Mat3::Identity();
+  m.bottomLeftCorner<3, 3>() = cross;
+  m.topRightCorner<3, 3>() = cross.transpose();
+  m.bottomRightCorner<3, 3>() = g.second_moment.trace() * Mat3::Identity() - g.second_moment;
   return m;
 }
 
@@ -89,13 +112,12 @@ Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
 
 }  // namespace
 
-RigidResult correct_rigid_modes(const Operator& op, std::span<const double> b, std::span<double> x,
-                                std::span<const double> position,
+RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
+                                std::span<double> x, std::span<const double> position,
                                 std::span<const std::uint8_t> active, double threshold,
                                 RigidWorkspace& work) {
   const System& s = op.system();
-  for (auto* v : {&work.residual, &work.mode, &work.product}) v->resize(b.size());
-  std::vector<Group> groups(static_cast<std::size_t>(number_groups(s, active, work.group)));
+  std::vector<Group> groups(static_cast<std::size_t>(number_groups(s, active, work)));
 
   for_each_point(s, work.group, [&](Address a, std::size_t g) {
     groups[g].center += load_point(position.data(), a);
@@ -103,74 +125,81 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> b, s
   });
   for (Group& g : groups) g.center /= g.n_point;
 
-  op.apply(x, work.product);
-  for (std::size_t k = 0; k < b.size(); ++k) work.residual[k] = b[k] - work.product[k];
-
-  // Lower bound of the projected matrix: medium and surroundings only. It bounds the rigid error.
+  // What holds a group from outside: medium and surroundings. It is a lower bound of the projected
+  // matrix, and all of it but for the rotations: no link or element within a group feels a
+  // translation.
   for_each_point(s, work.group, [&](Address a, std::size_t g) {
     Group& group = groups[g];
     const Vec3 d = load_point(position.data(), a) - group.center;
-    group.reach = std::max(group.reach, d.norm());
-    const Map3x6 z = unit_motions(d);
-    group.residual += z.transpose() * load_point(work.residual.data(), a);
+    group.squared_reach = std::max(group.squared_reach, d.squaredNorm());
+    const Vec3 r = load_point(residual.data(), a);
+    group.residual.head<3>() += r;
+    group.residual.tail<3>() += d.cross(r);
     const double m = s.friction_scale * s.medium[a / kPointStride * kLanes + a % kLanes];
-    group.matrix += m * z.transpose() * z;
+    group.mass += m;
+    group.first_moment += m * d;
+    group.second_moment += m * d * d.transpose();
   });
-  for (std::size_t l = 0; l < s.links.size(); ++l) {
-    if (!s.links.external[l]) continue;
-    Map3x6 z = Map3x6::Zero();
-    const Address first = s.links.address[s.links.start[l]];
-    std::size_t block = 0;
-    {  // blocks are in row order
-      const std::size_t row = first / kPointStride;
-      std::size_t lo = 0, hi = s.block.size();
-      while (hi - lo > 1) {
-        const std::size_t mid = (lo + hi) / 2;
-        (s.block[mid].first_row <= row ? lo : hi) = mid;
-      }
-      block = lo;
+  for (Group& g : groups) g.matrix = medium_matrix(g);
+  auto hold = [&](const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
+                  double friction) {
+    const Address first = stencil.address[0];
+    const auto cell = static_cast<std::size_t>(
+        work.block_of_row[first / kPointStride] * kLanes + static_cast<int>(first % kPointStride));
+    if (work.group[cell] < 0) return;
+    Group& group = groups[static_cast<std::size_t>(work.group[cell])];
+    Vec3 at = Vec3::Zero();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+      at += stencil.weight[k] * load_point(position.data(), stencil.address[k]);
+    const Map3x6 z = unit_motions(at - group.center);
+    const Vec3 n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                 static_cast<double>(normal[2]));
+    const Mat3 m = s.stiffness_scale * stiffness * n * n.transpose() +
+                   s.friction_scale * friction * Mat3::Identity();
+    group.matrix += z.transpose() * m * z;
+  };
+  for (const Link& l : s.links.link)
+    if (!l.b.exists())
+      hold(stencil_of(l), l.normal, static_cast<double>(l.stiffness),
+           static_cast<double>(l.friction));
+  for (const PointLink& l : s.point_links)
+    if (l.b == kNowhere) {
+      Stencil stencil{1, {address_of(l.a)}, {1}};
+      hold(stencil, l.normal, static_cast<double>(l.stiffness), static_cast<double>(l.friction));
     }
-    const int g = work.group[block * kLanes + first % kLanes];
-    if (g < 0) continue;
-    Group& group = groups[static_cast<std::size_t>(g)];
-    for (std::uint32_t k = s.links.start[l]; k < s.links.start[l + 1]; ++k)
-      z += s.links.weight[k] *
-           unit_motions(load_point(position.data(), s.links.address[k]) - group.center);
-    const Sym3 m = link_matrix(s, l);
-    Mat3 full;
-    full << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-    group.matrix += z.transpose() * full * z;
-  }
 
   RigidResult result;
   for (Group& g : groups) {
     const Vec6 bound = solve_spd(g.matrix, g.residual);
-    g.correct = bound.head<3>().norm() + bound.tail<3>().norm() * g.reach > threshold;
+    g.correct =
+        bound.head<3>().norm() + bound.tail<3>().norm() * std::sqrt(g.squared_reach) > threshold;
     result.corrected_groups += g.correct ? 1 : 0;
-    g.matrix.setZero();
   }
   if (result.corrected_groups == 0) return result;
 
   // Groups share no link, so one product serves the same mode of all of them.
-  for (int mode = 0; mode < 6; ++mode) {
+  work.mode.resize(x.size());
+  work.product.resize(x.size());
+  for (Group& g : groups) g.matrix.bottomRightCorner<3, 3>().setZero();
+  for (int axis = 0; axis < 3; ++axis) {
     std::ranges::fill(work.mode, 0.0);
     for_each_point(s, work.group, [&](Address a, std::size_t g) {
       if (groups[g].correct)
         store_point(work.mode.data(), a,
-                    unit_motions(load_point(position.data(), a) - groups[g].center).col(mode));
+                    Vec3::Unit(axis).cross(load_point(position.data(), a) - groups[g].center));
     });
     op.apply(work.mode, work.product);
     for_each_point(s, work.group, [&](Address a, std::size_t g) {
-      groups[g].matrix.col(mode) +=
-          unit_motions(load_point(position.data(), a) - groups[g].center).transpose() *
-          load_point(work.product.data(), a);
+      const Vec3 d = load_point(position.data(), a) - groups[g].center;
+      groups[g].matrix.block<3, 1>(3, 3 + axis) += d.cross(load_point(work.product.data(), a));
     });
   }
   for (Group& g : groups) {
     if (!g.correct) continue;
     g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
-    result.largest_move = std::max(result.largest_move,
-                                   g.motion.head<3>().norm() + g.motion.tail<3>().norm() * g.reach);
+    result.largest_move =
+        std::max(result.largest_move, g.motion.head<3>().norm() +
+                                          g.motion.tail<3>().norm() * std::sqrt(g.squared_reach));
   }
   for_each_point(s, work.group, [&](Address a, std::size_t g) {
     if (groups[g].correct)

@@ -15,7 +15,8 @@ namespace acinus::solve {
 
 struct RigidWorkspace {
   std::vector<int> group;  ///< [n_block * kLanes] group of each cell, -1: empty lane
-  std::vector<double> residual, mode, product;
+  std::vector<int> block_of_row, parent;
+  std::vector<double> mode, product;
 };
 
 struct RigidResult {
@@ -24,11 +25,12 @@ struct RigidResult {
 };
 
 /// Corrects x (the displacement) for A x = b.
+/// @param residual  [n_row][3][lane] b - A x, in double
 /// @param position  [n_row][3][lane] um
 /// @param active    [n_block * kLanes] 1 where the lane holds a cell
 /// @param threshold um: groups whose rigid error is provably below it are left alone
-RigidResult correct_rigid_modes(const Operator& op, std::span<const double> b, std::span<double> x,
-                                std::span<const double> position,
+RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
+                                std::span<double> x, std::span<const double> position,
                                 std::span<const std::uint8_t> active, double threshold,
                                 RigidWorkspace& work);
 

@@ -2,9 +2,10 @@
 /// The linear system of one step, (Gamma/h + K) dx = F, as loads that the models add to.
 ///
 /// Unknowns: blocks of eight lanes; a DCM group has one row per mesh node, eight spheres share a
-/// block with a single row. Three neutral operators: lane blocks (pairs of points of one cell),
-/// rank-one families (one vector per cell: volume, global area) and links (contact stencils between
-/// any points).
+/// block with a single row. The matrix is never assembled: it is kept as the small elements it is
+/// made of (springs, hinges, faces, one vector per cell, contacts), each positive semi-definite
+/// and blind to translation by its form, whatever its numbers are rounded to. That is why elements
+/// may be floats (docs/decisions/0010.md).
 
 #include <array>
 #include <cstdint>
@@ -13,22 +14,28 @@
 
 #include "core/lanes.hpp"
 #include "core/ranks.hpp"
-#include "core/sym3.hpp"
-#include "core/vec.hpp"
+#include "core/solve/links.hpp"
 
 namespace acinus::solve {
 
-/// Which pairs of points within one cell interact; shared by all cells with the same mesh.
+/// Which points of one cell interact; shared by all cells with the same mesh and terms.
 struct BlockPattern {
   int n_point = 0;
-  std::vector<std::array<int, 2>> pair;  ///< i < j
+  std::vector<std::array<int, 2>> spring;
+  std::vector<std::array<int, 4>> hinge;
+  std::vector<std::array<int, 3>> face;
 };
+
+/// Floats of one element, all eight lanes.
+inline constexpr int kSpringStride = 5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
+inline constexpr int kHingeStride = 9 * kLanes;  ///< g1 g2 g3, g4 = -(g1 + g2 + g3): matrix g g^T
+inline constexpr int kFaceStride = 6 * kLanes;   ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
 
 /// Eight cells with one pattern.
 struct Block {
   const BlockPattern* pattern = nullptr;
-  std::size_t first_row = 0;   ///< first point row
-  std::size_t first_pair = 0;  ///< first pair row
+  std::size_t first_row = 0;  ///< first point row
+  std::size_t first_spring = 0, first_hinge = 0, first_face = 0;
 };
 
 /// One vector per cell with a non-negative coefficient: adds c g g^T. Covers blocks [0, n_block).
@@ -37,49 +44,23 @@ struct RankOne {
   std::vector<double> coefficient;  ///< [n_block][lane]
 };
 
-/// Contact stencils. Link l joins the points start[l] .. start[l+1]; its weights sum to 0 (a pair)
-/// or to 1 (a contact with surroundings, which have no unknowns). The relative vector is r = sum w
-/// x; the force on point k is w_k force, so action equals reaction by construction.
-struct Links {
-  std::vector<std::uint32_t> start{0};
-  std::vector<Address> address;
-  std::vector<double> weight;
-  std::vector<Vec3> force;             ///< nN, on the side with positive weights
-  std::vector<Sym3> stiffness;         ///< nN/um, positive semi-definite
-  std::vector<Sym3> friction;          ///< nN s/um, positive semi-definite
-  std::vector<std::uint8_t> external;  ///< 1: other side is surroundings
-  std::vector<Vec3> normal;            ///< direction in which r opens the gap
-  std::vector<double> gap;  ///< um, for judging a step; +infinity where depth does not matter
-
-  std::size_t size() const { return force.size(); }
-  void clear();
-  /// Adds a link; the points are those pushed by add_point since the last close.
-  void add_point(Address a, double w) {
-    address.push_back(a);
-    weight.push_back(w);
-  }
-  void close(const Vec3& f, const Sym3& k, const Sym3& g, bool is_external, const Vec3& opens,
-             double gap_now);
-  /// Appends all links of another list, in order.
-  void append(const Links& other);
-};
-
 /// Loads of one step. The caller clears; models add.
 struct System {
   std::vector<Block> block;
   std::size_t n_row = 0;       ///< point rows over all blocks
-  std::size_t n_pair = 0;      ///< pair rows over all blocks
   double friction_scale = 1;   ///< 1/h, 1/s: what friction is multiplied by in the matrix
   double stiffness_scale = 1;  ///< 1: linearly implicit; 0: friction only (explicit Euler)
 
   std::vector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
   std::vector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
   std::vector<double> medium;          ///< [n_row][lane] nN s/um, friction with the medium at rest
-  std::vector<double> diagonal;        ///< [n_row][6][lane] nN/um
-  std::vector<double> upper;           ///< [n_pair][9][lane] nN/um, block (i, j) of pair i < j
+  std::vector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
+  std::vector<float> hinge;            ///< [n_hinge][9][lane] sqrt(nN/um)
+  std::vector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
-  Links links;
-  Halo halo;  ///< copies of unknowns owned by other ranks; nothing on one rank
+  Links links;                         ///< contacts of surfaces
+  std::vector<PointLink> point_links;  ///< contacts of spheres
+  Halo halo;                           ///< copies of unknowns owned by other ranks; nothing on one rank
 
   std::size_t n_dof() const { return n_row * kPointStride; }
 };
@@ -87,13 +68,15 @@ struct System {
 /// Sizes all arrays for the given blocks (offsets are filled in) and clears them.
 void set_blocks(System& system, std::vector<Block> blocks);
 
-/// Zeroes every load; keeps capacity and scales.
+/// Zeroes every load that models add to; keeps capacity and scales. Hinges and faces are written,
+/// not added to, by the one term each belongs to.
 void clear_loads(System& system);
 
-/// The full matrix of link l: friction_scale * friction + stiffness_scale * stiffness.
-inline Sym3 link_matrix(const System& system, std::size_t l) {
-  return system.friction_scale * system.links.friction[l] +
-         system.stiffness_scale * system.links.stiffness[l];
+/// Adds to a spring: along u the stiffness a + c, across it c.
+ACINUS_INLINE void add_spring(float* element, const Lane3& u, Lane a, Lane c) {
+  store3(element, u);
+  store(element + 3 * kLanes, load(element + 3 * kLanes) + a);
+  store(element + 4 * kLanes, load(element + 4 * kLanes) + c);
 }
 
 }  // namespace acinus::solve

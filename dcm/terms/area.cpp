@@ -29,20 +29,12 @@ ACINUS_KERNEL void area_kernel(const GroupView& g, double* gradient, double* are
 
 /// Adds across (I - u u^T) between the ends of every edge.
 ACINUS_KERNEL void tension_kernel(const GroupView& g, const double* across_of_lane,
-                                  double* diagonal, double* upper) {
+                                  float* element) {
   const Lane across = load(across_of_lane);
-  for (int e = 0; e < g.topology->n_edge; ++e) {
-    const int i = g.topology->edge[static_cast<std::size_t>(e)][0];
-    const int j = g.topology->edge[static_cast<std::size_t>(e)][1];
+  for (const auto& [i, j] : g.topology->edge) {
     const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
-    const Lane3 u = (1.0 / lane_sqrt(dot(d, d))) * d;
-    for (int n : {i, j}) {
-      add_outer_sym(diagonal + n * kSymStride, -across, u);
-      add_identity_sym(diagonal + n * kSymStride, across);
-    }
-    double* block = upper + e * kMatStride;
-    add_outer(block, across, u, u);
-    for (int k : {0, 4, 8}) add_to(block + k * kLanes, -across);
+    solve::add_spring(element, (1.0 / lane_sqrt(dot(d, d))) * d, -across, across);
+    element += solve::kSpringStride;
   }
 }
 
@@ -62,8 +54,7 @@ void add_area(const Params& p, const GroupView& g, solve::System& s, solve::Rank
     tense = tense || across[l] > 0;
   }
   if (tense)
-    tension_kernel(g, across, s.diagonal.data() + g.first_row * kSymStride,
-                   s.upper.data() + g.first_pair * kMatStride);
+    tension_kernel(g, across, s.spring.data() + g.first_spring * solve::kSpringStride);
   add_scaled(g.topology->n_node, pull, gradient, s.force.data() + g.first_row * kPointStride);
 }
 

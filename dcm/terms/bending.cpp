@@ -6,7 +6,7 @@ namespace acinus::dcm {
 namespace {
 
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
-                                  double* force, double* diagonal, double* upper) {
+                                  double* force, float* element) {
   const mesh::Topology& t = *g.topology;
   const Lane k = p.bending_stiffness * load(g.active);
   for (int e = 0; e < t.n_edge; ++e) {
@@ -26,23 +26,22 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const double s0 = t.rest_angle_sin[static_cast<std::size_t>(e)];
     const Lane moment = k * (sin_theta * c0 - cos_theta * s0);
     const Lane stiffness = stiffness_scale * k * lane_max0(cos_theta * c0 + sin_theta * s0);
+    const Lane root = lane_sqrt(stiffness);
 
-    const Lane3 a1 = (1.0 / s1) * n1, a2 = (1.0 / s2) * n2;
-    const Lane3 d13 = x1 - x3, d14 = x1 - x4, d23 = x2 - x3, d24 = x2 - x4;
-    const Lane3 grad[4] = {
-        length * a1, length * a2,
-        (dot(d14, edge) * inverse_length) * a1 + (dot(d24, edge) * inverse_length) * a2,
-        (-dot(d13, edge) * inverse_length) * a1 + (-dot(d23, edge) * inverse_length) * a2};
-    for (int m = 0; m < 4; ++m) {
-      add3(force + h[static_cast<std::size_t>(m)] * kPointStride, -moment * grad[m]);
-      add_outer_sym(diagonal + h[static_cast<std::size_t>(m)] * kSymStride, stiffness, grad[m]);
-    }
-    const auto& slots = g.pattern->hinge_pair[static_cast<std::size_t>(e)];
-    for (std::size_t q = 0; q < 6; ++q) {
-      const int a = kHingePairs[q][slots[q].flipped ? 1 : 0];
-      const int b = kHingePairs[q][slots[q].flipped ? 0 : 1];
-      add_outer(upper + slots[q].pair * kMatStride, stiffness, grad[a], grad[b]);
-    }
+    const Lane inverse_squares = inverse_norms * inverse_norms;
+    const Lane3 a1 = (s2 * inverse_squares) * n1, a2 = (s1 * inverse_squares) * n2;
+    const Lane3 grad1 = length * a1, grad2 = length * a2;
+    const Lane3 grad3 = (dot(x1 - x4, edge) * inverse_length) * a1 +
+                        (dot(x2 - x4, edge) * inverse_length) * a2;
+    const Lane3 f1 = -moment * grad1, f2 = -moment * grad2, f3 = -moment * grad3;
+    add3(force + h[0] * kPointStride, f1);
+    add3(force + h[1] * kPointStride, f2);
+    add3(force + h[2] * kPointStride, f3);
+    add3(force + h[3] * kPointStride, -(f1 + f2 + f3));  // the four gradients add up to zero
+    store3(element, root * grad1);
+    store3(element + 3 * kLanes, root * grad2);
+    store3(element + 6 * kLanes, root * grad3);
+    element += solve::kHingeStride;
   }
 }
 
@@ -50,8 +49,7 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
 
 void add_bending(const Params& p, const GroupView& g, solve::System& s) {
   bending_kernel(p, g, s.stiffness_scale, s.force.data() + g.first_row * kPointStride,
-                 s.diagonal.data() + g.first_row * kSymStride,
-                 s.upper.data() + g.first_pair * kMatStride);
+                 s.hinge.data() + g.first_hinge * solve::kHingeStride);
 }
 
 double bending_energy(const Params& p, const GroupView& g, int lane) {

@@ -6,8 +6,7 @@ namespace acinus::dcm {
 namespace {
 
 ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double stiffness_scale,
-                                 double friction_scale, double* force, double* diagonal,
-                                 double* upper) {
+                                 double friction_scale, double* force, float* element) {
   const mesh::Topology& t = *g.topology;
   const Lane radius = load(g.radius), active = load(g.active);
   const Lane k = p.spring_stiffness * active;
@@ -23,30 +22,23 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
     const Lane l0 = rest[e] * radius;
     const Lane3 f = (k * (length - l0)) * u;
     add3(force + i * kPointStride, f);
-    add3(force + j * kPointStride, {-f.x, -f.y, -f.z});
+    add3(force + j * kPointStride, -f);
 
     // along u: stiffness and dashpot; across: tension's geometric part and, if isotropic, dashpot
     const Lane geometric = stiffness_scale * lane_max0(k * (1.0 - l0 * inverse));
     const Lane across = p.axial_friction ? geometric : geometric + friction;
     const Lane along = stiffness_scale * k + friction;
-    add_outer_sym(diagonal + i * kSymStride, along - across, u);
-    add_outer_sym(diagonal + j * kSymStride, along - across, u);
-    add_identity_sym(diagonal + i * kSymStride, across);
-    add_identity_sym(diagonal + j * kSymStride, across);
-    double* block = upper + e * kMatStride;
-    add_outer(block, across - along, u, u);
-    add_to(block, -across);
-    add_to(block + 4 * kLanes, -across);
-    add_to(block + 8 * kLanes, -across);
+    solve::add_spring(element, u, along - across, across);
+    element += solve::kSpringStride;
   }
 }
 
 }  // namespace
 
 void add_cortex(const Params& p, const GroupView& g, solve::System& s) {
-  cortex_kernel(
-      p, g, s.stiffness_scale, s.friction_scale, s.force.data() + g.first_row * kPointStride,
-      s.diagonal.data() + g.first_row * kSymStride, s.upper.data() + g.first_pair * kMatStride);
+  cortex_kernel(p, g, s.stiffness_scale, s.friction_scale,
+                s.force.data() + g.first_row * kPointStride,
+                s.spring.data() + g.first_spring * solve::kSpringStride);
 }
 
 double cortex_energy(const Params& p, const GroupView& g, int lane) {

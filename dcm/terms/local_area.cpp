@@ -4,7 +4,7 @@ namespace acinus::dcm {
 namespace {
 
 ACINUS_KERNEL void local_area_kernel(const Params& p, const GroupView& g, double stiffness_scale,
-                                     double* force, double* diagonal, double* upper) {
+                                     double* force, float* element) {
   const mesh::Topology& t = *g.topology;
   const Lane k = p.local_area_modulus * load(g.active);
   const Lane radius = load(g.radius);
@@ -20,14 +20,10 @@ ACINUS_KERNEL void local_area_kernel(const Params& p, const GroupView& g, double
                            cross(half_normal, x1 - x0)};
     const Lane a0 = t.rest_triangle_area[f] * radius * radius;
     const Lane pull = -k * (0.5 * norm - a0) / a0;
-    const Lane stiffness = stiffness_scale * k / a0;
-    for (std::size_t m = 0; m < 3; ++m) {
-      add3(force + corner[m] * kPointStride, pull * grad[m]);
-      add_outer_sym(diagonal + corner[m] * kSymStride, stiffness, grad[m]);
-      const PairSlot slot = g.pattern->triangle_pair[f][m];
-      const std::size_t a = slot.flipped ? (m + 1) % 3 : m, b = slot.flipped ? m : (m + 1) % 3;
-      add_outer(upper + slot.pair * kMatStride, stiffness, grad[a], grad[b]);
-    }
+    const Lane root = lane_sqrt(stiffness_scale * k / a0);
+    for (std::size_t m = 0; m < 3; ++m) add3(force + corner[m] * kPointStride, pull * grad[m]);
+    for (int m = 0; m < 2; ++m) store3(element + 3 * m * kLanes, root * grad[m]);
+    element += solve::kFaceStride;
   }
 }
 
@@ -35,8 +31,7 @@ ACINUS_KERNEL void local_area_kernel(const Params& p, const GroupView& g, double
 
 void add_local_area(const Params& p, const GroupView& g, solve::System& s) {
   local_area_kernel(p, g, s.stiffness_scale, s.force.data() + g.first_row * kPointStride,
-                    s.diagonal.data() + g.first_row * kSymStride,
-                    s.upper.data() + g.first_pair * kMatStride);
+                    s.face.data() + g.first_face * solve::kFaceStride);
 }
 
 double local_area_energy(const Params& p, const GroupView& g, int lane) {

@@ -16,7 +16,6 @@ void add_medium(const Params& p, const GroupView& g, const double* free_area, so
     const std::size_t row = g.first_row + static_cast<std::size_t>(i);
     const Lane friction = active * gamma * load(free_area + i * kLanes) + idle;
     add_to(s.medium.data() + row * kLanes, friction);
-    add_identity_sym(s.diagonal.data() + row * kSymStride, s.friction_scale * friction);
   }
 }
 

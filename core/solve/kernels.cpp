@@ -1,0 +1,232 @@
+#include "core/solve/kernels.hpp"
+
+namespace acinus::solve {
+namespace {
+
+// One body for both number types; the exported functions below instantiate it for every
+// instruction set.
+
+template <class T>
+ACINUS_INLINE Lane3Of<T> sym_times(const float* d, const Lane3Of<T>& v) {
+  const LaneOf<T> xy = load<T>(d + kLanes), xz = load<T>(d + 2 * kLanes),
+                  yz = load<T>(d + 4 * kLanes);
+  return {load<T>(d) * v.x + xy * v.y + xz * v.z, xy * v.x + load<T>(d + 3 * kLanes) * v.y + yz * v.z,
+          xz * v.x + yz * v.y + load<T>(d + 5 * kLanes) * v.z};
+}
+
+template <class T>
+ACINUS_INLINE void multiply(const BlockView& b, const T* x, T* y) {
+  const BlockPattern& pattern = *b.pattern;
+  const T scale = static_cast<T>(b.friction_scale);
+  for (int i = 0; i < pattern.n_point; ++i) {
+    const LaneOf<T> friction = scale * load<T>(b.medium + i * kLanes);
+    store3(y + i * kPointStride, friction * load3<T>(x + i * kPointStride));
+  }
+  const float* e = b.spring;
+  for (const auto& s : pattern.spring) {
+    T* yi = y + s[0] * kPointStride;
+    T* yj = y + s[1] * kPointStride;
+    const Lane3Of<T> r = load3<T>(x + s[1] * kPointStride) - load3<T>(x + s[0] * kPointStride);
+    const Lane3Of<T> u = load3<T>(e);
+    const LaneOf<T> along = load<T>(e + 3 * kLanes) * dot(u, r);
+    const Lane3Of<T> f = along * u + load<T>(e + 4 * kLanes) * r;
+    add3(yj, f);
+    add3(yi, -f);
+    e += kSpringStride;
+  }
+  e = b.hinge;
+  for (const auto& h : pattern.hinge) {
+    const Lane3Of<T> last = load3<T>(x + h[3] * kPointStride);
+    const Lane3Of<T> g1 = load3<T>(e), g2 = load3<T>(e + 3 * kLanes), g3 = load3<T>(e + 6 * kLanes);
+    const LaneOf<T> s = dot(g1, load3<T>(x + h[0] * kPointStride) - last) +
+                        dot(g2, load3<T>(x + h[1] * kPointStride) - last) +
+                        dot(g3, load3<T>(x + h[2] * kPointStride) - last);
+    const Lane3Of<T> f1 = s * g1, f2 = s * g2, f3 = s * g3;
+    add3(y + h[0] * kPointStride, f1);
+    add3(y + h[1] * kPointStride, f2);
+    add3(y + h[2] * kPointStride, f3);
+    add3(y + h[3] * kPointStride, -(f1 + f2 + f3));
+    e += kHingeStride;
+  }
+  e = b.face;
+  for (const auto& f : pattern.face) {
+    const Lane3Of<T> last = load3<T>(x + f[2] * kPointStride);
+    const Lane3Of<T> g1 = load3<T>(e), g2 = load3<T>(e + 3 * kLanes);
+    const LaneOf<T> s = dot(g1, load3<T>(x + f[0] * kPointStride) - last) +
+                        dot(g2, load3<T>(x + f[1] * kPointStride) - last);
+    const Lane3Of<T> f1 = s * g1, f2 = s * g2;
+    add3(y + f[0] * kPointStride, f1);
+    add3(y + f[1] * kPointStride, f2);
+    add3(y + f[2] * kPointStride, -(f1 + f2));
+    e += kFaceStride;
+  }
+}
+
+template <class T>
+ACINUS_INLINE void rank_one(int n_point, const double* g, const double* c, const T* x, T* y) {
+  LaneOf<T> s = {};
+  for (int i = 0; i < n_point; ++i)
+    s += dot(load3<T>(g + i * kPointStride), load3<T>(x + i * kPointStride));
+  s *= load<T>(c);
+  for (int i = 0; i < n_point; ++i) add3(y + i * kPointStride, s * load3<T>(g + i * kPointStride));
+}
+
+template <class T>
+ACINUS_INLINE double precondition(int n_point, const float* inverse, const T* r, T* z) {
+  LaneOf<T> s = {};
+  for (int i = 0; i < n_point; ++i) {
+    const Lane3Of<T> ri = load3<T>(r + i * kPointStride);
+    const Lane3Of<T> zi = sym_times(inverse + i * kSymStride, ri);
+    store3(z + i * kPointStride, zi);
+    s += dot(ri, zi);
+  }
+  return sum_lanes<T>(s);
+}
+
+template <class T>
+ACINUS_INLINE double descend(int n_point, double step, const float* inverse, const T* p, const T* q,
+                             T* x, T* r, T* z) {
+  const T alpha = static_cast<T>(step);
+  LaneOf<T> s = {};
+  for (int i = 0; i < n_point; ++i) {
+    const int at = i * kPointStride;
+    for (int c = 0; c < kPointStride; c += kLanes)
+      store(x + at + c, load<T>(x + at + c) + alpha * load<T>(p + at + c));
+    Lane3Of<T> ri;
+    ri.x = load<T>(r + at) - alpha * load<T>(q + at);
+    ri.y = load<T>(r + at + kLanes) - alpha * load<T>(q + at + kLanes);
+    ri.z = load<T>(r + at + 2 * kLanes) - alpha * load<T>(q + at + 2 * kLanes);
+    store3(r + at, ri);
+    const Lane3Of<T> zi = sym_times(inverse + i * kSymStride, ri);
+    store3(z + at, zi);
+    s += dot(ri, zi);
+  }
+  return sum_lanes<T>(s);
+}
+
+template <class T>
+ACINUS_INLINE double dot_of(const T* a, const T* b, std::size_t n) {
+  LaneOf<T> s = {};
+  for (std::size_t k = 0; k < n; k += kLanes) s += load<T>(a + k) * load<T>(b + k);
+  return sum_lanes<T>(s);
+}
+
+template <class T>
+ACINUS_INLINE void redirect(const T* z, double b, T* p, std::size_t n) {
+  const T beta = static_cast<T>(b);
+  for (std::size_t k = 0; k < n; k += kLanes) store(p + k, load<T>(z + k) + beta * load<T>(p + k));
+}
+
+}  // namespace
+
+BlockView view_block(const System& s, std::size_t b) {
+  const Block& block = s.block[b];
+  return {block.pattern,
+          s.medium.data() + block.first_row * kLanes,
+          s.spring.data() + block.first_spring * kSpringStride,
+          s.hinge.data() + block.first_hinge * kHingeStride,
+          s.face.data() + block.first_face * kFaceStride,
+          s.friction_scale};
+}
+
+ACINUS_KERNEL void multiply_block(const BlockView& b, const double* x, double* y) {
+  multiply<double>(b, x, y);
+}
+ACINUS_KERNEL void multiply_block(const BlockView& b, const float* x, float* y) {
+  multiply<float>(b, x, y);
+}
+
+ACINUS_KERNEL void add_rank_one(int n, const double* g, const double* c, const double* x,
+                                double* y) {
+  rank_one<double>(n, g, c, x, y);
+}
+ACINUS_KERNEL void add_rank_one(int n, const double* g, const double* c, const float* x, float* y) {
+  rank_one<float>(n, g, c, x, y);
+}
+
+ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
+  const BlockPattern& pattern = *b.pattern;
+  for (int i = 0; i < pattern.n_point; ++i)
+    add_identity_sym(d + i * kSymStride, b.friction_scale * load(b.medium + i * kLanes));
+  const float* e = b.spring;
+  for (const auto& s : pattern.spring) {
+    const Lane3 u = load3(e);
+    const Lane a = load(e + 3 * kLanes), c = load(e + 4 * kLanes);
+    for (int i : s) {
+      add_outer_sym(d + i * kSymStride, a, u);
+      add_identity_sym(d + i * kSymStride, c);
+    }
+    e += kSpringStride;
+  }
+  const Lane one = lane_of(1);
+  e = b.hinge;
+  for (const auto& h : pattern.hinge) {
+    const Lane3 g1 = load3(e), g2 = load3(e + 3 * kLanes), g3 = load3(e + 6 * kLanes);
+    add_outer_sym(d + h[0] * kSymStride, one, g1);
+    add_outer_sym(d + h[1] * kSymStride, one, g2);
+    add_outer_sym(d + h[2] * kSymStride, one, g3);
+    add_outer_sym(d + h[3] * kSymStride, one, g1 + g2 + g3);
+    e += kHingeStride;
+  }
+  e = b.face;
+  for (const auto& f : pattern.face) {
+    const Lane3 g1 = load3(e), g2 = load3(e + 3 * kLanes);
+    add_outer_sym(d + f[0] * kSymStride, one, g1);
+    add_outer_sym(d + f[1] * kSymStride, one, g2);
+    add_outer_sym(d + f[2] * kSymStride, one, g1 + g2);
+    e += kFaceStride;
+  }
+}
+
+ACINUS_KERNEL void add_rank_one_diagonal(int n_point, const double* g, const double* c, double* d) {
+  const Lane scale = load(c);
+  for (int i = 0; i < n_point; ++i)
+    add_outer_sym(d + i * kSymStride, scale, load3(g + i * kPointStride));
+}
+
+ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {
+  for (int i = 0; i < n_point; ++i, d += kSymStride, out += kSymStride) {
+    const Lane xx = load(d), xy = load(d + kLanes), xz = load(d + 2 * kLanes);
+    const Lane yy = load(d + 3 * kLanes), yz = load(d + 4 * kLanes), zz = load(d + 5 * kLanes);
+    const Lane cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+    const Lane r = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
+    store(out, cxx * r);
+    store(out + kLanes, cxy * r);
+    store(out + 2 * kLanes, cxz * r);
+    store(out + 3 * kLanes, (xx * zz - xz * xz) * r);
+    store(out + 4 * kLanes, (xy * xz - xx * yz) * r);
+    store(out + 5 * kLanes, (xx * yy - xy * xy) * r);
+  }
+}
+
+ACINUS_KERNEL double precondition_block(int n, const float* inverse, const double* r, double* z) {
+  return precondition<double>(n, inverse, r, z);
+}
+ACINUS_KERNEL double precondition_block(int n, const float* inverse, const float* r, float* z) {
+  return precondition<float>(n, inverse, r, z);
+}
+
+ACINUS_KERNEL double descend_block(int n, double alpha, const float* inverse, const double* p,
+                                   const double* q, double* x, double* r, double* z) {
+  return descend<double>(n, alpha, inverse, p, q, x, r, z);
+}
+ACINUS_KERNEL double descend_block(int n, double alpha, const float* inverse, const float* p,
+                                   const float* q, float* x, float* r, float* z) {
+  return descend<float>(n, alpha, inverse, p, q, x, r, z);
+}
+
+ACINUS_KERNEL double dot_range(const double* a, const double* b, std::size_t n) {
+  return dot_of<double>(a, b, n);
+}
+ACINUS_KERNEL double dot_range(const float* a, const float* b, std::size_t n) {
+  return dot_of<float>(a, b, n);
+}
+
+ACINUS_KERNEL void redirect_range(const double* z, double beta, double* p, std::size_t n) {
+  redirect<double>(z, beta, p, n);
+}
+ACINUS_KERNEL void redirect_range(const float* z, double beta, float* p, std::size_t n) {
+  redirect<float>(z, beta, p, n);
+}
+
+}  // namespace acinus::solve

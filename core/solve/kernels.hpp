@@ -1,0 +1,55 @@
+#pragma once
+/// Lane kernels of the operator: one block of eight cells at a time, in double or in float.
+
+#include "core/solve/system.hpp"
+
+namespace acinus::solve {
+
+/// What the kernels read of one block.
+struct BlockView {
+  const BlockPattern* pattern;
+  const double* medium;  ///< [n_point][lane]
+  const float* spring;
+  const float* hinge;
+  const float* face;
+  double friction_scale;
+};
+BlockView view_block(const System& system, std::size_t block);
+
+/// y = (medium + springs + hinges + faces) x.
+void multiply_block(const BlockView& block, const double* x, double* y);
+void multiply_block(const BlockView& block, const float* x, float* y);
+
+/// y += c g (g . x).
+/// @param g [n_point][3][lane]  @param c [lane]
+void add_rank_one(int n_point, const double* g, const double* c, const double* x, double* y);
+void add_rank_one(int n_point, const double* g, const double* c, const float* x, float* y);
+
+/// Adds the diagonal blocks of everything within the cells.
+/// @param diagonal [n_point][6][lane]
+void add_diagonal(const BlockView& block, double* diagonal);
+void add_rank_one_diagonal(int n_point, const double* g, const double* c, double* diagonal);
+
+/// Inverts symmetric blocks lane by lane.
+/// @param inverse [n_point][6][lane]
+void invert_blocks(int n_point, const double* diagonal, float* inverse);
+
+/// z = D^-1 r; returns r . z.
+double precondition_block(int n_point, const float* inverse, const double* r, double* z);
+double precondition_block(int n_point, const float* inverse, const float* r, float* z);
+
+/// x += alpha p, r -= alpha q, z = D^-1 r; returns r . z.
+double descend_block(int n_point, double alpha, const float* inverse, const double* p,
+                     const double* q, double* x, double* r, double* z);
+double descend_block(int n_point, double alpha, const float* inverse, const float* p,
+                     const float* q, float* x, float* r, float* z);
+
+/// Sum of products; n is a multiple of kLanes.
+double dot_range(const double* a, const double* b, std::size_t n);
+double dot_range(const float* a, const float* b, std::size_t n);
+
+/// p = z + beta p.
+void redirect_range(const double* z, double beta, double* p, std::size_t n);
+void redirect_range(const float* z, double beta, float* p, std::size_t n);
+
+}  // namespace acinus::solve

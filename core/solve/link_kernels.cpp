@@ -1,0 +1,204 @@
+#include "core/solve/link_kernels.hpp"
+
+namespace acinus::solve {
+namespace {
+
+template <class T>
+struct FourType;
+template <>
+struct FourType<double> {
+  using type = double __attribute__((vector_size(32)));
+};
+template <>
+struct FourType<float> {
+  using type = float __attribute__((vector_size(16)));
+};
+template <class T>
+using Four = typename FourType<T>::type;
+
+template <class T>
+ACINUS_INLINE Four<T> load4(const Packed<T>* v, Point p) {
+  Four<T> out;
+  __builtin_memcpy(&out, v + p, sizeof(out));
+  return out;
+}
+template <class T>
+ACINUS_INLINE void add4(Packed<T>* v, Point p, Four<T> f) {
+  const Four<T> sum = load4(v, p) + f;
+  __builtin_memcpy(v + p, &sum, sizeof(sum));
+}
+
+ACINUS_INLINE bool is_single(const Side& s) { return s.point[0] == s.point[2]; }
+ACINUS_INLINE bool exists(const Link& l) { return l.b.point[0] != kNowhere; }
+ACINUS_INLINE bool exists(const PointLink& l) { return l.b != kNowhere; }
+
+/// The place of a side.
+template <class T>
+ACINUS_INLINE Four<T> gather(const Side& s, const Packed<T>* x) {
+  const Four<T> last = load4(x, s.point[2]);
+  if (is_single(s)) return last;
+  const T w0 = static_cast<T>(s.weight[0]), w1 = static_cast<T>(s.weight[1]);
+  return last + w0 * (load4(x, s.point[0]) - last) + w1 * (load4(x, s.point[1]) - last);
+}
+template <class T>
+ACINUS_INLINE Four<T> gather(Point p, const Packed<T>* x) {
+  return load4(x, p);
+}
+
+/// Spreads a force over the points of a side; what they get adds up to it exactly.
+template <class T>
+ACINUS_INLINE void scatter(const Side& s, Four<T> f, Packed<T>* y) {
+  if (is_single(s)) {
+    add4(y, s.point[2], f);
+    return;
+  }
+  const Four<T> f0 = static_cast<T>(s.weight[0]) * f, f1 = static_cast<T>(s.weight[1]) * f;
+  add4(y, s.point[0], f0);
+  add4(y, s.point[1], f1);
+  add4(y, s.point[2], f - f0 - f1);
+}
+template <class T>
+ACINUS_INLINE void scatter(Point p, Four<T> f, Packed<T>* y) {
+  add4(y, p, f);
+}
+
+template <class L, class T>
+ACINUS_INLINE void multiply(const L& l, const LinkScales& s, bool to_a, bool to_b,
+                            const Packed<T>* x, Packed<T>* y) {
+  const bool pair = exists(l);
+  if (pair && s.external_only) return;
+  Four<T> r = gather(l.a, x);
+  if (pair) r -= gather(l.b, x);
+  const T k = static_cast<T>(s.stiffness) * static_cast<T>(l.stiffness);
+  const T g = static_cast<T>(s.friction) * static_cast<T>(l.friction);
+  const Four<T> n = {static_cast<T>(l.normal[0]), static_cast<T>(l.normal[1]),
+                     static_cast<T>(l.normal[2]), 0};
+  const Four<T> nr = n * r;
+  const Four<T> f = (k * (nr[0] + nr[1] + nr[2])) * n + g * r;
+  if (to_a) scatter(l.a, f, y);
+  if (pair && to_b) scatter(l.b, -f, y);
+}
+
+template <class L, class T>
+ACINUS_INLINE void multiply_all(const LinkSet<L>& set, const LinkScales& scales,
+                                const Packed<T>* x, Packed<T>* y) {
+  if (set.whole)
+    for (const L& l : set.link) multiply(l, scales, true, true, x, y);
+  else
+    for (const Share s : set.share)
+      multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
+}
+
+/// stiffness n n^T + friction I.
+ACINUS_INLINE DiagonalBlock block_of(const std::array<float, 3>& n, float k, float f) {
+  return {k * n[0] * n[0] + f, k * n[0] * n[1],     k * n[0] * n[2], k * n[1] * n[1] + f,
+          k * n[1] * n[2],     k * n[2] * n[2] + f, 0,               0};
+}
+ACINUS_INLINE void add_block(DiagonalBlock* to, Point p, float w, const DiagonalBlock& m) {
+  float* at = to[p].data();
+  const float w2 = w * w;
+  for (std::size_t k = 0; k < 8; ++k) at[k] += w2 * m[k];
+}
+ACINUS_INLINE void add_side(DiagonalBlock* to, const Side& s, const DiagonalBlock& m) {
+  if (is_single(s)) {
+    add_block(to, s.point[2], 1, m);
+    return;
+  }
+  const float w0 = s.weight[0], w1 = s.weight[1];
+  add_block(to, s.point[0], w0, m);
+  add_block(to, s.point[1], w1, m);
+  add_block(to, s.point[2], 1 - w0 - w1, m);
+}
+ACINUS_INLINE void add_side(DiagonalBlock* to, Point p, const DiagonalBlock& m) {
+  add_block(to, p, 1, m);
+}
+
+template <class L>
+ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scales,
+                                   DiagonalBlock* d) {
+  const auto k = static_cast<float>(scales.stiffness), g = static_cast<float>(scales.friction);
+  auto add = [&](const L& l, bool a, bool b) {
+    const DiagonalBlock m = block_of(l.normal, k * l.stiffness, g * l.friction);
+    if (a) add_side(d, l.a, m);
+    if (b && exists(l)) add_side(d, l.b, m);
+  };
+  if (set.whole)
+    for (const L& l : set.link) add(l, true, true);
+  else
+    for (const Share s : set.share) add(set.link[s.link], s.a != 0, s.b != 0);
+}
+
+template <class T>
+ACINUS_INLINE void pack(const T* from, std::size_t n_row, Packed<T>* to) {
+  for (std::size_t row = 0; row < n_row; ++row, from += kPointStride)
+    for (std::size_t l = 0; l < kLanes; ++l)
+      *to++ = {from[l], from[l + kLanes], from[l + 2 * kLanes], 0};
+}
+
+template <class T>
+ACINUS_INLINE void unpack(const Packed<T>* from, std::size_t n_row, T* to) {
+  for (std::size_t row = 0; row < n_row; ++row, to += kPointStride, from += kLanes) {
+    T v[3][kLanes];
+    for (std::size_t l = 0; l < kLanes; ++l)
+      for (std::size_t c = 0; c < 3; ++c) v[c][l] = from[l][c];
+    for (std::size_t c = 0; c < 3; ++c) add_to(to + c * kLanes, load<T>(v[c]));
+  }
+}
+
+}  // namespace
+
+ACINUS_KERNEL void multiply_links(const LinkSet<Link>& set, LinkScales scales,
+                                  const Packed<double>* x, Packed<double>* y) {
+  multiply_all(set, scales, x, y);
+}
+ACINUS_KERNEL void multiply_links(const LinkSet<Link>& set, LinkScales scales,
+                                  const Packed<float>* x, Packed<float>* y) {
+  multiply_all(set, scales, x, y);
+}
+ACINUS_KERNEL void multiply_links(const LinkSet<PointLink>& set, LinkScales scales,
+                                  const Packed<double>* x, Packed<double>* y) {
+  multiply_all(set, scales, x, y);
+}
+ACINUS_KERNEL void multiply_links(const LinkSet<PointLink>& set, LinkScales scales,
+                                  const Packed<float>* x, Packed<float>* y) {
+  multiply_all(set, scales, x, y);
+}
+
+void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
+                Packed<double>* y) {
+  auto add = [&](std::size_t k, bool a, bool b) {
+    const Link& l = set.link[k];
+    if (exists(l) == external) return;
+    const Vec3 v = load[k].force * load[k].normal;
+    const Four<double> f = {v.x(), v.y(), v.z(), 0};
+    if (a) scatter(l.a, f, y);
+    if (b && !external) scatter(l.b, -f, y);
+  };
+  if (set.whole)
+    for (std::size_t k = 0; k < set.link.size(); ++k) add(k, true, true);
+  else
+    for (const Share s : set.share) add(s.link, s.a != 0, s.b != 0);
+}
+
+ACINUS_KERNEL void add_diagonal(const LinkSet<Link>& set, LinkScales scales, DiagonalBlock* d) {
+  add_diagonal_of(set, scales, d);
+}
+ACINUS_KERNEL void add_diagonal(const LinkSet<PointLink>& set, LinkScales scales,
+                                DiagonalBlock* d) {
+  add_diagonal_of(set, scales, d);
+}
+
+ACINUS_KERNEL void pack_points(const double* from, std::size_t n_row, Packed<double>* to) {
+  pack(from, n_row, to);
+}
+ACINUS_KERNEL void pack_points(const float* from, std::size_t n_row, Packed<float>* to) {
+  pack(from, n_row, to);
+}
+ACINUS_KERNEL void add_packed(const Packed<double>* from, std::size_t n_row, double* to) {
+  unpack(from, n_row, to);
+}
+ACINUS_KERNEL void add_packed(const Packed<float>* from, std::size_t n_row, float* to) {
+  unpack(from, n_row, to);
+}
+
+}  // namespace acinus::solve
