@@ -252,7 +252,10 @@ void add_contact_loads(const State& s, std::span<const Params> params, const Con
   auto add_link = [&](solve::Point a, solve::Point b, const contact::SphereForce& law,
                       const Vec3& normal, double friction) {
     const double area = kPi * law.contact_radius * law.contact_radius;
-    solve::PointLink link{a, b, {}, static_cast<float>(std::max(0.0, law.stiffness)),
+    solve::PointLink link{a,
+                          b,
+                          {},
+                          static_cast<float>(std::max(0.0, law.stiffness)),
                           static_cast<float>(friction * area)};
     for (int k = 0; k < 3; ++k)
       link.normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);

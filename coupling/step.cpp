@@ -135,8 +135,8 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   cbm::add_contact_loads(s.cbm, world.params.cbm, phase.cbm, world.params.around, w.cbm, first,
                          w.system);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
+  w.op.add_link_forces(w.system);
   w.op.prepare(w.system);
-  w.op.add_link_forces(w.system.force, w.system.external_force);
 }
 
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {

@@ -64,22 +64,22 @@ struct Builder {
   }
   contact::Well repulsion() const { return {0, c.repulsion, 1}; }
 
-  void surface_link(const contact::SurfaceContact& s, solve::Link& link, solve::LinkLoad& load) const {
+  void surface_link(const contact::SurfaceContact& s, solve::Link& link,
+                    solve::LinkLoad& load) const {
     link.a = side(s.body_a, contact::point_stencil(body(s.body_a), c.quadrature, s.point));
     const Params& a = params_of(s.body_a);
     const auto b = static_cast<std::size_t>(s.body_b);
     if (b >= work.body.size()) {  // a static mesh: probed from one side, no unknowns behind it
       const contact::Material& m = around.meshes[b - work.body.size()].material;
       link.b = solve::Side::nowhere();
-      const double friction =
-          m.mirror ? 0 : touching(s.body_a, s.point, s.gap) * a.vessel_friction;
+      const double friction = m.mirror ? 0 : touching(s.body_a, s.point, s.gap) * a.vessel_friction;
       fill({well(s.body_a, m.adhesion), area(s.body_a, s.point), friction}, s.gap, s.normal, link,
            load);
       return;
     }
     const auto weight = s.weights();
-    link.b = side(s.body_b, {3, (*body(s.body_b).triangle)[static_cast<std::size_t>(s.triangle_b)],
-                             weight});
+    link.b = side(s.body_b,
+                  {3, (*body(s.body_b).triangle)[static_cast<std::size_t>(s.triangle_b)], weight});
     const double half = 0.5 * area(s.body_a, s.point);  // seen from both sides
     if (s.body_a == s.body_b) {
       fill({repulsion(), half, 0}, std::min(0.0, s.gap - kSelfGap), s.normal, link, load);

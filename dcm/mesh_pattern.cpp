@@ -18,7 +18,9 @@ const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& t, const Pa
     entry = std::make_unique<solve::BlockPattern>();
     entry->n_point = t.n_node;
     entry->spring = t.edge;
-    if (std::get<1>(key)) entry->hinge = t.hinge;
+    // a hinge's third and fourth node are the ends of its edge, in the edge's order
+    if (std::get<1>(key))
+      for (const auto& h : t.hinge) entry->wing.push_back({h[0], h[1]});
     if (std::get<2>(key)) entry->face = t.triangle;
   }
   return *entry;

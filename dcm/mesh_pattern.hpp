@@ -10,6 +10,7 @@ namespace acinus::dcm {
 
 /// The elements of a cell of this kind. Kept for the life of the program, keyed by the address of
 /// the topology and by which terms are on.
-const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& topology, const Params& params);
+const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& topology,
+                                               const Params& params);
 
 }  // namespace acinus::dcm

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "core/units.hpp"
-#include "runs/bench.hpp"
+#include "runs/bench/bench.hpp"
 #include "runs/build_world.hpp"
 #include "runs/run.hpp"
 #include "runs/scene/explain.hpp"
@@ -30,10 +30,10 @@ struct Arguments {
   RunOptions run;
   std::string until, checkpoint_every, max_walltime, progress;
   bool resolved = false, markdown = false;
-  std::string key;               ///< explain
-  std::string name, folder;      ///< new
-  std::string bench, json_file;  ///< bench
-  int seeds = 3;
+  std::string key;           ///< explain
+  std::string name, folder;  ///< new
+  std::string bench;         ///< bench
+  BenchOptions bench_options;
 };
 
 void add_set(CLI::App& command, RunOptions& run) {
@@ -116,13 +116,18 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       add_command(app, "bench", "measure speed and error; without NAME, list the names",
                   "acinus bench dcm27 --json dcm27.json");
   bench->add_option("NAME", arguments.bench, "benchmark");
-  bench->add_option("--json", arguments.json_file, "also write the rows here")->type_name("FILE");
-  bench->add_option("--threads", arguments.run.threads, "threads (default: all cores)")
+  bench->add_option("--json", arguments.bench_options.json_file, "also write the rows here")
+      ->type_name("FILE");
+  bench->add_option("--threads", arguments.bench_options.threads, "threads (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  bench->add_option("--seeds", arguments.seeds, "repetitions of random cases (default: 3)")
+  bench
+      ->add_option("--seeds", arguments.bench_options.seeds,
+                   "repetitions of random cases (default: 3)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      ->check(CLI::Range(1, 100000));
+  bench->add_option("--out", arguments.bench_options.folder, "folder for plots and scenes")
+      ->type_name("DIR");
 }
 
 /// Adds the flag's name to what is wrong with its value.
@@ -217,7 +222,7 @@ int do_bench(const Arguments& arguments) {
                             hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint),
                             fmt::join(names, ", ")));
   }
-  return run_bench(arguments.bench, arguments.json_file, arguments.run.threads, arguments.seeds);
+  return run_bench(arguments.bench, arguments.bench_options);
 }
 
 }  // namespace

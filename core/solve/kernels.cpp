@@ -10,46 +10,60 @@ template <class T>
 ACINUS_INLINE Lane3Of<T> sym_times(const float* d, const Lane3Of<T>& v) {
   const LaneOf<T> xy = load<T>(d + kLanes), xz = load<T>(d + 2 * kLanes),
                   yz = load<T>(d + 4 * kLanes);
-  return {load<T>(d) * v.x + xy * v.y + xz * v.z, xy * v.x + load<T>(d + 3 * kLanes) * v.y + yz * v.z,
+  return {load<T>(d) * v.x + xy * v.y + xz * v.z,
+          xy * v.x + load<T>(d + 3 * kLanes) * v.y + yz * v.z,
           xz * v.x + yz * v.y + load<T>(d + 5 * kLanes) * v.z};
 }
 
+/// The points of one row, from packed to lanes.
 template <class T>
-ACINUS_INLINE void multiply(const BlockView& b, const T* x, T* y) {
-  const BlockPattern& pattern = *b.pattern;
-  const T scale = static_cast<T>(b.friction_scale);
-  for (int i = 0; i < pattern.n_point; ++i) {
-    const LaneOf<T> friction = scale * load<T>(b.medium + i * kLanes);
-    store3(y + i * kPointStride, friction * load3<T>(x + i * kPointStride));
+ACINUS_INLINE Lane3Of<T> load_packed(const Packed<T>* from) {
+  Lane3Of<T> v;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    v.x[l] = from[l][0];
+    v.y[l] = from[l][1];
+    v.z[l] = from[l][2];
   }
+  return v;
+}
+
+/// Springs with the hinge about each, in one sweep: they share two of their points.
+template <class T, bool kHinges>
+ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
+  const auto& spring = b.pattern->spring;
   const float* e = b.spring;
-  for (const auto& s : pattern.spring) {
-    T* yi = y + s[0] * kPointStride;
-    T* yj = y + s[1] * kPointStride;
-    const Lane3Of<T> r = load3<T>(x + s[1] * kPointStride) - load3<T>(x + s[0] * kPointStride);
+  const float* h = b.hinge;
+  for (std::size_t k = 0; k < spring.size(); ++k) {
+    const int i = spring[k][0] * kPointStride, j = spring[k][1] * kPointStride;
+    const Lane3Of<T> xj = load3<T>(x + j);
+    const Lane3Of<T> r = xj - load3<T>(x + i);
     const Lane3Of<T> u = load3<T>(e);
     const LaneOf<T> along = load<T>(e + 3 * kLanes) * dot(u, r);
     const Lane3Of<T> f = along * u + load<T>(e + 4 * kLanes) * r;
-    add3(yj, f);
-    add3(yi, -f);
     e += kSpringStride;
+    if constexpr (kHinges) {
+      const int p = b.pattern->wing[k][0] * kPointStride, q = b.pattern->wing[k][1] * kPointStride;
+      const Lane3Of<T> g1 = load3<T>(h), g2 = load3<T>(h + 3 * kLanes),
+                       g3 = load3<T>(h + 6 * kLanes);
+      const LaneOf<T> s =
+          dot(g1, load3<T>(x + p) - xj) + dot(g2, load3<T>(x + q) - xj) - dot(g3, r);
+      const Lane3Of<T> f1 = s * g1, f2 = s * g2, f3 = s * g3;
+      add3(y + p, f1);
+      add3(y + q, f2);
+      add3(y + i, f3 - f);
+      add3(y + j, f - (f1 + f2 + f3));
+      h += kHingeStride;
+    } else {
+      add3(y + j, f);
+      add3(y + i, -f);
+    }
   }
-  e = b.hinge;
-  for (const auto& h : pattern.hinge) {
-    const Lane3Of<T> last = load3<T>(x + h[3] * kPointStride);
-    const Lane3Of<T> g1 = load3<T>(e), g2 = load3<T>(e + 3 * kLanes), g3 = load3<T>(e + 6 * kLanes);
-    const LaneOf<T> s = dot(g1, load3<T>(x + h[0] * kPointStride) - last) +
-                        dot(g2, load3<T>(x + h[1] * kPointStride) - last) +
-                        dot(g3, load3<T>(x + h[2] * kPointStride) - last);
-    const Lane3Of<T> f1 = s * g1, f2 = s * g2, f3 = s * g3;
-    add3(y + h[0] * kPointStride, f1);
-    add3(y + h[1] * kPointStride, f2);
-    add3(y + h[2] * kPointStride, f3);
-    add3(y + h[3] * kPointStride, -(f1 + f2 + f3));
-    e += kHingeStride;
-  }
-  e = b.face;
-  for (const auto& f : pattern.face) {
+}
+
+template <class T>
+ACINUS_INLINE void add_faces(const BlockView& b, const T* x, T* y) {
+  const float* e = b.face;
+  for (const auto& f : b.pattern->face) {
     const Lane3Of<T> last = load3<T>(x + f[2] * kPointStride);
     const Lane3Of<T> g1 = load3<T>(e), g2 = load3<T>(e + 3 * kLanes);
     const LaneOf<T> s = dot(g1, load3<T>(x + f[0] * kPointStride) - last) +
@@ -63,12 +77,32 @@ ACINUS_INLINE void multiply(const BlockView& b, const T* x, T* y) {
 }
 
 template <class T>
-ACINUS_INLINE void rank_one(int n_point, const double* g, const double* c, const T* x, T* y) {
-  LaneOf<T> s = {};
-  for (int i = 0; i < n_point; ++i)
-    s += dot(load3<T>(g + i * kPointStride), load3<T>(x + i * kPointStride));
-  s *= load<T>(c);
-  for (int i = 0; i < n_point; ++i) add3(y + i * kPointStride, s * load3<T>(g + i * kPointStride));
+ACINUS_INLINE double multiply(const BlockView& b, const T* x, const Packed<T>* contact, T* y) {
+  const int n_point = b.pattern->n_point;
+  const T scale = static_cast<T>(b.friction_scale);
+  LaneOf<T> along[kMaxFamilies] = {};
+  for (int i = 0; i < n_point; ++i) {
+    const Lane3Of<T> xi = load3<T>(x + i * kPointStride);
+    const LaneOf<T> friction = scale * load<T>(b.medium + i * kLanes);
+    store3(y + i * kPointStride, friction * xi + load_packed<T>(contact + i * kLanes));
+    for (std::size_t k = 0; k < b.n_family; ++k)
+      along[k] += dot(load3<T>(b.vector[k] + i * kPointStride), xi);
+  }
+  for (std::size_t k = 0; k < b.n_family; ++k) along[k] *= load<T>(b.coefficient[k]);
+  if (b.pattern->wing.empty())
+    add_edges<T, false>(b, x, y);
+  else
+    add_edges<T, true>(b, x, y);
+  add_faces(b, x, y);
+  LaneOf<T> product = {};
+  for (int i = 0; i < n_point; ++i) {
+    Lane3Of<T> yi = load3<T>(y + i * kPointStride);
+    for (std::size_t k = 0; k < b.n_family; ++k)
+      yi = yi + along[k] * load3<T>(b.vector[k] + i * kPointStride);
+    store3(y + i * kPointStride, yi);
+    product += dot(load3<T>(x + i * kPointStride), yi);
+  }
+  return sum_lanes<T>(product);
 }
 
 template <class T>
@@ -121,27 +155,30 @@ ACINUS_INLINE void redirect(const T* z, double b, T* p, std::size_t n) {
 
 BlockView view_block(const System& s, std::size_t b) {
   const Block& block = s.block[b];
-  return {block.pattern,
-          s.medium.data() + block.first_row * kLanes,
-          s.spring.data() + block.first_spring * kSpringStride,
-          s.hinge.data() + block.first_hinge * kHingeStride,
-          s.face.data() + block.first_face * kFaceStride,
-          s.friction_scale};
+  BlockView view{block.pattern,
+                 s.medium.data() + block.first_row * kLanes,
+                 s.spring.data() + block.first_spring * kSpringStride,
+                 s.hinge.data() + block.first_hinge * kHingeStride,
+                 s.face.data() + block.first_face * kFaceStride,
+                 s.friction_scale,
+                 0,
+                 {},
+                 {}};
+  for (const RankOne& family : s.rank_one) {
+    if (b * kLanes >= family.coefficient.size()) continue;
+    view.vector[view.n_family] = family.vector.data() + block.first_row * kPointStride;
+    view.coefficient[view.n_family++] = family.coefficient.data() + b * kLanes;
+  }
+  return view;
 }
 
-ACINUS_KERNEL void multiply_block(const BlockView& b, const double* x, double* y) {
-  multiply<double>(b, x, y);
+ACINUS_KERNEL double multiply_block(const BlockView& b, const double* x,
+                                    const Packed<double>* contact, double* y) {
+  return multiply<double>(b, x, contact, y);
 }
-ACINUS_KERNEL void multiply_block(const BlockView& b, const float* x, float* y) {
-  multiply<float>(b, x, y);
-}
-
-ACINUS_KERNEL void add_rank_one(int n, const double* g, const double* c, const double* x,
-                                double* y) {
-  rank_one<double>(n, g, c, x, y);
-}
-ACINUS_KERNEL void add_rank_one(int n, const double* g, const double* c, const float* x, float* y) {
-  rank_one<float>(n, g, c, x, y);
+ACINUS_KERNEL double multiply_block(const BlockView& b, const float* x,
+                                    const Packed<float>* contact, float* y) {
+  return multiply<float>(b, x, contact, y);
 }
 
 ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
@@ -160,12 +197,12 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
   }
   const Lane one = lane_of(1);
   e = b.hinge;
-  for (const auto& h : pattern.hinge) {
+  for (std::size_t k = 0; k < pattern.wing.size(); ++k) {
     const Lane3 g1 = load3(e), g2 = load3(e + 3 * kLanes), g3 = load3(e + 6 * kLanes);
-    add_outer_sym(d + h[0] * kSymStride, one, g1);
-    add_outer_sym(d + h[1] * kSymStride, one, g2);
-    add_outer_sym(d + h[2] * kSymStride, one, g3);
-    add_outer_sym(d + h[3] * kSymStride, one, g1 + g2 + g3);
+    add_outer_sym(d + pattern.wing[k][0] * kSymStride, one, g1);
+    add_outer_sym(d + pattern.wing[k][1] * kSymStride, one, g2);
+    add_outer_sym(d + pattern.spring[k][0] * kSymStride, one, g3);
+    add_outer_sym(d + pattern.spring[k][1] * kSymStride, one, g1 + g2 + g3);
     e += kHingeStride;
   }
   e = b.face;
@@ -176,12 +213,10 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
     add_outer_sym(d + f[2] * kSymStride, one, g1 + g2);
     e += kFaceStride;
   }
-}
-
-ACINUS_KERNEL void add_rank_one_diagonal(int n_point, const double* g, const double* c, double* d) {
-  const Lane scale = load(c);
-  for (int i = 0; i < n_point; ++i)
-    add_outer_sym(d + i * kSymStride, scale, load3(g + i * kPointStride));
+  for (std::size_t k = 0; k < b.n_family; ++k)
+    for (int i = 0; i < pattern.n_point; ++i)
+      add_outer_sym(d + i * kSymStride, load(b.coefficient[k]),
+                    load3(b.vector[k] + i * kPointStride));
 }
 
 ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {

@@ -1,9 +1,13 @@
 #pragma once
 /// Lane kernels of the operator: one block of eight cells at a time, in double or in float.
 
+#include "core/solve/link_kernels.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::solve {
+
+/// Most rank-one families a system may have (volume and area use two).
+inline constexpr std::size_t kMaxFamilies = 4;
 
 /// What the kernels read of one block.
 struct BlockView {
@@ -13,22 +17,22 @@ struct BlockView {
   const float* hinge;
   const float* face;
   double friction_scale;
+  std::size_t n_family = 0;
+  std::array<const double*, kMaxFamilies> vector{};       ///< [n_point][3][lane]
+  std::array<const double*, kMaxFamilies> coefficient{};  ///< [lane]
 };
 BlockView view_block(const System& system, std::size_t block);
 
-/// y = (medium + springs + hinges + faces) x.
-void multiply_block(const BlockView& block, const double* x, double* y);
-void multiply_block(const BlockView& block, const float* x, float* y);
-
-/// y += c g (g . x).
-/// @param g [n_point][3][lane]  @param c [lane]
-void add_rank_one(int n_point, const double* g, const double* c, const double* x, double* y);
-void add_rank_one(int n_point, const double* g, const double* c, const float* x, float* y);
+/// y = A x of everything within the cells, plus what contacts add; returns x . y.
+/// @param contact [n_point][lane] force of the contacts on each point
+double multiply_block(const BlockView& block, const double* x, const Packed<double>* contact,
+                      double* y);
+double multiply_block(const BlockView& block, const float* x, const Packed<float>* contact,
+                      float* y);
 
 /// Adds the diagonal blocks of everything within the cells.
 /// @param diagonal [n_point][6][lane]
 void add_diagonal(const BlockView& block, double* diagonal);
-void add_rank_one_diagonal(int n_point, const double* g, const double* c, double* diagonal);
 
 /// Inverts symmetric blocks lane by lane.
 /// @param inverse [n_point][6][lane]

@@ -1,5 +1,7 @@
 #include "core/solve/link_kernels.hpp"
 
+#include <cstddef>
+
 namespace acinus::solve {
 namespace {
 
@@ -26,6 +28,16 @@ template <class T>
 ACINUS_INLINE void add4(Packed<T>* v, Point p, Four<T> f) {
   const Four<T> sum = load4(v, p) + f;
   __builtin_memcpy(v + p, &sum, sizeof(sum));
+}
+
+/// The normal, and in the fourth place whatever follows it: vectors hold zero there on the way in,
+/// and nobody reads it on the way out.
+template <class T, class L>
+ACINUS_INLINE Four<T> load_normal(const L& l) {
+  static_assert(offsetof(L, stiffness) == offsetof(L, normal) + sizeof(l.normal));
+  Four<float> n;
+  __builtin_memcpy(&n, &l.normal, sizeof(n));
+  return __builtin_convertvector(n, Four<T>);
 }
 
 ACINUS_INLINE bool is_single(const Side& s) { return s.point[0] == s.point[2]; }
@@ -71,8 +83,7 @@ ACINUS_INLINE void multiply(const L& l, const LinkScales& s, bool to_a, bool to_
   if (pair) r -= gather(l.b, x);
   const T k = static_cast<T>(s.stiffness) * static_cast<T>(l.stiffness);
   const T g = static_cast<T>(s.friction) * static_cast<T>(l.friction);
-  const Four<T> n = {static_cast<T>(l.normal[0]), static_cast<T>(l.normal[1]),
-                     static_cast<T>(l.normal[2]), 0};
+  const Four<T> n = load_normal<T>(l);
   const Four<T> nr = n * r;
   const Four<T> f = (k * (nr[0] + nr[1] + nr[2])) * n + g * r;
   if (to_a) scatter(l.a, f, y);
@@ -80,19 +91,21 @@ ACINUS_INLINE void multiply(const L& l, const LinkScales& s, bool to_a, bool to_
 }
 
 template <class L, class T>
-ACINUS_INLINE void multiply_all(const LinkSet<L>& set, const LinkScales& scales,
-                                const Packed<T>* x, Packed<T>* y) {
-  if (set.whole)
-    for (const L& l : set.link) multiply(l, scales, true, true, x, y);
-  else
-    for (const Share s : set.share)
-      multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
+ACINUS_INLINE void multiply_all(const LinkSet<L>& set, const LinkScales& scales, const Packed<T>* x,
+                                Packed<T>* y) {
+  for (const Share s : set.share) multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
 }
 
 /// stiffness n n^T + friction I.
 ACINUS_INLINE DiagonalBlock block_of(const std::array<float, 3>& n, float k, float f) {
-  return {k * n[0] * n[0] + f, k * n[0] * n[1],     k * n[0] * n[2], k * n[1] * n[1] + f,
-          k * n[1] * n[2],     k * n[2] * n[2] + f, 0,               0};
+  return {k * n[0] * n[0] + f,
+          k * n[0] * n[1],
+          k * n[0] * n[2],
+          k * n[1] * n[1] + f,
+          k * n[1] * n[2],
+          k * n[2] * n[2] + f,
+          0,
+          0};
 }
 ACINUS_INLINE void add_block(DiagonalBlock* to, Point p, float w, const DiagonalBlock& m) {
   float* at = to[p].data();
@@ -117,15 +130,12 @@ template <class L>
 ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scales,
                                    DiagonalBlock* d) {
   const auto k = static_cast<float>(scales.stiffness), g = static_cast<float>(scales.friction);
-  auto add = [&](const L& l, bool a, bool b) {
+  for (const Share s : set.share) {
+    const L& l = set.link[s.link];
     const DiagonalBlock m = block_of(l.normal, k * l.stiffness, g * l.friction);
-    if (a) add_side(d, l.a, m);
-    if (b && exists(l)) add_side(d, l.b, m);
-  };
-  if (set.whole)
-    for (const L& l : set.link) add(l, true, true);
-  else
-    for (const Share s : set.share) add(set.link[s.link], s.a != 0, s.b != 0);
+    if (s.a) add_side(d, l.a, m);
+    if (s.b && exists(l)) add_side(d, l.b, m);
+  }
 }
 
 template <class T>
@@ -166,18 +176,14 @@ ACINUS_KERNEL void multiply_links(const LinkSet<PointLink>& set, LinkScales scal
 
 void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
                 Packed<double>* y) {
-  auto add = [&](std::size_t k, bool a, bool b) {
-    const Link& l = set.link[k];
-    if (exists(l) == external) return;
-    const Vec3 v = load[k].force * load[k].normal;
+  for (const Share s : set.share) {
+    const Link& l = set.link[s.link];
+    if (exists(l) == external) continue;
+    const Vec3 v = load[s.link].force * load[s.link].normal;
     const Four<double> f = {v.x(), v.y(), v.z(), 0};
-    if (a) scatter(l.a, f, y);
-    if (b && !external) scatter(l.b, -f, y);
-  };
-  if (set.whole)
-    for (std::size_t k = 0; k < set.link.size(); ++k) add(k, true, true);
-  else
-    for (const Share s : set.share) add(s.link, s.a != 0, s.b != 0);
+    if (s.a) scatter(l.a, f, y);
+    if (s.b && !external) scatter(l.b, -f, y);
+  }
 }
 
 ACINUS_KERNEL void add_diagonal(const LinkSet<Link>& set, LinkScales scales, DiagonalBlock* d) {

@@ -19,12 +19,11 @@ struct Share {
   std::uint32_t a : 1, b : 1;
 };
 
-/// All contacts, or one thread's share of them.
+/// One thread's share of the contacts.
 template <class L>
 struct LinkSet {
   std::span<const L> link;
   std::span<const Share> share;
-  bool whole = true;  ///< all contacts, both sides; share is not looked at
 };
 
 /// What contact coefficients are multiplied by.

@@ -11,7 +11,8 @@ Stencil stencil_of(const Link& link) {
       const double w = m == 0 ? w0 : m == 1 ? w1 : w2;
       const bool single = side.point[0] == side.point[2];
       if (single && m < 2) continue;
-      s.address[static_cast<std::size_t>(s.n)] = address_of(side.point[static_cast<std::size_t>(m)]);
+      s.address[static_cast<std::size_t>(s.n)] =
+          address_of(side.point[static_cast<std::size_t>(m)]);
       s.weight[static_cast<std::size_t>(s.n++)] = sign * (single ? 1 : w);
     }
   };

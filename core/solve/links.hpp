@@ -39,13 +39,14 @@ struct Link {
   std::array<float, 3> normal{};  ///< unit, direction in which r opens the gap
   float stiffness = 0;            ///< nN/um, not negative
   float friction = 0;             ///< nN s/um, not negative
-  float gap = 0;  ///< um, for judging a step; +infinity where depth does not matter
+  float gap = 0;                  ///< um, for judging a step; +infinity where depth does not matter
 };
 static_assert(sizeof(Link) == 64);
 
 /// Writes the coefficients of a link, rounded to what it keeps.
 inline void set_law(double stiffness, double friction, double gap, const Vec3& normal, Link& link) {
-  for (int k = 0; k < 3; ++k) link.normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
+  for (int k = 0; k < 3; ++k)
+    link.normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
   link.stiffness = static_cast<float>(stiffness);
   link.friction = static_cast<float>(friction);
   link.gap = static_cast<float>(gap);

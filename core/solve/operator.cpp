@@ -12,15 +12,6 @@ namespace {
 /// Below this many point rows starting threads costs more than it saves.
 constexpr std::size_t kParallelRows = 400;
 
-/// f(vector of the block's rows, coefficients) for the rank-one families that cover a block.
-template <class F>
-void for_each_family(const System& s, std::size_t b, F f) {
-  for (const RankOne& family : s.rank_one)
-    if (b * kLanes < family.coefficient.size())
-      f(family.vector.data() + s.block[b].first_row * kPointStride,
-        family.coefficient.data() + b * kLanes);
-}
-
 }  // namespace
 
 template <>
@@ -33,13 +24,15 @@ Operator::PackedVectors<float>& Operator::packed() const {
 }
 
 template <class F>
+void Operator::for_each_range(F f) {
+  const auto n = static_cast<int>(range_.size());
+#pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
+  for (int k = 0; k < n; ++k) f(range_[static_cast<std::size_t>(k)]);
+}
+template <class F>
 void Operator::for_each_range(F f) const {
   const auto n = static_cast<int>(range_.size());
-  if (n == 1) {
-    f(range_[0]);
-    return;
-  }
-#pragma omp parallel for schedule(static, 1) num_threads(n)
+#pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
   for (int k = 0; k < n; ++k) f(range_[static_cast<std::size_t>(k)]);
 }
 
@@ -50,13 +43,13 @@ void Operator::for_each_block(const Range& range, F f) const {
 }
 
 LinkSet<Link> Operator::links_of(const Range& range) const {
-  return {system_->links.link, range.link, range_.size() == 1};
+  return {system_->links.link, range.link};
 }
 LinkSet<PointLink> Operator::point_links_of(const Range& range) const {
-  return {system_->point_links, range.point_link, range_.size() == 1};
+  return {system_->point_links, range.point_link};
 }
 
-/// Cuts the blocks into one range per thread and finds the contacts of each.
+/// Cuts the blocks into one range per thread.
 void Operator::divide() {
   const System& s = *system_;
   const std::size_t n_block = s.block.size();
@@ -69,28 +62,36 @@ void Operator::divide() {
     range_[k].first_block = b;
     while (b < n_block && (k + 1 == n || s.block[b].first_row < (k + 1) * s.n_row / n)) ++b;
     range_[k].last_block = b;
-    range_[k].link.clear();
-    range_[k].point_link.clear();
   }
-  if (n == 1) return;
+}
+
+/// Finds the contacts of each range: all of them, or those with a matrix.
+void Operator::share_links(bool with_matrix) {
+  const System& s = *system_;
   auto first_point = [&](std::size_t block) {
-    return (block < n_block ? s.block[block].first_row : s.n_row) * kLanes;
+    return (block < s.block.size() ? s.block[block].first_row : s.n_row) * kLanes;
   };
   // Every thread picks out its own: reading all contacts is cheaper than sorting them.
-#pragma omp parallel for schedule(static, 1) num_threads(static_cast<int>(n))
-  for (std::size_t k = 0; k < n; ++k) {
-    Range& range = range_[k];
+  for_each_range([&](Range& range) {
     const std::size_t from = first_point(range.first_block), to = first_point(range.last_block);
     auto owns = [&](Point p) { return p >= from && p < to; };
-    auto pick = [&](std::size_t l, Point at_a, Point at_b, std::vector<Share>& mine) {
-      const bool a = owns(at_a), other = owns(at_b);
-      if (a || other) mine.push_back({static_cast<std::uint32_t>(l), a, other});
+    auto pick = [&](std::size_t l, Point at_a, Point at_b, float k, float g,
+                    std::vector<Share>& mine) {
+      if (with_matrix && !(s.stiffness_scale * static_cast<double>(k) > 0 || g > 0)) return;
+      const bool a = owns(at_a), b = owns(at_b);
+      if (a || b) mine.push_back({static_cast<std::uint32_t>(l), a, b});
     };
-    for (std::size_t l = 0; l < s.links.size(); ++l)
-      pick(l, s.links.link[l].a.point[0], s.links.link[l].b.point[0], range.link);
-    for (std::size_t l = 0; l < s.point_links.size(); ++l)
-      pick(l, s.point_links[l].a, s.point_links[l].b, range.point_link);
-  }
+    range.link.clear();
+    range.point_link.clear();
+    for (std::size_t l = 0; l < s.links.size(); ++l) {
+      const Link& k = s.links.link[l];
+      pick(l, k.a.point[0], k.b.point[0], k.stiffness, k.friction, range.link);
+    }
+    for (std::size_t l = 0; l < s.point_links.size(); ++l) {
+      const PointLink& k = s.point_links[l];
+      pick(l, k.a, k.b, k.stiffness, k.friction, range.point_link);
+    }
+  });
 }
 
 void Operator::compute_diagonal() {
@@ -114,23 +115,16 @@ void Operator::compute_diagonal() {
           for (std::size_t l = 0; l < kLanes; ++l)
             d[i * kSymStride + c * kLanes + l] = static_cast<double>(from[i * kLanes + l][c]);
       add_diagonal(view_block(s, b), d.data());
-      for_each_family(s, b, [&](const double* g, const double* c) {
-        add_rank_one_diagonal(static_cast<int>(n), g, c, d.data());
-      });
       invert_blocks(static_cast<int>(n), d.data(), inverse_.data() + row * kSymStride);
     });
   });
 }
 
-void Operator::prepare_forces(const System& system) {
+void Operator::prepare(const System& system) {
   system_ = &system;
   partial_.resize(system.block.size());
-  for (auto* v : {&packed_double_.x, &packed_double_.y}) v->resize(system.n_row * kLanes);
   divide();
-}
-
-void Operator::prepare(const System& system) {
-  prepare_forces(system);
+  share_links(true);
   compute_diagonal();
 }
 
@@ -140,8 +134,8 @@ double Operator::sum_partials() const {
   return system_->halo.ranks.sum(sum);
 }
 
-template <class T, class F>
-void Operator::multiply(In<T> x, Out<T> y, bool external_only, F within_block) const {
+template <class T>
+double Operator::multiply(In<T> x, Out<T> y, bool external_only) const {
   const System& s = *system_;
   PackedVectors<T>& work = packed<T>();
   work.x.resize(s.n_row * kLanes);
@@ -158,52 +152,44 @@ void Operator::multiply(In<T> x, Out<T> y, bool external_only, F within_block) c
     multiply_links(links_of(range), scales, work.x.data(), work.y.data());
     multiply_links(point_links_of(range), scales, work.x.data(), work.y.data());
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
-      const T* xb = x.data() + row * kPointStride;
-      T* yb = y.data() + row * kPointStride;
-      within_block(b, xb, yb);
-      add_packed(work.y.data() + row * kLanes, n, yb);
-      partial_[b] = dot_range(xb, yb, n * kPointStride);
-    });
-  });
-}
-
-template <class T>
-double Operator::apply(In<T> x, Out<T> y) const {
-  const System& s = *system_;
-  multiply<T>(x, y, false, [&](std::size_t b, const T* xb, T* yb) {
-    multiply_block(view_block(s, b), xb, yb);
-    for_each_family(s, b, [&](const double* g, const double* c) {
-      add_rank_one(s.block[b].pattern->n_point, g, c, xb, yb);
+      BlockView view = view_block(s, b);
+      const BlockPattern medium_only{static_cast<int>(n), {}, {}, {}};
+      if (external_only) {
+        view.pattern = &medium_only;
+        view.n_family = 0;
+      }
+      partial_[b] = multiply_block(view, x.data() + row * kPointStride,
+                                   work.y.data() + row * kLanes, y.data() + row * kPointStride);
     });
   });
   return sum_partials();
 }
 
-void Operator::apply_external(std::span<const double> x, std::span<double> y) const {
-  const System& s = *system_;
-  multiply<double>(x, y, true, [&](std::size_t b, const double* xb, double* yb) {
-    BlockPattern medium_only;
-    medium_only.n_point = s.block[b].pattern->n_point;
-    BlockView view = view_block(s, b);
-    view.pattern = &medium_only;
-    multiply_block(view, xb, yb);
-  });
+template <class T>
+double Operator::apply(In<T> x, Out<T> y) const {
+  return multiply<T>(x, y, false);
 }
 
-void Operator::add_link_forces(std::span<double> pair_force,
-                               std::span<double> external_force) const {
-  const System& s = *system_;
-  for (const bool external : {false, true})
+void Operator::apply_external(std::span<const double> x, std::span<double> y) const {
+  multiply<double>(x, y, true);
+}
+
+void Operator::add_link_forces(System& system) {
+  system_ = &system;
+  divide();
+  share_links(false);
+  auto& y = packed_double_.y;
+  y.resize(system.n_row * kLanes);
+  for (auto* to : {&system.force, &system.external_force})
     for_each_range([&](const Range& range) {
-      auto& y = packed_double_.y;
+      const bool external = to == &system.external_force;
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
         std::fill_n(y.begin() + static_cast<std::ptrdiff_t>(row * kLanes), n * kLanes,
                     Packed<double>{});
       });
-      add_forces(links_of(range), s.links.load, external, y.data());
-      double* to = (external ? external_force : pair_force).data();
+      add_forces(links_of(range), system.links.load, external, y.data());
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-        add_packed(y.data() + row * kLanes, n, to + row * kPointStride);
+        add_packed(y.data() + row * kLanes, n, to->data() + row * kPointStride);
       });
     });
 }
@@ -212,8 +198,9 @@ template <class T>
 double Operator::precondition(In<T> r, Out<T> z) const {
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
-      partial_[b] = precondition_block(static_cast<int>(n), inverse_.data() + row * kSymStride,
-                                       r.data() + row * kPointStride, z.data() + row * kPointStride);
+      partial_[b] =
+          precondition_block(static_cast<int>(n), inverse_.data() + row * kSymStride,
+                             r.data() + row * kPointStride, z.data() + row * kPointStride);
     });
   });
   return sum_partials();
@@ -224,9 +211,9 @@ double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
       const std::size_t at = row * kPointStride;
-      partial_[b] = descend_block(static_cast<int>(n), alpha, inverse_.data() + row * kSymStride,
-                                  p.data() + at, q.data() + at, x.data() + at, r.data() + at,
-                                  z.data() + at);
+      partial_[b] =
+          descend_block(static_cast<int>(n), alpha, inverse_.data() + row * kSymStride,
+                        p.data() + at, q.data() + at, x.data() + at, r.data() + at, z.data() + at);
     });
   });
   return sum_partials();

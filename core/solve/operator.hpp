@@ -25,8 +25,6 @@ class Operator {
 
   /// Reads the system; call again after its loads changed. Cost: linear in elements and links.
   void prepare(const System& system);
-  /// As prepare, without the preconditioner: for forces only.
-  void prepare_forces(const System& system);
 
   /// y = A x; returns x . y.
   template <class T = double>
@@ -51,8 +49,9 @@ class Operator {
   /// y = A_external x: friction with the medium and contacts with surroundings only.
   void apply_external(std::span<const double> x, std::span<double> y) const;
 
-  /// Adds the force of every link to the points it joins (pair and external links apart).
-  void add_link_forces(std::span<double> pair_force, std::span<double> external_force) const;
+  /// Adds the force of every link to the points it joins: to force, or to external_force where one
+  /// side is surroundings. Changes what the system asks for, not its matrix: prepare comes after.
+  void add_link_forces(System& system);
 
   const System& system() const { return *system_; }
 
@@ -70,23 +69,26 @@ class Operator {
   template <class T>
   PackedVectors<T>& packed() const;
   void divide();
+  void share_links(bool with_matrix);
   void compute_diagonal();
   LinkSet<Link> links_of(const Range& range) const;
   LinkSet<PointLink> point_links_of(const Range& range) const;
+  template <class F>
+  void for_each_range(F f);
   template <class F>
   void for_each_range(F f) const;
   /// f(block, first point row, number of points) for the blocks of a range.
   template <class F>
   void for_each_block(const Range& range, F f) const;
-  template <class T, class F>
-  void multiply(In<T> x, Out<T> y, bool external_only, F within_block) const;
+  template <class T>
+  double multiply(In<T> x, Out<T> y, bool external_only) const;
   double sum_partials() const;
 
   const System* system_ = nullptr;
   std::vector<Range> range_;
-  std::vector<float> inverse_;             ///< [n_row][6][lane]
-  std::vector<DiagonalBlock> diagonal_;    ///< [n_point] scratch of compute_diagonal
-  mutable std::vector<double> partial_;    ///< [n_block] scratch of a dot product
+  std::vector<float> inverse_;           ///< [n_row][6][lane]
+  std::vector<DiagonalBlock> diagonal_;  ///< [n_point] scratch of compute_diagonal
+  mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
   mutable PackedVectors<double> packed_double_;
   mutable PackedVectors<float> packed_float_;
 };

@@ -144,8 +144,8 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> resi
   auto hold = [&](const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
                   double friction) {
     const Address first = stencil.address[0];
-    const auto cell = static_cast<std::size_t>(
-        work.block_of_row[first / kPointStride] * kLanes + static_cast<int>(first % kPointStride));
+    const auto cell = static_cast<std::size_t>(work.block_of_row[first / kPointStride] * kLanes +
+                                               static_cast<int>(first % kPointStride));
     if (work.group[cell] < 0) return;
     Group& group = groups[static_cast<std::size_t>(work.group[cell])];
     Vec3 at = Vec3::Zero();

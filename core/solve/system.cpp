@@ -14,7 +14,7 @@ void set_blocks(System& system, std::vector<Block> blocks) {
     b.first_face = n_face;
     system.n_row += static_cast<std::size_t>(b.pattern->n_point);
     n_spring += b.pattern->spring.size();
-    n_hinge += b.pattern->hinge.size();
+    n_hinge += b.pattern->wing.size();
     n_face += b.pattern->face.size();
   }
   system.block = std::move(blocks);

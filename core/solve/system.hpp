@@ -22,14 +22,17 @@ namespace acinus::solve {
 struct BlockPattern {
   int n_point = 0;
   std::vector<std::array<int, 2>> spring;
-  std::vector<std::array<int, 4>> hinge;
+  /// [n_spring] the other two points of the hinge about each spring; empty: no hinges
+  std::vector<std::array<int, 2>> wing;
   std::vector<std::array<int, 3>> face;
 };
 
 /// Floats of one element, all eight lanes.
-inline constexpr int kSpringStride = 5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
-inline constexpr int kHingeStride = 9 * kLanes;  ///< g1 g2 g3, g4 = -(g1 + g2 + g3): matrix g g^T
-inline constexpr int kFaceStride = 6 * kLanes;   ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
+inline constexpr int kSpringStride =
+    5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
+/// g on wing 0, wing 1 and spring point 0; on spring point 1 minus their sum: matrix g g^T
+inline constexpr int kHingeStride = 9 * kLanes;
+inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
 
 /// Eight cells with one pattern.
 struct Block {
@@ -60,7 +63,7 @@ struct System {
   std::vector<RankOne> rank_one;
   Links links;                         ///< contacts of surfaces
   std::vector<PointLink> point_links;  ///< contacts of spheres
-  Halo halo;                           ///< copies of unknowns owned by other ranks; nothing on one rank
+  Halo halo;  ///< copies of unknowns owned by other ranks; nothing on one rank
 
   std::size_t n_dof() const { return n_row * kPointStride; }
 };

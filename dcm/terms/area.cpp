@@ -53,8 +53,7 @@ void add_area(const Params& p, const GroupView& g, solve::System& s, solve::Rank
     across[l] = s.stiffness_scale * std::max(0.0, -pull[l]) / std::sqrt(3.0);
     tense = tense || across[l] > 0;
   }
-  if (tense)
-    tension_kernel(g, across, s.spring.data() + g.first_spring * solve::kSpringStride);
+  if (tense) tension_kernel(g, across, s.spring.data() + g.first_spring * solve::kSpringStride);
   add_scaled(g.topology->n_node, pull, gradient, s.force.data() + g.first_row * kPointStride);
 }
 

@@ -31,8 +31,8 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane inverse_squares = inverse_norms * inverse_norms;
     const Lane3 a1 = (s2 * inverse_squares) * n1, a2 = (s1 * inverse_squares) * n2;
     const Lane3 grad1 = length * a1, grad2 = length * a2;
-    const Lane3 grad3 = (dot(x1 - x4, edge) * inverse_length) * a1 +
-                        (dot(x2 - x4, edge) * inverse_length) * a2;
+    const Lane3 grad3 =
+        (dot(x1 - x4, edge) * inverse_length) * a1 + (dot(x2 - x4, edge) * inverse_length) * a2;
     const Lane3 f1 = -moment * grad1, f2 = -moment * grad2, f3 = -moment * grad3;
     add3(force + h[0] * kPointStride, f1);
     add3(force + h[1] * kPointStride, f2);

@@ -1,0 +1,131 @@
+#include "runs/bench/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/contact/jkr.hpp"
+#include "core/random.hpp"
+#include "core/timing.hpp"
+#include "coupling/step.hpp"
+#include "runs/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Median CPU time of one call, us, over repetitions of about 20 ms each.
+template <class F>
+double time_us(F f) {
+  f();
+  double start = cpu_seconds();
+  f();
+  const int n = std::clamp(static_cast<int>(0.02 / std::max(cpu_seconds() - start, 1e-7)), 1, 1000);
+  std::vector<double> samples;
+  for (int r = 0; r < 9; ++r) {
+    start = cpu_seconds();
+    for (int k = 0; k < n; ++k) f();
+    samples.push_back((cpu_seconds() - start) / n);
+  }
+  std::ranges::sort(samples);
+  return 1e6 * samples[samples.size() / 2];
+}
+
+BenchRow measure_parts(int count, const std::string& quadrature) {
+  const Scene scene = parse_scene(
+      fmt::format(
+          R"({{"name": "assembly", "time": {{"end": "1 h", "step": "120 s", "adaptive": false, "max_move": 0}},
+  "cell_types": {{"cell": {{}}}},
+  "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
+  "motility": {{"random": false}}, "contact": {{"quadrature": "{}"}}}})",
+          count, quadrature),
+      "assembly");
+  coupling::World world = build_world(scene, Ranks::serial()).world;
+  coupling::Workspace w;
+  coupling::size_workspace(world, w);
+  for (int k = 0; k < 5; ++k) coupling::advance(world, w, 1e9);
+  coupling::find_all_contacts(world, 120, w);
+  coupling::assemble(world, 120, w);
+  const coupling::State& s = world.state;
+  const std::size_t n = w.system.n_dof();
+  std::vector<double> x(n, 1e-3), y(n);
+  std::vector<float> xf(n, 1e-3f), yf(n);
+  const double cells = count;
+
+  const double within = time_us([&] {
+    solve::clear_loads(w.system);
+    dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.free_area, w.forces.dcm, w.system);
+  });
+  const double contacts_build = time_us([&] {
+    w.system.links.clear();
+    dcm::add_contact_loads(s.dcm, world.params.dcm, world.params.dcm_contact, w.lanes,
+                           world.params.around, w.dcm, w.system.links);
+  });
+  const double links = static_cast<double>(w.system.links.size());
+  const double prepare = time_us([&] { w.op.prepare(w.system); });
+  const double product_double = time_us([&] { w.op.apply(x, y); });
+  const double product = time_us([&] { w.op.apply<float>(xf, yf); });
+  const double narrow = time_us([&] {
+    dcm::find_contacts(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, 0, w.dcm);
+  });
+  const double lists = time_us([&] {
+    w.dcm.list_position.clear();
+    dcm::refresh_lists(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, w.dcm);
+  });
+  w.system.links.clear();
+  w.op.prepare(w.system);
+  const double product_alone = time_us([&] { w.op.apply<float>(xf, yf); });
+  const solve::Block& block = w.system.block[0];
+  const double bytes = 4.0 *
+                       (static_cast<double>(block.pattern->spring.size()) * solve::kSpringStride +
+                        static_cast<double>(block.pattern->wing.size()) * solve::kHingeStride +
+                        static_cast<double>(block.pattern->face.size()) * solve::kFaceStride) /
+                       kLanes;
+  BenchRow row{fmt::format("{} DCM cells, {}", count, quadrature),
+               count,
+               {{"us_per_cell", within / cells},
+                {"bytes_per_cell", bytes},
+                {"product_us_per_cell", product / cells},
+                {"product_without_contacts_us_per_cell", product_alone / cells},
+                {"product_double_us_per_cell", product_double / cells},
+                {"contacts_per_cell", links / cells},
+                {"contact_loads_us_per_cell", contacts_build / cells},
+                {"preconditioner_us_per_cell", prepare / cells},
+                {"narrow_phase_us_per_cell", narrow / cells},
+                {"list_build_us_per_cell", lists / cells}}};
+  print_row(row);
+  return row;
+}
+
+}  // namespace
+
+BenchTable bench_assembly(const BenchOptions&) {
+  BenchTable table;
+  for (const char* quadrature : {"3-point", "nodes"})
+    for (int count : {8, 27, 64, 512}) table.push_back(measure_parts(count, quadrature));
+  return table;
+}
+
+BenchTable bench_jkr(const BenchOptions&) {
+  // Overlaps and radii as in a clump: both sides of rest, some far pressed.
+  constexpr std::size_t kPairs = 1 << 14;
+  UniformStream random(7, Purpose::kPlacement, 1);
+  std::vector<contact::SpherePair> pair(kPairs);
+  std::vector<double> overlap(kPairs);
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    pair[k] = {random.uniform(2.5, 3.5), random.uniform(0.2, 0.4), 0.01};
+    overlap[k] = random.uniform(-0.1, 1.5);
+  }
+  double sum = 0;
+  const double exact = time_us([&] {
+    for (std::size_t k = 0; k < kPairs; ++k)
+      sum += contact::jkr_force(pair[k], overlap[k], true).force;
+  });
+  BenchRow row{"JKR contacts, exact",
+               static_cast<int>(kPairs),
+               {{"million_per_s", kPairs / exact}, {"mean_force_nN", sum / kPairs}}};
+  print_row(row);
+  return {row};
+}
+
+}  // namespace acinus::runs

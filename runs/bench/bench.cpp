@@ -1,0 +1,76 @@
+#include "runs/bench/bench.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "core/timing.hpp"
+#include "runs/bench/assembly.hpp"
+#include "runs/bench/step_cost.hpp"
+#include "runs/bench/table.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
+  static const std::map<std::string, BenchTable (*)(const BenchOptions&)> all{
+      {"assembly", bench_assembly}, {"cbm100k", bench_cbm100k}, {"cbm10k", bench_cbm10k},
+      {"cbm1m", bench_cbm1m},       {"dcm216", bench_dcm216},   {"dcm27", bench_dcm27},
+      {"jkr", bench_jkr},           {"threads", bench_threads}};
+  return all;
+}
+
+}  // namespace
+
+void print_row(const BenchRow& row) {
+  fmt::print("{}  ({} cells)\n", row.name, row.cells);
+  for (const auto& [key, value] : row.value) fmt::print("    {:40s} {:12.4g}\n", key, value);
+  std::fflush(stdout);
+}
+
+std::vector<std::string> list_benches() {
+  std::vector<std::string> names;
+  for (const auto& [name, run] : benches()) names.push_back(name);
+  return names;
+}
+
+int run_bench(const std::string& name, const BenchOptions& options) {
+  const auto found = benches().find(name);
+  check(found != benches().end(), fmt::format("bench {}: no such benchmark; there are: {}", name,
+                                              fmt::join(list_benches(), ", ")));
+  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  omp_set_num_threads(threads);
+  const Machine machine = describe_machine();
+  fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
+             ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
+  const BenchTable table = found->second(options);
+  if (options.json_file.empty()) return 0;
+  Json j = {{"name", name},
+            {"commit", ACINUS_GIT},
+            {"machine", machine.cpu_model},
+            {"instruction_set", machine.instruction_set},
+            {"threads", threads},
+            {"rows", Json::array()}};
+  for (const BenchRow& row : table) {
+    Json r = {{"case", row.name}, {"cells", row.cells}};
+    for (const auto& [key, value] : row.value) r[key] = value;
+    j["rows"].push_back(r);
+  }
+  std::ofstream out(options.json_file);
+  out << j.dump(2) << '\n';
+  out.close();
+  check(out.good(), options.json_file + ": cannot be written. Choose another file.",
+        Exit::kFileError);
+  return 0;
+}
+
+}  // namespace acinus::runs

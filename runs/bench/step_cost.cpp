@@ -1,0 +1,197 @@
+#include "runs/bench/step_cost.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "core/error.hpp"
+#include "core/timing.hpp"
+#include "coupling/step.hpp"
+#include "runs/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// One case: a scene, how many steps warm it up, and how many are measured from the saved state.
+struct StepCase {
+  std::string name, scene;
+  int warm_up = 20, steps = 60, repeats = 5;
+  bool grows = false;
+};
+
+std::string dcm_clump(int count, const std::string& quadrature) {
+  return fmt::format(
+      R"({{"name": "dcm", "time": {{"end": "12 h", "step": "120 s", "adaptive": false, "max_move": 0}},
+  "cell_types": {{"cell": {{}}}},
+  "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
+  "motility": {{"random": false}}, "contact": {{"quadrature": "{}"}}}})",
+      count, quadrature);
+}
+
+/// Cell-cell friction as strong as that with the medium; `ratio` times as strong.
+std::string cbm_clump(int count, double ratio) {
+  return fmt::format(
+      R"({{"name": "cbm", "time": {{"end": "12 h", "step": "60 s", "adaptive": false, "max_move": 0}},
+  "solver": {{"tolerance": 1e-6}}, "friction": {{"cbm_cbm": "{} N s/m^3"}},
+  "cell_types": {{"cell": {{}}}},
+  "cells": {{"source": "clump", "model": "cbm", "count": {}, "spacing": 0.95, "jitter": 0.01}},
+  "motility": {{"random": true}}}})",
+      5e8 * ratio, count);
+}
+
+/// Every deformable cell grows from birth volume to twice that in a day, as in steady growth.
+void grow(coupling::World& world) {
+  for (Ramp& v : world.state.dcm.volume) v = {v.from, 2 * v.from, 0, 86400};
+}
+
+struct Sample {
+  double cpu = 0, wall = 0;
+  std::vector<StageTime> stages;
+  std::int64_t cg = 0;
+  std::uint64_t hash = 0;
+};
+
+/// A scene brought to its measured state.
+class Runner {
+ public:
+  explicit Runner(const StepCase& c) : case_(c) {
+    const std::uint64_t before = peak_rss_bytes();
+    world_ = build_world(parse_scene(c.scene, c.name), Ranks::serial()).world;
+    if (c.grows) grow(world_);
+    coupling::size_workspace(world_, work_);
+    advance(c.warm_up);
+    saved_ = world_.state;
+    bytes_ = peak_rss_bytes() - before;
+  }
+  Sample measure() {
+    world_.state = saved_;
+    work_.timings.clear();
+    const double cpu = cpu_seconds(), wall = wall_seconds();
+    advance(case_.steps);
+    return {cpu_seconds() - cpu, wall_seconds() - wall, work_.timings.stages(),
+            world_.state.clock.cg_iterations - saved_.clock.cg_iterations,
+            coupling::hash_state(world_.state)};
+  }
+  Sample measure_median() {
+    std::vector<Sample> samples;
+    for (int r = 0; r < case_.repeats; ++r) samples.push_back(measure());
+    std::ranges::sort(samples, {}, &Sample::cpu);
+    return samples[samples.size() / 2];
+  }
+  int cells() const {
+    return dcm::count_cells(world_.state.dcm) + static_cast<int>(world_.state.cbm.n_cell());
+  }
+  double contacts_per_cell() const {
+    return static_cast<double>(work_.system.links.size() + work_.system.point_links.size()) /
+           cells();
+  }
+  double bytes_per_cell() const { return static_cast<double>(bytes_) / cells(); }
+
+ private:
+  void advance(int steps) {
+    for (int k = 0; k < steps; ++k) {
+      const coupling::StepResult r = coupling::advance(world_, work_, 1e9);
+      check(r.accepted, case_.name + ": a step failed: " + r.cause, Exit::kCannotContinue);
+    }
+  }
+  StepCase case_;
+  coupling::World world_;
+  coupling::Workspace work_;
+  coupling::State saved_;
+  std::uint64_t bytes_ = 0;
+};
+
+BenchRow measure_case(const StepCase& c) {
+  Runner runner(c);
+  const Sample s = runner.measure_median();
+  const double cell_steps = runner.cells() * static_cast<double>(c.steps);
+  BenchRow row{c.name,
+               runner.cells(),
+               {{"cpu_us_per_cell_step", 1e6 * s.cpu / cell_steps},
+                {"cg_iterations_per_step", static_cast<double>(s.cg) / c.steps},
+                {"contacts_per_cell", runner.contacts_per_cell()},
+                {"bytes_per_cell", runner.bytes_per_cell()},
+                {"wall_s", s.wall}}};
+  for (const StageTime& t : s.stages) {
+    std::string key = t.name + "_us";
+    std::ranges::replace(key, ' ', '_');
+    row.value.emplace_back(key, 1e6 * t.cpu / cell_steps);
+    if (t.name == "solve")
+      row.value.emplace_back("solve_us_per_iteration",
+                             1e6 * t.cpu / (static_cast<double>(s.cg) * runner.cells()));
+  }
+  print_row(row);
+  return row;
+}
+
+StepCase dcm_case(int count, const std::string& quadrature, int steps) {
+  return {fmt::format("{} growing DCM cells, {}", count, quadrature),
+          dcm_clump(count, quadrature),
+          30,
+          steps,
+          5,
+          true};
+}
+StepCase cbm_case(int count, int steps, int repeats) {
+  return {fmt::format("{} CBM cells, friction ratio 1", count),
+          cbm_clump(count, 1),
+          20,
+          steps,
+          repeats,
+          false};
+}
+
+}  // namespace
+
+BenchTable bench_dcm27(const BenchOptions&) {
+  return {measure_case(dcm_case(27, "3-point", 60)), measure_case(dcm_case(27, "nodes", 60))};
+}
+BenchTable bench_dcm216(const BenchOptions&) {
+  return {measure_case(dcm_case(216, "3-point", 20)), measure_case(dcm_case(216, "nodes", 20))};
+}
+BenchTable bench_cbm10k(const BenchOptions&) {
+  StepCase strong{"10000 CBM cells, friction ratio 100", cbm_clump(10000, 100), 20, 20, 3, false};
+  return {measure_case(cbm_case(10000, 20, 5)), measure_case(strong)};
+}
+BenchTable bench_cbm100k(const BenchOptions&) {
+  StepCase strong{"100000 CBM cells, friction ratio 100", cbm_clump(100000, 100), 10, 5, 3, false};
+  return {measure_case(cbm_case(100000, 10, 3)), measure_case(strong)};
+}
+BenchTable bench_cbm1m(const BenchOptions&) {
+  StepCase c = cbm_case(1000000, 2, 1);
+  c.warm_up = 2;
+  return {measure_case(c)};
+}
+
+BenchTable bench_threads(const BenchOptions&) {
+  BenchTable table;
+  for (const StepCase& c :
+       {dcm_case(216, "3-point", 20), dcm_case(216, "nodes", 20), cbm_case(100000, 5, 1)}) {
+    omp_set_num_threads(1);
+    Runner runner(c);
+    std::vector<double> ratio;
+    bool same = true;
+    for (int r = 0; r < 5; ++r) {
+      omp_set_num_threads(1);
+      const Sample one = runner.measure();
+      omp_set_num_threads(2);
+      const Sample two = runner.measure();
+      ratio.push_back(one.wall / two.wall);
+      same = same && one.hash == two.hash;
+    }
+    std::ranges::sort(ratio);
+    table.push_back({c.name,
+                     runner.cells(),
+                     {{"speedup", ratio[ratio.size() / 2]},
+                      {"speedup_least", ratio.front()},
+                      {"speedup_most", ratio.back()},
+                      {"same_bits", same ? 1.0 : 0.0}}});
+    print_row(table.back());
+  }
+  return table;
+}
+
+}  // namespace acinus::runs
