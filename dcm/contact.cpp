@@ -10,6 +10,10 @@ namespace {
 
 using contact::SurroundingKind;
 
+/// Extra distance, um, at which bodies count as near each other: how far all may move together
+/// before the pairs are looked for again.
+constexpr double kReserve = 2;
+
 contact::SearchOptions search_options(const ContactParams& c, const State& state,
                                       const LaneData& lanes) {
   double range = 0;
@@ -46,6 +50,47 @@ SegmentCandidates find_segments(int body, const contact::SurfaceBody& b, const C
     list.start.push_back(static_cast<std::uint32_t>(list.segment.size()));
   }
   return list;
+}
+
+/// How much the two bodies of a list moved relative to each other since it was made.
+double relative_motion(const ContactWorkspace& work, int a, int b) {
+  const BodyMotion& i = work.motion[static_cast<std::size_t>(a)];
+  if (a == b) return 2 * i.spread;
+  if (static_cast<std::size_t>(b) >= work.motion.size()) return i.spread + i.mean.norm();
+  const BodyMotion& j = work.motion[static_cast<std::size_t>(b)];
+  return i.spread + j.spread + (i.mean - j.mean).norm();
+}
+
+/// Works out the motion of every body since the lists were made, and whether that is too much.
+bool lists_expired(const State& state, const ContactParams& c, const LaneData& lanes,
+                   const contact::Surroundings& around, ContactWorkspace& work) {
+  double wider = 0;  // a growing cell also reaches farther; that eats into the skin
+  double farthest = 0;
+  for (std::size_t k = 0; k < work.body.size(); ++k) {
+    const std::size_t lane = work.lane_of_body[k];
+    const mesh::Topology& t = *state.group[lane / kLanes].topology;
+    BodyMotion& m = work.motion[k];
+    auto moved = [&](int i) -> Vec3 {
+      return work.body[k].node[static_cast<std::size_t>(i)] -
+             load_point(work.list_position.data(), node_address(state, lane, i));
+    };
+    for (int i = 0; i < t.n_node; ++i) m.mean += moved(i);
+    m.mean /= t.n_node;
+    double spread2 = 0;
+    for (int i = 0; i < t.n_node; ++i)
+      spread2 = std::max(spread2, (moved(i) - m.mean).squaredNorm());
+    m.spread = std::sqrt(spread2);
+    farthest = std::max(farthest, m.mean.norm() + m.spread);
+    wider = std::max(wider, contact_range(c, t, lanes.radius[lane]) -
+                                contact_range(c, t, work.list_radius[lane]));
+  }
+  if (2 * farthest > kReserve) return true;
+  const bool held = !work.fixed.empty() || !around.vessels.network.segment.empty();
+  if (held && farthest + wider > c.skin) return true;
+  double most = 0;
+  for (auto [a, b] : work.near) most = std::max(most, relative_motion(work, a, b));
+  for (const BodyMotion& m : work.motion) most = std::max(most, 2 * m.spread);
+  return most + wider > c.skin;
 }
 
 }  // namespace
@@ -101,26 +146,14 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
 bool refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, ContactWorkspace& work) {
   const contact::SearchOptions options = search_options(c, state, lanes);
-  if (work.list_position.size() == state.position.size()) {
-    double moved2 = 0;
-    for (std::size_t row = 0; row < state.n_row(); ++row)
-      for (int l = 0; l < kLanes; ++l) {
-        const Address a = make_address(row, l);
-        moved2 = std::max(moved2, (load_point(state.position.data(), a) -
-                                   load_point(work.list_position.data(), a))
-                                      .squaredNorm());
-      }
-    // A growing cell also reaches farther; that eats into the skin like movement does.
-    double wider = 0;
-    for (std::size_t k = 0; k < work.lane_of_body.size(); ++k) {
-      const std::size_t l = work.lane_of_body[k];
-      const mesh::Topology& t = *state.group[l / kLanes].topology;
-      wider = std::max(
-          wider, contact_range(c, t, lanes.radius[l]) - contact_range(c, t, work.list_radius[l]));
-    }
-    if (2 * std::sqrt(moved2) + wider <= c.skin) return false;
-  }
-  work.list = contact::find_candidates(work.body, work.fixed, options);
+  const std::size_t n_body = work.body.size();
+  work.motion.assign(n_body, {});
+  if (work.list_position.size() == state.position.size() &&
+      !lists_expired(state, c, lanes, around, work))
+    return false;
+  work.motion.assign(n_body, {});
+  work.near = contact::find_near_bodies(work.body, options, kReserve);
+  work.list = contact::find_candidates(work.body, work.fixed, work.near, options);
   work.segment_list.resize(work.body.size());
 #pragma omp parallel for schedule(dynamic, 4)
   for (std::size_t k = 0; k < work.body.size(); ++k)
@@ -145,7 +178,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
     found.clear();
     for (std::size_t k = part * work.list.size() / n_part;
          k < (part + 1) * work.list.size() / n_part; ++k)
-      contact::find_contacts(work.list[k], work.body, work.fixed, options, found);
+      contact::find_contacts(work.list[k], work.body, work.fixed, options,
+                             relative_motion(work, work.list[k].body_a, work.list[k].body_b),
+                             found);
   }
   for (const auto& f : work.found) work.surface.insert(work.surface.end(), f.begin(), f.end());
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/candidates.hpp"
 #include "core/contact/surface.hpp"
 #include "core/contact/surroundings.hpp"
 #include "core/contact/well.hpp"
@@ -66,13 +67,21 @@ struct SegmentCandidates {
   std::vector<int> segment;
 };
 
+/// How a body's nodes moved since the lists were made.
+struct BodyMotion {
+  Vec3 mean = Vec3::Zero();  ///< um
+  double spread = 0;         ///< um, largest deviation of a node from the mean
+};
+
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
 struct ContactWorkspace {
   std::vector<std::size_t> lane_of_body;
   std::vector<contact::SurfaceBody> body;                   ///< written by: refresh_bodies
   std::vector<contact::SurfaceBody> fixed;                  ///< static meshes
-  std::vector<double> list_position;                        ///< positions when the lists were made
-  std::vector<double> list_radius;                          ///< and the radii of that moment
+  std::vector<double> list_position;  ///< positions when the lists were made
+  std::vector<double> list_radius;    ///< and the radii of that moment
+  std::vector<std::pair<int, int>> near;  ///< bodies whose boxes were close then
+  std::vector<BodyMotion> motion;         ///< [body] since then; written by: refresh_lists
   std::vector<contact::Candidates> list;                    ///< written by: refresh_lists
   std::vector<SegmentCandidates> segment_list;              ///< written by: refresh_lists
   std::vector<std::vector<contact::SurfaceContact>> found;  ///< [thread] scratch of one search
@@ -93,8 +102,9 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
 /// Copies the nodes out of the lanes and recomputes normals and boxes.
 void refresh_bodies(const State& state, ContactWorkspace& work);
 
-/// Finds candidate lists again if a node moved more than half the skin since the last time.
-/// Returns whether it did. @pre refresh_bodies
+/// Finds candidate lists again if bodies that are near each other moved apart, together or out of
+/// shape by more than the skin since the last time; moving along together costs nothing. Returns
+/// whether it did. @pre refresh_bodies
 bool refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, ContactWorkspace& work);
 

@@ -72,32 +72,4 @@ struct SurfaceContact {
   }
 };
 
-/// Which triangles of b each site of a may meet; valid until nodes moved more than half the skin.
-struct Candidates {
-  int body_a = 0, body_b = 0;
-  std::vector<int> site;             ///< sites of a with at least one candidate
-  std::vector<std::uint32_t> start;  ///< [n_site + 1]
-  std::vector<int> triangle;         ///< triangles of b, nearest first
-};
-
-struct SearchOptions {
-  Quadrature quadrature = Quadrature::kThreePoint;
-  double range = 0;       ///< um, largest gap of interest
-  double max_depth = 0;   ///< um, deepest (negative) gap looked for
-  double skin = 0;        ///< um
-  double self_range = 0;  ///< um, gap below which a surface meets itself; 0 = never
-};
-
-/// Candidates of every ordered pair of bodies that come near (both passes), and of bodies with
-/// themselves. Bodies of `fixed` are only probed, never probe: they are numbered after `bodies`.
-std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
-                                        std::span<const SurfaceBody> fixed,
-                                        const SearchOptions& options);
-
-/// Closest features of one candidate list, appended in order of sites.
-/// Rejected: normals that do not oppose each other, gaps outside [-max_depth, range].
-void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
-                   std::span<const SurfaceBody> fixed, const SearchOptions& options,
-                   std::vector<SurfaceContact>& out);
-
 }  // namespace acinus::contact

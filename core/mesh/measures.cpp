@@ -127,50 +127,14 @@ MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles trian
   return out;
 }
 
-ClosestPoint find_closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, bc = c - b;
-  const double scale = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()});
-  const auto make = [&](double wa, double wb, double wc) {
-    ClosestPoint out;
-    out.weight = Vec3(wa, wb, wc);
-    out.point = a + wb * ab + wc * ac;
-    out.squared_distance = (p - out.point).squaredNorm();
-    return out;
-  };
-  // Slivers flatter than 1e-12 of their length have no reliable inside: their edges are as close.
-  if (ab.cross(ac).squaredNorm() <= 1e-24 * scale * scale) {
-    ClosestPoint best = closest_on_segment(p, a, b, 0, 1);
-    for (const ClosestPoint& other :
-         {closest_on_segment(p, b, c, 1, 2), closest_on_segment(p, c, a, 2, 0)}) {
-      if (other.squared_distance < best.squared_distance) best = other;
-    }
-    return best;
+ClosestPoint find_closest_point_of_sliver(const Vec3& p, const Vec3& a, const Vec3& b,
+                                          const Vec3& c) {
+  ClosestPoint best = closest_on_segment(p, a, b, 0, 1);
+  for (const ClosestPoint& other :
+       {closest_on_segment(p, b, c, 1, 2), closest_on_segment(p, c, a, 2, 0)}) {
+    if (other.squared_distance < best.squared_distance) best = other;
   }
-  const Vec3 ap = p - a, bp = p - b, cp = p - c;
-  const double ab_a = ab.dot(ap), ac_a = ac.dot(ap);
-  if (ab_a <= 0 && ac_a <= 0) return make(1, 0, 0);
-  const double ab_b = ab.dot(bp), ac_b = ac.dot(bp);
-  if (ab_b >= 0 && ac_b <= ab_b) return make(0, 1, 0);
-  const double part_c = ab_a * ac_b - ab_b * ac_a;
-  if (part_c <= 0 && ab_a >= 0 && ab_b <= 0) {
-    const double s = ab_a / (ab_a - ab_b);
-    return make(1 - s, s, 0);
-  }
-  const double ab_c = ab.dot(cp), ac_c = ac.dot(cp);
-  if (ac_c >= 0 && ab_c <= ac_c) return make(0, 0, 1);
-  const double part_b = ab_c * ac_a - ab_a * ac_c;
-  if (part_b <= 0 && ac_a >= 0 && ac_c <= 0) {
-    const double s = ac_a / (ac_a - ac_c);
-    return make(1 - s, 0, s);
-  }
-  const double part_a = ab_b * ac_c - ab_c * ac_b;
-  const double bc_b = ac_b - ab_b, bc_c = ab_c - ac_c;
-  if (part_a <= 0 && bc_b >= 0 && bc_c >= 0) {
-    const double s = bc_b / (bc_b + bc_c);
-    return make(0, 1 - s, s);
-  }
-  const double sum = part_a + part_b + part_c;
-  return make(1 - part_b / sum - part_c / sum, part_b / sum, part_c / sum);
+  return best;
 }
 
 double compute_triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c) {

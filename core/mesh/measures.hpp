@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/closest_point.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::mesh {
@@ -41,17 +42,6 @@ struct MeanCurvature {
 };
 /// Closed surfaces; triangles of zero area add nothing. Nodes of no triangle get zeros.
 MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles triangle);
-
-/// The point of a triangle closest to p.
-struct ClosestPoint {
-  Vec3 point = Vec3::Zero();
-  Vec3 weight =
-      Vec3::Zero();  ///< barycentric, each in [0, 1], sum 1: point = sum weight_m corner_m
-  double squared_distance = 0;  ///< um^2
-};
-/// Corner, edge and face regions after [Ericson2005, section 5.1.5]; degenerate triangles are edges
-/// or points.
-ClosestPoint find_closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Shape of one triangle, 4 sqrt(3) area / (sum of squared sides): 1 = equilateral, 0 = degenerate.
 double compute_triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c);

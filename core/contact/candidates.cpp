@@ -1,0 +1,294 @@
+#include "core/contact/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/mesh/closest_point.hpp"
+
+namespace acinus::contact {
+namespace {
+
+constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not oppose each other
+/// The same for lists: leaves room for turning within the skin.
+constexpr double kListFacing = 0.7;
+/// Self contact starts this many rest edges away on the surface.
+constexpr double kSelfRings = 3.0;
+constexpr double kNoDirection = 1e-9;  ///< um, below which the closest point gives no normal
+constexpr double kRounding = 1e-4;     ///< um, more than floats lose on a list's distances
+
+const SurfaceBody& body_at(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
+                           int k) {
+  const auto i = static_cast<std::size_t>(k);
+  return i < bodies.size() ? bodies[i] : fixed[i - bodies.size()];
+}
+
+/// Where a triangle's centre lies on the unit rest shape.
+Vec3 rest_center(const mesh::Topology& t, std::size_t triangle) {
+  Vec3 sum = Vec3::Zero();
+  for (int c : t.triangle[triangle]) sum += t.rest[static_cast<std::size_t>(c)];
+  return sum / 3;
+}
+
+/// On the rest shape, far enough along the surface to count as another part of it.
+bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::size_t triangle) {
+  const mesh::Topology& t = *b.topology;
+  const Vec3 from = q == Quadrature::kThreePoint ? rest_center(t, site) : t.rest[site];
+  return (from - rest_center(t, triangle)).norm() > kSelfRings * t.mean_rest_length;
+}
+
+/// Whether a body is so far from star-shaped that it might meet itself. While all normals are
+/// within about 70 degrees of the direction from the centre, facing sides open at 40 degrees or
+/// more and come close at the bottom of a cleft only, where they are neighbours along the surface.
+bool may_fold(const SurfaceBody& b) {
+  constexpr double kStar = 0.35;
+  Vec3 center = Vec3::Zero();
+  for (const Vec3& x : b.node) center += x;
+  center /= static_cast<double>(b.node.size());
+  for (std::size_t t = 0; t < b.center.size(); ++t) {
+    const Vec3 out = b.center[t] - center;
+    if (b.triangle_normal[t].dot(out) < kStar * out.norm()) return true;
+  }
+  return false;
+}
+
+/// Squared distance to the disc about a triangle's centre that holds it: never more than to the
+/// triangle itself.
+double squared_bound(const SurfaceBody& b, std::size_t t, const Vec3& x) {
+  const Vec3 d = x - b.center[t];
+  const double height = d.dot(b.triangle_normal[t]), squared_height = height * height;
+  const double across = std::sqrt(std::max(0.0, d.squaredNorm() - squared_height)) - b.reach[t];
+  return squared_height + (across > 0 ? across * across : 0);
+}
+
+/// The closest place on a surface so far.
+struct Closest {
+  double squared = 0;
+  int triangle = -1;
+  mesh::ClosestPoint at;
+
+  void look_at(const SurfaceBody& b, int t, const Vec3& x) {
+    const auto& corner = (*b.triangle)[static_cast<std::size_t>(t)];
+    const mesh::ClosestPoint c =
+        mesh::find_closest_point(x, b.node[static_cast<std::size_t>(corner[0])],
+                                 b.node[static_cast<std::size_t>(corner[1])],
+                                 b.node[static_cast<std::size_t>(corner[2])]);
+    // Ties (an edge two triangles share) go to the lower number: the order of the list, which
+    // depends on when it was made, must not show.
+    if (c.squared_distance < squared || (c.squared_distance == squared && t < triangle)) {
+      squared = c.squared_distance;
+      at = c;
+      triangle = t;
+    }
+  }
+};
+
+/// Blend of the node normals at a place on a triangle.
+Vec3 blended_normal(const SurfaceBody& b, int triangle, const Vec3& weight) {
+  const auto& corner = (*b.triangle)[static_cast<std::size_t>(triangle)];
+  Vec3 n = Vec3::Zero();
+  for (int m = 0; m < 3; ++m)
+    n += weight[m] * b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
+  const double length = n.norm();
+  return length > 0 ? Vec3(n / length) : n;
+}
+
+/// Makes one list.
+class ListBuilder {
+ public:
+  ListBuilder(const SurfaceBody& a, const SurfaceBody& b, const SearchOptions& o, bool self)
+      : a_(a),
+        b_(b),
+        o_(o),
+        self_(self),
+        out_(self ? o.self_range : o.range),
+        depth_(self ? 0 : o.max_depth),
+        margin_(std::max(out_, depth_) + o.skin) {
+    find_near_triangles();
+  }
+
+  void fill(Candidates& list) {
+    const bool face = o_.quadrature == Quadrature::kThreePoint;
+    list.start.assign(1, 0);
+    for (std::size_t s = 0; s < n_sites(a_, o_.quadrature); ++s) {
+      const Vec3& at = face ? a_.center[s] : a_.node[s];
+      const double reach = face ? a_.reach[s] : 0;
+      if (at.dot(axis_) + reach < low_b_ || !near_b_.grown(reach).contains(at)) continue;
+      const Vec3& normal = face ? a_.triangle_normal[s] : a_.node_normal[s];
+      near_site_.clear();
+      for (int t : near_) {
+        const auto k = static_cast<std::size_t>(t);
+        const double far = reach + b_.reach[k] + margin_;
+        if ((at - b_.center[k]).squaredNorm() > far * far) continue;
+        if (normal.dot(b_.triangle_normal[k]) > kListFacing) continue;
+        if (self_ && !far_on_surface(a_, o_.quadrature, s, k)) continue;
+        near_site_.push_back(t);
+      }
+      if (near_site_.empty()) continue;
+      const int per_site = points_per_site(o_.quadrature);
+      for (int q = 0; q < per_site; ++q) add(static_cast<int>(s) * per_site + q, list);
+    }
+  }
+
+ private:
+  /// Triangles of b that anything of a may come near: those within a's box and on its side.
+  void find_near_triangles() {
+    near_b_ = b_.box.grown(margin_);
+    double high_a = 1e300;
+    if (!self_) {
+      const Vec3 apart = b_.box.low + b_.box.high - a_.box.low - a_.box.high;
+      if (apart.norm() > 0) {
+        axis_ = apart.normalized();
+        double high = -1e300, low = 1e300;
+        for (const Vec3& x : a_.node) high = std::max(high, x.dot(axis_));
+        for (const Vec3& x : b_.node) low = std::min(low, x.dot(axis_));
+        high_a = high + margin_;
+        low_b_ = low - margin_;
+      }
+    }
+    const Box near_a = a_.box.grown(margin_);
+    for (std::size_t t = 0; t < b_.center.size(); ++t)
+      if (self_ || (b_.center[t].dot(axis_) - b_.reach[t] < high_a &&
+                    near_a.grown(b_.reach[t]).contains(b_.center[t])))
+        near_.push_back(static_cast<int>(t));
+  }
+
+  /// Adds a point with every triangle that may be closest to it before the list expires.
+  void add(int point, Candidates& list) {
+    const Vec3 x = point_position(a_, point_stencil(a_, o_.quadrature, point));
+    sorted_.clear();
+    for (int t : near_site_) {
+      const double bound2 = squared_bound(b_, static_cast<std::size_t>(t), x);
+      if (bound2 < margin_ * margin_) sorted_.emplace_back(std::sqrt(bound2), t);
+    }
+    std::ranges::sort(sorted_);
+    Closest closest{margin_ * margin_, -1, {}};
+    for (const auto& [bound, t] : sorted_) {
+      if (bound * bound > closest.squared) break;
+      closest.look_at(b_, t, x);
+    }
+    if (closest.triangle < 0) return;
+    const Vec3 outward = blended_normal(b_, closest.triangle, closest.at.weight);
+    const double distance = std::sqrt(closest.squared);
+    const double gap = (x - closest.at.point).dot(outward) >= 0 ? distance : -distance;
+    if (gap > out_ + o_.skin) return;
+    list.point.push_back(point);
+    list.gap.push_back(static_cast<float>(gap));
+    for (const auto& [bound, t] : sorted_) {
+      if (bound > distance + 2 * o_.skin + kRounding) break;
+      list.triangle.push_back(t);
+      list.bound.push_back(static_cast<float>(bound));
+    }
+    list.start.push_back(static_cast<std::uint32_t>(list.triangle.size()));
+  }
+
+  const SurfaceBody &a_, &b_;
+  const SearchOptions& o_;
+  bool self_;
+  double out_, depth_, margin_;
+  Vec3 axis_ = Vec3::Zero();  ///< from a to b
+  double low_b_ = -1e300;     ///< of axis . x
+  Box near_b_;
+  std::vector<int> near_, near_site_;
+  std::vector<std::pair<double, int>> sorted_;
+};
+
+}  // namespace
+
+std::vector<std::pair<int, int>> find_near_bodies(std::span<const SurfaceBody> bodies,
+                                                  const SearchOptions& o, double reserve) {
+  std::vector<Box> boxes;
+  for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
+  return find_pairs(boxes, std::max(o.range, o.max_depth) + o.skin + reserve);
+}
+
+std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
+                                        std::span<const SurfaceBody> fixed,
+                                        std::span<const std::pair<int, int>> near,
+                                        const SearchOptions& o) {
+  const double margin = std::max(o.range, o.max_depth) + o.skin;
+  std::vector<Candidates> lists;
+  auto add_list = [&](int a, int b) {
+    lists.emplace_back();
+    lists.back().body_a = a;
+    lists.back().body_b = b;
+  };
+  for (auto [a, b] : near) {
+    if (!bodies[static_cast<std::size_t>(a)].box.grown(margin).overlaps(
+            bodies[static_cast<std::size_t>(b)].box))
+      continue;
+    add_list(a, b);
+    add_list(b, a);
+  }
+  if (!fixed.empty()) {
+    std::vector<Box> boxes, fixed_boxes;
+    for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
+    for (const SurfaceBody& b : fixed) fixed_boxes.push_back(b.box);
+    for (auto [a, b] : find_pairs_between(boxes, fixed_boxes, margin))
+      add_list(a, b + static_cast<int>(bodies.size()));
+  }
+  if (o.self_range > 0)
+    for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+      if (bodies[static_cast<std::size_t>(a)].topology &&
+          may_fold(bodies[static_cast<std::size_t>(a)]))
+        add_list(a, a);
+#pragma omp parallel for schedule(dynamic, 4)
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    ListBuilder(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b), o,
+                lists[k].body_a == lists[k].body_b)
+        .fill(lists[k]);
+  std::erase_if(lists, [](const Candidates& c) { return c.point.empty(); });
+  std::ranges::sort(lists, {}, [](const Candidates& c) { return std::pair(c.body_a, c.body_b); });
+  return lists;
+}
+
+void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+                   std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
+                   std::vector<SurfaceContact>& out) {
+  const bool self = list.body_a == list.body_b;
+  const SurfaceBody& a = body_at(bodies, fixed, list.body_a);
+  const SurfaceBody& b = body_at(bodies, fixed, list.body_b);
+  const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
+  const double horizon = std::max(range, depth), shift = moved + kRounding;
+  const int per_site = points_per_site(o.quadrature);
+  for (std::size_t p = 0; p < list.point.size(); ++p) {
+    const double before = static_cast<double>(list.gap[p]);
+    if (before - shift > range || -before - shift > depth) continue;
+    const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point[p]));
+    Closest closest{horizon * horizon, -1, {}};
+    double best = horizon;
+    for (std::uint32_t k = list.start[p]; k < list.start[p + 1]; ++k) {
+      if (static_cast<double>(list.bound[k]) - shift > best) break;
+      const auto t = static_cast<std::size_t>(list.triangle[k]);
+      if (k > list.start[p] && squared_bound(b, t, x) > closest.squared) continue;
+      const double squared = closest.squared;
+      closest.look_at(b, list.triangle[k], x);
+      if (closest.squared < squared) best = std::sqrt(closest.squared);
+    }
+    if (closest.triangle < 0) continue;
+    SurfaceContact contact{list.body_a, list.point[p], list.body_b, closest.triangle, {}, {}, 0};
+    contact.weight_b = {static_cast<float>(closest.at.weight[0]),
+                        static_cast<float>(closest.at.weight[1])};
+    const auto w = contact.weights();
+    const Vec3 weight(w[0], w[1], w[2]);
+    const Vec3 outward = blended_normal(b, closest.triangle, weight);
+    const auto site = static_cast<std::size_t>(list.point[p] / per_site);
+    const Vec3& facing = o.quadrature == Quadrature::kThreePoint ? a.triangle_normal[site]
+                                                                 : a.node_normal[site];
+    if (facing.dot(outward) > kFacing) continue;
+    const auto& corner = (*b.triangle)[static_cast<std::size_t>(closest.triangle)];
+    Vec3 apart = x;
+    for (std::size_t m = 0; m < 3; ++m) apart -= w[m] * b.node[static_cast<std::size_t>(corner[m])];
+    const double distance = apart.norm();
+    const double sign = apart.dot(outward) >= 0 ? 1.0 : -1.0;
+    const double gap = sign * distance;
+    // A sheet met through the cell's own inside is not a contact.
+    if (self && sign < 0) continue;
+    if (gap > range || gap < -depth) continue;
+    contact.normal = distance > kNoDirection ? Vec3(sign / distance * apart) : outward;
+    contact.gap = gap;
+    out.push_back(contact);
+  }
+}
+
+}  // namespace acinus::contact

@@ -1,0 +1,52 @@
+#pragma once
+/// Which triangles each probing point of one surface may meet on another, and the closest of them.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact/surface.hpp"
+
+namespace acinus::contact {
+
+struct SearchOptions {
+  Quadrature quadrature = Quadrature::kThreePoint;
+  double range = 0;       ///< um, largest gap of interest
+  double max_depth = 0;   ///< um, deepest (negative) gap looked for
+  double skin = 0;        ///< um, relative movement that a list outlives
+  double self_range = 0;  ///< um, gap below which a surface meets itself; 0 = never
+};
+
+/// Points of a near b and the triangles that may be closest to each; complete while the two bodies
+/// moved relative to each other by no more than the skin.
+struct Candidates {
+  int body_a = 0, body_b = 0;
+  std::vector<int> point;            ///< of a, ascending
+  std::vector<float> gap;            ///< um, when the list was made
+  std::vector<std::uint32_t> start;  ///< [n_point + 1]
+  std::vector<int> triangle;         ///< of b, by ascending bound
+  std::vector<float> bound;          ///< um, no more than the distance when the list was made
+};
+
+/// Candidates of every ordered pair of bodies that come near (both passes), and of bodies with
+/// themselves. Bodies of `fixed` are only probed, never probe: they are numbered after `bodies`.
+/// @param near  pairs of bodies, a < b, that may touch
+std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
+                                        std::span<const SurfaceBody> fixed,
+                                        std::span<const std::pair<int, int>> near,
+                                        const SearchOptions& options);
+
+/// Pairs of bodies, a < b, whose boxes are closer than search depth, skin and `reserve`.
+std::vector<std::pair<int, int>> find_near_bodies(std::span<const SurfaceBody> bodies,
+                                                  const SearchOptions& options, double reserve);
+
+/// Closest features of one candidate list, appended in order of points.
+/// Rejected: normals that do not oppose each other, gaps outside [-max_depth, range]. The result
+/// does not depend on when the list was made.
+/// @param moved  um, bound of what the two bodies moved relative to each other since then: points
+///               and triangles that cannot touch yet are not looked at
+void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+                   std::span<const SurfaceBody> fixed, const SearchOptions& options, double moved,
+                   std::vector<SurfaceContact>& out);
+
+}  // namespace acinus::contact
