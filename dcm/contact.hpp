@@ -76,14 +76,14 @@ struct BodyMotion {
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
 struct ContactWorkspace {
   std::vector<std::size_t> lane_of_body;
-  std::vector<contact::SurfaceBody> body;                   ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> fixed;                  ///< static meshes
-  std::vector<double> list_position;  ///< positions when the lists were made
-  std::vector<double> list_radius;    ///< and the radii of that moment
-  std::vector<std::pair<int, int>> near;  ///< bodies whose boxes were close then
-  std::vector<BodyMotion> motion;         ///< [body] since then; written by: refresh_lists
-  std::vector<contact::Candidates> list;                    ///< written by: refresh_lists
-  std::vector<SegmentCandidates> segment_list;              ///< written by: refresh_lists
+  std::vector<contact::SurfaceBody> body;       ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;      ///< static meshes
+  std::vector<double> list_position;            ///< positions when the lists were made
+  std::vector<double> list_radius;              ///< and the radii of that moment
+  std::vector<std::pair<int, int>> near;        ///< bodies whose boxes were close then
+  std::vector<BodyMotion> motion;               ///< [body] since then; written by: refresh_lists
+  std::vector<contact::Candidates> list;        ///< written by: refresh_lists
+  std::vector<SegmentCandidates> segment_list;  ///< written by: refresh_lists
   std::vector<std::vector<contact::SurfaceContact>> found;  ///< [thread] scratch of one search
   std::vector<contact::SurfaceContact> surface;             ///< written by: find_contacts
   std::vector<ObstacleContact> obstacle;                    ///< written by: find_contacts

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/lanes.hpp"
 #include "core/mesh/closest_point.hpp"
 
 namespace acinus::contact {
@@ -54,7 +55,7 @@ bool may_fold(const SurfaceBody& b) {
 
 /// Squared distance to the disc about a triangle's centre that holds it: never more than to the
 /// triangle itself.
-double squared_bound(const SurfaceBody& b, std::size_t t, const Vec3& x) {
+ACINUS_INLINE double squared_bound(const SurfaceBody& b, std::size_t t, const Vec3& x) {
   const Vec3 d = x - b.center[t];
   const double height = d.dot(b.triangle_normal[t]), squared_height = height * height;
   const double across = std::sqrt(std::max(0.0, d.squaredNorm() - squared_height)) - b.reach[t];
@@ -67,12 +68,11 @@ struct Closest {
   int triangle = -1;
   mesh::ClosestPoint at;
 
-  void look_at(const SurfaceBody& b, int t, const Vec3& x) {
+  ACINUS_INLINE void look_at(const SurfaceBody& b, int t, const Vec3& x) {
     const auto& corner = (*b.triangle)[static_cast<std::size_t>(t)];
-    const mesh::ClosestPoint c =
-        mesh::find_closest_point(x, b.node[static_cast<std::size_t>(corner[0])],
-                                 b.node[static_cast<std::size_t>(corner[1])],
-                                 b.node[static_cast<std::size_t>(corner[2])]);
+    const mesh::ClosestPoint c = mesh::find_closest_point(
+        x, b.node[static_cast<std::size_t>(corner[0])], b.node[static_cast<std::size_t>(corner[1])],
+        b.node[static_cast<std::size_t>(corner[2])]);
     // Ties (an edge two triangles share) go to the lower number: the order of the list, which
     // depends on when it was made, must not show.
     if (c.squared_distance < squared || (c.squared_distance == squared && t < triangle)) {
@@ -91,6 +91,42 @@ Vec3 blended_normal(const SurfaceBody& b, int triangle, const Vec3& weight) {
     n += weight[m] * b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
   const double length = n.norm();
   return length > 0 ? Vec3(n / length) : n;
+}
+
+/// Triangles as discs, one array per number, about an origin near them: floats then keep distances
+/// to less than kRounding.
+struct Discs {
+  Vec3 origin = Vec3::Zero();
+  std::vector<int> triangle;
+  std::vector<float> x, y, z, nx, ny, nz, reach;
+
+  void add(const SurfaceBody& b, int t) {
+    const auto k = static_cast<std::size_t>(t);
+    const Vec3 c = b.center[k] - origin;
+    const Vec3& n = b.triangle_normal[k];
+    triangle.push_back(t);
+    for (auto [to, value] : {std::pair(&x, c[0]),
+                             {&y, c[1]},
+                             {&z, c[2]},
+                             {&nx, n[0]},
+                             {&ny, n[1]},
+                             {&nz, n[2]},
+                             {&reach, b.reach[k]}})
+      to->push_back(static_cast<float>(value));
+  }
+};
+
+/// squared_bound of many triangles at once.
+ACINUS_KERNEL void compute_bounds(const std::array<float, 3>& at, std::size_t n, const float* x,
+                                  const float* y, const float* z, const float* nx, const float* ny,
+                                  const float* nz, const float* reach, float* bound) {
+  for (std::size_t k = 0; k < n; ++k) {
+    const float dx = at[0] - x[k], dy = at[1] - y[k], dz = at[2] - z[k];
+    const float height = dx * nx[k] + dy * ny[k] + dz * nz[k], squared = height * height;
+    const float in_plane = dx * dx + dy * dy + dz * dz - squared;
+    const float across = __builtin_sqrtf(in_plane > 0 ? in_plane : 0) - reach[k];
+    bound[k] = squared + (across > 0 ? across * across : 0);
+  }
 }
 
 /// Makes one list.
@@ -115,18 +151,24 @@ class ListBuilder {
       const double reach = face ? a_.reach[s] : 0;
       if (at.dot(axis_) + reach < low_b_ || !near_b_.grown(reach).contains(at)) continue;
       const Vec3& normal = face ? a_.triangle_normal[s] : a_.node_normal[s];
+      const double radius = face ? 0.5 * reach : 0;  // its points are no farther from its place
+      compute_bounds_from(at);
       near_site_.clear();
-      for (int t : near_) {
-        const auto k = static_cast<std::size_t>(t);
-        const double far = reach + b_.reach[k] + margin_;
-        if ((at - b_.center[k]).squaredNorm() > far * far) continue;
+      const auto far = static_cast<float>(std::pow(margin_ + radius + kRounding, 2));
+      for (std::size_t i = 0; i < bound_.size(); ++i) {
+        if (bound_[i] > far) continue;
+        const auto k = static_cast<std::size_t>(discs_.triangle[i]);
         if (normal.dot(b_.triangle_normal[k]) > kListFacing) continue;
         if (self_ && !far_on_surface(a_, o_.quadrature, s, k)) continue;
-        near_site_.push_back(t);
+        near_site_.push_back(i);
       }
       if (near_site_.empty()) continue;
-      const int per_site = points_per_site(o_.quadrature);
-      for (int q = 0; q < per_site; ++q) add(static_cast<int>(s) * per_site + q, list);
+      if (!face) {
+        if (may_matter(find_gap(at), 0)) add(static_cast<int>(s), list);
+        continue;
+      }
+      if (!narrow_down(at, radius)) continue;
+      for (int q = 0; q < 3; ++q) add(3 * static_cast<int>(s) + q, list);
     }
   }
 
@@ -147,37 +189,68 @@ class ListBuilder {
       }
     }
     const Box near_a = a_.box.grown(margin_);
+    discs_.origin = 0.5 * (b_.box.low + b_.box.high);
     for (std::size_t t = 0; t < b_.center.size(); ++t)
       if (self_ || (b_.center[t].dot(axis_) - b_.reach[t] < high_a &&
                     near_a.grown(b_.reach[t]).contains(b_.center[t])))
-        near_.push_back(static_cast<int>(t));
+        discs_.add(b_, static_cast<int>(t));
+    bound_.resize(discs_.triangle.size());
+  }
+
+  void compute_bounds_from(const Vec3& at) {
+    const Vec3 d = at - discs_.origin;
+    compute_bounds({static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])},
+                   bound_.size(), discs_.x.data(), discs_.y.data(), discs_.z.data(),
+                   discs_.nx.data(), discs_.ny.data(), discs_.nz.data(), discs_.reach.data(),
+                   bound_.data());
+  }
+
+  /// Signed distance of x from the triangles near its site. @pre compute_bounds_from(x)
+  double find_gap(const Vec3& x) const {
+    std::size_t least = near_site_[0];
+    for (std::size_t i : near_site_)
+      if (bound_[i] < bound_[least]) least = i;
+    Closest closest{1e300, -1, {}};
+    closest.look_at(b_, discs_.triangle[least], x);
+    for (std::size_t i : near_site_)
+      if (i != least && static_cast<double>(bound_[i]) <= closest.squared + kRounding)
+        closest.look_at(b_, discs_.triangle[i], x);
+    const Vec3 outward = blended_normal(b_, closest.triangle, closest.at.weight);
+    const double distance = std::sqrt(closest.squared);
+    return (x - closest.at.point).dot(outward) >= 0 ? distance : -distance;
+  }
+
+  /// Whether a gap here may become a contact before the list expires.
+  bool may_matter(double gap, double radius) const {
+    return gap <= out_ + o_.skin + radius && -gap <= depth_ + o_.skin + radius;
+  }
+
+  /// Leaves the triangles that matter for points within `radius` of x; false if none does.
+  bool narrow_down(const Vec3& x, double radius) {
+    const double gap = find_gap(x);
+    if (!may_matter(gap, radius)) return false;
+    const auto far =
+        static_cast<float>(std::pow(std::abs(gap) + 2 * (radius + o_.skin) + kRounding, 2));
+    std::erase_if(near_site_, [&](std::size_t i) { return bound_[i] > far; });
+    return true;
   }
 
   /// Adds a point with every triangle that may be closest to it before the list expires.
   void add(int point, Candidates& list) {
     const Vec3 x = point_position(a_, point_stencil(a_, o_.quadrature, point));
-    sorted_.clear();
-    for (int t : near_site_) {
-      const double bound2 = squared_bound(b_, static_cast<std::size_t>(t), x);
-      if (bound2 < margin_ * margin_) sorted_.emplace_back(std::sqrt(bound2), t);
-    }
-    std::ranges::sort(sorted_);
-    Closest closest{margin_ * margin_, -1, {}};
-    for (const auto& [bound, t] : sorted_) {
-      if (bound * bound > closest.squared) break;
-      closest.look_at(b_, t, x);
-    }
-    if (closest.triangle < 0) return;
-    const Vec3 outward = blended_normal(b_, closest.triangle, closest.at.weight);
-    const double distance = std::sqrt(closest.squared);
-    const double gap = (x - closest.at.point).dot(outward) >= 0 ? distance : -distance;
-    if (gap > out_ + o_.skin) return;
+    compute_bounds_from(x);
+    const double gap = find_gap(x);
+    if (!may_matter(gap, 0)) return;
     list.point.push_back(point);
     list.gap.push_back(static_cast<float>(gap));
+    const auto far = static_cast<float>(std::pow(std::abs(gap) + 2 * o_.skin + kRounding, 2));
+    sorted_.clear();
+    for (std::size_t i : near_site_)
+      if (bound_[i] <= far) sorted_.emplace_back(bound_[i], discs_.triangle[i]);
+    std::ranges::sort(sorted_);
     for (const auto& [bound, t] : sorted_) {
-      if (bound > distance + 2 * o_.skin + kRounding) break;
       list.triangle.push_back(t);
-      list.bound.push_back(static_cast<float>(bound));
+      list.bound.push_back(std::sqrt(bound));
     }
     list.start.push_back(static_cast<std::uint32_t>(list.triangle.size()));
   }
@@ -189,8 +262,10 @@ class ListBuilder {
   Vec3 axis_ = Vec3::Zero();  ///< from a to b
   double low_b_ = -1e300;     ///< of axis . x
   Box near_b_;
-  std::vector<int> near_, near_site_;
-  std::vector<std::pair<double, int>> sorted_;
+  Discs discs_;                         ///< triangles of b that anything of a may come near
+  std::vector<float> bound_;            ///< um^2, of discs_, from the place looked at last
+  std::vector<std::size_t> near_site_;  ///< of discs_
+  std::vector<std::pair<float, int>> sorted_;
 };
 
 }  // namespace
@@ -273,8 +348,8 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
     const Vec3 weight(w[0], w[1], w[2]);
     const Vec3 outward = blended_normal(b, closest.triangle, weight);
     const auto site = static_cast<std::size_t>(list.point[p] / per_site);
-    const Vec3& facing = o.quadrature == Quadrature::kThreePoint ? a.triangle_normal[site]
-                                                                 : a.node_normal[site];
+    const Vec3& facing =
+        o.quadrature == Quadrature::kThreePoint ? a.triangle_normal[site] : a.node_normal[site];
     if (facing.dot(outward) > kFacing) continue;
     const auto& corner = (*b.triangle)[static_cast<std::size_t>(closest.triangle)];
     Vec3 apart = x;

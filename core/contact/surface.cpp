@@ -31,13 +31,4 @@ void refresh_body(SurfaceBody& b) {
   }
 }
 
-PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point) {
-  if (q == Quadrature::kNodes) return {1, {point, 0, 0}, {1, 0, 0}};
-  const auto& corner = (*body.triangle)[static_cast<std::size_t>(point / 3)];
-  constexpr double kSmall = 1.0f / 6, kLarge = 2.0f / 3;
-  const int local = point % 3;
-  const double w0 = local == 0 ? kLarge : kSmall, w1 = local == 1 ? kLarge : kSmall;
-  return {3, corner, {w0, w1, 1 - w0 - w1}};
-}
-
 }  // namespace acinus::contact

@@ -46,14 +46,20 @@ struct PointStencil {
   std::array<int, 3> node{};
   std::array<double, 3> weight{};  ///< the first two are float numbers; the third makes them 1
 };
-PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point);
+inline PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int point) {
+  if (q == Quadrature::kNodes) return {1, {point, 0, 0}, {1, 0, 0}};
+  constexpr double kSmall = 1.0f / 6, kLarge = 2.0f / 3;
+  const int local = point % 3;
+  const double w0 = local == 0 ? kLarge : kSmall, w1 = local == 1 ? kLarge : kSmall;
+  return {3, (*body.triangle)[static_cast<std::size_t>(point / 3)], {w0, w1, 1 - w0 - w1}};
+}
 
 inline Vec3 point_position(const SurfaceBody& body, const PointStencil& s) {
-  Vec3 x = Vec3::Zero();
-  for (int k = 0; k < s.n; ++k)
-    x += s.weight[static_cast<std::size_t>(k)] *
-         body.node[static_cast<std::size_t>(s.node[static_cast<std::size_t>(k)])];
-  return x;
+  auto node = [&](int k) -> const Vec3& {
+    return body.node[static_cast<std::size_t>(s.node[static_cast<std::size_t>(k)])];
+  };
+  if (s.n == 1) return node(0);
+  return s.weight[0] * node(0) + s.weight[1] * node(1) + s.weight[2] * node(2);
 }
 
 /// A probing point of body a near a triangle of body b.

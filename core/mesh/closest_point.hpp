@@ -21,8 +21,7 @@ ClosestPoint find_closest_point_of_sliver(const Vec3& p, const Vec3& a, const Ve
 
 /// Corner, edge and face regions after [Ericson2005, section 5.1.5], all from the five products of
 /// the edges with each other and with p - a; degenerate triangles are edges or points.
-inline ClosestPoint find_closest_point(const Vec3& p, const Vec3& a, const Vec3& b,
-                                       const Vec3& c) {
+inline ClosestPoint find_closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
   const double ab_a = ab.dot(ap), ac_a = ac.dot(ap);

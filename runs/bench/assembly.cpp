@@ -72,6 +72,11 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
     w.dcm.list_position.clear();
     dcm::refresh_lists(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, w.dcm);
   });
+  double listed_points = 0, listed_triangles = 0;
+  for (const contact::Candidates& c : w.dcm.list) {
+    listed_points += static_cast<double>(c.point.size());
+    listed_triangles += static_cast<double>(c.triangle.size());
+  }
   w.system.links.clear();
   w.op.prepare(w.system);
   const double product_alone = time_us([&] { w.op.apply<float>(xf, yf); });
@@ -92,7 +97,9 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
                 {"contact_loads_us_per_cell", contacts_build / cells},
                 {"preconditioner_us_per_cell", prepare / cells},
                 {"narrow_phase_us_per_cell", narrow / cells},
-                {"list_build_us_per_cell", lists / cells}}};
+                {"list_build_us_per_cell", lists / cells},
+                {"listed_points_per_cell", listed_points / cells},
+                {"listed_triangles_per_cell", listed_triangles / cells}}};
   print_row(row);
   return row;
 }

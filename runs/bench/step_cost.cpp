@@ -27,7 +27,7 @@ std::string dcm_clump(int count, const std::string& quadrature) {
       R"({{"name": "dcm", "time": {{"end": "12 h", "step": "120 s", "adaptive": false, "max_move": 0}},
   "cell_types": {{"cell": {{}}}},
   "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
-  "motility": {{"random": false}}, "contact": {{"quadrature": "{}"}}}})",
+  "motility": {{"random": false}}, "contact": {{"quadrature": "{}", "skin": "0.6 um"}}}})",
       count, quadrature);
 }
 
