@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cbm/pair_kernel.hpp"
 #include "core/contact/box.hpp"
+#include "core/contact/neighbours.hpp"
 #include "core/mesh/measures.hpp"
 
 namespace acinus::cbm {
@@ -11,9 +13,6 @@ namespace {
 
 using contact::SphereBody;
 using contact::SurroundingKind;
-
-/// Relative overlap over which a contact's weight in the mean rises to one.
-constexpr double kWeightRise = 0.02;
 
 /// How far apart two adhering spheres may stand before they let go, um (bound over all pairs).
 double largest_separation(const State& s, std::span<const Params> params,
@@ -91,7 +90,7 @@ MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) 
 }  // namespace
 
 double overlap_weight(double relative_overlap) {
-  const double s = std::clamp(relative_overlap / kWeightRise, 0.0, 1.0);
+  const double s = std::clamp(relative_overlap / kOverlapRise, 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 
@@ -114,26 +113,24 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
     if (2 * (moved + wider) <= c.skin) return false;
   }
   const double margin = largest_separation(s, params, radius, around) + c.skin;
-  std::vector<contact::Box> boxes;
-  for (std::size_t i = 0; i < s.n_cell(); ++i)
-    boxes.push_back(contact::sphere_box(center_of(s, i), radius[i]));
-  work.pair = contact::find_pairs(boxes, margin);
-  std::erase_if(work.pair, [&](const std::pair<int, int>& p) {
-    const auto i = static_cast<std::size_t>(p.first), j = static_cast<std::size_t>(p.second);
-    return (center_of(s, i) - center_of(s, j)).norm() > radius[i] + radius[j] + margin;
-  });
-  std::vector<contact::Box> segments;
+  work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin);
+  work.segment.clear();
   const mesh::Network& network = around.vessels.network;
-  for (std::size_t k = 0; k < network.segment.size(); ++k) {
-    contact::Box box;
-    for (int n : network.segment[k]) box.include(network.node[static_cast<std::size_t>(n)]);
-    segments.push_back(box.grown(std::max(network.radius[k][0], network.radius[k][1])));
+  if (!network.segment.empty()) {
+    std::vector<contact::Box> boxes, segments;
+    for (std::size_t i = 0; i < s.n_cell(); ++i)
+      boxes.push_back(contact::sphere_box(center_of(s, i), radius[i]));
+    for (std::size_t k = 0; k < network.segment.size(); ++k) {
+      contact::Box box;
+      for (int n : network.segment[k]) box.include(network.node[static_cast<std::size_t>(n)]);
+      segments.push_back(box.grown(std::max(network.radius[k][0], network.radius[k][1])));
+    }
+    work.segment = contact::find_pairs_between(boxes, segments, margin);
+    std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
+      const auto i = static_cast<std::size_t>(p.first);
+      return contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
+    });
   }
-  work.segment = contact::find_pairs_between(boxes, segments, margin);
-  std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
-    const auto i = static_cast<std::size_t>(p.first);
-    return contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
-  });
   work.list_position = s.position;
   work.list_radius.assign(radius.begin(), radius.end());
   ++work.list_builds;
@@ -142,38 +139,15 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
 
 void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
                    std::span<const double> radius, const contact::Surroundings& around, double time,
-                   ContactWorkspace& work) {
-  work.sphere.clear();
+                   std::size_t first_row, ContactWorkspace& work) {
+  find_pair_contacts(s, params, c, radius, first_row, work);
   work.obstacle.clear();
-  work.touching.clear();
-  for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight})
-    v->assign(s.n_cell(), 0.0);
+  if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
+      work.segment.empty())
+    return;
   auto body = [&](std::size_t i) {
     return SphereBody{radius[i], s.young[i], params[static_cast<std::size_t>(s.type[i])].poisson};
   };
-  auto adhesion_of = [&](std::size_t i) {
-    return params[static_cast<std::size_t>(s.type[i])].adhesion;
-  };
-
-  for (auto [a, b] : work.pair) {
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    const Vec3 d = center_of(s, i) - center_of(s, j);
-    const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
-    const bool before = was_touching(s, a, b);
-    if (overlap < 0 && !before) continue;
-    const contact::SpherePair pair = contact::reduced_pair(
-        body(i), body(j), c.adhesion_factor * std::sqrt(adhesion_of(i) * adhesion_of(j)));
-    const contact::SphereForce law = contact::jkr_force(pair, overlap, before);
-    if (!law.touching) continue;
-    work.touching.emplace_back(a, b);
-    work.sphere.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap, law});
-    const double area = kPi * law.contact_radius * law.contact_radius;
-    work.contact_area[i] += area;
-    work.contact_area[j] += area;
-    const double relative = overlap / (radius[i] + radius[j]);
-    count_overlap(work, a, relative);
-    count_overlap(work, b, relative);
-  }
 
   auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
                   double overlap, const Vec3& normal) {
@@ -246,36 +220,28 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
   std::ranges::sort(work.touching);
 }
 
-void add_contact_loads(const State& s, std::span<const Params> params, const ContactParams& c,
+void add_contact_loads(const State& s, std::span<const Params> params,
                        const contact::Surroundings& around, const ContactWorkspace& work,
                        std::size_t first_row, solve::System& system) {
-  auto add_link = [&](solve::Point a, solve::Point b, const contact::SphereForce& law,
-                      const Vec3& normal, double friction) {
-    const double area = kPi * law.contact_radius * law.contact_radius;
-    solve::PointLink link{a,
-                          b,
-                          {},
-                          static_cast<float>(std::max(0.0, law.stiffness)),
-                          static_cast<float>(friction * area)};
-    for (int k = 0; k < 3; ++k)
-      link.normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
-    system.point_links.push_back(link);
-  };
-  for (const SphereContact& k : work.sphere) {
-    const auto a = static_cast<std::size_t>(k.a), b = static_cast<std::size_t>(k.b);
-    const Vec3 f = k.law.force * k.normal;
-    add_point(system.force.data(), cell_address(first_row, a), f);
-    add_point(system.force.data(), cell_address(first_row, b), -f);
-    add_link(cell_point(first_row, a), cell_point(first_row, b), k.law, k.normal,
-             c.friction_factor * c.cell_friction);
-  }
+  double* force = system.force.data() + first_row * kPointStride;
+  for (std::size_t k = 0; k < work.force.size(); ++k) force[k] += work.force[k];
+  system.point_links.assign(work.link.begin(), work.link.end());
   for (const ObstacleContact& k : work.obstacle) {
     const auto i = static_cast<std::size_t>(k.cell);
     const bool mirror = k.kind == SurroundingKind::kPlane &&
                         around.planes[static_cast<std::size_t>(k.index)].material.mirror;
+    const double friction =
+        mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction;
+    const double area = kPi * k.law.contact_radius * k.law.contact_radius;
     add_point(system.external_force.data(), cell_address(first_row, i), k.law.force * k.normal);
-    add_link(cell_point(first_row, i), solve::kNowhere, k.law, k.normal,
-             mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction);
+    solve::PointLink link{cell_point(first_row, i),
+                          solve::kNowhere,
+                          {},
+                          static_cast<float>(std::max(0.0, k.law.stiffness)),
+                          static_cast<float>(friction * area)};
+    for (int m = 0; m < 3; ++m)
+      link.normal[static_cast<std::size_t>(m)] = static_cast<float>(k.normal[m]);
+    system.point_links.push_back(link);
   }
 }
 

@@ -21,12 +21,12 @@ struct ContactParams {
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
 
-/// Two spheres in contact. Force on a is +force * normal.
+/// Two spheres in contact, for those who want to look at them one by one.
 struct SphereContact {
   int a = 0, b = 0;
-  Vec3 normal = Vec3::Zero();  ///< unit, from b to a
+  Vec3 normal = Vec3::Zero();  ///< unit, from b to a; force on a is +force * normal
   double overlap = 0;          ///< um
-  contact::SphereForce law;
+  double force = 0;            ///< nN
 };
 
 /// A sphere in contact with a plane, capsule, vessel segment or static mesh.
@@ -39,13 +39,15 @@ struct ObstacleContact {
   contact::SphereForce law;
 };
 
-/// Scratch of the contact search.
+/// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
+/// cells of its own range only and works out pairs that cross into it once more.
 struct ContactWorkspace {
-  std::vector<std::pair<int, int>> pair;     ///< near pairs; written by: refresh_pairs
+  std::vector<std::pair<int, int>> pair;     ///< near pairs, ascending; written by: refresh_pairs
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
-  std::vector<SphereContact> sphere;          ///< written by: find_contacts
-  std::vector<ObstacleContact> obstacle;      ///< written by: find_contacts
+  std::vector<double> force;              ///< [n_row][3][lane] nN of all pairs; by: find_contacts
+  std::vector<solve::PointLink> link;     ///< [pair] zero where not touching; by: find_contacts
+  std::vector<ObstacleContact> obstacle;  ///< written by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out; the
@@ -53,6 +55,9 @@ struct ContactWorkspace {
   std::vector<double> overlap_sum, overlap_weight;
   int list_builds = 0;
 };
+
+/// Relative overlap over which a contact's weight in the mean rises to one.
+inline constexpr double kOverlapRise = 0.02;
 
 /// Weight of one contact in the mean overlap: rises smoothly from 0 with the overlap so that a new
 /// contact makes no jump.
@@ -66,16 +71,23 @@ bool refresh_pairs(const State& state, std::span<const Params> params, const Con
                    std::span<const double> radius, const contact::Surroundings& around,
                    ContactWorkspace& work);
 
-/// Finds all contacts and evaluates their law at the current positions.
+/// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
+/// dF/d overlap) n n^T and friction gamma pi a^2 of every pair.
+/// @param first_row  where the CBM rows start in the system
 void find_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
                    std::span<const double> radius, const contact::Surroundings& around, double time,
-                   ContactWorkspace& work);
+                   std::size_t first_row, ContactWorkspace& work);
 
-/// Adds force, stiffness max(0, dF/d overlap) n n^T and friction gamma pi a^2 of every contact.
-/// @param first_row  where the CBM rows start in the system
-void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
+/// Adds what find_contacts worked out, and the contacts with surroundings.
+void add_contact_loads(const State& state, std::span<const Params> params,
                        const contact::Surroundings& around, const ContactWorkspace& work,
                        std::size_t first_row, solve::System& system);
+
+/// The touching pairs of the last search one by one.
+std::vector<SphereContact> list_sphere_contacts(const State& state, std::span<const Params> params,
+                                                const ContactParams& c,
+                                                std::span<const double> radius,
+                                                const ContactWorkspace& work);
 
 /// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0
 /// [VanLiedekerke2020, Eq. (19)], and the force on each cell as a whole.

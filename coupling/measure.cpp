@@ -111,11 +111,10 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
               w.dcm.body[a], dcm::obstacle_stencil(world.params.dcm_contact, w.dcm.body[a], c)) -
               cells[a].center);
   }
-  for (std::size_t k = 0; k < w.cbm.sphere.size(); ++k) {
-    const cbm::SphereContact& c = w.cbm.sphere[k];
+  for (const cbm::SphereContact& c : sphere_contacts(world, w)) {
     const std::size_t a = n_body + static_cast<std::size_t>(c.a),
                       b = n_body + static_cast<std::size_t>(c.b);
-    const Vec3 f = c.law.force * c.normal;
+    const Vec3 f = c.force * c.normal;
     press(a, f, -(cells[a].radius - 0.5 * c.overlap) * c.normal);
     press(b, -f, (cells[b].radius - 0.5 * c.overlap) * c.normal);
     touch(a, b);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coupling/judge.hpp"
 #include "coupling/partitioned.hpp"
@@ -35,7 +36,7 @@ void commit(World& world, double step, int cg_iterations, Workspace& w) {
   for (std::size_t k = 0; k < s.dcm.position.size(); ++k) s.dcm.position[k] += w.move[k];
   for (std::size_t k = 0; k < s.cbm.position.size(); ++k)
     s.cbm.position[k] += w.move[s.dcm.position.size() + k];
-  s.cbm.touching = w.cbm.touching;
+  std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;
   s.last_move = w.move;
@@ -94,7 +95,8 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   }
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(s.dcm, phase.dcm, w.lanes, around, wall_time, w.dcm);
-  cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, wall_time, w.cbm);
+  cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, wall_time,
+                     cbm_first_row(s), w.cbm);
   find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
 }
 
@@ -132,8 +134,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm,
                          links);
-  cbm::add_contact_loads(s.cbm, world.params.cbm, phase.cbm, world.params.around, w.cbm, first,
-                         w.system);
+  cbm::add_contact_loads(s.cbm, world.params.cbm, world.params.around, w.cbm, first, w.system);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);
@@ -142,6 +143,11 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {
   const PhaseParams phase = phase_params(world);
   return compute_interface_forces(view_interface(world, phase, w));
+}
+
+std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& w) {
+  return cbm::list_sphere_contacts(world.state.cbm, world.params.cbm, phase_params(world).cbm,
+                                   w.cbm_radius, w.cbm);
 }
 
 Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {

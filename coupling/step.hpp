@@ -40,6 +40,9 @@ void assemble(const World& world, double step, Workspace& work, Selection select
 /// Forces between deformable cells and spheres, per pair of cells.   @pre assemble
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& work);
 
+/// Contacts between spheres one by one.   @pre find_all_contacts
+std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& work);
+
 /// Second half of stage 3: (Gamma/h + K) dx = F, then exact rigid motion of every cluster.
 Status solve_step(const World& world, double step, Workspace& work, int& cg_iterations);
 

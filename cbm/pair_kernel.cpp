@@ -1,0 +1,249 @@
+#include "cbm/pair_kernel.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/jkr_lanes.hpp"
+
+namespace acinus::cbm {
+namespace {
+
+/// Below this many cells starting threads costs more than it saves.
+constexpr std::size_t kParallelCells = 2000;
+
+/// Eight pairs on their way through the law.
+struct alignas(64) Batch {
+  // in
+  double xa[3][kLanes], xb[3][kLanes], radius_a[kLanes], radius_b[kLanes];
+  double compliance[kLanes];  ///< 1 / E^
+  double adhesion[kLanes], was_touching[kLanes];
+  // out; all zero where not touching
+  double normal[3][kLanes], force[kLanes], stiffness[kLanes], area[kLanes], touching[kLanes];
+  double relative[kLanes], weight[kLanes];  ///< overlap over the sum of radii, and its weight
+};
+
+ACINUS_KERNEL void evaluate(Batch& p) {
+  const Lane dx = load(p.xa[0]) - load(p.xb[0]), dy = load(p.xa[1]) - load(p.xb[1]),
+             dz = load(p.xa[2]) - load(p.xb[2]);
+  const Lane zero = lane_of(0), one = lane_of(1);
+  const Lane distance = lane_sqrt(dx * dx + dy * dy + dz * dz);
+  const Lane ra = load(p.radius_a), rb = load(p.radius_b), sum = ra + rb;
+  const Lane overlap = sum - distance;
+  const contact::JkrLanes law = contact::jkr_force_lanes(
+      ra * rb / sum, 1.0 / load(p.compliance), load(p.adhesion), overlap, load(p.was_touching));
+  const Lane inverse = distance > 0.0 ? 1.0 / distance : zero;
+  store(p.normal[0], distance > 0.0 ? dx * inverse : one);
+  store(p.normal[1], dy * inverse);
+  store(p.normal[2], dz * inverse);
+  store(p.force, law.force);
+  store(p.stiffness, lane_max0(law.stiffness));
+  store(p.area, kPi * law.squared_radius);
+  store(p.touching, law.touching);
+  const Lane relative = overlap / sum;
+  Lane s = relative / kOverlapRise;
+  s = s > 0.0 ? (s < 1.0 ? s : one) : zero;
+  const Lane weight = law.touching * (s * s * (3.0 - 2.0 * s));
+  store(p.weight, weight);
+  store(p.relative, weight * lane_max0(relative));
+}
+
+/// What the pairs need of the types.
+struct TypeTable {
+  std::vector<double> softness;  ///< 1 - nu^2
+  std::vector<double> root;      ///< sqrt(W)
+};
+TypeTable make_table(std::span<const Params> params, double adhesion_factor) {
+  TypeTable t;
+  for (const Params& p : params) {
+    t.softness.push_back(1 - p.poisson * p.poisson);
+    t.root.push_back(std::sqrt(adhesion_factor * p.adhesion));
+  }
+  return t;
+}
+
+/// One thread's cells [first, last): all pairs that have a side among them.
+class RangeSearch {
+ public:
+  RangeSearch(const State& s, const TypeTable& table, double friction,
+              std::span<const double> radius, std::size_t first_row, std::size_t first,
+              std::size_t last, ContactWorkspace& work, std::vector<std::pair<int, int>>& touching)
+      : s_(s),
+        table_(table),
+        friction_(friction),
+        radius_(radius),
+        first_row_(first_row),
+        first_(static_cast<int>(first)),
+        last_(static_cast<int>(last)),
+        work_(work),
+        touching_(touching) {}
+
+  void run() {
+    clear();
+    const auto& pair = work_.pair;
+    auto position = [&](int cell) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(pair, std::pair(cell, -1)) -
+                                      pair.begin());
+    };
+    const std::size_t own = position(first_), end = position(last_);
+    // Pairs that start in an earlier range come first, as they do for a single thread.
+    if (first_ > 0)
+      for (std::size_t k = 0; k < own; ++k)
+        if (pair[k].second >= first_ && pair[k].second < last_) push(k);
+    flush();
+    for (std::size_t k = own; k < end; ++k) push(k);
+    flush();
+  }
+
+ private:
+  void clear() {
+    const auto from = static_cast<std::size_t>(first_), to = static_cast<std::size_t>(last_);
+    for (auto* v : {&work_.contact_area, &work_.overlap_sum, &work_.overlap_weight})
+      std::fill(v->begin() + first_, v->begin() + last_, 0.0);
+    std::fill(work_.force.begin() + static_cast<std::ptrdiff_t>(from / kLanes * kPointStride),
+              work_.force.begin() +
+                  static_cast<std::ptrdiff_t>((to + kLanes - 1) / kLanes * kPointStride),
+              0.0);
+    touching_.clear();
+  }
+
+  void push(std::size_t k) {
+    index_[n_] = k;
+    const auto [a, b] = work_.pair[k];
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const Address at_a = cell_address(0, i), at_b = cell_address(0, j);
+    const double* x = s_.position.data();
+    for (std::size_t m = 0; m < 3; ++m) {
+      batch_.xa[m][n_] = x[at_a + m * kLanes];
+      batch_.xb[m][n_] = x[at_b + m * kLanes];
+    }
+    batch_.radius_a[n_] = radius_[i];
+    batch_.radius_b[n_] = radius_[j];
+    const auto ta = static_cast<std::size_t>(s_.type[i]), tb = static_cast<std::size_t>(s_.type[j]);
+    batch_.compliance[n_] = table_.softness[ta] / s_.young[i] + table_.softness[tb] / s_.young[j];
+    batch_.adhesion[n_] = table_.root[ta] * table_.root[tb];
+    batch_.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
+    if (++n_ == kLanes) flush();
+  }
+
+  /// Pairs come in the order of the touching set, so that a finger moves along both.
+  bool was_touching(std::pair<int, int> p) {
+    const auto& t = s_.touching;
+    if (finger_ == kUnset || (finger_ > 0 && !(t[finger_ - 1] < p)))
+      finger_ = static_cast<std::size_t>(std::ranges::lower_bound(t, p) - t.begin());
+    while (finger_ < t.size() && t[finger_] < p) ++finger_;
+    return finger_ < t.size() && t[finger_] == p;
+  }
+
+  void flush() {
+    if (n_ == 0) return;
+    for (std::size_t l = n_; l < kLanes; ++l) {  // idle lanes repeat the last pair
+      for (std::size_t m = 0; m < 3; ++m) {
+        batch_.xa[m][l] = batch_.xa[m][n_ - 1];
+        batch_.xb[m][l] = batch_.xb[m][n_ - 1];
+      }
+      batch_.radius_a[l] = batch_.radius_a[n_ - 1];
+      batch_.radius_b[l] = batch_.radius_b[n_ - 1];
+      batch_.compliance[l] = batch_.compliance[n_ - 1];
+      batch_.adhesion[l] = batch_.adhesion[n_ - 1];
+      batch_.was_touching[l] = batch_.was_touching[n_ - 1];
+    }
+    evaluate(batch_);
+    for (std::size_t l = 0; l < n_; ++l) spread(index_[l], l);
+    n_ = 0;
+  }
+
+  /// Adds one pair to the cells of this range.
+  void spread(std::size_t k, std::size_t l) {
+    const auto [a, b] = work_.pair[k];
+    const bool own = a >= first_;
+    if (own) write_link(k, l);
+    if (batch_.touching[l] == 0) return;
+    if (own) touching_.emplace_back(a, b);
+    auto add = [&](int cell, double sign) {
+      if (cell < first_ || cell >= last_) return;
+      const auto i = static_cast<std::size_t>(cell);
+      const Address at = cell_address(0, i);
+      for (std::size_t m = 0; m < 3; ++m)
+        work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
+      work_.contact_area[i] += batch_.area[l];
+      work_.overlap_sum[i] += batch_.relative[l];
+      work_.overlap_weight[i] += batch_.weight[l];
+    };
+    add(a, 1);
+    add(b, -1);
+  }
+
+  void write_link(std::size_t k, std::size_t l) {
+    solve::PointLink& link = work_.link[k];
+    link.a = cell_point(first_row_, static_cast<std::size_t>(work_.pair[k].first));
+    link.b = cell_point(first_row_, static_cast<std::size_t>(work_.pair[k].second));
+    for (std::size_t m = 0; m < 3; ++m) link.normal[m] = static_cast<float>(batch_.normal[m][l]);
+    link.stiffness = static_cast<float>(batch_.stiffness[l]);
+    link.friction = static_cast<float>(friction_ * batch_.area[l]);
+  }
+
+  static constexpr std::size_t kUnset = static_cast<std::size_t>(-1);
+  const State& s_;
+  const TypeTable& table_;
+  double friction_;
+  std::span<const double> radius_;
+  std::size_t first_row_;
+  int first_, last_;
+  ContactWorkspace& work_;
+  std::vector<std::pair<int, int>>& touching_;
+  Batch batch_{};
+  std::size_t index_[kLanes] = {};
+  std::size_t n_ = 0, finger_ = kUnset;
+};
+
+}  // namespace
+
+void find_pair_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
+                        std::span<const double> radius, std::size_t first_row,
+                        ContactWorkspace& work) {
+  const std::size_t n = s.n_cell();
+  work.force.resize(s.position.size());
+  work.link.resize(work.pair.size());
+  for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight}) v->resize(n);
+  const TypeTable table = make_table(params, c.adhesion_factor);
+  const double friction = c.friction_factor * c.cell_friction;
+  const std::size_t n_part =
+      n > kParallelCells ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
+  std::vector<std::vector<std::pair<int, int>>> touching(n_part - 1);
+#pragma omp parallel for schedule(static, 1) if (n_part > 1)
+  for (std::size_t k = 0; k < n_part; ++k) {
+    auto boundary = [&](std::size_t part) {  // whole rows: no two threads share one
+      return part == n_part ? n : part * n / n_part / kLanes * kLanes;
+    };
+    RangeSearch(s, table, friction, radius, first_row, boundary(k), boundary(k + 1), work,
+                k == 0 ? work.touching : touching[k - 1])
+        .run();
+  }
+  for (const auto& t : touching) work.touching.insert(work.touching.end(), t.begin(), t.end());
+}
+
+std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const Params> params,
+                                                const ContactParams& c,
+                                                std::span<const double> radius,
+                                                const ContactWorkspace& work) {
+  const TypeTable table = make_table(params, c.adhesion_factor);
+  std::vector<SphereContact> list;
+  for (const auto& [a, b] : work.touching) {
+    if (b < 0) continue;  // surroundings
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const auto ta = static_cast<std::size_t>(s.type[i]), tb = static_cast<std::size_t>(s.type[j]);
+    const Vec3 d = center_of(s, i) - center_of(s, j);
+    const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
+    const contact::SpherePair pair{
+        radius[i] * radius[j] / (radius[i] + radius[j]),
+        1 / (table.softness[ta] / s.young[i] + table.softness[tb] / s.young[j]),
+        table.root[ta] * table.root[tb]};
+    list.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap,
+                    contact::jkr_force(pair, overlap, true).force});
+  }
+  return list;
+}
+
+}  // namespace acinus::cbm

@@ -1,0 +1,14 @@
+#pragma once
+/// Sphere pairs, eight at a time.
+
+#include "cbm/contact.hpp"
+
+namespace acinus::cbm {
+
+/// Evaluates every near pair: forces on the cells, contact areas and overlaps, links, and the new
+/// touching set. The first of the stages of find_contacts; clears what it writes.
+void find_pair_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
+                        std::span<const double> radius, std::size_t first_row,
+                        ContactWorkspace& work);
+
+}  // namespace acinus::cbm

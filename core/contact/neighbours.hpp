@@ -1,0 +1,18 @@
+#pragma once
+/// Which spheres come near each other.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace acinus::contact {
+
+/// All pairs (i, j), i < j, of spheres whose surfaces are closer than `margin`; ascending order.
+/// Cost linear in spheres and pairs (uniform grid of the largest sphere). The same for any number
+/// of threads.
+/// @param position  [row][3][lane] um, sphere i in lane i % kLanes of row i / kLanes
+/// @param radius    [n_sphere] um
+std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
+                                                   std::span<const double> radius, double margin);
+
+}  // namespace acinus::contact
