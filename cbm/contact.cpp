@@ -139,8 +139,9 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
 
 void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
                    std::span<const double> radius, const contact::Surroundings& around, double time,
-                   std::size_t first_row, ContactWorkspace& work) {
-  find_pair_contacts(s, params, c, radius, first_row, work);
+                   std::size_t first_row, ContactWorkspace& work,
+                   std::vector<solve::PointLink>& link) {
+  find_pair_contacts(s, params, c, radius, first_row, work, link);
   work.obstacle.clear();
   if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
       work.segment.empty())
@@ -225,7 +226,7 @@ void add_contact_loads(const State& s, std::span<const Params> params,
                        std::size_t first_row, solve::System& system) {
   double* force = system.force.data() + first_row * kPointStride;
   for (std::size_t k = 0; k < work.force.size(); ++k) force[k] += work.force[k];
-  system.point_links.assign(work.link.begin(), work.link.end());
+  system.point_links.resize(work.pair.size());
   for (const ObstacleContact& k : work.obstacle) {
     const auto i = static_cast<std::size_t>(k.cell);
     const bool mirror = k.kind == SurroundingKind::kPlane &&

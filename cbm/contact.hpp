@@ -46,7 +46,6 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
   std::vector<double> force;              ///< [n_row][3][lane] nN of all pairs; by: find_contacts
-  std::vector<solve::PointLink> link;     ///< [pair] zero where not touching; by: find_contacts
   std::vector<ObstacleContact> obstacle;  ///< written by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
@@ -74,11 +73,14 @@ bool refresh_pairs(const State& state, std::span<const Params> params, const Con
 /// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
 /// dF/d overlap) n n^T and friction gamma pi a^2 of every pair.
 /// @param first_row  where the CBM rows start in the system
+/// @param link       one per near pair, zero where not touching
 void find_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
                    std::span<const double> radius, const contact::Surroundings& around, double time,
-                   std::size_t first_row, ContactWorkspace& work);
+                   std::size_t first_row, ContactWorkspace& work,
+                   std::vector<solve::PointLink>& link);
 
-/// Adds what find_contacts worked out, and the contacts with surroundings.
+/// Adds the forces find_contacts worked out, and force and link of contacts with surroundings.
+/// @pre the point links are those of find_contacts
 void add_contact_loads(const State& state, std::span<const Params> params,
                        const contact::Surroundings& around, const ContactWorkspace& work,
                        std::size_t first_row, solve::System& system);

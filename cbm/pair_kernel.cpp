@@ -68,7 +68,8 @@ class RangeSearch {
  public:
   RangeSearch(const State& s, const TypeTable& table, double friction,
               std::span<const double> radius, std::size_t first_row, std::size_t first,
-              std::size_t last, ContactWorkspace& work, std::vector<std::pair<int, int>>& touching)
+              std::size_t last, ContactWorkspace& work, std::vector<solve::PointLink>& link,
+              std::vector<std::pair<int, int>>& touching)
       : s_(s),
         table_(table),
         friction_(friction),
@@ -77,6 +78,7 @@ class RangeSearch {
         first_(static_cast<int>(first)),
         last_(static_cast<int>(last)),
         work_(work),
+        link_(link),
         touching_(touching) {}
 
   void run() {
@@ -176,7 +178,7 @@ class RangeSearch {
   }
 
   void write_link(std::size_t k, std::size_t l) {
-    solve::PointLink& link = work_.link[k];
+    solve::PointLink& link = link_[k];
     link.a = cell_point(first_row_, static_cast<std::size_t>(work_.pair[k].first));
     link.b = cell_point(first_row_, static_cast<std::size_t>(work_.pair[k].second));
     for (std::size_t m = 0; m < 3; ++m) link.normal[m] = static_cast<float>(batch_.normal[m][l]);
@@ -192,6 +194,7 @@ class RangeSearch {
   std::size_t first_row_;
   int first_, last_;
   ContactWorkspace& work_;
+  std::vector<solve::PointLink>& link_;
   std::vector<std::pair<int, int>>& touching_;
   Batch batch_{};
   std::size_t index_[kLanes] = {};
@@ -202,10 +205,10 @@ class RangeSearch {
 
 void find_pair_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
                         std::span<const double> radius, std::size_t first_row,
-                        ContactWorkspace& work) {
+                        ContactWorkspace& work, std::vector<solve::PointLink>& link) {
   const std::size_t n = s.n_cell();
   work.force.resize(s.position.size());
-  work.link.resize(work.pair.size());
+  link.resize(work.pair.size());
   for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight}) v->resize(n);
   const TypeTable table = make_table(params, c.adhesion_factor);
   const double friction = c.friction_factor * c.cell_friction;
@@ -217,7 +220,7 @@ void find_pair_contacts(const State& s, std::span<const Params> params, const Co
     auto boundary = [&](std::size_t part) {  // whole rows: no two threads share one
       return part == n_part ? n : part * n / n_part / kLanes * kLanes;
     };
-    RangeSearch(s, table, friction, radius, first_row, boundary(k), boundary(k + 1), work,
+    RangeSearch(s, table, friction, radius, first_row, boundary(k), boundary(k + 1), work, link,
                 k == 0 ? work.touching : touching[k - 1])
         .run();
   }

@@ -9,6 +9,6 @@ namespace acinus::cbm {
 /// touching set. The first of the stages of find_contacts; clears what it writes.
 void find_pair_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
                         std::span<const double> radius, std::size_t first_row,
-                        ContactWorkspace& work);
+                        ContactWorkspace& work, std::vector<solve::PointLink>& link);
 
 }  // namespace acinus::cbm

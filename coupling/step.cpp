@@ -96,7 +96,7 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(s.dcm, phase.dcm, w.lanes, around, wall_time, w.dcm);
   cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, wall_time,
-                     cbm_first_row(s), w.cbm);
+                     cbm_first_row(s), w.cbm, w.system.point_links);
   find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
 }
 

@@ -74,8 +74,6 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
   work.product.resize(n);
   auto& r = work.residual;
   auto& q = work.product;
-  auto& scratch = work.full.preconditioned;
-  scratch.resize(n);
 
   std::ranges::copy(b, r.begin());
   if (!whole) {
@@ -87,7 +85,7 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
     for (std::size_t k = 0; k < n; ++k) r[k] -= q[k];
     restrict_to(op.system(), range, r);
   }
-  const double rhs = std::sqrt(op.precondition(r, scratch));
+  const double rhs = std::sqrt(op.precondition(r, {}));
   CgResult result;
   if (!std::isfinite(rhs)) {
     result.status = Status::failed("the right-hand side is not finite");
@@ -109,7 +107,7 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
     apply_distributed(op, x, q);
     for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - q[k];
     if (!whole) restrict_to(op.system(), range, r);
-    const double size = std::sqrt(op.precondition(r, scratch));
+    const double size = std::sqrt(op.precondition(r, {}));
     result.residual = size / rhs;
     if (result.residual <= options.tolerance) return result;
     double goal = kAim * options.tolerance * rhs;

@@ -111,7 +111,7 @@ ACINUS_INLINE double precondition(int n_point, const float* inverse, const T* r,
   for (int i = 0; i < n_point; ++i) {
     const Lane3Of<T> ri = load3<T>(r + i * kPointStride);
     const Lane3Of<T> zi = sym_times(inverse + i * kSymStride, ri);
-    store3(z + i * kPointStride, zi);
+    if (z) store3(z + i * kPointStride, zi);
     s += dot(ri, zi);
   }
   return sum_lanes<T>(s);

@@ -38,7 +38,7 @@ void add_diagonal(const BlockView& block, double* diagonal);
 /// @param inverse [n_point][6][lane]
 void invert_blocks(int n_point, const double* diagonal, float* inverse);
 
-/// z = D^-1 r; returns r . z.
+/// z = D^-1 r, unless z is null; returns r . D^-1 r.
 double precondition_block(int n_point, const float* inverse, const double* r, double* z);
 double precondition_block(int n_point, const float* inverse, const float* r, float* z);
 

@@ -14,13 +14,13 @@ constexpr std::size_t kParallelRows = 400;
 
 }  // namespace
 
-template <>
-Operator::PackedVectors<double>& Operator::packed() const {
-  return packed_double_;
+template <class T>
+Operator::PackedVectors<T> Operator::packed() const {
+  auto* x = reinterpret_cast<Packed<T>*>(scratch_.data());
+  return {x, x + system_->n_row * kLanes};
 }
-template <>
-Operator::PackedVectors<float>& Operator::packed() const {
-  return packed_float_;
+DiagonalBlock* Operator::diagonal() const {
+  return reinterpret_cast<DiagonalBlock*>(scratch_.data());
 }
 
 template <class F>
@@ -97,19 +97,18 @@ void Operator::share_links(bool with_matrix) {
 void Operator::compute_diagonal() {
   const System& s = *system_;
   inverse_.resize(s.n_row * kSymStride);
-  diagonal_.resize(s.n_row * kLanes);
+  DiagonalBlock* const diagonal_blocks = diagonal();
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-      std::fill_n(diagonal_.begin() + static_cast<std::ptrdiff_t>(row * kLanes), n * kLanes,
-                  DiagonalBlock{});
+      std::fill_n(diagonal_blocks + row * kLanes, n * kLanes, DiagonalBlock{});
     });
-    add_diagonal(links_of(range), scales, diagonal_.data());
-    add_diagonal(point_links_of(range), scales, diagonal_.data());
+    add_diagonal(links_of(range), scales, diagonal_blocks);
+    add_diagonal(point_links_of(range), scales, diagonal_blocks);
     std::vector<double> d;
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
       d.resize(n * kSymStride);
-      const DiagonalBlock* from = diagonal_.data() + row * kLanes;
+      const DiagonalBlock* from = diagonal_blocks + row * kLanes;
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t c = 0; c < 6; ++c)
           for (std::size_t l = 0; l < kLanes; ++l)
@@ -120,10 +119,15 @@ void Operator::compute_diagonal() {
   });
 }
 
-void Operator::prepare(const System& system) {
+void Operator::start(const System& system) {
   system_ = &system;
   partial_.resize(system.block.size());
+  scratch_.resize(system.n_row * kLanes);
   divide();
+}
+
+void Operator::prepare(const System& system) {
+  start(system);
   share_links(true);
   compute_diagonal();
 }
@@ -137,20 +141,17 @@ double Operator::sum_partials() const {
 template <class T>
 double Operator::multiply(In<T> x, Out<T> y, bool external_only) const {
   const System& s = *system_;
-  PackedVectors<T>& work = packed<T>();
-  work.x.resize(s.n_row * kLanes);
-  work.y.resize(s.n_row * kLanes);
+  const PackedVectors<T> work = packed<T>();
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-      pack_points(x.data() + row * kPointStride, n, work.x.data() + row * kLanes);
-      std::fill_n(work.y.begin() + static_cast<std::ptrdiff_t>(row * kLanes), n * kLanes,
-                  Packed<T>{});
+      pack_points(x.data() + row * kPointStride, n, work.x + row * kLanes);
+      std::fill_n(work.y + row * kLanes, n * kLanes, Packed<T>{});
     });
   });
   const LinkScales scales{s.stiffness_scale, s.friction_scale, external_only};
   for_each_range([&](const Range& range) {
-    multiply_links(links_of(range), scales, work.x.data(), work.y.data());
-    multiply_links(point_links_of(range), scales, work.x.data(), work.y.data());
+    multiply_links(links_of(range), scales, work.x, work.y);
+    multiply_links(point_links_of(range), scales, work.x, work.y);
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
       BlockView view = view_block(s, b);
       const BlockPattern medium_only{static_cast<int>(n), {}, {}, {}};
@@ -158,8 +159,8 @@ double Operator::multiply(In<T> x, Out<T> y, bool external_only) const {
         view.pattern = &medium_only;
         view.n_family = 0;
       }
-      partial_[b] = multiply_block(view, x.data() + row * kPointStride,
-                                   work.y.data() + row * kLanes, y.data() + row * kPointStride);
+      partial_[b] = multiply_block(view, x.data() + row * kPointStride, work.y + row * kLanes,
+                                   y.data() + row * kPointStride);
     });
   });
   return sum_partials();
@@ -175,21 +176,18 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y) co
 }
 
 void Operator::add_link_forces(System& system) {
-  system_ = &system;
-  divide();
+  start(system);
   share_links(false);
-  auto& y = packed_double_.y;
-  y.resize(system.n_row * kLanes);
+  Packed<double>* const y = packed<double>().y;
   for (auto* to : {&system.force, &system.external_force})
     for_each_range([&](const Range& range) {
       const bool external = to == &system.external_force;
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-        std::fill_n(y.begin() + static_cast<std::ptrdiff_t>(row * kLanes), n * kLanes,
-                    Packed<double>{});
+        std::fill_n(y + row * kLanes, n * kLanes, Packed<double>{});
       });
-      add_forces(links_of(range), system.links.load, external, y.data());
+      add_forces(links_of(range), system.links.load, external, y);
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-        add_packed(y.data() + row * kLanes, n, to->data() + row * kPointStride);
+        add_packed(y + row * kLanes, n, to->data() + row * kPointStride);
       });
     });
 }
@@ -198,9 +196,9 @@ template <class T>
 double Operator::precondition(In<T> r, Out<T> z) const {
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
-      partial_[b] =
-          precondition_block(static_cast<int>(n), inverse_.data() + row * kSymStride,
-                             r.data() + row * kPointStride, z.data() + row * kPointStride);
+      partial_[b] = precondition_block(static_cast<int>(n), inverse_.data() + row * kSymStride,
+                                       r.data() + row * kPointStride,
+                                       z.empty() ? nullptr : z.data() + row * kPointStride);
     });
   });
   return sum_partials();

@@ -1,6 +1,7 @@
 #pragma once
 /// The matrix of a System as an operator, with its block-diagonal preconditioner.
 
+#include <cstddef>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -30,7 +31,7 @@ class Operator {
   template <class T = double>
   double apply(In<T> x, Out<T> y) const;
 
-  /// z = D^-1 r with the 3x3 diagonal blocks of A; returns r . z.
+  /// z = D^-1 r with the 3x3 diagonal blocks of A; returns r . D^-1 r. z may be empty.
   template <class T = double>
   double precondition(In<T> r, Out<T> z) const;
 
@@ -61,13 +62,15 @@ class Operator {
     std::size_t first_block = 0, last_block = 0;
     std::vector<Share> link, point_link;
   };
-  /// Vectors on packed points; scratch of a product.
+  /// Two vectors on packed points, [n_point] each; scratch of a product.
   template <class T>
   struct PackedVectors {
-    std::vector<Packed<T>> x, y;  ///< [n_point]
+    Packed<T>*x, *y;
   };
   template <class T>
-  PackedVectors<T>& packed() const;
+  PackedVectors<T> packed() const;
+  DiagonalBlock* diagonal() const;
+  void start(const System& system);
   void divide();
   void share_links(bool with_matrix);
   void compute_diagonal();
@@ -87,10 +90,13 @@ class Operator {
   const System* system_ = nullptr;
   std::vector<Range> range_;
   std::vector<float> inverse_;           ///< [n_row][6][lane]
-  std::vector<DiagonalBlock> diagonal_;  ///< [n_point] scratch of compute_diagonal
   mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
-  mutable PackedVectors<double> packed_double_;
-  mutable PackedVectors<float> packed_float_;
+  /// One cache line per point, for whatever is being worked out: packed vectors in double (two
+  /// halves of a line) or float, or the diagonal blocks. Never two of them at once.
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  mutable std::vector<Line> scratch_;
 };
 
 }  // namespace acinus::solve

@@ -37,7 +37,6 @@ void clear_loads(System& system) {
     std::ranges::fill(r.coefficient, 0.0);
   }
   system.links.clear();
-  system.point_links.clear();
 }
 
 }  // namespace acinus::solve

@@ -71,8 +71,8 @@ struct System {
 /// Sizes all arrays for the given blocks (offsets are filled in) and clears them.
 void set_blocks(System& system, std::vector<Block> blocks);
 
-/// Zeroes every load that models add to; keeps capacity and scales. Hinges and faces are written,
-/// not added to, by the one term each belongs to.
+/// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces and point links
+/// are written, not added to, by the one term each belongs to.
 void clear_loads(System& system);
 
 /// Adds to a spring: along u the stiffness a + c, across it c.

@@ -58,13 +58,13 @@ struct Sample {
 class Runner {
  public:
   explicit Runner(const StepCase& c) : case_(c) {
-    const std::uint64_t before = peak_rss_bytes();
+    const std::uint64_t before = rss_bytes();
     world_ = build_world(parse_scene(c.scene, c.name), Ranks::serial()).world;
     if (c.grows) grow(world_);
     coupling::size_workspace(world_, work_);
     advance(c.warm_up);
+    bytes_ = rss_bytes() - std::min(before, rss_bytes());
     saved_ = world_.state;
-    bytes_ = peak_rss_bytes() - before;
   }
   Sample measure() {
     world_.state = saved_;
