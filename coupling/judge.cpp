@@ -159,10 +159,7 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
 }
 
 Balance measure_balance(const World&, Workspace& w) {
-  w.product.resize(w.move.size());
-  w.external_product.resize(w.move.size());
-  w.op.apply(w.move, w.product);
-  w.op.apply_external(w.move, w.external_product);
+  w.op.apply_external(w.move, w.cg.product);
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero(),
        center = Vec3::Zero();
   double force_size = 0, torque_size = 0, rest_torque_size = 0, n = 0;
@@ -179,7 +176,8 @@ Balance measure_balance(const World&, Workspace& w) {
   for_each_point([&](Address a) {
     const Vec3 conservative = load_point(w.system.force.data(), a);
     // what pair friction and the pair forces' change exert during the step
-    const Vec3 rest = load_point(w.external_product.data(), a) - load_point(w.product.data(), a);
+    const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
+    const Vec3 rest = load_point(w.cg.product.data(), a) - product;
     const Vec3 arm = load_point(w.position.data(), a) - center;
     force += conservative + rest;
     force_size += conservative.norm() + rest.norm();

@@ -169,8 +169,12 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
-  solve::correct_rigid_modes(w.op, w.cg.residual, w.move, w.position, w.active, options.tolerance,
-                             w.rigid);
+  const solve::RigidResult rigid = solve::correct_rigid_modes(
+      w.op, w.cg.residual, w.move, w.position, w.active, options.tolerance, w.rigid);
+  if (rigid.corrected_groups > 0) {
+    w.op.apply(w.move, w.cg.product);
+    for (std::size_t k = 0; k < w.rhs.size(); ++k) w.cg.residual[k] = w.rhs[k] - w.cg.product[k];
+  }
   return Status::fine();
 }
 

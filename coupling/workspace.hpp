@@ -29,8 +29,7 @@ struct Workspace {
   std::vector<std::uint8_t> active;            ///< written by: size_workspace
   std::vector<double> rhs;                     ///< written by: solve_step
   std::vector<double> move;                    ///< displacement of the step; written by: solve_step
-  std::vector<double> product, external_product;  ///< written by: judge
-  std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
+  std::vector<std::uint8_t> leader;            ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
   Timings timings;
   int reject_every = 0;      ///< tests: throw away every n-th attempt, as if judged bad

@@ -152,6 +152,7 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
       !lists_expired(state, c, lanes, around, work))
     return false;
   work.motion.assign(n_body, {});
+  work.list.clear();  // before the new ones take memory
   work.near = contact::find_near_bodies(work.body, options, kReserve);
   work.list = contact::find_candidates(work.body, work.fixed, work.near, options);
   work.segment_list.resize(work.body.size());
@@ -175,7 +176,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t part = 0; part < n_part; ++part) {
     auto& found = part == 0 ? work.surface : work.found[part - 1];
+    const std::size_t before = found.size();
     found.clear();
+    found.reserve(before + before / 8);  // contacts change little: doubling would waste memory
     for (std::size_t k = part * work.list.size() / n_part;
          k < (part + 1) * work.list.size() / n_part; ++k)
       contact::find_contacts(work.list[k], work.body, work.fixed, options,

@@ -307,11 +307,20 @@ std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
       if (bodies[static_cast<std::size_t>(a)].topology &&
           may_fold(bodies[static_cast<std::size_t>(a)]))
         add_list(a, a);
-#pragma omp parallel for schedule(dynamic, 4)
-  for (std::size_t k = 0; k < lists.size(); ++k)
-    ListBuilder(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b), o,
+#pragma omp parallel
+  {
+    Candidates scratch;  // grows as needed; what is kept is copied to measure
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+      scratch.clear();
+      scratch.body_a = lists[k].body_a;
+      scratch.body_b = lists[k].body_b;
+      ListBuilder(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b), o,
                 lists[k].body_a == lists[k].body_b)
-        .fill(lists[k]);
+          .fill(scratch);
+      lists[k] = scratch;
+    }
+  }
   std::erase_if(lists, [](const Candidates& c) { return c.point.empty(); });
   std::ranges::sort(lists, {}, [](const Candidates& c) { return std::pair(c.body_a, c.body_b); });
   return lists;

@@ -26,6 +26,12 @@ struct Candidates {
   std::vector<std::uint32_t> start;  ///< [n_point + 1]
   std::vector<int> triangle;         ///< of b, by ascending bound
   std::vector<float> bound;          ///< um, no more than the distance when the list was made
+
+  void clear() {
+    for (auto* v : {&point, &triangle}) v->clear();
+    for (auto* v : {&gap, &bound}) v->clear();
+    start.clear();
+  }
 };
 
 /// Candidates of every ordered pair of bodies that come near (both passes), and of bodies with

@@ -36,7 +36,7 @@ struct CgVectors {
 /// Scratch, sized on first use.
 struct CgWorkspace {
   std::vector<double> residual;  ///< b - A x of the solution returned
-  std::vector<double> product;
+  std::vector<double> product;   ///< free for others between solves
   CgVectors<float> single;
   CgVectors<double> full;
 };

@@ -78,7 +78,6 @@ template <class L, class T>
 ACINUS_INLINE void multiply(const L& l, const LinkScales& s, bool to_a, bool to_b,
                             const Packed<T>* x, Packed<T>* y) {
   const bool pair = exists(l);
-  if (pair && s.external_only) return;
   Four<T> r = gather(l.a, x);
   if (pair) r -= gather(l.b, x);
   const T k = static_cast<T>(s.stiffness) * static_cast<T>(l.stiffness);

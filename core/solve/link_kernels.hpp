@@ -29,7 +29,6 @@ struct LinkSet {
 /// What contact coefficients are multiplied by.
 struct LinkScales {
   double stiffness = 1, friction = 1;
-  bool external_only = false;  ///< leaves out contacts between cells
 };
 
 /// y += (stiffness n n^T + friction I) r, spread over the points of each contact.

@@ -68,6 +68,12 @@ void Operator::divide() {
 /// Finds the contacts of each range: all of them, or those with a matrix.
 void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
+  external_.clear();
+  external_point_.clear();
+  for (std::size_t l = 0; l < s.links.size(); ++l)
+    if (!s.links.link[l].b.exists()) external_.push_back(static_cast<std::uint32_t>(l));
+  for (std::size_t l = 0; l < s.point_links.size(); ++l)
+    if (s.point_links[l].b == kNowhere) external_point_.push_back(static_cast<std::uint32_t>(l));
   auto first_point = [&](std::size_t block) {
     return (block < s.block.size() ? s.block[block].first_row : s.n_row) * kLanes;
   };
@@ -139,7 +145,7 @@ double Operator::sum_partials() const {
 }
 
 template <class T>
-double Operator::multiply(In<T> x, Out<T> y, bool external_only) const {
+double Operator::apply(In<T> x, Out<T> y) const {
   const System& s = *system_;
   const PackedVectors<T> work = packed<T>();
   for_each_range([&](const Range& range) {
@@ -148,31 +154,41 @@ double Operator::multiply(In<T> x, Out<T> y, bool external_only) const {
       std::fill_n(work.y + row * kLanes, n * kLanes, Packed<T>{});
     });
   });
-  const LinkScales scales{s.stiffness_scale, s.friction_scale, external_only};
+  const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const Range& range) {
     multiply_links(links_of(range), scales, work.x, work.y);
     multiply_links(point_links_of(range), scales, work.x, work.y);
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
-      BlockView view = view_block(s, b);
-      const BlockPattern medium_only{static_cast<int>(n), {}, {}, {}};
-      if (external_only) {
-        view.pattern = &medium_only;
-        view.n_family = 0;
-      }
-      partial_[b] = multiply_block(view, x.data() + row * kPointStride, work.y + row * kLanes,
-                                   y.data() + row * kPointStride);
+      partial_[b] = multiply_block(view_block(s, b), x.data() + row * kPointStride,
+                                   work.y + row * kLanes, y.data() + row * kPointStride);
     });
   });
   return sum_partials();
 }
 
-template <class T>
-double Operator::apply(In<T> x, Out<T> y) const {
-  return multiply<T>(x, y, false);
-}
-
 void Operator::apply_external(std::span<const double> x, std::span<double> y) const {
-  multiply<double>(x, y, true);
+  const System& s = *system_;
+  for_each_range([&](const Range& range) {
+    for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
+      for (std::size_t i = row; i < row + n; ++i)
+        store3(y.data() + i * kPointStride,
+               (s.friction_scale * load(s.medium.data() + i * kLanes)) *
+                   load3(x.data() + i * kPointStride));
+    });
+  });
+  auto add = [&](const Stencil& at, const auto& l) {
+    Vec3 r = Vec3::Zero();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(at.n); ++k)
+      r += at.weight[k] * load_point(x.data(), at.address[k]);
+    const Vec3 n(l.normal[0], l.normal[1], l.normal[2]);
+    const Vec3 f = s.stiffness_scale * static_cast<double>(l.stiffness) * n.dot(r) * n +
+                   s.friction_scale * static_cast<double>(l.friction) * r;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(at.n); ++k)
+      add_point(y.data(), at.address[k], at.weight[k] * f);
+  };
+  for (const std::uint32_t l : external_) add(stencil_of(s.links.link[l]), s.links.link[l]);
+  for (const std::uint32_t l : external_point_)
+    add({1, {address_of(s.point_links[l].a)}, {1}}, s.point_links[l]);
 }
 
 void Operator::add_link_forces(System& system) {

@@ -83,14 +83,13 @@ class Operator {
   /// f(block, first point row, number of points) for the blocks of a range.
   template <class F>
   void for_each_block(const Range& range, F f) const;
-  template <class T>
-  double multiply(In<T> x, Out<T> y, bool external_only) const;
   double sum_partials() const;
 
   const System* system_ = nullptr;
   std::vector<Range> range_;
-  std::vector<float> inverse_;           ///< [n_row][6][lane]
-  mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
+  std::vector<std::uint32_t> external_, external_point_;  ///< links with surroundings
+  std::vector<float> inverse_;                            ///< [n_row][6][lane]
+  mutable std::vector<double> partial_;                   ///< [n_block] scratch of a dot product
   /// One cache line per point, for whatever is being worked out: packed vectors in double (two
   /// halves of a line) or float, or the diagonal blocks. Never two of them at once.
   struct alignas(64) Line {
