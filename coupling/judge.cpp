@@ -66,25 +66,21 @@ double move_limit(double max_move, double mean_edge) {
   return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
 }
 
-double estimate_error(const World& world, double step, const Workspace& w) {
-  const State& s = world.state;
-  if (s.clock.last_step <= 0 || s.last_move.size() != w.move.size()) return 0;
-  const double ratio = step / s.clock.last_step;
-  const bool noise =
-      world.params.motility.random && controls_at(s.clock, world.params.start_up).motility;
+double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
+  const bool noise = world.params.motility.random &&
+                     controls_at(world.state.clock, world.params.start_up).motility;
   double sum2 = 0, largest2 = 0, n = 0;
   for_each_cell(w, [&](std::size_t, Address first, int n_point) {
-    auto change = [&](int i) {
-      const Address a = first + static_cast<Address>(i * kPointStride);
-      return Vec3(0.5 * (load_point(w.move.data(), a) - ratio * load_point(s.last_move.data(), a)));
+    auto at = [&](int i) {
+      return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
     };
     Vec3 mean = Vec3::Zero();
     if (noise) {
-      for (int i = 0; i < n_point; ++i) mean += change(i);
+      for (int i = 0; i < n_point; ++i) mean += at(i);
       mean /= n_point;
     }
     for (int i = 0; i < n_point; ++i) {
-      const double e2 = (change(i) - mean).squaredNorm();
+      const double e2 = (at(i) - mean).squaredNorm();
       sum2 += e2;
       largest2 = std::max(largest2, e2);
     }
@@ -93,7 +89,18 @@ double estimate_error(const World& world, double step, const Workspace& w) {
   return n > 0 ? std::max(std::sqrt(sum2 / n), std::sqrt(largest2) / 5) : 0;
 }
 
-Verdict judge_step(const World& world, double step, const Workspace& w) {
+double estimate_error(const World& world, double step, Workspace& w) {
+  const State& s = world.state;
+  if (s.clock.last_step <= 0 || s.last_move.size() != w.move.size()) return 0;
+  const double ratio = step / s.clock.last_step;
+  auto& change = w.cg.product;
+  change.resize(w.move.size());
+  for (std::size_t k = 0; k < w.move.size(); ++k)
+    change[k] = 0.5 * (w.move[k] - ratio * s.last_move[k]);
+  return error_norm(world, w, change);
+}
+
+Verdict judge_step(const World& world, double step, Workspace& w) {
   const State& s = world.state;
   Verdict v;
   auto reject = [&](std::string why, std::size_t lane) {
@@ -158,7 +165,13 @@ Verdict judge_step(const World& world, double step, const Workspace& w) {
   return v;
 }
 
-Balance measure_balance(const World&, Workspace& w) {
+Balance measure_balance(const World& world, Workspace& w) {
+  // Of A dx = b the residual is known; displacements made up of stages need the product.
+  const Integrator method = world.params.numerics.integrator;
+  if (method == Integrator::kRos2 || method == Integrator::kNewton) {
+    w.op.apply(w.move, w.cg.product);
+    for (std::size_t k = 0; k < w.rhs.size(); ++k) w.cg.residual[k] = w.rhs[k] - w.cg.product[k];
+  }
   w.op.apply_external(w.move, w.cg.product);
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero(),
        center = Vec3::Zero();

@@ -24,14 +24,18 @@ struct Verdict {
 double move_limit(double max_move, double mean_edge);
 inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, in radii
 
-Verdict judge_step(const World& world, double step, const Workspace& work);
+Verdict judge_step(const World& world, double step, Workspace& work);
 
-/// Error estimate, um: half the change of velocity times the step, as the larger of the rms and a
-/// fifth of the maximum over nodes. With random motility every cell's mean displacement is left
-/// out: it is white noise, which the method integrates exactly. 0 without a step to compare with.
-double estimate_error(const World& world, double step, const Workspace& work);
+/// Size of an error field, um: the larger of the rms and a fifth of the maximum over nodes. With
+/// random motility every cell's mean is left out: it is white noise, which is integrated exactly.
+/// @param field [n_row][3][lane] um
+double error_norm(const World& world, const Workspace& work, std::span<const double> field);
 
-/// Force balance of the step just solved.   @pre work.rhs, work.move
+/// Error estimate, um: half the change of velocity times the step. 0 without a step to compare
+/// with.
+double estimate_error(const World& world, double step, Workspace& work);
+
+/// Force balance of the step just solved.   @pre work.rhs, work.move, work.cg.residual
 Balance measure_balance(const World& world, Workspace& work);
 
 }  // namespace acinus::coupling

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "coupling/integrators.hpp"
 #include "coupling/judge.hpp"
 #include "coupling/partitioned.hpp"
 #include "dcm/terms/medium.hpp"
@@ -31,7 +32,7 @@ InterfaceView view_interface(const World& world, const PhaseParams& phase, const
           w.cbm,           phase.interface,  w.interface};
 }
 
-void commit(World& world, double step, int cg_iterations, Workspace& w) {
+void commit(World& world, double step, int cg_iterations, int solves, Workspace& w) {
   State& s = world.state;
   for (std::size_t k = 0; k < s.dcm.position.size(); ++k) s.dcm.position[k] += w.move[k];
   for (std::size_t k = 0; k < s.cbm.position.size(); ++k)
@@ -44,6 +45,7 @@ void commit(World& world, double step, int cg_iterations, Workspace& w) {
   s.clock.last_step = step;
   s.clock.accepted += 1;
   s.clock.cg_iterations += cg_iterations;
+  s.clock.solves += solves;
 }
 
 /// Length of the next step from the error of this one. A quarter more or less is not worth a
@@ -67,6 +69,7 @@ void size_workspace(const World& world, Workspace& w) {
   w.active = active_lanes(world.state);
   w.rhs.assign(w.system.n_dof(), 0.0);
   w.move.assign(w.system.n_dof(), 0.0);
+  w.stages.reset();
   w.dcm.body.clear();
   w.dcm.list_position.clear();
   w.cbm.list_position.clear();
@@ -105,7 +108,8 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   const State& s = world.state;
   const PhaseParams phase = phase_params(world);
   const std::size_t first = cbm_first_row(s);
-  w.system.friction_scale = 1 / step;
+  w.system.friction_scale = selection.friction_factor / step;
+  w.system.stiffness_scale = selection.stiffness_scale;
   solve::clear_loads(w.system);
   w.position = gather_positions(s);
 
@@ -151,9 +155,7 @@ std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Worksp
 }
 
 Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
-  const auto scope = w.timings.scope("solve");
   const State& s = world.state;
-  const solve::CgOptions& options = world.params.numerics.cg;
   for (std::size_t k = 0; k < w.rhs.size(); ++k)
     w.rhs[k] = w.system.force[k] + w.system.external_force[k];
   // The last step's velocity is a good first guess.
@@ -163,9 +165,16 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   } else {
     std::ranges::fill(w.move, 0.0);
   }
+  return solve_system(world, w, cg_iterations);
+}
+
+Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
+  const auto scope = w.timings.scope("solve");
+  const solve::CgOptions& options = world.params.numerics.cg;
   const solve::CgResult result =
-      w.partitioned ? solve_partitioned(w.op, w.rhs, w.move, s.dcm.group.size(), options, w.cg)
-                    : solve::solve_cg(w.op, w.rhs, w.move, options, w.cg);
+      w.partitioned
+          ? solve_partitioned(w.op, w.rhs, w.move, world.state.dcm.group.size(), options, w.cg)
+          : solve::solve_cg(w.op, w.rhs, w.move, options, w.cg);
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
@@ -183,26 +192,27 @@ StepResult advance(World& world, Workspace& w, double limit) {
   const Numerics& n = world.params.numerics;
   StepResult result;
   double wanted = s.clock.step > 0 ? std::min(s.clock.step, n.max_step) : n.max_step;
-  int cg_iterations = 0;
+  int cg_iterations = 0, solves = 0;
   for (;;) {
     const double step = std::min(wanted, limit);
-    find_all_contacts(world, step, w);  // 1 life, 2 contact
-    assemble(world, step, w);           // 3 solve
-    const Status solved = solve_step(world, step, w, cg_iterations);
+    const Attempt attempt = attempt_step(world, step, w);  // 1 life, 2 contact, 3 solve
+    cg_iterations += attempt.cg_iterations;
+    solves += attempt.solves;
     Verdict verdict;  // 4 judge
-    if (solved.ok) {
+    if (attempt.status.ok) {
       const auto scope = w.timings.scope("judge");
       verdict = judge_step(world, step, w);
+      if (attempt.error >= 0) verdict.error = attempt.error;
     } else {
       verdict.good = false;
-      verdict.cause = solved.cause;
+      verdict.cause = attempt.status.cause;
     }
     if (verdict.good && n.adaptive && verdict.error > 4 * n.tolerance && step > n.min_step) {
       verdict.good = false;
       verdict.cause = "the estimated error is too large";
     }
-    const std::int64_t attempt = s.clock.accepted + s.clock.rejected + result.rejections + 1;
-    if (verdict.good && w.reject_every > 0 && attempt % w.reject_every == 0 &&
+    const std::int64_t number = s.clock.accepted + s.clock.rejected + result.rejections + 1;
+    if (verdict.good && w.reject_every > 0 && number % w.reject_every == 0 &&
         step > 2 * n.min_step) {
       verdict.good = false;
       verdict.cause = "rejected on request";
@@ -212,7 +222,7 @@ StepResult advance(World& world, Workspace& w, double limit) {
       s.balance.momentum = std::max(s.balance.momentum, b.momentum);
       s.balance.torque = std::max(s.balance.torque, b.torque);
       s.balance.friction_torque = std::max(s.balance.friction_torque, b.friction_torque);
-      commit(world, step, cg_iterations, w);
+      commit(world, step, cg_iterations, solves, w);
       s.clock.rejected += result.rejections;
       // A step cut short by an event says little about the next one's length.
       s.clock.step = step < wanted ? wanted : next_step(n, step, verdict.error);

@@ -25,9 +25,11 @@ struct StepResult {
 /// step.
 void size_workspace(const World& world, Workspace& work);
 
-/// Which loads to assemble; tests look at one model with and without the interface.
+/// What to assemble.
 struct Selection {
-  bool interface = true;
+  bool interface = true;       ///< tests look at one model with and without it
+  double stiffness_scale = 1;  ///< 0: friction only
+  double friction_factor = 1;  ///< on Gamma/h
 };
 
 /// Stages 1 and 2: reference values at the end of the step, migration choices, contacts of the
@@ -43,8 +45,13 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Workspace
 /// Contacts between spheres one by one.   @pre find_all_contacts
 std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& work);
 
-/// Second half of stage 3: (Gamma/h + K) dx = F, then exact rigid motion of every cluster.
+/// Second half of stage 3: the system's own forces as right-hand side, the last step's velocity as
+/// first guess, then solve_system.
 Status solve_step(const World& world, double step, Workspace& work, int& cg_iterations);
+
+/// Solves for work.move from the guess it holds and the right-hand side in work.rhs, then puts the
+/// rigid motion of every cluster right. Adds to cg_iterations.
+Status solve_system(const World& world, Workspace& work, int& cg_iterations);
 
 /// Advances by one accepted step no longer than `limit`, with as many smaller retries as it takes.
 /// Not accepted: a step of min_step was still bad; State is the last good one.

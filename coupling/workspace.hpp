@@ -1,6 +1,7 @@
 #pragma once
 /// Scratch of the step, sized when the set of cells changes.
 
+#include <memory>
 #include <vector>
 
 #include "core/solve/cg.hpp"
@@ -11,6 +12,8 @@
 #include "coupling/world.hpp"
 
 namespace acinus::coupling {
+
+struct StageScratch;
 
 struct Workspace {
   solve::System system;
@@ -32,7 +35,8 @@ struct Workspace {
   std::vector<std::uint8_t> leader;            ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
   Timings timings;
-  int reject_every = 0;      ///< tests: throw away every n-th attempt, as if judged bad
+  std::shared_ptr<StageScratch> stages;  ///< of methods with more than one stage
+  int reject_every = 0;                  ///< tests: throw away every n-th attempt, as if judged bad
   bool partitioned = false;  ///< tests: solve each model alone, interface forces exchanged
 };
 

@@ -41,12 +41,15 @@ struct Motility {
   double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
 };
 
+enum class Integrator { kLinearlyImplicit, kExplicitEuler, kRos2, kNewton };
+
 struct Numerics {
   double max_step = 60, min_step = 1e-3;  ///< s
   bool adaptive = true;
   double tolerance = 0.01;  ///< um, error per step
   double max_move = 0.3;    ///< displacement cap in mean edge lengths, 0 = none
   solve::CgOptions cg;
+  Integrator integrator = Integrator::kLinearlyImplicit;
 };
 
 /// Constants of a run.
@@ -70,6 +73,7 @@ struct Clock {
   double step = 0;         ///< s, length of the next step
   double last_step = 0;    ///< s, length of the last accepted step; 0 = none
   std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
+  std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
 };
 
 /// Largest |sum| / sum |.| over all steps.

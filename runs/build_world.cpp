@@ -13,6 +13,7 @@
 #include "core/random.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
+#include "coupling/integrators.hpp"
 #include "coupling/start_up.hpp"
 #include "runs/place_cells.hpp"
 
@@ -204,6 +205,11 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   p.numerics = {scene.time.step,     scene.time.min_step,
                 scene.time.adaptive, scene.time.tolerance,
                 scene.time.max_move, {scene.solver.tolerance, scene.solver.max_iterations}};
+  for (const auto method : {coupling::Integrator::kExplicitEuler, coupling::Integrator::kRos2,
+                            coupling::Integrator::kNewton})
+    if (scene.time.integrator == coupling::name_of(method)) p.numerics.integrator = method;
+  // An explicit step's length is set by stability, not by what an error estimate asks for.
+  if (p.numerics.integrator == coupling::Integrator::kExplicitEuler) p.numerics.adaptive = false;
 
   const std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.around);
   check_starts(scene, cells, p.around);

@@ -55,7 +55,7 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["instruction_set"] = std::string(best_instruction_set());
   j["steps"] = {{"accepted", s.clock.accepted},
                 {"rejected", s.clock.rejected},
-                {"newton", s.clock.accepted},
+                {"newton", s.clock.solves},
                 {"cg", s.clock.cg_iterations}};
   j["cells"] = {{"dcm", dcm_cells},
                 {"cbm", cbm_cells},

@@ -38,6 +38,15 @@ void describe_time(Visitor& v, TimeBlock& b) {
           .meaning = "farthest a node may move in one step, in mean edge lengths; 0 = no cap",
           .range = {.low = 0, .high = 1}},
          b.max_move);
+  v.text({.name = "integrator",
+          .meaning = "how a step is taken; linearly-implicit is meant for tissue, the others for "
+                     "comparison (explicit-euler), smooth single cells (ros2) and equilibrium "
+                     "(newton)",
+          .choices = "linearly-implicit|explicit-euler|ros2|newton"},
+         b.integrator);
+  v.flag({.name = "with_contacts",
+          .meaning = "allow ros2 although cells may touch something: contacts make it chatter"},
+         b.with_contacts);
 }
 
 void describe_solver(Visitor& v, SolverBlock& b) {

@@ -42,6 +42,21 @@ void check_time(const Scene& scene, Report& report) {
   }
 }
 
+/// Whether anything in the scene may touch anything else.
+bool may_touch(const Scene& scene) {
+  const bool single = (scene.cells.source == "list" && scene.cells.list.size() == 1) ||
+                      (scene.cells.source == "clump" && scene.cells.count == 1);
+  return !single || !scene.walls.empty() || !scene.static_meshes.empty() || scene.capsule.enabled ||
+         !scene.vessels.file.empty() || scene.lobule;
+}
+
+void check_integrator(const Scene& scene, Report& report) {
+  if (scene.time.integrator != "ros2" || scene.time.with_contacts || !may_touch(scene)) return;
+  report.add_relation({"/time/integrator", "/time/with_contacts"}, "\"ros2\"",
+                      "is for one cell that touches nothing: contacts make it chatter. Choose "
+                      "\"linearly-implicit\", or set /time/with_contacts to true");
+}
+
 void check_start_up(const Scene& scene, Report& report) {
   if (!scene.start_up.enabled) return;
   const double initial = scene.start_up.initial_radius;
@@ -204,6 +219,7 @@ void check_surroundings(const Scene& scene, Report& report) {
 
 void check_rules(const Scene& scene, Report& report) {
   check_time(scene, report);
+  check_integrator(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);
   check_zoom(scene, report);

@@ -21,6 +21,8 @@ struct TimeBlock {
   bool adaptive = true;     ///< step-size controller on
   double tolerance = 0.01;  ///< um, error a step may make (controller)
   double max_move = 0.3;    ///< displacement cap, in mean edge lengths; 0 = no cap
+  std::string integrator = "linearly-implicit";
+  bool with_contacts = false;  ///< ros2 although cells may touch
 };
 
 struct SolverBlock {

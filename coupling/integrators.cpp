@@ -1,0 +1,196 @@
+#include "coupling/integrators.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "coupling/judge.hpp"
+#include "coupling/step.hpp"
+
+namespace acinus::coupling {
+
+/// States on the way and what is assembled there; made when a method first asks for it.
+struct StageScratch {
+  World world;         ///< the step's world with other positions
+  Workspace friction;  ///< Gamma at the start of the step
+  Workspace trial;     ///< at the trial positions
+  std::vector<double> first, product;
+};
+
+namespace {
+
+constexpr int kMaxNewton = 40;
+constexpr int kMaxHalvings = 6;
+/// Newton is done when its last correction was below this share of the step's error tolerance.
+constexpr double kNewtonShare = 0.1;
+/// Closest features make kinks that Newton cannot cross; below this correction, um, it may stop at
+/// one.
+constexpr double kKink = 2e-3;
+
+StageScratch& stage_scratch(const World& world, Workspace& w) {
+  if (!w.stages) {
+    w.stages = std::make_shared<StageScratch>();
+    w.stages->world = world;
+    size_workspace(world, w.stages->friction);
+    size_workspace(world, w.stages->trial);
+  }
+  return *w.stages;
+}
+
+/// The trial world: everything as in `world`, all points moved by d.
+void move_trial(const World& world, std::span<const double> d, StageScratch& s) {
+  s.world.state = world.state;
+  auto& dcm = s.world.state.dcm.position;
+  auto& cbm = s.world.state.cbm.position;
+  for (std::size_t k = 0; k < dcm.size(); ++k) dcm[k] += d[k];
+  for (std::size_t k = 0; k < cbm.size(); ++k) cbm[k] += d[dcm.size() + k];
+}
+
+Attempt try_linearly_implicit(const World& world, double step, Workspace& w) {
+  Attempt a;
+  find_all_contacts(world, step, w);
+  assemble(world, step, w);
+  a.status = solve_step(world, step, w, a.cg_iterations);
+  a.solves = 1;
+  return a;
+}
+
+Attempt try_explicit_euler(const World& world, double step, Workspace& w) {
+  Attempt a;
+  find_all_contacts(world, 0, w);
+  assemble(world, step, w, {.stiffness_scale = 0});
+  a.status = solve_step(world, step, w, a.cg_iterations);
+  a.solves = 1;
+  return a;
+}
+
+Attempt try_ros2(const World& world, double step, Workspace& w) {
+  const double gamma = 1 - 1 / std::sqrt(2.0);
+  Attempt a;
+  StageScratch& s = stage_scratch(world, w);
+  find_all_contacts(world, 0, w);
+  assemble(world, step, w, {.friction_factor = 1 / gamma});
+  a.status = solve_step(world, step * gamma, w, a.cg_iterations);
+  if (!a.status.ok) return a;
+  s.first = w.move;
+  for (double& k1 : s.first) k1 /= gamma;
+
+  find_all_contacts(world, 0, s.friction);
+  assemble(world, step, s.friction, {.stiffness_scale = 0});
+  move_trial(world, s.first, s);
+  find_all_contacts(s.world, step, s.trial);
+  assemble(s.world, step, s.trial, {.stiffness_scale = 0});
+  s.product.resize(s.first.size());
+  for (std::size_t k = 0; k < w.rhs.size(); ++k)
+    w.rhs[k] = s.trial.system.force[k] + s.trial.system.external_force[k];
+  for (Workspace* at : {&s.friction, &s.trial}) {
+    at->op.apply(s.first, s.product);
+    for (std::size_t k = 0; k < w.rhs.size(); ++k) w.rhs[k] -= s.product[k];
+  }
+  for (std::size_t k = 0; k < w.move.size(); ++k) w.move[k] = -gamma * s.first[k];
+  a.status = solve_system(world, w, a.cg_iterations);
+  a.solves = 2;
+  if (!a.status.ok) return a;
+  for (std::size_t k = 0; k < w.move.size(); ++k) {
+    const double k1 = s.first[k], k2 = w.move[k] / gamma;
+    w.move[k] = 1.5 * k1 + 0.5 * k2;
+    s.product[k] = 0.5 * (k1 + k2);
+  }
+  a.error = error_norm(world, w, s.product);
+  return a;
+}
+
+/// Residual of backward Euler at the trial positions, F(x + d) - Gamma/h d, into trial.rhs; returns
+/// its size in the norm of the preconditioner.
+double newton_residual(const World& world, double step, std::span<const double> d,
+                       StageScratch& s) {
+  move_trial(world, d, s);
+  find_all_contacts(s.world, step, s.trial);
+  assemble(s.world, step, s.trial);
+  s.product.resize(d.size());
+  s.friction.op.apply(d, s.product);
+  for (std::size_t k = 0; k < d.size(); ++k)
+    s.trial.rhs[k] = s.trial.system.force[k] + s.trial.system.external_force[k] - s.product[k];
+  return std::sqrt(s.trial.op.precondition(s.trial.rhs, {}));
+}
+
+double largest_move(const Workspace& w, std::span<const double> field) {
+  double largest = 0;
+  for (std::size_t b = 0; b < w.system.block.size(); ++b)
+    for (int i = 0; i < w.system.block[b].pattern->n_point; ++i)
+      for (int l = 0; l < kLanes; ++l)
+        if (w.active[b * kLanes + static_cast<std::size_t>(l)])
+          largest = std::max(
+              largest,
+              load_point(field.data(),
+                         make_address(w.system.block[b].first_row + static_cast<std::size_t>(i), l))
+                  .norm());
+  return largest;
+}
+
+Attempt try_newton(const World& world, double step, Workspace& w) {
+  // The first iteration is a linearly implicit step; it also leaves what the judge looks at.
+  Attempt a = try_linearly_implicit(world, step, w);
+  if (!a.status.ok) return a;
+  StageScratch& s = stage_scratch(world, w);
+  find_all_contacts(world, step, s.friction);
+  assemble(world, step, s.friction, {.stiffness_scale = 0});
+  const double done = kNewtonShare * world.params.numerics.tolerance;
+  double size = newton_residual(world, step, w.move, s);
+  for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
+    std::ranges::fill(s.trial.move, 0.0);
+    a.status = solve_system(s.world, s.trial, a.cg_iterations);
+    ++a.solves;
+    if (!a.status.ok) return a;
+    s.first = s.trial.move;
+    const double largest = largest_move(w, s.first);
+    if (largest <= done) return a;
+    double share = 1, next = 0;
+    std::vector<double> tried(w.move.size());
+    for (int halving = 0; halving <= kMaxHalvings; ++halving, share /= 2) {
+      for (std::size_t k = 0; k < tried.size(); ++k) tried[k] = w.move[k] + share * s.first[k];
+      next = newton_residual(world, step, tried, s);
+      if (next < size) break;
+    }
+    if (!(next < size)) {
+      if (largest > kKink) a.status = Status::failed("Newton's method found no way down");
+      return a;
+    }
+    w.move = tried;
+    size = next;
+  }
+  a.status = Status::failed("Newton's method did not converge");
+  return a;
+}
+
+}  // namespace
+
+Attempt attempt_step(const World& world, double step, Workspace& w) {
+  switch (world.params.numerics.integrator) {
+    case Integrator::kExplicitEuler:
+      return try_explicit_euler(world, step, w);
+    case Integrator::kRos2:
+      return try_ros2(world, step, w);
+    case Integrator::kNewton:
+      return try_newton(world, step, w);
+    case Integrator::kLinearlyImplicit:
+      break;
+  }
+  return try_linearly_implicit(world, step, w);
+}
+
+std::string name_of(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::kExplicitEuler:
+      return "explicit-euler";
+    case Integrator::kRos2:
+      return "ros2";
+    case Integrator::kNewton:
+      return "newton";
+    case Integrator::kLinearlyImplicit:
+      break;
+  }
+  return "linearly-implicit";
+}
+
+}  // namespace acinus::coupling
