@@ -6,6 +6,7 @@
 
 #include "core/lanes.hpp"
 #include "core/mesh/closest_point.hpp"
+#include "core/rounding.hpp"
 
 namespace acinus::contact {
 namespace {
@@ -351,8 +352,8 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
     }
     if (closest.triangle < 0) continue;
     SurfaceContact contact{list.body_a, list.point[p], list.body_b, closest.triangle, {}, {}, 0};
-    contact.weight_b = {static_cast<float>(closest.at.weight[0]),
-                        static_cast<float>(closest.at.weight[1])};
+    contact.weight_b = {round_to_float(closest.at.weight[0]),
+                        round_to_float(closest.at.weight[1])};
     const auto w = contact.weights();
     const Vec3 weight(w[0], w[1], w[2]);
     const Vec3 outward = blended_normal(b, closest.triangle, weight);
