@@ -38,8 +38,8 @@ struct Cells {
   GroupView view() const { return view_group(state, lanes, system, 0); }
   void reset() {
     lanes = make_lane_data(state, 0);
-    solve::set_blocks(system, make_blocks(state));
     const Params p = table_one();
+    solve::set_blocks(system, make_blocks(state, std::span(&p, 1)));
     size_rank_one(state, std::span(&p, 1), system);
     solve::clear_loads(system);
   }

@@ -40,12 +40,16 @@ struct Clump {
     work.list_position.clear();
     find();
   }
+  /// Force of a contact on its side a, nN.
+  Vec3 force(std::size_t link) const { return links.load[link].force * links.load[link].normal; }
   /// [n_dof] the force of all links on the nodes.
   std::vector<double> node_force() const {
     std::vector<double> f(state.position.size());
-    for (std::size_t l = 0; l < links.size(); ++l)
-      for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
-        add_point(f.data(), links.address[k], links.weight[k] * links.force[l]);
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      const solve::Stencil s = solve::stencil_of(links.link[l]);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(s.n); ++k)
+        add_point(f.data(), s.address[k], s.weight[k] * force(l));
+    }
     return f;
   }
   /// f(address) for all nodes of all cells.

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "tests/dcm/clump.hpp"
+#include "tests/reference/dense_system.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -81,11 +82,12 @@ TEST(ContactLoads, PairsBalanceForceAndTorque) {
     EXPECT_GT(sum, 0);
     worst = std::max({worst, net.norm() / sum, torque.norm() / sum_torque});
     for (std::size_t l = 0; l < c.links.size(); ++l) {
+      EXPECT_TRUE(c.links.link[l].b.exists());
+      const solve::Stencil stencil = solve::stencil_of(c.links.link[l]);
       double weights = 0;
-      for (std::uint32_t k = c.links.start[l]; k < c.links.start[l + 1]; ++k)
-        weights += c.links.weight[k];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+        weights += stencil.weight[k];
       EXPECT_NEAR(weights, 0, 1e-15);
-      EXPECT_EQ(c.links.external[l], 0);
     }
   }
   std::printf("pair contacts: %zu links, net force and torque %.1e of the sum\n", n, worst);
@@ -149,7 +151,7 @@ std::vector<std::array<int, 4>> features_of(const Clump& c) {
 
 // One contact at a time and all nodes moved at once: -F . dx = E(x + dx) - E(x - dx).
 TEST(ContactLoads, ForceIsMinusEnergyGradient) {
-  double worst = 0;
+  std::array<double, 5> worst{};
   std::size_t tried = 0;
   std::array<int, 5> kinds{};
   for (std::uint64_t seed = 80; seed < 84; ++seed) {
@@ -173,7 +175,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
     c.find();
     const auto less = gaps_of(c);
     double scale = 0;
-    for (const Vec3& f : links.force) scale = std::max(scale, f.norm());
+    for (const solve::LinkLoad& f : links.load) scale = std::max(scale, std::abs(f.force));
     for (std::size_t l = 0; l < links.size(); ++l) {
       // match by feature: a contact may have appeared or gone
       const auto find = [&](const std::vector<std::array<int, 4>>& in) {
@@ -181,27 +183,34 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
       };
       const std::size_t up = find(after), down = find(features_of(c));
       if (up >= more.size() || down >= less.size()) continue;
+      const solve::Stencil stencil = solve::stencil_of(links.link[l]);
       double work = 0;
-      for (std::uint32_t k = links.start[l]; k < links.start[l + 1]; ++k)
-        work +=
-            links.weight[k] * links.force[l].dot(load_point(direction.data(), links.address[k]));
+      for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+        work += stencil.weight[k] * links.load[l].force *
+                links.load[l].normal.dot(load_point(direction.data(), stencil.address[k]));
       const double slope =
           (contact_energy(c, down, more[up]) - contact_energy(c, down, less[down])) / (2 * h);
-      worst = std::max(worst, std::abs(work + slope) / scale);
-      EXPECT_EQ(links.gap[l], gap[l]);
+      EXPECT_EQ(links.link[l].gap, static_cast<float>(gap[l]));
       ++tried;
       const bool mesh = before[l][2] >= static_cast<int>(c.work.body.size());
-      ++kinds[before[l][2] < 0 ? static_cast<std::size_t>(-1 - before[l][2]) : mesh ? 3 : 4];
+      const std::size_t kind = before[l][2] < 0 ? static_cast<std::size_t>(-1 - before[l][2])
+                               : mesh           ? 3
+                                                : 4;
+      ++kinds[kind];
+      worst[kind] = std::max(worst[kind], std::abs(work + slope) / scale);
     }
   }
-  std::printf(
-      "contact gradient: %zu links (planes %d, capsule %d, vessel %d, mesh %d, cells %d), worst "
-      "%.1e of the largest force\n",
-      tried, kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], worst);
-  for (int kind : {0, 1, 2, 3, 4}) EXPECT_GT(kinds[static_cast<std::size_t>(kind)], 20) << kind;
-  // h^2 times the third derivative of the gap, 1/um^2 a thousandfold near an edge; kEps E / h is
-  // 1e-10.
-  EXPECT_LT(worst, 1e-6);
+  const char* names[] = {"planes", "capsule", "vessel", "mesh", "cells"};
+  std::printf("contact gradient: %zu links\n", tried);
+  for (std::size_t kind = 0; kind < 5; ++kind) {
+    std::printf("  %s: %d, worst %.1e of the largest force\n", names[kind], kinds[kind],
+                worst[kind]);
+    EXPECT_GT(kinds[kind], 20) << names[kind];
+    // h^2 times the third derivative of the gap, 1/um^2 a thousandfold near an edge; kEps E / h is
+    // 1e-10. The mesh has edges of 150 um: weights that are floats move the closest point along
+    // the wall by 150 * 3e-8 um, and the normal of a shallow contact turns by that over its gap.
+    EXPECT_LT(worst[kind], kind == 3 ? 5e-6 : 1e-6) << names[kind];
+  }
 }
 
 TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
@@ -210,18 +219,56 @@ TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
   c.find();
   const auto gap = gaps_of(c);
   for (std::size_t l = 0; l < c.links.size(); ++l) {
-    const Vec3& n = c.links.normal[l];
+    const solve::Link& link = c.links.link[l];
     const double h = 1e-4;
     const double curvature = (contact_energy(c, l, gap[l] + h) - 2 * contact_energy(c, l, gap[l]) +
                               contact_energy(c, l, gap[l] - h)) /
                              (h * h);
-    const double along = n.dot(c.links.stiffness[l] * n);
+    const auto along = static_cast<double>(link.stiffness);
+    EXPECT_GE(along, 0);
     if (std::abs(gap[l]) > 2 * h) {
       EXPECT_NEAR(along, std::max(0.0, curvature), 1e-3 * (along + 0.1)) << gap[l];
     }
-    const Vec3 across = n.unitOrthogonal();
-    EXPECT_LT((c.links.stiffness[l] * across).norm(), 1e-14 * (along + 1));
-    EXPECT_NEAR(c.links.force[l].cross(n).norm(), 0, 1e-15);
+    // The load is along the exact normal; the matrix keeps it in floats, 6e-8 a component.
+    const Vec3& exact = c.links.load[l].normal;
+    EXPECT_NEAR(exact.norm(), 1, 1e-14);
+    EXPECT_LT((reference::normal_of(link.normal) - exact).cwiseAbs().maxCoeff(), 1e-7);
+  }
+}
+
+// The solver pulls at the very places between which gap and normal were measured: that is what
+// keeps the torque of rounded weights at zero.
+TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
+  for (const auto q : {contact::Quadrature::kThreePoint, contact::Quadrature::kNodes}) {
+    Clump c = make_surrounded_clump(94);
+    connect_meshes(c.around);
+    c.options.quadrature = q;
+    c.find();
+    const auto gap = gaps_of(c);
+    double worst = 0;
+    std::size_t pairs = 0;
+    for (std::size_t l = 0; l < c.links.size(); ++l) {
+      const solve::Stencil stencil = solve::stencil_of(c.links.link[l]);
+      Vec3 r = Vec3::Zero();
+      for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+        r += stencil.weight[k] * load_point(c.state.position.data(), stencil.address[k]);
+      if (c.links.link[l].b.exists()) {
+        worst = std::max(worst, (r - gap[l] * c.links.load[l].normal).norm());
+        ++pairs;
+        continue;
+      }
+      const bool is_surface = l < c.work.surface.size();
+      const auto& body = c.work.body[static_cast<std::size_t>(
+          is_surface ? c.work.surface[l].body_a : c.work.obstacle[l - c.work.surface.size()].body)];
+      const contact::PointStencil point =
+          is_surface
+              ? contact::point_stencil(body, q, c.work.surface[l].point)
+              : obstacle_stencil(c.options, body, c.work.obstacle[l - c.work.surface.size()]);
+      worst = std::max(worst, (r - contact::point_position(body, point)).norm());
+    }
+    std::printf("sides of %zu pairs against their gaps %.1e um\n", pairs, worst);
+    EXPECT_GT(pairs, 20u);
+    EXPECT_LT(worst, 1e-13);  // round-off of coordinates near 40 um
   }
 }
 
@@ -236,15 +283,30 @@ TEST(ContactLoads, TurnWithTheCells) {
   });
   c.find();
   turned.find();
-  EXPECT_EQ(c.links.size(), turned.links.size());
-  const auto f = c.node_force(), g = turned.node_force();
-  double worst = 0, scale = 0;
-  c.for_each_node([&](Address a) {
-    worst = std::max(worst, (load_point(g.data(), a) - q * load_point(f.data(), a)).norm());
-    scale = std::max(scale, load_point(f.data(), a).norm());
-  });
-  std::printf("contact forces turn with the cells: %.1e\n", worst / scale);
+  ASSERT_EQ(c.links.size(), turned.links.size());
+  const auto node_force = c.node_force();
+  double worst = 0, worst_tie = 0, scale = 0;
+  int ties = 0;
+  for (std::size_t l = 0; l < c.links.size(); ++l) {
+    const double change = (turned.force(l) - q * c.force(l)).norm();
+    if (c.work.surface[l].triangle_b != turned.work.surface[l].triangle_b) {
+      worst_tie = std::max(worst_tie, change);
+      ++ties;
+      continue;
+    }
+    worst = std::max(worst, change);
+    EXPECT_EQ(c.links.link[l].a.point, turned.links.link[l].a.point);
+    EXPECT_EQ(c.links.link[l].b.point, turned.links.link[l].b.point);
+  }
+  c.for_each_node(
+      [&](Address a) { scale = std::max(scale, load_point(node_force.data(), a).norm()); });
+  std::printf("contact forces turn with the cells: %.1e; %d edges taken from the other side %.1e\n",
+              worst / scale, ties, worst_tie / scale);
   EXPECT_LT(worst, 1e-11 * scale);  // gaps carry 1e-14 um, k_rep turns that into 1e-13 nN
+  // On an edge round-off picks the triangle, whose order of corners decides how weights are
+  // rounded.
+  EXPECT_LT(worst_tie, 1e-7 * scale);
+  EXPECT_LT(ties, static_cast<int>(c.links.size()) / 10);
 }
 
 TEST(Contacts, OldListsGiveWhatNewListsGive) {
@@ -361,6 +423,7 @@ TEST(ContactLoads, FrictionIsAreaTimesShare) {
   connect_meshes(c.around);
   c.options.friction_factor = 0.5;
   c.find();
+  const auto gap = gaps_of(c);
   double most = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
     const bool is_surface = l < c.work.surface.size();
@@ -368,9 +431,10 @@ TEST(ContactLoads, FrictionIsAreaTimesShare) {
         is_surface ? c.work.surface[l].body_a : c.work.obstacle[l - c.work.surface.size()].body);
     const int point =
         is_surface ? c.work.surface[l].point : c.work.obstacle[l - c.work.surface.size()].point;
+    const solve::Link& link = c.links.link[l];
     if (!is_surface && c.work.obstacle[l - c.work.surface.size()].guard) {
-      EXPECT_EQ(c.links.friction[l].xx, 0);
-      EXPECT_EQ(c.links.external[l], 1);
+      EXPECT_EQ(link.friction, 0);
+      EXPECT_FALSE(link.b.exists());
       continue;
     }
     const bool pair = is_surface && c.work.surface[l].body_b < static_cast<int>(c.work.body.size());
@@ -381,12 +445,11 @@ TEST(ContactLoads, FrictionIsAreaTimesShare) {
     const double total = c.work.share[k][static_cast<std::size_t>(point)];
     const double touching = point_area(*c.work.body[k].topology, c.options.quadrature, point,
                                        c.lanes.radius[c.work.lane_of_body[k]]) *
-                            contact::contact_share(c.links.gap[l], 0.3) / std::max(1.0, total);
+                            contact::contact_share(gap[l], 0.3) / std::max(1.0, total);
     const double expected = mirror ? 0 : pair ? touching / 2 * 50 * 0.5 : touching * 0.1;
-    EXPECT_NEAR(c.links.friction[l].xx, expected, 1e-12 * (expected + 1e-3));
-    EXPECT_EQ(c.links.friction[l].xx, c.links.friction[l].zz);
-    EXPECT_EQ(c.links.friction[l].xy, 0);
-    EXPECT_EQ(c.links.external[l], pair ? 0 : 1);
+    // kept as a float
+    EXPECT_NEAR(static_cast<double>(link.friction), expected, 1e-7 * expected + 1e-15);
+    EXPECT_EQ(link.b.exists(), pair);
     most = std::max(most, expected);
   }
   EXPECT_GT(most, 1);
@@ -409,7 +472,7 @@ TEST(ContactLoads, AdhesionIsTheGeometricMeanAndRamps) {
   c.options.adhesion_factor = 0;
   c.find();
   for (std::size_t l = 0; l < c.links.size(); ++l)
-    EXPECT_LE(c.links.force[l].norm(), c.links.gap[l] < 0 ? 1e9 : 0.0);
+    EXPECT_LE(c.force(l).norm(), c.links.link[l].gap < 0 ? 1e9 : 0.0);
 }
 
 }  // namespace

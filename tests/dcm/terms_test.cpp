@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 
+#include "dcm/mesh_pattern.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -116,10 +117,11 @@ TEST_P(EveryTerm, EmptyLaneGetsNothing) {
   EXPECT_EQ(largest_force(c, kNoCell), 0);
   EXPECT_EQ(energy(c, kNoCell), 0);
   for (const auto& rank_one : c.system.rank_one) EXPECT_EQ(rank_one.coefficient[kNoCell], 0);
-  for (std::size_t k = kNoCell; k < c.system.diagonal.size(); k += kLanes)
-    ASSERT_EQ(c.system.diagonal[k], 0);
-  for (std::size_t k = kNoCell; k < c.system.upper.size(); k += kLanes)
-    ASSERT_EQ(c.system.upper[k], 0);
+  for (std::size_t k = 0; k < c.system.spring.size(); k += solve::kSpringStride)
+    for (std::size_t number : {3, 4})  // u may be anything
+      ASSERT_EQ(c.system.spring[k + number * kLanes + kNoCell], 0);
+  for (const auto* g : {&c.system.hinge, &c.system.face})
+    for (std::size_t k = kNoCell; k < g->size(); k += kLanes) ASSERT_EQ((*g)[k], 0);
 }
 
 TEST_P(EveryTerm, StiffnessIsSymmetricAndSemiDefinite) {
@@ -137,6 +139,27 @@ TEST_P(EveryTerm, StiffnessIsSymmetricAndSemiDefinite) {
                 values.minCoeff(), values.maxCoeff());
     EXPECT_GE(values.minCoeff(), -1e-12 * values.maxCoeff());
   }
+}
+
+// Elements see differences only; the whole-cell gradients add up to zero but for round-off.
+TEST_P(EveryTerm, MatrixIsBlindToTranslation) {
+  Cells c = make_deformed_cells();
+  add(c);
+  solve::Operator op;
+  op.prepare(c.system);
+  std::vector<double> x(c.system.n_dof()), y(x.size());
+  for (std::size_t row = 0; row < c.system.n_row; ++row)
+    for (int l = 0; l < kLanes; ++l) store_point(x.data(), make_address(row, l), Vec3(0.3, -2, 7));
+  op.apply(x, y);
+  double pull = 0, family = 0;
+  for (double v : y) pull = std::max(pull, std::abs(v));
+  for (const solve::RankOne& r : c.system.rank_one) {
+    double most = 0;
+    for (double g : r.vector) most = std::max(most, std::abs(g));
+    for (double k : r.coefficient) family = std::max(family, k * most * most * 7 * c.n_node());
+  }
+  std::printf("%s: force of a translation %.1e nN\n", GetParam().name, pull);
+  EXPECT_LE(pull, 64 * kEps * family);  // exactly zero without a family
 }
 
 /// -dF/dx of one lane by differences, um steps h.
@@ -171,7 +194,7 @@ TEST_P(EveryTerm, StiffnessIsTheHessianAtRest) {
   const Eigen::MatrixXd k = lane_matrices(c)[1];
   const double worst = (k - differences).cwiseAbs().maxCoeff() / k.cwiseAbs().maxCoeff();
   std::printf("%s: Hessian at rest against differences %.1e\n", GetParam().name, worst);
-  EXPECT_LT(worst, 1e-7);
+  EXPECT_LT(worst, 1e-7);  // elements are floats
 }
 
 TEST_P(EveryTerm, RestShapeOfAnyRadiusHasNoForce) {
@@ -208,7 +231,7 @@ TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
   const Eigen::MatrixXd k = lane_matrices(c)[1];
   const double worst = (k - differences).cwiseAbs().maxCoeff() / k.cwiseAbs().maxCoeff();
   std::printf("taut cortex: Hessian against differences %.1e\n", worst);
-  EXPECT_LT(worst, 1e-7);
+  EXPECT_LT(worst, 1e-7);  // elements are floats
 }
 
 // A step is stable where the matrix is at least half the true derivative: a tense membrane resists
@@ -236,11 +259,108 @@ TEST(Terms, StiffnessScaleSwitchesTheMatrixOff) {
   Cells c = make_deformed_cells(42);
   c.system.stiffness_scale = 0;
   for (const Term& term : all_terms()) term.add(table_one(), c.view(), c.system);
-  for (double d : c.system.diagonal) ASSERT_EQ(d, 0);
-  for (double u : c.system.upper) ASSERT_EQ(u, 0);
+  for (std::size_t k = 0; k < c.system.spring.size(); ++k) {
+    if (k % solve::kSpringStride >= 3 * kLanes) {
+      ASSERT_EQ(c.system.spring[k], 0);
+    }
+  }
+  for (const auto* g : {&c.system.hinge, &c.system.face})
+    for (float v : *g) ASSERT_EQ(v, 0);
   for (const auto& family : c.system.rank_one)
     for (double k : family.coefficient) ASSERT_EQ(k, 0);
   EXPECT_GT(largest_force(c, 0), 0);
+}
+
+TEST(MeshPattern, HasTheElementsThatTermsUse) {
+  const mesh::Topology& t = mesh::shared_icosphere(42);
+  for (double bending : {0.0, 0.01})
+    for (double area : {0.0, 0.8}) {
+      Params p;
+      p.bending_stiffness = bending;
+      p.local_area_modulus = area;
+      const solve::BlockPattern& pattern = shared_mesh_pattern(t, p);
+      EXPECT_EQ(&pattern, &shared_mesh_pattern(t, p)) << "made once";
+      EXPECT_EQ(pattern.n_point, 42);
+      EXPECT_EQ(pattern.spring, t.edge);
+      EXPECT_EQ(pattern.wing.size(), bending > 0 ? t.edge.size() : 0u);
+      EXPECT_EQ(pattern.face, area > 0 ? t.triangle : decltype(t.triangle){});
+      for (std::size_t e = 0; e < pattern.wing.size(); ++e) {
+        EXPECT_EQ(pattern.wing[e], (std::array<int, 2>{t.hinge[e][0], t.hinge[e][1]}));
+        // the sweep over hinges takes their other two points from the spring
+        EXPECT_EQ(t.edge[e], (std::array<int, 2>{t.hinge[e][2], t.hinge[e][3]}));
+      }
+      Cells c = make_rest_cells(t, {8, 9});
+      solve::set_blocks(c.system, make_blocks(c.state, std::span(&p, 1)));
+      EXPECT_EQ(c.system.spring.size(), t.edge.size() * solve::kSpringStride);
+      EXPECT_EQ(c.system.hinge.empty(), bending == 0);
+      EXPECT_EQ(c.system.face.empty(), area == 0);
+    }
+  EXPECT_NE(&shared_mesh_pattern(t, Params{}),
+            &shared_mesh_pattern(mesh::shared_icosphere(162), Params{}));
+}
+
+// Two types in one system: one with hinges only, one with faces only. Offsets must not run
+// together.
+TEST(Terms, TypesWithDifferentElementsShareASystem) {
+  Params type[2] = {table_one(), table_one()};
+  type[0].local_area_modulus = 0;
+  type[1].bending_stiffness = 0;
+  const mesh::Topology& t = mesh::shared_icosphere(42);
+  std::vector<NewCell> cells(3);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    cells[k].lineage = static_cast<std::int64_t>(k);
+    cells[k].type = k == 1 ? 0 : 1;
+    cells[k].topology = &t;
+    cells[k].radius = 8 + static_cast<double>(k);
+    cells[k].center = Vec3(30.0 * static_cast<double>(k), 0, 0);
+  }
+  auto random = reference::stream(6);
+  const auto loads_of = [](State& state, std::span<const Params> params) {
+    Cells c;
+    c.state = state;
+    c.lanes = make_lane_data(c.state, 0);
+    solve::set_blocks(c.system, make_blocks(c.state, params));
+    size_rank_one(c.state, params, c.system);
+    const std::vector<double> free_area(c.state.n_row() * kLanes, 0.01);
+    const std::vector<Vec3> cell_force(c.state.n_lane(), Vec3::Zero());
+    add_loads(c.state, params, c.lanes, free_area, cell_force, c.system);
+    return c;
+  };
+  State both = make_state(cells);
+  for (double& x : both.position) x += random.uniform(-0.2, 0.2);
+  const Cells together = loads_of(both, type);
+  std::vector<double> x(together.system.n_dof()), y(x.size());
+  for (double& v : x) v = random.uniform(-1, 1);
+  solve::Operator op;
+  op.prepare(together.system);
+  op.apply(x, y);
+  // Each group again, in a system of its own.
+  for (std::size_t g = 0; g < both.group.size(); ++g) {
+    State one = both;
+    one.group = {both.group[g]};
+    one.group[0].first_row = 0;
+    const auto cut = [&](auto& v, std::size_t per_group) {
+      const auto first = v.begin() + static_cast<std::ptrdiff_t>(g * per_group);
+      v = std::vector(first, first + static_cast<std::ptrdiff_t>(per_group));
+    };
+    const std::size_t n = static_cast<std::size_t>(t.n_node) * kPointStride;
+    cut(one.position, n);
+    cut(one.lineage, kLanes);
+    cut(one.volume, kLanes);
+    cut(one.pull, kLanes);
+    Cells alone = loads_of(one, type);
+    std::vector<double> in = x, out(n);
+    cut(in, n);
+    op.prepare(alone.system);
+    op.apply(in, out);
+    for (std::size_t k = 0; k < n; ++k) {
+      ASSERT_EQ(out[k], y[g * n + k]);
+      ASSERT_EQ(alone.system.force[k], together.system.force[g * n + k]);
+    }
+  }
+  EXPECT_EQ(both.group.size(), 2u);
+  EXPECT_EQ(together.system.hinge.size(), t.edge.size() * solve::kHingeStride);
+  EXPECT_EQ(together.system.face.size(), t.triangle.size() * solve::kFaceStride);
 }
 
 TEST(Terms, SumOfLoadsIsTheSumOfTerms) {

@@ -1,6 +1,7 @@
 #pragma once
-/// The matrix of a System entry by entry, from the definition of its three operators. The index of
-/// an unknown is its place in the [row][3][lane] arrays.
+/// The matrix of a System entry by entry, from what each element is said to be. The index of an
+/// unknown is its place in the [row][3][lane] arrays. Everything is worked out in double from the
+/// numbers as stored.
 
 #include <Eigen/Dense>
 
@@ -8,65 +9,148 @@
 
 namespace acinus::reference {
 
-inline Mat3 full_matrix(const Sym3& m) {
-  Mat3 out;
-  out << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-  return out;
+/// Three components of one lane of an element.
+template <class T>
+Vec3 element_vector(const std::vector<T>& element, std::size_t at, int lane) {
+  const std::size_t k = at + static_cast<std::size_t>(lane);
+  return {static_cast<double>(element[k]), static_cast<double>(element[k + kLanes]),
+          static_cast<double>(element[k + 2 * kLanes])};
 }
 
-/// Adds a 3x3 block between two points.
-inline void add_block(Eigen::MatrixXd& to, Address a, Address b, const Mat3& m) {
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      to(a + static_cast<Address>(r) * kLanes, b + static_cast<Address>(c) * kLanes) += m(r, c);
+inline Vec3 normal_of(const std::array<float, 3>& n) {
+  return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 
-inline Eigen::MatrixXd make_dense(const solve::System& s) {
-  const auto n = static_cast<Eigen::Index>(s.n_dof());
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
-  constexpr int kSymIndex[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+/// One place in an element: a point and its vector or weight.
+struct PointVector {
+  Address at;
+  Vec3 g;
+};
+struct PointWeight {
+  Address at;
+  double weight;
+};
+
+/// Adds g g^T.
+inline void add_outer(Eigen::MatrixXd& to, const std::vector<PointVector>& g) {
+  for (const PointVector& p : g)
+    for (const PointVector& q : g)
+      for (Address r = 0; r < 3; ++r)
+        for (Address c = 0; c < 3; ++c) to(p.at + r * kLanes, q.at + c * kLanes) += p.g[r] * q.g[c];
+}
+
+/// Adds W^T m W of the relative vector sum weight x.
+inline void add_relative(Eigen::MatrixXd& to, const std::vector<PointWeight>& w, const Mat3& m) {
+  for (const PointWeight& p : w)
+    for (const PointWeight& q : w)
+      for (Address r = 0; r < 3; ++r)
+        for (Address c = 0; c < 3; ++c)
+          to(p.at + r * kLanes, q.at + c * kLanes) += p.weight * q.weight * m(r, c);
+}
+
+inline void add_medium(Eigen::MatrixXd& to, const solve::System& s) {
   for (std::size_t row = 0; row < s.n_row; ++row)
-    for (int l = 0; l < kLanes; ++l) {
-      Mat3 m;
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-          m(r, c) =
-              s.diagonal[row * kSymStride + static_cast<std::size_t>(kSymIndex[r][c] * kLanes + l)];
-      add_block(a, make_address(row, l), make_address(row, l), m);
-    }
-  for (const solve::Block& block : s.block)
-    for (std::size_t p = 0; p < block.pattern->pair.size(); ++p)
-      for (int l = 0; l < kLanes; ++l) {
-        Mat3 m;
-        for (int k = 0; k < 9; ++k)
-          m(k / 3, k % 3) = s.upper[(block.first_pair + p) * kMatStride +
-                                    static_cast<std::size_t>(k * kLanes + l)];
-        const auto [i, j] = block.pattern->pair[p];
-        const Address at_i = make_address(block.first_row + static_cast<std::size_t>(i), l);
-        const Address at_j = make_address(block.first_row + static_cast<std::size_t>(j), l);
-        add_block(a, at_i, at_j, m);
-        add_block(a, at_j, at_i, m.transpose());
-      }
+    for (int l = 0; l < kLanes; ++l)
+      add_relative(to, {{make_address(row, l), 1}},
+                   s.friction_scale * s.medium[row * kLanes + static_cast<std::size_t>(l)] *
+                       Mat3::Identity());
+}
+
+/// Springs, hinges and faces of one lane of a block.
+inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solve::Block& block,
+                         int lane) {
+  const auto at = [&](int point) {
+    return make_address(block.first_row + static_cast<std::size_t>(point), lane);
+  };
+  const solve::BlockPattern& p = *block.pattern;
+  for (std::size_t e = 0; e < p.spring.size(); ++e) {
+    const std::size_t k = (block.first_spring + e) * solve::kSpringStride;
+    const Vec3 u = element_vector(s.spring, k, lane);
+    const auto number = [&](std::size_t i) {
+      return static_cast<double>(s.spring[k + i * kLanes + static_cast<std::size_t>(lane)]);
+    };
+    add_relative(to, {{at(p.spring[e][1]), 1}, {at(p.spring[e][0]), -1}},
+                 number(3) * u * u.transpose() + number(4) * Mat3::Identity());
+  }
+  for (std::size_t e = 0; e < p.wing.size(); ++e) {
+    const std::size_t k = (block.first_hinge + e) * solve::kHingeStride;
+    const Vec3 g1 = element_vector(s.hinge, k, lane),
+               g2 = element_vector(s.hinge, k + 3 * kLanes, lane),
+               g3 = element_vector(s.hinge, k + 6 * kLanes, lane);
+    add_outer(to, {{at(p.wing[e][0]), g1},
+                   {at(p.wing[e][1]), g2},
+                   {at(p.spring[e][0]), g3},
+                   {at(p.spring[e][1]), -(g1 + g2 + g3)}});
+  }
+  for (std::size_t e = 0; e < p.face.size(); ++e) {
+    const std::size_t k = (block.first_face + e) * solve::kFaceStride;
+    const Vec3 g1 = element_vector(s.face, k, lane),
+               g2 = element_vector(s.face, k + 3 * kLanes, lane);
+    add_outer(to, {{at(p.face[e][0]), g1}, {at(p.face[e][1]), g2}, {at(p.face[e][2]), -(g1 + g2)}});
+  }
+}
+
+/// Points and weights of one side of a contact.
+inline void add_side(std::vector<PointWeight>& to, const solve::Side& side, double sign) {
+  if (!side.exists()) return;
+  const double w0 = static_cast<double>(side.weight[0]), w1 = static_cast<double>(side.weight[1]);
+  const double weight[3] = {w0, w1, 1 - w0 - w1};
+  for (std::size_t m = 0; m < 3; ++m)
+    to.push_back({solve::address_of(side.point[m]), sign * weight[m]});
+}
+
+inline Mat3 contact_matrix(const solve::System& s, const Vec3& n, float stiffness, float friction) {
+  return s.stiffness_scale * static_cast<double>(stiffness) * n * n.transpose() +
+         s.friction_scale * static_cast<double>(friction) * Mat3::Identity();
+}
+
+inline void add_contacts(Eigen::MatrixXd& to, const solve::System& s) {
+  for (const solve::Link& l : s.links.link) {
+    std::vector<PointWeight> w;
+    add_side(w, l.a, 1);
+    add_side(w, l.b, -1);
+    add_relative(to, w, contact_matrix(s, normal_of(l.normal), l.stiffness, l.friction));
+  }
+  for (const solve::PointLink& l : s.point_links) {
+    std::vector<PointWeight> w{{solve::address_of(l.a), 1}};
+    if (l.b != solve::kNowhere) w.push_back({solve::address_of(l.b), -1});
+    add_relative(to, w, contact_matrix(s, normal_of(l.normal), l.stiffness, l.friction));
+  }
+}
+
+inline void add_rank_one(Eigen::MatrixXd& to, const solve::System& s) {
   for (const solve::RankOne& family : s.rank_one)
     for (std::size_t b = 0; b * kLanes < family.coefficient.size(); ++b)
       for (int l = 0; l < kLanes; ++l) {
-        Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
+        Eigen::VectorXd g = Eigen::VectorXd::Zero(to.rows());
         for (int i = 0; i < s.block[b].pattern->n_point; ++i)
           for (Address c = 0; c < 3; ++c) {
             const Address at =
                 make_address(s.block[b].first_row + static_cast<std::size_t>(i), l) + c * kLanes;
             g(at) = family.vector[at];
           }
-        a += family.coefficient[b * kLanes + static_cast<std::size_t>(l)] * g * g.transpose();
+        to += family.coefficient[b * kLanes + static_cast<std::size_t>(l)] * g * g.transpose();
       }
-  for (std::size_t k = 0; k < s.links.size(); ++k) {
-    const Mat3 m = s.friction_scale * full_matrix(s.links.friction[k]) +
-                   s.stiffness_scale * full_matrix(s.links.stiffness[k]);
-    for (std::uint32_t p = s.links.start[k]; p < s.links.start[k + 1]; ++p)
-      for (std::uint32_t q = s.links.start[k]; q < s.links.start[k + 1]; ++q)
-        add_block(a, s.links.address[p], s.links.address[q],
-                  s.links.weight[p] * s.links.weight[q] * m);
-  }
+}
+
+inline Eigen::MatrixXd make_zero(const solve::System& s) {
+  const auto n = static_cast<Eigen::Index>(s.n_dof());
+  return Eigen::MatrixXd::Zero(n, n);
+}
+
+/// What is kept as small elements: springs, hinges, faces and contacts.
+inline Eigen::MatrixXd make_dense_elements(const solve::System& s) {
+  Eigen::MatrixXd a = make_zero(s);
+  for (const solve::Block& block : s.block)
+    for (int l = 0; l < kLanes; ++l) add_elements(a, s, block, l);
+  add_contacts(a, s);
+  return a;
+}
+
+inline Eigen::MatrixXd make_dense(const solve::System& s) {
+  Eigen::MatrixXd a = make_dense_elements(s);
+  add_medium(a, s);
+  add_rank_one(a, s);
   return a;
 }
 
