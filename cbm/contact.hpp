@@ -26,7 +26,7 @@ struct SphereContact {
   int a = 0, b = 0;
   Vec3 normal = Vec3::Zero();  ///< unit, from b to a; force on a is +force * normal
   double overlap = 0;          ///< um
-  double force = 0;            ///< nN
+  contact::SphereForce law;
 };
 
 /// A sphere in contact with a plane, capsule, vessel segment or static mesh.

@@ -244,7 +244,7 @@ std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const 
         1 / (table.softness[ta] / s.young[i] + table.softness[tb] / s.young[j]),
         table.root[ta] * table.root[tb]};
     list.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap,
-                    contact::jkr_force(pair, overlap, true).force});
+                    contact::jkr_force(pair, overlap, true)});
   }
   return list;
 }

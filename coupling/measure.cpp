@@ -114,7 +114,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
   for (const cbm::SphereContact& c : sphere_contacts(world, w)) {
     const std::size_t a = n_body + static_cast<std::size_t>(c.a),
                       b = n_body + static_cast<std::size_t>(c.b);
-    const Vec3 f = c.force * c.normal;
+    const Vec3 f = c.law.force * c.normal;
     press(a, f, -(cells[a].radius - 0.5 * c.overlap) * c.normal);
     press(b, -f, (cells[b].radius - 0.5 * c.overlap) * c.normal);
     touch(a, b);

@@ -16,8 +16,9 @@ constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not o
 constexpr double kListFacing = 0.7;
 /// Self contact starts this many rest edges away on the surface.
 constexpr double kSelfRings = 3.0;
-constexpr double kNoDirection = 1e-9;  ///< um, below which the closest point gives no normal
-constexpr double kRounding = 1e-4;     ///< um, more than floats lose on a list's distances
+/// um, below which the closest point gives no normal: its weights are rounded to 1e-7 of an edge.
+constexpr double kNoDirection = 1e-6;
+constexpr double kRounding = 1e-4;  ///< um, more than floats lose on a list's distances
 
 const SurfaceBody& body_at(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
                            int k) {
@@ -316,8 +317,8 @@ std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
       scratch.clear();
       scratch.body_a = lists[k].body_a;
       scratch.body_b = lists[k].body_b;
-      ListBuilder(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b), o,
-                lists[k].body_a == lists[k].body_b)
+      ListBuilder(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b),
+                  o, lists[k].body_a == lists[k].body_b)
           .fill(scratch);
       lists[k] = scratch;
     }
@@ -331,6 +332,7 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                    std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
                    std::vector<SurfaceContact>& out) {
   const bool self = list.body_a == list.body_b;
+  const bool is_fixed = static_cast<std::size_t>(list.body_b) >= bodies.size();
   const SurfaceBody& a = body_at(bodies, fixed, list.body_a);
   const SurfaceBody& b = body_at(bodies, fixed, list.body_b);
   const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
@@ -352,8 +354,7 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
     }
     if (closest.triangle < 0) continue;
     SurfaceContact contact{list.body_a, list.point[p], list.body_b, closest.triangle, {}, {}, 0};
-    contact.weight_b = {round_to_float(closest.at.weight[0]),
-                        round_to_float(closest.at.weight[1])};
+    contact.weight_b = {round_to_float(closest.at.weight[0]), round_to_float(closest.at.weight[1])};
     const auto w = contact.weights();
     const Vec3 weight(w[0], w[1], w[2]);
     const Vec3 outward = blended_normal(b, closest.triangle, weight);
@@ -363,7 +364,12 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
     if (facing.dot(outward) > kFacing) continue;
     const auto& corner = (*b.triangle)[static_cast<std::size_t>(closest.triangle)];
     Vec3 apart = x;
-    for (std::size_t m = 0; m < 3; ++m) apart -= w[m] * b.node[static_cast<std::size_t>(corner[m])];
+    if (is_fixed) {  // no unknowns there: the exact place, which may be far from its corners
+      apart -= closest.at.point;
+    } else {
+      for (std::size_t m = 0; m < 3; ++m)
+        apart -= w[m] * b.node[static_cast<std::size_t>(corner[m])];
+    }
     const double distance = apart.norm();
     const double sign = apart.dot(outward) >= 0 ? 1.0 : -1.0;
     const double gap = sign * distance;

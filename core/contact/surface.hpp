@@ -67,7 +67,8 @@ struct SurfaceContact {
   int body_a = 0, point = 0;  ///< site * points_per_site + local index
   int body_b = 0, triangle_b = 0;
   /// Barycentric weights of the closest point for the first two corners, as the solver keeps them;
-  /// gap and normal are those of the place these rounded weights name.
+  /// gap and normal are those of the place these rounded weights name (of the exact place on a
+  /// fixed body, which has no unknowns).
   std::array<float, 2> weight_b{};
   Vec3 normal = Vec3::Zero();  ///< d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: a's point is inside b

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace acinus::solve {
 namespace {
@@ -10,7 +11,9 @@ namespace {
 constexpr double kFloatGain = 1e-4;
 /// Passes aim a little below the goal, so that rounding does not cost another pass.
 constexpr double kAim = 0.9;
-constexpr int kMaxPasses = 12;
+constexpr int kMaxPasses = 20;
+/// A pass that leaves more than this share of the residual has reached what its numbers can do.
+constexpr double kLeastGain = 0.5;
 
 /// Clears the entries outside the range.
 template <class T>
@@ -33,20 +36,24 @@ double apply_distributed(const Operator& op, std::span<float> x, std::span<float
   return op.apply<float>(x, y);  // one rank: more are refused before a run starts
 }
 
+/// A squared norm: a number, and not negative.
+bool is_size(double rho) { return std::isfinite(rho) && rho >= 0; }
+
 enum class PassEnd { kReached, kBrokeDown, kOutOfIterations };
 
-/// Iterates on A e = residual from e = 0 until sqrt(r . z) <= goal.
+/// Iterates on A e = residual / size from e = 0 until sqrt(r . z) <= goal. The scale keeps floats
+/// away from underflow.
 template <class T>
-PassEnd run_pass(const Operator& op, std::span<const double> residual, double goal,
+PassEnd run_pass(const Operator& op, std::span<const double> residual, double size, double goal,
                  const CgOptions& options, bool whole, BlockRange range, int& iterations,
                  CgVectors<T>& v) {
   const std::size_t n = residual.size();
   for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
     a->resize(n);
   std::ranges::fill(v.correction, T{0});
-  for (std::size_t k = 0; k < n; ++k) v.residual[k] = static_cast<T>(residual[k]);
+  for (std::size_t k = 0; k < n; ++k) v.residual[k] = static_cast<T>(residual[k] / size);
   double rho = op.precondition<T>(v.residual, v.preconditioned);
-  if (!std::isfinite(rho)) return PassEnd::kBrokeDown;
+  if (!is_size(rho)) return PassEnd::kBrokeDown;
   std::ranges::copy(v.preconditioned, v.direction.begin());
   while (std::sqrt(rho) > goal) {
     if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
@@ -57,11 +64,17 @@ PassEnd run_pass(const Operator& op, std::span<const double> residual, double go
     if (!(curvature > 0)) return PassEnd::kBrokeDown;
     const double next = op.descend<T>(rho / curvature, v.direction, v.product, v.correction,
                                       v.residual, v.preconditioned);
-    if (!std::isfinite(next)) return PassEnd::kBrokeDown;
+    if (!is_size(next)) return PassEnd::kBrokeDown;
     op.redirect<T>(v.preconditioned, next / rho, v.direction);
     rho = next;
   }
   return PassEnd::kReached;
+}
+
+/// x += size * correction.
+template <class T>
+void add_correction(double size, const std::vector<T>& correction, std::span<double> x) {
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += size * static_cast<double>(correction[k]);
 }
 
 }  // namespace
@@ -103,36 +116,46 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
   }
 
   bool mixed = options.precision == Precision::kMixed && whole;
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
+  bool stopped = false;
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 0;; ++pass) {
     apply_distributed(op, x, q);
     for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - q[k];
     if (!whole) restrict_to(op.system(), range, r);
-    const double size = std::sqrt(op.precondition(r, {}));
+    const double rho = op.precondition(r, {}), size = std::sqrt(rho);
+    if (!is_size(rho)) {
+      result.status = Status::failed("the matrix is not positive definite");
+      return result;
+    }
     result.residual = size / rhs;
     if (result.residual <= options.tolerance) return result;
-    double goal = kAim * options.tolerance * rhs;
-    if (mixed) goal = std::max(goal, kFloatGain * size);
-    const PassEnd end =
-        mixed ? run_pass<float>(op, r, goal, options, whole, range, result.iterations, work.single)
-              : run_pass<double>(op, r, goal, options, whole, range, result.iterations, work.full);
+    if (stopped || pass >= kMaxPasses) {
+      result.status = Status::failed("the linear solve did not converge");
+      return result;
+    }
+    if (size > kLeastGain * before) mixed = false;  // floats gain nothing any more
+    before = size;
+    double goal = kAim * options.tolerance * rhs / size;
+    if (mixed) goal = std::max(goal, kFloatGain);
+    const PassEnd end = mixed ? run_pass<float>(op, r, size, goal, options, whole, range,
+                                                result.iterations, work.single)
+                              : run_pass<double>(op, r, size, goal, options, whole, range,
+                                                 result.iterations, work.full);
     if (end == PassEnd::kBrokeDown) {
       if (!mixed) {
         result.status = Status::failed("the matrix is not positive definite");
         return result;
       }
       mixed = false;
+      before = std::numeric_limits<double>::infinity();
       continue;
     }
     if (mixed)
-      for (std::size_t k = 0; k < n; ++k) x[k] += static_cast<double>(work.single.correction[k]);
+      add_correction(size, work.single.correction, x);
     else
-      for (std::size_t k = 0; k < n; ++k) x[k] += work.full.correction[k];
-    if (end == PassEnd::kOutOfIterations) {
-      result.status = Status::failed("the linear solve did not converge");
-      return result;
-    }
+      add_correction(size, work.full.correction, x);
+    stopped = end == PassEnd::kOutOfIterations;
   }
-  return result;
 }
 
 }  // namespace acinus::solve

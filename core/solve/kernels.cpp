@@ -221,8 +221,10 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
 
 ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {
   for (int i = 0; i < n_point; ++i, d += kSymStride, out += kSymStride) {
-    const Lane xx = load(d), xy = load(d + kLanes), xz = load(d + 2 * kLanes);
-    const Lane yy = load(d + 3 * kLanes), yz = load(d + 4 * kLanes), zz = load(d + 5 * kLanes);
+    const Lane xy = load(d + kLanes), xz = load(d + 2 * kLanes), yz = load(d + 4 * kLanes);
+    const Lane more = kRegularise * (load(d) + load(d + 3 * kLanes) + load(d + 5 * kLanes));
+    const Lane xx = load(d) + more, yy = load(d + 3 * kLanes) + more,
+               zz = load(d + 5 * kLanes) + more;
     const Lane cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
     const Lane r = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
     store(out, cxx * r);

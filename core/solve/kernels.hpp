@@ -34,7 +34,9 @@ double multiply_block(const BlockView& block, const float* x, const Packed<float
 /// @param diagonal [n_point][6][lane]
 void add_diagonal(const BlockView& block, double* diagonal);
 
-/// Inverts symmetric blocks lane by lane.
+/// Inverts symmetric blocks lane by lane, each made a little stiffer first (kRegularise of its
+/// trace), so that the inverse stays positive definite when it is rounded to float.
+inline constexpr double kRegularise = 1e-6;
 /// @param inverse [n_point][6][lane]
 void invert_blocks(int n_point, const double* diagonal, float* inverse);
 

@@ -158,7 +158,7 @@ double Operator::apply(In<T> x, Out<T> y) const {
   for_each_range([&](const Range& range) {
     multiply_links(links_of(range), scales, work.x, work.y);
     multiply_links(point_links_of(range), scales, work.x, work.y);
-    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
+    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       partial_[b] = multiply_block(view_block(s, b), x.data() + row * kPointStride,
                                    work.y + row * kLanes, y.data() + row * kPointStride);
     });

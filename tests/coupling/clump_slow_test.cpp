@@ -98,7 +98,9 @@ TEST(ClumpSlow, EveryStepSizeSurvivesAndErrorsFall) {
         step, 100 * error[static_cast<std::size_t>(k)],
         100 * relative_error(o.volume, reference.volume),
         aligned_distance(o.center, reference.center), o.penetration);
-    if (step == 60) EXPECT_LT(o.penetration, 0.3);
+    if (step == 60) {
+      EXPECT_LT(o.penetration, 0.3);
+    }
     ++k;
   }
   EXPECT_LT(error[0], error[2]);

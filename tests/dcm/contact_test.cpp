@@ -318,11 +318,11 @@ TEST(Contacts, OldListsGiveWhatNewListsGive) {
   for (int k = 0; k < 5; ++k) {
     c.state = start;
     c.for_each_node([&](Address a) {
-      add_point(c.state.position.data(), a, random.uniform(0, 0.1499) * random.unit_vector());
+      add_point(c.state.position.data(), a, random.uniform(0, 0.13) * random.unit_vector());
     });
     const int builds = c.work.list_builds;
     c.find();
-    EXPECT_EQ(c.work.list_builds, builds) << "less than half the skin";
+    EXPECT_EQ(c.work.list_builds, builds) << "less than the skin, two and two";
     const auto features = features_of(c);
     const auto gap = gaps_of(c);
     const auto force = c.node_force();

@@ -1,4 +1,4 @@
-#include "core/contact/surface.hpp"
+#include "core/contact/candidates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,8 @@ std::vector<Vec3> sphere_nodes(int n_node, double radius, const Vec3& center, co
 std::vector<SurfaceContact> find_all(const std::vector<SurfaceBody>& bodies, const SearchOptions& o,
                                      const std::vector<SurfaceBody>& fixed = {}) {
   std::vector<SurfaceContact> out;
-  for (const Candidates& c : find_candidates(bodies, fixed, o))
-    find_contacts(c, bodies, fixed, o, out);
+  for (const Candidates& c : find_candidates(bodies, fixed, find_near_bodies(bodies, o, 0), o))
+    find_contacts(c, bodies, fixed, o, 0, out);
   return out;
 }
 
@@ -153,13 +153,13 @@ TEST(FindContacts, OldListsFindWhatNewListsFind) {
                     162));
     const SearchOptions o{k % 2 == 0 ? Quadrature::kThreePoint : Quadrature::kNodes, 0.9, 1.5, 0.3,
                           0.3};
-    const auto lists = find_candidates(bodies, {}, o);
+    const auto lists = find_candidates(bodies, {}, find_near_bodies(bodies, o, 0), o);
     for (SurfaceBody& b : bodies) {
       for (Vec3& x : b.node) x += random.uniform(0, 0.15) * random.unit_vector();
       refresh_body(b);
     }
     std::vector<SurfaceContact> old;
-    for (const Candidates& c : lists) find_contacts(c, bodies, {}, o, old);
+    for (const Candidates& c : lists) find_contacts(c, bodies, {}, o, 0.3, old);
     const auto fresh = find_all(bodies, o);
     ASSERT_EQ(old.size(), fresh.size());
     for (std::size_t i = 0; i < old.size(); ++i) {

@@ -122,25 +122,76 @@ TEST(Cg, MixedPrecisionSolvesAStiffChain) {
     ASSERT_TRUE(s.result.status.ok) << s.result.status.cause;
     std::printf("chain %.0e: %d iterations, residual %.1e\n", stiff, s.result.iterations,
                 s.true_residual());
-    EXPECT_FALSE(s.used_double());
+    if (stiff < 1e8) {
+      EXPECT_FALSE(s.used_double());
+    }
     // the product rounds: 1e-16 of stiffness times displacement (1 / medium)
     EXPECT_LE(s.true_residual(), 1e-3 * (1 + 1e-3));
   }
 }
 
+// A pass works on the residual scaled to one: neither overflow nor underflow.
+TEST(Cg, LoadsFarOutOfRangeOfFloatsAreSolvedInFloat) {
+  for (double factor : {1e25, 1e-25}) {
+    Solved s;
+    for (double& b : s.rhs) b *= factor;
+    s.run(1e-6);
+    ASSERT_TRUE(s.result.status.ok) << s.result.status.cause;
+    EXPECT_LE(s.true_residual(), 1e-6 * (1 + 1e-6)) << factor;
+    EXPECT_GT(s.result.iterations, 0);
+    EXPECT_FALSE(s.used_double());
+  }
+}
+
+// Whatever the right-hand side, an indefinite diagonal block is told, never called solved.
+TEST(Cg, IndefiniteSpringIsReported) {
+  static const BlockPattern kPair{2, {{0, 1}}, {}, {}};
+  auto random = reference::stream(31);
+  for (int k = 0; k < 20; ++k) {
+    Solved s;
+    s.system = System{};
+    set_blocks(s.system, {block_of(kPair)});
+    for (double& m : s.system.medium) m = 1;
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      s.system.spring[l] = 1;
+      s.system.spring[4 * kLanes + l] = -1.5f;
+    }
+    s.op.prepare(s.system);
+    s.rhs.assign(s.system.n_dof(), 0.0);
+    for (double& b : s.rhs) b = random.uniform(-1, 1);
+    s.x.assign(s.rhs.size(), 0.0);
+    s.run(1e-3);
+    EXPECT_FALSE(s.result.status.ok);
+  }
+}
+
+// Spheres in a thin liquid: friction far below the contact's stiffness leaves nothing of a block in
+// float; the preconditioner stays positive all the same.
+TEST(Cg, ContactsAlmostFreeToSlideAreSolved) {
+  auto random = reference::stream(32);
+  for (double medium : {1e-6, 1e-8, 1e-10}) {
+    Solved s;
+    s.system = System{};
+    set_blocks(s.system, {block_of(kSingle)});
+    for (double& m : s.system.medium) m = medium;
+    for (Point p = 0; p < kLanes; p += 2) {
+      PointLink link{p, p + 1, {}, 1, 0};
+      const Vec3 n = random.unit_vector();
+      for (std::size_t c = 0; c < 3; ++c)
+        link.normal[c] = static_cast<float>(n[static_cast<Eigen::Index>(c)]);
+      s.system.point_links.push_back(link);
+    }
+    s.op.prepare(s.system);
+    s.rhs = random_vector_of(s.system, 33);
+    s.x.assign(s.rhs.size(), 0.0);
+    s.run(1e-3);
+    EXPECT_TRUE(s.result.status.ok) << medium << ": " << s.result.status.cause;
+    EXPECT_LE(s.result.residual, 1e-3) << medium;
+  }
+}
+
 // Numbers that a double holds and a float does not: the pass breaks down and is done again.
 TEST(Cg, PassThatBreaksDownInFloatIsRepeatedInDouble) {
-  Solved large, plain(Precision::kDouble);
-  for (auto* s : {&large, &plain}) {
-    for (double& b : s->rhs) b *= 1e25;
-    s->run(1e-8);
-    ASSERT_TRUE(s->result.status.ok) << s->result.status.cause;
-    EXPECT_LE(s->true_residual(), 1e-8 * (1 + 1e-6));
-  }
-  EXPECT_TRUE(large.used_double());
-  EXPECT_EQ(large.x, plain.x) << "the broken pass must leave nothing behind";
-  EXPECT_EQ(large.result.iterations, plain.result.iterations);
-
   Solved pinned, steep;
   pinned.system.medium[3] = 1e39;                  // a point that nothing moves
   for (RankOne& family : steep.system.rank_one) {  // c g g^T as before, c out of range

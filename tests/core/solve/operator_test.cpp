@@ -1,5 +1,7 @@
 #include "core/solve/operator.hpp"
 
+#include "core/solve/kernels.hpp"
+
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -222,6 +224,7 @@ TYPED_TEST(OperatorOf, PreconditionerInvertsTheDiagonalBlocks) {
         given[r] = in(a + r * kLanes);
         found[r] = out(a + r * kLanes);
       }
+      d += kRegularise * d.trace() * Mat3::Identity();
       const Vec3 expected = d.fullPivLu().solve(given);
       const double condition = d.norm() * d.inverse().norm();
       worst = std::max(worst, (found - expected).norm() / (expected.norm() * condition));
@@ -405,7 +408,6 @@ TEST(System, ClearLoadsLeavesOnlyWhatIsWrittenAfresh) {
   }
   EXPECT_EQ(s.links.size(), 0u);
   EXPECT_TRUE(s.links.load.empty());
-  EXPECT_TRUE(s.point_links.empty());
   EXPECT_EQ(s.hinge, hinge);  // one term each, which writes and does not add
   EXPECT_EQ(s.face, face);
 }
