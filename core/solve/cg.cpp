@@ -14,6 +14,8 @@ constexpr double kAim = 0.9;
 constexpr int kMaxPasses = 20;
 /// A pass that leaves more than this share of the residual has reached what its numbers can do.
 constexpr double kLeastGain = 0.5;
+/// Relative residual at which a solve that rounding stopped counts as solved all the same.
+constexpr double kHarmless = 1e-3;
 
 /// Clears the entries outside the range.
 template <class T>
@@ -133,7 +135,10 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
       result.status = Status::failed("the linear solve did not converge");
       return result;
     }
-    if (size > kLeastGain * before) mixed = false;  // floats gain nothing any more
+    if (size > kLeastGain * before) {
+      if (!mixed && result.residual <= kHarmless) return result;  // as good as doubles can do
+      mixed = false;
+    }
     before = size;
     double goal = kAim * options.tolerance * rhs / size;
     if (mixed) goal = std::max(goal, kFloatGain);

@@ -50,7 +50,9 @@ struct BlockRange {
 /// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
 /// side, not to the first residual, so that a good start saves iterations. Passes of iterations
 /// solve for a correction of x; each starts from the true residual in double, which also confirms
-/// the stop. A pass in float that breaks down is repeated in double. With a range, only that part
+/// the stop. A pass in float that breaks down or gains nothing is followed by one in double; when
+/// that gains nothing either, rounding has the last word: the result is ok if the residual is below
+/// 1e-3 and says what it is. With a range, only that part
 /// of x changes (the rest is a frozen partner): used by the partitioned twin. Its right-hand side
 /// is then b - A x_rest within the range.
 CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
