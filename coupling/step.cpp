@@ -12,6 +12,10 @@
 namespace acinus::coupling {
 namespace {
 
+/// Iterations per solve above which the coarse space is switched on, and below which it is switched
+/// off again.
+constexpr int kCoarseOn = 60, kCoarseOff = 15;
+
 /// Contact parameters of the present phase.
 struct PhaseParams {
   dcm::ContactParams dcm;
@@ -32,6 +36,13 @@ InterfaceView view_interface(const World& world, const PhaseParams& phase, const
           w.cbm,           phase.interface,  w.interface};
 }
 
+/// Whether the next step is worth a coarse space. It is of use where cells with many nodes hang
+/// together; spheres alone are as well served by their diagonal blocks.
+bool want_coarse(const State& s, int iterations_per_solve) {
+  if (s.dcm.group.empty()) return false;
+  return iterations_per_solve > (s.clock.coarse ? kCoarseOff : kCoarseOn);
+}
+
 void commit(World& world, double step, int cg_iterations, int solves, Workspace& w) {
   State& s = world.state;
   for (std::size_t k = 0; k < s.dcm.position.size(); ++k) s.dcm.position[k] += w.move[k];
@@ -46,6 +57,7 @@ void commit(World& world, double step, int cg_iterations, int solves, Workspace&
   s.clock.accepted += 1;
   s.clock.cg_iterations += cg_iterations;
   s.clock.solves += solves;
+  s.clock.coarse = want_coarse(s, cg_iterations / std::max(solves, 1));
 }
 
 /// Length of the next step from the error of this one. A quarter more or less is not worth a
@@ -171,10 +183,12 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
 Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
   const auto scope = w.timings.scope("solve");
   const solve::CgOptions& options = world.params.numerics.cg;
+  const bool coarse = world.state.clock.coarse;
+  if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
       w.partitioned
           ? solve_partitioned(w.op, w.rhs, w.move, world.state.dcm.group.size(), options, w.cg)
-          : solve::solve_cg(w.op, w.rhs, w.move, options, w.cg);
+          : solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, {}, coarse ? &w.coarse : nullptr);
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.

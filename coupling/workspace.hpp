@@ -20,6 +20,7 @@ struct Workspace {
   solve::Operator op;
   solve::CgWorkspace cg;
   solve::RigidWorkspace rigid;
+  solve::CoarseSpace coarse;
   dcm::ContactWorkspace dcm;
   cbm::ContactWorkspace cbm;
   InterfaceWorkspace interface;

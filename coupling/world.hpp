@@ -73,6 +73,7 @@ struct Clock {
   double step = 0;         ///< s, length of the next step
   double last_step = 0;    ///< s, length of the last accepted step; 0 = none
   std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
+  bool coarse = false;      ///< the solver's coarse space is on: chosen from how hard steps were
   std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
 };
 

@@ -48,8 +48,9 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   d.put("cbm/touching", touching);
   const coupling::Clock& c = s.clock;
   d.put("clock/times", std::vector<double>{c.time, c.origin, c.phase_start, c.step, c.last_step});
-  d.put("clock/counts", std::vector<std::int64_t>{static_cast<std::int64_t>(c.phase), c.accepted,
-                                                  c.rejected, c.cg_iterations, c.solves});
+  d.put("clock/counts",
+        std::vector<std::int64_t>{static_cast<std::int64_t>(c.phase), c.accepted, c.rejected,
+                                  c.cg_iterations, c.coarse ? 1 : 0, c.solves});
   d.put("balance",
         std::vector<double>{s.balance.momentum, s.balance.torque, s.balance.friction_torque});
   d.put("solver/last_move", s.last_move);
@@ -79,12 +80,12 @@ void get_state(const io::CheckpointData& d, coupling::State& s) {
   const std::vector<std::int64_t>& counts = d.integers("clock/counts");
   const std::vector<double>& balance = d.numbers("balance");
   check_same(d, "clock/times", times.size(), 5);
-  check_same(d, "clock/counts", counts.size(), 5);
+  check_same(d, "clock/counts", counts.size(), 6);
   check_same(d, "balance", balance.size(), 3);
-  s.clock = {times[0],  times[1],  static_cast<coupling::Phase>(counts[0]),
-             times[2],  times[3],  times[4],
-             counts[1], counts[2], counts[3],
-             counts[4]};
+  s.clock = {times[0],       times[1],  static_cast<coupling::Phase>(counts[0]),
+             times[2],       times[3],  times[4],
+             counts[1],      counts[2], counts[3],
+             counts[4] != 0, counts[5]};
   s.balance = {balance[0], balance[1], balance[2]};
   s.last_move = d.numbers("solver/last_move");
   const std::vector<std::int64_t>& leader = d.integers("leaders/cell");

@@ -47,26 +47,31 @@ enum class PassEnd { kReached, kBrokeDown, kOutOfIterations };
 /// away from underflow.
 template <class T>
 PassEnd run_pass(const Operator& op, std::span<const double> residual, double size, double goal,
-                 const CgOptions& options, bool whole, BlockRange range, int& iterations,
-                 CgVectors<T>& v) {
+                 const CgOptions& options, bool whole, BlockRange range, const CoarseSpace* coarse,
+                 int& iterations, CgVectors<T>& v) {
   const std::size_t n = residual.size();
   for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
     a->resize(n);
   std::ranges::fill(v.correction, T{0});
   for (std::size_t k = 0; k < n; ++k) v.residual[k] = static_cast<T>(residual[k] / size);
-  double rho = op.precondition<T>(v.residual, v.preconditioned);
+  auto add_coarse = [&](double diagonal) {
+    return coarse ? diagonal + coarse->add(v.residual, v.preconditioned) : diagonal;
+  };
+  double size2 = op.precondition<T>(v.residual, v.preconditioned);
+  double rho = add_coarse(size2);
   if (!is_size(rho)) return PassEnd::kBrokeDown;
   std::ranges::copy(v.preconditioned, v.direction.begin());
-  while (std::sqrt(rho) > goal) {
+  while (std::sqrt(size2) > goal) {
     if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
     ++iterations;
     // outside the range the direction is zero
     const double curvature = apply_distributed(op, v.direction, v.product);
     if (!whole) restrict_to(op.system(), range, v.product);
     if (!(curvature > 0)) return PassEnd::kBrokeDown;
-    const double next = op.descend<T>(rho / curvature, v.direction, v.product, v.correction,
-                                      v.residual, v.preconditioned);
-    if (!is_size(next)) return PassEnd::kBrokeDown;
+    size2 = op.descend<T>(rho / curvature, v.direction, v.product, v.correction, v.residual,
+                          v.preconditioned);
+    const double next = add_coarse(size2);
+    if (!is_size(size2) || !is_size(next)) return PassEnd::kBrokeDown;
     op.redirect<T>(v.preconditioned, next / rho, v.direction);
     rho = next;
   }
@@ -82,7 +87,8 @@ void add_correction(double size, const std::vector<T>& correction, std::span<dou
 }  // namespace
 
 CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, BlockRange range) {
+                  const CgOptions& options, CgWorkspace& work, BlockRange range,
+                  const CoarseSpace* coarse) {
   const std::size_t n = b.size();
   const bool whole = range.first == 0 && range.last >= op.system().block.size();
   work.residual.resize(n);
@@ -142,9 +148,9 @@ CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<doubl
     before = size;
     double goal = kAim * options.tolerance * rhs / size;
     if (mixed) goal = std::max(goal, kFloatGain);
-    const PassEnd end = mixed ? run_pass<float>(op, r, size, goal, options, whole, range,
+    const PassEnd end = mixed ? run_pass<float>(op, r, size, goal, options, whole, range, coarse,
                                                 result.iterations, work.single)
-                              : run_pass<double>(op, r, size, goal, options, whole, range,
+                              : run_pass<double>(op, r, size, goal, options, whole, range, coarse,
                                                  result.iterations, work.full);
     if (end == PassEnd::kBrokeDown) {
       if (!mixed) {

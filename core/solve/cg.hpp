@@ -1,10 +1,12 @@
 #pragma once
-/// Conjugate gradients with block-Jacobi preconditioning, iterated in float and judged in double.
+/// Conjugate gradients with a block-diagonal and, if wanted, a coarse preconditioner, iterated in
+/// float and judged in double.
 
 #include <span>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/solve/coarse.hpp"
 #include "core/solve/operator.hpp"
 
 namespace acinus::solve {
@@ -55,7 +57,10 @@ struct BlockRange {
 /// 1e-3 and says what it is. With a range, only that part
 /// of x changes (the rest is a frozen partner): used by the partitioned twin. Its right-hand side
 /// is then b - A x_rest within the range.
+/// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
+///                The stop is measured with the diagonal blocks either way.
 CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, BlockRange range = {});
+                  const CgOptions& options, CgWorkspace& work, BlockRange range = {},
+                  const CoarseSpace* coarse = nullptr);
 
 }  // namespace acinus::solve

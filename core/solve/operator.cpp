@@ -166,6 +166,17 @@ double Operator::apply(In<T> x, Out<T> y) const {
   return sum_partials();
 }
 
+void Operator::apply_within(std::span<const double> x, std::span<double> y) const {
+  for_each_range([&](const Range& range) {
+    Packed<double>* const none = packed<double>().y;
+    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
+      std::fill_n(none + row * kLanes, n * kLanes, Packed<double>{});
+      multiply_block(view_block(*system_, b), x.data() + row * kPointStride, none + row * kLanes,
+                     y.data() + row * kPointStride);
+    });
+  });
+}
+
 void Operator::apply_external(std::span<const double> x, std::span<double> y) const {
   const System& s = *system_;
   for_each_range([&](const Range& range) {

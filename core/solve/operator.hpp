@@ -47,6 +47,9 @@ class Operator {
   template <class T = double>
   double dot(In<T> a, In<T> b) const;
 
+  /// y = A x without contacts: medium and what is within the cells.
+  void apply_within(std::span<const double> x, std::span<double> y) const;
+
   /// y = A_external x: friction with the medium and contacts with surroundings only.
   void apply_external(std::span<const double> x, std::span<double> y) const;
 
