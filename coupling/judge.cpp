@@ -32,15 +32,33 @@ std::size_t lane_of(const Workspace& w, Address a) {
   return static_cast<std::size_t>(it - blocks.begin() - 1) * kLanes + a % kLanes;
 }
 
-/// f(lane, address of its first point, number of points) for every cell.
-template <class F>
-void for_each_cell(const Workspace& w, F f) {
-  for (std::size_t b = 0; b < w.system.block.size(); ++b)
-    for (int l = 0; l < kLanes; ++l) {
-      const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
-      if (w.active[lane])
-        f(lane, make_address(w.system.block[b].first_row, l), w.system.block[b].pattern->n_point);
-    }
+/// Below this many point rows starting threads costs more than it saves.
+constexpr std::size_t kParallelRows = 400;
+/// Point rows that one part of a sum covers at least.
+constexpr std::size_t kPartRows = 64;
+
+/// f(lane, address of its first point, number of points, part) for every cell; the parts are added
+/// up in order. Parts follow from the blocks alone, so the sum is the same for any number of
+/// threads.
+template <class Part, class F>
+Part sum_over_cells(const Workspace& w, F f) {
+  const auto& block = w.system.block;
+  std::vector<std::size_t> start{0};
+  for (std::size_t b = 0; b < block.size(); ++b)
+    if (block[b].first_row - block[start.back()].first_row >= kPartRows) start.push_back(b);
+  start.push_back(block.size());
+  std::vector<Part> part(start.size() - 1);
+#pragma omp parallel for schedule(static) if (w.system.n_row > kParallelRows)
+  for (std::size_t k = 0; k < part.size(); ++k)
+    for (std::size_t b = start[k]; b < start[k + 1]; ++b)
+      for (int l = 0; l < kLanes; ++l) {
+        const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
+        if (w.active[lane])
+          f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[k]);
+      }
+  Part total;
+  for (const Part& p : part) total.add(p);
+  return total;
 }
 
 /// The first triangle of a cell that the move turns over, or -1.
@@ -69,8 +87,15 @@ double move_limit(double max_move, double mean_edge) {
 double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
   const bool noise = world.params.motility.random &&
                      controls_at(world.state.clock, world.params.start_up).motility;
-  double sum2 = 0, largest2 = 0, n = 0;
-  for_each_cell(w, [&](std::size_t, Address first, int n_point) {
+  struct Part {
+    double sum2 = 0, largest2 = 0, n = 0;
+    void add(const Part& o) {
+      sum2 += o.sum2;
+      largest2 = std::max(largest2, o.largest2);
+      n += o.n;
+    }
+  };
+  const Part p = sum_over_cells<Part>(w, [&](std::size_t, Address first, int n_point, Part& part) {
     auto at = [&](int i) {
       return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
     };
@@ -81,12 +106,12 @@ double error_norm(const World& world, const Workspace& w, std::span<const double
     }
     for (int i = 0; i < n_point; ++i) {
       const double e2 = (at(i) - mean).squaredNorm();
-      sum2 += e2;
-      largest2 = std::max(largest2, e2);
+      part.sum2 += e2;
+      part.largest2 = std::max(part.largest2, e2);
     }
-    n += n_point;
+    part.n += n_point;
   });
-  return n > 0 ? std::max(std::sqrt(sum2 / n), std::sqrt(largest2) / 5) : 0;
+  return p.n > 0 ? std::max(std::sqrt(p.sum2 / p.n), std::sqrt(p.largest2) / 5) : 0;
 }
 
 double estimate_error(const World& world, double step, Workspace& w) {
@@ -108,31 +133,54 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
     v.cause = std::move(why);
     v.cells = {lineage_of(s, lane)};
   };
-  double worst = 1;  // of all cells that move too far, the one that does so most is named
-  for_each_cell(w, [&](std::size_t lane, Address first, int n_point) {
-    double largest = 0;
-    for (int i = 0; i < n_point; ++i) {
-      const Vec3 m = load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
-      if (!m.allFinite() && v.good)
-        return reject(fmt::format("{}: its displacement is not finite", name_lane(s, lane)), lane);
-      largest = std::max(largest, m.norm());
+  constexpr auto kNone = static_cast<std::size_t>(-1);
+  struct Part {
+    double largest = 0, excess = 1;
+    std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes
+    double distance = 0;                                            ///< um, of the lane too far
+    void add(const Part& o) {
+      largest = std::max(largest, o.largest);
+      if (infinite == kNone) infinite = o.infinite;
+      if (turned == kNone) turned = o.turned;
+      if (o.excess > excess) {  // of all cells that move too far, the one that does so most
+        excess = o.excess;
+        too_far = o.too_far;
+        distance = o.distance;
+      }
     }
-    v.max_move = std::max(v.max_move, largest);
-    const bool deformable = lane < s.dcm.n_lane();
-    const double edge =
-        deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length * w.lanes.radius[lane]
-                   : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
-    const double excess = largest / move_limit(world.params.numerics.max_move, edge);
-    if (excess > worst) {
-      worst = excess;
-      return reject(
-          fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, lane), largest, step),
-          lane);
-    }
-    if (!v.good) return;
-    if (deformable && find_turned_face(s.dcm, lane, w.move) >= 0)
-      return reject(fmt::format("{}: a face would turn over", name_lane(s, lane)), lane);
-  });
+  };
+  const Part p =
+      sum_over_cells<Part>(w, [&](std::size_t lane, Address first, int n_point, Part& part) {
+        double largest2 = 0;
+        bool finite = true;
+        for (int i = 0; i < n_point; ++i) {
+          const Vec3 m = load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
+          finite = finite && m.allFinite();
+          largest2 = std::max(largest2, m.squaredNorm());
+        }
+        const double largest = std::sqrt(largest2);
+        const bool deformable = lane < s.dcm.n_lane();
+        const double edge = deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length *
+                                             w.lanes.radius[lane]
+                                       : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
+        Part own;
+        own.largest = largest;
+        if (!finite) own.infinite = lane;
+        own.excess = largest / move_limit(world.params.numerics.max_move, edge);
+        own.too_far = lane;
+        own.distance = largest;
+        if (finite && deformable && find_turned_face(s.dcm, lane, w.move) >= 0) own.turned = lane;
+        part.add(own);
+      });
+  v.max_move = p.largest;
+  if (p.infinite != kNone)
+    reject(fmt::format("{}: its displacement is not finite", name_lane(s, p.infinite)), p.infinite);
+  else if (p.too_far != kNone)
+    reject(fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, p.too_far), p.distance,
+                       step),
+           p.too_far);
+  else if (p.turned != kNone)
+    reject(fmt::format("{}: a face would turn over", name_lane(s, p.turned)), p.turned);
   if (!v.good) return v;
 
   const solve::Links& links = w.system.links;
@@ -140,9 +188,9 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
       -(world.params.numerics.adaptive ? kControlledDepth
                                        : kDeep * world.params.dcm_contact.max_depth);
   const double near = 0.5 * world.params.dcm_contact.max_depth;
-  for (const solve::Link& link : links.link) {
+  auto depth_after = [&](const solve::Link& link) {  // um; 0: no danger
     const double gap = static_cast<double>(link.gap);
-    if (gap > near) continue;
+    if (gap > near) return 0.0;
     const solve::Stencil stencil = solve::stencil_of(link);
     Vec3 r = Vec3::Zero();
     for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
@@ -150,16 +198,24 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
     double opening = 0;
     for (int k = 0; k < 3; ++k)
       opening += static_cast<double>(link.normal[static_cast<std::size_t>(k)]) * r[k];
-    if (gap + opening < deep && opening < -kClosing) {
-      const bool pair = link.b.exists();
-      const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
-      const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
-      reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a), -(gap + opening),
-                         pair ? name_lane(s, b) : std::string("its surroundings")),
-             a);
-      if (pair && b != a) v.cells.push_back(lineage_of(s, b));
-      return v;
-    }
+    return gap + opening < deep && opening < -kClosing ? -(gap + opening) : 0.0;
+  };
+  std::size_t first_deep = links.size();
+#pragma omp parallel for schedule(static) \
+    reduction(min                         \
+              : first_deep) if (w.system.n_row > kParallelRows)
+  for (std::size_t l = 0; l < links.size(); ++l)
+    if (depth_after(links.link[l]) > 0) first_deep = std::min(first_deep, l);
+  if (first_deep < links.size()) {
+    const solve::Link& link = links.link[first_deep];
+    const bool pair = link.b.exists();
+    const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
+    const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
+    reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a), depth_after(link),
+                       pair ? name_lane(s, b) : std::string("its surroundings")),
+           a);
+    if (pair && b != a) v.cells.push_back(lineage_of(s, b));
+    return v;
   }
   v.error = estimate_error(world, step, w);
   return v;
@@ -173,37 +229,52 @@ Balance measure_balance(const World& world, Workspace& w) {
     for (std::size_t k = 0; k < w.rhs.size(); ++k) w.cg.residual[k] = w.rhs[k] - w.cg.product[k];
   }
   w.op.apply_external(w.move, w.cg.product);
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero(),
-       center = Vec3::Zero();
-  double force_size = 0, torque_size = 0, rest_torque_size = 0, n = 0;
-  auto for_each_point = [&](auto f) {
-    for_each_cell(w, [&](std::size_t, Address first, int n_point) {
-      for (int i = 0; i < n_point; ++i) f(first + static_cast<Address>(i * kPointStride));
-    });
+  struct Middle {
+    Vec3 sum = Vec3::Zero();
+    double n = 0;
+    void add(const Middle& o) {
+      sum += o.sum;
+      n += o.n;
+    }
   };
-  for_each_point([&](Address a) {
-    center += load_point(w.position.data(), a);
-    n += 1;
+  const Middle middle =
+      sum_over_cells<Middle>(w, [&](std::size_t, Address first, int n_point, Middle& part) {
+        for (int i = 0; i < n_point; ++i)
+          part.sum += load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
+        part.n += n_point;
+      });
+  const Vec3 center = middle.sum / std::max(middle.n, 1.0);
+  struct Sums {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero();
+    double force_size = 0, torque_size = 0, rest_torque_size = 0;
+    void add(const Sums& o) {
+      force += o.force;
+      torque += o.torque;
+      rest_torque += o.rest_torque;
+      force_size += o.force_size;
+      torque_size += o.torque_size;
+      rest_torque_size += o.rest_torque_size;
+    }
+  };
+  const Sums t = sum_over_cells<Sums>(w, [&](std::size_t, Address first, int n_point, Sums& part) {
+    for (int i = 0; i < n_point; ++i) {
+      const Address a = first + static_cast<Address>(i * kPointStride);
+      const Vec3 conservative = load_point(w.system.force.data(), a);
+      // what pair friction and the pair forces' change exert during the step
+      const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
+      const Vec3 rest = load_point(w.cg.product.data(), a) - product;
+      const Vec3 arm = load_point(w.position.data(), a) - center;
+      part.force += conservative + rest;
+      part.force_size += conservative.norm() + rest.norm();
+      part.torque += arm.cross(conservative);
+      part.torque_size += arm.norm() * conservative.norm();
+      part.rest_torque += arm.cross(rest);
+      part.rest_torque_size += arm.norm() * rest.norm();
+    }
   });
-  if (n > 0) center /= n;
-  for_each_point([&](Address a) {
-    const Vec3 conservative = load_point(w.system.force.data(), a);
-    // what pair friction and the pair forces' change exert during the step
-    const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
-    const Vec3 rest = load_point(w.cg.product.data(), a) - product;
-    const Vec3 arm = load_point(w.position.data(), a) - center;
-    force += conservative + rest;
-    force_size += conservative.norm() + rest.norm();
-    torque += arm.cross(conservative);
-    torque_size += arm.norm() * conservative.norm();
-    rest_torque += arm.cross(rest);
-    rest_torque_size += arm.norm() * rest.norm();
-  });
-  Balance b;
-  b.momentum = force_size > 0 ? force.norm() / force_size : 0;
-  b.torque = torque_size > 0 ? torque.norm() / torque_size : 0;
-  b.friction_torque = rest_torque_size > 0 ? rest_torque.norm() / rest_torque_size : 0;
-  return b;
+  auto relative = [](const Vec3& sum, double size) { return size > 0 ? sum.norm() / size : 0; };
+  return {relative(t.force, t.force_size), relative(t.torque, t.torque_size),
+          relative(t.rest_torque, t.rest_torque_size)};
 }
 
 }  // namespace acinus::coupling

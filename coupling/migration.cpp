@@ -8,6 +8,9 @@
 namespace acinus::coupling {
 namespace {
 
+/// Below this many cells starting threads costs more than it saves.
+constexpr std::size_t kParallelCells = 1000;
+
 /// A cell of either model as the choice of leaders sees it.
 struct Seen {
   double distance, angle, height, radius;  ///< cylinder coordinates about the vein axis
@@ -93,6 +96,7 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
     return Vec3(medium * std::sqrt(2 * diffusion / m.grid) *
                 mean_random(m.seed, lineage, m.grid, time, step));
   };
+#pragma omp parallel for schedule(static) if (s.dcm.n_lane() > kParallelCells)
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
     const dcm::Params& p = world.params.dcm[static_cast<std::size_t>(s.dcm.group[l / kLanes].type)];
@@ -100,6 +104,7 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
     if (m.leader_force > 0 && leader[l])
       forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
   }
+#pragma omp parallel for schedule(static) if (s.cbm.n_cell() > kParallelCells)
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
     const cbm::Params& p = world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])];
     forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, cbm_medium[c]);

@@ -13,6 +13,7 @@ using Map3x6 = Eigen::Matrix<double, 3, 6>;
 
 struct Group {
   Vec3 center = Vec3::Zero();
+  Vec3 sum = Vec3::Zero();  ///< um, of the positions
   double n_point = 0;
   double squared_reach = 0;  ///< um^2, farthest point from the centre
   double mass = 0;           ///< of medium friction, and its moments about the centre
@@ -22,7 +23,21 @@ struct Group {
   Mat6 matrix = Mat6::Zero();
   Vec6 motion = Vec6::Zero();
   bool correct = false;
+
+  void add(const Group& o) {
+    sum += o.sum;
+    n_point += o.n_point;
+    squared_reach = std::max(squared_reach, o.squared_reach);
+    mass += o.mass;
+    first_moment += o.first_moment;
+    second_moment += o.second_moment;
+    residual += o.residual;
+    matrix += o.matrix;
+  }
 };
+
+/// Below this many point rows starting threads costs more than it saves.
+constexpr std::size_t kParallelRows = 400;
 
 int find_root(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) {
@@ -89,10 +104,11 @@ Mat6 medium_matrix(const Group& g) {
   return m;
 }
 
-/// f(address, group) for every point of every cell.
+/// f(address, group) for the points of cells in blocks [first, last).
 template <class F>
-void for_each_point(const System& s, const std::vector<int>& group, F f) {
-  for (std::size_t b = 0; b < s.block.size(); ++b)
+void for_each_point(const System& s, const std::vector<int>& group, std::size_t first,
+                    std::size_t last, F f) {
+  for (std::size_t b = first; b < last; ++b)
     for (int i = 0; i < s.block[b].pattern->n_point; ++i)
       for (int l = 0; l < kLanes; ++l) {
         const int g = group[b * kLanes + static_cast<std::size_t>(l)];
@@ -100,6 +116,35 @@ void for_each_point(const System& s, const std::vector<int>& group, F f) {
           f(make_address(s.block[b].first_row + static_cast<std::size_t>(i), l),
             static_cast<std::size_t>(g));
       }
+}
+
+/// Parts of a sum over all points: as many whatever the number of threads, one if there are so many
+/// groups that their sums would take more memory than the points.
+std::size_t count_parts(const System& s, std::size_t n_group) {
+  return n_group > 64 ? 1 : std::min<std::size_t>(32, std::max<std::size_t>(s.block.size(), 1));
+}
+
+/// f(address, group number) for every point, in parallel; f writes to that point only.
+template <class F>
+void for_each_point(const System& s, const std::vector<int>& group, F f) {
+  const std::size_t n_part = count_parts(s, 1);
+#pragma omp parallel for schedule(static) if (s.n_row > kParallelRows)
+  for (std::size_t k = 0; k < n_part; ++k)
+    for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part, f);
+}
+
+/// f(address, its group's part) for every point; parts are added to the groups in order.
+template <class F>
+void sum_over_points(const System& s, const std::vector<int>& group, std::vector<Group>& groups,
+                     F f) {
+  const std::size_t n_part = count_parts(s, groups.size());
+  std::vector<std::vector<Group>> part(n_part, std::vector<Group>(groups.size()));
+#pragma omp parallel for schedule(static) if (s.n_row > kParallelRows)
+  for (std::size_t k = 0; k < n_part; ++k)
+    for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
+                   [&](Address a, std::size_t g) { f(a, groups[g], part[k][g]); });
+  for (const auto& p : part)
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].add(p[g]);
 }
 
 Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
@@ -119,18 +164,17 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> resi
   const System& s = op.system();
   std::vector<Group> groups(static_cast<std::size_t>(number_groups(s, active, work)));
 
-  for_each_point(s, work.group, [&](Address a, std::size_t g) {
-    groups[g].center += load_point(position.data(), a);
-    groups[g].n_point += 1;
+  sum_over_points(s, work.group, groups, [&](Address a, const Group&, Group& part) {
+    part.sum += load_point(position.data(), a);
+    part.n_point += 1;
   });
-  for (Group& g : groups) g.center /= g.n_point;
+  for (Group& g : groups) g.center = g.sum / g.n_point;
 
   // What holds a group from outside: medium and surroundings. It is a lower bound of the projected
   // matrix, and all of it but for the rotations: no link or element within a group feels a
   // translation.
-  for_each_point(s, work.group, [&](Address a, std::size_t g) {
-    Group& group = groups[g];
-    const Vec3 d = load_point(position.data(), a) - group.center;
+  sum_over_points(s, work.group, groups, [&](Address a, const Group& whole, Group& group) {
+    const Vec3 d = load_point(position.data(), a) - whole.center;
     group.squared_reach = std::max(group.squared_reach, d.squaredNorm());
     const Vec3 r = load_point(residual.data(), a);
     group.residual.head<3>() += r;
@@ -189,9 +233,9 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> resi
                     Vec3::Unit(axis).cross(load_point(position.data(), a) - groups[g].center));
     });
     op.apply(work.mode, work.product);
-    for_each_point(s, work.group, [&](Address a, std::size_t g) {
-      const Vec3 d = load_point(position.data(), a) - groups[g].center;
-      groups[g].matrix.block<3, 1>(3, 3 + axis) += d.cross(load_point(work.product.data(), a));
+    sum_over_points(s, work.group, groups, [&](Address a, const Group& whole, Group& group) {
+      const Vec3 d = load_point(position.data(), a) - whole.center;
+      group.matrix.block<3, 1>(3, 3 + axis) += d.cross(load_point(work.product.data(), a));
     });
   }
   for (Group& g : groups) {
