@@ -141,6 +141,7 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
                    std::span<const double> radius, const contact::Surroundings& around, double time,
                    std::size_t first_row, ContactWorkspace& work,
                    std::vector<solve::PointLink>& link) {
+  ++work.searches;
   find_pair_contacts(s, params, c, radius, first_row, work, link);
   work.obstacle.clear();
   if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&

@@ -53,6 +53,7 @@ struct ContactWorkspace {
   /// DCM-CBM interface adds its own.
   std::vector<double> overlap_sum, overlap_weight;
   int list_builds = 0;
+  std::int64_t searches = 0;  ///< calls of find_contacts
 };
 
 /// Relative overlap over which a contact's weight in the mean rises to one.

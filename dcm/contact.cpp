@@ -173,18 +173,25 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   work.surface.clear();
   const auto n_part = static_cast<std::size_t>(omp_get_max_threads());
   work.found.resize(n_part - 1);
-#pragma omp parallel for schedule(static, 1)
+  std::int64_t listed = 0, seen = 0;
+#pragma omp parallel for schedule(static, 1) reduction(+ : listed, seen)
   for (std::size_t part = 0; part < n_part; ++part) {
     auto& found = part == 0 ? work.surface : work.found[part - 1];
     const std::size_t before = found.size();
     found.clear();
     found.reserve(before + before / 8);  // contacts change little: doubling would waste memory
     for (std::size_t k = part * work.list.size() / n_part;
-         k < (part + 1) * work.list.size() / n_part; ++k)
-      contact::find_contacts(work.list[k], work.body, work.fixed, options,
-                             relative_motion(work, work.list[k].body_a, work.list[k].body_b),
-                             found);
+         k < (part + 1) * work.list.size() / n_part; ++k) {
+      const contact::Candidates& list = work.list[k];
+      listed += static_cast<std::int64_t>(list.point.size());
+      seen += static_cast<std::int64_t>(
+          contact::find_contacts(list, work.body, work.fixed, options,
+                                 relative_motion(work, list.body_a, list.body_b), found));
+    }
   }
+  work.searches += 1;
+  work.points_listed += listed;
+  work.points_seen += seen;
   for (const auto& f : work.found) work.surface.insert(work.surface.end(), f.begin(), f.end());
 
   const int per_site = contact::points_per_site(c.quadrature);

@@ -91,6 +91,8 @@ struct ContactWorkspace {
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;
   int list_builds = 0;
+  std::int64_t searches = 0;                        ///< calls of find_contacts
+  std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
 };
 
 /// Largest gap at which a contact of this cell does anything, um.

@@ -78,7 +78,8 @@ class Run {
   void close(const std::string& status, const std::string& cause);
   std::string reason_to_stop() const;
   int fail(const coupling::StepResult& step);
-  std::vector<std::string> skipped() const;
+  std::vector<std::string> skipped() const;       ///< what the scene does not ask for
+  std::vector<std::string> work_skipped() const;  ///< what turned out not to be needed
 
   const Scene& scene_;
   RunOptions options_;
@@ -115,6 +116,22 @@ std::vector<std::string> Run::skipped() const {
   if (world().params.around.empty()) list.emplace_back("surroundings");
   if (!world().params.motility.random) list.emplace_back("random motility");
   if (world().params.motility.leader_force <= 0) list.emplace_back("leaders");
+  return list;
+}
+
+std::vector<std::string> Run::work_skipped() const {
+  std::vector<std::string> list;
+  auto share = [&](const char* what, std::int64_t done, std::int64_t of) {
+    if (of > 0 && done < of)
+      list.push_back(fmt::format("{} in {:.0f} % of cases", what,
+                                 100 * (1 - static_cast<double>(done) / static_cast<double>(of))));
+  };
+  share("building DCM contact lists", work_.dcm.list_builds, work_.dcm.searches);
+  share("searching listed contact points", work_.dcm.points_seen, work_.dcm.points_listed);
+  if (world().state.cbm.n_cell() > 0)
+    share("building CBM pair lists", work_.cbm.list_builds, work_.cbm.searches);
+  if (!world().state.dcm.group.empty() && !world().state.clock.coarse)
+    list.emplace_back("coarse space of the solver at the end");
   return list;
 }
 
@@ -232,8 +249,12 @@ void Run::close(const std::string& status, const std::string& cause) {
   file_->close();
   totals_.wall_s = wall_before_ + wall_seconds() - started_;
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
-  write_summary(options_.out, {scene_, options_, world(), totals_, measures_, work_.timings,
-                               skipped(), built_.notes, status, cause, options_.threads});
+  std::vector<std::string> skip = skipped();
+  const std::vector<std::string> unneeded = work_skipped();
+  skip.insert(skip.end(), unneeded.begin(), unneeded.end());
+  if (!unneeded.empty()) progress_.note(fmt::format("also skipped: {}", fmt::join(unneeded, ", ")));
+  write_summary(options_.out, {scene_, options_, world(), totals_, measures_, work_.timings, skip,
+                               built_.notes, status, cause, options_.threads});
   progress_.finish();
 }
 

@@ -328,9 +328,9 @@ std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
   return lists;
 }
 
-void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
-                   std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
-                   std::vector<SurfaceContact>& out) {
+std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+                          std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
+                          std::vector<SurfaceContact>& out) {
   const bool self = list.body_a == list.body_b;
   const bool is_fixed = static_cast<std::size_t>(list.body_b) >= bodies.size();
   const SurfaceBody& a = body_at(bodies, fixed, list.body_a);
@@ -338,9 +338,11 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
   const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
   const double horizon = std::max(range, depth), shift = moved + kRounding;
   const int per_site = points_per_site(o.quadrature);
+  std::size_t looked = 0;
   for (std::size_t p = 0; p < list.point.size(); ++p) {
     const double before = static_cast<double>(list.gap[p]);
     if (before - shift > range || -before - shift > depth) continue;
+    ++looked;
     const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point[p]));
     Closest closest{horizon * horizon, -1, {}};
     double best = horizon;
@@ -380,6 +382,7 @@ void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
     contact.gap = gap;
     out.push_back(contact);
   }
+  return looked;
 }
 
 }  // namespace acinus::contact

@@ -51,8 +51,9 @@ std::vector<std::pair<int, int>> find_near_bodies(std::span<const SurfaceBody> b
 /// does not depend on when the list was made.
 /// @param moved  um, bound of what the two bodies moved relative to each other since then: points
 ///               and triangles that cannot touch yet are not looked at
-void find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
-                   std::span<const SurfaceBody> fixed, const SearchOptions& options, double moved,
-                   std::vector<SurfaceContact>& out);
+/// @return how many points were looked at
+std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
+                          std::span<const SurfaceBody> fixed, const SearchOptions& options,
+                          double moved, std::vector<SurfaceContact>& out);
 
 }  // namespace acinus::contact
