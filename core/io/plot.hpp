@@ -1,0 +1,31 @@
+#pragma once
+/// Line plots as SVG files that open in any browser: no library, no fonts, one file each.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace acinus::io {
+
+/// One line of a plot, in the order of its points.
+struct PlotLine {
+  std::string name;
+  std::vector<std::pair<double, double>> point;
+  bool marks = true;   ///< a mark at every point
+  bool joined = true;  ///< a line between them
+};
+
+struct Plot {
+  std::string title, x_label, y_label;  ///< labels carry the unit
+  bool log_x = false, log_y = false;    ///< points that are not positive are then left out
+  std::vector<PlotLine> line;
+};
+
+/// The plot as SVG text, 720 by 480. Points that are not finite are left out; a plot without points
+/// says so.
+std::string draw_plot(const Plot& plot);
+
+/// Writes draw_plot(plot).   @throws Error(kFileError)
+void write_plot(const std::string& file, const Plot& plot);
+
+}  // namespace acinus::io
