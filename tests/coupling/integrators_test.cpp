@@ -1,0 +1,238 @@
+/// The four ways to take a step, on one stretched cell that relaxes in a liquid.
+
+#include "coupling/integrators.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+constexpr double kEnd = 0.064;   ///< s, a part of the slow modes' relaxation
+constexpr double kStep = 0.002;  ///< s, below the limit of explicit Euler
+
+/// One cell of 42 nodes, stretched by 10 % along one axis and squeezed along the others so that the
+/// volume stays.
+World stretched_cell(Integrator integrator, double step) {
+  World w = make_test_world({{Vec3(1, 2, 3)}}, step, 42);
+  w.params.dcm[0].viscosity = 1e-6;
+  w.params.numerics.min_step = step;
+  w.params.numerics.tolerance = 1e-7;  // Newton stops at a tenth of it
+  w.params.numerics.cg = {1e-10, 20000};
+  w.params.numerics.integrator = integrator;
+  const Mat3 turn = Eigen::AngleAxisd(0.6, Vec3(3, 1, 2).normalized()).toRotationMatrix();
+  const Vec3 factor(1.1, 1 / std::sqrt(1.1), 1 / std::sqrt(1.1));
+  const Mat3 stretch = turn * factor.asDiagonal() * turn.transpose();
+  const Vec3 center = dcm::cell_center(w.state.dcm, 0);
+  for (int i = 0; i < 42; ++i) {
+    const Address a = dcm::node_address(w.state.dcm, 0, i);
+    double* const x = w.state.dcm.position.data();
+    store_point(x, a, center + stretch * (load_point(x, a) - center));
+  }
+  return w;
+}
+
+std::vector<Vec3> nodes_of(const World& w) {
+  std::vector<Vec3> node;
+  dcm::copy_nodes(w.state.dcm, 0, node);
+  return node;
+}
+
+std::vector<Vec3> relaxed(Integrator integrator, double step, double end = kEnd) {
+  World w = stretched_cell(integrator, step);
+  Workspace work;
+  size_workspace(w, work);
+  EXPECT_TRUE(run_until(w, work, end)) << name_of(integrator);
+  return nodes_of(w);
+}
+
+/// The end of a run with kStep halved so many times; every run is made once.
+const std::vector<Vec3>& end_of(Integrator integrator, int halvings) {
+  static std::map<std::pair<Integrator, int>, std::vector<Vec3>> ends;
+  std::vector<Vec3>& end = ends[{integrator, halvings}];
+  if (end.empty()) end = relaxed(integrator, std::ldexp(kStep, -halvings));
+  return end;
+}
+
+double distance(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
+  double sum = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) sum += (x[k] - y[k]).squaredNorm();
+  return std::sqrt(sum);
+}
+
+/// Edge lengths do not see where a cell is and how it is turned.
+double largest_edge_difference(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
+  double largest = 0;
+  for (const auto& t : mesh::shared_icosphere(42).triangle)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(t[k]), j = static_cast<std::size_t>(t[(k + 1) % 3]);
+      largest = std::max(largest, std::abs((x[i] - x[j]).norm() - (y[i] - y[j]).norm()));
+    }
+  return largest;
+}
+
+bool all_finite(const World& w) {
+  return std::ranges::all_of(w.state.dcm.position, [](double x) { return std::isfinite(x); });
+}
+
+TEST(Integrators, HaveTheNamesOfTheScene) {
+  EXPECT_EQ(name_of(Integrator::kLinearlyImplicit), "linearly-implicit");
+  EXPECT_EQ(name_of(Integrator::kExplicitEuler), "explicit-euler");
+  EXPECT_EQ(name_of(Integrator::kRos2), "ros2");
+  EXPECT_EQ(name_of(Integrator::kNewton), "newton");
+}
+
+class Order : public testing::TestWithParam<std::pair<Integrator, double>> {};
+
+TEST_P(Order, IsAsStatedByHalvings) {
+  const auto [integrator, order] = GetParam();
+  const auto &a = end_of(integrator, 0), &b = end_of(integrator, 1), &c = end_of(integrator, 2),
+             &d = end_of(integrator, 3);
+  const double coarse = std::log2(distance(a, b) / distance(b, c)),
+               fine = std::log2(distance(b, c) / distance(c, d));
+  std::printf("%s: order %.3f, then %.3f; last difference %.2e um\n", name_of(integrator).c_str(),
+              coarse, fine, distance(c, d));
+  EXPECT_NEAR(fine, order, 0.1 * order);
+}
+
+TEST_P(Order, ApproachesTheSameSolutionAsTheOthers) {
+  // Errors of second order: a sixteenth of the coarsest ROS2 run below, under a thousandth of the
+  // others.
+  const std::vector<Vec3>& exact = end_of(Integrator::kRos2, 4);
+  const auto [integrator, order] = GetParam();
+  const double coarse = distance(end_of(integrator, 1), exact),
+               fine = distance(end_of(integrator, 2), exact);
+  std::printf("%s: %.2e um, then %.2e um from the limit, order %.3f\n", name_of(integrator).c_str(),
+              coarse, fine, std::log2(coarse / fine));
+  EXPECT_NEAR(std::log2(coarse / fine), order, 0.1 * order);
+  EXPECT_LT(fine, 0.02 * distance(exact, nodes_of(stretched_cell(integrator, 1))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Order,
+                         testing::Values(std::pair(Integrator::kLinearlyImplicit, 1.0),
+                                         std::pair(Integrator::kExplicitEuler, 1.0),
+                                         std::pair(Integrator::kNewton, 1.0),
+                                         std::pair(Integrator::kRos2, 2.0)));
+
+TEST(ExplicitEuler, IsToldAboveItsStabilityLimit) {
+  for (const double step : {0.02, 0.1, 1.0, 1e3, 1e300}) {
+    World w = stretched_cell(Integrator::kExplicitEuler, step);
+    Workspace work;
+    size_workspace(w, work);
+    StepResult result;
+    std::uint64_t before = 0;
+    int accepted = 0;
+    for (int k = 0; k < 500; ++k) {
+      before = hash_state(w.state);
+      result = advance(w, work, step);
+      ASSERT_TRUE(all_finite(w)) << "step " << step << " after " << k << " steps";
+      if (!result.accepted) break;
+      ++accepted;
+    }
+    std::printf("explicit Euler, steps of %.2g s: %d accepted, then \"%s\"\n", step, accepted,
+                result.cause.c_str());
+    EXPECT_FALSE(result.accepted) << step;
+    EXPECT_FALSE(result.cause.empty());
+    EXPECT_EQ(hash_state(w.state), before) << "a rejected step left a trace";
+  }
+}
+
+TEST(ExplicitEuler, RejectedStepsAreTriedAgainHalfAsLong) {
+  World w = stretched_cell(Integrator::kExplicitEuler, 1000);
+  w.params.numerics.min_step = 1e-4;
+  Workspace work;
+  size_workspace(w, work);
+  const StepResult result = advance(w, work, 1000);
+  std::printf("explicit Euler: %d rejections from 1000 s to %.3g s\n", result.rejections,
+              result.step);
+  EXPECT_TRUE(result.accepted) << result.cause;
+  EXPECT_GT(result.rejections, 0);
+  EXPECT_EQ(result.step, std::ldexp(1000.0, -result.rejections));
+  EXPECT_TRUE(all_finite(w));
+}
+
+TEST(Newton, SolvesBackwardEuler) {
+  for (const double step : {0.01, 1.0, 100.0}) {
+    const World start = stretched_cell(Integrator::kNewton, step);
+    World w = start;
+    Workspace work, at;
+    size_workspace(w, work);
+    const StepResult result = advance(w, work, step);
+    ASSERT_TRUE(result.accepted) << result.cause;
+
+    // Gamma/h of the start on the displacement, against the forces of the end.
+    const std::size_t n = w.state.dcm.position.size();
+    std::vector<double> moved(n), drag(n);
+    for (std::size_t k = 0; k < n; ++k)
+      moved[k] = w.state.dcm.position[k] - start.state.dcm.position[k];
+    size_workspace(start, at);
+    find_all_contacts(start, step, at);
+    assemble(start, step, at);
+    const std::vector<double> first_force = at.system.force;
+    assemble(start, step, at, {.stiffness_scale = 0});
+    at.op.apply(moved, drag);
+    find_all_contacts(w, step, at);
+    assemble(w, step, at);
+    double residual = 0, size = 0;
+    for (int i = 0; i < 42; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t j =
+            dcm::node_address(w.state.dcm, 0, i) + static_cast<Address>(k * kLanes);
+        residual = std::max(residual,
+                            std::abs(at.system.force[j] + at.system.external_force[j] - drag[j]));
+        size = std::max(size, std::abs(first_force[j]));
+      }
+    std::printf("Newton, step %.2g s: residual %.2e nN of first forces of %.2e nN\n", step,
+                residual, size);
+    // Newton leaves away a last correction below 1e-8 um; the matrix has six edges' friction of
+    // 0.1 nN s/um per node over the step, and K_V A^2 / V per node of about 30 nN/um.
+    EXPECT_LT(residual, 1e-8 * (0.6 / step + 30));
+    EXPECT_LT(residual, 1e-5 * size);
+  }
+}
+
+TEST(Newton, OneVeryLongStepEndsWhereManyStepsEnd) {
+  const auto many = relaxed(Integrator::kLinearlyImplicit, 0.5, 200);
+  const auto start = nodes_of(stretched_cell(Integrator::kNewton, 1));
+  const double moved = largest_edge_difference(start, many);
+  EXPECT_GT(moved, 0.3);
+  double last = moved;
+  for (const double step : {1e2, 1e3, 1e4}) {
+    const auto one = relaxed(Integrator::kNewton, step, step);
+    const double apart = largest_edge_difference(one, many);
+    std::printf("Newton, one step of %.0e s: edges %.2e um from rest, of %.2g um\n", step, apart,
+                moved);
+    // Backward Euler leaves 1 / (1 + step / tau) of a mode that relaxes with tau < 2 s.
+    EXPECT_LT(apart, 2 / step * moved);
+    EXPECT_LT(apart, 0.11 * last);
+    last = apart;
+  }
+}
+
+TEST(Ros2, ErrorEstimateFallsWithTheSquareOfTheStep) {
+  std::vector<double> error;
+  for (double step = kStep / 8; step > kStep / 100; step /= 2) {
+    World w = stretched_cell(Integrator::kRos2, step);
+    Workspace work;
+    size_workspace(w, work);
+    const StepResult result = advance(w, work, step);
+    ASSERT_TRUE(result.accepted) << result.cause;
+    error.push_back(result.error);
+  }
+  for (std::size_t k = 1; k < error.size(); ++k) {
+    const double order = std::log2(error[k - 1] / error[k]);
+    std::printf("ROS2 estimate %.2e um, order %.3f\n", error[k], order);
+    EXPECT_GT(order, 1.9);
+  }
+}
+
+}  // namespace
+}  // namespace acinus::coupling

@@ -1,0 +1,79 @@
+/// Going on from a saved State must give the bits of the run that was never stopped, whatever the
+/// scratch of that run held.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+constexpr int kSteps = 12;
+
+/// Eight cells of both models; a tight solve in packed cells, so that the coarse space comes on.
+World packed_cells(Integrator integrator) {
+  World w = make_test_world(checkered_cube(23.5), 30, 42);
+  w.params.motility.random = true;
+  // ROS2 has more friction on its diagonal: its systems are easier and must be solved further.
+  w.params.numerics.cg = {integrator == Integrator::kRos2 ? 1e-12 : 1e-8, 20000};
+  w.params.numerics.integrator = integrator;
+  return w;
+}
+
+/// Takes a number of steps; returns how many were taken with the coarse space on, -1 if one failed.
+int take_steps(World& w, Workspace& work, int n) {
+  int with_coarse = 0;
+  for (int k = 0; k < n; ++k) {
+    with_coarse += w.state.clock.coarse ? 1 : 0;
+    const StepResult result = advance(w, work, 30);
+    if (!result.accepted) {
+      std::printf("step %d failed: %s\n", k, result.cause.c_str());
+      return -1;
+    }
+  }
+  return with_coarse;
+}
+
+class Resume : public testing::TestWithParam<Integrator> {};
+
+TEST_P(Resume, IsBitForBitWithTheCoarseSpaceOn) {
+  World through = packed_cells(GetParam());
+  Workspace work;
+  size_workspace(through, work);
+  const int first = take_steps(through, work, kSteps / 2);
+  ASSERT_GE(first, 0);
+  ASSERT_TRUE(through.state.clock.coarse) << "the scene is too easy for this test";
+  const State saved = through.state;
+  const int second = take_steps(through, work, kSteps / 2);
+  std::printf("%d of the steps before and %d of the %d after saving had the coarse space on\n",
+              first, second, kSteps / 2);
+  EXPECT_GT(second, 0);
+
+  World resumed = packed_cells(GetParam());
+  resumed.state = saved;
+  Workspace fresh;
+  size_workspace(resumed, fresh);
+  EXPECT_EQ(take_steps(resumed, fresh, kSteps / 2), second);
+  EXPECT_EQ(hash_state(resumed.state), hash_state(through.state));
+  EXPECT_EQ(resumed.state.clock.cg_iterations, through.state.clock.cg_iterations);
+  EXPECT_EQ(resumed.state.clock.solves, through.state.clock.solves);
+  EXPECT_EQ(resumed.state.clock.coarse, through.state.clock.coarse);
+
+  // It would not be so if the clock did not hold whether the coarse space is on.
+  World forgetful = packed_cells(GetParam());
+  forgetful.state = saved;
+  forgetful.state.clock.coarse = false;
+  Workspace other;
+  size_workspace(forgetful, other);
+  EXPECT_GE(take_steps(forgetful, other, kSteps / 2), 0);
+  EXPECT_NE(hash_state(forgetful.state), hash_state(through.state));
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Resume,
+                         testing::Values(Integrator::kLinearlyImplicit, Integrator::kRos2,
+                                         Integrator::kNewton));
+
+}  // namespace
+}  // namespace acinus::coupling
