@@ -62,7 +62,8 @@ std::uint64_t hash_state(const State& s) {
   add(s.last_move);
   add(s.leader);
   add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
-  add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted});
+  add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
+                 static_cast<std::int64_t>(s.clock.coarse ? 1 : 0)});
   const std::uint64_t value = XXH64_digest(hash);
   XXH64_freeState(hash);
   return value;

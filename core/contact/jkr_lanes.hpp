@@ -42,7 +42,7 @@ ACINUS_INLINE JkrLanes jkr_force_lanes(Lane radius, Lane modulus, Lane adhesion,
   const Lane fold = lane_cbrt(kPi * adhesion * radius * radius / (8.0 * modulus) + 1e-300);
   const Lane scale = fold * fold / radius;  // overlap = scale (y^4 - 4 y)
   const Lane distance = overlap / scale + 3.0;
-  const Lane t = distance > 0.0 ? distance : zero;
+  const Lane t = distance < 0.0 ? zero : distance;  // written so that NaN stays NaN
   const Lane root = lane_sqrt(t);
   const Lane far = root / (1.0 + lane_sqrt(1.0 + root)), near = 0.40824829046386302 * root;
   Lane e = (far < near ? far : near) + 1e-30;
@@ -58,10 +58,10 @@ ACINUS_INLINE JkrLanes jkr_force_lanes(Lane radius, Lane modulus, Lane adhesion,
   out.force = (4.0 / 3.0) * modulus * fold * scale * y3 * (y3 - 6.0);
   out.stiffness = (slope > chord ? slope : chord) * modulus * fold;
   out.squared_radius = fold * fold * y2 * y2;
-  out.touching = overlap >= 0.0 ? one : (distance >= 0.0 ? was_touching : zero);
+  out.touching = overlap < 0.0 ? (distance < 0.0 ? zero : was_touching) : one;
 
   // Beyond this ratio of overlap to scale adhesion no longer shows; W = 0 belongs here too.
-  const Lane pressed = overlap > 0.0 ? overlap : zero;
+  const Lane pressed = overlap < 0.0 ? zero : overlap;
   const Lane hertz_squared = radius * pressed, hertz_radius = lane_sqrt(hertz_squared);
   const auto hertz = pressed > 1e24 * scale;
   out.force = hertz ? (4.0 / 3.0) * modulus * hertz_radius * pressed : out.force;

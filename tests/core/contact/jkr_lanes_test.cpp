@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "core/contact/jkr.hpp"
@@ -242,6 +243,18 @@ TEST(LaneCbrt, IsGoodToFourUnitsInTheLastPlace) {
   }
   std::printf("lane_cbrt: worst %.1f ulp\n", worst);
   EXPECT_LE(worst, 4);
+}
+
+// A lost number must not look like a lost contact.
+TEST(JkrLanes, OverlapThatIsNoNumberGivesAForceThatIsNone) {
+  const Lane one = lane_of(1), nan = lane_of(std::numeric_limits<double>::quiet_NaN());
+  for (double adhesion : {0.0, 0.01}) {
+    const JkrLanes law = jkr_force_lanes(one, one, lane_of(adhesion), nan, one);
+    for (int l = 0; l < kLanes; ++l) {
+      EXPECT_TRUE(std::isnan(law.force[l]));
+      EXPECT_EQ(law.touching[l], 1);
+    }
+  }
 }
 
 }  // namespace
