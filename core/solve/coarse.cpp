@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/solve/kernels.hpp"
+#include "core/solve/row_blocks.hpp"
+#include "core/solve/threads.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -56,7 +58,7 @@ Mat3 cross_matrix(const Vec3& v) {
 void CoarseSpace::place_cells(std::span<const double> position,
                               std::span<const std::uint8_t> active) {
   const System& s = *system_;
-  block_of_row_.resize(s.n_row);
+  find_row_blocks(s, block_of_row_);
   cell_.assign(s.block.size() * kLanes, -1);
   arm_.assign(s.n_dof(), 0.0f);
   center_.clear();
@@ -64,7 +66,6 @@ void CoarseSpace::place_cells(std::span<const double> position,
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const std::size_t row = s.block[b].first_row;
     const auto n = static_cast<std::size_t>(s.block[b].pattern->n_point);
-    std::fill_n(block_of_row_.begin() + static_cast<std::ptrdiff_t>(row), n, static_cast<int>(b));
     for (int l = 0; l < kLanes; ++l) {
       if (!active[b * kLanes + static_cast<std::size_t>(l)]) continue;
       Vec3 mean = Vec3::Zero();
@@ -87,10 +88,11 @@ void CoarseSpace::place_cells(std::span<const double> position,
   }
 }
 
+int CoarseSpace::cell_of(Point p) const {
+  return cell_[static_cast<std::size_t>(block_of_row_[p / kLanes]) * kLanes + p % kLanes];
+}
+
 void CoarseSpace::find_neighbours() {
-  auto cell_of = [&](Point p) {
-    return cell_[static_cast<std::size_t>(block_of_row_[p / kLanes]) * kLanes + p % kLanes];
-  };
   std::vector<std::pair<int, int>> pair;
   for (int c = 0; c < static_cast<int>(center_.size()); ++c) pair.emplace_back(c, c);
   auto join = [&](Point at_a, Point at_b) {
@@ -147,9 +149,6 @@ void CoarseSpace::add_cells(const Operator& op) {
 
 void CoarseSpace::add_links(std::span<const double> position) {
   const System& s = *system_;
-  auto cell_of = [&](Point p) {
-    return cell_[static_cast<std::size_t>(block_of_row_[p / kLanes]) * kLanes + p % kLanes];
-  };
   auto place = [&](const Side& side) -> Vec3 {
     const Vec3 last = load_point(position.data(), address_of(side.point[2]));
     const double w0 = static_cast<double>(side.weight[0]), w1 = static_cast<double>(side.weight[1]);
@@ -275,7 +274,7 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const System& s = *system_;
   small_.resize(center_.size());
   const auto n_block = static_cast<std::ptrdiff_t>(s.block.size());
-#pragma omp parallel for schedule(static) if (s.n_row > 400)
+#pragma omp parallel for schedule(static) if (worth_threads(s))
   for (std::ptrdiff_t k = 0; k < n_block; ++k) {
     const auto b = static_cast<std::size_t>(k);
     const std::size_t at = s.block[b].first_row * kPointStride;
@@ -290,7 +289,7 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const std::vector<Vec6> load = small_;
   solve(small_);
   for (std::size_t c = 0; c < load.size(); ++c) product += load[c].dot(small_[c]);
-#pragma omp parallel for schedule(static) if (s.n_row > 400)
+#pragma omp parallel for schedule(static) if (worth_threads(s))
   for (std::ptrdiff_t k = 0; k < n_block; ++k) {
     const auto b = static_cast<std::size_t>(k);
     const std::size_t at = s.block[b].first_row * kPointStride;

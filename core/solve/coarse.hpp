@@ -32,6 +32,7 @@ class CoarseSpace {
   template <class T>
   double add_of(std::span<const T> r, std::span<T> z) const;
   void place_cells(std::span<const double> position, std::span<const std::uint8_t> active);
+  int cell_of(Point p) const;
   void find_neighbours();
   void add_cells(const Operator& op);
   void add_links(std::span<const double> position);

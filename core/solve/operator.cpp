@@ -5,15 +5,9 @@
 #include <algorithm>
 
 #include "core/solve/kernels.hpp"
+#include "core/solve/threads.hpp"
 
 namespace acinus::solve {
-namespace {
-
-/// Below this many point rows starting threads costs more than it saves.
-constexpr std::size_t kParallelRows = 400;
-
-}  // namespace
-
 template <class T>
 Operator::PackedVectors<T> Operator::packed() const {
   auto* x = reinterpret_cast<Packed<T>*>(scratch_.data());
@@ -54,7 +48,7 @@ void Operator::divide() {
   const System& s = *system_;
   const std::size_t n_block = s.block.size();
   std::size_t n = 1;
-  if (s.n_row > kParallelRows && !omp_in_parallel())
+  if (worth_threads(s) && !omp_in_parallel())
     n = std::min(static_cast<std::size_t>(omp_get_max_threads()), n_block);
   range_.resize(n);
   std::size_t b = 0;
@@ -68,12 +62,6 @@ void Operator::divide() {
 /// Finds the contacts of each range: all of them, or those with a matrix.
 void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
-  external_.clear();
-  external_point_.clear();
-  for (std::size_t l = 0; l < s.links.size(); ++l)
-    if (!s.links.link[l].b.exists()) external_.push_back(static_cast<std::uint32_t>(l));
-  for (std::size_t l = 0; l < s.point_links.size(); ++l)
-    if (s.point_links[l].b == kNowhere) external_point_.push_back(static_cast<std::uint32_t>(l));
   auto first_point = [&](std::size_t block) {
     return (block < s.block.size() ? s.block[block].first_row : s.n_row) * kLanes;
   };
@@ -135,6 +123,13 @@ void Operator::start(const System& system) {
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
+  external_.clear();
+  external_point_.clear();
+  for (std::size_t l = 0; l < system.links.size(); ++l)
+    if (!system.links.link[l].b.exists()) external_.push_back(static_cast<std::uint32_t>(l));
+  for (std::size_t l = 0; l < system.point_links.size(); ++l)
+    if (system.point_links[l].b == kNowhere)
+      external_point_.push_back(static_cast<std::uint32_t>(l));
   compute_diagonal();
 }
 

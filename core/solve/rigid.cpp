@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/solve/row_blocks.hpp"
+#include "core/solve/threads.hpp"
+
 namespace acinus::solve {
 namespace {
 
@@ -36,9 +39,6 @@ struct Group {
   }
 };
 
-/// Below this many point rows starting threads costs more than it saves.
-constexpr std::size_t kParallelRows = 400;
-
 int find_root(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) {
     parent[static_cast<std::size_t>(i)] =
@@ -50,10 +50,7 @@ int find_root(std::vector<int>& parent, int i) {
 
 /// Numbers the groups of cells joined by pair links; returns how many there are.
 int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWorkspace& work) {
-  work.block_of_row.resize(s.n_row);
-  for (std::size_t b = 0; b < s.block.size(); ++b)
-    std::fill_n(work.block_of_row.begin() + static_cast<std::ptrdiff_t>(s.block[b].first_row),
-                s.block[b].pattern->n_point, static_cast<int>(b));
+  find_row_blocks(s, work.block_of_row);
   auto cell_of = [&](Point p) {
     return work.block_of_row[p / kLanes] * kLanes + static_cast<int>(p % kLanes);
   };
@@ -128,7 +125,7 @@ std::size_t count_parts(const System& s, std::size_t n_group) {
 template <class F>
 void for_each_point(const System& s, const std::vector<int>& group, F f) {
   const std::size_t n_part = count_parts(s, 1);
-#pragma omp parallel for schedule(static) if (s.n_row > kParallelRows)
+#pragma omp parallel for schedule(static) if (worth_threads(s))
   for (std::size_t k = 0; k < n_part; ++k)
     for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part, f);
 }
@@ -139,7 +136,7 @@ void sum_over_points(const System& s, const std::vector<int>& group, std::vector
                      F f) {
   const std::size_t n_part = count_parts(s, groups.size());
   std::vector<std::vector<Group>> part(n_part, std::vector<Group>(groups.size()));
-#pragma omp parallel for schedule(static) if (s.n_row > kParallelRows)
+#pragma omp parallel for schedule(static) if (worth_threads(s))
   for (std::size_t k = 0; k < n_part; ++k)
     for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
                    [&](Address a, std::size_t g) { f(a, groups[g], part[k][g]); });
