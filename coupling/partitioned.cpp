@@ -6,7 +6,7 @@
 
 namespace acinus::coupling {
 
-solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const double> b,
+solve::CgResult solve_partitioned(solve::Operator& op, std::span<const double> b,
                                   std::span<double> x, std::size_t n_dcm_block,
                                   const solve::CgOptions& options, solve::CgWorkspace& work) {
   constexpr int kMaxExchanges = 2000;

@@ -12,7 +12,7 @@ namespace acinus::coupling {
 /// deformable cells frozen; what each sees of the other is the interface links' force. Stops when
 /// the remaining imbalance is below a hundred times the tolerance, relative to the right-hand side.
 /// @param n_dcm_block  blocks [0, n_dcm_block) are deformable, the rest spheres
-solve::CgResult solve_partitioned(const solve::Operator& op, std::span<const double> b,
+solve::CgResult solve_partitioned(solve::Operator& op, std::span<const double> b,
                                   std::span<double> x, std::size_t n_dcm_block,
                                   const solve::CgOptions& options, solve::CgWorkspace& work);
 

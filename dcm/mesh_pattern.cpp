@@ -22,6 +22,7 @@ const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& t, const Pa
     if (std::get<1>(key))
       for (const auto& h : t.hinge) entry->wing.push_back({h[0], h[1]});
     if (std::get<2>(key)) entry->face = t.triangle;
+    solve::index_springs(*entry);
   }
   return *entry;
 }

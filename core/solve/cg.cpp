@@ -14,6 +14,8 @@ constexpr double kAim = 0.9;
 constexpr int kMaxPasses = 20;
 /// A pass that leaves more than this share of the residual has reached what its numbers can do.
 constexpr double kLeastGain = 0.5;
+/// A solve that took this many iterations is likely to take as many more.
+constexpr int kMergeAfter = 10;
 /// Relative residual at which a solve that rounding stopped counts as solved all the same.
 constexpr double kHarmless = 1e-3;
 
@@ -46,7 +48,7 @@ enum class PassEnd { kReached, kBrokeDown, kOutOfIterations };
 /// Iterates on A e = residual / size from e = 0 until sqrt(r . z) <= goal. The scale keeps floats
 /// away from underflow.
 template <class T>
-PassEnd run_pass(const Operator& op, std::span<const double> residual, double size, double goal,
+PassEnd run_pass(Operator& op, std::span<const double> residual, double size, double goal,
                  const CgOptions& options, bool whole, BlockRange range, const CoarseSpace* coarse,
                  int& iterations, CgVectors<T>& v) {
   const std::size_t n = residual.size();
@@ -63,7 +65,7 @@ PassEnd run_pass(const Operator& op, std::span<const double> residual, double si
   std::ranges::copy(v.preconditioned, v.direction.begin());
   while (std::sqrt(size2) > goal) {
     if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
-    ++iterations;
+    if (++iterations == kMergeAfter) op.merge_links();
     // outside the range the direction is zero
     const double curvature = apply_distributed(op, v.direction, v.product);
     if (!whole) restrict_to(op.system(), range, v.product);
@@ -86,7 +88,7 @@ void add_correction(double size, const std::vector<T>& correction, std::span<dou
 
 }  // namespace
 
-CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
+CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
                   const CgOptions& options, CgWorkspace& work, BlockRange range,
                   const CoarseSpace* coarse) {
   const std::size_t n = b.size();

@@ -59,7 +59,7 @@ struct BlockRange {
 /// is then b - A x_rest within the range.
 /// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
 ///                The stop is measured with the diagonal blocks either way.
-CgResult solve_cg(const Operator& op, std::span<const double> b, std::span<double> x,
+CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
                   const CgOptions& options, CgWorkspace& work, BlockRange range = {},
                   const CoarseSpace* coarse = nullptr);
 

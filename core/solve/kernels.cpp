@@ -1,5 +1,7 @@
 #include "core/solve/kernels.hpp"
 
+#include <type_traits>
+
 namespace acinus::solve {
 namespace {
 
@@ -28,19 +30,25 @@ ACINUS_INLINE Lane3Of<T> load_packed(const Packed<T>* from) {
 }
 
 /// Springs with the hinge about each, in one sweep: they share two of their points.
-template <class T, bool kHinges>
+template <class T, bool kHinges, bool kMerged>
 ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
   const auto& spring = b.pattern->spring;
-  const float* e = b.spring;
+  const float* e = kMerged ? b.edge : b.spring;
   const float* h = b.hinge;
   for (std::size_t k = 0; k < spring.size(); ++k) {
     const int i = spring[k][0] * kPointStride, j = spring[k][1] * kPointStride;
     const Lane3Of<T> xj = load3<T>(x + j);
     const Lane3Of<T> r = xj - load3<T>(x + i);
-    const Lane3Of<T> u = load3<T>(e);
-    const LaneOf<T> along = load<T>(e + 3 * kLanes) * dot(u, r);
-    const Lane3Of<T> f = along * u + load<T>(e + 4 * kLanes) * r;
-    e += kSpringStride;
+    Lane3Of<T> f;
+    if constexpr (kMerged) {
+      f = sym_times(e, r);
+      e += kEdgeStride;
+    } else {
+      const Lane3Of<T> u = load3<T>(e);
+      const LaneOf<T> along = load<T>(e + 3 * kLanes) * dot(u, r);
+      f = along * u + load<T>(e + 4 * kLanes) * r;
+      e += kSpringStride;
+    }
     if constexpr (kHinges) {
       const int p = b.pattern->wing[k][0] * kPointStride, q = b.pattern->wing[k][1] * kPointStride;
       const Lane3Of<T> g1 = load3<T>(h), g2 = load3<T>(h + 3 * kLanes),
@@ -89,10 +97,16 @@ ACINUS_INLINE double multiply(const BlockView& b, const T* x, const Packed<T>* c
       along[k] += dot(load3<T>(b.vector[k] + i * kPointStride), xi);
   }
   for (std::size_t k = 0; k < b.n_family; ++k) along[k] *= load<T>(b.coefficient[k]);
-  if (b.pattern->wing.empty())
-    add_edges<T, false>(b, x, y);
-  else
-    add_edges<T, true>(b, x, y);
+  if (std::is_same_v<T, float> && b.edge) {
+    if (b.pattern->wing.empty())
+      add_edges<T, false, true>(b, x, y);
+    else
+      add_edges<T, true, true>(b, x, y);
+  } else if (b.pattern->wing.empty()) {
+    add_edges<T, false, false>(b, x, y);
+  } else {
+    add_edges<T, true, false>(b, x, y);
+  }
   add_faces(b, x, y);
   LaneOf<T> product = {};
   for (int i = 0; i < n_point; ++i) {
@@ -153,11 +167,12 @@ ACINUS_INLINE void redirect(const T* z, double b, T* p, std::size_t n) {
 
 }  // namespace
 
-BlockView view_block(const System& s, std::size_t b) {
+BlockView view_block(const System& s, std::size_t b, const float* edge) {
   const Block& block = s.block[b];
   BlockView view{block.pattern,
                  s.medium.data() + block.first_row * kLanes,
                  s.spring.data() + block.first_spring * kSpringStride,
+                 edge ? edge + block.first_spring * kEdgeStride : nullptr,
                  s.hinge.data() + block.first_hinge * kHingeStride,
                  s.face.data() + block.first_face * kFaceStride,
                  s.friction_scale,

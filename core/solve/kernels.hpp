@@ -14,6 +14,7 @@ struct BlockView {
   const BlockPattern* pattern;
   const double* medium;  ///< [n_point][lane]
   const float* spring;
+  const float* edge;  ///< springs with merged contacts; null: spring, and no contacts
   const float* hinge;
   const float* face;
   double friction_scale;
@@ -21,7 +22,8 @@ struct BlockView {
   std::array<const double*, kMaxFamilies> vector{};       ///< [n_point][3][lane]
   std::array<const double*, kMaxFamilies> coefficient{};  ///< [lane]
 };
-BlockView view_block(const System& system, std::size_t block);
+/// @param edge  of MergedLinks, or null
+BlockView view_block(const System& system, std::size_t block, const float* edge = nullptr);
 
 /// y = A x of everything within the cells, plus what contacts add; returns x . y.
 /// @param contact [n_point][lane] force of the contacts on each point

@@ -95,23 +95,12 @@ ACINUS_INLINE void multiply_all(const LinkSet<L>& set, const LinkScales& scales,
   for (const Share s : set.share) multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
 }
 
-/// stiffness n n^T + friction I.
-ACINUS_INLINE DiagonalBlock block_of(const std::array<float, 3>& n, float k, float f) {
-  return {k * n[0] * n[0] + f,
-          k * n[0] * n[1],
-          k * n[0] * n[2],
-          k * n[1] * n[1] + f,
-          k * n[1] * n[2],
-          k * n[2] * n[2] + f,
-          0,
-          0};
-}
-ACINUS_INLINE void add_block(DiagonalBlock* to, Point p, float w, const DiagonalBlock& m) {
+ACINUS_INLINE void add_block(SymBlock* to, Point p, float w, const SymBlock& m) {
   float* at = to[p].data();
   const float w2 = w * w;
   for (std::size_t k = 0; k < 8; ++k) at[k] += w2 * m[k];
 }
-ACINUS_INLINE void add_side(DiagonalBlock* to, const Side& s, const DiagonalBlock& m) {
+ACINUS_INLINE void add_side(SymBlock* to, const Side& s, const SymBlock& m) {
   if (is_single(s)) {
     add_block(to, s.point[2], 1, m);
     return;
@@ -121,17 +110,13 @@ ACINUS_INLINE void add_side(DiagonalBlock* to, const Side& s, const DiagonalBloc
   add_block(to, s.point[1], w1, m);
   add_block(to, s.point[2], 1 - w0 - w1, m);
 }
-ACINUS_INLINE void add_side(DiagonalBlock* to, Point p, const DiagonalBlock& m) {
-  add_block(to, p, 1, m);
-}
+ACINUS_INLINE void add_side(SymBlock* to, Point p, const SymBlock& m) { add_block(to, p, 1, m); }
 
 template <class L>
-ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scales,
-                                   DiagonalBlock* d) {
-  const auto k = static_cast<float>(scales.stiffness), g = static_cast<float>(scales.friction);
+ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scales, SymBlock* d) {
   for (const Share s : set.share) {
     const L& l = set.link[s.link];
-    const DiagonalBlock m = block_of(l.normal, k * l.stiffness, g * l.friction);
+    const SymBlock m = matrix_of(l, scales);
     if (s.a) add_side(d, l.a, m);
     if (s.b && exists(l)) add_side(d, l.b, m);
   }
@@ -173,6 +158,29 @@ ACINUS_KERNEL void multiply_links(const LinkSet<PointLink>& set, LinkScales scal
   multiply_all(set, scales, x, y);
 }
 
+ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, std::span<const Share> share,
+                                  const Packed<float>* x, Packed<float>* y) {
+  using Eight = float __attribute__((vector_size(32)));
+  for (const Share s : share) {
+    const PointPairs::Row row = pairs.row[s.link];
+    const Four<float> xa = load4(x, row.a);
+    Four<float> sum = {};
+    for (std::uint32_t k = row.first; k < row.last; ++k) {
+      const Point b = pairs.b[k];
+      const Four<float> r = xa - load4(x, b);
+      Eight m;
+      __builtin_memcpy(&m, pairs.block[k].data(), sizeof(m));
+      // The columns of the block; what they hold in the fourth place nobody reads.
+      const Four<float> f = r[0] * __builtin_shufflevector(m, m, 0, 1, 2, 6) +
+                            r[1] * __builtin_shufflevector(m, m, 1, 3, 4, 6) +
+                            r[2] * __builtin_shufflevector(m, m, 2, 4, 5, 6);
+      sum += f;
+      if (s.b) add4(y, b, -f);
+    }
+    if (s.a) add4(y, row.a, sum);
+  }
+}
+
 void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
                 Packed<double>* y) {
   for (const Share s : set.share) {
@@ -185,11 +193,10 @@ void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool e
   }
 }
 
-ACINUS_KERNEL void add_diagonal(const LinkSet<Link>& set, LinkScales scales, DiagonalBlock* d) {
+ACINUS_KERNEL void add_diagonal(const LinkSet<Link>& set, LinkScales scales, SymBlock* d) {
   add_diagonal_of(set, scales, d);
 }
-ACINUS_KERNEL void add_diagonal(const LinkSet<PointLink>& set, LinkScales scales,
-                                DiagonalBlock* d) {
+ACINUS_KERNEL void add_diagonal(const LinkSet<PointLink>& set, LinkScales scales, SymBlock* d) {
   add_diagonal_of(set, scales, d);
 }
 

@@ -13,7 +13,7 @@ namespace acinus::solve {
 template <class T>
 using Packed = std::array<T, 4>;
 
-/// A contact as one thread sees it: which of its sides it owns.
+/// A contact, or a row of pairs, as one thread sees it: which of its sides it owns.
 struct Share {
   std::uint32_t link : 30;
   std::uint32_t a : 1, b : 1;
@@ -45,10 +45,63 @@ void multiply_links(const LinkSet<PointLink>& set, LinkScales scales, const Pack
 void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
                 Packed<double>* y);
 
-/// xx, xy, xz, yy, yz, zz of a point's diagonal block, and two unused.
-using DiagonalBlock = std::array<float, 8>;
-void add_diagonal(const LinkSet<Link>& set, LinkScales scales, DiagonalBlock* diagonal);
-void add_diagonal(const LinkSet<PointLink>& set, LinkScales scales, DiagonalBlock* diagonal);
+/// Whether a contact adds to the matrix at all.
+template <class L>
+bool has_matrix(const L& l, double stiffness_scale) {
+  return stiffness_scale * static_cast<double>(l.stiffness) > 0 || l.friction > 0;
+}
+
+/// xx, xy, xz, yy, yz, zz of a symmetric 3x3 block, and two zeros.
+using SymBlock = std::array<float, 8>;
+
+/// Matrix of a contact: stiffness n n^T + friction I.
+template <class L>
+ACINUS_INLINE SymBlock matrix_of(const L& l, LinkScales scales) {
+  const float k = static_cast<float>(scales.stiffness) * l.stiffness,
+              f = static_cast<float>(scales.friction) * l.friction;
+  const auto& n = l.normal;
+  return {k * n[0] * n[0] + f,
+          k * n[0] * n[1],
+          k * n[0] * n[2],
+          k * n[1] * n[1] + f,
+          k * n[1] * n[2],
+          k * n[2] * n[2] + f,
+          0,
+          0};
+}
+
+/// Blocks between pairs of points, by first point: the force on b is block (x_a - x_b), on a minus
+/// that.
+struct PointPairs {
+  /// The pairs of one point.
+  struct Row {
+    Point a = 0;
+    std::uint32_t first = 0, last = 0;  ///< of b and block
+  };
+  std::vector<Row> row;
+  std::vector<Point> b;
+  std::vector<SymBlock> block;
+
+  void clear() {
+    row.clear();
+    b.clear();
+    block.clear();
+  }
+  void append(const PointPairs& more) {
+    const auto offset = static_cast<std::uint32_t>(b.size());
+    for (const Row& r : more.row) row.push_back({r.a, r.first + offset, r.last + offset});
+    b.insert(b.end(), more.b.begin(), more.b.end());
+    block.insert(block.end(), more.block.begin(), more.block.end());
+  }
+};
+
+/// Adds the forces of the pairs, for the rows of a share and on the points it owns: all second
+/// points of a row belong to one cell.
+void multiply_pairs(const PointPairs& pairs, std::span<const Share> share, const Packed<float>* x,
+                    Packed<float>* y);
+
+void add_diagonal(const LinkSet<Link>& set, LinkScales scales, SymBlock* diagonal);
+void add_diagonal(const LinkSet<PointLink>& set, LinkScales scales, SymBlock* diagonal);
 
 /// Lane layout to packed points and back; n_row rows of eight points.
 void pack_points(const double* from, std::size_t n_row, Packed<double>* to);

@@ -5,17 +5,24 @@
 #include <algorithm>
 
 #include "core/solve/kernels.hpp"
+#include "core/solve/row_blocks.hpp"
 #include "core/solve/threads.hpp"
 
 namespace acinus::solve {
+namespace {
+
+std::size_t first_point(const System& s, std::size_t block) {
+  return (block < s.block.size() ? s.block[block].first_row : s.n_row) * kLanes;
+}
+
+}  // namespace
+
 template <class T>
 Operator::PackedVectors<T> Operator::packed() const {
   auto* x = reinterpret_cast<Packed<T>*>(scratch_.data());
   return {x, x + system_->n_row * kLanes};
 }
-DiagonalBlock* Operator::diagonal() const {
-  return reinterpret_cast<DiagonalBlock*>(scratch_.data());
-}
+SymBlock* Operator::diagonal() const { return reinterpret_cast<SymBlock*>(scratch_.data()); }
 
 template <class F>
 void Operator::for_each_range(F f) {
@@ -62,16 +69,12 @@ void Operator::divide() {
 /// Finds the contacts of each range: all of them, or those with a matrix.
 void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
-  auto first_point = [&](std::size_t block) {
-    return (block < s.block.size() ? s.block[block].first_row : s.n_row) * kLanes;
-  };
   // Every thread picks out its own: reading all contacts is cheaper than sorting them.
   for_each_range([&](Range& range) {
-    const std::size_t from = first_point(range.first_block), to = first_point(range.last_block);
+    const std::size_t from = first_point(s, range.first_block),
+                      to = first_point(s, range.last_block);
     auto owns = [&](Point p) { return p >= from && p < to; };
-    auto pick = [&](std::size_t l, Point at_a, Point at_b, float k, float g,
-                    std::vector<Share>& mine) {
-      if (with_matrix && !(s.stiffness_scale * static_cast<double>(k) > 0 || g > 0)) return;
+    auto pick = [&](std::size_t l, Point at_a, Point at_b, std::vector<Share>& mine) {
       const bool a = owns(at_a), b = owns(at_b);
       if (a || b) mine.push_back({static_cast<std::uint32_t>(l), a, b});
     };
@@ -79,30 +82,54 @@ void Operator::share_links(bool with_matrix) {
     range.point_link.clear();
     for (std::size_t l = 0; l < s.links.size(); ++l) {
       const Link& k = s.links.link[l];
-      pick(l, k.a.point[0], k.b.point[0], k.stiffness, k.friction, range.link);
+      if (!with_matrix || has_matrix(k, s.stiffness_scale))
+        pick(l, k.a.point[0], k.b.point[0], range.link);
     }
     for (std::size_t l = 0; l < s.point_links.size(); ++l) {
       const PointLink& k = s.point_links[l];
-      pick(l, k.a, k.b, k.stiffness, k.friction, range.point_link);
+      if (!with_matrix || has_matrix(k, s.stiffness_scale)) pick(l, k.a, k.b, range.point_link);
     }
   });
+}
+
+void Operator::merge_links(bool again) {
+  if (merged_ && !again) return;
+  const System& s = *system_;
+  find_row_blocks(s, block_of_row_);
+  merger_.merge(s, block_of_row_, merge_);
+  const PointPairs& pairs = merge_.pairs;
+  for_each_range([&](Range& range) {
+    const std::size_t from = first_point(s, range.first_block),
+                      to = first_point(s, range.last_block);
+    auto owns = [&](Point p) { return p >= from && p < to; };
+    range.single.clear();
+    for (const Share l : range.link)
+      if (!is_merged(s, block_of_row_, s.links.link[l.link])) range.single.push_back(l);
+    range.pair.clear();
+    for (std::size_t k = 0; k < pairs.row.size(); ++k) {
+      const PointPairs::Row& row = pairs.row[k];
+      const bool a = owns(row.a), b = owns(pairs.b[row.first]);
+      if (a || b) range.pair.push_back({static_cast<std::uint32_t>(k), a, b});
+    }
+  });
+  merged_ = true;
 }
 
 void Operator::compute_diagonal() {
   const System& s = *system_;
   inverse_.resize(s.n_row * kSymStride);
-  DiagonalBlock* const diagonal_blocks = diagonal();
+  SymBlock* const diagonal_blocks = diagonal();
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-      std::fill_n(diagonal_blocks + row * kLanes, n * kLanes, DiagonalBlock{});
+      std::fill_n(diagonal_blocks + row * kLanes, n * kLanes, SymBlock{});
     });
     add_diagonal(links_of(range), scales, diagonal_blocks);
     add_diagonal(point_links_of(range), scales, diagonal_blocks);
     std::vector<double> d;
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
       d.resize(n * kSymStride);
-      const DiagonalBlock* from = diagonal_blocks + row * kLanes;
+      const SymBlock* from = diagonal_blocks + row * kLanes;
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t c = 0; c < 6; ++c)
           for (std::size_t l = 0; l < kLanes; ++l)
@@ -123,6 +150,7 @@ void Operator::start(const System& system) {
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
+  merged_ = false;
   external_.clear();
   external_point_.clear();
   for (std::size_t l = 0; l < system.links.size(); ++l)
@@ -151,10 +179,18 @@ double Operator::apply(In<T> x, Out<T> y) const {
   });
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const Range& range) {
-    multiply_links(links_of(range), scales, work.x, work.y);
+    const float* edge = nullptr;
+    if constexpr (std::is_same_v<T, float>) {
+      if (merged_) {
+        edge = merge_.edge.data();
+        multiply_pairs(merge_.pairs, range.pair, work.x, work.y);
+      }
+    }
+    multiply_links(LinkSet<Link>{s.links.link, edge ? range.single : range.link}, scales, work.x,
+                   work.y);
     multiply_links(point_links_of(range), scales, work.x, work.y);
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
-      partial_[b] = multiply_block(view_block(s, b), x.data() + row * kPointStride,
+      partial_[b] = multiply_block(view_block(s, b, edge), x.data() + row * kPointStride,
                                    work.y + row * kLanes, y.data() + row * kPointStride);
     });
   });

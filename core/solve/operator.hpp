@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/solve/link_kernels.hpp"
+#include "core/solve/merged_links.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::solve {
@@ -30,6 +31,11 @@ class Operator {
   /// y = A x; returns x . y.
   template <class T = double>
   double apply(In<T> x, Out<T> y) const;
+
+  /// Makes further products in float cheaper: contacts are merged into pairs of points (see
+  /// merged_links.hpp). Costs as much as some ten products save. Changes products by rounding only.
+  /// @param again  merge even if that was done since prepare
+  void merge_links(bool again = false);
 
   /// z = D^-1 r with the 3x3 diagonal blocks of A; returns r . D^-1 r. z may be empty.
   template <class T = double>
@@ -64,6 +70,7 @@ class Operator {
   struct Range {
     std::size_t first_block = 0, last_block = 0;
     std::vector<Share> link, point_link;
+    std::vector<Share> single, pair;  ///< in float: links that are not merged, and rows of pairs
   };
   /// Two vectors on packed points, [n_point] each; scratch of a product.
   template <class T>
@@ -72,7 +79,7 @@ class Operator {
   };
   template <class T>
   PackedVectors<T> packed() const;
-  DiagonalBlock* diagonal() const;
+  SymBlock* diagonal() const;
   void start(const System& system);
   void divide();
   void share_links(bool with_matrix);
@@ -90,6 +97,10 @@ class Operator {
 
   const System* system_ = nullptr;
   std::vector<Range> range_;
+  bool merged_ = false;  ///< products in float use merge_
+  std::vector<int> block_of_row_;
+  LinkMerger merger_;
+  MergedLinks merge_;
   std::vector<std::uint32_t> external_, external_point_;  ///< links with surroundings
   std::vector<float> inverse_;                            ///< [n_row][6][lane]
   mutable std::vector<double> partial_;                   ///< [n_block] scratch of a dot product

@@ -26,13 +26,29 @@ struct BlockPattern {
   /// [n_spring] the other two points of the hinge about each spring; empty: no hinges
   std::vector<std::array<int, 2>> wing;
   std::vector<std::array<int, 3>> face;
+  /// Springs of each point, where all sides of contacts have springs between their points (faces of
+  /// a mesh): {other point, spring}, from first_spring_of[point]; empty: not known. Made by
+  /// index_springs.
+  std::vector<std::array<int, 2>> spring_of{};
+  std::vector<std::size_t> first_spring_of{};
 };
+
+/// Fills spring_of and first_spring_of.
+void index_springs(BlockPattern& pattern);
+
+/// The spring between two points. @pre index_springs, and the spring exists
+inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
+  std::size_t k = p.first_spring_of[static_cast<std::size_t>(i)];
+  while (p.spring_of[k][0] != j) ++k;
+  return static_cast<std::size_t>(p.spring_of[k][1]);
+}
 
 /// Floats of one element, all eight lanes.
 inline constexpr int kSpringStride =
     5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
 /// g on wing 0, wing 1 and spring point 0; on spring point 1 minus their sum: matrix g g^T
 inline constexpr int kHingeStride = 9 * kLanes;
+inline constexpr int kEdgeStride = 6 * kLanes;  ///< xx xy xz yy yz zz: a spring's matrix in full
 inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
 
 /// Eight cells with one pattern.

@@ -75,6 +75,8 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   const double prepare = time_us([&] { w.op.prepare(w.system); });
   const double product_double = time_us([&] { w.op.apply(x, y); });
   const double product = time_us([&] { w.op.apply<float>(xf, yf); });
+  const double merge = time_us([&] { w.op.merge_links(true); });
+  const double product_merged = time_us([&] { w.op.apply<float>(xf, yf); });
   const double narrow = time_us([&] {
     dcm::find_contacts(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, 0, w.dcm);
   });
@@ -101,6 +103,8 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
                {{"us_per_cell", within / cells},
                 {"bytes_per_cell", bytes},
                 {"product_us_per_cell", product / cells},
+                {"merge_contacts_us_per_cell", merge / cells},
+                {"product_merged_us_per_cell", product_merged / cells},
                 {"product_without_contacts_us_per_cell", product_alone / cells},
                 {"product_double_us_per_cell", product_double / cells},
                 {"contacts_per_cell", links / cells},

@@ -1,0 +1,252 @@
+#include "core/solve/merged_links.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/solve/threads.hpp"
+
+namespace acinus::solve {
+namespace {
+
+bool is_single(const Side& s) { return s.point[0] == s.point[2]; }
+
+int block_of(const std::vector<int>& block_of_row, Point p) { return block_of_row[p / kLanes]; }
+
+std::uint64_t cell_of(const std::vector<int>& block_of_row, Point p) {
+  return static_cast<std::uint64_t>(block_of(block_of_row, p)) * kLanes + p % kLanes;
+}
+
+bool is_same(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
+  return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
+/// Of a single point, the third weight is the one that counts.
+std::array<float, 3> weights_of(const Side& s) {
+  return {s.weight[0], s.weight[1], 1 - s.weight[0] - s.weight[1]};
+}
+
+ACINUS_INLINE void add_scaled(SymBlock& to, float w, const SymBlock& m) {
+  for (std::size_t k = 0; k < m.size(); ++k) to[k] += w * m[k];
+}
+
+std::size_t count_threads(const System& s) {
+  return worth_threads(s) && !omp_in_parallel() ? static_cast<std::size_t>(omp_get_max_threads())
+                                                : 1;
+}
+
+/// Where the points of a cell are: number k of the cell is point first + k * kLanes.
+struct CellPoints {
+  Point first = 0;
+  std::size_t n = 0;
+};
+CellPoints points_of(const System& s, std::uint64_t cell) {
+  const Block& b = s.block[cell / kLanes];
+  return {static_cast<Point>(b.first_row * kLanes + cell % kLanes),
+          static_cast<std::size_t>(b.pattern->n_point)};
+}
+
+/// Pairs of points of one pair of cells.
+class PairTable {
+ public:
+  /// Starts anew.
+  void start(CellPoints a, CellPoints b) {
+    for (const auto& p : pair_) slot_[p[0] * b_.n + p[1]] = 0;
+    pair_.clear();
+    block_.clear();
+    a_ = a;
+    b_ = b;
+    if (slot_.size() < a.n * b.n) slot_.resize(a.n * b.n, 0);
+  }
+  void add(const Side& a, const Side& b, const SymBlock& m) {
+    const auto w = weights_of(a), v = weights_of(b);
+    const std::size_t first_a = is_single(a) ? 2 : 0, first_b = is_single(b) ? 2 : 0;
+    for (std::size_t i = first_a; i < 3; ++i) {
+      const std::uint32_t at_a = (a.point[i] - a_.first) / kLanes;
+      for (std::size_t j = first_b; j < 3; ++j) {
+        const std::uint32_t at_b = (b.point[j] - b_.first) / kLanes;
+        std::uint32_t& slot = slot_[at_a * b_.n + at_b];
+        if (slot == 0) {
+          pair_.push_back({at_a, at_b});
+          block_.push_back({});
+          slot = static_cast<std::uint32_t>(pair_.size());
+        }
+        add_scaled(block_[slot - 1], w[i] * v[j], m);
+      }
+    }
+  }
+  /// Appends what was found, row by row.
+  void emit(PointPairs& out) {
+    next_.assign(a_.n + 1, 0);
+    for (const auto& p : pair_) ++next_[p[0] + 1];
+    next_[0] = static_cast<std::uint32_t>(out.b.size());
+    for (std::size_t i = 0; i < a_.n; ++i) {
+      const std::uint32_t n = next_[i + 1];
+      next_[i + 1] += next_[i];
+      if (n > 0)
+        out.row.push_back({static_cast<Point>(a_.first + i * kLanes), next_[i], next_[i + 1]});
+    }
+    out.b.resize(out.b.size() + pair_.size());
+    out.block.resize(out.b.size());
+    for (std::size_t k = 0; k < pair_.size(); ++k) {
+      const std::uint32_t to = next_[pair_[k][0]]++;
+      out.b[to] = b_.first + pair_[k][1] * kLanes;
+      out.block[to] = block_[k];
+    }
+  }
+
+ private:
+  CellPoints a_, b_;
+  std::vector<std::uint32_t> slot_;  ///< [n_a][n_b] 1 + number of the pair; 0: none
+  std::vector<std::array<std::uint32_t, 2>> pair_;
+  std::vector<SymBlock> block_;
+  std::vector<std::uint32_t> next_;
+};
+
+/// The springs between the points of a face, 01 02 12, and which face that is.
+struct FaceSprings {
+  std::array<Point, 3> point{kNowhere, kNowhere, kNowhere};
+  std::array<std::size_t, 3> spring{};
+
+  void find(const BlockPattern& pattern, std::size_t first_row, const std::array<Point, 3>& p) {
+    if (is_same(p, point)) return;
+    point = p;
+    auto number = [&](std::size_t k) { return static_cast<int>(p[k] / kLanes - first_row); };
+    spring = {find_spring(pattern, number(0), number(1)),
+              find_spring(pattern, number(0), number(2)),
+              find_spring(pattern, number(1), number(2))};
+  }
+};
+
+/// Springs of one block as full symmetric blocks, with what contacts add to them.
+ACINUS_KERNEL void write_edges(std::size_t n_spring, const float* spring, const SymBlock* sum,
+                               float* edge) {
+  for (std::size_t k = 0; k < n_spring; ++k, sum += kLanes) {
+    const auto u = load3<float>(spring);
+    const auto a = load<float>(spring + 3 * kLanes), c = load<float>(spring + 4 * kLanes);
+    const LaneOf<float> own[6] = {a * u.x * u.x + c, a * u.x * u.y, a * u.x * u.z,
+                                  a * u.y * u.y + c, a * u.y * u.z, a * u.z * u.z + c};
+    for (std::size_t e = 0; e < 6; ++e) {
+      LaneOf<float> more;
+      for (std::size_t l = 0; l < kLanes; ++l) more[l] = sum[l][e];
+      store(edge + e * kLanes, own[e] + more);
+    }
+    spring += kSpringStride;
+    edge += kEdgeStride;
+  }
+}
+
+}  // namespace
+
+bool is_merged(const System& s, const std::vector<int>& block_of_row, const Link& l) {
+  auto on_mesh = [&](const Side& side) {
+    const auto b = static_cast<std::size_t>(block_of(block_of_row, side.point[0]));
+    return !s.block[b].pattern->spring_of.empty();
+  };
+  return l.b.exists() && !is_single(l.a) && on_mesh(l.a) && (is_single(l.b) || on_mesh(l.b));
+}
+
+/// Finds contacts in a row that join the same cells, and sorts them by pairs of cells.
+void LinkMerger::find_runs(const System& s, const std::vector<int>& block_of_row) {
+  run_.clear();
+  bool open = false;
+  for (std::size_t l = 0; l < s.links.size(); ++l) {
+    const Link& k = s.links.link[l];
+    if (!is_merged(s, block_of_row, k)) {
+      open = false;
+      continue;
+    }
+    const std::uint64_t a = cell_of(block_of_row, k.a.point[0]),
+                        b = cell_of(block_of_row, k.b.point[0]);
+    const std::uint64_t cells = std::min(a, b) << 32 | std::max(a, b);
+    const auto i = static_cast<std::uint32_t>(l);
+    if (open && run_.back().cells == cells && run_.back().swapped == (a > b))
+      run_.back().last = i + 1;
+    else
+      run_.push_back({cells, i, i + 1, a > b});
+    open = true;
+  }
+  std::ranges::stable_sort(run_, {}, &Run::cells);
+  group_.clear();
+  for (std::size_t k = 0; k < run_.size(); ++k)
+    if (k == 0 || run_[k].cells != run_[k - 1].cells) group_.push_back(k);
+  group_.push_back(run_.size());
+}
+
+void LinkMerger::add_across(const System& s, PointPairs& pairs) {
+  const std::size_t n_part = count_threads(s), n_group = group_.size() - 1;
+  part_.resize(n_part - 1);
+  const LinkScales scales{s.stiffness_scale, s.friction_scale};
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
+  for (std::size_t part = 0; part < n_part; ++part) {
+    PointPairs& out = part == 0 ? pairs : part_[part - 1];
+    out.clear();
+    PairTable table;
+    for (std::size_t g = part * n_group / n_part; g < (part + 1) * n_group / n_part; ++g) {
+      const std::uint64_t cells = run_[group_[g]].cells;
+      table.start(points_of(s, cells >> 32), points_of(s, cells & 0xffffffff));
+      for (std::size_t k = group_[g]; k < group_[g + 1]; ++k)
+        for (std::size_t l = run_[k].first; l < run_[k].last; ++l) {
+          const Link& link = s.links.link[l];
+          if (!has_matrix(link, s.stiffness_scale)) continue;
+          const SymBlock m = matrix_of(link, scales);
+          if (run_[k].swapped)
+            table.add(link.b, link.a, m);
+          else
+            table.add(link.a, link.b, m);
+        }
+      table.emit(out);
+    }
+  }
+  for (const PointPairs& p : part_) pairs.append(p);
+}
+
+void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
+  const std::size_t n_block = s.block.size();
+  edge.resize(s.spring.size() / kSpringStride * kEdgeStride);
+  end_.clear();
+  for (std::uint32_t k = 0; k < run_.size(); ++k) {
+    const std::uint64_t low = run_[k].cells >> 32, high = run_[k].cells & 0xffffffff;
+    end_.push_back({static_cast<std::uint32_t>(low / kLanes), k, run_[k].swapped});
+    end_.push_back({static_cast<std::uint32_t>(high / kLanes), k, !run_[k].swapped});
+  }
+  std::ranges::stable_sort(end_, {}, &End::block);
+
+  const LinkScales scales{s.stiffness_scale, s.friction_scale};
+  const std::size_t n_part = count_threads(s);
+#pragma omp parallel num_threads(static_cast <int>(n_part)) if (n_part > 1)
+  {
+    std::vector<SymBlock> sum;
+#pragma omp for schedule(static)
+    for (std::size_t b = 0; b < n_block; ++b) {
+      const Block& block = s.block[b];
+      sum.assign(block.pattern->spring.size() * kLanes, {});
+      FaceSprings face;
+      for (const End& end : std::ranges::equal_range(end_, b, {}, &End::block))
+        for (std::uint32_t k = run_[end.run].first; k < run_[end.run].last; ++k) {
+          const Link& l = s.links.link[k];
+          const Side& side = end.is_b ? l.b : l.a;
+          if (is_single(side) || !has_matrix(l, s.stiffness_scale)) continue;
+          face.find(*block.pattern, block.first_row, side.point);
+          const SymBlock m = matrix_of(l, scales);
+          const auto w = weights_of(side);
+          const std::size_t lane = side.point[0] % kLanes;
+          add_scaled(sum[face.spring[0] * kLanes + lane], -w[0] * w[1], m);
+          add_scaled(sum[face.spring[1] * kLanes + lane], -w[0] * w[2], m);
+          add_scaled(sum[face.spring[2] * kLanes + lane], -w[1] * w[2], m);
+        }
+      write_edges(block.pattern->spring.size(),
+                  s.spring.data() + block.first_spring * kSpringStride, sum.data(),
+                  edge.data() + block.first_spring * kEdgeStride);
+    }
+  }
+}
+
+void LinkMerger::merge(const System& s, const std::vector<int>& block_of_row, MergedLinks& out) {
+  find_runs(s, block_of_row);
+  add_across(s, out.pairs);
+  add_within(s, out.edge);
+}
+
+}  // namespace acinus::solve
