@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "coupling/step.hpp"
@@ -82,9 +82,13 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], reference_volume(cell), force, arm);
   };
-  std::set<std::pair<std::size_t, std::size_t>> touching;
-  auto touch = [&](std::size_t a, std::size_t b) {
-    touching.insert({std::min(a, b), std::max(a, b)});
+  /// nN, of every pair in contact, on the first; and of all surroundings on each cell
+  std::map<std::pair<std::size_t, std::size_t>, Vec3> pair_force;
+  std::vector<Vec3> wall_force(cells.size(), Vec3::Zero());
+  auto touch = [&](std::size_t a, std::size_t b, const Vec3& force_on_a) {
+    Vec3& sum =
+        pair_force.try_emplace({std::min(a, b), std::max(a, b)}, Vec3::Zero()).first->second;
+    sum += a < b ? force_on_a : Vec3(-force_on_a);
   };
   // assemble() adds links in this order: surface contacts, obstacles, interface
   auto force_of = [&](std::size_t l) -> Vec3 {
@@ -99,13 +103,17 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
         w.dcm.body[a],
         contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
     press(a, force_of(k), x - cells[a].center);
-    if (b >= n_body) continue;
+    if (b >= n_body) {
+      wall_force[a] += force_of(k);
+      continue;
+    }
     press(b, -force_of(k), x - c.gap * c.normal - cells[b].center);
-    if (a != b && force_of(k).squaredNorm() > 0) touch(a, b);
+    if (a != b && force_of(k).squaredNorm() > 0) touch(a, b, force_of(k));
   }
   for (std::size_t k = 0; k < w.dcm.obstacle.size(); ++k) {
     const dcm::ObstacleContact& c = w.dcm.obstacle[k];
     const auto a = static_cast<std::size_t>(c.body);
+    wall_force[a] += force_of(w.dcm.surface.size() + k);
     press(a, force_of(w.dcm.surface.size() + k),
           contact::point_position(
               w.dcm.body[a], dcm::obstacle_stencil(world.params.dcm_contact, w.dcm.body[a], c)) -
@@ -117,10 +125,11 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const Vec3 f = c.law.force * c.normal;
     press(a, f, -(cells[a].radius - 0.5 * c.overlap) * c.normal);
     press(b, -f, (cells[b].radius - 0.5 * c.overlap) * c.normal);
-    touch(a, b);
+    touch(a, b, f);
   }
   for (const cbm::ObstacleContact& c : w.cbm.obstacle) {
     const std::size_t a = n_body + static_cast<std::size_t>(c.cell);
+    wall_force[a] += c.law.force * c.normal;
     press(a, c.law.force * c.normal, -(cells[a].radius - c.overlap) * c.normal);
   }
   for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
@@ -133,12 +142,14 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     const Vec3 f = force_of(w.dcm.surface.size() + w.dcm.obstacle.size() + k);
     press(a, f, x - cells[a].center);
     press(b, -f, x - cells[b].center);
-    if (f.squaredNorm() > 0) touch(a, b);
+    if (f.squaredNorm() > 0) touch(a, b, f);
   }
-  for (const auto& [a, b] : touching) {
-    ++cells[a].contacts;
-    ++cells[b].contacts;
-  }
+  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].contact_force = wall_force[k].norm();
+  for (const auto& [pair, force] : pair_force)
+    for (const std::size_t k : {pair.first, pair.second}) {
+      ++cells[k].contacts;
+      cells[k].contact_force += force.norm();
+    }
   for (CellMeasure& m : cells) {
     m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
     if (!m.deformable) m.cytosol_pressure = m.pressure;

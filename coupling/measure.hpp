@@ -24,8 +24,10 @@ struct CellMeasure {
   double cytosol_pressure = 0;     ///< kPa, -K_V ln(V/V0); a sphere has none: its pressure again
   std::array<double, 6> stress{};  ///< kPa, xx xy xz yy yz zz of (1/V0) sum f (x) (x_contact - c)
   double contact_area = 0;         ///< um^2
-  int contacts = 0;                ///< cells in contact
-  double migration_force = 0;      ///< nN, active force on the cell
+  /// nN, sum over partners of the size of the force with each; all surroundings are one partner.
+  double contact_force = 0;
+  int contacts = 0;            ///< cells in contact
+  double migration_force = 0;  ///< nN, active force on the cell
 };
 
 /// Makes the loads of the present moment (no step is taken, State is not touched).

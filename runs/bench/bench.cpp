@@ -15,6 +15,7 @@
 #include "runs/bench/assembly.hpp"
 #include "runs/bench/step_cost.hpp"
 #include "runs/bench/table.hpp"
+#include "runs/bench/work_precision.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -23,9 +24,19 @@ using Json = nlohmann::ordered_json;
 
 const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
   static const std::map<std::string, BenchTable (*)(const BenchOptions&)> all{
-      {"assembly", bench_assembly}, {"cbm100k", bench_cbm100k}, {"cbm10k", bench_cbm10k},
-      {"cbm1m", bench_cbm1m},       {"dcm216", bench_dcm216},   {"dcm27", bench_dcm27},
-      {"jkr", bench_jkr},           {"threads", bench_threads}};
+      {"assembly", bench_assembly},
+      {"cbm100k", bench_cbm100k},
+      {"cbm10k", bench_cbm10k},
+      {"cbm1m", bench_cbm1m},
+      {"dcm216", bench_dcm216},
+      {"dcm27", bench_dcm27},
+      {"jkr", bench_jkr},
+      {"threads", bench_threads},
+      {"work-precision", bench_work_precision},
+      {"work-precision-capsule", bench_capsule},
+      {"work-precision-cbm", bench_cbm},
+      {"work-precision-clump", bench_clump},
+      {"work-precision-stretch", bench_stretch}};
   return all;
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+/// Error against CPU time for every choice of numerics (docs/work_precision.md): tables in
+/// markdown, plots as SVG, and the cheapest setting for a wanted error.
+
+#include "runs/bench/bench.hpp"
+#include "runs/bench/table.hpp"
+
+namespace acinus::runs {
+
+BenchTable bench_work_precision(const BenchOptions& options);  ///< all of those below
+BenchTable bench_stretch(const BenchOptions& options);         ///< one stretched cell
+BenchTable bench_clump(const BenchOptions& options);           ///< 13 growing cells, and 27
+BenchTable bench_capsule(const BenchOptions& options);         ///< 27 squeezed cells
+BenchTable bench_cbm(const BenchOptions& options);             ///< 1000 spheres
+
+}  // namespace acinus::runs

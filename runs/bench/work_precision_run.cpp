@@ -1,0 +1,179 @@
+#include "runs/bench/work_precision_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/timing.hpp"
+#include "coupling/difference.hpp"
+#include "coupling/measure.hpp"
+#include "coupling/step.hpp"
+#include "runs/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Runs that are shorter are timed again, up to kRepeats times, CPU s.
+constexpr double kLongEnough = 1;
+constexpr int kRepeats = 3;
+
+void set_numerics(const Setting& setting, coupling::Numerics& n) {
+  const TimeBlock usual;
+  n.max_step = setting.step;
+  n.min_step = setting.adaptive ? usual.min_step : setting.step;
+  n.adaptive = setting.adaptive;
+  n.tolerance = setting.tolerance;
+  n.max_move = setting.adaptive ? usual.max_move : 0;
+  n.cg.tolerance = setting.cg_tolerance;
+  n.integrator = setting.integrator;
+}
+
+/// Steps to a time; returns why it could not.
+std::string advance_to(coupling::World& world, coupling::Workspace& work, double time) {
+  const double slack = 1e-6 * world.params.numerics.max_step;  // sums of steps are not exact
+  while (world.state.clock.time < time - slack) {
+    const coupling::StepResult r = coupling::advance(world, work, time - world.state.clock.time);
+    if (!r.accepted) return r.cause;
+  }
+  return {};
+}
+
+/// Extent of points along a direction, um.
+double extent(const std::vector<Vec3>& point, const Vec3& axis) {
+  double low = axis.dot(point.front()), high = low;
+  for (const Vec3& x : point) {
+    low = std::min(low, axis.dot(x));
+    high = std::max(high, axis.dot(x));
+  }
+  return high - low;
+}
+
+/// Relative growth of the first deformable cell's extent beyond that of its mesh at rest.
+/// @pre  the cell's mesh has not been turned
+double strain_of_first(const coupling::State& state, const Vec3& axis) {
+  std::vector<Vec3> node;
+  dcm::copy_nodes(state.dcm, 0, node);
+  const double radius = dcm::reference_radii(state.dcm, state.clock.time).front();
+  return extent(node, axis) / (radius * extent(state.dcm.group.front().topology->rest, axis)) - 1;
+}
+
+Sample take_sample(const coupling::World& world, coupling::Workspace& work, const Vec3& axis) {
+  Sample s;
+  coupling::observe(world, work);
+  for (const coupling::CellMeasure& m : coupling::measure_cells(world, work)) {
+    s.center.push_back(m.center);
+    s.pressure.push_back(m.cytosol_pressure);
+    s.volume.push_back(m.volume);
+    s.contact_force.push_back(m.contact_force);
+  }
+  if (axis != Vec3::Zero()) s.strain = strain_of_first(world.state, axis);
+  return s;
+}
+
+}  // namespace
+
+const coupling::World& WarmScene::start(const Discretisation& space) {
+  const auto found = start_.find(space);
+  if (found != start_.end()) return found->second;
+  coupling::World world =
+      build_world(parse_scene(scene_.text(space), scene_.name), Ranks::serial()).world;
+  if (scene_.prepare) scene_.prepare(world);
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  set_numerics({.space = space, .step = scene_.warm_up_step, .cg_tolerance = 1e-5},
+               world.params.numerics);
+  const std::string failure = advance_to(world, work, scene_.warm_up);
+  check(failure.empty(), scene_.name + ": the warm-up failed: " + failure, Exit::kCannotContinue);
+  coupling::Clock& clock = world.state.clock;
+  clock.origin = clock.time;
+  clock.step = 0;
+  if (scene_.begin) scene_.begin(world);
+  return start_.emplace(space, std::move(world)).first->second;
+}
+
+Trajectory WarmScene::run(const Setting& setting, double window, int samples) {
+  coupling::World world = start(setting.space);
+  set_numerics(setting, world.params.numerics);
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  const coupling::Clock before = world.state.clock;
+  Trajectory t;
+  for (int k = 1; k <= samples && t.failure.empty(); ++k) {
+    const double cpu = cpu_seconds();
+    t.failure = advance_to(world, work, before.time + window * k / samples);
+    t.cpu += cpu_seconds() - cpu;
+    if (t.failure.empty()) t.sample.push_back(take_sample(world, work, scene_.axis));
+  }
+  const coupling::Clock& clock = world.state.clock;
+  t.steps = clock.accepted - before.accepted;
+  t.rejected = clock.rejected - before.rejected;
+  t.cg_iterations = clock.cg_iterations - before.cg_iterations;
+  return t;
+}
+
+Errors compute_errors(const Trajectory& trajectory, const Trajectory& reference) {
+  ACINUS_ASSERT(trajectory.sample.size() == reference.sample.size());
+  auto relative = [&](auto values) {
+    std::vector<double> a, b;
+    for (std::size_t k = 0; k < reference.sample.size(); ++k) {
+      for (double x : values(trajectory.sample[k])) a.push_back(x);
+      for (double x : values(reference.sample[k])) b.push_back(x);
+    }
+    return coupling::relative_error(a, b);
+  };
+  Errors e;
+  e.pressure = relative([](const Sample& s) { return s.pressure; });
+  e.volume = relative([](const Sample& s) { return s.volume; });
+  e.contact_force = relative([](const Sample& s) { return s.contact_force; });
+  e.strain = relative([](const Sample& s) { return std::vector{s.strain}; });
+  double sum = 0;
+  for (std::size_t k = 0; k < reference.sample.size(); ++k) {
+    const coupling::Distance d =
+        coupling::aligned_distance(trajectory.sample[k].center, reference.sample[k].center);
+    e.center_max = std::max(e.center_max, d.max);
+    sum += d.rms * d.rms;
+  }
+  e.center_rms = std::sqrt(sum / static_cast<double>(reference.sample.size()));
+  return e;
+}
+
+std::vector<Outcome> run_study(WarmScene& scene, const Study& study,
+                               const std::function<void(const Outcome&)>& done) {
+  const Trajectory reference = scene.run(study.reference, study.window, study.samples);
+  check(reference.failure.empty(),
+        fmt::format("{}: {}: the reference failed: {}", scene.scene().name, study.title,
+                    reference.failure),
+        Exit::kCannotContinue);
+  const int cells = static_cast<int>(reference.sample.front().center.size());
+  std::vector<Outcome> outcomes;
+  for (const Setting& setting : study.setting) {
+    Trajectory t = scene.run(setting, study.window, study.samples);
+    std::vector<double> cpu{t.cpu};
+    while (t.failure.empty() && t.cpu < kLongEnough && cpu.size() < kRepeats)
+      cpu.push_back(scene.run(setting, study.window, study.samples).cpu);
+    std::ranges::sort(cpu);
+    Outcome e{setting, t.failure, cpu[cpu.size() / 2], study.window,
+              cells,   t.steps,   t.rejected,          t.cg_iterations};
+    if (t.failure.empty()) {
+      e.error = compute_errors(t, reference);
+      e.judged = scene.scene().axis == Vec3::Zero() ? e.error.pressure : e.error.strain;
+      // One that exploded without being noticed is no result.
+      if (!std::isfinite(e.judged)) e.failure = "the error is not finite";
+    }
+    if (done) done(e);
+    outcomes.push_back(e);
+  }
+  return outcomes;
+}
+
+const Outcome* find_cheapest(const std::vector<Outcome>& outcomes, double error) {
+  const Outcome* best = nullptr;
+  for (const Outcome& e : outcomes)
+    if (e.failure.empty() && e.judged <= error && (!best || e.cpu < best->cpu)) best = &e;
+  return best;
+}
+
+}  // namespace acinus::runs
