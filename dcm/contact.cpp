@@ -200,22 +200,12 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   for (std::size_t k = 0; k < work.body.size(); ++k) {
     const contact::SurfaceBody& b = work.body[k];
     const int n_point = static_cast<int>(contact::n_sites(b, c.quadrature)) * per_site;
-    const bool guarded = c.quadrature == contact::Quadrature::kThreePoint;
-    auto guard_position = [&](std::size_t p) {
-      return p < b.node.size() ? b.node[p] : b.center[p - b.node.size()];
-    };
     auto probe = [&](SurroundingKind kind, int index, auto gap_of) {
       for (int p = 0; p < n_point; ++p) {
         const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
         const contact::Gap g = gap_of(x);
         if (g.gap < options.range)
           obstacle[k].push_back({static_cast<int>(k), p, kind, index, g.gap, g.normal});
-      }
-      for (std::size_t p = 0; guarded && p < n_guards(b); ++p) {
-        const contact::Gap g = gap_of(guard_position(p));
-        if (g.gap < 0)
-          obstacle[k].push_back(
-              {static_cast<int>(k), static_cast<int>(p), kind, index, g.gap, g.normal, true});
       }
     };
     const Vec3 middle = 0.5 * (b.box.low + b.box.high);
@@ -253,17 +243,17 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
             s, p, false, contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
         if (best.index >= 0) obstacle[k].push_back(best);
       }
-    if (!guarded) continue;
+    if (c.quadrature != contact::Quadrature::kThreePoint) continue;
     // A node belongs to several faces; the deepest of what they see counts, once.
     std::vector<ObstacleContact> guard(n_guards(b));
     for (std::size_t s = 0; s < list.site.size(); ++s) {
       const auto& corner = (*b.triangle)[static_cast<std::size_t>(list.site[s])];
       const int face = static_cast<int>(b.node.size()) + list.site[s];
       for (int p : {corner[0], corner[1], corner[2], face}) {
-        ObstacleContact& seen = guard[static_cast<std::size_t>(p)];
-        const ObstacleContact best =
-            nearest(s, p, true, guard_position(static_cast<std::size_t>(p)));
-        if (best.index >= 0 && best.gap < seen.gap) seen = best;
+        const auto i = static_cast<std::size_t>(p);
+        const Vec3& x = i < b.node.size() ? b.node[i] : b.center[i - b.node.size()];
+        const ObstacleContact best = nearest(s, p, true, x);
+        if (best.index >= 0 && best.gap < std::min(guard[i].gap, -kGuardGap)) guard[i] = best;
       }
     }
     for (const ObstacleContact& o : guard)

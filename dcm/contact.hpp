@@ -40,14 +40,17 @@ struct ObstacleContact {
   int index = 0;
   double gap = 0;
   Vec3 normal = Vec3::Zero();
-  /// The point is a node (0 .. n_node - 1) or a face centre (n_node ..) inside the obstacle.
-  /// Three-point quadrature would not see the tip of a sharp corner, nor a vessel's tip in the
-  /// middle of a face; such points are pushed out, without adhesion or friction.
+  /// The point is a node (0 .. n_node - 1) or a face centre (n_node ..) deep inside a vessel.
+  /// Three-point quadrature would not see a vessel's tip in the middle of a face, nor the tip of a
+  /// corner at a vessel; such points are pushed out, without adhesion or friction. Walls that are
+  /// flat or hollow have no tips.
   bool guard = false;
 };
 
-/// Share of its area that a guarding point pushes with.
-inline constexpr double kGuardShare = 0.25;
+/// Share of its area that a guarding point pushes with, and how deep inside, um, it begins to: the
+/// quadrature points carry all that ordinary contact needs, and a point that joins in and leaves
+/// again at every step would only make noise.
+inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
 /// The nodes and weights of an obstacle contact's point.
 contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,

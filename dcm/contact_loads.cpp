@@ -97,7 +97,7 @@ struct Builder {
     if (o.guard) {
       fill({repulsion(), guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)]),
             0},
-           o.gap, o.normal, link, load);
+           o.gap + kGuardGap, o.normal, link, load);
       return;
     }
     const contact::Material& m = material_of(around, o.kind, o.index);
