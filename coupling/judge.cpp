@@ -116,12 +116,13 @@ double error_norm(const World& world, const Workspace& w, std::span<const double
 
 double estimate_error(const World& world, double step, Workspace& w) {
   const State& s = world.state;
-  if (s.clock.last_step <= 0 || s.last_move.size() != w.move.size()) return 0;
-  const double ratio = step / s.clock.last_step;
   auto& change = w.cg.product;
   change.resize(w.move.size());
+  // A first step is compared with rest.
+  const bool first = s.clock.last_step <= 0 || s.last_move.size() != w.move.size();
+  const double ratio = first ? 0 : step / s.clock.last_step;
   for (std::size_t k = 0; k < w.move.size(); ++k)
-    change[k] = 0.5 * (w.move[k] - ratio * s.last_move[k]);
+    change[k] = 0.5 * (w.move[k] - (first ? 0 : ratio * s.last_move[k]));
   return error_norm(world, w, change);
 }
 

@@ -31,8 +31,8 @@ Verdict judge_step(const World& world, double step, Workspace& work);
 /// @param field [n_row][3][lane] um
 double error_norm(const World& world, const Workspace& work, std::span<const double> field);
 
-/// Error estimate, um: half the change of velocity times the step. 0 without a step to compare
-/// with.
+/// Error estimate, um: half the change of velocity times the step. A first step is compared with
+/// rest.
 double estimate_error(const World& world, double step, Workspace& work);
 
 /// Force balance of the step just solved.   @pre work.rhs, work.move, work.cg.residual

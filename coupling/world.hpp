@@ -44,7 +44,7 @@ struct Motility {
 enum class Integrator { kLinearlyImplicit, kExplicitEuler, kRos2, kNewton };
 
 struct Numerics {
-  double max_step = 60, min_step = 1e-3;  ///< s
+  double max_step = 60, min_step = 1e-5;  ///< s
   bool adaptive = true;
   double tolerance = 0.01;  ///< um, error per step
   double max_move = 0.3;    ///< displacement cap in mean edge lengths, 0 = none

@@ -38,10 +38,12 @@ SegmentCandidates find_segments(int body, const contact::SurfaceBody& b, const C
     if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
   }
   if (near.empty()) return list;
+  // A node also finds what may stand in the middle of its faces.
+  const double widest = *std::ranges::max_element(b.reach);
   for (std::size_t site = 0; site < contact::n_sites(b, c.quadrature); ++site) {
     const bool face = c.quadrature == contact::Quadrature::kThreePoint;
     const Vec3& at = face ? b.center[site] : b.node[site];
-    const double reach = (face ? b.reach[site] : 0) + margin;
+    const double reach = (face ? b.reach[site] : widest) + margin;
     const std::size_t before = list.segment.size();
     for (int s : near)
       if (contact::gap_to_segment(network, s, at).gap < reach) list.segment.push_back(s);
@@ -243,18 +245,30 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
             s, p, false, contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
         if (best.index >= 0) obstacle[k].push_back(best);
       }
-    if (c.quadrature != contact::Quadrature::kThreePoint) continue;
-    // A node belongs to several faces; the deepest of what they see counts, once.
+    // A node belongs to several faces; the deepest of what they see counts, once. With node
+    // quadrature only faces need a guard: a thin vessel could pass between the nodes.
     std::vector<ObstacleContact> guard(n_guards(b));
-    for (std::size_t s = 0; s < list.site.size(); ++s) {
-      const auto& corner = (*b.triangle)[static_cast<std::size_t>(list.site[s])];
-      const int face = static_cast<int>(b.node.size()) + list.site[s];
-      for (int p : {corner[0], corner[1], corner[2], face}) {
-        const auto i = static_cast<std::size_t>(p);
-        const Vec3& x = i < b.node.size() ? b.node[i] : b.center[i - b.node.size()];
-        const ObstacleContact best = nearest(s, p, true, x);
-        if (best.index >= 0 && best.gap < std::min(guard[i].gap, -kGuardGap)) guard[i] = best;
+    auto look = [&](std::size_t s, int p) {
+      ObstacleContact& held = guard[static_cast<std::size_t>(p)];
+      const auto i = static_cast<std::size_t>(p);
+      const Vec3& x = i < b.node.size() ? b.node[i] : b.center[i - b.node.size()];
+      const ObstacleContact best = nearest(s, p, true, x);
+      if (best.index >= 0 && best.gap < std::min(held.gap, -kGuardGap)) held = best;
+    };
+    const int n_node = static_cast<int>(b.node.size());
+    if (c.quadrature == contact::Quadrature::kThreePoint) {
+      for (std::size_t s = 0; s < list.site.size(); ++s) {
+        for (int p : (*b.triangle)[static_cast<std::size_t>(list.site[s])]) look(s, p);
+        look(s, n_node + list.site[s]);
       }
+    } else if (!list.site.empty()) {
+      std::vector<int> list_of_node(b.node.size(), -1);
+      for (std::size_t s = 0; s < list.site.size(); ++s)
+        list_of_node[static_cast<std::size_t>(list.site[s])] = static_cast<int>(s);
+      for (std::size_t f = 0; f < b.triangle->size(); ++f)
+        for (int corner : (*b.triangle)[f])
+          if (const int s = list_of_node[static_cast<std::size_t>(corner)]; s >= 0)
+            look(static_cast<std::size_t>(s), n_node + static_cast<int>(f));
     }
     for (const ObstacleContact& o : guard)
       if (o.guard) obstacle[k].push_back(o);

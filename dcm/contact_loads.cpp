@@ -30,6 +30,7 @@ const contact::Material& material_of(const contact::Surroundings& around, Surrou
 struct Patch {
   contact::Well well;
   double area = 0, friction = 0;
+  double depth = 0;  ///< um, how deep inside the law begins
 };
 
 /// Everything that turns a contact into a link.
@@ -96,8 +97,8 @@ struct Builder {
     link.b = solve::Side::nowhere();
     if (o.guard) {
       fill({repulsion(), guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)]),
-            0},
-           o.gap + kGuardGap, o.normal, link, load);
+            0, kGuardGap},
+           o.gap, o.normal, link, load);
       return;
     }
     const contact::Material& m = material_of(around, o.kind, o.index);
@@ -108,9 +109,10 @@ struct Builder {
 
   static void fill(const Patch& p, double gap, const Vec3& normal, solve::Link& link,
                    solve::LinkLoad& load) {
-    solve::set_law(p.area * contact::well_stiffness(p.well, gap), p.area * p.friction, gap, normal,
+    const double at = gap + p.depth;
+    solve::set_law(p.area * contact::well_stiffness(p.well, at), p.area * p.friction, gap, normal,
                    link);
-    load = {normal, -p.area * contact::well_traction(p.well, gap)};
+    load = {normal, -p.area * contact::well_traction(p.well, at)};
   }
 };
 

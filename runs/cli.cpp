@@ -126,6 +126,11 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                    "repetitions of random cases (default: 3)")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
+  bench
+      ->add_option("--first", arguments.bench_options.first,
+                   "first seed of random cases (default: 1); --seeds 1 --first N repeats one")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000));
   bench->add_option("--out", arguments.bench_options.folder, "folder for plots and scenes")
       ->type_name("DIR");
 }

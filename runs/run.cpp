@@ -10,6 +10,7 @@
 #include <csignal>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "acinus_version.hpp"
@@ -23,6 +24,7 @@
 #include "runs/frame.hpp"
 #include "runs/progress.hpp"
 #include "runs/run_folder.hpp"
+#include "runs/soundness.hpp"
 #include "runs/state_file.hpp"
 #include "runs/summary.hpp"
 
@@ -70,7 +72,8 @@ class Run {
   coupling::World& world() { return built_.world; }
   const coupling::World& world() const { return built_.world; }
   double time_to_next_event() const;
-  void write_frame();
+  /// @return why the run must not go on from this frame, with depth_um = 0 if it may
+  Excess write_frame();
   void write_series(const coupling::StepResult& step);
   void add_event(const std::string& code, const std::string& message,
                  const std::vector<std::int64_t>& cells = {});
@@ -78,6 +81,8 @@ class Run {
   void close(const std::string& status, const std::string& cause);
   std::string reason_to_stop() const;
   int fail(const coupling::StepResult& step);
+  int fail(const Excess& excess);
+  int give_up(const std::string& cause, const std::vector<std::int64_t>& cells);
   std::vector<std::string> skipped() const;       ///< what the scene does not ask for
   std::vector<std::string> work_skipped() const;  ///< what turned out not to be needed
 
@@ -94,6 +99,8 @@ class Run {
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues
   double last_save_ = wall_seconds();
   double last_frame_ = -1e300;  ///< s, time of the last written frame
+  /// um beyond the limit in the last frame. The first one may overlap: contact is given a chance.
+  double excess_ = std::numeric_limits<double>::infinity();
   Progress progress_;
 };
 
@@ -165,6 +172,7 @@ void Run::start_or_resume() {
   cpu_before_ = t[1];
   totals_ = {t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[12], t[7], t[8], t[9], t[10], 0, 0, 0};
   last_frame_ = t[11];
+  excess_ = loaded.data.contains("file/excess") ? loaded.data.number("file/excess") : 0;
   const std::vector<std::int64_t>& counts = loaded.data.integers("file/counts");
   check(counts.size() == 3, loaded.data.source() + ": the run file's counts are damaged.",
         Exit::kFileError);
@@ -187,7 +195,7 @@ double Run::time_to_next_event() const {
   return limit;
 }
 
-void Run::write_frame() {
+Excess Run::write_frame() {
   const auto scope = work_.timings.scope("frames and audit");
   const Snapshot snapshot = take_snapshot(world(), work_);
   const coupling::AuditResult audit = audit_world(world(), work_, snapshot);
@@ -199,6 +207,12 @@ void Run::write_frame() {
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
               fmt::format("{} cells cross themselves", audit.n_self_intersecting));
+  Excess excess = find_excess(audit, world(), work_);
+  if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
+  // Overlaps of the start must shrink from frame to frame and be gone at the end.
+  const bool shrinks = excess.depth_um < excess_ && time() < end_ - kSameTime;
+  excess_ = excess.depth_um;
+  return shrinks ? Excess{} : excess;
 }
 
 void Run::write_series(const coupling::StepResult& step) {
@@ -237,6 +251,7 @@ void Run::save() {
                          t.self_intersecting, t.inverted, last_frame_, t.dcm_cbm_beyond_um});
   for (const auto& [name, values] : measures_) data.put("measures/" + name, values);
   const io::RunFileCounts c = file_->counts();
+  data.put_number("file/excess", excess_);
   data.put("file/counts", std::vector<std::int64_t>{c.frame, c.series, c.event});
   io::save_checkpoint(options_.out, data);
   last_save_ = wall_seconds();
@@ -270,13 +285,28 @@ int Run::fail(const coupling::StepResult& step) {
   const std::string cause = fmt::format(
       "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good state is "
       "in {}. Try a larger "
-      "contact.repulsion, a smaller load or adhesion, or a smaller time.min_step.",
+      "contact.repulsion, a smaller load or adhesion, a smaller time.min_step, or for a face that "
+      "turns over a local_area_modulus, which keeps meshes regular.",
       world().params.numerics.min_step, time() / 3600, step.cause,
       step.cells.empty() ? std::string("none named")
                          : fmt::format("{}", fmt::join(step.cells, ", ")),
       options_.out);
+  return give_up(cause, step.cells);
+}
+
+int Run::fail(const Excess& excess) {
+  return give_up(
+      fmt::format(
+          "at t = {:.4g} h {}. The last frame in {} shows it. Start the cells farther apart "
+          "or small (start_up), raise contact.max_depth or contact.repulsion, take a finer "
+          "mesh, or lower load or adhesion.",
+          time() / 3600, excess.cause, options_.out),
+      excess.cells);
+}
+
+int Run::give_up(const std::string& cause, const std::vector<std::int64_t>& cells) {
   spdlog::error(cause);
-  add_event("cannot_continue", cause, step.cells);
+  add_event("cannot_continue", cause, cells);
   if (time() > last_frame_ + kSameTime) write_frame();
   close("failed", cause);
   fmt::print(stderr, "acinus: simulation cannot continue: {}\n", cause);
@@ -286,7 +316,7 @@ int Run::fail(const coupling::StepResult& step) {
 int Run::loop() {
   if (!options_.resume &&
       (world().state.clock.phase == coupling::Phase::kRun || scene_.output.start_up))
-    write_frame();
+    if (const Excess excess = write_frame(); excess.depth_um > 0) return fail(excess);
   bool first = true;
   for (;;) {
     const bool running = world().state.clock.phase == coupling::Phase::kRun;
@@ -318,9 +348,11 @@ int Run::loop() {
     const bool on_grid = std::abs(part - std::round(part)) * scene_.output.every < kSameTime;
     if ((now_running || scene_.output.start_up) && t > last_frame_ + kSameTime &&
         (on_grid || t >= end_ - kSameTime || (now_running && !running)))
-      write_frame();
+      if (const Excess excess = write_frame(); excess.depth_um > 0) return fail(excess);
     if (wall_seconds() - last_save_ > options_.checkpoint_every_s) save();
   }
+  if (excess_ > 0)  // resumed at the end of a run that failed there
+    return fail(Excess{excess_, "some cells overlap beyond what contact mends", {}});
   close("completed", "");
   return static_cast<int>(Exit::kDone);
 }

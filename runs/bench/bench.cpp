@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -14,6 +15,7 @@
 #include "core/timing.hpp"
 #include "runs/bench/assembly.hpp"
 #include "runs/bench/step_cost.hpp"
+#include "runs/bench/stress.hpp"
 #include "runs/bench/table.hpp"
 #include "runs/bench/work_precision.hpp"
 
@@ -31,6 +33,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
+      {"stress", bench_stress},
       {"threads", bench_threads},
       {"work-precision", bench_work_precision},
       {"work-precision-capsule", bench_capsule},
@@ -64,7 +67,9 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
              ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
   const BenchTable table = found->second(options);
-  if (options.json_file.empty()) return 0;
+  const bool passed = std::ranges::all_of(table, &BenchRow::passed);
+  const int code = static_cast<int>(passed ? Exit::kDone : Exit::kInternal);
+  if (options.json_file.empty()) return code;
   Json j = {{"name", name},
             {"commit", ACINUS_GIT},
             {"machine", machine.cpu_model},
@@ -81,7 +86,7 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   out.close();
   check(out.good(), options.json_file + ": cannot be written. Choose another file.",
         Exit::kFileError);
-  return 0;
+  return code;
 }
 
 }  // namespace acinus::runs

@@ -11,10 +11,11 @@ struct BenchOptions {
   std::string folder;     ///< for plots and scenes of benchmarks that write them; "" = not
   int threads = 0;        ///< 0 = all cores
   int seeds = 3;          ///< repetitions with different random numbers, for cases that have any
+  int first = 1;          ///< the first of these seeds
 };
 
 /// Runs a benchmark and prints its table.
-/// @return the process exit code
+/// @return the process exit code: 1 if a row did not pass
 /// @throws Error for an unknown name or a file that cannot be written
 int run_bench(const std::string& name, const BenchOptions& options);
 

@@ -12,6 +12,7 @@ struct BenchRow {
   std::string name;
   int cells = 0;
   std::vector<std::pair<std::string, double>> value;
+  bool passed = true;  ///< false: a case that checks something found it broken
 };
 
 using BenchTable = std::vector<BenchRow>;

@@ -17,7 +17,7 @@ namespace acinus::runs {
 struct TimeBlock {
   double end = 0;           ///< s after t = 0
   double step = 60;         ///< s, the longest step
-  double min_step = 1e-3;   ///< s
+  double min_step = 1e-5;   ///< s
   bool adaptive = true;     ///< step-size controller on
   double tolerance = 0.01;  ///< um, error a step may make (controller)
   double max_move = 0.3;    ///< displacement cap, in mean edge lengths; 0 = no cap

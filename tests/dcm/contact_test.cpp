@@ -104,10 +104,11 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
   const mesh::Topology& t = *c.state.group[lane / kLanes].topology;
   const double radius = c.lanes.radius[lane];
   if (!is_surface && c.work.obstacle[link - surface.size()].guard) {
-    // A node or face centre inside an obstacle: a quarter of its area, repulsion alone.
+    // A node or face centre more than 0.05 um inside: a quarter of its area, repulsion alone.
     const auto n_node = static_cast<std::size_t>(t.n_node), p = static_cast<std::size_t>(point);
     const double rest = p < n_node ? t.rest_node_area[p] : t.rest_triangle_area[p - n_node];
-    return gap < 0 ? 0.25 * rest * radius * radius * 0.5 * c.options.repulsion * gap * gap : 0;
+    const double depth = std::max(0.0, -gap - 0.05);
+    return 0.25 * rest * radius * radius * 0.5 * c.options.repulsion * depth * depth;
   }
   double adhesion = c.params[0].adhesion, weight = 1;
   if (is_surface && surface[link].body_b < static_cast<int>(c.work.body.size())) {

@@ -201,6 +201,59 @@ TEST_F(RunErrors, AHugePullExitsWithThree) {
   EXPECT_EQ(reader("a").n_frame(), 1);
 }
 
+/// Two cells that start with their centres 0.6 diameters apart.
+constexpr const char* kOverlapping = R"({
+  "time": {"end": "40 min", "step": "30 s"},
+  "cell_types": {"hepatocyte": {"dcm": {"nodes": 42}}},
+  "cells": {"source": "list", "model": "dcm", "list": [
+    {"position": ["0 um", "0 um", "0 um"]}, {"position": ["14.4 um", "0 um", "0 um"]}]},
+  "motility": {"random": false}, "output": {"every": "20 min"}
+})";
+
+TEST_F(RunErrors, AnOverlapThatContactDoesNotMendStopsTheRun) {
+  write("deep.json", kOverlapping);
+  const Outcome outcome = call(run_words("deep.json", "a"));
+  EXPECT_EQ(outcome.code, 3) << outcome.text;
+  const Json s = summary("a");
+  EXPECT_EQ(s["status"], "failed");
+  const std::string cause = s["cause"];
+  EXPECT_NE(cause.find("DCM cells 0 and 1 overlap by"), std::string::npos) << cause;
+  EXPECT_NE(cause.find("start_up"), std::string::npos) << cause;
+  EXPECT_GT(s["simulated_s"], 0.0) << "contact is given the time until the next frame";
+  const auto events = reader("a").events();
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events.front().code, "deep_overlap");
+  EXPECT_EQ(events.front().time_s, 0);
+  EXPECT_EQ(events.front().cell_id, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_EQ(events.back().code, "cannot_continue");
+  EXPECT_EQ(call(run_words("deep.json", "a", {"--resume"})).code, 3) << "it did not go away";
+}
+
+TEST_F(RunErrors, AWallThatOverrunsASphereStopsTheRun) {
+  write("pair.json", kOverlapping);
+  const Outcome outcome = call(run_words(
+      "pair.json", "a",
+      {"--set", "cells.model=cbm", "--set", R"(cells.list.1.position=["24 um", "0 um", "0 um"])",
+       "--set", "cell_types.hepatocyte.cbm.ecm_friction=1e12 N s/m^3", "--set", "time.max_move=0",
+       "--set", "time.adaptive=false", "--set", "output.every=5 min", "--set",
+       R"(walls=[{"name": "ram", "point": ["-12 um", "0 um", "0 um"], "normal": [1, 0, 0],)"
+       R"( "speed": "2 um/min", "travel": "30 um"}])"}));
+  EXPECT_EQ(outcome.code, 3) << outcome.text;
+  EXPECT_NE(outcome.text.find("CBM cell 0 has its centre"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("inside wall ram"), std::string::npos) << outcome.text;
+}
+
+TEST_F(RunErrors, AnOverlapOfTheStartThatContactMendsIsNoFailure) {
+  write("mild.json", kOverlapping);
+  const Outcome outcome = call(run_words(
+      "mild.json", "a", {"--set", R"(cells.list.1.position=["20.4 um", "0 um", "0 um"])"}));
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  const auto events = reader("a").events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].code, "deep_overlap");
+  EXPECT_EQ(events[0].time_s, 0);
+}
+
 // ---- bad input: nothing is made ----------------------------------------------------------------
 
 TEST_F(RunErrors, CellsThatDoNotFitAreNamedWithTheirPlace) {
