@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace acinus::solve {
 namespace {
@@ -65,7 +66,8 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, double size, do
   std::ranges::copy(v.preconditioned, v.direction.begin());
   while (std::sqrt(size2) > goal) {
     if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
-    if (++iterations == kMergeAfter) op.merge_links();
+    ++iterations;
+    if (std::is_same_v<T, float> && iterations == kMergeAfter) op.merge_links();
     // outside the range the direction is zero
     const double curvature = apply_distributed(op, v.direction, v.product);
     if (!whole) restrict_to(op.system(), range, v.product);

@@ -57,6 +57,7 @@ struct BlockRange {
 /// 1e-3 and says what it is. With a range, only that part
 /// of x changes (the rest is a frozen partner): used by the partitioned twin. Its right-hand side
 /// is then b - A x_rest within the range.
+/// @param op  its contacts are merged when passes in float turn out long
 /// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
 ///                The stop is measured with the diagonal blocks either way.
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,

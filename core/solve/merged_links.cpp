@@ -22,8 +22,9 @@ bool is_same(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
   return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
 }
 
-/// Of a single point, the third weight is the one that counts.
+/// A single point has the third weight, whatever is stored.
 std::array<float, 3> weights_of(const Side& s) {
+  if (is_single(s)) return {0, 0, 1};
   return {s.weight[0], s.weight[1], 1 - s.weight[0] - s.weight[1]};
 }
 

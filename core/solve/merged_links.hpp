@@ -17,7 +17,8 @@
 
 namespace acinus::solve {
 
-/// Whether a contact is worth merging: it joins two cells, and side a is a face of a mesh.
+/// Whether a contact is worth merging: side a is a face of a mesh, side b another or a single
+/// point.
 bool is_merged(const System& system, const std::vector<int>& block_of_row, const Link& link);
 
 /// The merged contacts of a system.

@@ -145,12 +145,12 @@ void Operator::start(const System& system) {
   partial_.resize(system.block.size());
   scratch_.resize(system.n_row * kLanes);
   divide();
+  merged_ = false;
 }
 
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
-  merged_ = false;
   external_.clear();
   external_point_.clear();
   for (std::size_t l = 0; l < system.links.size(); ++l)

@@ -105,15 +105,10 @@ TEST(Cg, MixedPrecisionSolvesAStiffChain) {
     set_blocks(s.system, {block_of(kSingle), block_of(kSingle)});
     for (double& m : s.system.medium) m = random.uniform(0.05, 0.2);
     for (Point p = 0; p + 1 < 2 * kLanes; ++p) {
-      PointLink link{p,
-                     p + 1,
-                     {},
-                     static_cast<float>(stiff * random.uniform(0.5, 2)),
-                     static_cast<float>(stiff * random.uniform(0.5, 2))};
-      const Vec3 n = random.unit_vector();
-      for (std::size_t c = 0; c < 3; ++c)
-        link.normal[c] = static_cast<float>(n[static_cast<Eigen::Index>(c)]);
-      s.system.point_links.push_back(link);
+      const double stiffness = stiff * random.uniform(0.5, 2),
+                   friction = stiff * random.uniform(0.5, 2);
+      s.system.point_links.push_back(
+          make_point_link(p, p + 1, random.unit_vector(), stiffness, friction));
     }
     s.op.prepare(s.system);
     s.rhs = random_vector_of(s.system, 10);
@@ -174,13 +169,8 @@ TEST(Cg, ContactsAlmostFreeToSlideAreSolved) {
     s.system = System{};
     set_blocks(s.system, {block_of(kSingle)});
     for (double& m : s.system.medium) m = medium;
-    for (Point p = 0; p < kLanes; p += 2) {
-      PointLink link{p, p + 1, {}, 1, 0};
-      const Vec3 n = random.unit_vector();
-      for (std::size_t c = 0; c < 3; ++c)
-        link.normal[c] = static_cast<float>(n[static_cast<Eigen::Index>(c)]);
-      s.system.point_links.push_back(link);
-    }
+    for (Point p = 0; p < kLanes; p += 2)
+      s.system.point_links.push_back(make_point_link(p, p + 1, random.unit_vector(), 1, 0));
     s.op.prepare(s.system);
     s.rhs = random_vector_of(s.system, 33);
     s.x.assign(s.rhs.size(), 0.0);

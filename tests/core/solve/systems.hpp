@@ -40,6 +40,16 @@ inline void fill_elements(System& s, UniformStream& random) {
     for (float& v : *g) v = static_cast<float>(random.uniform(-0.7, 0.7));
 }
 
+inline PointLink make_point_link(Point a, Point b, const Vec3& normal, double stiffness,
+                                 double friction) {
+  return {a,
+          b,
+          {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+           static_cast<float>(normal.z())},
+          static_cast<float>(stiffness),
+          static_cast<float>(friction)};
+}
+
 /// Picks the places that contacts join.
 class Places {
  public:
@@ -133,17 +143,12 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
   }
   for (int k = 0; k < 20 * copies; ++k) {
     places.start();
-    PointLink link;
-    link.a = places.point();
-    if (k % 5 != 0) link.b = places.point();
+    const Point a = places.point(), b = k % 5 != 0 ? places.point() : kNowhere;
     const Vec3 normal = random.unit_vector();
-    for (int c = 0; c < 3; ++c)
-      link.normal[static_cast<std::size_t>(c)] = static_cast<float>(normal[c]);
-    if (k % 7 != 3) {
-      link.stiffness = static_cast<float>(random.uniform(0, 1));
-      link.friction = static_cast<float>(random.uniform(0, 0.5));
-    }
-    s.point_links.push_back(link);
+    const bool only_pulls = k % 7 == 3;
+    const double stiffness = only_pulls ? 0 : random.uniform(0, 1),
+                 friction = only_pulls ? 0 : random.uniform(0, 0.5);
+    s.point_links.push_back(make_point_link(a, b, normal, stiffness, friction));
   }
   return s;
 }
