@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/solve/threads.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -48,7 +48,7 @@ Part sum_over_cells(const Workspace& w, F f) {
     if (block[b].first_row - block[start.back()].first_row >= kPartRows) start.push_back(b);
   start.push_back(block.size());
   std::vector<Part> part(start.size() - 1);
-#pragma omp parallel for schedule(static) if (solve::worth_threads(w.system))
+#pragma omp parallel for schedule(static) if (worth_threads(w.system.n_row))
   for (std::size_t k = 0; k < part.size(); ++k)
     for (std::size_t b = start[k]; b < start[k + 1]; ++b)
       for (int l = 0; l < kLanes; ++l) {
@@ -204,7 +204,7 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
   std::size_t first_deep = links.size();
 #pragma omp parallel for schedule(static) \
     reduction(min                         \
-              : first_deep) if (solve::worth_threads(w.system))
+              : first_deep) if (worth_threads(w.system.n_row))
   for (std::size_t l = 0; l < links.size(); ++l)
     if (depth_after(links.link[l]) > 0) first_deep = std::min(first_deep, l);
   if (first_deep < links.size()) {

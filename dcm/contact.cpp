@@ -1,9 +1,9 @@
 #include "dcm/contact.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "core/threads.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -135,7 +135,7 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
     for (std::size_t l = 0; l < state.n_lane(); ++l)
       if (state.active(l)) work.lane_of_body.push_back(l);
   }
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < n; ++k) {
     contact::SurfaceBody& b = work.body[k];
     b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
@@ -158,7 +158,7 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
   work.near = contact::find_near_bodies(work.body, options, kReserve);
   work.list = contact::find_candidates(work.body, work.fixed, work.near, options);
   work.segment_list.resize(work.body.size());
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k)
     work.segment_list[k] =
         find_segments(static_cast<int>(k), work.body[k], c, options.range, around.vessels.network);
@@ -173,10 +173,10 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   const contact::SearchOptions options = search_options(c, state, lanes);
   // Each thread takes a run of lists, the first one writes in place: order as with one thread.
   work.surface.clear();
-  const auto n_part = static_cast<std::size_t>(omp_get_max_threads());
+  const std::size_t n_part = count_threads(state.n_row());
   work.found.resize(n_part - 1);
   std::int64_t listed = 0, seen = 0;
-#pragma omp parallel for schedule(static, 1) reduction(+ : listed, seen)
+#pragma omp parallel for schedule(static, 1) reduction(+ : listed, seen) if (n_part > 1)
   for (std::size_t part = 0; part < n_part; ++part) {
     auto& found = part == 0 ? work.surface : work.found[part - 1];
     const std::size_t before = found.size();
@@ -198,7 +198,7 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
 
   const int per_site = contact::points_per_site(c.quadrature);
   std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
-#pragma omp parallel for schedule(dynamic, 2)
+#pragma omp parallel for schedule(dynamic, 2) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k) {
     const contact::SurfaceBody& b = work.body[k];
     const int n_point = static_cast<int>(contact::n_sites(b, c.quadrature)) * per_site;
@@ -293,7 +293,7 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
 void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,
                         const ContactWorkspace& work, std::vector<double>& free_area) {
   free_area.assign(state.n_row() * kLanes, 0.0);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k) {
     const std::size_t lane = work.lane_of_body[k];
     const contact::SurfaceBody& b = work.body[k];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/threads.hpp"
 #include "dcm/contact.hpp"
 
 namespace acinus::dcm {
@@ -137,7 +138,7 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
   const Builder build{state, params, c, lanes, around, work};
   const std::size_t first = links.size(), n = work.surface.size();
   links.resize(first + n + work.obstacle.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < n + work.obstacle.size(); ++k) {
     solve::Link& link = links.link[first + k];
     solve::LinkLoad& load = links.load[first + k];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/threads.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/body_load.hpp"
@@ -55,7 +56,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
                std::span<const double> free_area, std::span<const Vec3> cell_force,
                solve::System& s) {
   const bool volume = any_volume(params), area = any_area(params);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < state.group.size(); ++k) {
     const GroupView g = view_group(state, lanes, s, k);
     const Params& p = params[static_cast<std::size_t>(state.group[k].type)];

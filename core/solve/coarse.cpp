@@ -5,7 +5,7 @@
 
 #include "core/solve/kernels.hpp"
 #include "core/solve/row_blocks.hpp"
-#include "core/solve/threads.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -274,7 +274,7 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const System& s = *system_;
   small_.resize(center_.size());
   const auto n_block = static_cast<std::ptrdiff_t>(s.block.size());
-#pragma omp parallel for schedule(static) if (worth_threads(s))
+#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::ptrdiff_t k = 0; k < n_block; ++k) {
     const auto b = static_cast<std::size_t>(k);
     const std::size_t at = s.block[b].first_row * kPointStride;
@@ -289,7 +289,7 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const std::vector<Vec6> load = small_;
   solve(small_);
   for (std::size_t c = 0; c < load.size(); ++c) product += load[c].dot(small_[c]);
-#pragma omp parallel for schedule(static) if (worth_threads(s))
+#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::ptrdiff_t k = 0; k < n_block; ++k) {
     const auto b = static_cast<std::size_t>(k);
     const std::size_t at = s.block[b].first_row * kPointStride;

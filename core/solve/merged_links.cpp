@@ -1,11 +1,9 @@
 #include "core/solve/merged_links.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstddef>
 
-#include "core/solve/threads.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -30,11 +28,6 @@ std::array<float, 3> weights_of(const Side& s) {
 
 ACINUS_INLINE void add_scaled(SymBlock& to, float w, const SymBlock& m) {
   for (std::size_t k = 0; k < m.size(); ++k) to[k] += w * m[k];
-}
-
-std::size_t count_threads(const System& s) {
-  return worth_threads(s) && !omp_in_parallel() ? static_cast<std::size_t>(omp_get_max_threads())
-                                                : 1;
 }
 
 /// Where the points of a cell are: number k of the cell is point first + k * kLanes.
@@ -176,7 +169,7 @@ void LinkMerger::find_runs(const System& s, const std::vector<int>& block_of_row
 }
 
 void LinkMerger::add_across(const System& s, PointPairs& pairs) {
-  const std::size_t n_part = count_threads(s), n_group = group_.size() - 1;
+  const std::size_t n_part = count_threads(s.n_row), n_group = group_.size() - 1;
   part_.resize(n_part - 1);
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
@@ -215,7 +208,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
   std::ranges::stable_sort(end_, {}, &End::block);
 
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
-  const std::size_t n_part = count_threads(s);
+  const std::size_t n_part = count_threads(s.n_row);
 #pragma omp parallel num_threads(static_cast <int>(n_part)) if (n_part > 1)
   {
     std::vector<SymBlock> sum;

@@ -1,12 +1,10 @@
 #include "core/solve/operator.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 
 #include "core/solve/kernels.hpp"
 #include "core/solve/row_blocks.hpp"
-#include "core/solve/threads.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -54,9 +52,7 @@ LinkSet<PointLink> Operator::point_links_of(const Range& range) const {
 void Operator::divide() {
   const System& s = *system_;
   const std::size_t n_block = s.block.size();
-  std::size_t n = 1;
-  if (worth_threads(s) && !omp_in_parallel())
-    n = std::min(static_cast<std::size_t>(omp_get_max_threads()), n_block);
+  const std::size_t n = std::max<std::size_t>(1, std::min(count_threads(s.n_row), n_block));
   range_.resize(n);
   std::size_t b = 0;
   for (std::size_t k = 0; k < n; ++k) {

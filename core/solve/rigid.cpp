@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/solve/row_blocks.hpp"
-#include "core/solve/threads.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -125,7 +125,7 @@ std::size_t count_parts(const System& s, std::size_t n_group) {
 template <class F>
 void for_each_point(const System& s, const std::vector<int>& group, F f) {
   const std::size_t n_part = count_parts(s, 1);
-#pragma omp parallel for schedule(static) if (worth_threads(s))
+#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::size_t k = 0; k < n_part; ++k)
     for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part, f);
 }
@@ -136,7 +136,7 @@ void sum_over_points(const System& s, const std::vector<int>& group, std::vector
                      F f) {
   const std::size_t n_part = count_parts(s, groups.size());
   std::vector<std::vector<Group>> part(n_part, std::vector<Group>(groups.size()));
-#pragma omp parallel for schedule(static) if (worth_threads(s))
+#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::size_t k = 0; k < n_part; ++k)
     for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
                    [&](Address a, std::size_t g) { f(a, groups[g], part[k][g]); });

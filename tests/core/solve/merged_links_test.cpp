@@ -14,7 +14,7 @@
 
 #include "core/solve/cg.hpp"
 #include "core/solve/row_blocks.hpp"
-#include "core/solve/threads.hpp"
+#include "core/threads.hpp"
 #include "tests/core/solve/tissue.hpp"
 
 namespace acinus::solve {
@@ -40,19 +40,6 @@ std::vector<T> product(const Operator& op, const std::vector<T>& x) {
 /// Largest error over the largest entry.
 double compare(const std::vector<float>& y, const Eigen::VectorXd& expected) {
   return (as_eigen(y) - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
-}
-
-TEST(IndexedSprings, AreFoundFromBothEnds) {
-  for (int n_node : {12, 42}) {
-    const BlockPattern p = make_icosphere(n_node).pattern;
-    ASSERT_EQ(p.spring.size(), static_cast<std::size_t>(3 * n_node - 6));
-    for (std::size_t k = 0; k < p.spring.size(); ++k) {
-      EXPECT_EQ(find_spring(p, p.spring[k][0], p.spring[k][1]), k);
-      EXPECT_EQ(find_spring(p, p.spring[k][1], p.spring[k][0]), k);
-    }
-    EXPECT_EQ(p.spring_of.size(), 2 * p.spring.size());
-    EXPECT_EQ(p.first_spring_of.back(), p.spring_of.size());
-  }
 }
 
 // By hand: a face and a sphere, weights 1/2, 1/8 and 3/8, matrix 2 n n^T + 4 I with n = x.
@@ -344,7 +331,7 @@ TEST(MergedProduct, InnerForcesCarryNoMomentum) {
 
 TEST(MergedProduct, SameBitsForAnyNumberOfThreads) {
   const System s = make_tissue(77, 20);
-  ASSERT_TRUE(worth_threads(s));
+  ASSERT_TRUE(worth_threads(s.n_row));
   const auto x = random_vector_of<float>(s, 78);
   const int before = omp_get_max_threads();
   std::vector<MergedLinks> merged;

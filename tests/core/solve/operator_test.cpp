@@ -10,7 +10,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "tests/core/solve/systems.hpp"
+#include "tests/core/solve/tissue.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -66,6 +66,19 @@ TEST(RandomSystem, HoldsEveryKindOfElementAndContact) {
   for (const PointLink& l : s.point_links) ++(l.b == kNowhere ? external : pairs);
   EXPECT_GT(pairs, 0);
   EXPECT_GT(external, 0);
+}
+
+TEST(IndexedSprings, AreFoundFromBothEnds) {
+  for (int n_node : {12, 42}) {
+    const BlockPattern p = make_icosphere(n_node).pattern;
+    ASSERT_EQ(p.spring.size(), static_cast<std::size_t>(3 * n_node - 6));
+    for (std::size_t k = 0; k < p.spring.size(); ++k) {
+      EXPECT_EQ(find_spring(p, p.spring[k][0], p.spring[k][1]), k);
+      EXPECT_EQ(find_spring(p, p.spring[k][1], p.spring[k][0]), k);
+    }
+    EXPECT_EQ(p.spring_of.size(), 2 * p.spring.size());
+    EXPECT_EQ(p.first_spring_of.back(), p.spring_of.size());
+  }
 }
 
 TYPED_TEST(OperatorOf, ProductIsThatOfTheDenseMatrix) {

@@ -1,0 +1,21 @@
+#pragma once
+/// When work is worth more than one thread.
+
+#include <omp.h>
+
+#include <cstddef>
+
+namespace acinus {
+
+/// Below this many point rows (a deformable cell's group has one per node) starting threads costs
+/// more than it saves.
+inline bool worth_threads(std::size_t n_row) { return n_row > 400; }
+
+/// Threads that work on so many point rows; 1 inside a parallel region.
+inline std::size_t count_threads(std::size_t n_row) {
+  return worth_threads(n_row) && !omp_in_parallel()
+             ? static_cast<std::size_t>(omp_get_max_threads())
+             : 1;
+}
+
+}  // namespace acinus
