@@ -1,12 +1,14 @@
 #include "core/contact/candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "core/contact/closest.hpp"
 #include "core/lanes.hpp"
 #include "core/mesh/closest_point.hpp"
-#include "core/rounding.hpp"
 
 namespace acinus::contact {
 namespace {
@@ -16,10 +18,6 @@ constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not o
 constexpr double kListFacing = 0.7;
 /// Self contact starts this many rest edges away on the surface.
 constexpr double kSelfRings = 3.0;
-/// um, below which the closest point gives no normal: its weights are rounded to 1e-7 of an edge.
-constexpr double kNoDirection = 1e-6;
-constexpr double kRounding = 1e-4;  ///< um, more than floats lose on a list's distances
-
 const SurfaceBody& body_at(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
                            int k) {
   const auto i = static_cast<std::size_t>(k);
@@ -55,219 +53,306 @@ bool may_fold(const SurfaceBody& b) {
   return false;
 }
 
-/// Squared distance to the disc about a triangle's centre that holds it: never more than to the
-/// triangle itself.
-ACINUS_INLINE double squared_bound(const SurfaceBody& b, std::size_t t, const Vec3& x) {
-  const Vec3 d = x - b.center[t];
-  const double height = d.dot(b.triangle_normal[t]), squared_height = height * height;
-  const double across = std::sqrt(std::max(0.0, d.squaredNorm() - squared_height)) - b.reach[t];
-  return squared_height + (across > 0 ? across * across : 0);
-}
+/// Triangles as discs that hold them, about an origin near them: floats then keep distances to less
+/// than kRounding. Numbers of eight discs lie side by side, [group][kNumbers][lane].
+struct Discs {
+  static constexpr std::size_t kNumbers = 7;  ///< centre, normal, reach
+  static constexpr std::size_t kStride = kNumbers * kLanes;
+  std::size_t n = 0;
+  std::vector<int> triangle;
+  std::vector<float> number;
 
-/// The closest place on a surface so far.
-struct Closest {
-  double squared = 0;
-  int triangle = -1;
-  mesh::ClosestPoint at;
-
-  ACINUS_INLINE void look_at(const SurfaceBody& b, int t, const Vec3& x) {
-    const auto& corner = (*b.triangle)[static_cast<std::size_t>(t)];
-    const mesh::ClosestPoint c = mesh::find_closest_point(
-        x, b.node[static_cast<std::size_t>(corner[0])], b.node[static_cast<std::size_t>(corner[1])],
-        b.node[static_cast<std::size_t>(corner[2])]);
-    // Ties (an edge two triangles share) go to the lower number: the order of the list, which
-    // depends on when it was made, must not show.
-    if (c.squared_distance < squared || (c.squared_distance == squared && t < triangle)) {
-      squared = c.squared_distance;
-      at = c;
-      triangle = t;
+  /// Empties, and makes room for `most` discs.
+  void reset(std::size_t most) {
+    n = 0;
+    const std::size_t n_group = (most + kLanes - 1) / kLanes;
+    if (triangle.size() < n_group * kLanes) {
+      triangle.resize(n_group * kLanes);
+      number.resize(n_group * kStride);
     }
   }
-};
+  std::size_t triangle_at(int k) const {
+    return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]);
+  }
+  static std::size_t place_of(std::size_t k) { return k / kLanes * kStride + k % kLanes; }
 
-/// Blend of the node normals at a place on a triangle.
-Vec3 blended_normal(const SurfaceBody& b, int triangle, const Vec3& weight) {
-  const auto& corner = (*b.triangle)[static_cast<std::size_t>(triangle)];
-  Vec3 n = Vec3::Zero();
-  for (int m = 0; m < 3; ++m)
-    n += weight[m] * b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
-  const double length = n.norm();
-  return length > 0 ? Vec3(n / length) : n;
-}
-
-/// Triangles as discs, one array per number, about an origin near them: floats then keep distances
-/// to less than kRounding.
-struct Discs {
-  Vec3 origin = Vec3::Zero();
-  std::vector<int> triangle;
-  std::vector<float> x, y, z, nx, ny, nz, reach;
-
-  void add(const SurfaceBody& b, int t) {
-    const auto k = static_cast<std::size_t>(t);
-    const Vec3 c = b.center[k] - origin;
-    const Vec3& n = b.triangle_normal[k];
-    triangle.push_back(t);
-    for (auto [to, value] : {std::pair(&x, c[0]),
-                             {&y, c[1]},
-                             {&z, c[2]},
-                             {&nx, n[0]},
-                             {&ny, n[1]},
-                             {&nz, n[2]},
-                             {&reach, b.reach[k]}})
-      to->push_back(static_cast<float>(value));
+  void add(const SurfaceBody& b, std::size_t t, const Vec3& origin) {
+    const Vec3 c = b.center[t] - origin;
+    const Vec3& normal = b.triangle_normal[t];
+    float* to = number.data() + place_of(n);
+    for (std::size_t m = 0; m < 3; ++m) {
+      to[m * kLanes] = static_cast<float>(c[static_cast<int>(m)]);
+      to[(3 + m) * kLanes] = static_cast<float>(normal[static_cast<int>(m)]);
+    }
+    to[6 * kLanes] = static_cast<float>(b.reach[t]);
+    triangle[n++] = static_cast<int>(t);
+  }
+  void add(const Discs& other, std::size_t k) {
+    const float* from = other.number.data() + place_of(k);
+    float* to = number.data() + place_of(n);
+    for (std::size_t m = 0; m < kNumbers; ++m) to[m * kLanes] = from[m * kLanes];
+    triangle[n++] = other.triangle[k];
   }
 };
 
-/// squared_bound of many triangles at once.
-ACINUS_KERNEL void compute_bounds(const std::array<float, 3>& at, std::size_t n, const float* x,
-                                  const float* y, const float* z, const float* nx, const float* ny,
-                                  const float* nz, const float* reach, float* bound) {
-  for (std::size_t k = 0; k < n; ++k) {
-    const float dx = at[0] - x[k], dy = at[1] - y[k], dz = at[2] - z[k];
-    const float height = dx * nx[k] + dy * ny[k] + dz * nz[k], squared = height * height;
-    const float in_plane = dx * dx + dy * dy + dz * dz - squared;
-    const float across = __builtin_sqrtf(in_plane > 0 ? in_plane : 0) - reach[k];
-    bound[k] = squared + (across > 0 ? across * across : 0);
+/// Where discs are looked at from.
+struct Viewpoint {
+  std::array<float, 3> at, normal;  ///< um from the origin of the discs; unit
+};
+
+/// Distances to discs, um, up to the end of the last eight: never more than to the triangles.
+/// Discs that do not oppose the viewpoint's normal are infinitely far.
+ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n, const Viewpoint& from,
+                                  float* bound) {
+  using Floats = LaneOf<float>;
+  const Floats zero{}, never = zero + std::numeric_limits<float>::infinity();
+  const auto root = [](Floats v) __attribute__((always_inline))->Floats {
+    for (int l = 0; l < kLanes; ++l) v[l] = __builtin_sqrtf(v[l]);
+    return v;
+  };
+  for (std::size_t k = 0; k < n; k += kLanes, number += Discs::kStride) {
+    const auto center = load3<float>(number), normal = load3<float>(number + 3 * kLanes);
+    const Lane3Of<float> d{from.at[0] - center.x, from.at[1] - center.y, from.at[2] - center.z};
+    const Floats height = dot(d, normal), squared = height * height;
+    const Floats in_plane = dot(d, d) - squared;
+    const Floats beyond =
+        root(in_plane > 0.0f ? in_plane : zero) - load<float>(number + 6 * kLanes);
+    const Floats across = beyond > 0.0f ? beyond : zero;
+    const Floats facing =
+        from.normal[0] * normal.x + from.normal[1] * normal.y + from.normal[2] * normal.z;
+    store(bound + k,
+          facing > static_cast<float>(kListFacing) ? never : root(squared + across * across));
   }
 }
 
-/// Makes one list.
+/// The part of space where anything of one body may come near another: within the other's box and
+/// not behind it, seen along the line between the two.
+struct Reach {
+  Vec3 middle, half;
+  Vec3 axis = Vec3::Zero();  ///< away from the other body
+  double limit = 1e300;      ///< of axis . x
+
+  bool includes(const Vec3& center, double radius) const {
+    const Vec3 outside = (center - middle).cwiseAbs() - half;
+    return (outside[0] <= radius) & (outside[1] <= radius) & (outside[2] <= radius) &
+           (center.dot(axis) - limit <= radius);
+  }
+};
+
+/// Makes lists, one after the other.
 class ListBuilder {
  public:
-  ListBuilder(const SurfaceBody& a, const SurfaceBody& b, const SearchOptions& o, bool self)
-      : a_(a),
-        b_(b),
-        o_(o),
-        self_(self),
-        out_(self ? o.self_range : o.range),
-        depth_(self ? 0 : o.max_depth),
-        margin_(std::max(out_, depth_) + o.skin) {
-    find_near_triangles();
-  }
+  explicit ListBuilder(const SearchOptions& o)
+      : o_(o), face_(o.quadrature == Quadrature::kThreePoint) {}
 
-  void fill(Candidates& list) {
-    const bool face = o_.quadrature == Quadrature::kThreePoint;
+  void fill(const SurfaceBody& a, const SurfaceBody& b, bool self, Candidates& list) {
+    a_ = &a;
+    b_ = &b;
+    self_ = self;
+    out_ = self ? o_.self_range : o_.range;
+    depth_ = self ? 0 : o_.max_depth;
+    margin_ = std::max(out_, depth_) + o_.skin;
+    list_ = &list;
     list.start.assign(1, 0);
-    for (std::size_t s = 0; s < n_sites(a_, o_.quadrature); ++s) {
-      const Vec3& at = face ? a_.center[s] : a_.node[s];
-      const double reach = face ? a_.reach[s] : 0;
-      if (at.dot(axis_) + reach < low_b_ || !near_b_.grown(reach).contains(at)) continue;
-      const Vec3& normal = face ? a_.triangle_normal[s] : a_.node_normal[s];
-      const double radius = face ? 0.5 * reach : 0;  // its points are no farther from its place
-      compute_bounds_from(at);
-      near_site_.clear();
-      const auto far = static_cast<float>(std::pow(margin_ + radius + kRounding, 2));
-      for (std::size_t i = 0; i < bound_.size(); ++i) {
-        if (bound_[i] > far) continue;
-        const auto k = static_cast<std::size_t>(discs_.triangle[i]);
-        if (normal.dot(b_.triangle_normal[k]) > kListFacing) continue;
-        if (self_ && !far_on_surface(a_, o_.quadrature, s, k)) continue;
-        near_site_.push_back(i);
-      }
-      if (near_site_.empty()) continue;
-      if (!face) {
-        if (may_matter(find_gap(at), 0)) add(static_cast<int>(s), list);
-        continue;
-      }
-      if (!narrow_down(at, radius)) continue;
-      for (int q = 0; q < 3; ++q) add(3 * static_cast<int>(s) + q, list);
-    }
+    find_reach();
+    origin_ = 0.5 * (b.box.low + b.box.high);
+    find_included(near_a_, b.center, b.reach);
+    discs_.reset(included_.size());
+    for (const int t : included_) discs_.add(b, static_cast<std::size_t>(t), origin_);
+    near_.reset(discs_.n);
+    bound_.resize(std::max(bound_.size(), discs_.triangle.size()));
+    near_index_.resize(discs_.triangle.size());
+    clear_block();
+    if (discs_.n == 0) return;
+    if (face_)
+      find_included(near_b_, a.center, a.reach);
+    else
+      find_included(near_b_, a.node, {});
+    for (const int s : included_) look_from(static_cast<std::size_t>(s));
+    flush();
   }
 
  private:
-  /// Triangles of b that anything of a may come near: those within a's box and on its side.
-  void find_near_triangles() {
-    near_b_ = b_.box.grown(margin_);
-    double high_a = 1e300;
-    if (!self_) {
-      const Vec3 apart = b_.box.low + b_.box.high - a_.box.low - a_.box.high;
-      if (apart.norm() > 0) {
-        axis_ = apart.normalized();
-        double high = -1e300, low = 1e300;
-        for (const Vec3& x : a_.node) high = std::max(high, x.dot(axis_));
-        for (const Vec3& x : b_.node) low = std::min(low, x.dot(axis_));
-        high_a = high + margin_;
-        low_b_ = low - margin_;
+  void find_reach() {
+    auto make = [this](const Box& box) {
+      return Reach{0.5 * (box.low + box.high), (0.5 * (box.high - box.low)).array() + margin_};
+    };
+    near_a_ = make(a_->box);
+    near_b_ = make(b_->box);
+    if (self_) return;
+    const Vec3 apart = near_b_.middle - near_a_.middle;
+    if (!(apart.norm() > 0)) return;
+    const Vec3 axis = apart.normalized();
+    double high = -1e300, low = 1e300;
+    for (const Vec3& x : a_->node) high = std::max(high, x.dot(axis));
+    for (const Vec3& x : b_->node) low = std::min(low, x.dot(axis));
+    near_a_.axis = axis;
+    near_a_.limit = high + margin_;
+    near_b_.axis = -axis;
+    near_b_.limit = margin_ - low;
+  }
+
+  /// Writes which places (with their radii, if any) are included. No branch to be mispredicted.
+  void find_included(const Reach& reach, std::span<const Vec3> place,
+                     std::span<const double> radius) {
+    included_.resize(place.size());
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      included_[n] = static_cast<int>(k);
+      n += reach.includes(place[k], radius.empty() ? 0 : radius[k]) ? 1 : 0;
+    }
+    included_.resize(n);
+  }
+
+  void compute_bounds_from(const Discs& discs, const Vec3& x, const Vec3& normal) {
+    const Vec3 d = x - origin_;
+    Viewpoint from;
+    for (std::size_t m = 0; m < 3; ++m) {
+      from.at[m] = static_cast<float>(d[static_cast<int>(m)]);
+      from.normal[m] = static_cast<float>(normal[static_cast<int>(m)]);
+    }
+    compute_bounds(discs.number.data(), discs.n, from, bound_.data());
+  }
+
+  /// Adds the points of one site to the block, if they come near.
+  void look_from(std::size_t site) {
+    const Vec3& at = face_ ? a_->center[site] : a_->node[site];
+    const Vec3& normal = face_ ? a_->triangle_normal[site] : a_->node_normal[site];
+    // The points of a site are no farther from its place than this.
+    const double radius = face_ ? 0.5 * a_->reach[site] : 0;
+    compute_bounds_from(discs_, at, normal);
+    const auto far = static_cast<float>(margin_ + radius + kRounding);
+    const int n_disc = static_cast<int>(discs_.n);
+    int* const near = near_index_.data();
+    const float* const bound = bound_.data();
+    int n = 0;
+    for (int i = 0; i < n_disc; ++i) {  // no branch to be mispredicted
+      near[n] = i;
+      n += bound[i] <= far ? 1 : 0;
+    }
+    if (self_)
+      n = static_cast<int>(std::remove_if(near, near + n,
+                                          [&](int i) {
+                                            return !far_on_surface(*a_, o_.quadrature, site,
+                                                                   discs_.triangle_at(i));
+                                          }) -
+                           near);
+    if (n == 0) return;
+
+    int likely = near[0];
+    for (int k = 1; k < n; ++k) likely = bound[near[k]] < bound[likely] ? near[k] : likely;
+    const auto& corner = (*b_->triangle)[discs_.triangle_at(likely)];
+    const double no_more =
+        std::sqrt(mesh::find_closest_point(at, b_->node[static_cast<std::size_t>(corner[0])],
+                                           b_->node[static_cast<std::size_t>(corner[1])],
+                                           b_->node[static_cast<std::size_t>(corner[2])])
+                      .squared_distance);
+    const auto matters = static_cast<float>(no_more + 2 * (radius + o_.skin) + kRounding);
+    near_.reset(0);
+    for (int k = 0; k < n; ++k)
+      if (bound[near[k]] <= matters) near_.add(discs_, static_cast<std::size_t>(near[k]));
+    const int per_site = points_per_site(o_.quadrature);
+    for (int q = 0; q < per_site; ++q)
+      add(static_cast<int>(site) * per_site + q, normal, no_more + radius);
+  }
+
+  /// Adds a point to the block with the triangles near its site that may be closest to it before
+  /// the list expires. @param no_more  um, the closest is no farther
+  void add(int point, const Vec3& normal, double no_more) {
+    const Vec3 x = point_position(*a_, point_stencil(*a_, o_.quadrature, point));
+    compute_bounds_from(near_, x, normal);
+    const auto matters = static_cast<float>(no_more + 2 * o_.skin + kRounding);
+    const std::size_t first = n_wide_, most = n_wide_ + near_.n + 1;
+    if (wide_triangle_.size() < most) {
+      wide_triangle_.resize(2 * most);
+      wide_bound_.resize(2 * most);
+    }
+    int* const triangle = wide_triangle_.data();
+    float* const bound = wide_bound_.data();
+    std::size_t end = first, likely = first;
+    float least = matters;
+    for (std::size_t i = 0; i < near_.n; ++i) {  // no branch here either
+      const float here = bound_[i];
+      triangle[end] = near_.triangle[i];
+      bound[end] = here;
+      likely = here < least ? end : likely;
+      least = here < least ? here : least;
+      end += here <= matters ? 1 : 0;
+    }
+    if (end == first || static_cast<double>(least) > margin_ + kRounding) return;
+    n_wide_ = end;
+    std::swap(triangle[first], triangle[likely]);
+    std::swap(bound[first], bound[likely]);
+    const auto n = static_cast<std::size_t>(block_.n++);
+    point_[n] = point;
+    for (std::size_t m = 0; m < 3; ++m) block_.x[3 * n + m] = x[static_cast<int>(m)];
+    block_.begin[n] = static_cast<std::uint32_t>(first);
+    block_.end[n] = static_cast<std::uint32_t>(n_wide_);
+    if (block_.n == PointBlock::kSize) flush();
+  }
+
+  /// Lists the points of the block whose gap may become a contact before the list expires.
+  void flush() {
+    constexpr double kAnywhere = 1e150;
+    const double turn = 2 * o_.skin + kRounding;  // of two triangles, which is the closer
+    wide_distance_.assign(n_wide_, std::numeric_limits<float>::infinity());
+    find_closest(*b_, wide_triangle_, wide_bound_, turn, kAnywhere, block_, wide_distance_);
+    find_gaps(*b_, Place::kExact, block_);
+    std::size_t end = list_->triangle.size();
+    list_->triangle.resize(end + n_wide_ + 1);
+    list_->bound.resize(end + n_wide_ + 1);
+    int* const triangle = list_->triangle.data();
+    float* const bound = list_->bound.data();
+    for (std::size_t n = 0; n < static_cast<std::size_t>(block_.n); ++n) {
+      const double gap = block_.gap[n];
+      if (gap > out_ + o_.skin || -gap > depth_ + o_.skin || block_.triangle[n] < 0) continue;
+      list_->point.push_back(point_[n]);
+      list_->gap.push_back(static_cast<float>(gap));
+      const auto matters = static_cast<float>(std::abs(gap) + turn);
+      const std::size_t first = end;
+      std::size_t closest = first;
+      for (std::uint32_t k = block_.begin[n]; k < block_.end[n]; ++k) {  // no branch again
+        triangle[end] = wide_triangle_[k];
+        bound[end] = wide_distance_[k];
+        closest = triangle[end] == block_.triangle[n] ? end : closest;
+        end += bound[end] <= matters ? 1 : 0;
       }
+      std::swap(triangle[first], triangle[closest]);
+      std::swap(bound[first], bound[closest]);
+      list_->start.push_back(static_cast<std::uint32_t>(end));
     }
-    const Box near_a = a_.box.grown(margin_);
-    discs_.origin = 0.5 * (b_.box.low + b_.box.high);
-    for (std::size_t t = 0; t < b_.center.size(); ++t)
-      if (self_ || (b_.center[t].dot(axis_) - b_.reach[t] < high_a &&
-                    near_a.grown(b_.reach[t]).contains(b_.center[t])))
-        discs_.add(b_, static_cast<int>(t));
-    bound_.resize(discs_.triangle.size());
+    list_->triangle.resize(end);
+    list_->bound.resize(end);
+    clear_block();
   }
 
-  void compute_bounds_from(const Vec3& at) {
-    const Vec3 d = at - discs_.origin;
-    compute_bounds({static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])},
-                   bound_.size(), discs_.x.data(), discs_.y.data(), discs_.z.data(),
-                   discs_.nx.data(), discs_.ny.data(), discs_.nz.data(), discs_.reach.data(),
-                   bound_.data());
+  void clear_block() {
+    block_.n = 0;
+    n_wide_ = 0;
   }
 
-  /// Signed distance of x from the triangles near its site. @pre compute_bounds_from(x)
-  double find_gap(const Vec3& x) const {
-    std::size_t least = near_site_[0];
-    for (std::size_t i : near_site_)
-      if (bound_[i] < bound_[least]) least = i;
-    Closest closest{1e300, -1, {}};
-    closest.look_at(b_, discs_.triangle[least], x);
-    for (std::size_t i : near_site_)
-      if (i != least && static_cast<double>(bound_[i]) <= closest.squared + kRounding)
-        closest.look_at(b_, discs_.triangle[i], x);
-    const Vec3 outward = blended_normal(b_, closest.triangle, closest.at.weight);
-    const double distance = std::sqrt(closest.squared);
-    return (x - closest.at.point).dot(outward) >= 0 ? distance : -distance;
-  }
-
-  /// Whether a gap here may become a contact before the list expires.
-  bool may_matter(double gap, double radius) const {
-    return gap <= out_ + o_.skin + radius && -gap <= depth_ + o_.skin + radius;
-  }
-
-  /// Leaves the triangles that matter for points within `radius` of x; false if none does.
-  bool narrow_down(const Vec3& x, double radius) {
-    const double gap = find_gap(x);
-    if (!may_matter(gap, radius)) return false;
-    const auto far =
-        static_cast<float>(std::pow(std::abs(gap) + 2 * (radius + o_.skin) + kRounding, 2));
-    std::erase_if(near_site_, [&](std::size_t i) { return bound_[i] > far; });
-    return true;
-  }
-
-  /// Adds a point with every triangle that may be closest to it before the list expires.
-  void add(int point, Candidates& list) {
-    const Vec3 x = point_position(a_, point_stencil(a_, o_.quadrature, point));
-    compute_bounds_from(x);
-    const double gap = find_gap(x);
-    if (!may_matter(gap, 0)) return;
-    list.point.push_back(point);
-    list.gap.push_back(static_cast<float>(gap));
-    const auto far = static_cast<float>(std::pow(std::abs(gap) + 2 * o_.skin + kRounding, 2));
-    sorted_.clear();
-    for (std::size_t i : near_site_)
-      if (bound_[i] <= far) sorted_.emplace_back(bound_[i], discs_.triangle[i]);
-    std::ranges::sort(sorted_);
-    for (const auto& [bound, t] : sorted_) {
-      list.triangle.push_back(t);
-      list.bound.push_back(std::sqrt(bound));
-    }
-    list.start.push_back(static_cast<std::uint32_t>(list.triangle.size()));
-  }
-
-  const SurfaceBody &a_, &b_;
   const SearchOptions& o_;
-  bool self_;
-  double out_, depth_, margin_;
-  Vec3 axis_ = Vec3::Zero();  ///< from a to b
-  double low_b_ = -1e300;     ///< of axis . x
-  Box near_b_;
-  Discs discs_;                         ///< triangles of b that anything of a may come near
-  std::vector<float> bound_;            ///< um^2, of discs_, from the place looked at last
-  std::vector<std::size_t> near_site_;  ///< of discs_
-  std::vector<std::pair<float, int>> sorted_;
+  bool face_;
+  // of the list being made:
+  const SurfaceBody *a_ = nullptr, *b_ = nullptr;
+  Candidates* list_ = nullptr;
+  bool self_ = false;
+  double out_ = 0, depth_ = 0, margin_ = 0;
+  Reach near_a_, near_b_;
+  std::vector<int> included_;
+  Vec3 origin_ = Vec3::Zero();  ///< of the discs
+  Discs discs_;                 ///< triangles of b that anything of a may come near
+  // of the site looked from:
+  std::vector<int> near_index_;  ///< of discs_
+  Discs near_;                   ///< those that may be closest to one of its points
+  std::vector<float> bound_;     ///< um, of the discs looked at last
+  // of the points collected:
+  PointBlock block_;
+  std::array<int, PointBlock::kSize> point_{};
+  std::size_t n_wide_ = 0;
+  std::vector<int> wide_triangle_;  ///< their candidates
+  std::vector<float> wide_bound_;   ///< um
+  std::vector<float> wide_distance_;
 };
 
 }  // namespace
@@ -312,14 +397,14 @@ std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
 #pragma omp parallel
   {
     Candidates scratch;  // grows as needed; what is kept is copied to measure
+    ListBuilder builder(o);
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < lists.size(); ++k) {
       scratch.clear();
       scratch.body_a = lists[k].body_a;
       scratch.body_b = lists[k].body_b;
-      ListBuilder(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b),
-                  o, lists[k].body_a == lists[k].body_b)
-          .fill(scratch);
+      builder.fill(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b),
+                   lists[k].body_a == lists[k].body_b, scratch);
       lists[k] = scratch;
     }
   }
@@ -338,50 +423,48 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
   const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
   const double horizon = std::max(range, depth), shift = moved + kRounding;
   const int per_site = points_per_site(o.quadrature);
+  PointBlock block;
+  int point[PointBlock::kSize];
   std::size_t looked = 0;
+  auto flush = [&] {
+    find_closest(b, list.triangle, list.bound, shift, horizon, block);
+    // On a fixed body, which has no unknowns, the exact place: it may be far from its corners.
+    find_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
+    for (int i = 0; i < block.n; ++i) {
+      if (block.triangle[i] < 0) continue;
+      const double gap = block.gap[i];
+      if (gap > range || gap < -depth) continue;
+      // A sheet met through the cell's own inside is not a contact.
+      if (self && gap < 0) continue;
+      const auto site = static_cast<std::size_t>(point[i] / per_site);
+      const Vec3& facing =
+          o.quadrature == Quadrature::kThreePoint ? a.triangle_normal[site] : a.node_normal[site];
+      if (facing.dot(Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])) > kFacing)
+        continue;
+      out.push_back({list.body_a,
+                     point[i],
+                     list.body_b,
+                     block.triangle[i],
+                     {block.rounded[0][i], block.rounded[1][i]},
+                     Vec3(block.normal[0][i], block.normal[1][i], block.normal[2][i]),
+                     gap});
+    }
+    looked += static_cast<std::size_t>(block.n);
+    block.n = 0;
+  };
+  block.n = 0;
   for (std::size_t p = 0; p < list.point.size(); ++p) {
     const double before = static_cast<double>(list.gap[p]);
     if (before - shift > range || -before - shift > depth) continue;
-    ++looked;
+    const int n = block.n++;
     const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point[p]));
-    Closest closest{horizon * horizon, -1, {}};
-    double best = horizon;
-    for (std::uint32_t k = list.start[p]; k < list.start[p + 1]; ++k) {
-      if (static_cast<double>(list.bound[k]) - shift > best) break;
-      const auto t = static_cast<std::size_t>(list.triangle[k]);
-      if (k > list.start[p] && squared_bound(b, t, x) > closest.squared) continue;
-      const double squared = closest.squared;
-      closest.look_at(b, list.triangle[k], x);
-      if (closest.squared < squared) best = std::sqrt(closest.squared);
-    }
-    if (closest.triangle < 0) continue;
-    SurfaceContact contact{list.body_a, list.point[p], list.body_b, closest.triangle, {}, {}, 0};
-    contact.weight_b = {round_to_float(closest.at.weight[0]), round_to_float(closest.at.weight[1])};
-    const auto w = contact.weights();
-    const Vec3 weight(w[0], w[1], w[2]);
-    const Vec3 outward = blended_normal(b, closest.triangle, weight);
-    const auto site = static_cast<std::size_t>(list.point[p] / per_site);
-    const Vec3& facing =
-        o.quadrature == Quadrature::kThreePoint ? a.triangle_normal[site] : a.node_normal[site];
-    if (facing.dot(outward) > kFacing) continue;
-    const auto& corner = (*b.triangle)[static_cast<std::size_t>(closest.triangle)];
-    Vec3 apart = x;
-    if (is_fixed) {  // no unknowns there: the exact place, which may be far from its corners
-      apart -= closest.at.point;
-    } else {
-      for (std::size_t m = 0; m < 3; ++m)
-        apart -= w[m] * b.node[static_cast<std::size_t>(corner[m])];
-    }
-    const double distance = apart.norm();
-    const double sign = apart.dot(outward) >= 0 ? 1.0 : -1.0;
-    const double gap = sign * distance;
-    // A sheet met through the cell's own inside is not a contact.
-    if (self && sign < 0) continue;
-    if (gap > range || gap < -depth) continue;
-    contact.normal = distance > kNoDirection ? Vec3(sign / distance * apart) : outward;
-    contact.gap = gap;
-    out.push_back(contact);
+    for (int m = 0; m < 3; ++m) block.x[3 * n + m] = x[m];
+    block.begin[n] = list.start[p];
+    block.end[n] = list.start[p + 1];
+    point[n] = list.point[p];
+    if (block.n == PointBlock::kSize) flush();
   }
+  flush();
   return looked;
 }
 

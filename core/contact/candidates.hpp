@@ -24,8 +24,8 @@ struct Candidates {
   std::vector<int> point;            ///< of a, ascending
   std::vector<float> gap;            ///< um, when the list was made
   std::vector<std::uint32_t> start;  ///< [n_point + 1]
-  std::vector<int> triangle;         ///< of b, by ascending bound
-  std::vector<float> bound;          ///< um, no more than the distance when the list was made
+  std::vector<int> triangle;         ///< of b, the closest first
+  std::vector<float> bound;          ///< um, distance when the list was made
 
   void clear() {
     for (auto* v : {&point, &triangle}) v->clear();

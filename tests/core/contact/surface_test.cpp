@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/mesh/closest_point.hpp"
 #include "tests/reference/plain_surface.hpp"
 #include "tests/reference/sample.hpp"
 
@@ -137,6 +138,56 @@ TEST(FindContacts, GapsAreThoseOfTryingEveryTriangle) {
               n_inside, worst);
   EXPECT_GT(n_inside, 100);
   EXPECT_LT(worst, 2 * kFloatEps);  // two weights, half a unit off at most, times edges of 3 um
+}
+
+// What find_contacts relies on: no triangle is missing that may be closest after a movement by the
+// skin, and no bound is more than the distance.
+TEST(FindCandidates, HoldEveryTriangleThatMayBecomeTheClosest) {
+  auto random = reference::stream(65);
+  int n_point = 0, n_triangle = 0;
+  for (const Quadrature q : {Quadrature::kThreePoint, Quadrature::kNodes}) {
+    const std::vector<SurfaceBody> bodies{
+        make_body(sphere_nodes(162, 10, {5, -3, 8}, reference::random_rotation(random)), 162),
+        make_body(sphere_nodes(162, 10, Vec3(5, -3, 8) + 19 * random.unit_vector(),
+                               reference::random_rotation(random)),
+                  162)};
+    const SearchOptions o{q, 0.9, 1.5, 0.3, 0};
+    for (const Candidates& c : find_candidates(bodies, {}, find_near_bodies(bodies, o, 0), o)) {
+      const SurfaceBody& a = bodies[static_cast<std::size_t>(c.body_a)];
+      const SurfaceBody& b = bodies[static_cast<std::size_t>(c.body_b)];
+      ASSERT_EQ(c.start.size(), c.point.size() + 1);
+      ASSERT_EQ(c.triangle.size(), c.start.back());
+      ASSERT_EQ(c.bound.size(), c.triangle.size());
+      EXPECT_TRUE(std::ranges::is_sorted(c.point));
+      for (std::size_t p = 0; p < c.point.size(); ++p) {
+        const Vec3 x = point_position(a, point_stencil(a, q, c.point[p]));
+        const double gap = reference::plain_signed_distance(x, b.node, *b.triangle);
+        EXPECT_NEAR(static_cast<double>(c.gap[p]), gap, 1e-6);
+        std::vector<double> listed(b.triangle->size(), -1);
+        for (std::uint32_t k = c.start[p]; k < c.start[p + 1]; ++k) {
+          EXPECT_GE(c.bound[k], c.bound[c.start[p]]);
+          listed[static_cast<std::size_t>(c.triangle[k])] = static_cast<double>(c.bound[k]);
+        }
+        EXPECT_NEAR(static_cast<double>(c.bound[c.start[p]]), std::abs(gap), 1e-6);
+        for (std::size_t t = 0; t < listed.size(); ++t) {
+          const auto& corner = (*b.triangle)[t];
+          const double distance =
+              std::sqrt(mesh::find_closest_point(x, b.node[static_cast<std::size_t>(corner[0])],
+                                                 b.node[static_cast<std::size_t>(corner[1])],
+                                                 b.node[static_cast<std::size_t>(corner[2])])
+                            .squared_distance);
+          EXPECT_LT(listed[t], distance + 1e-6);
+          if (distance < std::abs(gap) + 2 * o.skin) {
+            EXPECT_GE(listed[t], 0);
+          }
+          n_triangle += listed[t] >= 0 ? 1 : 0;
+        }
+        ++n_point;
+      }
+    }
+  }
+  std::printf("candidates: %d points, %d triangles\n", n_point, n_triangle);
+  EXPECT_GT(n_point, 100);
 }
 
 TEST(FindContacts, OldListsFindWhatNewListsFind) {
