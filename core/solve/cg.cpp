@@ -16,7 +16,7 @@ constexpr int kMaxPasses = 20;
 /// A pass that leaves more than this share of the residual has reached what its numbers can do.
 constexpr double kLeastGain = 0.5;
 /// A solve that took this many iterations is likely to take as many more.
-constexpr int kMergeAfter = 10;
+constexpr int kMergeAfter = 16;
 /// Relative residual at which a solve that rounding stopped counts as solved all the same.
 constexpr double kHarmless = 1e-3;
 
