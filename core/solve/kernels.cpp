@@ -17,18 +17,6 @@ ACINUS_INLINE Lane3Of<T> sym_times(const float* d, const Lane3Of<T>& v) {
           xz * v.x + yz * v.y + load<T>(d + 5 * kLanes) * v.z};
 }
 
-/// The points of one row, from packed to lanes.
-template <class T>
-ACINUS_INLINE Lane3Of<T> load_packed(const Packed<T>* from) {
-  Lane3Of<T> v;
-  for (std::size_t l = 0; l < kLanes; ++l) {
-    v.x[l] = from[l][0];
-    v.y[l] = from[l][1];
-    v.z[l] = from[l][2];
-  }
-  return v;
-}
-
 /// Springs with the hinge about each, in one sweep: they share two of their points.
 template <class T, bool kHinges, bool kMerged>
 ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {

@@ -6,28 +6,8 @@ namespace acinus::solve {
 namespace {
 
 template <class T>
-struct FourType;
-template <>
-struct FourType<double> {
-  using type = double __attribute__((vector_size(32)));
-};
-template <>
-struct FourType<float> {
-  using type = float __attribute__((vector_size(16)));
-};
-template <class T>
-using Four = typename FourType<T>::type;
-
-template <class T>
-ACINUS_INLINE Four<T> load4(const Packed<T>* v, Point p) {
-  Four<T> out;
-  __builtin_memcpy(&out, v + p, sizeof(out));
-  return out;
-}
-template <class T>
 ACINUS_INLINE void add4(Packed<T>* v, Point p, Four<T> f) {
-  const Four<T> sum = load4(v, p) + f;
-  __builtin_memcpy(v + p, &sum, sizeof(sum));
+  store4<T>(v + p, load4(v + p) + f);
 }
 
 /// The normal, and in the fourth place whatever follows it: vectors hold zero there on the way in,
@@ -47,14 +27,14 @@ ACINUS_INLINE bool exists(const PointLink& l) { return l.b != kNowhere; }
 /// The place of a side.
 template <class T>
 ACINUS_INLINE Four<T> gather(const Side& s, const Packed<T>* x) {
-  const Four<T> last = load4(x, s.point[2]);
+  const Four<T> last = load4(x + s.point[2]);
   if (is_single(s)) return last;
   const T w0 = static_cast<T>(s.weight[0]), w1 = static_cast<T>(s.weight[1]);
-  return last + w0 * (load4(x, s.point[0]) - last) + w1 * (load4(x, s.point[1]) - last);
+  return last + w0 * (load4(x + s.point[0]) - last) + w1 * (load4(x + s.point[1]) - last);
 }
 template <class T>
 ACINUS_INLINE Four<T> gather(Point p, const Packed<T>* x) {
-  return load4(x, p);
+  return load4(x + p);
 }
 
 /// Spreads a force over the points of a side; what they get adds up to it exactly.
@@ -124,19 +104,14 @@ ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scal
 
 template <class T>
 ACINUS_INLINE void pack(const T* from, std::size_t n_row, Packed<T>* to) {
-  for (std::size_t row = 0; row < n_row; ++row, from += kPointStride)
-    for (std::size_t l = 0; l < kLanes; ++l)
-      *to++ = {from[l], from[l + kLanes], from[l + 2 * kLanes], 0};
+  for (std::size_t row = 0; row < n_row; ++row, from += kPointStride, to += kLanes)
+    store_packed(to, load3<T>(from));
 }
 
 template <class T>
 ACINUS_INLINE void unpack(const Packed<T>* from, std::size_t n_row, T* to) {
-  for (std::size_t row = 0; row < n_row; ++row, to += kPointStride, from += kLanes) {
-    T v[3][kLanes];
-    for (std::size_t l = 0; l < kLanes; ++l)
-      for (std::size_t c = 0; c < 3; ++c) v[c][l] = from[l][c];
-    for (std::size_t c = 0; c < 3; ++c) add_to(to + c * kLanes, load<T>(v[c]));
-  }
+  for (std::size_t row = 0; row < n_row; ++row, to += kPointStride, from += kLanes)
+    add3(to, load_packed(from));
 }
 
 }  // namespace
@@ -163,11 +138,11 @@ ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, std::span<const Share
   using Eight = float __attribute__((vector_size(32)));
   for (const Share s : share) {
     const PointPairs::Row row = pairs.row[s.link];
-    const Four<float> xa = load4(x, row.a);
+    const Four<float> xa = load4(x + row.a);
     Four<float> sum = {};
     for (std::uint32_t k = row.first; k < row.last; ++k) {
       const Point b = pairs.b[k];
-      const Four<float> r = xa - load4(x, b);
+      const Four<float> r = xa - load4(x + b);
       Eight m;
       __builtin_memcpy(&m, pairs.block[k].data(), sizeof(m));
       // The columns of the block; what they hold in the fourth place nobody reads.

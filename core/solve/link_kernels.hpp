@@ -6,12 +6,9 @@
 #include <vector>
 
 #include "core/solve/links.hpp"
+#include "core/solve/packed.hpp"
 
 namespace acinus::solve {
-
-/// The components of a point side by side; the fourth number is unused.
-template <class T>
-using Packed = std::array<T, 4>;
 
 /// A contact, or a row of pairs, as one thread sees it: which of its sides it owns.
 struct Share {
