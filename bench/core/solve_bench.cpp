@@ -1,0 +1,104 @@
+/// Kernels of the solver: products with the matrix, whole and in parts, and its preconditioner.
+
+#include <vector>
+
+#include "bench/clump.hpp"
+#include "core/solve/kernels.hpp"
+
+namespace acinus::bench {
+namespace {
+
+template <class T>
+using Points = std::vector<solve::Packed<T>>;
+
+/// All that is within the cells.
+template <class T>
+void multiply_block(benchmark::State& state) {
+  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
+  std::vector<solve::BlockView> view;
+  for (std::size_t b = 0; b < s.block.size(); ++b) view.push_back(view_block(s, b));
+  const std::vector<T> x(s.n_dof(), T(1e-3));
+  std::vector<T> y(s.n_dof());
+  const Points<T> contact(s.n_row * kLanes);
+  for (auto _ : state)
+    for (std::size_t b = 0; b < s.block.size(); ++b) {
+      const std::size_t row = s.block[b].first_row, at = row * kPointStride;
+      benchmark::DoNotOptimize(solve::multiply_block(view[b], x.data() + at,
+                                                     contact.data() + row * kLanes, y.data() + at));
+    }
+  count(state, "cells", static_cast<std::size_t>(state.range()));
+}
+BENCHMARK_TEMPLATE(multiply_block, double)->Apply(clump_sizes);
+BENCHMARK_TEMPLATE(multiply_block, float)->Apply(clump_sizes);
+
+/// All contacts one by one.
+template <class T>
+void multiply_links(benchmark::State& state) {
+  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
+  std::vector<solve::Share> share;
+  for (std::size_t l = 0; l < s.links.size(); ++l)
+    if (has_matrix(s.links.link[l], s.stiffness_scale))
+      share.push_back({static_cast<std::uint32_t>(l), 1, s.links.link[l].b.exists()});
+  const Points<T> x(s.n_row * kLanes, {T(1e-3), T(1e-3), T(1e-3), 0});
+  Points<T> y(x.size());
+  for (auto _ : state) {
+    solve::multiply_links(solve::LinkSet<solve::Link>{s.links.link, share},
+                          {s.stiffness_scale, s.friction_scale}, x.data(), y.data());
+    benchmark::ClobberMemory();
+  }
+  count(state, "contacts", share.size());
+}
+BENCHMARK_TEMPLATE(multiply_links, double)->Apply(clump_sizes);
+BENCHMARK_TEMPLATE(multiply_links, float)->Apply(clump_sizes);
+
+/// A whole product, as an iteration of conjugate gradients makes it.
+template <class T>
+void apply(benchmark::State& state) {
+  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
+  solve::Operator op;
+  op.prepare(s);
+  const std::vector<T> x(s.n_dof(), T(1e-3));
+  std::vector<T> y(s.n_dof());
+  for (auto _ : state) benchmark::DoNotOptimize(op.apply<T>(x, y));
+  count(state, "cells", static_cast<std::size_t>(state.range()));
+}
+BENCHMARK_TEMPLATE(apply, double)->Apply(clump_sizes);
+BENCHMARK_TEMPLATE(apply, float)->Apply(clump_sizes);
+
+/// The same with contacts merged: multiply_pairs in place of multiply_links.
+void apply_merged(benchmark::State& state) {
+  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
+  solve::Operator op;
+  op.prepare(s);
+  op.merge_links();
+  const std::vector<float> x(s.n_dof(), 1e-3f);
+  std::vector<float> y(s.n_dof());
+  for (auto _ : state) benchmark::DoNotOptimize(op.apply<float>(x, y));
+  count(state, "cells", static_cast<std::size_t>(state.range()));
+}
+BENCHMARK(apply_merged)->Apply(clump_sizes);
+
+/// What the merged product has to earn back.
+void merge_links(benchmark::State& state) {
+  solve::Operator op;
+  op.prepare(packed_clump(static_cast<int>(state.range())).work.system);
+  for (auto _ : state) op.merge_links(true);
+  count(state, "cells", static_cast<std::size_t>(state.range()));
+}
+BENCHMARK(merge_links)->Apply(clump_sizes);
+
+template <class T>
+void precondition(benchmark::State& state) {
+  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
+  solve::Operator op;
+  op.prepare(s);
+  const std::vector<T> r(s.n_dof(), T(1e-3));
+  std::vector<T> z(s.n_dof());
+  for (auto _ : state) benchmark::DoNotOptimize(op.precondition<T>(r, z));
+  count(state, "cells", static_cast<std::size_t>(state.range()));
+}
+BENCHMARK_TEMPLATE(precondition, double)->Apply(clump_sizes);
+BENCHMARK_TEMPLATE(precondition, float)->Apply(clump_sizes);
+
+}  // namespace
+}  // namespace acinus::bench
