@@ -76,7 +76,7 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
   const std::string partial = path + ".tmp";
   const RemoveUnlessMoved cleanup{partial};
   {
-    const File old = File::open(path, Access::kRead);
+    const File old = File::open(path, Access::kAppend);  // puts a killed session's journal in place
     check_run_schema(old);
     const RunFileCounts found = read_counts(old);
     if (keep.frame > found.frame || keep.series > found.series || keep.event > found.event) {

@@ -5,19 +5,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
-#include <map>
 #include <memory>
+#include <string>
+
+#include "core/io/journal.hpp"
 
 namespace acinus::io::h5 {
 namespace {
 
-constexpr haddr_t kPage = 4096;
 constexpr haddr_t kMaxAddress = (haddr_t{1} << 62) - 1;
-using Page = std::array<std::byte, kPage>;
 
 struct DriverInfo {
   StagedState* state;
@@ -28,10 +27,11 @@ struct StagedFile : H5FD_t {
   bool writable = false;
   dev_t device = 0;
   ino_t inode = 0;
+  std::string path;
   haddr_t end_of_allocation = 0;
-  haddr_t end_of_file = 0;         ///< as HDF5 sees it
-  haddr_t committed = 0;           ///< bytes below are part of the last good state
-  std::map<haddr_t, Page> staged;  ///< page index -> new content, below `committed`
+  haddr_t end_of_file = 0;  ///< as HDF5 sees it
+  haddr_t committed = 0;    ///< bytes below are part of the last good state
+  Journal staged;           ///< new content of bytes below `committed`
   StagedState* state = nullptr;
 };
 
@@ -42,18 +42,6 @@ herr_t fail(StagedFile* file) {
   if (file->state->error == 0) file->state->error = errno != 0 ? errno : EIO;
   file->state->discard = true;
   return -1;
-}
-
-bool write_all(int descriptor, const std::byte* data, haddr_t size, haddr_t address) {
-  while (size > 0) {
-    const ssize_t n = pwrite(descriptor, data, size, static_cast<off_t>(address));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    data += n;
-    address += static_cast<haddr_t>(n);
-    size -= static_cast<haddr_t>(n);
-  }
-  return true;
 }
 
 /// Bytes past the end read as zero, as HDF5 expects.
@@ -73,6 +61,19 @@ bool read_all(int descriptor, std::byte* data, haddr_t size, haddr_t address) {
   return true;
 }
 
+/// Writes the waiting pages, which are in the journal, and drops it.
+bool overwrite(StagedFile* file) {
+  if (file->staged.page.empty()) return true;
+  for (const auto& [index, page] : file->staged.page) {
+    const haddr_t begin = index * kPage;
+    const haddr_t size = std::min<haddr_t>(kPage, file->staged.end - begin);
+    if (!write_all(file->descriptor, page.data(), size, begin)) return false;
+  }
+  file->staged.page.clear();
+  remove_journal(file->path);
+  return true;
+}
+
 H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t max_address) {
   const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(access));
   if (info == nullptr || info->state == nullptr || max_address == 0) return nullptr;
@@ -82,8 +83,10 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t max_ad
   if ((flags & H5F_ACC_EXCL) != 0) mode |= O_EXCL;
   auto file = std::make_unique<StagedFile>();
   file->state = info->state;
+  file->path = name;
   *file->state = {};  // HDF5 tries a plain open before it creates; that failure does not count
   errno = 0;
+  if ((flags & H5F_ACC_TRUNC) != 0) remove_journal(name);  // it belongs to what is replaced
   file->descriptor = open(name, mode | O_CLOEXEC, 0666);
   struct stat status {};
   if (file->descriptor < 0 || fstat(file->descriptor, &status) != 0) {
@@ -96,23 +99,29 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t max_ad
   file->end_of_file = file->committed = static_cast<haddr_t>(status.st_size);
   file->writable = (flags & H5F_ACC_RDWR) != 0;
   file->state->discard = !file->writable;  // a reader never writes, not even to mend a length
+  try {
+    file->staged = read_journal(name);  // of a session that was killed; else empty
+  } catch (...) {                       // exceptions must not cross the C library
+    errno = EIO;
+    fail(file.get());
+  }
+  if (file->writable && file->state->error == 0 && !overwrite(file.get())) fail(file.get());
+  if (file->state->error != 0) {
+    ::close(file->descriptor);
+    return nullptr;
+  }
   return file.release();
 }
 
-/// Writes the waiting pages. Space for them exists, so this rarely fails.
+/// From the complete journal on, the new state is the file's state, whatever happens.
 bool commit(StagedFile* file) {
   if (file->end_of_file < file->end_of_allocation) {
     if (ftruncate(file->descriptor, static_cast<off_t>(file->end_of_allocation)) != 0) return false;
     file->end_of_file = file->end_of_allocation;
   }
-  for (const auto& [index, page] : file->staged) {
-    const haddr_t begin = index * kPage;
-    const haddr_t size = std::min(kPage, file->committed - begin);
-    if (!write_all(file->descriptor, page.data(), size, begin)) return false;
-  }
-  file->staged.clear();
+  if (!file->staged.page.empty() && !write_journal(file->path, file->staged)) return false;
   file->committed = file->end_of_file;
-  return true;
+  return overwrite(file);
 }
 
 herr_t close_file(H5FD_t* handle) {
@@ -158,11 +167,12 @@ herr_t read_bytes(H5FD_t* handle, H5FD_mem_t, hid_t, haddr_t address, std::size_
   auto* out = static_cast<std::byte*>(buffer);
   if (!read_all(file->descriptor, out, size, address)) return -1;
   const haddr_t end = address + size;
-  for (auto it = file->staged.lower_bound(address / kPage); it != file->staged.end(); ++it) {
+  const Pages& staged = file->staged.page;
+  for (auto it = staged.lower_bound(address / kPage); it != staged.end(); ++it) {
     const haddr_t page_begin = it->first * kPage;
     if (page_begin >= end) break;
     const haddr_t from = std::max(address, page_begin);
-    const haddr_t to = std::min({end, page_begin + kPage, file->committed});
+    const haddr_t to = std::min({end, page_begin + kPage, file->staged.end});
     if (from < to)
       std::memcpy(out + (from - address), it->second.data() + (from - page_begin), to - from);
   }
@@ -171,12 +181,14 @@ herr_t read_bytes(H5FD_t* handle, H5FD_mem_t, hid_t, haddr_t address, std::size_
 
 /// Puts new content of already committed bytes aside.
 bool stage(StagedFile* file, const std::byte* data, haddr_t begin, haddr_t end) {
+  file->staged.end = file->committed;
+  Pages& staged = file->staged.page;
   for (haddr_t index = begin / kPage; index * kPage < end; ++index) {
     const haddr_t page_begin = index * kPage;
-    auto it = file->staged.find(index);
-    if (it == file->staged.end()) {
-      it = file->staged.emplace(index, Page{}).first;
-      const haddr_t known = std::min(kPage, file->committed - page_begin);
+    auto it = staged.find(index);
+    if (it == staged.end()) {
+      it = staged.emplace(index, Page{}).first;
+      const haddr_t known = std::min<haddr_t>(kPage, file->committed - page_begin);
       if (!read_all(file->descriptor, it->second.data(), known, page_begin)) return false;
     }
     const haddr_t from = std::max(begin, page_begin);

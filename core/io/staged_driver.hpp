@@ -4,9 +4,10 @@
 /// Stock HDF5 overwrites indices in place while it works. A full disk then leaves a superblock that
 /// points past the end of the file, and a kill in the middle of a B-tree split loses frames that
 /// were finished long ago. Here bytes past the old end of the file go straight to disk (nothing
-/// points at them yet), while changes of older bytes wait in memory and are written in one short
-/// burst at flush or close. A session that fails or is abandoned is cut back to the old length: the
-/// file is then what it was before, byte for byte.
+/// points at them yet), while changes of older bytes wait in memory; at flush or close they are
+/// written down in a journal beside the file and then put in place in one short burst. A kill in
+/// that burst costs nothing: the next open takes them from the journal. A session that fails or is
+/// abandoned is cut back to the old length: the file is then what it was before, byte for byte.
 
 #include <hdf5.h>
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <functional>
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/journal.hpp"
 #include "core/io/run_file.hpp"
 #include "core/io/run_reader.hpp"
 #include "tests/core/io/expect_frame.hpp"
@@ -89,6 +91,82 @@ TEST(RunFileCrash, KillAtAnyMomentLeavesEveryFinishedFrame) {
     test::expect_same_frame(RunReader(path).frame(0), changing_frame(0));
   }
   std::printf("20 kills, %d frames read back\n", n_checked);
+}
+
+/// Kills rarely hit the short time in which older bytes are overwritten, so here is every stage of
+/// it: the first pages have their new content, the others the old one, and the journal is there.
+TEST(RunFileCrash, KillWhileOverwritingIsMendedByTheJournal) {
+  const Folder folder("run_file_journal");
+  const std::string path = folder / "run.vtkhdf";
+  RunFile run = RunFile::create(path, {});
+  for (int k = 0; k < 2; ++k) run.append(changing_frame(k));
+  const std::string old = read_text_file(path);
+  run.append(changing_frame(2));
+  const std::string changed = read_text_file(path);
+  EXPECT_FALSE(std::filesystem::exists(h5::journal_of(path))) << "a finished append needs none";
+
+  h5::Journal journal{old.size(), {}};
+  const auto page_count = (old.size() + h5::kPage - 1) / h5::kPage;
+  for (std::uint64_t i = 0; i < page_count; ++i) {
+    const std::string bytes = changed.substr(i * h5::kPage, h5::kPage);
+    if (bytes == old.substr(i * h5::kPage, h5::kPage)) continue;
+    std::memcpy(journal.page[i].data(), bytes.data(), bytes.size());
+  }
+  ASSERT_GE(journal.page.size(), 3U);
+  int n_broken = 0;
+  for (std::size_t n_done = 0; n_done <= journal.page.size(); ++n_done) {
+    std::string torn = changed;
+    std::size_t i = 0;
+    for (const auto& [index, page] : journal.page) {
+      const std::uint64_t begin = index * h5::kPage;
+      const std::uint64_t size = std::min(h5::kPage, old.size() - begin);
+      if (i++ >= n_done) torn.replace(begin, size, old, begin, size);
+    }
+    write_text_file(path, torn);
+    try {
+      const RunReader reader(path);
+      for (int k = 0; k < 2; ++k) reader.frame(k);
+    } catch (const Error&) {
+      ++n_broken;
+    }
+    ASSERT_TRUE(h5::write_journal(path, journal));
+    {
+      const RunReader reader(path);
+      ASSERT_EQ(reader.n_frame(), 3);
+      for (int k = 0; k < 3; ++k) test::expect_same_frame(reader.frame(k), changing_frame(k));
+    }
+    EXPECT_TRUE(read_text_file(path) == torn) << "a reader must not write";
+    RunFile again = RunFile::open_for_append(path, {3, 0, 0});
+    EXPECT_FALSE(std::filesystem::exists(h5::journal_of(path)));
+    again.append(changing_frame(3));
+    for (int k = 0; k < 4; ++k) {
+      test::expect_same_frame(RunReader(path).frame(k), changing_frame(k));
+    }
+  }
+  EXPECT_GT(n_broken, 0) << "what the journal is for";
+  std::printf("%zu stages, %d of them unreadable without the journal\n", journal.page.size() + 1,
+              n_broken);
+}
+
+TEST(RunFileCrash, CutJournalIsIgnored) {
+  const Folder folder("journal_cut");
+  const std::string path = folder / "file";
+  h5::Journal journal{5000, {}};
+  journal.page[0].fill(std::byte{1});
+  journal.page[1].fill(std::byte{2});
+  ASSERT_TRUE(h5::write_journal(path, journal));
+  const std::string whole = read_text_file(h5::journal_of(path));
+  EXPECT_EQ(h5::read_journal(path).page, journal.page);
+  EXPECT_EQ(h5::read_journal(path).end, 5000U);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{10}, std::size_t{24}, std::size_t{4128}, whole.size() - 1}) {
+    write_text_file(h5::journal_of(path), whole.substr(0, size));
+    EXPECT_TRUE(h5::read_journal(path).page.empty()) << size;
+  }
+  std::string flipped = whole;
+  flipped[300] ^= 1;
+  write_text_file(h5::journal_of(path), flipped);
+  EXPECT_TRUE(h5::read_journal(path).page.empty());
 }
 
 TEST(RunFileCrash, KillWhileSavingLeavesACheckpoint) {
