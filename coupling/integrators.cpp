@@ -59,7 +59,7 @@ Attempt try_linearly_implicit(const World& world, double step, Workspace& w) {
 /// them beyond its limit: the fastest mode then turns round at every step and outweighs all others.
 bool shapes_swing(const World& world, double step, const Workspace& w) {
   const State& s = world.state;
-  if (s.clock.last_step <= 0 || s.last_move.size() != w.move.size()) return false;
+  if (!has_last_move(s)) return false;
   double product = 0, now2 = 0, before2 = 0;
   for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane) {
     if (!s.dcm.active(lane)) continue;

@@ -118,11 +118,11 @@ double estimate_error(const World& world, double step, Workspace& w) {
   const State& s = world.state;
   auto& change = w.cg.product;
   change.resize(w.move.size());
-  // A first step is compared with rest.
-  const bool first = s.clock.last_step <= 0 || s.last_move.size() != w.move.size();
-  const double ratio = first ? 0 : step / s.clock.last_step;
-  for (std::size_t k = 0; k < w.move.size(); ++k)
-    change[k] = 0.5 * (w.move[k] - (first ? 0 : ratio * s.last_move[k]));
+  for (std::size_t k = 0; k < w.move.size(); ++k) change[k] = 0.5 * w.move[k];
+  if (has_last_move(s)) {  // else the step is compared with rest
+    const double ratio = step / s.clock.last_step;
+    for (std::size_t k = 0; k < w.move.size(); ++k) change[k] -= 0.5 * ratio * s.last_move[k];
+  }
   return error_norm(world, w, change);
 }
 

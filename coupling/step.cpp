@@ -171,7 +171,7 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   for (std::size_t k = 0; k < w.rhs.size(); ++k)
     w.rhs[k] = w.system.force[k] + w.system.external_force[k];
   // The last step's velocity is a good first guess.
-  if (s.last_move.size() == w.move.size() && s.clock.last_step > 0) {
+  if (has_last_move(s)) {
     const double ratio = step / s.clock.last_step;
     for (std::size_t k = 0; k < w.move.size(); ++k) w.move[k] = ratio * s.last_move[k];
   } else {

@@ -98,6 +98,12 @@ struct State {
   double settle_time = -1;              ///< s, when that was
 };
 
+/// Whether `last_move` is a step of the rows there are now: not before the first step.
+inline bool has_last_move(const State& s) {
+  return s.clock.last_step > 0 &&
+         s.last_move.size() == s.dcm.position.size() + s.cbm.position.size();
+}
+
 struct World {
   Params params;
   State state;

@@ -95,6 +95,58 @@ bool lists_expired(const State& state, const ContactParams& c, const LaneData& l
   return most + wider > c.skin;
 }
 
+/// Contacts of one body with the vessels, one per point: the nearest segment of the network.
+void find_vessel_contacts(const contact::SurfaceBody& b, const ContactParams& c, double range,
+                          const SegmentCandidates& list, const mesh::Network& network,
+                          std::vector<ObstacleContact>& out) {
+  const int per_site = contact::points_per_site(c.quadrature);
+  auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
+    ObstacleContact best{list.body, p, SurroundingKind::kVessel, -1, range, {}, guard};
+    for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
+      const contact::Gap g = contact::gap_to_segment(network, list.segment[e], x);
+      if (g.gap >= best.gap) continue;
+      best.index = list.segment[e];
+      best.gap = g.gap;
+      best.normal = g.normal;
+    }
+    return best;
+  };
+  for (std::size_t s = 0; s < list.site.size(); ++s)
+    for (int q = 0; q < per_site; ++q) {
+      const int p = list.site[s] * per_site + q;
+      const ObstacleContact best = nearest(
+          s, p, false, contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
+      if (best.index >= 0) out.push_back(best);
+    }
+  // A node belongs to several faces; the deepest of what they see counts, once. With node
+  // quadrature only faces need a guard: a thin vessel could pass between the nodes.
+  std::vector<ObstacleContact> guard(n_guards(b));
+  auto look = [&](std::size_t s, int p) {
+    ObstacleContact& held = guard[static_cast<std::size_t>(p)];
+    const auto i = static_cast<std::size_t>(p);
+    const Vec3& x = i < b.node.size() ? b.node[i] : b.center[i - b.node.size()];
+    const ObstacleContact best = nearest(s, p, true, x);
+    if (best.index >= 0 && best.gap < std::min(held.gap, -kGuardGap)) held = best;
+  };
+  const int n_node = static_cast<int>(b.node.size());
+  if (c.quadrature == contact::Quadrature::kThreePoint) {
+    for (std::size_t s = 0; s < list.site.size(); ++s) {
+      for (int p : (*b.triangle)[static_cast<std::size_t>(list.site[s])]) look(s, p);
+      look(s, n_node + list.site[s]);
+    }
+  } else {
+    std::vector<int> list_of_node(b.node.size(), -1);
+    for (std::size_t s = 0; s < list.site.size(); ++s)
+      list_of_node[static_cast<std::size_t>(list.site[s])] = static_cast<int>(s);
+    for (std::size_t f = 0; f < b.triangle->size(); ++f)
+      for (int corner : (*b.triangle)[f])
+        if (const int s = list_of_node[static_cast<std::size_t>(corner)]; s >= 0)
+          look(static_cast<std::size_t>(s), n_node + static_cast<int>(f));
+  }
+  for (const ObstacleContact& o : guard)
+    if (o.guard) out.push_back(o);
+}
+
 }  // namespace
 
 double contact_range(const ContactParams& c, const mesh::Topology& t, double radius) {
@@ -224,54 +276,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
       if (gap_of(middle).gap - half < options.range)
         probe(SurroundingKind::kCapsule, static_cast<int>(i), gap_of);
     }
-    // One contact per point: the nearest segment of the network.
-    const SegmentCandidates& list = work.segment_list[k];
-    auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
-      ObstacleContact best{
-          static_cast<int>(k), p, SurroundingKind::kVessel, -1, options.range, {}, guard};
-      for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
-        const contact::Gap g = contact::gap_to_segment(around.vessels.network, list.segment[e], x);
-        if (g.gap >= best.gap) continue;
-        best.index = list.segment[e];
-        best.gap = g.gap;
-        best.normal = g.normal;
-      }
-      return best;
-    };
-    for (std::size_t s = 0; s < list.site.size(); ++s)
-      for (int q = 0; q < per_site; ++q) {
-        const int p = list.site[s] * per_site + q;
-        const ObstacleContact best = nearest(
-            s, p, false, contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
-        if (best.index >= 0) obstacle[k].push_back(best);
-      }
-    // A node belongs to several faces; the deepest of what they see counts, once. With node
-    // quadrature only faces need a guard: a thin vessel could pass between the nodes.
-    std::vector<ObstacleContact> guard(n_guards(b));
-    auto look = [&](std::size_t s, int p) {
-      ObstacleContact& held = guard[static_cast<std::size_t>(p)];
-      const auto i = static_cast<std::size_t>(p);
-      const Vec3& x = i < b.node.size() ? b.node[i] : b.center[i - b.node.size()];
-      const ObstacleContact best = nearest(s, p, true, x);
-      if (best.index >= 0 && best.gap < std::min(held.gap, -kGuardGap)) held = best;
-    };
-    const int n_node = static_cast<int>(b.node.size());
-    if (c.quadrature == contact::Quadrature::kThreePoint) {
-      for (std::size_t s = 0; s < list.site.size(); ++s) {
-        for (int p : (*b.triangle)[static_cast<std::size_t>(list.site[s])]) look(s, p);
-        look(s, n_node + list.site[s]);
-      }
-    } else if (!list.site.empty()) {
-      std::vector<int> list_of_node(b.node.size(), -1);
-      for (std::size_t s = 0; s < list.site.size(); ++s)
-        list_of_node[static_cast<std::size_t>(list.site[s])] = static_cast<int>(s);
-      for (std::size_t f = 0; f < b.triangle->size(); ++f)
-        for (int corner : (*b.triangle)[f])
-          if (const int s = list_of_node[static_cast<std::size_t>(corner)]; s >= 0)
-            look(static_cast<std::size_t>(s), n_node + static_cast<int>(f));
-    }
-    for (const ObstacleContact& o : guard)
-      if (o.guard) obstacle[k].push_back(o);
+    if (!work.segment_list[k].site.empty())
+      find_vessel_contacts(b, c, options.range, work.segment_list[k], around.vessels.network,
+                           obstacle[k]);
   }
   work.obstacle.clear();
   for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());

@@ -18,6 +18,7 @@ constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not o
 constexpr double kListFacing = 0.7;
 /// Self contact starts this many rest edges away on the surface.
 constexpr double kSelfRings = 3.0;
+
 const SurfaceBody& body_at(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
                            int k) {
   const auto i = static_cast<std::size_t>(k);

@@ -6,7 +6,9 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "core/error.hpp"
 
@@ -24,6 +26,13 @@ void sync(const std::string& path, int flags) {
 }
 
 }  // namespace
+
+std::string make_temporary_folder(const std::string& prefix) {
+  std::string name = (std::filesystem::temp_directory_path() / prefix).string();
+  name.append(6, 'X');  // mkdtemp puts its own letters there
+  if (mkdtemp(name.data()) == nullptr) fail_on_disk(name, "make a folder", errno);
+  return name;
+}
 
 void write_text_file(const std::string& path, std::string_view text) {
   const std::string partial = path + ".tmp";

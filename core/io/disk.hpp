@@ -7,6 +7,10 @@
 
 namespace acinus::io {
 
+/// Makes an empty folder whose name begins with `prefix` in the system's folder for temporary
+/// files.
+std::string make_temporary_folder(const std::string& prefix);
+
 /// Replaces the content of `path` in one step: readers see the old text or the new one.
 void write_text_file(const std::string& path, std::string_view text);
 std::string read_text_file(const std::string& path);

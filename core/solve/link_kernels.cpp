@@ -20,7 +20,6 @@ ACINUS_INLINE Four<T> load_normal(const L& l) {
   return __builtin_convertvector(n, Four<T>);
 }
 
-ACINUS_INLINE bool is_single(const Side& s) { return s.point[0] == s.point[2]; }
 ACINUS_INLINE bool exists(const Link& l) { return l.b.point[0] != kNowhere; }
 ACINUS_INLINE bool exists(const PointLink& l) { return l.b != kNowhere; }
 
@@ -28,7 +27,7 @@ ACINUS_INLINE bool exists(const PointLink& l) { return l.b != kNowhere; }
 template <class T>
 ACINUS_INLINE Four<T> gather(const Side& s, const Packed<T>* x) {
   const Four<T> last = load4(x + s.point[2]);
-  if (is_single(s)) return last;
+  if (s.is_single()) return last;
   const T w0 = static_cast<T>(s.weight[0]), w1 = static_cast<T>(s.weight[1]);
   return last + w0 * (load4(x + s.point[0]) - last) + w1 * (load4(x + s.point[1]) - last);
 }
@@ -40,7 +39,7 @@ ACINUS_INLINE Four<T> gather(Point p, const Packed<T>* x) {
 /// Spreads a force over the points of a side; what they get adds up to it exactly.
 template <class T>
 ACINUS_INLINE void scatter(const Side& s, Four<T> f, Packed<T>* y) {
-  if (is_single(s)) {
+  if (s.is_single()) {
     add4(y, s.point[2], f);
     return;
   }
@@ -81,7 +80,7 @@ ACINUS_INLINE void add_block(SymBlock* to, Point p, float w, const SymBlock& m) 
   for (std::size_t k = 0; k < 8; ++k) at[k] += w2 * m[k];
 }
 ACINUS_INLINE void add_side(SymBlock* to, const Side& s, const SymBlock& m) {
-  if (is_single(s)) {
+  if (s.is_single()) {
     add_block(to, s.point[2], 1, m);
     return;
   }

@@ -9,11 +9,10 @@ Stencil stencil_of(const Link& link) {
     const double w0 = side.weight[0], w1 = side.weight[1], w2 = 1 - w0 - w1;
     for (int m = 0; m < 3; ++m) {
       const double w = m == 0 ? w0 : m == 1 ? w1 : w2;
-      const bool single = side.point[0] == side.point[2];
-      if (single && m < 2) continue;
+      if (side.is_single() && m < 2) continue;
       s.address[static_cast<std::size_t>(s.n)] =
           address_of(side.point[static_cast<std::size_t>(m)]);
-      s.weight[static_cast<std::size_t>(s.n++)] = sign * (single ? 1 : w);
+      s.weight[static_cast<std::size_t>(s.n++)] = sign * (side.is_single() ? 1 : w);
     }
   };
   add(link.a, 1);

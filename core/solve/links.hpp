@@ -30,6 +30,8 @@ struct Side {
   static Side at(Point p) { return {{p, p, p}, {0, 0}}; }
   static Side nowhere() { return {}; }
   bool exists() const { return point[0] != kNowhere; }
+  /// A point, not a place between three: the weights do not count.
+  ACINUS_INLINE bool is_single() const { return point[0] == point[2]; }
 };
 
 /// What the matrix needs of a contact: one cache line. Matrix of r: friction_scale friction I +

@@ -8,8 +8,6 @@
 namespace acinus::solve {
 namespace {
 
-bool is_single(const Side& s) { return s.point[0] == s.point[2]; }
-
 int block_of(const std::vector<int>& block_of_row, Point p) { return block_of_row[p / kLanes]; }
 
 std::uint64_t cell_of(const std::vector<int>& block_of_row, Point p) {
@@ -22,7 +20,7 @@ bool is_same(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
 
 /// A single point has the third weight, whatever is stored.
 std::array<float, 3> weights_of(const Side& s) {
-  if (is_single(s)) return {0, 0, 1};
+  if (s.is_single()) return {0, 0, 1};
   return {s.weight[0], s.weight[1], 1 - s.weight[0] - s.weight[1]};
 }
 
@@ -55,7 +53,7 @@ class PairTable {
   }
   void add(const Side& a, const Side& b, const SymBlock& m) {
     const auto w = weights_of(a), v = weights_of(b);
-    const std::size_t first_a = is_single(a) ? 2 : 0, first_b = is_single(b) ? 2 : 0;
+    const std::size_t first_a = a.is_single() ? 2 : 0, first_b = b.is_single() ? 2 : 0;
     for (std::size_t i = first_a; i < 3; ++i) {
       const std::uint32_t at_a = (a.point[i] - a_.first) / kLanes;
       for (std::size_t j = first_b; j < 3; ++j) {
@@ -138,7 +136,7 @@ bool is_merged(const System& s, const std::vector<int>& block_of_row, const Link
     const auto b = static_cast<std::size_t>(block_of(block_of_row, side.point[0]));
     return !s.block[b].pattern->spring_of.empty();
   };
-  return l.b.exists() && !is_single(l.a) && on_mesh(l.a) && (is_single(l.b) || on_mesh(l.b));
+  return l.b.exists() && !l.a.is_single() && on_mesh(l.a) && (l.b.is_single() || on_mesh(l.b));
 }
 
 /// Finds contacts in a row that join the same cells, and sorts them by pairs of cells.
@@ -221,7 +219,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
         for (std::uint32_t k = run_[end.run].first; k < run_[end.run].last; ++k) {
           const Link& l = s.links.link[k];
           const Side& side = end.is_b ? l.b : l.a;
-          if (is_single(side) || !has_matrix(l, s.stiffness_scale)) continue;
+          if (side.is_single() || !has_matrix(l, s.stiffness_scale)) continue;
           face.find(*block.pattern, block.first_row, side.point);
           const SymBlock m = matrix_of(l, scales);
           const auto w = weights_of(side);

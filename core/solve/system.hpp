@@ -4,9 +4,9 @@
 /// Unknowns: blocks of eight lanes; a DCM group has one row per mesh node, eight spheres share a
 /// block with a single row. The matrix is never assembled: it is kept as the small elements it is
 /// made of (springs, hinges, faces, one vector per cell, contacts), each blind to translation by
-/// its form, whatever its numbers are rounded to, and positive semi-definite (a spring as long as a
-/// + c
-/// >= 0 is not a matter of rounding). That is why elements may be floats (docs/decisions/0010.md).
+/// its form, whatever its numbers are rounded to, and positive semi-definite (a spring as long as
+/// its two coefficients keep a + c >= 0, which rounding does not change). That is why elements may
+/// be floats (docs/decisions/0010.md).
 
 #include <array>
 #include <cstdint>

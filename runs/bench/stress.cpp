@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -81,9 +80,7 @@ class Workplace {
       if (failed) io::fail_on_disk(folder, "make the folder", failed.value());
       return;
     }
-    std::string pattern = (fs::temp_directory_path() / "acinus_stress_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) io::fail_on_disk(pattern, "make a folder", errno);
-    path_ = pattern;
+    path_ = io::make_temporary_folder("acinus_stress_");
   }
   Workplace(const Workplace&) = delete;
   Workplace& operator=(const Workplace&) = delete;

@@ -3,14 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/io/disk.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs::scene_texts {
@@ -85,11 +84,7 @@ inline std::string with_block(const std::string& block) {
 
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "acinus_scene_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
+  TemporaryFolder() : path_(io::make_temporary_folder("acinus_scene_")) {}
   ~TemporaryFolder() { fs::remove_all(path_); }
   std::string write(const std::string& name, const std::string& text) const {
     const fs::path file = path_ / name;

@@ -49,9 +49,8 @@ TEST(RandomSystem, HoldsEveryKindOfElementAndContact) {
   EXPECT_TRUE(softer_along);
   int kinds[2][3] = {};  // points of side a against those of side b, 0: surroundings
   bool within = false, without_matrix = false;
-  const auto single = [](const Side& side) { return side.point[0] == side.point[2]; };
   for (const Link& l : s.links.link) {
-    ++kinds[single(l.a) ? 0 : 1][!l.b.exists() ? 0 : single(l.b) ? 1 : 2];
+    ++kinds[l.a.is_single() ? 0 : 1][!l.b.exists() ? 0 : l.b.is_single() ? 1 : 2];
     without_matrix = without_matrix || (l.stiffness == 0 && l.friction == 0);
     const std::size_t first = s.block[1].first_row * kLanes, last = s.block[2].first_row * kLanes;
     within = within || (l.b.exists() && l.a.point[0] % kLanes == l.b.point[0] % kLanes &&
