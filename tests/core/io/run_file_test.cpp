@@ -137,10 +137,10 @@ TEST(RunFile, RefusesToContinueWhatIsNotThere) {
   expect_error(Exit::kFileError, "holds 1 frames", [&] {
     RunFile::open_for_append(path, {2, 0, 0});
   });
-  expect_error(Exit::kFileError, "cannot open for reading: No such file",
+  expect_error(Exit::kFileError, "cannot open for writing: No such file",
                [&] { RunFile::open_for_append(folder / "none.vtkhdf", {}); });
   write_text_file(folder / "text.vtkhdf", "not HDF5");
-  expect_error(Exit::kFileError, "cannot open for reading",
+  expect_error(Exit::kFileError, "cannot open for writing",
                [&] { RunFile::open_for_append(folder / "text.vtkhdf", {}); });
 }
 
