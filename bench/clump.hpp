@@ -3,24 +3,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "runs/bench/packed_clump.hpp"
 
 namespace acinus::bench {
 
-/// Cells after five steps of 120 s, with the contacts and the assembled system of the next step.
-struct Clump {
-  coupling::World world;
-  coupling::Workspace work;
-
-  Clump() = default;
-  Clump(const Clump&) = delete;  // the operator points at the system
-  Clump& operator=(const Clump&) = delete;
-};
-
 /// The clump of so many cells of 162 nodes with three-point quadrature; made once, then the same
 /// for all. Benchmarks that write to a part of it take a copy of that part.
-const Clump& packed_clump(int n_cell);
+const runs::AssembledClump& packed_clump(int n_cell);
 
 /// Runs a benchmark on clumps that fit a second-level cache and that do not.
 inline void clump_sizes(benchmark::internal::Benchmark* b) {

@@ -79,7 +79,7 @@ void find_closest_point_lanes(benchmark::State& state) {
 BENCHMARK(find_closest_point_lanes)->Unit(benchmark::kMicrosecond);
 
 /// The constants of the search that the step itself uses.
-contact::SearchOptions search_options(const Clump& clump) {
+contact::SearchOptions search_options(const runs::AssembledClump& clump) {
   const dcm::ContactParams& c = clump.world.params.dcm_contact;
   const dcm::State& cells = clump.world.state.dcm;
   const auto& radius = clump.work.lanes.radius;
@@ -90,7 +90,7 @@ contact::SearchOptions search_options(const Clump& clump) {
 
 /// Closest features of all lists, just made.
 void find_contacts(benchmark::State& state) {
-  const Clump& clump = packed_clump(static_cast<int>(state.range()));
+  const runs::AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const contact::SearchOptions options = search_options(clump);
   std::vector<contact::SurfaceContact> found;
   for (auto _ : state) {
@@ -105,7 +105,7 @@ BENCHMARK(find_contacts)->Apply(clump_sizes);
 
 /// The lists themselves.
 void find_candidates(benchmark::State& state) {
-  const Clump& clump = packed_clump(static_cast<int>(state.range()));
+  const runs::AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const contact::SearchOptions options = search_options(clump);
   for (auto _ : state)
     benchmark::DoNotOptimize(

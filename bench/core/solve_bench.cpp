@@ -1,9 +1,12 @@
 /// Kernels of the solver: products with the matrix, whole and in parts, and its preconditioner.
 
+#include <span>
 #include <vector>
 
 #include "bench/clump.hpp"
 #include "core/solve/kernels.hpp"
+#include "core/solve/merged_links.hpp"
+#include "core/solve/row_blocks.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -51,51 +54,51 @@ void multiply_links(benchmark::State& state) {
 BENCHMARK_TEMPLATE(multiply_links, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(multiply_links, float)->Apply(clump_sizes);
 
-/// A whole product, as an iteration of conjugate gradients makes it.
+/// What an operator makes of one vector.
 template <class T>
-void apply(benchmark::State& state) {
+using Map = double (solve::Operator::*)(std::span<const T>, std::span<T>) const;
+
+template <class T>
+void measure(benchmark::State& state, Map<T> map, bool merged = false) {
   const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
   solve::Operator op;
   op.prepare(s);
+  if (merged) op.merge_links();
   const std::vector<T> x(s.n_dof(), T(1e-3));
   std::vector<T> y(s.n_dof());
-  for (auto _ : state) benchmark::DoNotOptimize(op.apply<T>(x, y));
+  for (auto _ : state) benchmark::DoNotOptimize((op.*map)(x, y));
   count(state, "cells", static_cast<std::size_t>(state.range()));
+}
+
+/// A whole product, as an iteration of conjugate gradients makes it.
+template <class T>
+void apply(benchmark::State& state) {
+  measure<T>(state, &solve::Operator::apply<T>);
 }
 BENCHMARK_TEMPLATE(apply, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(apply, float)->Apply(clump_sizes);
 
 /// The same with contacts merged: multiply_pairs in place of multiply_links.
 void apply_merged(benchmark::State& state) {
-  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
-  solve::Operator op;
-  op.prepare(s);
-  op.merge_links();
-  const std::vector<float> x(s.n_dof(), 1e-3f);
-  std::vector<float> y(s.n_dof());
-  for (auto _ : state) benchmark::DoNotOptimize(op.apply<float>(x, y));
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  measure<float>(state, &solve::Operator::apply<float>, true);
 }
 BENCHMARK(apply_merged)->Apply(clump_sizes);
 
 /// What the merged product has to earn back.
 void merge_links(benchmark::State& state) {
-  solve::Operator op;
-  op.prepare(packed_clump(static_cast<int>(state.range())).work.system);
-  for (auto _ : state) op.merge_links(true);
+  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
+  std::vector<int> block_of_row;
+  find_row_blocks(s, block_of_row);
+  solve::LinkMerger merger;
+  solve::MergedLinks merged;
+  for (auto _ : state) merger.merge(s, block_of_row, merged);
   count(state, "cells", static_cast<std::size_t>(state.range()));
 }
 BENCHMARK(merge_links)->Apply(clump_sizes);
 
 template <class T>
 void precondition(benchmark::State& state) {
-  const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
-  solve::Operator op;
-  op.prepare(s);
-  const std::vector<T> r(s.n_dof(), T(1e-3));
-  std::vector<T> z(s.n_dof());
-  for (auto _ : state) benchmark::DoNotOptimize(op.precondition<T>(r, z));
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  measure<T>(state, &solve::Operator::precondition<T>);
 }
 BENCHMARK_TEMPLATE(precondition, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(precondition, float)->Apply(clump_sizes);

@@ -11,7 +11,7 @@ namespace {
 
 /// All terms within the cells, as a step adds them.
 void add_loads(benchmark::State& state) {
-  const Clump& clump = packed_clump(static_cast<int>(state.range()));
+  const runs::AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const coupling::Workspace& w = clump.work;
   solve::System system = w.system;
   for (auto _ : state) {
@@ -27,7 +27,7 @@ BENCHMARK(add_loads)->Apply(clump_sizes);
 /// One term of all cells. The sums are not cleared in between: only their values grow.
 template <class Term>
 void add_term(benchmark::State& state, Term add) {
-  const Clump& clump = packed_clump(static_cast<int>(state.range()));
+  const runs::AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const dcm::State& cells = clump.world.state.dcm;
   solve::System system = clump.work.system;
   for (auto _ : state) {
@@ -55,7 +55,7 @@ BENCHMARK_CAPTURE(add_term, area, [](const Params& p, const GroupView& g, System
 
 /// Links of all contacts found.
 void add_contact_loads(benchmark::State& state) {
-  const Clump& clump = packed_clump(static_cast<int>(state.range()));
+  const runs::AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const coupling::Params& p = clump.world.params;
   solve::Links links;
   for (auto _ : state) {

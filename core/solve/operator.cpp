@@ -88,8 +88,8 @@ void Operator::share_links(bool with_matrix) {
   });
 }
 
-void Operator::merge_links(bool again) {
-  if (merged_ && !again) return;
+void Operator::merge_links() {
+  if (merged_) return;
   const System& s = *system_;
   find_row_blocks(s, block_of_row_);
   merger_.merge(s, block_of_row_, merge_);

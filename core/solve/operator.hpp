@@ -34,8 +34,8 @@ class Operator {
 
   /// Makes further products in float cheaper: contacts are merged into pairs of points (see
   /// merged_links.hpp). Costs as much as some ten products save. Changes products by rounding only.
-  /// @param again  merge even if that was done since prepare
-  void merge_links(bool again = false);
+  /// Nothing to do if that was done since prepare.
+  void merge_links();
 
   /// z = D^-1 r with the 3x3 diagonal blocks of A; returns r . D^-1 r. z may be empty.
   template <class T = double>

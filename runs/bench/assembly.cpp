@@ -8,10 +8,10 @@
 #include "core/contact/jkr.hpp"
 #include "core/contact/jkr_lanes.hpp"
 #include "core/random.hpp"
+#include "core/solve/merged_links.hpp"
+#include "core/solve/row_blocks.hpp"
 #include "core/timing.hpp"
-#include "coupling/step.hpp"
-#include "runs/build_world.hpp"
-#include "runs/scene/reader.hpp"
+#include "runs/bench/packed_clump.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -41,21 +41,18 @@ ACINUS_KERNEL void evaluate_jkr(std::size_t n, const double* radius, const doubl
                          .force);
 }
 
+double time_merge_us(const solve::System& system) {
+  std::vector<int> block_of_row;
+  solve::find_row_blocks(system, block_of_row);
+  solve::LinkMerger merger;
+  solve::MergedLinks merged;
+  return time_us([&] { merger.merge(system, block_of_row, merged); });
+}
+
 BenchRow measure_parts(int count, const std::string& quadrature) {
-  const Scene scene = parse_scene(
-      fmt::format(
-          R"({{"name": "assembly", "time": {{"end": "1 h", "step": "120 s", "adaptive": false, "max_move": 0}},
-  "cell_types": {{"cell": {{}}}},
-  "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
-  "motility": {{"random": false}}, "contact": {{"quadrature": "{}"}}}})",
-          count, quadrature),
-      "assembly");
-  coupling::World world = build_world(scene, Ranks::serial()).world;
-  coupling::Workspace w;
-  coupling::size_workspace(world, w);
-  for (int k = 0; k < 5; ++k) coupling::advance(world, w, 1e9);
-  coupling::find_all_contacts(world, 120, w);
-  coupling::assemble(world, 120, w);
+  AssembledClump clump({.count = count, .quadrature = quadrature});
+  coupling::World& world = clump.world;
+  coupling::Workspace& w = clump.work;
   const coupling::State& s = world.state;
   const std::size_t n = w.system.n_dof();
   std::vector<double> x(n, 1e-3), y(n);
@@ -75,7 +72,8 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   const double prepare = time_us([&] { w.op.prepare(w.system); });
   const double product_double = time_us([&] { w.op.apply(x, y); });
   const double product = time_us([&] { w.op.apply<float>(xf, yf); });
-  const double merge = time_us([&] { w.op.merge_links(true); });
+  const double merge = time_merge_us(w.system);
+  w.op.merge_links();
   const double product_merged = time_us([&] { w.op.apply<float>(xf, yf); });
   const double narrow = time_us([&] {
     dcm::find_contacts(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, 0, w.dcm);

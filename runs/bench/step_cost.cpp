@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/timing.hpp"
 #include "coupling/step.hpp"
+#include "runs/bench/packed_clump.hpp"
 #include "runs/build_world.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -22,15 +23,6 @@ struct StepCase {
   bool grows = false;
 };
 
-std::string dcm_clump(int count, const std::string& quadrature) {
-  return fmt::format(
-      R"({{"name": "dcm", "time": {{"end": "12 h", "step": "120 s", "adaptive": false, "max_move": 0}},
-  "cell_types": {{"cell": {{}}}},
-  "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
-  "motility": {{"random": false}}, "contact": {{"quadrature": "{}", "skin": "0.6 um"}}}})",
-      count, quadrature);
-}
-
 /// Cell-cell friction as strong as that with the medium; `ratio` times as strong.
 std::string cbm_clump(int count, double ratio) {
   return fmt::format(
@@ -40,11 +32,6 @@ std::string cbm_clump(int count, double ratio) {
   "cells": {{"source": "clump", "model": "cbm", "count": {}, "spacing": 0.95, "jitter": 0.01}},
   "motility": {{"random": true}}}})",
       5e8 * ratio, count);
-}
-
-/// Every deformable cell grows from birth volume to twice that in a day, as in steady growth.
-void grow(coupling::World& world) {
-  for (Ramp& v : world.state.dcm.volume) v = {v.from, 2 * v.from, 0, 86400};
 }
 
 struct Sample {
@@ -129,7 +116,7 @@ BenchRow measure_case(const StepCase& c) {
 
 StepCase dcm_case(int count, const std::string& quadrature, int steps) {
   return {fmt::format("{} growing DCM cells, {}", count, quadrature),
-          dcm_clump(count, quadrature),
+          packed_clump_text({.count = count, .quadrature = quadrature, .skin = 0.6}),
           30,
           steps,
           5,

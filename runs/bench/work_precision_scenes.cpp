@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "runs/bench/packed_clump.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -14,19 +15,9 @@ using coupling::Integrator;
 const Discretisation kUsual{};  ///< what a scene has by default
 const Discretisation kNodes{162, "nodes"};
 
-/// `count` deformable cells packed closer than they are wide, as in a growing tissue.
 std::string clump_text(int count, const Discretisation& space) {
-  return fmt::format(
-      R"({{"name": "clump", "time": {{"end": "12 h"}},
-  "cell_types": {{"cell": {{"dcm": {{"nodes": {}}}}}}},
-  "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
-  "motility": {{"random": false}}, "contact": {{"quadrature": "{}"}}}})",
-      space.nodes, count, space.quadrature);
-}
-
-/// Every deformable cell grows from birth volume to twice that in a day.
-void grow(coupling::World& world) {
-  for (Ramp& v : world.state.dcm.volume) v = {v.from, 2 * v.from, 0, 86400};
+  return packed_clump_text(
+      {.count = count, .nodes = space.nodes, .quadrature = space.quadrature, .step = {}});
 }
 
 /// Longer by a tenth along the axis, thinner across it so that the volume stays.

@@ -268,29 +268,14 @@ TEST(MergedProduct, OfEveryKindAlone) {
 
 TEST(MergedProduct, OfEveryElementAlone) {
   const System all = make_tissue(70);
-  System none = all;
-  std::ranges::fill(none.medium, 0.0);
-  std::ranges::fill(none.spring, 0.0f);
-  std::ranges::fill(none.hinge, 0.0f);
-  std::ranges::fill(none.face, 0.0f);
-  none.rank_one.clear();
-  none.links.clear();
-  none.point_links.clear();
-  System alone[6] = {none, none, none, none, none, none};
-  alone[0].medium = all.medium;
-  alone[1].spring = all.spring;
-  alone[2].hinge = all.hinge;
-  alone[3].face = all.face;
-  alone[4].rank_one = all.rank_one;
-  alone[5].point_links = all.point_links;
   const auto x = random_vector_of<float>(all, 71);
-  for (int k = 0; k < 6; ++k) {
+  for (const auto& [kind, system] : make_each_alone(all)) {
     Operator op;
-    op.prepare(alone[k]);
+    op.prepare(system);
     op.merge_links();
-    const Eigen::VectorXd expected = reference::make_dense(alone[k]) * as_eigen(x);
-    EXPECT_GT(expected.cwiseAbs().maxCoeff(), 0.01) << k;
-    EXPECT_LT(compare(product(op, x), expected), 16 * kFloatEps) << k;
+    const Eigen::VectorXd expected = reference::make_dense(system) * as_eigen(x);
+    EXPECT_GT(expected.cwiseAbs().maxCoeff(), 0.01) << kind;
+    EXPECT_LT(compare(product(op, x), expected), 16 * kFloatEps) << kind;
   }
 }
 
@@ -368,11 +353,12 @@ TEST(MergedProduct, MergingTwiceChangesNothing) {
   const std::vector<float> once = product(op, x);
   op.merge_links();
   EXPECT_EQ(product(op, x), once);
-  op.merge_links(true);
+  op.prepare(s);
+  op.merge_links();
   EXPECT_EQ(product(op, x), once);
 }
 
-TEST(MergedProduct, ContactsAreReadAgainOnlyIfAskedTo) {
+TEST(MergedProduct, ContactsAreReadAgainOnlyIfPreparedAgain) {
   Tissue t(91, 1);
   for (int k = 0; k < 20; ++k) t.add_contacts(kKinds[0]);
   const auto x = random_vector_of<float>(t.system, 92);
@@ -386,7 +372,8 @@ TEST(MergedProduct, ContactsAreReadAgainOnlyIfAskedTo) {
   }
   op.merge_links();
   EXPECT_EQ(product(op, x), y);
-  op.merge_links(true);
+  op.prepare(t.system);
+  op.merge_links();
   for (float& v : y) v *= 2;
   EXPECT_EQ(product(op, x), y);
 }

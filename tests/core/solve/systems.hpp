@@ -165,6 +165,34 @@ inline System keep_inner(System s) {
   return s;
 }
 
+/// A system of which one kind of element or contact is left.
+struct Alone {
+  const char* kind;
+  System system;
+};
+/// One after the other, each kind by itself: a mistake in one must not hide behind the others.
+inline std::vector<Alone> make_each_alone(const System& all) {
+  System none = all;
+  std::ranges::fill(none.medium, 0.0);
+  for (auto* element : {&none.spring, &none.hinge, &none.face}) std::ranges::fill(*element, 0.0f);
+  none.rank_one.clear();
+  none.links.clear();
+  none.point_links.clear();
+  std::vector<Alone> list;
+  auto add = [&](const char* kind, auto System::*part) {
+    list.push_back({kind, none});
+    list.back().system.*part = all.*part;
+  };
+  add("medium", &System::medium);
+  add("spring", &System::spring);
+  add("hinge", &System::hinge);
+  add("face", &System::face);
+  add("rank one", &System::rank_one);
+  add("links", &System::links);
+  add("point links", &System::point_links);
+  return list;
+}
+
 template <class T = double>
 std::vector<T> random_vector_of(const System& s, std::uint64_t seed) {
   auto random = reference::stream(seed);

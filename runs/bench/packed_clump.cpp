@@ -1,0 +1,38 @@
+#include "runs/bench/packed_clump.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "coupling/step.hpp"
+#include "runs/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+
+std::string packed_clump_text(const PackedClump& clump) {
+  const std::string steps =
+      clump.step ? fmt::format(R"(, "step": "{} s", "adaptive": false, "max_move": 0)", *clump.step)
+                 : "";
+  const std::string skin = clump.skin ? fmt::format(R"(, "skin": "{} um")", *clump.skin) : "";
+  return fmt::format(
+      R"({{"name": "clump", "time": {{"end": "12 h"{}}},
+  "cell_types": {{"cell": {{"dcm": {{"nodes": {}}}}}}},
+  "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
+  "motility": {{"random": false}}, "contact": {{"quadrature": "{}"{}}}}})",
+      steps, clump.nodes, clump.count, clump.quadrature, skin);
+}
+
+void grow(coupling::World& world) {
+  for (Ramp& v : world.state.dcm.volume) v = {v.from, 2 * v.from, 0, 86400};
+}
+
+AssembledClump::AssembledClump(const PackedClump& clump) {
+  ACINUS_ASSERT(clump.step);
+  world = build_world(parse_scene(packed_clump_text(clump), "clump"), Ranks::serial()).world;
+  coupling::size_workspace(world, work);
+  for (int k = 0; k < 5; ++k) coupling::advance(world, work, 1e9);
+  coupling::find_all_contacts(world, *clump.step, work);
+  coupling::assemble(world, *clump.step, work);
+}
+
+}  // namespace acinus::runs
