@@ -107,24 +107,41 @@ ACINUS_INLINE double multiply(const BlockView& b, const T* x, const Packed<T>* c
   return sum_lanes<T>(product);
 }
 
+/// Takes the rank-one parts off z = D^-1 r, given `along` = u . r; returns what that adds to r . z.
 template <class T>
-ACINUS_INLINE double precondition(int n_point, const float* inverse, const T* r, T* z) {
+ACINUS_INLINE LaneOf<T> take_off(const InverseView& b, const LaneOf<T>* along, T* z) {
   LaneOf<T> s = {};
-  for (int i = 0; i < n_point; ++i) {
-    const Lane3Of<T> ri = load3<T>(r + i * kPointStride);
-    const Lane3Of<T> zi = sym_times(inverse + i * kSymStride, ri);
-    if (z) store3(z + i * kPointStride, zi);
+  for (std::size_t k = 0; k < b.n_family; ++k) s -= along[k] * along[k];
+  if (z)
+    for (int at = 0; at < b.n_point * kPointStride; at += kLanes) {
+      LaneOf<T> v = load<T>(z + at);
+      for (std::size_t k = 0; k < b.n_family; ++k) v -= along[k] * load<T>(b.vector[k] + at);
+      store(z + at, v);
+    }
+  return s;
+}
+
+template <class T>
+ACINUS_INLINE double precondition(const InverseView& b, const T* r, T* z) {
+  LaneOf<T> s = {}, along[kMaxFamilies] = {};
+  for (int i = 0; i < b.n_point; ++i) {
+    const int at = i * kPointStride;
+    const Lane3Of<T> ri = load3<T>(r + at);
+    const Lane3Of<T> zi = sym_times(b.diagonal + i * kSymStride, ri);
+    if (z) store3(z + at, zi);
     s += dot(ri, zi);
+    for (std::size_t k = 0; k < b.n_family; ++k) along[k] += dot(load3<T>(b.vector[k] + at), ri);
   }
+  if (b.n_family > 0) s += take_off(b, along, z);
   return sum_lanes<T>(s);
 }
 
 template <class T>
-ACINUS_INLINE double descend(int n_point, double step, const float* inverse, const T* p, const T* q,
-                             T* x, T* r, T* z) {
+ACINUS_INLINE double descend(const InverseView& b, double step, const T* p, const T* q, T* x, T* r,
+                             T* z) {
   const T alpha = static_cast<T>(step);
-  LaneOf<T> s = {};
-  for (int i = 0; i < n_point; ++i) {
+  LaneOf<T> s = {}, along[kMaxFamilies] = {};
+  for (int i = 0; i < b.n_point; ++i) {
     const int at = i * kPointStride;
     for (int c = 0; c < kPointStride; c += kLanes)
       store(x + at + c, load<T>(x + at + c) + alpha * load<T>(p + at + c));
@@ -133,10 +150,12 @@ ACINUS_INLINE double descend(int n_point, double step, const float* inverse, con
     ri.y = load<T>(r + at + kLanes) - alpha * load<T>(q + at + kLanes);
     ri.z = load<T>(r + at + 2 * kLanes) - alpha * load<T>(q + at + 2 * kLanes);
     store3(r + at, ri);
-    const Lane3Of<T> zi = sym_times(inverse + i * kSymStride, ri);
+    const Lane3Of<T> zi = sym_times(b.diagonal + i * kSymStride, ri);
     store3(z + at, zi);
     s += dot(ri, zi);
+    for (std::size_t k = 0; k < b.n_family; ++k) along[k] += dot(load3<T>(b.vector[k] + at), ri);
   }
+  if (b.n_family > 0) s += take_off(b, along, z);
   return sum_lanes<T>(s);
 }
 
@@ -216,10 +235,6 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
     add_outer_sym(d + f[2] * kSymStride, one, g1 + g2);
     e += kFaceStride;
   }
-  for (std::size_t k = 0; k < b.n_family; ++k)
-    for (int i = 0; i < pattern.n_point; ++i)
-      add_outer_sym(d + i * kSymStride, load(b.coefficient[k]),
-                    load3(b.vector[k] + i * kPointStride));
 }
 
 ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {
@@ -239,20 +254,41 @@ ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {
   }
 }
 
-ACINUS_KERNEL double precondition_block(int n, const float* inverse, const double* r, double* z) {
-  return precondition<double>(n, inverse, r, z);
-}
-ACINUS_KERNEL double precondition_block(int n, const float* inverse, const float* r, float* z) {
-  return precondition<float>(n, inverse, r, z);
+ACINUS_KERNEL void invert_rank_one(const InverseView& known, const double* vector,
+                                   const double* coefficient, float* u) {
+  Lane along[kMaxFamilies] = {};
+  for (int i = 0; i < known.n_point; ++i)
+    for (std::size_t k = 0; k < known.n_family; ++k)
+      along[k] += dot(load3(known.vector[k] + i * kPointStride), load3(vector + i * kPointStride));
+  auto inverse_times_vector = [&](int i) {
+    Lane3 w = sym_times(known.diagonal + i * kSymStride, load3(vector + i * kPointStride));
+    for (std::size_t k = 0; k < known.n_family; ++k)
+      w = w - along[k] * load3(known.vector[k] + i * kPointStride);
+    return w;
+  };
+  Lane size = {};
+  for (int i = 0; i < known.n_point; ++i)
+    size += dot(inverse_times_vector(i), load3(vector + i * kPointStride));
+  const Lane c = load(coefficient);
+  const Lane scale = lane_sqrt((1 - kRegularise) * c / (1.0 + c * size));
+  for (int i = 0; i < known.n_point; ++i)
+    store3(u + i * kPointStride, scale * inverse_times_vector(i));
 }
 
-ACINUS_KERNEL double descend_block(int n, double alpha, const float* inverse, const double* p,
-                                   const double* q, double* x, double* r, double* z) {
-  return descend<double>(n, alpha, inverse, p, q, x, r, z);
+ACINUS_KERNEL double precondition_block(const InverseView& inverse, const double* r, double* z) {
+  return precondition<double>(inverse, r, z);
 }
-ACINUS_KERNEL double descend_block(int n, double alpha, const float* inverse, const float* p,
+ACINUS_KERNEL double precondition_block(const InverseView& inverse, const float* r, float* z) {
+  return precondition<float>(inverse, r, z);
+}
+
+ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha, const double* p,
+                                   const double* q, double* x, double* r, double* z) {
+  return descend<double>(inverse, alpha, p, q, x, r, z);
+}
+ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha, const float* p,
                                    const float* q, float* x, float* r, float* z) {
-  return descend<float>(n, alpha, inverse, p, q, x, r, z);
+  return descend<float>(inverse, alpha, p, q, x, r, z);
 }
 
 ACINUS_KERNEL double dot_range(const double* a, const double* b, std::size_t n) {

@@ -32,9 +32,25 @@ double multiply_block(const BlockView& block, const double* x, const Packed<doub
 double multiply_block(const BlockView& block, const float* x, const Packed<float>* contact,
                       float* y);
 
-/// Adds the diagonal blocks of everything within the cells.
+/// Adds the diagonal blocks of everything within the cells but the rank-one terms.
 /// @param diagonal [n_point][6][lane]
 void add_diagonal(const BlockView& block, double* diagonal);
+
+/// Inverse of the preconditioner of one block of the system, D^-1 - sum over families of u u^T: the
+/// 3x3 diagonal blocks D of everything but the rank-one terms, plus those terms whole.
+struct InverseView {
+  int n_point = 0;
+  const float* diagonal = nullptr;  ///< [n_point][6][lane]
+  std::size_t n_family = 0;
+  std::array<const float*, kMaxFamilies> vector{};  ///< u, [n_point][3][lane]
+};
+
+/// The next family's u after Sherman and Morrison (1950): M + c v v^T has the inverse M^-1 - u u^T,
+/// u = sqrt(c / (1 + c w . v)) w with w = M^-1 v, here kRegularise less, so that the inverse stays
+/// positive definite when u is rounded to float.
+/// @param known  M^-1, with the families so far
+void invert_rank_one(const InverseView& known, const double* vector, const double* coefficient,
+                     float* u);
 
 /// Inverts symmetric blocks lane by lane, each made a little stiffer first (kRegularise of its
 /// trace), so that the inverse stays positive definite when it is rounded to float.
@@ -42,15 +58,15 @@ inline constexpr double kRegularise = 1e-6;
 /// @param inverse [n_point][6][lane]
 void invert_blocks(int n_point, const double* diagonal, float* inverse);
 
-/// z = D^-1 r, unless z is null; returns r . D^-1 r.
-double precondition_block(int n_point, const float* inverse, const double* r, double* z);
-double precondition_block(int n_point, const float* inverse, const float* r, float* z);
+/// z = M^-1 r, unless z is null; returns r . M^-1 r.
+double precondition_block(const InverseView& inverse, const double* r, double* z);
+double precondition_block(const InverseView& inverse, const float* r, float* z);
 
-/// x += alpha p, r -= alpha q, z = D^-1 r; returns r . z.
-double descend_block(int n_point, double alpha, const float* inverse, const double* p,
-                     const double* q, double* x, double* r, double* z);
-double descend_block(int n_point, double alpha, const float* inverse, const float* p,
-                     const float* q, float* x, float* r, float* z);
+/// x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
+double descend_block(const InverseView& inverse, double alpha, const double* p, const double* q,
+                     double* x, double* r, double* z);
+double descend_block(const InverseView& inverse, double alpha, const float* p, const float* q,
+                     float* x, float* r, float* z);
 
 /// Sum of products; n is a multiple of kLanes.
 double dot_range(const double* a, const double* b, std::size_t n);

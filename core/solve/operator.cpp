@@ -114,6 +114,9 @@ void Operator::merge_links() {
 void Operator::compute_diagonal() {
   const System& s = *system_;
   inverse_.resize(s.n_row * kSymStride);
+  rank_one_.resize(s.rank_one.size());
+  for (std::size_t k = 0; k < rank_one_.size(); ++k)
+    rank_one_[k].resize(s.rank_one[k].vector.size());
   SymBlock* const diagonal_blocks = diagonal();
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const Range& range) {
@@ -132,6 +135,14 @@ void Operator::compute_diagonal() {
             d[i * kSymStride + c * kLanes + l] = static_cast<double>(from[i * kLanes + l][c]);
       add_diagonal(view_block(s, b), d.data());
       invert_blocks(static_cast<int>(n), d.data(), inverse_.data() + row * kSymStride);
+      InverseView inverse = inverse_of(b);
+      const std::size_t n_family = inverse.n_family;
+      const BlockView block = view_block(s, b);
+      for (inverse.n_family = 0; inverse.n_family < n_family; ++inverse.n_family) {
+        const std::size_t k = inverse.n_family;
+        invert_rank_one(inverse, block.vector[k], block.coefficient[k],
+                        rank_one_[k].data() + row * kPointStride);
+      }
     });
   });
 }
@@ -155,6 +166,15 @@ void Operator::prepare(const System& system) {
     if (system.point_links[l].b == kNowhere)
       external_point_.push_back(static_cast<std::uint32_t>(l));
   compute_diagonal();
+}
+
+InverseView Operator::inverse_of(std::size_t block) const {
+  const Block& b = system_->block[block];
+  InverseView view{b.pattern->n_point, inverse_.data() + b.first_row * kSymStride, 0, {}};
+  for (const std::vector<float>& u : rank_one_)
+    if (b.first_row * kPointStride < u.size())
+      view.vector[view.n_family++] = u.data() + b.first_row * kPointStride;
+  return view;
 }
 
 double Operator::sum_partials() const {
@@ -249,9 +269,8 @@ void Operator::add_link_forces(System& system) {
 template <class T>
 double Operator::precondition(In<T> r, Out<T> z) const {
   for_each_range([&](const Range& range) {
-    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
-      partial_[b] = precondition_block(static_cast<int>(n), inverse_.data() + row * kSymStride,
-                                       r.data() + row * kPointStride,
+    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
+      partial_[b] = precondition_block(inverse_of(b), r.data() + row * kPointStride,
                                        z.empty() ? nullptr : z.data() + row * kPointStride);
     });
   });
@@ -261,11 +280,10 @@ double Operator::precondition(In<T> r, Out<T> z) const {
 template <class T>
 double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const {
   for_each_range([&](const Range& range) {
-    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
+    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       const std::size_t at = row * kPointStride;
-      partial_[b] =
-          descend_block(static_cast<int>(n), alpha, inverse_.data() + row * kSymStride,
-                        p.data() + at, q.data() + at, x.data() + at, r.data() + at, z.data() + at);
+      partial_[b] = descend_block(inverse_of(b), alpha, p.data() + at, q.data() + at, x.data() + at,
+                                  r.data() + at, z.data() + at);
     });
   });
   return sum_partials();

@@ -1,11 +1,13 @@
 #pragma once
-/// The matrix of a System as an operator, with its block-diagonal preconditioner.
+/// The matrix of a System as an operator, with its preconditioner: 3x3 diagonal blocks, and the
+/// rank-one terms (volume and area of a cell) whole.
 
 #include <cstddef>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "core/solve/kernels.hpp"
 #include "core/solve/link_kernels.hpp"
 #include "core/solve/merged_links.hpp"
 #include "core/solve/system.hpp"
@@ -37,11 +39,11 @@ class Operator {
   /// Nothing to do if that was done since prepare.
   void merge_links();
 
-  /// z = D^-1 r with the 3x3 diagonal blocks of A; returns r . D^-1 r. z may be empty.
+  /// z = M^-1 r with the preconditioner M; returns r . z. z may be empty.
   template <class T = double>
   double precondition(In<T> r, Out<T> z) const;
 
-  /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = D^-1 r; returns r . z.
+  /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
   template <class T = double>
   double descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const;
 
@@ -93,6 +95,7 @@ class Operator {
   /// f(block, first point row, number of points) for the blocks of a range.
   template <class F>
   void for_each_block(const Range& range, F f) const;
+  InverseView inverse_of(std::size_t block) const;
   double sum_partials() const;
 
   const System* system_ = nullptr;
@@ -103,7 +106,9 @@ class Operator {
   MergedLinks merge_;
   std::vector<std::uint32_t> external_, external_point_;  ///< links with surroundings
   std::vector<float> inverse_;                            ///< [n_row][6][lane]
-  mutable std::vector<double> partial_;                   ///< [n_block] scratch of a dot product
+  /// [family][rows of its blocks][3][lane], as InverseView wants them.
+  std::vector<std::vector<float>> rank_one_;
+  mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
   /// One cache line per point, for whatever is being worked out: packed vectors in double (two
   /// halves of a line) or float, or the diagonal blocks. Never two of them at once.
   struct alignas(64) Line {
