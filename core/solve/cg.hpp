@@ -18,7 +18,7 @@ enum class Precision {
 };
 
 struct CgOptions {
-  double tolerance = 1e-3;  ///< on sqrt(r^T D^-1 r), relative to sqrt(b^T D^-1 b)
+  double tolerance = 3e-3;  ///< on sqrt(r^T M^-1 r), relative to sqrt(b^T M^-1 b)
   int max_iterations = 2000;
   Precision precision = Precision::kMixed;
 };

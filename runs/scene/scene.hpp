@@ -26,7 +26,7 @@ struct TimeBlock {
 };
 
 struct SolverBlock {
-  double tolerance = 1e-3;  ///< CG, relative to the right-hand side
+  double tolerance = 3e-3;  ///< CG, relative to the right-hand side
   int max_iterations = 2000;
 };
 

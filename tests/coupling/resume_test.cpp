@@ -11,10 +11,11 @@ namespace acinus::coupling {
 namespace {
 
 constexpr int kSteps = 12;
+constexpr double kStep = 240;  ///< s
 
-/// Eight cells of both models; a tight solve in packed cells, so that the coarse space comes on.
+/// Eight cells of both models; a tight solve of long steps in packed cells, so that the coarse space comes on.
 World packed_cells(Integrator integrator) {
-  World w = make_test_world(checkered_cube(23.5), 30, 42);
+  World w = make_test_world(checkered_cube(23.5), kStep, 42);
   w.params.motility.random = true;
   // ROS2 has more friction on its diagonal: its systems are easier and must be solved further.
   w.params.numerics.cg = {integrator == Integrator::kRos2 ? 1e-12 : 1e-8, 20000};
@@ -27,7 +28,7 @@ int take_steps(World& w, Workspace& work, int n) {
   int with_coarse = 0;
   for (int k = 0; k < n; ++k) {
     with_coarse += w.state.clock.coarse ? 1 : 0;
-    const StepResult result = advance(w, work, 30);
+    const StepResult result = advance(w, work, kStep);
     if (!result.accepted) {
       std::printf("step %d failed: %s\n", k, result.cause.c_str());
       return -1;
