@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "core/lanes.hpp"
+
 namespace acinus {
 
 /// Below this many point rows (a deformable cell's group has one per node) starting threads costs
@@ -16,6 +18,13 @@ inline std::size_t count_threads(std::size_t n_row) {
   return worth_threads(n_row) && !omp_in_parallel()
              ? static_cast<std::size_t>(omp_get_max_threads())
              : 1;
+}
+
+/// f(k) for all k < n: numbers of vectors over all points, three lanes of them to a row.
+template <class F>
+void for_each_number(std::size_t n, F f) {
+#pragma omp parallel for schedule(static) if (worth_threads(n / kPointStride) && !omp_in_parallel())
+  for (std::size_t k = 0; k < n; ++k) f(k);
 }
 
 }  // namespace acinus

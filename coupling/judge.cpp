@@ -118,10 +118,11 @@ double estimate_error(const World& world, double step, Workspace& w) {
   const State& s = world.state;
   auto& change = w.cg.product;
   change.resize(w.move.size());
-  for (std::size_t k = 0; k < w.move.size(); ++k) change[k] = 0.5 * w.move[k];
+  for_each_number(w.move.size(), [&](std::size_t k) { change[k] = 0.5 * w.move[k]; });
   if (has_last_move(s)) {  // else the step is compared with rest
     const double ratio = step / s.clock.last_step;
-    for (std::size_t k = 0; k < w.move.size(); ++k) change[k] -= 0.5 * ratio * s.last_move[k];
+    for_each_number(w.move.size(),
+                    [&](std::size_t k) { change[k] -= 0.5 * ratio * s.last_move[k]; });
   }
   return error_norm(world, w, change);
 }
@@ -227,7 +228,8 @@ Balance measure_balance(const World& world, Workspace& w) {
   const Integrator method = world.params.numerics.integrator;
   if (method == Integrator::kRos2 || method == Integrator::kNewton) {
     w.op.apply(w.move, w.cg.product);
-    for (std::size_t k = 0; k < w.rhs.size(); ++k) w.cg.residual[k] = w.rhs[k] - w.cg.product[k];
+    for_each_number(w.rhs.size(),
+                    [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
   w.op.apply_external(w.move, w.cg.product);
   struct Middle {

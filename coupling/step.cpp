@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/threads.hpp"
 #include "coupling/integrators.hpp"
 #include "coupling/judge.hpp"
 #include "coupling/partitioned.hpp"
@@ -45,13 +46,14 @@ bool want_coarse(const State& s, int iterations_per_solve) {
 
 void commit(World& world, double step, int cg_iterations, int solves, Workspace& w) {
   State& s = world.state;
-  for (std::size_t k = 0; k < s.dcm.position.size(); ++k) s.dcm.position[k] += w.move[k];
-  for (std::size_t k = 0; k < s.cbm.position.size(); ++k)
-    s.cbm.position[k] += w.move[s.dcm.position.size() + k];
+  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += w.move[k]; });
+  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += w.move[dcm.size() + k]; });
   std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;
-  s.last_move = w.move;
+  s.last_move.resize(w.move.size());
+  for_each_number(w.move.size(), [&](std::size_t k) { s.last_move[k] = w.move[k]; });
   s.clock.time += step;
   s.clock.last_step = step;
   s.clock.accepted += 1;
@@ -123,7 +125,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   w.system.friction_scale = selection.friction_factor / step;
   w.system.stiffness_scale = selection.stiffness_scale;
   solve::clear_loads(w.system);
-  w.position = gather_positions(s);
+  gather_positions(s, w.position);
 
   dcm::compute_free_areas(s.dcm, phase.dcm, w.lanes, w.dcm, w.free_area);
   w.dcm_medium.assign(s.dcm.n_lane(), 0.0);
@@ -168,12 +170,13 @@ std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Worksp
 
 Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
   const State& s = world.state;
-  for (std::size_t k = 0; k < w.rhs.size(); ++k)
+  for_each_number(w.rhs.size(), [&](std::size_t k) {
     w.rhs[k] = w.system.force[k] + w.system.external_force[k];
+  });
   // The last step's velocity is a good first guess.
   if (has_last_move(s)) {
     const double ratio = step / s.clock.last_step;
-    for (std::size_t k = 0; k < w.move.size(); ++k) w.move[k] = ratio * s.last_move[k];
+    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = ratio * s.last_move[k]; });
   } else {
     std::ranges::fill(w.move, 0.0);
   }
@@ -196,7 +199,8 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
       w.op, w.cg.residual, w.move, w.position, w.active, options.tolerance, w.rigid);
   if (rigid.corrected_groups > 0) {
     w.op.apply(w.move, w.cg.product);
-    for (std::size_t k = 0; k < w.rhs.size(); ++k) w.cg.residual[k] = w.rhs[k] - w.cg.product[k];
+    for_each_number(w.rhs.size(),
+                    [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
   return Status::fine();
 }

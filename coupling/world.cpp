@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/threads.hpp"
+
 namespace acinus::coupling {
 
 double time_since_start(const World& w) {
@@ -42,9 +44,15 @@ std::vector<std::uint8_t> active_lanes(const State& s) {
 }
 
 std::vector<double> gather_positions(const State& s) {
-  std::vector<double> x = s.dcm.position;
-  x.insert(x.end(), s.cbm.position.begin(), s.cbm.position.end());
+  std::vector<double> x;
+  gather_positions(s, x);
   return x;
+}
+void gather_positions(const State& s, std::vector<double>& out) {
+  const auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  out.resize(dcm.size() + cbm.size());
+  for_each_number(dcm.size(), [&](std::size_t k) { out[k] = dcm[k]; });
+  for_each_number(cbm.size(), [&](std::size_t k) { out[dcm.size() + k] = cbm[k]; });
 }
 
 std::uint64_t hash_state(const State& s) {

@@ -129,6 +129,7 @@ std::vector<std::uint8_t> active_lanes(const State& state);
 
 /// Positions of all unknowns in one array, [n_row][3][lane].
 std::vector<double> gather_positions(const State& state);
+void gather_positions(const State& state, std::vector<double>& out);
 
 /// Hash of the whole state in storage order: equal bits give equal hashes.
 std::uint64_t hash_state(const State& state);

@@ -147,6 +147,53 @@ void find_vessel_contacts(const contact::SurfaceBody& b, const ContactParams& c,
     if (o.guard) out.push_back(o);
 }
 
+/// Contacts of one body with planes, capsules and vessels.
+void find_obstacle_contacts(const contact::SurfaceBody& b, int number, const ContactParams& c,
+                            double range, const contact::Surroundings& around, double time,
+                            const SegmentCandidates& list, std::vector<ObstacleContact>& out) {
+  const int n_point =
+      static_cast<int>(contact::n_sites(b, c.quadrature)) * contact::points_per_site(c.quadrature);
+  const Vec3 middle = 0.5 * (b.box.low + b.box.high);
+  const double half = 0.5 * (b.box.high - b.box.low).norm();
+  auto probe = [&](SurroundingKind kind, std::size_t index, auto gap_of) {
+    if (gap_of(middle).gap - half >= range) return;
+    for (int p = 0; p < n_point; ++p) {
+      const contact::Gap g =
+          gap_of(contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
+      if (g.gap < range) out.push_back({number, p, kind, static_cast<int>(index), g.gap, g.normal});
+    }
+  };
+  for (std::size_t i = 0; i < around.planes.size(); ++i)
+    probe(SurroundingKind::kPlane, i,
+          [&](const Vec3& x) { return contact::gap_to_plane(around.planes[i], x, time); });
+  for (std::size_t i = 0; i < around.capsules.size(); ++i)
+    probe(SurroundingKind::kCapsule, i,
+          [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, time); });
+  if (!list.site.empty()) find_vessel_contacts(b, c, range, list, around.vessels.network, out);
+}
+
+/// How much of each point's area touches something.
+void find_shares(const ContactParams& c, std::size_t n_row, ContactWorkspace& work) {
+  work.share.resize(work.body.size());
+#pragma omp parallel for schedule(static) if (worth_threads(n_row))
+  for (std::size_t k = 0; k < work.body.size(); ++k) {
+    std::vector<double>& share = work.share[k];
+    const auto number = static_cast<int>(k);
+    share.assign(contact::n_sites(work.body[k], c.quadrature) *
+                     static_cast<std::size_t>(contact::points_per_site(c.quadrature)),
+                 0.0);
+    // Both kinds of contact come body by body.
+    for (const contact::SurfaceContact& s :
+         std::ranges::equal_range(work.surface, number, {}, &contact::SurfaceContact::body_a))
+      if (s.body_a != s.body_b)
+        share[static_cast<std::size_t>(s.point)] += contact::contact_share(s.gap, c.friction_range);
+    for (const ObstacleContact& o :
+         std::ranges::equal_range(work.obstacle, number, {}, &ObstacleContact::body))
+      if (!o.guard)
+        share[static_cast<std::size_t>(o.point)] += contact::contact_share(o.gap, c.friction_range);
+  }
+}
+
 }  // namespace
 
 double contact_range(const ContactParams& c, const mesh::Topology& t, double radius) {
@@ -248,53 +295,14 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   work.points_seen += seen;
   for (const auto& f : work.found) work.surface.insert(work.surface.end(), f.begin(), f.end());
 
-  const int per_site = contact::points_per_site(c.quadrature);
   std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
 #pragma omp parallel for schedule(dynamic, 2) if (worth_threads(state.n_row()))
-  for (std::size_t k = 0; k < work.body.size(); ++k) {
-    const contact::SurfaceBody& b = work.body[k];
-    const int n_point = static_cast<int>(contact::n_sites(b, c.quadrature)) * per_site;
-    auto probe = [&](SurroundingKind kind, int index, auto gap_of) {
-      for (int p = 0; p < n_point; ++p) {
-        const Vec3 x = contact::point_position(b, contact::point_stencil(b, c.quadrature, p));
-        const contact::Gap g = gap_of(x);
-        if (g.gap < options.range)
-          obstacle[k].push_back({static_cast<int>(k), p, kind, index, g.gap, g.normal});
-      }
-    };
-    const Vec3 middle = 0.5 * (b.box.low + b.box.high);
-    const double half = 0.5 * (b.box.high - b.box.low).norm();
-    for (std::size_t i = 0; i < around.planes.size(); ++i) {
-      auto gap_of = [&](const Vec3& x) { return contact::gap_to_plane(around.planes[i], x, time); };
-      if (gap_of(middle).gap - half < options.range)
-        probe(SurroundingKind::kPlane, static_cast<int>(i), gap_of);
-    }
-    for (std::size_t i = 0; i < around.capsules.size(); ++i) {
-      auto gap_of = [&](const Vec3& x) {
-        return contact::gap_to_capsule(around.capsules[i], x, time);
-      };
-      if (gap_of(middle).gap - half < options.range)
-        probe(SurroundingKind::kCapsule, static_cast<int>(i), gap_of);
-    }
-    if (!work.segment_list[k].site.empty())
-      find_vessel_contacts(b, c, options.range, work.segment_list[k], around.vessels.network,
-                           obstacle[k]);
-  }
+  for (std::size_t k = 0; k < work.body.size(); ++k)
+    find_obstacle_contacts(work.body[k], static_cast<int>(k), c, options.range, around, time,
+                           work.segment_list[k], obstacle[k]);
   work.obstacle.clear();
   for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());
-
-  work.share.resize(work.body.size());
-  for (std::size_t k = 0; k < work.body.size(); ++k)
-    work.share[k].assign(
-        contact::n_sites(work.body[k], c.quadrature) * static_cast<std::size_t>(per_site), 0.0);
-  for (const contact::SurfaceContact& s : work.surface)
-    if (s.body_a != s.body_b)
-      work.share[static_cast<std::size_t>(s.body_a)][static_cast<std::size_t>(s.point)] +=
-          contact::contact_share(s.gap, c.friction_range);
-  for (const ObstacleContact& o : work.obstacle)
-    if (!o.guard)
-      work.share[static_cast<std::size_t>(o.body)][static_cast<std::size_t>(o.point)] +=
-          contact::contact_share(o.gap, c.friction_range);
+  find_shares(c, state.n_row(), work);
 }
 
 void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,

@@ -5,6 +5,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/threads.hpp"
+
 namespace acinus::solve {
 namespace {
 
@@ -55,15 +57,17 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, double size, do
   const std::size_t n = residual.size();
   for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
     a->resize(n);
-  std::ranges::fill(v.correction, T{0});
-  for (std::size_t k = 0; k < n; ++k) v.residual[k] = static_cast<T>(residual[k] / size);
+  for_each_number(n, [&](std::size_t k) {
+    v.correction[k] = 0;
+    v.residual[k] = static_cast<T>(residual[k] / size);
+  });
   auto add_coarse = [&](double diagonal) {
     return coarse ? diagonal + coarse->add(v.residual, v.preconditioned) : diagonal;
   };
   double size2 = op.precondition<T>(v.residual, v.preconditioned);
   double rho = add_coarse(size2);
   if (!is_size(rho)) return PassEnd::kBrokeDown;
-  std::ranges::copy(v.preconditioned, v.direction.begin());
+  for_each_number(n, [&](std::size_t k) { v.direction[k] = v.preconditioned[k]; });
   while (std::sqrt(size2) > goal) {
     if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
     ++iterations;
@@ -85,7 +89,8 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, double size, do
 /// x += size * correction.
 template <class T>
 void add_correction(double size, const std::vector<T>& correction, std::span<double> x) {
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] += size * static_cast<double>(correction[k]);
+  for_each_number(x.size(),
+                  [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
 
 }  // namespace
@@ -100,7 +105,7 @@ CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
   auto& r = work.residual;
   auto& q = work.product;
 
-  std::ranges::copy(b, r.begin());
+  for_each_number(n, [&](std::size_t k) { r[k] = b[k]; });
   if (!whole) {
     // What the rest does to the range belongs to the right-hand side of this smaller system.
     std::vector<double> inside(x.begin(), x.end()), rest(n);
@@ -132,7 +137,7 @@ CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0;; ++pass) {
     apply_distributed(op, x, q);
-    for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - q[k];
+    for_each_number(n, [&](std::size_t k) { r[k] = b[k] - q[k]; });
     if (!whole) restrict_to(op.system(), range, r);
     const double rho = op.precondition(r, {}), size = std::sqrt(rho);
     if (!is_size(rho)) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/threads.hpp"
+
 namespace acinus::solve {
 
 void index_springs(BlockPattern& p) {
@@ -43,13 +45,14 @@ void set_blocks(System& system, std::vector<Block> blocks) {
 }
 
 void clear_loads(System& system) {
-  std::ranges::fill(system.force, 0.0);
-  std::ranges::fill(system.external_force, 0.0);
-  std::ranges::fill(system.medium, 0.0);
-  std::ranges::fill(system.spring, 0.0f);
+  auto clear = [](auto& v) { for_each_number(v.size(), [&](std::size_t k) { v[k] = 0; }); };
+  clear(system.force);
+  clear(system.external_force);
+  clear(system.medium);
+  clear(system.spring);
   for (RankOne& r : system.rank_one) {
-    std::ranges::fill(r.vector, 0.0);
-    std::ranges::fill(r.coefficient, 0.0);
+    clear(r.vector);
+    clear(r.coefficient);
   }
   system.links.clear();
 }

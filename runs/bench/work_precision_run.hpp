@@ -26,10 +26,10 @@ struct Discretisation {
 struct Setting {
   Discretisation space;
   coupling::Integrator integrator = coupling::Integrator::kLinearlyImplicit;
-  double step = 60;            ///< s; the longest when adaptive
-  double cg_tolerance = 1e-3;  ///< as solver.tolerance
-  bool adaptive = false;       ///< step-size control and displacement cap as a scene has them
-  double tolerance = 0.01;     ///< um, as time.tolerance; Newton's method stops at a tenth of it
+  double step = 60;                                    ///< s; the longest when adaptive
+  double cg_tolerance = solve::CgOptions{}.tolerance;  ///< as solver.tolerance
+  bool adaptive = false;    ///< step-size control and displacement cap as a scene has them
+  double tolerance = 0.01;  ///< um, as time.tolerance; Newton's method stops at a tenth of it
 };
 
 /// What a scene is and how it gets to the state all settings start from.
