@@ -14,6 +14,8 @@
 #include "core/error.hpp"
 #include "core/timing.hpp"
 #include "runs/bench/assembly.hpp"
+#include "runs/bench/skipping.hpp"
+#include "runs/bench/speed_index.hpp"
 #include "runs/bench/step_cost.hpp"
 #include "runs/bench/stress.hpp"
 #include "runs/bench/table.hpp"
@@ -33,6 +35,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
+      {"skipping", bench_skipping},
       {"stress", bench_stress},
       {"threads", bench_threads},
       {"work-precision", bench_work_precision},
@@ -66,7 +69,11 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   const Machine machine = describe_machine();
   fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
              ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
+  const double index_before = measure_speed_index();
   const BenchTable table = found->second(options);
+  const double index_after = measure_speed_index();
+  fmt::print("speed index (CPU time of a fixed loop): {:.3g} ms before, {:.3g} ms after\n",
+             index_before, index_after);
   const bool passed = std::ranges::all_of(table, &BenchRow::passed);
   const int code = static_cast<int>(passed ? Exit::kDone : Exit::kInternal);
   if (options.json_file.empty()) return code;
@@ -75,6 +82,7 @@ int run_bench(const std::string& name, const BenchOptions& options) {
             {"machine", machine.cpu_model},
             {"instruction_set", machine.instruction_set},
             {"threads", threads},
+            {"speed_index_ms", {index_before, index_after}},
             {"rows", Json::array()}};
   for (const BenchRow& row : table) {
     Json r = {{"case", row.name}, {"cells", row.cells}};

@@ -14,12 +14,14 @@ std::string packed_clump_text(const PackedClump& clump) {
       clump.step ? fmt::format(R"(, "step": "{} s", "adaptive": false, "max_move": 0)", *clump.step)
                  : "";
   const std::string skin = clump.skin ? fmt::format(R"(, "skin": "{} um")", *clump.skin) : "";
+  const std::string solver =
+      clump.tolerance ? fmt::format(R"("solver": {{"tolerance": {}}}, )", *clump.tolerance) : "";
   return fmt::format(
-      R"({{"name": "clump", "time": {{"end": "12 h"{}}},
-  "cell_types": {{"cell": {{"dcm": {{"nodes": {}}}}}}},
+      R"({{"name": "clump", "time": {{"end": "12 h"{}}}, {}
+  "cell_types": {{"cell": {{"dcm": {{"nodes": {}, "local_area_modulus": "{} N/m"}}}}}},
   "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
   "motility": {{"random": false}}, "contact": {{"quadrature": "{}"{}}}}})",
-      steps, clump.nodes, clump.count, clump.quadrature, skin);
+      steps, solver, clump.nodes, clump.local_area_modulus, clump.count, clump.quadrature, skin);
 }
 
 void grow(coupling::World& world) {

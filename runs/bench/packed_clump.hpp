@@ -14,9 +14,14 @@ struct PackedClump {
   int count = 27;
   int nodes = 162;
   std::string quadrature = "3-point";
-  std::optional<double> step = 120;  ///< s, kept throughout; nothing: time control by default
-  std::optional<double> skin{};      ///< um, of contact; nothing: by default
+  std::optional<double> step = 120;   ///< s, kept throughout; nothing: time control by default
+  std::optional<double> skin{};       ///< um, of contact; nothing: by default
+  std::optional<double> tolerance{};  ///< of the linear solver; nothing: by default
+  double local_area_modulus = 0;      ///< N/m
 };
+
+/// Skin of contact lists that costs least in such a clump, um.
+inline constexpr double kClumpSkin = 0.6;
 
 /// The clump as the text of a scene; its cells do not grow and nothing moves them.
 std::string packed_clump_text(const PackedClump& clump);

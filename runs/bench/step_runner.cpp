@@ -1,0 +1,58 @@
+#include "runs/bench/step_runner.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "coupling/step.hpp"
+#include "runs/bench/packed_clump.hpp"
+#include "runs/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+
+StepRunner::StepRunner(const StepCase& c) : case_(c) {
+  const std::uint64_t before = rss_bytes();
+  world_ = build_world(parse_scene(c.scene, c.name), Ranks::serial()).world;
+  if (c.grows) grow(world_);
+  coupling::size_workspace(world_, work_);
+  advance(c.warm_up);
+  bytes_ = rss_bytes() - std::min(before, rss_bytes());
+  saved_ = world_.state;
+}
+
+StepSample StepRunner::measure() {
+  world_.state = saved_;
+  work_.timings.clear();
+  const double cpu = cpu_seconds(), wall = wall_seconds();
+  advance(case_.steps);
+  return {cpu_seconds() - cpu, wall_seconds() - wall, work_.timings.stages(),
+          world_.state.clock.cg_iterations - saved_.clock.cg_iterations,
+          coupling::hash_state(world_.state)};
+}
+
+StepSample StepRunner::measure_median() {
+  std::vector<StepSample> samples;
+  for (int r = 0; r < case_.repeats; ++r) samples.push_back(measure());
+  std::ranges::sort(samples, {}, &StepSample::cpu);
+  return samples[samples.size() / 2];
+}
+
+int StepRunner::cells() const {
+  return dcm::count_cells(world_.state.dcm) + static_cast<int>(world_.state.cbm.n_cell());
+}
+
+double StepRunner::contacts_per_cell() const {
+  return static_cast<double>(work_.system.links.size() + work_.system.point_links.size()) / cells();
+}
+
+double StepRunner::bytes_per_cell() const { return static_cast<double>(bytes_) / cells(); }
+
+void StepRunner::advance(int steps) {
+  for (int k = 0; k < steps; ++k) {
+    if (case_.always_coarse) world_.state.clock.coarse = true;
+    const coupling::StepResult r = coupling::advance(world_, work_, 1e9);
+    check(r.accepted, case_.name + ": a step failed: " + r.cause, Exit::kCannotContinue);
+  }
+}
+
+}  // namespace acinus::runs
