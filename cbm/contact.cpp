@@ -113,6 +113,7 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
     if (2 * (moved + wider) <= c.skin) return false;
   }
   const double margin = largest_separation(s, params, radius, around) + c.skin;
+  work.pair = {};  // before the new ones take memory
   work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin);
   work.segment.clear();
   const mesh::Network& network = around.vessels.network;

@@ -108,6 +108,10 @@ class RangeSearch {
                   static_cast<std::ptrdiff_t>((to + kLanes - 1) / kLanes * kPointStride),
               0.0);
     touching_.clear();
+    // The set changes little; doubling as it grows would waste memory.
+    const std::size_t own =
+        s_.touching.size() * (to - from) / std::max<std::size_t>(1, s_.n_cell());
+    touching_.reserve(own + own / 8);
   }
 
   void push(std::size_t k) {

@@ -7,6 +7,11 @@ namespace acinus::cbm {
 State make_state(const std::vector<NewCell>& cells) {
   State s;
   s.position.assign((cells.size() + kLanes - 1) / kLanes * kPointStride, 0.0);
+  s.lineage.reserve(cells.size());
+  s.type.reserve(cells.size());
+  s.volume.reserve(cells.size());
+  s.young.reserve(cells.size());
+  s.pull.reserve(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) {
     store_point(s.position.data(), cell_address(0, c), cells[c].center);
     s.lineage.push_back(cells[c].lineage);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
+#include "core/contact/box.hpp"
 #include "core/error.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/random.hpp"
@@ -95,26 +95,26 @@ std::vector<Vec3> fill_box(const Scene& scene, double radius, const contact::Sur
   return seeds;
 }
 
-/// Pairs of cells closer than half the larger radius, in the order of the list. A sweep along x
-/// keeps this far from quadratic in a tissue.
-std::vector<std::pair<std::size_t, std::size_t>> find_crowded(
-    const Scene& scene, const std::vector<PlacedCell>& cells) {
-  std::vector<std::size_t> order(cells.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t k) { return std::pair(cells[k].center.x(), k); });
-  double largest = 0;
-  for (const PlacedCell& c : cells) largest = std::max(largest, start_radius(scene, c.radius));
-  std::vector<std::pair<std::size_t, std::size_t>> crowded;
-  for (std::size_t a = 0; a < order.size(); ++a)
-    for (std::size_t b = a + 1; b < order.size(); ++b) {
-      const PlacedCell &p = cells[order[a]], &q = cells[order[b]];
-      if (q.center.x() - p.center.x() >= 0.5 * largest) break;
-      const double least =
-          0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius));
-      if ((p.center - q.center).norm() < least) crowded.push_back(std::minmax(order[a], order[b]));
-    }
-  std::ranges::sort(crowded);
-  return crowded;
+/// Where a cell comes from, for messages.
+std::string name_of(const Scene& scene, const PlacedCell& cell) {
+  return fmt::format("{}{}", scene.cells.source == "list" ? "/cells/list/" : "generated cell ",
+                     cell.lineage);
+}
+
+/// Pairs of cells closer than half the larger radius, in the order of the list.
+std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
+                                              const std::vector<PlacedCell>& cells) {
+  std::vector<contact::Box> around;
+  for (const PlacedCell& c : cells)
+    around.push_back(contact::sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
+  std::vector<std::pair<int, int>> pairs = contact::find_pairs(around, 0);
+  std::erase_if(pairs, [&](const std::pair<int, int>& pair) {
+    const PlacedCell &p = cells[static_cast<std::size_t>(pair.first)],
+                     &q = cells[static_cast<std::size_t>(pair.second)];
+    return (p.center - q.center).norm() >=
+           0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius));
+  });
+  return pairs;
 }
 
 /// A wrong unit often shows as an absurd size or place; the numbers then overflow far from here.
@@ -123,13 +123,13 @@ void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
     if (!(c.radius >= kSmallestRadius && c.radius <= kLargestRadius))
       throw Error(fmt::format(
           "{}: {} has the radius {:.4g} um; from {} to {} um is allowed. Check its unit.",
-          scene.file, c.where, c.radius, kSmallestRadius, kLargestRadius));
+          scene.file, name_of(scene, c), c.radius, kSmallestRadius, kLargestRadius));
     if (!(c.center.cwiseAbs().maxCoeff() <= kFarthest))
-      throw Error(
-          fmt::format("{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
-                      "along each axis "
-                      "is allowed. Check its unit.",
-                      scene.file, c.where, c.center.x(), c.center.y(), c.center.z(), kFarthest));
+      throw Error(fmt::format(
+          "{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
+          "along each axis "
+          "is allowed. Check its unit.",
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), kFarthest));
   }
 }
 
@@ -169,7 +169,6 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.deformable = e.model.empty()
                          ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
                          : e.model == "dcm";
-      p.where = fmt::format("/cells/list/{}", cells.size());
       cells.push_back(p);
     }
   } else {
@@ -187,6 +186,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       centers = fill_box(scene, radius, around);
     else if (lobule)
       centers = lobule->seeds;
+    cells.reserve(centers.size());
     for (const Vec3& x : centers) {
       PlacedCell p;
       p.center = x;
@@ -194,7 +194,6 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.radius = radius;
       p.oriented = false;
       p.deformable = c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, x));
-      p.where = fmt::format("generated cell {}", cells.size());
       cells.push_back(p);
     }
   }
@@ -216,17 +215,19 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
       message += fmt::format(
           "{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is "
           "allowed.\n",
-          scene.file, c.where, c.center.x(), c.center.y(), c.center.z(), r - gap, name,
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), r - gap, name,
           kStartDepth);
   }
-  for (const auto& [i, j] : find_crowded(scene, cells))
-    if (++bad <= 10)
-      message += fmt::format(
-          "{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} "
-          "um, is needed.\n",
-          scene.file, cells[i].where, cells[j].where, (cells[i].center - cells[j].center).norm(),
-          0.5 *
-              std::max(start_radius(scene, cells[i].radius), start_radius(scene, cells[j].radius)));
+  for (const auto& [i, j] : find_crowded(scene, cells)) {
+    if (++bad > 10) continue;
+    const PlacedCell &p = cells[static_cast<std::size_t>(i)],
+                     &q = cells[static_cast<std::size_t>(j)];
+    message += fmt::format(
+        "{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} "
+        "um, is needed.\n",
+        scene.file, name_of(scene, p), name_of(scene, q), (p.center - q.center).norm(),
+        0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius)));
+  }
   if (bad > 10) message += fmt::format("... and {} more.\n", bad - 10);
   check(bad == 0,
         message + (scene.start_up.enabled ? "Move these cells, or lower start_up.initial_radius."

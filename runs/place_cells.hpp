@@ -20,7 +20,6 @@ struct PlacedCell {
   bool deformable = false;
   bool oriented = true;  ///< keep the mesh as it is; generated cells get a random orientation
   Vec3 pull = Vec3::Zero();
-  std::string where;  ///< for messages: "/cells/list/3" or "generated cell 12"
 };
 
 /// All cells of the scene. Depends on the seed and the geometry, not on the models.

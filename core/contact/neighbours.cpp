@@ -102,7 +102,9 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
   const auto n_part = static_cast<std::size_t>(omp_get_max_threads());
   std::vector<Pairs> part(n_part);
 #pragma omp parallel for schedule(static, 1)
-  for (std::size_t k = 0; k < n_part; ++k)
+  for (std::size_t k = 0; k < n_part; ++k) {
+    part[k].reserve(7 * radius.size() /
+                    n_part);  // a packed sphere has 12 neighbours, half of them its own
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
       const auto c = g.cell_of(center(position, i));
       const std::size_t first = part[k].size();
@@ -120,6 +122,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
         }
       std::sort(part[k].begin() + static_cast<std::ptrdiff_t>(first), part[k].end());
     }
+  }
   Pairs pairs = std::move(part[0]);
   for (std::size_t k = 1; k < n_part; ++k)
     pairs.insert(pairs.end(), part[k].begin(), part[k].end());

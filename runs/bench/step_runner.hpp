@@ -45,7 +45,8 @@ class StepRunner {
   StepCase case_;
   coupling::World world_;
   coupling::Workspace work_;
-  coupling::State saved_;
+  coupling::State saved_;  ///< empty when nothing is repeated
+  coupling::Clock first_;  ///< when measuring begins
   std::uint64_t bytes_ = 0;
 };
 
