@@ -135,7 +135,9 @@ WorkCase clump_case() {
               1,
               {kUsual, Integrator::kLinearlyImplicit, 0.25, 1e-5},
               {}};
-  add_steps(brief.setting, kUsual, Integrator::kExplicitEuler, {0.1, 0.2, 0.25, 0.3, 0.5});
+  // A loose friction solve damps the fastest modes and so lengthens the stable step: both count.
+  add_steps(brief.setting, kUsual, Integrator::kExplicitEuler, {0.1, 0.25, 0.5, 1, 2});
+  add_steps(brief.setting, kUsual, Integrator::kExplicitEuler, {0.1, 0.25, 0.5}, 1e-3);
   add_steps(brief.setting, kUsual, Integrator::kLinearlyImplicit, {30, 60, 120, 300, 600});
   c.time.push_back(brief);
   c.space = {space_study(kWindow, 6, 60, 642, {42, 162, 642})};
