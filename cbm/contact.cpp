@@ -249,7 +249,6 @@ void add_contact_loads(const State& s, std::span<const Params> params,
 }
 
 double medium_friction(const Params& p, double radius, double contact_area) {
-  constexpr double kLeastFree = 0.01;
   const double surface = 4 * kPi * radius * radius;
   const double per_area =
       p.viscosity > 0 ? 6 * kPi * p.viscosity * radius / surface : p.medium_friction;

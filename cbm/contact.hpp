@@ -99,9 +99,11 @@ void add_cell_loads(const State& state, std::span<const Params> params,
                     std::span<const double> radius, const ContactWorkspace& work,
                     std::span<const Vec3> cell_force, std::size_t first_row, solve::System& system);
 
-/// Friction coefficient of one cell with the medium, nN s/um. A hundredth of its surface is always
-/// free: contact areas of spheres overlap and can add up to more than the surface, but a cell
-/// without any friction could move at any speed.
+/// Share of a sphere's surface that is always free: contact areas of spheres overlap and can add up
+/// to more than the surface, but a cell without any friction could move at any speed.
+inline constexpr double kLeastFree = 0.01;
+
+/// Friction coefficient of one cell with the medium, nN s/um.
 double medium_friction(const Params& p, double radius, double contact_area);
 
 }  // namespace acinus::cbm

@@ -75,7 +75,7 @@ std::vector<coupling::AuditSphere> spheres_of(const io::Frame& f) {
 struct Origin {
   Vec3 center = Vec3::Zero();
   double volume = 0;    ///< um^3
-  double friction = 0;  ///< nN s/um with the medium
+  double friction = 0;  ///< nN s/um with the medium, at least
 };
 std::map<std::int64_t, Origin> origins(const coupling::World& start) {
   std::map<std::int64_t, Origin> all;
@@ -95,8 +95,9 @@ std::map<std::int64_t, Origin> origins(const coupling::World& start) {
   for (std::size_t k = 0; k < c.n_cell(); ++k) {
     const cbm::Params& p = start.params.cbm[static_cast<std::size_t>(c.type[k])];
     const double volume = c.volume[k].to;
+    // Neighbours may cover a sphere but for the least share that is always free.
     all[c.lineage[k]] = {cbm::center_of(c, k), volume,
-                         medium(p.medium_friction, p.viscosity, volume)};
+                         cbm::kLeastFree * medium(p.medium_friction, p.viscosity, volume)};
   }
   return all;
 }
