@@ -16,6 +16,7 @@ struct StepCase {
   std::string name, scene;
   int warm_up = 20, steps = 60, repeats = 5;
   bool grows = false;
+  bool once = false;           ///< measured once: a copy of a million cells would show
   bool always_coarse = false;  ///< every solve with its coarse space
 };
 
@@ -33,6 +34,7 @@ class StepRunner {
   StepRunner(const StepRunner&) = delete;  // the operator points at the system
   StepRunner& operator=(const StepRunner&) = delete;
 
+  /// From the saved state.
   StepSample measure();
   StepSample measure_median();  ///< by CPU time
   int cells() const;
@@ -45,7 +47,7 @@ class StepRunner {
   StepCase case_;
   coupling::World world_;
   coupling::Workspace work_;
-  coupling::State saved_;  ///< empty when nothing is repeated
+  coupling::State saved_;  ///< empty if measured once
   coupling::Clock first_;  ///< when measuring begins
   std::uint64_t bytes_ = 0;
 };
