@@ -1,5 +1,5 @@
 #pragma once
-/// Coarse space of rigid cells: a second part of the preconditioner, z = D^-1 r + Z E^-1 Z^T r,
+/// Coarse space of rigid cells: a second part of the preconditioner, z = M^-1 r + Z E^-1 Z^T r,
 /// with six motions per cell in Z (three for a sphere) and E = Z^T A Z.
 ///
 /// Friction and contact between cells decide how fast the iteration converges in packed tissue; the
