@@ -351,7 +351,7 @@ def add_labels(renderer, frame, painter, height):
         bar.UnconstrainedFontSizeOn()
         style_text(bar.GetTitleTextProperty(), height // 42)
         style_text(bar.GetLabelTextProperty(), height // 48)
-        bar.SetPosition(0.89, 0.28)
+        bar.SetPosition(0.855, 0.28)
         bar.SetWidth(0.07)
         bar.SetHeight(0.44)
         renderer.AddActor2D(bar)
