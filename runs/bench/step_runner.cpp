@@ -1,5 +1,7 @@
 #include "runs/bench/step_runner.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -9,14 +11,24 @@
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs {
+namespace {
+
+/// Bytes allocated and not freed. Unlike the resident size it does not depend on what earlier cases
+/// of the same process left to be used again.
+std::uint64_t heap_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+}  // namespace
 
 StepRunner::StepRunner(const StepCase& c) : case_(c) {
-  const std::uint64_t before = rss_bytes();
+  const std::uint64_t before = heap_bytes();
   world_ = build_world(parse_scene(c.scene, c.name), Ranks::serial()).world;
   if (c.grows) grow(world_);
   coupling::size_workspace(world_, work_);
   advance(c.warm_up);
-  bytes_ = rss_bytes() - std::min(before, rss_bytes());
+  bytes_ = heap_bytes() - std::min(before, heap_bytes());
   if (!case_.once) saved_ = world_.state;
   first_ = world_.state.clock;
 }
