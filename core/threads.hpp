@@ -23,7 +23,7 @@ inline std::size_t count_threads(std::size_t n_row) {
 /// f(k) for all k < n: numbers of vectors over all points, three lanes of them to a row.
 template <class F>
 void for_each_number(std::size_t n, F f) {
-#pragma omp parallel for schedule(static) if (worth_threads(n / kPointStride) && !omp_in_parallel())
+#pragma omp parallel for schedule(static) if (count_threads(n / kPointStride) > 1)
   for (std::size_t k = 0; k < n; ++k) f(k);
 }
 

@@ -52,11 +52,6 @@ std::uint64_t peak_rss_bytes() {
   return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
 }
 
-std::uint64_t rss_bytes() {
-  const std::string entry = read_entry("/proc/self/status", "RssAnon");
-  return entry.empty() ? 0 : 1024 * std::stoull(entry);
-}
-
 Timings::Scope::Scope(Timings& timings, std::string_view stage)
     : timings_(timings),
       stage_(timings.find_or_add(stage)),

@@ -20,9 +20,6 @@ double thread_cpu_seconds();
 /// Largest resident memory of this process so far.
 std::uint64_t peak_rss_bytes();
 
-/// Resident memory of this process now, program code left out; 0 where the system does not tell.
-std::uint64_t rss_bytes();
-
 /// One named stage. Times include those of stages nested in it.
 struct StageTime {
   std::string name;

@@ -103,8 +103,8 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
   std::vector<Pairs> part(n_part);
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t k = 0; k < n_part; ++k) {
-    part[k].reserve(7 * radius.size() /
-                    n_part);  // a packed sphere has 12 neighbours, half of them its own
+    // A packed sphere has 12 neighbours, half of them its own.
+    part[k].reserve(7 * radius.size() / n_part);
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
       const auto c = g.cell_of(center(position, i));
       const std::size_t first = part[k].size();

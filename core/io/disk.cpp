@@ -39,15 +39,8 @@ void write_text_file(const std::string& path, std::string_view text) {
   const RemoveUnlessMoved cleanup{partial};
   const int descriptor = open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail_on_disk(partial, "create", errno);
-  int error = 0;
-  while (!text.empty() && error == 0) {
-    const ssize_t n = ::write(descriptor, text.data(), text.size());
-    if (n >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(n));
-    } else if (errno != EINTR) {
-      error = errno;
-    }
-  }
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  int error = write_all(descriptor, bytes, text.size(), 0) ? 0 : errno;
   if (::close(descriptor) != 0 && error == 0) error = errno;
   if (error != 0) fail_on_disk(partial, "write", error);
   replace_file(partial, path);
@@ -64,6 +57,18 @@ std::string read_text_file(const std::string& path) {
   std::fclose(file);
   if (error != 0) fail_on_disk(path, "read", error);
   return text;
+}
+
+bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::uint64_t address) {
+  while (size > 0) {
+    const ssize_t n = pwrite(descriptor, data, size, static_cast<off_t>(address));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    data += n;
+    address += static_cast<std::uint64_t>(n);
+    size -= static_cast<std::uint64_t>(n);
+  }
+  return true;
 }
 
 void replace_file(const std::string& from, const std::string& to) {

@@ -2,6 +2,8 @@
 /// Files that appear whole or not at all. Every failure is an Error(kFileError) with the system's
 /// reason.
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -14,6 +16,10 @@ std::string make_temporary_folder(const std::string& prefix);
 /// Replaces the content of `path` in one step: readers see the old text or the new one.
 void write_text_file(const std::string& path, std::string_view text);
 std::string read_text_file(const std::string& path);
+
+/// Writes all bytes at `address` of an open file. Returns false with errno set when the disk
+/// refuses.
+bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::uint64_t address);
 
 /// Renames over an existing file.
 void replace_file(const std::string& from, const std::string& to);

@@ -23,18 +23,6 @@ constexpr std::size_t kRecord = sizeof(std::uint64_t) + kPage;
 
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
-bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::uint64_t address) {
-  while (size > 0) {
-    const ssize_t n = pwrite(descriptor, data, size, static_cast<off_t>(address));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    data += n;
-    address += static_cast<std::uint64_t>(n);
-    size -= static_cast<std::uint64_t>(n);
-  }
-  return true;
-}
-
 bool write_journal(const std::string& path, const Journal& journal) {
   std::vector<std::byte> bytes(kHead + journal.page.size() * kRecord + kTail);
   std::byte* out = bytes.data();

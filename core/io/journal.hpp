@@ -32,7 +32,4 @@ Journal read_journal(const std::string& path);
 /// Does nothing when there is none.
 void remove_journal(const std::string& path);
 
-/// Writes all bytes at `address`. Returns false with errno set when the disk refuses.
-bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::uint64_t address);
-
 }  // namespace acinus::io::h5

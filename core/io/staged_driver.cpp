@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "core/io/disk.hpp"
 #include "core/io/journal.hpp"
 
 namespace acinus::io::h5 {

@@ -111,7 +111,7 @@ void Operator::merge_links() {
   merged_ = true;
 }
 
-void Operator::compute_diagonal() {
+void Operator::compute_inverse() {
   const System& s = *system_;
   inverse_.resize(s.n_row * kSymStride);
   rank_one_.resize(s.rank_one.size());
@@ -133,11 +133,11 @@ void Operator::compute_diagonal() {
         for (std::size_t c = 0; c < 6; ++c)
           for (std::size_t l = 0; l < kLanes; ++l)
             d[i * kSymStride + c * kLanes + l] = static_cast<double>(from[i * kLanes + l][c]);
-      add_diagonal(view_block(s, b), d.data());
+      const BlockView block = view_block(s, b);
+      add_diagonal(block, d.data());
       invert_blocks(static_cast<int>(n), d.data(), inverse_.data() + row * kSymStride);
       InverseView inverse = inverse_of(b);
       const std::size_t n_family = inverse.n_family;
-      const BlockView block = view_block(s, b);
       for (inverse.n_family = 0; inverse.n_family < n_family; ++inverse.n_family) {
         const std::size_t k = inverse.n_family;
         invert_rank_one(inverse, block.vector[k], block.coefficient[k],
@@ -165,7 +165,7 @@ void Operator::prepare(const System& system) {
   for (std::size_t l = 0; l < system.point_links.size(); ++l)
     if (system.point_links[l].b == kNowhere)
       external_point_.push_back(static_cast<std::uint32_t>(l));
-  compute_diagonal();
+  compute_inverse();
 }
 
 InverseView Operator::inverse_of(std::size_t block) const {

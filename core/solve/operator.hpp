@@ -85,7 +85,7 @@ class Operator {
   void start(const System& system);
   void divide();
   void share_links(bool with_matrix);
-  void compute_diagonal();
+  void compute_inverse();
   LinkSet<Link> links_of(const Range& range) const;
   LinkSet<PointLink> point_links_of(const Range& range) const;
   template <class F>

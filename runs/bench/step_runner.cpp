@@ -28,7 +28,8 @@ StepRunner::StepRunner(const StepCase& c) : case_(c) {
   if (c.grows) grow(world_);
   coupling::size_workspace(world_, work_);
   advance(c.warm_up);
-  bytes_ = heap_bytes() - std::min(before, heap_bytes());
+  const std::uint64_t after = heap_bytes();
+  bytes_ = after - std::min(before, after);
   if (!case_.once) saved_ = world_.state;
   first_ = world_.state.clock;
 }

@@ -13,7 +13,8 @@ namespace {
 constexpr int kSteps = 12;
 constexpr double kStep = 240;  ///< s
 
-/// Eight cells of both models; a tight solve of long steps in packed cells, so that the coarse space comes on.
+/// Eight cells of both models; a tight solve of long steps in packed cells, so that the coarse
+/// space comes on.
 World packed_cells(Integrator integrator) {
   World w = make_test_world(checkered_cube(23.5), kStep, 42);
   w.params.motility.random = true;
