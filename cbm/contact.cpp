@@ -52,8 +52,8 @@ bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int ce
   return false;
 }
 
-void count_overlap(ContactWorkspace& work, int cell, double relative) {
-  const double w = overlap_weight(relative);
+void count_overlap(ContactWorkspace& work, int cell, double relative, double share) {
+  const double w = share * overlap_weight(relative);
   work.overlap_sum[static_cast<std::size_t>(cell)] += w * std::max(relative, 0.0);
   work.overlap_weight[static_cast<std::size_t>(cell)] += w;
 }
@@ -99,6 +99,15 @@ double mean_overlap(const ContactWorkspace& work, std::size_t cell) {
   return w > 0 ? work.overlap_sum[cell] / w : 0;
 }
 
+contact::SphereForce weaken(contact::SphereForce law, double share) {
+  if (share <= 0) return {};
+  law.force *= share;
+  law.stiffness *= share;
+  law.force_by_modulus *= share;
+  law.contact_radius *= std::sqrt(share);
+  return law;
+}
+
 bool refresh_pairs(const State& s, std::span<const Params> params, const ContactParams& c,
                    std::span<const double> radius, const contact::Surroundings& around,
                    ContactWorkspace& work) {
@@ -139,15 +148,16 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
 }
 
 void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
-                   std::span<const double> radius, const contact::Surroundings& around, double time,
+                   const CellData& cells, const contact::Surroundings& around, double time,
                    std::size_t first_row, ContactWorkspace& work,
                    std::vector<solve::PointLink>& link) {
   ++work.searches;
-  find_pair_contacts(s, params, c, radius, first_row, work, link);
+  find_pair_contacts(s, params, c, cells, first_row, work, link);
   work.obstacle.clear();
   if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
       work.segment.empty())
     return;
+  const std::span<const double> radius = cells.radius;
   auto body = [&](std::size_t i) {
     return SphereBody{radius[i], s.young[i], params[static_cast<std::size_t>(s.type[i])].poisson};
   };
@@ -159,7 +169,8 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
                             ? was_touching_vessel(s, around.vessels, static_cast<int>(i), index)
                             : was_touching(s, static_cast<int>(i), key);
     if (overlap < 0 && !before) return;
-    const contact::SphereForce law = contact::jkr_force(pair, overlap, before);
+    const contact::SphereForce law =
+        weaken(contact::jkr_force(pair, overlap, before), cells.strength_of(i));
     if (!law.touching) return;
     work.touching.emplace_back(static_cast<int>(i), key);
     work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
@@ -174,13 +185,14 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
       const contact::Plane& p = around.planes[k];
       const contact::Gap g = contact::gap_to_plane(p, x, time);
       if (p.material.mirror) {
-        if (g.gap >= radius[i]) continue;
-        const contact::SphereForce law = contact::mirror_wall_force(body(i), g.gap);
+        const double share = cells.strength_of(i);
+        if (g.gap >= radius[i] || share <= 0) continue;
+        const contact::SphereForce law = weaken(contact::mirror_wall_force(body(i), g.gap), share);
         work.obstacle.push_back({static_cast<int>(i), SurroundingKind::kPlane, static_cast<int>(k),
                                  g.normal, radius[i] - g.gap, law});
         work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
-        count_overlap(work, static_cast<int>(i),
-                      contact::mirror_wall_compression(radius[i], g.gap));
+        count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], g.gap),
+                      share);
       } else {
         meet(i, SurroundingKind::kPlane, static_cast<int>(k),
              contact::reduced_pair(body(i), flat(p.material, contact::kFlat),

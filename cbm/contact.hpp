@@ -26,7 +26,7 @@ struct SphereContact {
   int a = 0, b = 0;
   Vec3 normal = Vec3::Zero();  ///< unit, from b to a; force on a is +force * normal
   double overlap = 0;          ///< um
-  contact::SphereForce law;
+  contact::SphereForce law;    ///< weakened as the cells' strengths demand
 };
 
 /// A sphere in contact with a plane, capsule, vessel segment or static mesh.
@@ -36,7 +36,7 @@ struct ObstacleContact {
   int index = 0;
   Vec3 normal = Vec3::Zero();  ///< unit, from the obstacle to the cell
   double overlap = 0;          ///< um
-  contact::SphereForce law;
+  contact::SphereForce law;    ///< weakened as the cell's strength demands
 };
 
 /// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
@@ -56,6 +56,10 @@ struct ContactWorkspace {
   std::int64_t searches = 0;  ///< calls of find_contacts
 };
 
+/// A contact that exerts this share of its force: stiffness and contact area, and with it friction,
+/// fall alike. With a share of 0 there is none.
+contact::SphereForce weaken(contact::SphereForce law, double share);
+
 /// Relative overlap over which a contact's weight in the mean rises to one.
 inline constexpr double kOverlapRise = 0.02;
 
@@ -72,11 +76,13 @@ bool refresh_pairs(const State& state, std::span<const Params> params, const Con
                    ContactWorkspace& work);
 
 /// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
-/// dF/d overlap) n n^T and friction gamma pi a^2 of every pair.
+/// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. All that a contact of two cells
+/// does is multiplied by the larger of their strengths, so that spheres born into each other come
+/// apart slowly, and all that a contact with surroundings does by the cell's own.
 /// @param first_row  where the CBM rows start in the system
 /// @param link       one per near pair, zero where not touching
 void find_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
-                   std::span<const double> radius, const contact::Surroundings& around, double time,
+                   const CellData& cells, const contact::Surroundings& around, double time,
                    std::size_t first_row, ContactWorkspace& work,
                    std::vector<solve::PointLink>& link);
 
@@ -88,8 +94,7 @@ void add_contact_loads(const State& state, std::span<const Params> params,
 
 /// The touching pairs of the last search one by one.
 std::vector<SphereContact> list_sphere_contacts(const State& state, std::span<const Params> params,
-                                                const ContactParams& c,
-                                                std::span<const double> radius,
+                                                const ContactParams& c, const CellData& cells,
                                                 const ContactWorkspace& work);
 
 /// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0

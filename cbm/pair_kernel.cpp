@@ -49,6 +49,15 @@ ACINUS_KERNEL void evaluate(Batch& p) {
   store(p.relative, weight * lane_max0(relative));
 }
 
+/// Leaves each pair its share of all that it does; without a share it does not touch.
+void weaken(const double (&share)[kLanes], Batch& p) {
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    for (double* v : {&p.force[l], &p.stiffness[l], &p.area[l], &p.relative[l], &p.weight[l]})
+      *v *= share[l];
+    if (share[l] <= 0) p.touching[l] = 0;
+  }
+}
+
 /// What the pairs need of the types.
 struct TypeTable {
   std::vector<double> softness;  ///< 1 - nu^2
@@ -66,14 +75,13 @@ TypeTable make_table(std::span<const Params> params, double adhesion_factor) {
 /// One thread's cells [first, last): all pairs that have a side among them.
 class RangeSearch {
  public:
-  RangeSearch(const State& s, const TypeTable& table, double friction,
-              std::span<const double> radius, std::size_t first_row, std::size_t first,
-              std::size_t last, ContactWorkspace& work, std::vector<solve::PointLink>& link,
-              std::vector<std::pair<int, int>>& touching)
+  RangeSearch(const State& s, const TypeTable& table, double friction, const CellData& cells,
+              std::size_t first_row, std::size_t first, std::size_t last, ContactWorkspace& work,
+              std::vector<solve::PointLink>& link, std::vector<std::pair<int, int>>& touching)
       : s_(s),
         table_(table),
         friction_(friction),
-        radius_(radius),
+        cells_(cells),
         first_row_(first_row),
         first_(static_cast<int>(first)),
         last_(static_cast<int>(last)),
@@ -124,8 +132,9 @@ class RangeSearch {
       batch_.xa[m][n_] = x[at_a + m * kLanes];
       batch_.xb[m][n_] = x[at_b + m * kLanes];
     }
-    batch_.radius_a[n_] = radius_[i];
-    batch_.radius_b[n_] = radius_[j];
+    batch_.radius_a[n_] = cells_.radius[i];
+    batch_.radius_b[n_] = cells_.radius[j];
+    if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
     const auto ta = static_cast<std::size_t>(s_.type[i]), tb = static_cast<std::size_t>(s_.type[j]);
     batch_.compliance[n_] = table_.softness[ta] / s_.young[i] + table_.softness[tb] / s_.young[j];
     batch_.adhesion[n_] = table_.root[ta] * table_.root[tb];
@@ -156,6 +165,7 @@ class RangeSearch {
       batch_.was_touching[l] = batch_.was_touching[n_ - 1];
     }
     evaluate(batch_);
+    if (!cells_.strength.empty()) weaken(share_, batch_);
     for (std::size_t l = 0; l < n_; ++l) spread(index_[l], l);
     n_ = 0;
   }
@@ -194,13 +204,14 @@ class RangeSearch {
   const State& s_;
   const TypeTable& table_;
   double friction_;
-  std::span<const double> radius_;
+  const CellData& cells_;
   std::size_t first_row_;
   int first_, last_;
   ContactWorkspace& work_;
   std::vector<solve::PointLink>& link_;
   std::vector<std::pair<int, int>>& touching_;
   Batch batch_{};
+  double share_[kLanes] = {};  ///< used only when not all strengths are 1
   std::size_t index_[kLanes] = {};
   std::size_t n_ = 0, finger_ = kUnset;
 };
@@ -208,8 +219,8 @@ class RangeSearch {
 }  // namespace
 
 void find_pair_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
-                        std::span<const double> radius, std::size_t first_row,
-                        ContactWorkspace& work, std::vector<solve::PointLink>& link) {
+                        const CellData& cells, std::size_t first_row, ContactWorkspace& work,
+                        std::vector<solve::PointLink>& link) {
   const std::size_t n = s.n_cell();
   work.force.resize(s.position.size());
   link.resize(work.pair.size());
@@ -224,7 +235,7 @@ void find_pair_contacts(const State& s, std::span<const Params> params, const Co
     auto boundary = [&](std::size_t part) {  // whole rows: no two threads share one
       return part == n_part ? n : part * n / n_part / kLanes * kLanes;
     };
-    RangeSearch(s, table, friction, radius, first_row, boundary(k), boundary(k + 1), work, link,
+    RangeSearch(s, table, friction, cells, first_row, boundary(k), boundary(k + 1), work, link,
                 k == 0 ? work.touching : touching[k - 1])
         .run();
   }
@@ -232,9 +243,9 @@ void find_pair_contacts(const State& s, std::span<const Params> params, const Co
 }
 
 std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const Params> params,
-                                                const ContactParams& c,
-                                                std::span<const double> radius,
+                                                const ContactParams& c, const CellData& cells,
                                                 const ContactWorkspace& work) {
+  const std::span<const double> radius = cells.radius;
   const TypeTable table = make_table(params, c.adhesion_factor);
   std::vector<SphereContact> list;
   for (const auto& [a, b] : work.touching) {
@@ -248,7 +259,7 @@ std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const 
         1 / (table.softness[ta] / s.young[i] + table.softness[tb] / s.young[j]),
         table.root[ta] * table.root[tb]};
     list.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap,
-                    contact::jkr_force(pair, overlap, true)});
+                    weaken(contact::jkr_force(pair, overlap, true), cells.pair_share(i, j))});
   }
   return list;
 }

@@ -1,9 +1,15 @@
 #pragma once
 /// Constants of one type of centre-based cell. Constant after load.
 
+#include <cstdint>
+
+#include "core/random.hpp"
+
 namespace acinus::cbm {
 
 struct Params {
+  double young = 0.45;      ///< kPa, mean over cells
+  double young_spread = 0;  ///< relative standard deviation from cell to cell
   double poisson = 0.47;
   double medium_friction = 0;  ///< nN s/um^3, gamma_ECM; used unless viscosity > 0
   double viscosity = 0;        ///< nN s/um^2, Stokes drag 6 pi eta R
@@ -17,6 +23,13 @@ struct Params {
 /// Pa]
 inline double young_from_bulk(double bulk_modulus, double poisson) {
   return 3 * bulk_modulus * (1 - 2 * poisson);
+}
+
+/// Young's modulus of one cell: Gaussian about the mean of its type, cut at 3 standard deviations,
+/// kPa.   [VanLiedekerke2020, Table 1]
+inline double draw_young(const Params& p, std::uint64_t seed, std::int64_t lineage) {
+  return truncated_normal({seed, Purpose::kYoungModulus, static_cast<std::uint64_t>(lineage), 0, 0},
+                          p.young, p.young_spread * p.young, 3);
 }
 
 }  // namespace acinus::cbm

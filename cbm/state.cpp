@@ -1,6 +1,8 @@
 #include "cbm/state.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace acinus::cbm {
 
@@ -10,6 +12,7 @@ State make_state(const std::vector<NewCell>& cells) {
   s.lineage.reserve(cells.size());
   s.type.reserve(cells.size());
   s.volume.reserve(cells.size());
+  s.strength.reserve(cells.size());
   s.young.reserve(cells.size());
   s.pull.reserve(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -17,9 +20,37 @@ State make_state(const std::vector<NewCell>& cells) {
     s.lineage.push_back(cells[c].lineage);
     s.type.push_back(cells[c].type);
     s.volume.push_back(Ramp::constant(4.0 / 3 * kPi * std::pow(cells[c].radius, 3)));
+    s.strength.push_back(cells[c].strength);
     s.young.push_back(cells[c].young);
     s.pull.push_back(cells[c].pull);
   }
+  return s;
+}
+
+State compose(std::span<const CellRef> cells) {
+  State s;
+  s.position.assign((cells.size() + kLanes - 1) / kLanes * kPointStride, 0.0);
+  std::map<const State*, std::vector<int>> new_index;  // [cell of that state], -1: left out
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const auto& [from, cell, type] = cells[k];
+    store_point(s.position.data(), cell_address(0, k), center_of(*from, cell));
+    s.lineage.push_back(from->lineage[cell]);
+    s.type.push_back(type < 0 ? from->type[cell] : type);
+    s.volume.push_back(from->volume[cell]);
+    s.young.push_back(from->young[cell]);
+    s.strength.push_back(from->strength[cell]);
+    s.pull.push_back(from->pull[cell]);
+    auto& index = new_index.try_emplace(from, from->n_cell(), -1).first->second;
+    index[cell] = static_cast<int>(k);
+  }
+  for (const auto& [from, index] : new_index)
+    for (const auto& [a, b] : from->touching) {
+      const int i = index[static_cast<std::size_t>(a)];
+      const int j = b < 0 ? b : index[static_cast<std::size_t>(b)];
+      if (i < 0 || (b >= 0 && j < 0)) continue;
+      s.touching.emplace_back(b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j));
+    }
+  std::ranges::sort(s.touching);
   return s;
 }
 
@@ -28,6 +59,13 @@ std::vector<double> radii_at(const State& s, double time) {
   for (std::size_t c = 0; c < r.size(); ++c)
     r[c] = std::cbrt(s.volume[c].at(time) / (4.0 / 3 * kPi));
   return r;
+}
+
+std::vector<double> strengths_at(const State& s, double time) {
+  if (std::ranges::all_of(s.strength, [&](const Ramp& r) { return r.at(time) == 1; })) return {};
+  std::vector<double> share(s.n_cell());
+  for (std::size_t c = 0; c < share.size(); ++c) share[c] = s.strength[c].at(time);
+  return share;
 }
 
 std::vector<solve::Block> make_blocks(const State& s) {

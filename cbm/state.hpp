@@ -1,7 +1,9 @@
 #pragma once
 /// State of all centre-based cells: exactly what a checkpoint holds.
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct State {
   std::vector<std::int64_t> lineage;  ///< [n_cell]
   std::vector<int> type;              ///< [n_cell]
   std::vector<Ramp> volume;           ///< [n_cell] um^3, intrinsic volume
+  std::vector<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; CellData says of what
   std::vector<double> young;          ///< [n_cell] kPa
   std::vector<Vec3> pull;             ///< [n_cell] nN, constant load
   /// Adhesive contacts that exist, as (cell, cell) or (cell, ~surroundings key); sorted. JKR
@@ -35,9 +38,21 @@ struct NewCell {
   double radius = 0;  ///< um
   double young = 0;   ///< kPa
   Vec3 pull = Vec3::Zero();
+  Ramp strength = Ramp::constant(1);  ///< below one only after a division
 };
 
 State make_state(const std::vector<NewCell>& cells);
+
+/// One cell of some state, to become one of another type or stay what it is (-1).
+struct CellRef {
+  const State* state = nullptr;
+  std::size_t cell = 0;
+  int type = -1;
+};
+
+/// Copies cells into a new state, in the order given. Contacts that exist between cells of one
+/// state, or with surroundings, are kept.
+State compose(std::span<const CellRef> cells);
 
 /// Address in arrays that start with the CBM rows at `first_row`.
 inline Address cell_address(std::size_t first_row, std::size_t cell) {
@@ -53,6 +68,23 @@ inline Vec3 center_of(const State& s, std::size_t cell) {
 
 /// Radii from the intrinsic volumes at a time, um.
 std::vector<double> radii_at(const State& state, double time);
+
+/// Strengths at a time; empty when all are 1, so that nothing needs to look at them.
+std::vector<double> strengths_at(const State& state, double time);
+
+/// What contacts need of the cells at one time: that of the end of the step.
+struct CellData {
+  std::span<const double> radius;         ///< [n_cell] um
+  std::span<const double> strength = {};  ///< [n_cell] 0..1; empty: all 1
+
+  double strength_of(std::size_t cell) const { return strength.empty() ? 1 : strength[cell]; }
+  /// Share of a contact of two spheres: the stronger one decides. Only siblings, who are born deep
+  /// in each other, come apart slowly; neighbours hold a daughter's place with full force. With the
+  /// weaker one they fell into the mother's place before her daughters were strong.
+  double pair_share(std::size_t a, std::size_t b) const {
+    return strength.empty() ? 1 : std::max(strength[a], strength[b]);
+  }
+};
 
 /// The blocks of unknowns these cells contribute.
 std::vector<solve::Block> make_blocks(const State& state);

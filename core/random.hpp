@@ -35,6 +35,7 @@ enum class Purpose : std::uint32_t {
   kCycleTime = 7,
   kDeath = 8,
   kSampling = 9,
+  kLifeRule = 10,
 };
 
 /// Address of one block of random words.

@@ -263,6 +263,7 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
       return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
     case Pair::Kind::kSphereSphere: {
       const AuditSphere &a = frame.spheres[pair.a], &b = frame.spheres[pair.b];
+      if (a.strength < 1 || b.strength < 1) return 0;
       return a.radius + b.radius - (a.center - b.center).norm();
     }
   }

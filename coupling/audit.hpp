@@ -22,6 +22,7 @@ struct AuditSphere {
   std::int64_t id = 0;
   Vec3 center = Vec3::Zero();
   double radius = 0;
+  double strength = 1;  ///< below 1: new-born and still within its sister, which is not an overlap
 };
 /// How deep a sphere is known to be dented by a cell, from the force between them.
 struct AuditDent {

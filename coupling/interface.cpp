@@ -12,7 +12,7 @@ namespace {
 /// The law of one contact and the area it acts on.
 struct Patch {
   contact::Well well;
-  double area = 0;
+  double area = 0;      ///< um^2
   double touching = 0;  ///< share of the area that rubs
 };
 
@@ -49,7 +49,7 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
   work.contact.clear();
   if (dcm_work.body.empty() || cbm_state.n_cell() == 0) return;
-  std::vector<contact::Box> bodies, spheres;
+  std::vector<contact::Box> bodies, sphere_boxes;
   double range = 0;
   for (std::size_t k = 0; k < dcm_work.body.size(); ++k) {
     bodies.push_back(dcm_work.body[k].box);
@@ -57,8 +57,8 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
                                                lanes.radius[dcm_work.lane_of_body[k]]));
   }
   for (std::size_t i = 0; i < cbm_state.n_cell(); ++i)
-    spheres.push_back(contact::sphere_box(cbm::center_of(cbm_state, i), cbm_radius[i]));
-  const auto pairs = contact::find_pairs_between(bodies, spheres, range);
+    sphere_boxes.push_back(contact::sphere_box(cbm::center_of(cbm_state, i), cbm_radius[i]));
+  const auto pairs = contact::find_pairs_between(bodies, sphere_boxes, range);
 
   const int per_site = contact::points_per_site(c.quadrature);
   std::vector<std::vector<InterfaceContact>> found(pairs.size());

@@ -50,7 +50,8 @@ inline constexpr double kLeastDent = 0.01;
 double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent);
 
 /// Finds all interface contacts. Adds their touching shares to the surface points, and their areas
-/// and overlaps to the spheres. @pre both models' find_contacts
+/// and overlaps to the spheres, young ones too: a deformable cell is a neighbour of full strength.
+/// @pre both models' find_contacts
 void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& dcm_contact,
                     const dcm::LaneData& lanes, const cbm::State& cbm_state,
                     std::span<const double> cbm_radius, dcm::ContactWorkspace& dcm_work,
@@ -65,8 +66,7 @@ struct InterfaceView {
   const dcm::ContactWorkspace& dcm_work;
   const cbm::State& cbm_state;
   std::span<const cbm::Params> cbm_params;
-  std::span<const double> cbm_radius;
-  const cbm::ContactWorkspace& cbm_work;
+  std::span<const double> cbm_radius;  ///< [n_cell] um
   const InterfaceParams& params;
   const InterfaceWorkspace& work;
 };

@@ -38,10 +38,10 @@ std::size_t lane_of(const Workspace& w, Address a) {
 constexpr std::size_t kPartRows = 64;
 
 /// f(lane, address of its first point, number of points, part) for every cell; the parts are added
-/// up in order. Parts follow from the blocks alone, so the sum is the same for any number of
-/// threads.
+/// up in order; of moving cells only, or all. Parts follow from the blocks alone, so the sum is the
+/// same for any number of threads.
 template <class Part, class F>
-Part sum_over_cells(const Workspace& w, F f) {
+Part sum_over_cells(const Workspace& w, bool moving_only, F f) {
   const auto& block = w.system.block;
   std::vector<std::size_t> start{0};
   for (std::size_t b = 0; b < block.size(); ++b)
@@ -53,7 +53,7 @@ Part sum_over_cells(const Workspace& w, F f) {
     for (std::size_t b = start[k]; b < start[k + 1]; ++b)
       for (int l = 0; l < kLanes; ++l) {
         const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
-        if (w.active[lane])
+        if (w.active[lane] && !(moving_only && !w.held.empty() && w.held[lane]))
           f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[k]);
       }
   Part total;
@@ -95,22 +95,23 @@ double error_norm(const World& world, const Workspace& w, std::span<const double
       n += o.n;
     }
   };
-  const Part p = sum_over_cells<Part>(w, [&](std::size_t, Address first, int n_point, Part& part) {
-    auto at = [&](int i) {
-      return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
-    };
-    Vec3 mean = Vec3::Zero();
-    if (noise) {
-      for (int i = 0; i < n_point; ++i) mean += at(i);
-      mean /= n_point;
-    }
-    for (int i = 0; i < n_point; ++i) {
-      const double e2 = (at(i) - mean).squaredNorm();
-      part.sum2 += e2;
-      part.largest2 = std::max(part.largest2, e2);
-    }
-    part.n += n_point;
-  });
+  const Part p =
+      sum_over_cells<Part>(w, true, [&](std::size_t, Address first, int n_point, Part& part) {
+        auto at = [&](int i) {
+          return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
+        };
+        Vec3 mean = Vec3::Zero();
+        if (noise) {
+          for (int i = 0; i < n_point; ++i) mean += at(i);
+          mean /= n_point;
+        }
+        for (int i = 0; i < n_point; ++i) {
+          const double e2 = (at(i) - mean).squaredNorm();
+          part.sum2 += e2;
+          part.largest2 = std::max(part.largest2, e2);
+        }
+        part.n += n_point;
+      });
   return p.n > 0 ? std::max(std::sqrt(p.sum2 / p.n), std::sqrt(p.largest2) / 5) : 0;
 }
 
@@ -152,7 +153,7 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
     }
   };
   const Part p =
-      sum_over_cells<Part>(w, [&](std::size_t lane, Address first, int n_point, Part& part) {
+      sum_over_cells<Part>(w, true, [&](std::size_t lane, Address first, int n_point, Part& part) {
         double largest2 = 0;
         bool finite = true;
         for (int i = 0; i < n_point; ++i) {
@@ -241,7 +242,7 @@ Balance measure_balance(const World& world, Workspace& w) {
     }
   };
   const Middle middle =
-      sum_over_cells<Middle>(w, [&](std::size_t, Address first, int n_point, Middle& part) {
+      sum_over_cells<Middle>(w, false, [&](std::size_t, Address first, int n_point, Middle& part) {
         for (int i = 0; i < n_point; ++i)
           part.sum += load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
         part.n += n_point;
@@ -259,22 +260,23 @@ Balance measure_balance(const World& world, Workspace& w) {
       rest_torque_size += o.rest_torque_size;
     }
   };
-  const Sums t = sum_over_cells<Sums>(w, [&](std::size_t, Address first, int n_point, Sums& part) {
-    for (int i = 0; i < n_point; ++i) {
-      const Address a = first + static_cast<Address>(i * kPointStride);
-      const Vec3 conservative = load_point(w.system.force.data(), a);
-      // what pair friction and the pair forces' change exert during the step
-      const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
-      const Vec3 rest = load_point(w.cg.product.data(), a) - product;
-      const Vec3 arm = load_point(w.position.data(), a) - center;
-      part.force += conservative + rest;
-      part.force_size += conservative.norm() + rest.norm();
-      part.torque += arm.cross(conservative);
-      part.torque_size += arm.norm() * conservative.norm();
-      part.rest_torque += arm.cross(rest);
-      part.rest_torque_size += arm.norm() * rest.norm();
-    }
-  });
+  const Sums t =
+      sum_over_cells<Sums>(w, false, [&](std::size_t, Address first, int n_point, Sums& part) {
+        for (int i = 0; i < n_point; ++i) {
+          const Address a = first + static_cast<Address>(i * kPointStride);
+          const Vec3 conservative = load_point(w.system.force.data(), a);
+          // what pair friction and the pair forces' change exert during the step
+          const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
+          const Vec3 rest = load_point(w.cg.product.data(), a) - product;
+          const Vec3 arm = load_point(w.position.data(), a) - center;
+          part.force += conservative + rest;
+          part.force_size += conservative.norm() + rest.norm();
+          part.torque += arm.cross(conservative);
+          part.torque_size += arm.norm() * conservative.norm();
+          part.rest_torque += arm.cross(rest);
+          part.rest_torque_size += arm.norm() * rest.norm();
+        }
+      });
   auto relative = [](const Vec3& sum, double size) { return size > 0 ? sum.norm() / size : 0; };
   return {relative(t.force, t.force_size), relative(t.torque, t.torque_size),
           relative(t.rest_torque, t.rest_torque_size)};

@@ -46,6 +46,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.deformable = true;
     m.type = s.dcm.group[lane / kLanes].type;
     m.leader = lane < w.leader.size() && w.leader[lane];
+    if (lane < s.cycle.size()) m.parent = s.cycle[lane].parent;
     m.center = dcm::cell_center(s.dcm, lane);
     m.radius = w.lanes.radius[lane];
     m.volume = dcm::compute_volumes(g)[l];
@@ -67,8 +68,10 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.type = s.cbm.type[c];
     const std::size_t at = s.dcm.n_lane() + c;
     m.leader = at < w.leader.size() && w.leader[at];
+    if (at < s.cycle.size()) m.parent = s.cycle[at].parent;
     m.center = cbm::center_of(s.cbm, c);
     m.radius = w.cbm_radius[c];
+    if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
     m.volume = 4.0 / 3 * kPi * std::pow(m.radius, 3);
     m.area = 4 * kPi * m.radius * m.radius;
     m.contact_area = std::min(w.cbm.contact_area[c], m.area);

@@ -12,6 +12,7 @@ namespace acinus::coupling {
 
 struct CellMeasure {
   std::int64_t id = 0;
+  std::int64_t parent = -1;  ///< lineage; -1: there from the start
   bool deformable = false;
   int type = 0;
   bool leader = false;
@@ -24,6 +25,7 @@ struct CellMeasure {
   double cytosol_pressure = 0;     ///< kPa, -K_V ln(V/V0); a sphere has none: its pressure again
   std::array<double, 6> stress{};  ///< kPa, xx xy xz yy yz zz of (1/V0) sum f (x) (x_contact - c)
   double contact_area = 0;         ///< um^2
+  double strength = 1;             ///< of a new sphere, see cbm::CellData
   /// nN, sum over partners of the size of the force with each; all surroundings are one partner.
   double contact_force = 0;
   int contacts = 0;            ///< cells in contact

@@ -93,8 +93,10 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
   const double time = s.clock.time - s.clock.origin;
   auto active = [&](std::int64_t lineage, double diffusion, double medium) {
     if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
-    return Vec3(medium * std::sqrt(2 * diffusion / m.grid) *
-                mean_random(m.seed, lineage, m.grid, time, step));
+    Vec3 force = medium * std::sqrt(2 * diffusion / m.grid) *
+                 mean_random(m.seed, lineage, m.grid, time, step);
+    if (m.in_plane) force.z() = 0;
+    return force;
   };
 #pragma omp parallel for schedule(static) if (s.dcm.n_lane() > kParallelCells)
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {

@@ -1,4 +1,5 @@
 #include "coupling/start_up.hpp"
+#include "coupling/life/rules.hpp"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,7 @@ std::string update_phase(World& world, Workspace& work) {
   if (!rest && !capped) return {};
   enter(c, Phase::kRun);
   c.origin = c.time;
+  begin_life(world);
   return fmt::format(
       "t = 0 after {:.2f} h of start-up: {} (fastest node {:.2g} um/min, pressures change {:.2g} "
       "%/h)",

@@ -32,9 +32,8 @@ PhaseParams phase_params(const World& world) {
 }
 
 InterfaceView view_interface(const World& world, const PhaseParams& phase, const Workspace& w) {
-  return {world.state.dcm, world.params.dcm, phase.dcm,        w.lanes,
-          w.dcm,           world.state.cbm,  world.params.cbm, w.cbm_radius,
-          w.cbm,           phase.interface,  w.interface};
+  return {world.state.dcm, world.params.dcm, phase.dcm,    w.lanes,         w.dcm,
+          world.state.cbm, world.params.cbm, w.cbm_radius, phase.interface, w.interface};
 }
 
 /// Whether the next step is worth a coarse space. It is of use where cells with many nodes hang
@@ -62,6 +61,47 @@ void commit(World& world, double step, int cg_iterations, int solves, Workspace&
   s.clock.coarse = want_coarse(s, cg_iterations / std::max(solves, 1));
 }
 
+/// Cells that sleep exert no forces of their own.
+void hold_sleepers(const State& s, Workspace& w) {
+  w.held.clear();
+  if (!w.all_awake) w.held = s.asleep;
+  w.dcm.held.clear();
+  if (w.held.empty()) return;
+  w.held.resize(w.active.size(), 0);
+  w.dcm.held.assign(w.held.begin(), w.held.begin() + static_cast<std::ptrdiff_t>(s.dcm.n_lane()));
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (w.dcm.held[l] != 0) w.lanes.active[l] = 0;
+}
+
+/// What a held point resists with, nN/um: so much more than anything pushes with that nobody feels
+/// it move, and little enough for the solver. What it moves in the solution is left out: add_holds
+/// makes the force that holds it, keep_held its place.
+constexpr double kHold = 1e6;
+
+/// Ties every point of a held cell to its place, and those of empty lanes beside them.
+void add_holds(double step, Workspace& w) {
+  for (std::size_t lane = 0; lane < w.held.size(); ++lane) {
+    const solve::Block& b = w.system.block[lane / kLanes];
+    if (w.held[lane] == 0 && !b.still) continue;
+    for (int i = 0; i < b.pattern->n_point; ++i)
+      w.system.medium[(b.first_row + static_cast<std::size_t>(i)) * kLanes + lane % kLanes] +=
+          kHold * step;
+  }
+}
+
+/// Held cells stay where they are to the bit, however many steps push at them.
+void keep_held(Workspace& w) {
+  for (std::size_t lane = 0; lane < w.held.size(); ++lane) {
+    if (w.held[lane] == 0) continue;
+    const solve::Block& b = w.system.block[lane / kLanes];
+    for (int i = 0; i < b.pattern->n_point; ++i)
+      store_point(
+          w.move.data(),
+          make_address(b.first_row + static_cast<std::size_t>(i), static_cast<int>(lane % kLanes)),
+          Vec3::Zero());
+  }
+}
+
 /// Length of the next step from the error of this one. A quarter more or less is not worth a
 /// change.
 double next_step(const Numerics& n, double step, double error) {
@@ -74,7 +114,9 @@ double next_step(const Numerics& n, double step, double error) {
 }  // namespace
 
 void size_workspace(const World& world, Workspace& w) {
-  std::vector<solve::Block> blocks = dcm::make_blocks(world.state.dcm, world.params.dcm);
+  std::vector<solve::Block> blocks =
+      dcm::make_blocks(world.state.dcm, world.params.dcm,
+                       w.all_awake ? std::span<const std::uint8_t>{} : world.state.asleep);
   const std::vector<solve::Block> spheres = cbm::make_blocks(world.state.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
   dcm::size_rank_one(world.state.dcm, world.params.dcm, w.system);
@@ -84,6 +126,7 @@ void size_workspace(const World& world, Workspace& w) {
   w.rhs.assign(w.system.n_dof(), 0.0);
   w.move.assign(w.system.n_dof(), 0.0);
   w.stages.reset();
+  w.watch.reset();
   w.dcm.body.clear();
   w.dcm.list_position.clear();
   w.cbm.list_position.clear();
@@ -100,6 +143,9 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   const double wall_time = s.clock.phase == Phase::kRun ? end - s.clock.origin : 0;
   w.lanes = dcm::make_lane_data(s.dcm, end);
   w.cbm_radius = cbm::radii_at(s.cbm, end);
+  w.cbm_strength = cbm::strengths_at(s.cbm, end);
+  const cbm::CellData spheres{w.cbm_radius, w.cbm_strength};
+  hold_sleepers(s, w);
   w.leader = s.leader;
   w.leader_interval = s.leader_interval;
   if (world.params.motility.leader_force > 0 && s.clock.phase == Phase::kRun)
@@ -112,7 +158,7 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   }
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(s.dcm, phase.dcm, w.lanes, around, wall_time, w.dcm);
-  cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, wall_time,
+  cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, spheres, around, wall_time,
                      cbm_first_row(s), w.cbm, w.system.point_links);
   find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
 }
@@ -154,6 +200,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
                          links);
   cbm::add_contact_loads(s.cbm, world.params.cbm, world.params.around, w.cbm, first, w.system);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
+  add_holds(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);
 }
@@ -165,7 +212,7 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Workspace
 
 std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& w) {
   return cbm::list_sphere_contacts(world.state.cbm, world.params.cbm, phase_params(world).cbm,
-                                   w.cbm_radius, w.cbm);
+                                   {w.cbm_radius, w.cbm_strength}, w.cbm);
 }
 
 Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
@@ -187,7 +234,10 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
   const auto scope = w.timings.scope("solve");
   const solve::CgOptions& options = world.params.numerics.cg;
   const bool coarse = world.state.clock.coarse;
-  if (coarse) w.coarse.prepare(w.op, w.position, w.active);
+  const bool shaken = world.params.motility.random && !world.state.dcm.group.empty() &&
+                      controls_at(world.state.clock, world.params.start_up).motility;
+  if (coarse || shaken) w.coarse.prepare(w.op, w.position, w.active);
+  if (shaken && !w.partitioned) improve_guess(w.op, w.rhs, w.move, w.coarse, w.cg);
   const solve::CgResult result =
       w.partitioned
           ? solve_partitioned(w.op, w.rhs, w.move, world.state.dcm.group.size(), options, w.cg)
@@ -240,6 +290,7 @@ StepResult advance(World& world, Workspace& w, double limit) {
       s.balance.momentum = std::max(s.balance.momentum, b.momentum);
       s.balance.torque = std::max(s.balance.torque, b.torque);
       s.balance.friction_torque = std::max(s.balance.friction_torque, b.friction_torque);
+      keep_held(w);
       commit(world, step, cg_iterations, solves, w);
       s.clock.rejected += result.rejections;
       // A step cut short by an event says little about the next one's length.

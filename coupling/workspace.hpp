@@ -26,15 +26,20 @@ struct Workspace {
   InterfaceWorkspace interface;
   dcm::LaneData lanes;                         ///< written by: set_references
   std::vector<double> cbm_radius;              ///< written by: set_references
+  std::vector<double> cbm_strength;            ///< empty: all 1; written by: set_references
   std::vector<double> free_area;               ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble
   CellForces forces;                           ///< written by: assemble
   std::vector<double> position;                ///< [n_row][3][lane]; written by: assemble
   std::vector<std::uint8_t> active;            ///< written by: size_workspace
-  std::vector<double> rhs;                     ///< written by: solve_step
-  std::vector<double> move;                    ///< displacement of the step; written by: solve_step
-  std::vector<std::uint8_t> leader;            ///< choice for this step; written by: choose stage
+  /// [dcm lanes, then cbm lanes] 1: does not move this step; empty: all do.
+  std::vector<std::uint8_t> held;    ///< written by: find_all_contacts
+  std::vector<double> rhs;           ///< written by: solve_step
+  std::vector<double> move;          ///< displacement of the step; written by: solve_step
+  std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
+  bool all_awake = false;            ///< nobody sleeps here
+  std::shared_ptr<Workspace> watch;  ///< of the same world with everybody awake; see life/sleep.hpp
   Timings timings;
   std::shared_ptr<StageScratch> stages;  ///< of methods with more than one stage
   int reject_every = 0;                  ///< tests: throw away every n-th attempt, as if judged bad

@@ -66,9 +66,17 @@ std::uint64_t hash_state(const State& s) {
   add(s.dcm.lineage);
   add(s.cbm.lineage);
   add(s.cbm.young);
+  add(s.cbm.strength);
   for (const auto& [a, b] : s.cbm.touching) add(std::array{a, b});
   add(s.last_move);
   add(s.leader);
+  for (const Cycle& c : s.cycle)
+    add(std::array{c.birth, c.birth_volume, c.duration, c.wait_until, static_cast<double>(c.parent),
+                   static_cast<double>(c.fate)});
+  for (const dcm::BirthShape& b : s.dcm.birth) {
+    add(b.edge);
+    if (!b.edge.empty()) add(std::array{b.area, b.weight.start, b.weight.end});
+  }
   add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
   add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
                  static_cast<std::int64_t>(s.clock.coarse ? 1 : 0)});

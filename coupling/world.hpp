@@ -13,6 +13,7 @@
 #include "core/ranks.hpp"
 #include "core/solve/cg.hpp"
 #include "coupling/interface.hpp"
+#include "coupling/life/cycle.hpp"
 #include "dcm/contact.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
@@ -34,11 +35,19 @@ struct StartUp {
 struct Motility {
   std::uint64_t seed = 1;
   bool random = false;
+  bool in_plane = false;           ///< the random force is horizontal: cells crawl on a substrate
   double grid = 60;                ///< s, time grid of the random force
   double leader_force = 0;         ///< nN toward the vein axis
   double leader_grid = 600;        ///< s
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through this point
   double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
+};
+
+/// Cells in balance may be left out of the step.
+struct Sleep {
+  bool enabled = false;
+  double grid = 600;       ///< s between two looks
+  double traction = 1e-3;  ///< kPa, force out of balance per area below which a cell falls asleep
 };
 
 enum class Integrator { kLinearlyImplicit, kExplicitEuler, kRos2, kNewton };
@@ -61,6 +70,8 @@ struct Params {
   InterfaceParams interface;
   StartUp start_up;
   Motility motility;
+  LifeParams life;
+  Sleep sleep;
   Numerics numerics;
   contact::Surroundings around;
 };
@@ -91,9 +102,16 @@ struct State {
   cbm::State cbm;
   Clock clock;
   Balance balance;
-  std::vector<double> last_move;        ///< [n_row][3][lane] um, displacement of the last step
-  std::vector<std::uint8_t> leader;     ///< [dcm lanes, then cbm cells]
-  std::int64_t leader_interval = -1;    ///< grid interval the leaders were chosen in
+  std::vector<double> last_move;      ///< [n_row][3][lane] um, displacement of the last step
+  std::vector<std::uint8_t> leader;   ///< [dcm lanes, then cbm cells]
+  std::int64_t leader_interval = -1;  ///< grid interval the leaders were chosen in
+  std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] does not move; empty: all do
+  std::vector<std::uint8_t> quiet;    ///< [dcm lanes, then cbm cells] looks spent in balance
+  std::int64_t sleep_interval = -1;   ///< grid interval sleep was looked at in
+  std::vector<Cycle> cycle;           ///< [dcm lanes, then cbm cells]; empty: nothing grows
+  std::int64_t life_interval = -1;    ///< grid interval the rules of life were looked at
+  std::int64_t next_lineage = 0;      ///< of the next cell to be born
+  std::int64_t divisions = 0, deaths = 0;
   std::vector<double> settle_pressure;  ///< kPa per cell at the last look of the settling phase
   double settle_time = -1;              ///< s, when that was
 };

@@ -54,6 +54,13 @@ SegmentCandidates find_segments(int body, const contact::SurfaceBody& b, const C
   return list;
 }
 
+/// Nothing between two bodies that do not move is of interest.
+bool is_held(const ContactWorkspace& work, int body) {
+  const auto k = static_cast<std::size_t>(body);
+  return k >= work.lane_of_body.size() ||
+         (!work.held.empty() && work.held[work.lane_of_body[k]] != 0);
+}
+
 /// How much the two bodies of a list moved relative to each other since it was made.
 double relative_motion(const ContactWorkspace& work, int a, int b) {
   const BodyMotion& i = work.motion[static_cast<std::size_t>(a)];
@@ -255,12 +262,18 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
   work.motion.assign(n_body, {});
   work.list.clear();  // before the new ones take memory
   work.near = contact::find_near_bodies(work.body, options, kReserve);
+  const auto both_held = [&](int a, int b) { return is_held(work, a) && is_held(work, b); };
+  if (!work.held.empty())
+    std::erase_if(work.near, [&](const auto& pair) { return both_held(pair.first, pair.second); });
   work.list = contact::find_candidates(work.body, work.fixed, work.near, options);
-  work.segment_list.resize(work.body.size());
+  if (!work.held.empty())
+    std::erase_if(work.list, [&](const auto& list) { return both_held(list.body_a, list.body_b); });
+  work.segment_list.assign(work.body.size(), {});
 #pragma omp parallel for schedule(dynamic, 4) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k)
-    work.segment_list[k] =
-        find_segments(static_cast<int>(k), work.body[k], c, options.range, around.vessels.network);
+    if (!is_held(work, static_cast<int>(k)))
+      work.segment_list[k] = find_segments(static_cast<int>(k), work.body[k], c, options.range,
+                                           around.vessels.network);
   work.list_position = state.position;
   work.list_radius = lanes.radius;
   ++work.list_builds;
@@ -298,8 +311,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
 #pragma omp parallel for schedule(dynamic, 2) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k)
-    find_obstacle_contacts(work.body[k], static_cast<int>(k), c, options.range, around, time,
-                           work.segment_list[k], obstacle[k]);
+    if (!is_held(work, static_cast<int>(k)))
+      find_obstacle_contacts(work.body[k], static_cast<int>(k), c, options.range, around, time,
+                             work.segment_list[k], obstacle[k]);
   work.obstacle.clear();
   for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());
   find_shares(c, state.n_row(), work);

@@ -12,8 +12,25 @@ struct GroupView {
   std::size_t first_row;                              ///< first point row in the global arrays
   std::size_t first_spring, first_hinge, first_face;  ///< first elements in the global arrays
   const double* position;                             ///< [n_node][3][lane] um
-  const double* radius;  ///< [lane] um, reference radius at the end of the step
-  const double* active;  ///< [lane] 1 where a cell is, 0 in empty lanes
+  const double* radius;    ///< [lane] um, reference radius at the end of the step
+  const double* area;      ///< [lane] reference surface over that of a sphere (BirthShape)
+  const double* edge;      ///< [n_edge][lane] reference lengths, likewise; null: all 1
+  const double* triangle;  ///< [n_triangle][lane] reference areas, likewise; null: all 1
+  const double* active;    ///< [lane] 1 where a cell is, 0 in empty lanes
 };
+
+/// References of one cell at the end of the step.
+inline double rest_area(const GroupView& g, int lane) {
+  return g.topology->rest_area * g.radius[lane] * g.radius[lane] * g.area[lane];
+}
+inline double rest_length(const GroupView& g, std::size_t edge, int lane) {
+  const double ratio = g.edge ? g.edge[edge * kLanes + static_cast<std::size_t>(lane)] : 1;
+  return g.topology->rest_length[edge] * g.radius[lane] * ratio;
+}
+inline double rest_triangle_area(const GroupView& g, std::size_t triangle, int lane) {
+  const double ratio =
+      g.triangle ? g.triangle[triangle * kLanes + static_cast<std::size_t>(lane)] : 1;
+  return g.topology->rest_triangle_area[triangle] * g.radius[lane] * g.radius[lane] * ratio;
+}
 
 }  // namespace acinus::dcm

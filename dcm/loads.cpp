@@ -21,11 +21,30 @@ bool any_area(std::span<const Params> params) {
   return std::ranges::any_of(params, [](const Params& p) { return p.area_modulus > 0; });
 }
 
+/// Ratios of one cell among those of its group.
+void fill_lane(std::vector<double>& group, const std::vector<double>& ratio, double weight,
+               std::size_t lane) {
+  if (group.empty()) group.assign(ratio.size() * kLanes, 1.0);
+  for (std::size_t k = 0; k < ratio.size(); ++k)
+    group[k * kLanes + lane] = 1 + weight * (ratio[k] - 1);
+}
+
 }  // namespace
 
 LaneData make_lane_data(const State& state, double time) {
-  LaneData data{reference_radii(state, time), std::vector<double>(state.n_lane(), 0.0)};
-  for (std::size_t l = 0; l < state.n_lane(); ++l) data.active[l] = state.active(l) ? 1.0 : 0.0;
+  const std::size_t n = state.n_lane();
+  LaneData data{reference_radii(state, time), std::vector<double>(n, 1.0),
+                std::vector<std::vector<double>>(state.group.size()),
+                std::vector<std::vector<double>>(state.group.size()), std::vector<double>(n, 0.0)};
+  for (std::size_t l = 0; l < n; ++l) {
+    data.active[l] = state.active(l) ? 1.0 : 0.0;
+    const BirthShape& birth = state.birth[l];
+    if (birth.is_forgotten(time)) continue;
+    const double weight = birth.weight.at(time);
+    data.area[l] = 1 + weight * (birth.area - 1);
+    fill_lane(data.edge[l / kLanes], birth.edge, weight, l % kLanes);
+    fill_lane(data.triangle[l / kLanes], birth.triangle, weight, l % kLanes);
+  }
   return data;
 }
 
@@ -41,6 +60,9 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
           block.first_face,
           state.position.data() + g.first_row * kPointStride,
           lanes.radius.data() + k * kLanes,
+          lanes.area.data() + k * kLanes,
+          lanes.edge[k].empty() ? nullptr : lanes.edge[k].data(),
+          lanes.triangle[k].empty() ? nullptr : lanes.triangle[k].data(),
           lanes.active.data() + k * kLanes};
 }
 
@@ -58,6 +80,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
   const bool volume = any_volume(params), area = any_area(params);
 #pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < state.group.size(); ++k) {
+    if (s.block[k].still) continue;
     const GroupView g = view_group(state, lanes, s, k);
     const Params& p = params[static_cast<std::size_t>(state.group[k].type)];
     if (p.spring_stiffness > 0 || p.nodal_friction > 0) add_cortex(p, g, s);

@@ -15,6 +15,9 @@ namespace acinus::dcm {
 /// Per-lane numbers the kernels need, made once a step.
 struct LaneData {
   std::vector<double> radius;  ///< [n_lane] um, reference radius at the end of the step; empty: 1
+  std::vector<double> area;    ///< [n_lane] reference surface over that of a sphere
+  /// [group] reference lengths and areas over those of a sphere, [element][lane]; empty: all 1
+  std::vector<std::vector<double>> edge, triangle;
   std::vector<double> active;  ///< [n_lane] 1 or 0
 };
 LaneData make_lane_data(const State& state, double time);

@@ -27,4 +27,16 @@ const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& t, const Pa
   return *entry;
 }
 
+const solve::BlockPattern& shared_point_pattern(int n_point) {
+  static std::mutex mutex;
+  static std::map<int, std::unique_ptr<solve::BlockPattern>> kept;
+  const std::scoped_lock lock(mutex);
+  auto& entry = kept[n_point];
+  if (!entry) {
+    entry = std::make_unique<solve::BlockPattern>();
+    entry->n_point = n_point;
+  }
+  return *entry;
+}
+
 }  // namespace acinus::dcm

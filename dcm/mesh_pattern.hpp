@@ -13,4 +13,7 @@ namespace acinus::dcm {
 const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& topology,
                                                const Params& params);
 
+/// Points alone, for cells that do not move.
+const solve::BlockPattern& shared_point_pattern(int n_point);
+
 }  // namespace acinus::dcm

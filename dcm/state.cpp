@@ -7,30 +7,51 @@
 
 namespace acinus::dcm {
 
-State make_state(const std::vector<NewCell>& cells) {
-  State s;
-  std::size_t rows = 0;
-  // Stable grouping: a group is open while it has a free lane and its type and topology match.
-  auto open_group = [&](const NewCell& c) -> std::size_t {
-    for (std::size_t g = 0; g < s.group.size(); ++g)
-      if (s.group[g].type == c.type && s.group[g].topology == c.topology)
-        for (std::size_t l = g * kLanes; l < (g + 1) * kLanes; ++l)
-          if (s.lineage[l] == kEmptyLane) return l;
-    s.group.push_back({c.topology, rows, c.type});
-    rows += static_cast<std::size_t>(c.topology->n_node);
-    const std::size_t n = s.group.size() * kLanes;
+namespace {
+
+/// Stable grouping: a group is open while it has a free lane and its type and topology match.
+class Grouping {
+ public:
+  /// A free lane for one more cell, in a new group if need be.
+  std::size_t add(State& s, int type, const mesh::Topology* topology) {
+    for (auto& [group, lane] : open_)
+      if (s.group[group].type == type && s.group[group].topology == topology) {
+        if (lane % kLanes != 0) return lane++;
+        group = s.group.size();
+        lane = open_group(s, type, topology);
+        return lane++;
+      }
+    open_.emplace_back(s.group.size(), 0);
+    open_.back().second = open_group(s, type, topology);
+    return open_.back().second++;
+  }
+
+ private:
+  static std::size_t open_group(State& s, int type, const mesh::Topology* topology) {
+    const std::size_t lane = s.n_lane(), first = s.n_row();
+    s.group.push_back({topology, first, type});
+    const std::size_t n = lane + kLanes;
     s.lineage.resize(n, kEmptyLane);
     s.volume.resize(n, Ramp::constant(4.0 / 3 * kPi));
+    s.birth.resize(n);
     s.pull.resize(n, Vec3::Zero());
-    s.position.resize(rows * kPointStride, 0.0);
-    for (std::size_t l = n - kLanes; l < n; ++l)
-      for (int i = 0; i < c.topology->n_node; ++i)
+    s.position.resize((first + static_cast<std::size_t>(topology->n_node)) * kPointStride, 0.0);
+    for (std::size_t l = lane; l < n; ++l)
+      for (int i = 0; i < topology->n_node; ++i)
         store_point(s.position.data(), node_address(s, l, i),
-                    c.topology->rest[static_cast<std::size_t>(i)]);
-    return n - kLanes;
-  };
+                    topology->rest[static_cast<std::size_t>(i)]);
+    return lane;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> open_;  ///< (group, its next lane)
+};
+
+}  // namespace
+
+State make_state(const std::vector<NewCell>& cells) {
+  State s;
+  Grouping grouping;
   for (const NewCell& c : cells) {
-    const std::size_t lane = open_group(c);
+    const std::size_t lane = grouping.add(s, c.type, c.topology);
     s.lineage[lane] = c.lineage;
     s.volume[lane] = Ramp::constant(4.0 / 3 * kPi * c.radius * c.radius * c.radius);
     s.pull[lane] = c.pull;
@@ -38,6 +59,26 @@ State make_state(const std::vector<NewCell>& cells) {
       store_point(
           s.position.data(), node_address(s, lane, i),
           c.center + c.radius * (c.rotation * c.topology->rest[static_cast<std::size_t>(i)]));
+  }
+  return s;
+}
+
+State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane) {
+  State s;
+  Grouping grouping;
+  lane.clear();
+  for (const CellRef& c : cells) {
+    const State& from = *c.state;
+    const Group& g = from.group[c.lane / kLanes];
+    const std::size_t to = grouping.add(s, c.type < 0 ? g.type : c.type, g.topology);
+    lane.push_back(to);
+    s.lineage[to] = from.lineage[c.lane];
+    s.volume[to] = from.volume[c.lane];
+    s.birth[to] = from.birth[c.lane];
+    s.pull[to] = from.pull[c.lane];
+    for (int i = 0; i < g.topology->n_node; ++i)
+      store_point(s.position.data(), node_address(s, to, i),
+                  load_point(from.position.data(), node_address(from, c.lane, i)));
   }
   return s;
 }
@@ -70,11 +111,18 @@ void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
     node[static_cast<std::size_t>(i)] = load_point(s.position.data(), node_address(s, lane, i));
 }
 
-std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> params) {
+std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> params,
+                                      std::span<const std::uint8_t> held) {
   std::vector<solve::Block> blocks;
-  for (const Group& g : s.group) {
+  for (std::size_t k = 0; k < s.group.size(); ++k) {
+    const Group& g = s.group[k];
     solve::Block block;
-    block.pattern = &shared_mesh_pattern(*g.topology, params[static_cast<std::size_t>(g.type)]);
+    block.still = !held.empty();
+    for (std::size_t l = k * kLanes; l < (k + 1) * kLanes && block.still; ++l)
+      block.still = !s.active(l) || held[l] != 0;
+    block.pattern =
+        block.still ? &shared_point_pattern(g.topology->n_node)
+                    : &shared_mesh_pattern(*g.topology, params[static_cast<std::size_t>(g.type)]);
     blocks.push_back(block);
   }
   return blocks;

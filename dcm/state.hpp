@@ -13,6 +13,7 @@
 #include "core/ramp.hpp"
 #include "core/solve/system.hpp"
 #include "core/vec.hpp"
+#include "dcm/birth_shape.hpp"
 #include "dcm/params.hpp"
 
 namespace acinus::dcm {
@@ -31,7 +32,8 @@ struct State {
   // Per lane, [n_group * kLanes]:
   std::vector<std::int64_t> lineage;  ///< kEmptyLane where no cell is
   std::vector<Ramp> volume;  ///< um^3, reference volume V0(t); Eq. (18) is its linear growth
-  std::vector<Vec3> pull;    ///< nN, constant load spread over the cell
+  std::vector<BirthShape> birth;
+  std::vector<Vec3> pull;  ///< nN, constant load spread over the cell
 
   std::size_t n_lane() const { return lineage.size(); }
   std::size_t n_row() const { return position.size() / kPointStride; }
@@ -52,6 +54,17 @@ struct NewCell {
 /// Groups cells by type and topology in the order given (put them in space-filling order first).
 State make_state(const std::vector<NewCell>& cells);
 
+/// One cell of some state, to become one of another type or stay what it is (-1).
+struct CellRef {
+  const State* state = nullptr;
+  std::size_t lane = 0;
+  int type = -1;
+};
+
+/// Copies cells into a new state, grouped by type and topology in the order given.
+/// @param lane  [cells] where each came to stand
+State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane);
+
 /// Number of cells (not lanes).
 int count_cells(const State& state);
 
@@ -71,6 +84,9 @@ Vec3 cell_center(const State& state, std::size_t lane);
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
 
 /// The blocks of unknowns these cells contribute, in order.
-std::vector<solve::Block> make_blocks(const State& state, std::span<const Params> params);
+/// @param held  [n_lane] 1: does not move; empty: all move. Groups without a moving cell have no
+///              terms within.
+std::vector<solve::Block> make_blocks(const State& state, std::span<const Params> params,
+                                      std::span<const std::uint8_t> held = {});
 
 }  // namespace acinus::dcm

@@ -15,13 +15,13 @@ std::vector<double> compute_node_tension(const Params& p, const GroupView& g, in
     const double length = (load_point(g.position, make_address(j, lane)) -
                            load_point(g.position, make_address(i, lane)))
                               .norm();
-    const double pull = p.spring_stiffness * (length - t.rest_length[e] * g.radius[lane]) / length;
+    const double pull = p.spring_stiffness * (length - rest_length(g, e, lane)) / length;
     tension[i] += pull;
     tension[j] += pull;
   }
   double membrane = 0;
   if (p.area_modulus > 0) {
-    const double a0 = t.rest_area * g.radius[lane] * g.radius[lane];
+    const double a0 = rest_area(g, lane);
     membrane = p.area_modulus * (compute_areas(g)[lane] - a0) / a0;
   }
   for (std::size_t i = 0; i < tension.size(); ++i) {

@@ -14,7 +14,9 @@
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/integrators.hpp"
+#include "coupling/life/rules.hpp"
 #include "coupling/start_up.hpp"
+#include "runs/build_life.hpp"
 #include "runs/place_cells.hpp"
 
 namespace acinus::runs {
@@ -44,6 +46,12 @@ contact::Material mirror() {
   return m;
 }
 
+contact::Material wall_material(const WallEntry& w) {
+  contact::Material m = mirror();
+  if (!w.mirror) m = {w.adhesion, w.young.value_or(contact::Material{}.young), w.poisson, false};
+  return m;
+}
+
 void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
                       contact::Surroundings& around) {
   mesh::Network network;
@@ -58,7 +66,8 @@ void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
     for (const coupling::MirrorPlane& p : lobule->planes)
       around.planes.push_back({p.name, p.point, p.normal, 0, 0, mirror()});
   for (const WallEntry& w : scene.walls)
-    around.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel, mirror()});
+    around.planes.push_back(
+        {w.name, w.point, w.normal.normalized(), w.speed, w.travel, wall_material(w)});
   if (scene.capsule.enabled)
     around.capsules.push_back({"capsule",
                                scene.capsule.center,
@@ -86,7 +95,8 @@ void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
 }
 
 void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
-               const std::vector<std::string>& types, coupling::State& state) {
+               const std::vector<std::string>& types, const std::vector<cbm::Params>& params,
+               coupling::State& state) {
   std::vector<Vec3> centers;
   for (const PlacedCell& c : cells) centers.push_back(c.center);
   std::vector<dcm::NewCell> shells;
@@ -100,16 +110,14 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
           {c.lineage, type, &mesh::shared_icosphere(t.dcm.nodes), c.center, c.radius, c.pull,
            c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage)});
     } else {
-      const double mean =
-          t.cbm.young.value_or(cbm::young_from_bulk(t.dcm.bulk_modulus, t.cbm.poisson));
-      const double young = truncated_normal(
-          {scene.seed, Purpose::kYoungModulus, static_cast<std::uint64_t>(c.lineage), 0, 0}, mean,
-          t.cbm.young_spread * mean, 3);
+      const double young =
+          cbm::draw_young(params[static_cast<std::size_t>(type)], scene.seed, c.lineage);
       spheres.push_back({c.lineage, type, c.center, c.radius, young, c.pull});
     }
   }
   state.dcm = dcm::make_state(shells);
   state.cbm = cbm::make_state(spheres);
+  state.next_lineage = static_cast<std::int64_t>(cells.size());
 }
 
 }  // namespace
@@ -135,6 +143,8 @@ dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
 
 cbm::Params make_cbm_params(const Scene& scene, const CellType& type) {
   cbm::Params p;
+  p.young = type.cbm.young.value_or(cbm::young_from_bulk(type.dcm.bulk_modulus, type.cbm.poisson));
+  p.young_spread = type.cbm.young_spread;
   p.poisson = type.cbm.poisson;
   p.medium_friction = type.cbm.ecm_friction;
   p.viscosity = scene.friction.medium == "liquid" ? scene.friction.viscosity : 0;
@@ -182,6 +192,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     p.dcm.push_back(make_dcm_params(scene, type));
     p.cbm.push_back(make_cbm_params(scene, type));
   }
+  build_life(scene, p, built.type_names);
   const bool nodes = scene.contact.quadrature == "nodes";
   p.dcm_contact.quadrature = nodes ? contact::Quadrature::kNodes : contact::Quadrature::kThreePoint;
   p.dcm_contact.repulsion = scene.contact.repulsion;
@@ -198,6 +209,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
                 scene.start_up.speed_tolerance, scene.start_up.pressure_tolerance};
   p.motility.seed = scene.seed;
   p.motility.random = scene.motility.random;
+  p.motility.in_plane = scene.motility.directions == "plane";
   p.motility.grid = scene.motility.grid;
   p.motility.leader_force = scene.motility.leader_force;
   p.motility.leader_grid = scene.motility.leader_grid;
@@ -211,10 +223,18 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   // An explicit step's length is set by stability, not by what an error estimate asks for.
   if (p.numerics.integrator == coupling::Integrator::kExplicitEuler) p.numerics.adaptive = false;
 
-  const std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.around);
+  std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.around);
+  for (PlacedCell& c : cells) {  // older cells are larger
+    const auto type = static_cast<std::size_t>(
+        std::distance(scene.cell_types.begin(), scene.cell_types.find(c.type)));
+    c.radius *= std::cbrt(1 + coupling::draw_start_age(p.life.type[type], scene.seed, c.lineage));
+  }
   check_starts(scene, cells, p.around);
-  add_cells(scene, cells, built.type_names, world.state);
-  if (scene.start_up.enabled) coupling::begin_start_up(world, scene.start_up.initial_radius);
+  add_cells(scene, cells, built.type_names, p.cbm, world.state);
+  if (scene.start_up.enabled)
+    coupling::begin_start_up(world, scene.start_up.initial_radius);
+  else
+    coupling::begin_life(world);
   return built;
 }
 

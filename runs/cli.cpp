@@ -55,6 +55,9 @@ void add_run_options(CLI::App& command, Arguments& arguments) {
       ->check(CLI::Range(1, 4096));
   command.add_option("--until", arguments.until, "stop at this simulated time, e.g. \"2 h\"")
       ->type_name("TIME");
+  command.add_option("--until-cells", run.until_cells, "stop when there are this many cells")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000));
   command
       .add_option("--checkpoint-every", arguments.checkpoint_every,
                   "wall time between checkpoints (default: 10min)")

@@ -17,8 +17,8 @@ void push(io::Field& field, double value) { field.value.push_back(static_cast<fl
 
 io::Table cell_table(const std::vector<CellMeasure>& cells) {
   io::Table t;
-  io::IdColumn id{"id", {}}, kind{"kind", {}}, type{"type", {}}, leader{"leader", {}},
-      contacts{"contacts", {}};
+  io::IdColumn id{"id", {}}, parent{"parent", {}}, kind{"kind", {}}, type{"type", {}},
+      leader{"leader", {}}, contacts{"contacts", {}};
   io::Column center{"center", "um", 3, {}}, radius{"radius", "um", 1, {}},
       volume{"volume", "um^3", 1, {}}, area{"area", "um^2", 1, {}},
       pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
@@ -26,6 +26,7 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
       active{"migration_force", "nN", 1, {}};
   for (const CellMeasure& c : cells) {
     id.value.push_back(c.id);
+    parent.value.push_back(c.parent);
     kind.value.push_back(c.deformable ? kShell : kSphere);
     type.value.push_back(c.type);
     leader.value.push_back(c.leader ? 1 : 0);
@@ -40,7 +41,7 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
     touching.value.push_back(c.contact_area);
     active.value.push_back(c.migration_force);
   }
-  t.ids = {id, kind, type, leader, contacts};
+  t.ids = {id, parent, kind, type, leader, contacts};
   t.columns = {center, radius, volume, area, pressure, cytosol, stress, touching, active};
   return t;
 }
@@ -74,7 +75,7 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
       tension{"tension", "nN/um", 1, {}};
   io::Field type{"cell_type", "1", 1, {}}, volume{"volume", "um^3", 1, {}},
       pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
-      radius{"radius", "um", 1, {}}, leader{"leader", "1", 1, {}};
+      radius{"radius", "um", 1, {}}, leader{"leader", "1", 1, {}}, strength{"strength", "1", 1, {}};
   auto push_point = [&](const Vec3& x) {
     for (int k = 0; k < 3; ++k) f.point.push_back(static_cast<float>(x[k]));
   };
@@ -92,6 +93,7 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
     push(cytosol, c ? c->cytosol_pressure : 0);
     push(radius, sphere_radius);
     push(leader, c && c->leader ? 1 : 0);
+    push(strength, c ? c->strength : 1);
   };
 
   std::int64_t base = 0;
@@ -132,8 +134,8 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
     ++f.n_sphere;
   }
   f.point_data = {std::move(force), std::move(contact), std::move(tension)};
-  f.cell_data = {std::move(type),    std::move(volume), std::move(pressure),
-                 std::move(cytosol), std::move(radius), std::move(leader)};
+  f.cell_data = {std::move(type),   std::move(volume), std::move(pressure), std::move(cytosol),
+                 std::move(radius), std::move(leader), std::move(strength)};
   f.cells = cell_table(snapshot.cells);
   f.interface = interface_table(snapshot.interface);
   return f;
@@ -177,7 +179,8 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b)
     meshes.push_back({snapshot.cells[b].id, w.dcm.body[b].node, *w.dcm.body[b].triangle});
   for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k)
-    spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius});
+    spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
+                       snapshot.cells[k].strength});
   std::vector<coupling::AuditPlane> planes;
   for (const contact::Plane& p : around.planes) planes.push_back({p.point_at(time), p.normal});
   std::vector<coupling::AuditCapsule> capsules;

@@ -135,17 +135,19 @@ void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
 
 }  // namespace
 
+bool in_region(const Region& r, const Vec3& axis_point, const Vec3& x) {
+  if (r.kind == "all") return true;
+  if (r.kind == "sphere") return (x - r.center).norm() <= r.radius;
+  if (r.kind == "box")
+    return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
+  if (r.kind == "half_space") return (x - r.point).dot(r.normal) <= 0;
+  const double distance = (x - axis_point).head<2>().norm();
+  return distance >= r.min_distance && distance <= r.max_distance;
+}
+
 bool in_zoom(const Scene& scene, const Vec3& x) {
-  return std::ranges::any_of(scene.zoom, [&](const Region& r) {
-    if (r.kind == "all") return true;
-    if (r.kind == "sphere") return (x - r.center).norm() <= r.radius;
-    if (r.kind == "box")
-      return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
-    if (r.kind == "half_space") return (x - r.point).dot(r.normal) <= 0;
-    const Vec3 d = x - scene.axis_point;
-    const double distance = d.head<2>().norm();
-    return distance >= r.min_distance && distance <= r.max_distance;
-  });
+  return std::ranges::any_of(scene.zoom,
+                             [&](const Region& r) { return in_region(r, scene.axis_point, x); });
 }
 
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,

@@ -17,11 +17,14 @@
 #include "core/error.hpp"
 #include "core/io/run_file.hpp"
 #include "coupling/generate/vessel_surface.hpp"
+#include "coupling/life/life.hpp"
+#include "coupling/life/sleep.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step.hpp"
 #include "runs/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/frame.hpp"
+#include "runs/life_totals.hpp"
 #include "runs/progress.hpp"
 #include "runs/run_folder.hpp"
 #include "runs/soundness.hpp"
@@ -77,6 +80,9 @@ class Run {
   void write_series(const coupling::StepResult& step);
   void add_event(const std::string& code, const std::string& message,
                  const std::vector<std::int64_t>& cells = {});
+  void live();  ///< what happens to cells between steps
+  bool enough_cells() const;
+  int count_cells() const;
   void save();
   void close(const std::string& status, const std::string& cause);
   std::string reason_to_stop() const;
@@ -93,6 +99,7 @@ class Run {
   coupling::VesselSurface vessel_surface_;
   std::optional<io::RunFile> file_;
   RunTotals totals_;
+  LifeTotals life_;
   Measures measures_;
   double end_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
@@ -172,6 +179,7 @@ void Run::start_or_resume() {
   cpu_before_ = t[1];
   totals_ = {t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[12], t[7], t[8], t[9], t[10], 0, 0, 0};
   last_frame_ = t[11];
+  life_ = get_totals(loaded.data);
   excess_ = loaded.data.contains("file/excess") ? loaded.data.number("file/excess") : 0;
   const std::vector<std::int64_t>& counts = loaded.data.integers("file/counts");
   check(counts.size() == 3, loaded.data.source() + ": the run file's counts are damaged.",
@@ -190,6 +198,7 @@ double Run::time_to_next_event() const {
     return (std::floor((t + kSameTime) / every) + 1) * every - t;
   };
   double limit = std::min(end_ - t, to_next(scene_.output.every));
+  limit = std::min(limit, coupling::time_to_event(world()));
   if (world().params.motility.leader_force > 0)
     limit = std::min(limit, to_next(world().params.motility.leader_grid));
   return limit;
@@ -197,17 +206,18 @@ double Run::time_to_next_event() const {
 
 Excess Run::write_frame() {
   const auto scope = work_.timings.scope("frames and audit");
-  const Snapshot snapshot = take_snapshot(world(), work_);
-  const coupling::AuditResult audit = audit_world(world(), work_, snapshot);
+  coupling::Workspace& work = coupling::waking_workspace(world(), work_);
+  const Snapshot snapshot = take_snapshot(world(), work);
+  const coupling::AuditResult audit = audit_world(world(), work, snapshot);
   add_audit(totals_, audit);
   if (world().state.clock.phase == coupling::Phase::kRun)
     sample_experiment(scene_, world(), snapshot, measures_);
-  if (world().ranks.is_root()) file_->append(make_frame(world(), work_, snapshot, vessel_surface_));
+  if (world().ranks.is_root()) file_->append(make_frame(world(), work, snapshot, vessel_surface_));
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
               fmt::format("{} cells cross themselves", audit.n_self_intersecting));
-  Excess excess = find_excess(audit, world(), work_);
+  Excess excess = find_excess(audit, world(), work);
   if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
   // Overlaps of the start must shrink from frame to frame and be gone at the end.
   const bool shrinks = excess.depth_um < excess_ && time() < end_ - kSameTime;
@@ -217,11 +227,12 @@ Excess Run::write_frame() {
 
 void Run::write_series(const coupling::StepResult& step) {
   const coupling::State& s = world().state;
-  const std::array<io::SeriesValue, 10> sample{
+  const std::array<io::SeriesValue, 11> sample{
       {{"time", "s", time()},
        {"dt", "s", step.step},
        {"dcm_cells", "1", static_cast<double>(dcm::count_cells(s.dcm))},
        {"cbm_cells", "1", static_cast<double>(s.cbm.n_cell())},
+       {"asleep", "1", static_cast<double>(coupling::count_asleep(s))},
        {"max_move", "um", step.max_move},
        {"error", "um", step.error},
        {"rejections", "1", static_cast<double>(step.rejections)},
@@ -234,6 +245,21 @@ void Run::write_series(const coupling::StepResult& step) {
 void Run::add_event(const std::string& code, const std::string& message,
                     const std::vector<std::int64_t>& cells) {
   file_->append_event({time(), code, cells, message});
+}
+
+int Run::count_cells() const {
+  return dcm::count_cells(world().state.dcm) + static_cast<int>(world().state.cbm.n_cell());
+}
+
+bool Run::enough_cells() const {
+  const int most = options_.until_cells.value_or(scene_.time.until_cells);
+  return most > 0 && count_cells() >= most;
+}
+
+void Run::live() {
+  const coupling::LifeReport report = coupling::live(world(), work_);
+  add_life(life_, report, count_cells(), wall_before_ + wall_seconds() - started_);
+  for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
 }
 
 void Run::save() {
@@ -249,6 +275,7 @@ void Run::save() {
                          wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um,
                          t.dcm_wall_um, t.dcm_cbm_um, t.max_overlap_cbm_um, t.min_triangle_quality,
                          t.self_intersecting, t.inverted, last_frame_, t.dcm_cbm_beyond_um});
+  put_totals(life_, data);
   for (const auto& [name, values] : measures_) data.put("measures/" + name, values);
   const io::RunFileCounts c = file_->counts();
   data.put_number("file/excess", excess_);
@@ -268,8 +295,8 @@ void Run::close(const std::string& status, const std::string& cause) {
   const std::vector<std::string> unneeded = work_skipped();
   skip.insert(skip.end(), unneeded.begin(), unneeded.end());
   if (!unneeded.empty()) progress_.note(fmt::format("also skipped: {}", fmt::join(unneeded, ", ")));
-  write_summary(options_.out, {scene_, options_, world(), totals_, measures_, work_.timings, skip,
-                               built_.notes, status, cause, options_.threads});
+  write_summary(options_.out, {scene_, options_, world(), totals_, life_, measures_, work_.timings,
+                               skip, built_.notes, status, cause, options_.threads});
   progress_.finish();
 }
 
@@ -344,11 +371,14 @@ int Run::loop() {
       }
     }
     const bool now_running = world().state.clock.phase == coupling::Phase::kRun;
+    if (running) live();
+    const bool last = time() >= end_ - kSameTime || (running && enough_cells());
     const double t = time(), part = t / scene_.output.every;
     const bool on_grid = std::abs(part - std::round(part)) * scene_.output.every < kSameTime;
     if ((now_running || scene_.output.start_up) && t > last_frame_ + kSameTime &&
-        (on_grid || t >= end_ - kSameTime || (now_running && !running)))
+        (on_grid || last || (now_running && !running)))
       if (const Excess excess = write_frame(); excess.depth_um > 0) return fail(excess);
+    if (last && now_running) break;
     if (wall_seconds() - last_save_ > options_.checkpoint_every_s) save();
   }
   if (excess_ > 0)  // resumed at the end of a run that failed there
@@ -373,6 +403,7 @@ int Run::go() {
   vessel_surface_ = coupling::make_vessel_surface(world().params.around.vessels.network);
   start_or_resume();
   coupling::size_workspace(world(), work_);
+  if (!options_.resume) life_.start_cells = count_cells();
   const coupling::State& s = world().state;
   progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {} threads",
                              scene_.name, dcm::count_cells(s.dcm), s.cbm.n_cell(),

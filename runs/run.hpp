@@ -17,6 +17,7 @@ struct RunOptions {
   bool overwrite = false;                ///< results in `out` may be replaced
   int threads = 0;                       ///< 0 = all cores
   std::optional<double> until_s;         ///< stop at this simulated time, s; empty = time.end
+  std::optional<int> until_cells;        ///< stop at so many cells; empty = time.until_cells
   double checkpoint_every_s = 600;       ///< wall time, s
   std::optional<double> max_walltime_s;  ///< stop with a checkpoint after this wall time, s
   bool timings = false;                  ///< print the time of each stage at the end

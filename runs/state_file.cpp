@@ -25,27 +25,178 @@ std::vector<Ramp> unflatten(const std::vector<double>& v) {
   return ramps;
 }
 
+std::vector<double> flatten(const std::vector<Vec3>& points) {
+  std::vector<double> v;
+  for (const Vec3& p : points) v.insert(v.end(), {p.x(), p.y(), p.z()});
+  return v;
+}
+std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k + 2 < v.size(); k += 3) points.emplace_back(v[k], v[k + 1], v[k + 2]);
+  return points;
+}
+
 void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
                 std::size_t expected) {
   check(found == expected,
-        fmt::format("{}: {} has {} entries, this scene makes {}. The checkpoint belongs to another "
-                    "scene; resume with the scene it was made from.",
-                    data.source(), what, found, expected));
+        fmt::format("{}: {} has {} entries, {} are needed. The file is damaged or was written by "
+                    "another version; resume from the previous checkpoint or start anew.",
+                    data.source(), what, found, expected),
+        Exit::kFileError);
+}
+
+/// Only shapes that are still remembered are kept: lane, then weight, area, edges and triangles.
+void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> lane;
+  std::vector<double> numbers;
+  for (std::size_t l = 0; l < s.n_lane(); ++l) {
+    const dcm::BirthShape& b = s.birth[l];
+    if (b.edge.empty()) continue;
+    lane.push_back(static_cast<std::int64_t>(l));
+    numbers.insert(numbers.end(),
+                   {b.weight.from, b.weight.to, b.weight.start, b.weight.end, b.area});
+    numbers.insert(numbers.end(), b.edge.begin(), b.edge.end());
+    numbers.insert(numbers.end(), b.triangle.begin(), b.triangle.end());
+  }
+  d.put("dcm/birth_lane", lane);
+  d.put("dcm/birth_shape", numbers);
+}
+
+void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
+  s.birth.assign(s.n_lane(), {});
+  const std::vector<double>& numbers = d.numbers("dcm/birth_shape");
+  std::size_t at = 0;
+  for (std::int64_t lane : d.integers("dcm/birth_lane")) {
+    const auto l = static_cast<std::size_t>(lane);
+    check_same(d, "dcm/birth_lane", l < s.n_lane() ? 1 : 0, 1);
+    const mesh::Topology& t = *s.group[l / kLanes].topology;
+    const std::size_t n_edge = t.edge.size(), n_triangle = t.triangle.size();
+    check_same(d, "dcm/birth_shape", numbers.size() >= at + 5 + n_edge + n_triangle ? 1 : 0, 1);
+    const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(at);
+    dcm::BirthShape& b = s.birth[l];
+    b.weight = {from[0], from[1], from[2], from[3]};
+    b.area = from[4];
+    const auto edge = from + 5, triangle = edge + static_cast<std::ptrdiff_t>(n_edge);
+    b.edge.assign(edge, triangle);
+    b.triangle.assign(triangle, triangle + static_cast<std::ptrdiff_t>(n_triangle));
+    at += 5 + n_edge + n_triangle;
+  }
+}
+
+void get_shells(const io::CheckpointData& d, dcm::State& s) {
+  s = {};
+  const std::vector<std::int64_t>& group = d.integers("dcm/group");
+  std::size_t rows = 0;
+  for (std::size_t k = 0; k + 1 < group.size(); k += 2) {
+    const mesh::Topology& topology = mesh::shared_icosphere(static_cast<int>(group[k + 1]));
+    s.group.push_back({&topology, rows, static_cast<int>(group[k])});
+    rows += static_cast<std::size_t>(topology.n_node);
+  }
+  const std::size_t n = s.group.size() * kLanes;
+  s.position = d.numbers("dcm/position");
+  s.lineage = d.integers("dcm/lineage");
+  s.volume = unflatten(d.numbers("dcm/volume"));
+  s.pull = unflatten_points(d.numbers("dcm/pull"));
+  check_same(d, "dcm/position", s.position.size(), rows * kPointStride);
+  check_same(d, "dcm/lineage", s.lineage.size(), n);
+  check_same(d, "dcm/volume", s.volume.size(), n);
+  get_birth_shapes(d, s);
+  check_same(d, "dcm/pull", s.pull.size(), n);
+}
+
+void get_spheres(const io::CheckpointData& d, cbm::State& s) {
+  s = {};
+  s.lineage = d.integers("cbm/lineage");
+  const std::size_t n = s.lineage.size();
+  s.position = d.numbers("cbm/position");
+  const std::vector<std::int64_t>& type = d.integers("cbm/type");
+  s.type.assign(type.begin(), type.end());
+  s.volume = unflatten(d.numbers("cbm/volume"));
+  s.strength = unflatten(d.numbers("cbm/strength"));
+  s.young = d.numbers("cbm/young");
+  s.pull = unflatten_points(d.numbers("cbm/pull"));
+  check_same(d, "cbm/position", s.position.size(), (n + kLanes - 1) / kLanes * kPointStride);
+  check_same(d, "cbm/type", s.type.size(), n);
+  check_same(d, "cbm/volume", s.volume.size(), n);
+  check_same(d, "cbm/strength", s.strength.size(), n);
+  check_same(d, "cbm/young", s.young.size(), n);
+  check_same(d, "cbm/pull", s.pull.size(), n);
+  const std::vector<std::int64_t>& t = d.integers("cbm/touching");
+  for (std::size_t k = 0; k + 1 < t.size(); k += 2)
+    s.touching.emplace_back(static_cast<int>(t[k]), static_cast<int>(t[k + 1]));
+}
+
+constexpr std::size_t kCycleIntegers = 3, kCycleNumbers = 4;
+
+void put_life(const coupling::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> integers;
+  std::vector<double> numbers;
+  for (const coupling::Cycle& c : s.cycle) {
+    integers.insert(integers.end(), {c.parent, c.founder, static_cast<std::int64_t>(c.fate)});
+    numbers.insert(numbers.end(), {c.birth, c.birth_volume, c.duration, c.wait_until});
+  }
+  d.put("life/integers", integers);
+  d.put("life/numbers", numbers);
+  d.put("life/counts",
+        std::vector<std::int64_t>{s.life_interval, s.next_lineage, s.divisions, s.deaths});
+  d.put("life/asleep", as_integers(s.asleep));
+  d.put("life/quiet", as_integers(s.quiet));
+  d.put_count("life/sleep_interval", s.sleep_interval);
+}
+
+void get_life(const io::CheckpointData& d, coupling::State& s) {
+  const std::vector<std::int64_t>& integers = d.integers("life/integers");
+  const std::vector<double>& numbers = d.numbers("life/numbers");
+  const std::vector<std::int64_t>& counts = d.integers("life/counts");
+  const std::size_t n = integers.size() / kCycleIntegers, n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  const auto check_none_or_all = [&](const char* what, std::size_t found) {
+    check_same(d, what, found == 0 ? n_cell : found, n_cell);
+  };
+  check_none_or_all("life/integers", n);
+  check_same(d, "life/numbers", numbers.size(), n * kCycleNumbers);
+  check_same(d, "life/counts", counts.size(), 4);
+  s.cycle.clear();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::int64_t* i = integers.data() + k * kCycleIntegers;
+    const double* x = numbers.data() + k * kCycleNumbers;
+    s.cycle.push_back({i[0], i[1], static_cast<coupling::Fate>(i[2]), x[0], x[1], x[2], x[3]});
+  }
+  s.life_interval = counts[0];
+  s.next_lineage = counts[1];
+  s.divisions = counts[2];
+  s.deaths = counts[3];
+  const std::vector<std::int64_t>& asleep = d.integers("life/asleep");
+  check_none_or_all("life/asleep", asleep.size());
+  s.asleep.assign(asleep.begin(), asleep.end());
+  const std::vector<std::int64_t>& quiet = d.integers("life/quiet");
+  check_none_or_all("life/quiet", quiet.size());
+  s.quiet.assign(quiet.begin(), quiet.end());
+  s.sleep_interval = d.count("life/sleep_interval");
 }
 
 }  // namespace
 
 void put_state(const coupling::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> group;
+  for (const dcm::Group& g : s.dcm.group)
+    group.insert(group.end(), {g.type, static_cast<std::int64_t>(g.topology->n_node)});
+  d.put("dcm/group", group);
   d.put("dcm/position", s.dcm.position);
   d.put("dcm/lineage", s.dcm.lineage);
   d.put("dcm/volume", flatten(s.dcm.volume));
+  put_birth_shapes(s.dcm, d);
+  d.put("dcm/pull", flatten(s.dcm.pull));
   d.put("cbm/position", s.cbm.position);
   d.put("cbm/lineage", s.cbm.lineage);
+  d.put("cbm/type", as_integers(s.cbm.type));
   d.put("cbm/volume", flatten(s.cbm.volume));
+  d.put("cbm/strength", flatten(s.cbm.strength));
   d.put("cbm/young", s.cbm.young);
+  d.put("cbm/pull", flatten(s.cbm.pull));
   std::vector<std::int64_t> touching;
   for (const auto& [a, b] : s.cbm.touching) touching.insert(touching.end(), {a, b});
   d.put("cbm/touching", touching);
+  put_life(s, d);
   const coupling::Clock& c = s.clock;
   d.put("clock/times", std::vector<double>{c.time, c.origin, c.phase_start, c.step, c.last_step});
   d.put("clock/counts",
@@ -61,21 +212,9 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
 }
 
 void get_state(const io::CheckpointData& d, coupling::State& s) {
-  check_same(d, "dcm/position", d.numbers("dcm/position").size(), s.dcm.position.size());
-  check_same(d, "cbm/position", d.numbers("cbm/position").size(), s.cbm.position.size());
-  check(d.integers("dcm/lineage") == s.dcm.lineage && d.integers("cbm/lineage") == s.cbm.lineage,
-        d.source() +
-            ": the cells are not those of this scene. Resume with the scene the checkpoint was "
-            "made from.");
-  s.dcm.position = d.numbers("dcm/position");
-  s.dcm.volume = unflatten(d.numbers("dcm/volume"));
-  s.cbm.position = d.numbers("cbm/position");
-  s.cbm.volume = unflatten(d.numbers("cbm/volume"));
-  s.cbm.young = d.numbers("cbm/young");
-  s.cbm.touching.clear();
-  const std::vector<std::int64_t>& t = d.integers("cbm/touching");
-  for (std::size_t k = 0; k + 1 < t.size(); k += 2)
-    s.cbm.touching.emplace_back(static_cast<int>(t[k]), static_cast<int>(t[k + 1]));
+  get_shells(d, s.dcm);
+  get_spheres(d, s.cbm);
+  get_life(d, s);
   const std::vector<double>& times = d.numbers("clock/times");
   const std::vector<std::int64_t>& counts = d.integers("clock/counts");
   const std::vector<double>& balance = d.numbers("balance");

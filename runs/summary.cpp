@@ -18,6 +18,19 @@ using Json = nlohmann::ordered_json;
 /// Every number in a file is finite; what is not is an error of ours and is shown as null.
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
+/// The worst of all divisions of deformable cells.
+Json division_figures(const LifeTotals& t) {
+  return {{"max_volume_error", number(t.volume_error)},
+          {"max_outside_um", number(t.outside_um)},
+          {"max_neighbour_shift_um", number(t.neighbour_shift_um)},
+          {"max_neighbour_node_shift_um", number(t.node_shift_um)},
+          {"max_pressure_change_Pa", number(1e3 * t.pressure_change_kPa)},
+          {"min_triangle_quality", number(t.min_quality)},
+          {"most_planes", static_cast<int>(t.planes)},
+          {"sub_steps", static_cast<int>(t.steps)},
+          {"put_off", static_cast<int>(t.waits)}};
+}
+
 }  // namespace
 
 void add_audit(RunTotals& t, const coupling::AuditResult& a) {
@@ -59,11 +72,12 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
                 {"cg", s.clock.cg_iterations}};
   j["cells"] = {{"dcm", dcm_cells},
                 {"cbm", cbm_cells},
-                {"start", dcm_cells + cbm_cells},
+                {"start", static_cast<int>(in.life.start_cells)},
                 {"end", dcm_cells + cbm_cells},
-                {"divisions", 0},
-                {"deaths", 0},
+                {"divisions", s.divisions},
+                {"deaths", s.deaths},
                 {"switched", 0}};
+  if (dcm_cells > 0 && s.divisions > 0) j["division"] = division_figures(in.life);
   j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
   j["balance"] = {{"momentum", number(s.balance.momentum)},
                   {"torque", number(s.balance.torque)},
@@ -89,6 +103,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
     for (double v : values) list.push_back(number(v));
     measures[name] = list;
   }
+  for (const auto& [cells, wall] : wall_times(in.life))
+    measures["wall_s_at_cells"][cells] = number(wall);
   if (in.scene.experiment == "lobule")
     measures["max_overlap_with_vessels_um"] = number(t.dcm_vessel_um);
   j["measures"] = measures;

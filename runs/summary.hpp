@@ -8,6 +8,7 @@
 #include "coupling/audit.hpp"
 #include "coupling/world.hpp"
 #include "runs/experiments/experiment.hpp"
+#include "runs/life_totals.hpp"
 #include "runs/run.hpp"
 #include "runs/scene/scene.hpp"
 
@@ -30,6 +31,7 @@ struct SummaryInput {
   const RunOptions& options;
   const coupling::World& world;
   const RunTotals& totals;
+  const LifeTotals& life;
   const Measures& measures;
   const Timings& timings;
   const std::vector<std::string>& skipped;

@@ -187,7 +187,7 @@ BlockView view_block(const System& s, std::size_t b, const float* edge) {
                  {},
                  {}};
   for (const RankOne& family : s.rank_one) {
-    if (b * kLanes >= family.coefficient.size()) continue;
+    if (block.still || b * kLanes >= family.coefficient.size()) continue;
     view.vector[view.n_family] = family.vector.data() + block.first_row * kPointStride;
     view.coefficient[view.n_family++] = family.coefficient.data() + b * kLanes;
   }

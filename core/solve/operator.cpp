@@ -172,7 +172,7 @@ InverseView Operator::inverse_of(std::size_t block) const {
   const Block& b = system_->block[block];
   InverseView view{b.pattern->n_point, inverse_.data() + b.first_row * kSymStride, 0, {}};
   for (const std::vector<float>& u : rank_one_)
-    if (b.first_row * kPointStride < u.size())
+    if (!b.still && b.first_row * kPointStride < u.size())
       view.vector[view.n_family++] = u.data() + b.first_row * kPointStride;
   return view;
 }

@@ -46,7 +46,7 @@ void add_area(const Params& p, const GroupView& g, solve::System& s, solve::Rank
   area_kernel(g, gradient, area);
   bool tense = false;
   for (int l = 0; l < kLanes; ++l) {
-    const double a0 = g.topology->rest_area * g.radius[l] * g.radius[l];
+    const double a0 = rest_area(g, l);
     pull[l] = -g.active[l] * p.area_modulus * (area[l] - a0) / a0;
     family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
         s.stiffness_scale * g.active[l] * p.area_modulus / a0;
@@ -64,7 +64,7 @@ Lane compute_areas(const GroupView& g) {
 }
 
 double area_energy(const Params& p, const GroupView& g, int lane) {
-  const double a0 = g.topology->rest_area * g.radius[lane] * g.radius[lane];
+  const double a0 = rest_area(g, lane);
   const double stretch = compute_areas(g)[lane] - a0;
   return g.active[lane] * p.area_modulus * stretch * stretch / (2 * a0);
 }

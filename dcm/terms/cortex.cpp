@@ -19,7 +19,8 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
     const Lane length = lane_sqrt(dot(d, d));
     const Lane inverse = 1.0 / length;
     const Lane3 u = inverse * d;
-    const Lane l0 = rest[e] * radius;
+    Lane l0 = rest[e] * radius;
+    if (g.edge) l0 = l0 * load(g.edge + e * kLanes);
     const Lane3 f = (k * (length - l0)) * u;
     add3(force + i * kPointStride, f);
     add3(force + j * kPointStride, -f);
@@ -48,7 +49,7 @@ double cortex_energy(const Params& p, const GroupView& g, int lane) {
     const double length = (load_point(g.position, make_address(static_cast<std::size_t>(j), lane)) -
                            load_point(g.position, make_address(static_cast<std::size_t>(i), lane)))
                               .norm();
-    const double stretch = length - g.topology->rest_length[e] * g.radius[lane];
+    const double stretch = length - rest_length(g, e, lane);
     energy += 0.5 * p.spring_stiffness * stretch * stretch;
   }
   return g.active[lane] * energy;

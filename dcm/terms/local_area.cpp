@@ -18,7 +18,8 @@ ACINUS_KERNEL void local_area_kernel(const Params& p, const GroupView& g, double
     const Lane3 half_normal = (0.5 / norm) * c;
     const Lane3 grad[3] = {cross(half_normal, x2 - x1), cross(half_normal, x0 - x2),
                            cross(half_normal, x1 - x0)};
-    const Lane a0 = t.rest_triangle_area[f] * radius * radius;
+    Lane a0 = t.rest_triangle_area[f] * radius * radius;
+    if (g.triangle) a0 = a0 * load(g.triangle + f * kLanes);
     const Lane pull = -k * (0.5 * norm - a0) / a0;
     const Lane root = lane_sqrt(stiffness_scale * k / a0);
     for (std::size_t m = 0; m < 3; ++m) add3(force + corner[m] * kPointStride, pull * grad[m]);
@@ -41,7 +42,7 @@ double local_area_energy(const Params& p, const GroupView& g, int lane) {
     for (std::size_t m = 0; m < 3; ++m)
       x[m] = load_point(g.position,
                         make_address(static_cast<std::size_t>(g.topology->triangle[f][m]), lane));
-    const double a0 = g.topology->rest_triangle_area[f] * g.radius[lane] * g.radius[lane];
+    const double a0 = rest_triangle_area(g, f, lane);
     const double stretch = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm() - a0;
     energy += p.local_area_modulus * stretch * stretch / (2 * a0);
   }

@@ -63,10 +63,12 @@ std::vector<Mesh> meshes_of(const io::Frame& f) {
 
 std::vector<coupling::AuditSphere> spheres_of(const io::Frame& f) {
   const auto radius = std::ranges::find(f.cell_data, "radius", &io::Field::name);
+  const auto strength = std::ranges::find(f.cell_data, "strength", &io::Field::name);
   std::vector<coupling::AuditSphere> spheres;
   for (std::int64_t k = 0; k < f.n_sphere; ++k) {
     const auto row = f.triangle.size() + static_cast<std::size_t>(k);
-    spheres.push_back({f.cell_id[row], point_of(f, f.n_mesh_node + k), radius->value[row]});
+    spheres.push_back(
+        {f.cell_id[row], point_of(f, f.n_mesh_node + k), radius->value[row], strength->value[row]});
   }
   return spheres;
 }

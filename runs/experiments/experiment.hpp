@@ -11,7 +11,8 @@
 
 namespace acinus::runs {
 
-/// Named series, one number per written frame. Kept in checkpoints.
+/// Named series, one number per written frame; a profile holds the numbers of the last frame only.
+/// Kept in checkpoints. What has no value at a moment is NaN, in files null.
 using Measures = std::map<std::string, std::vector<double>>;
 
 /// Adds the numbers of one moment. Does nothing for experiment "free".
@@ -31,5 +32,22 @@ void sample_lobule(const Scene& scene, const coupling::World& world, const Snaps
 /// models.
 void sample_patch(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                   Measures& measures);
+
+/// A growing tissue: "spheroid" in space, "monolayer" in the plane z = const. Distances r are those
+/// of the cells' centres from their mean, in a monolayer horizontally.
+/// Series: time_s, cells, mean_pressure_Pa (contact pressure),
+///   radius_of_gyration_um    sqrt(1/N sum |x_i - x_com|^2), always in space
+///                            [VanLiedekerke2020, Sect. 3.2]
+///   inner_*, outer_*         mean pressure_Pa and density of the cells below 1/3 and from 2/3 of
+///                            the largest r on; density per mm^3, in a monolayer per mm^2
+///   sphericity               mean of pi^(1/3) (6 V)^(2/3) / A, 1 for a sphere, 0.99 for its mesh
+///   height_um, height_to_width  monolayer: mean extent along z, and its ratio to the mean of those
+///                            along x and y
+/// The last three are for deformable cells only. Profiles of the last frame over 10 shells (rings)
+/// of equal width up to the largest r: profile_radius_um (middle), pressure_profile_Pa,
+/// density_profile. A shell without cells has density 0 and no pressure; while all r are 0 every
+/// shell holds all cells and there is no density.
+void sample_growth(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
+                   Measures& measures);
 
 }  // namespace acinus::runs

@@ -77,6 +77,9 @@ class EntryCollector final : public Visitor {
   void counts(const Key& key, std::array<int, 3>& value) override {
     add(key, "three whole numbers", fmt::format("[{}]", fmt::join(value, ", ")), bounds(key));
   }
+  void integers(const Key& key, std::vector<std::int64_t>& values) override {
+    add(key, "whole numbers", fmt::format("[{}]", fmt::join(values, ", ")), bounds(key));
+  }
   void object(const Key& key, const Members& members) override {
     add_block(key, "block", "");
     inside(key.name, "", [&] { members(*this); });

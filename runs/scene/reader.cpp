@@ -134,6 +134,23 @@ class SceneReader final : public Visitor {
     }
   }
 
+  void integers(const Key& key, std::vector<std::int64_t>& values) override {
+    const Node* node = take(key);
+    if (node == nullptr) return;
+    const std::string pointer = pointer_of(key);
+    if (node->kind != Kind::kList) {
+      report_.add_value(*node, pointer, "must be a list of whole numbers, e.g. [0, 1]");
+      return;
+    }
+    values.clear();
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      std::int64_t number = 0;
+      if (read_long(key, node->items[i], fmt::format("{}/{}", pointer, i), number)) {
+        values.push_back(number);
+      }
+    }
+  }
+
   void object(const Key& key, const Members& members) override {
     const Node* node = take(key);
     if (node != nullptr && !is_object(*node, pointer_of(key))) return;
@@ -348,6 +365,21 @@ class SceneReader final : public Visitor {
     }
   }
 
+  /// A whole number too large for an int, such as a lineage number.
+  bool read_long(const Key& key, const Node& node, const std::string& pointer,
+                 std::int64_t& value) {
+    constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (node.kind != Kind::kInteger || node.magnitude > kLargest) {
+      report_.add_value(node, pointer, "must be a whole number, without quotes");
+      return false;
+    }
+    const auto magnitude = static_cast<std::int64_t>(node.magnitude);
+    value = node.negative ? -magnitude : magnitude;
+    if (key.range.contains(static_cast<double>(value))) return true;
+    report_.add_value(node, pointer, "must be " + range_text(key.range, kDimensionless, ""));
+    return false;
+  }
+
   void read_file_name(const Key& key, const Node& node, const std::string& pointer,
                       std::string& value) {
     if (node.text.empty()) {
@@ -415,6 +447,7 @@ Scene read(Document& document, const std::string& label, const std::vector<std::
   describe(reader, scene);
   reader.finish_block();
   if (scene.name.empty()) scene.name = default_name(label);
+  if (!scene.model.empty()) scene.cells.model = scene.model;
   name_the_nameless(scene);
   check_rules(scene, report);
   report.finish();

@@ -47,6 +47,10 @@ void describe_time(Visitor& v, TimeBlock& b) {
   v.flag({.name = "with_contacts",
           .meaning = "allow ros2 although cells may touch something: contacts make it chatter"},
          b.with_contacts);
+  v.integer({.name = "until_cells",
+             .meaning = "the run ends when there are so many cells; 0 = only at time.end",
+             .range = {.low = 0, .high = 1e9}},
+            b.until_cells);
 }
 
 void describe_solver(Visitor& v, SolverBlock& b) {
@@ -155,14 +159,14 @@ void describe_friction(Visitor& v, FrictionBlock& b) {
                    .automatic = "harmonic mean of dcm_dcm and cbm_cbm"},
                   b.dcm_cbm);
   v.optional_real({.name = "dcm_vessel",
-                   .meaning = "friction of a DCM cell with a vessel",
+                   .meaning = "friction of a DCM cell with a vessel, or a wall that is no mirror",
                    .dimension = kFrictionPerArea,
                    .unit = "N s/m^3",
                    .range = kNotNegative,
                    .automatic = "the type's dcm.ecm_friction"},
                   b.dcm_vessel);
   v.optional_real({.name = "cbm_vessel",
-                   .meaning = "friction of a CBM cell with a vessel",
+                   .meaning = "friction of a CBM cell with a vessel, or a wall that is no mirror",
                    .dimension = kFrictionPerArea,
                    .unit = "N s/m^3",
                    .range = kNotNegative,
@@ -189,6 +193,10 @@ void describe_friction(Visitor& v, FrictionBlock& b) {
 
 void describe_motility(Visitor& v, MotilityBlock& b) {
   v.flag({.name = "random", .meaning = "random motion of the cells"}, b.random);
+  v.text({.name = "directions",
+          .meaning = "random motion in space, or in the horizontal plane as on a substrate",
+          .choices = "space|plane"},
+         b.directions);
   v.real({.name = "grid",
           .meaning = "time over which a random force stays constant",
           .dimension = kTime,
@@ -232,8 +240,16 @@ void describe(Visitor& v, Scene& s) {
          s.name);
   v.text({.name = "description", .meaning = "what the scene shows, in a sentence"}, s.description);
   v.seed({.name = "seed", .meaning = "seed of all random numbers"}, s.seed);
-  v.text({.name = "experiment", .meaning = "what is measured", .choices = "free|lobule|patch"},
+  v.text({.name = "experiment",
+          .meaning = "what is measured",
+          .choices = "free|lobule|patch|spheroid|monolayer"},
          s.experiment);
+  v.text({.name = "model",
+          .meaning = "replaces cells.model, whatever the scene says there; cells of cells.list "
+                     "with a model of their own keep it, zoom regions count only with zoom",
+          .choices = "dcm|cbm|zoom",
+          .automatic = "cells.model stays"},
+         s.model);
   block(v, {.name = "time", .meaning = "duration and steps"}, s.time, describe_time);
   block(v, {.name = "solver", .meaning = "linear solver"}, s.solver, describe_solver);
   block(v, {.name = "start_up", .meaning = "growth and settling before t = 0"}, s.start_up,
@@ -246,6 +262,7 @@ void describe(Visitor& v, Scene& s) {
                s.cell_types, describe_cell_type);
   block(v, {.name = "cells", .meaning = "which cells there are at the start"}, s.cells,
         describe_cells);
+  block(v, {.name = "life", .meaning = "which cells rest or die, and when"}, s.life, describe_life);
   blocks(v,
          {.name = "zoom",
           .meaning = "regions whose cells are DCM at t = 0 (their union)",
@@ -259,17 +276,11 @@ void describe(Visitor& v, Scene& s) {
   block(v, {.name = "contact", .meaning = "contact of surfaces"}, s.contact, describe_contact);
   block(v, {.name = "friction", .meaning = "friction per area"}, s.friction, describe_friction);
   block(v, {.name = "motility", .meaning = "active forces"}, s.motility, describe_motility);
-  v.optional_object(
-      {.name = "lobule", .meaning = "generated liver lobule; null = none"}, s.lobule.has_value(),
-      [&s](bool present) { s.lobule = present ? std::optional(LobuleBlock{}) : std::nullopt; },
-      [&s](Visitor& w) {
-        LobuleBlock sample;
-        describe_lobule(w, s.lobule ? *s.lobule : sample);
-      });
+  optional_block(v, {.name = "lobule", .meaning = "generated liver lobule; null = none"}, s.lobule,
+                 describe_lobule);
   block(v, {.name = "vessels", .meaning = "blood vessels: network file and mechanics"}, s.vessels,
         describe_vessels);
-  blocks(v, {.name = "walls", .meaning = "plane mirror walls", .item = "wall"}, s.walls,
-         describe_wall);
+  blocks(v, {.name = "walls", .meaning = "plane walls", .item = "wall"}, s.walls, describe_wall);
   v.optional_object(
       {.name = "capsule", .meaning = "rigid sphere round the cells; null = none"},
       s.capsule.enabled,

@@ -77,6 +77,8 @@ class Visitor {
   /// Two opposite corners or null.
   virtual void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) = 0;
   virtual void counts(const Key& key, std::array<int, 3>& value) = 0;
+  /// A list of whole numbers of any length.
+  virtual void integers(const Key& key, std::vector<std::int64_t>& values) = 0;
   /// A block that is always there.
   virtual void object(const Key& key, const Members& members) = 0;
   /// A block that may be absent; `members` may be called only while it is present.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,7 +60,23 @@ void named_blocks(Visitor& visitor, const Key& key, std::map<std::string, Block>
   visitor.map(key, elements);
 }
 
+template <class Block>
+void optional_block(Visitor& visitor, const Key& key, std::optional<Block>& value,
+                    Describe<Block> members) {
+  visitor.optional_object(
+      key, value.has_value(),
+      [&value](bool present) { value = present ? std::optional(Block{}) : std::nullopt; },
+      [&value, members](Visitor& inner) {
+        Block sample;
+        members(inner, value ? *value : sample);
+      });
+}
+
 void describe_cell_type(Visitor& v, CellType& b);
+void describe_cycle(Visitor& v, CycleBlock& b);
+void describe_inhibition(Visitor& v, InhibitionBlock& b);
+void describe_death(Visitor& v, DeathBlock& b);
+void describe_life(Visitor& v, LifeBlock& b);
 void describe_cells(Visitor& v, CellsBlock& b);
 void describe_region(Visitor& v, Region& b);
 void describe_lobule(Visitor& v, LobuleBlock& b);

@@ -148,6 +148,12 @@ void describe_cell_type(Visitor& v, CellType& b) {
           .range = kNotNegative,
           .symbol = "D"},
          b.diffusion);
+  block(v, {.name = "cycle", .meaning = "growth to twice the volume and division"}, b.cycle,
+        describe_cycle);
+  block(v, {.name = "inhibition", .meaning = "what slows growth down"}, b.inhibition,
+        describe_inhibition);
+  block(v, {.name = "death", .meaning = "how a cell dies that a rule of life lets die"}, b.death,
+        describe_death);
   block(v, {.name = "dcm", .meaning = "the cell as a deformable triangulated surface"}, b.dcm,
         describe_dcm);
   block(v, {.name = "cbm", .meaning = "the cell as an elastic sphere"}, b.cbm, describe_cbm);
@@ -205,7 +211,7 @@ void describe_cells(Visitor& v, CellsBlock& b) {
 
 void describe_region(Visitor& v, Region& b) {
   v.text({.name = "kind",
-          .meaning = "shape of the region; cells with their centre in it are DCM",
+          .meaning = "shape of the region; a cell is in it with its centre",
           .choices = "sphere|box|half_space|axis_distance|all",
           .required = true},
          b.kind);

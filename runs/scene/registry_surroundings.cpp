@@ -141,6 +141,30 @@ void describe_wall(Visitor& v, WallEntry& b) {
           .unit = "um",
           .range = kNotNegative},
          b.travel);
+  v.flag({.name = "mirror",
+          .meaning = "true: stands for equal cells on the other side, no adhesion, no friction; "
+                     "false: a surface of its own"},
+         b.mirror);
+  v.real({.name = "adhesion",
+          .meaning = "adhesion energy between cell and wall, per area; needs mirror = false",
+          .dimension = kTension,
+          .unit = "J/m^2",
+          .range = kNotNegative,
+          .symbol = "W"},
+         b.adhesion);
+  v.when(!b.mirror, "mirror = false", [&b](Visitor& w) {
+    w.optional_real({.name = "young",
+                     .meaning = "Young's modulus of the wall as spheres feel it",
+                     .dimension = kStress,
+                     .unit = "Pa",
+                     .range = kPositive,
+                     .automatic = "rigid"},
+                    b.young);
+    w.real({.name = "poisson",
+            .meaning = "Poisson ratio of the wall",
+            .range = {.low = 0, .high = 0.5}},
+           b.poisson);
+  });
 }
 
 void describe_capsule(Visitor& v, CapsuleEntry& b) {

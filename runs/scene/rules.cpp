@@ -15,6 +15,10 @@ std::string length(double value) { return "\"" + format_quantity(value, kLength,
 
 std::string time_text(double value) { return "\"" + format_quantity(value, kTime, "s") + "\""; }
 
+std::string adhesion_text(double value) {
+  return "\"" + format_quantity(value, kTension, "J/m^2") + "\"";
+}
+
 std::vector<std::string> type_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& [name, type] : scene.cell_types) names.push_back(name);
@@ -123,7 +127,7 @@ void check_cells(const Scene& scene, Report& report) {
     report.add_relation({"/experiment", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
   }
-  if (!scene.zoom.empty() && cells.model != "zoom") {
+  if (!scene.zoom.empty() && cells.model != "zoom" && scene.model.empty()) {
     report.add_relation({"/zoom", "/cells/model"}, "",
                         fmt::format("zoom regions need /cells/model = \"zoom\", not \"{}\". Remove "
                                     "the regions (--set zoom=[]) or change the model",
@@ -134,12 +138,12 @@ void check_cells(const Scene& scene, Report& report) {
   for (const CellEntry& cell : cells.list) all_chosen = all_chosen && !cell.model.empty();
   if (scene.zoom.empty() && cells.model == "zoom" && !all_chosen) {
     report.add_relation(
-        {"/cells/model", "/zoom"}, "\"zoom\"",
+        {scene.model.empty() ? "/cells/model" : "/model", "/zoom"}, "\"zoom\"",
         "needs at least one region in /zoom. Add one, or choose \"dcm\" or \"cbm\"");
   }
 }
 
-void check_direction(const Vec3& normal, const std::string& pointer, Report& report) {
+void check_normal(const Vec3& normal, const std::string& pointer, Report& report) {
   if (normal.norm() > 1e-12) return;
   report.add_relation({pointer}, "[0, 0, 0]",
                       "must not be zero: it is the direction of the plane's normal");
@@ -147,16 +151,7 @@ void check_direction(const Vec3& normal, const std::string& pointer, Report& rep
 
 void check_zoom(const Scene& scene, Report& report) {
   for (std::size_t i = 0; i < scene.zoom.size(); ++i) {
-    const Region& region = scene.zoom[i];
-    const std::string pointer = fmt::format("/zoom/{}", i);
-    if (region.kind == "box")
-      check_box(region.low, region.high, pointer + "/low", pointer + "/high", report);
-    if (region.kind == "half_space") check_direction(region.normal, pointer + "/normal", report);
-    if (region.kind == "axis_distance" && region.min_distance >= region.max_distance) {
-      report.add_relation(
-          {pointer + "/min_distance", pointer + "/max_distance"}, length(region.min_distance),
-          fmt::format("must be below {}/max_distance = {}", pointer, length(region.max_distance)));
-    }
+    check_region(scene.zoom[i], fmt::format("/zoom/{}", i), report);
   }
 }
 
@@ -186,10 +181,17 @@ void check_surroundings(const Scene& scene, Report& report) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const WallEntry& wall = scene.walls[i];
     const std::string pointer = fmt::format("/walls/{}", i);
-    check_direction(wall.normal, pointer + "/normal", report);
+    check_normal(wall.normal, pointer + "/normal", report);
     if (wall.speed != 0 && wall.travel == 0) {
       report.add_relation({pointer + "/travel", pointer + "/speed"}, length(wall.travel),
                           "must be > 0 um for a wall that moves");
+    }
+    if (wall.mirror && wall.adhesion > 0) {
+      report.add_relation({pointer + "/adhesion", pointer + "/mirror"},
+                          adhesion_text(wall.adhesion),
+                          fmt::format("a mirror wall stands for equal cells and does not adhere. "
+                                      "Set {}/mirror to false",
+                                      pointer));
     }
     if (!names.insert(wall.name).second) {
       report.add_relation({pointer + "/name"}, "\"" + wall.name + "\"",
@@ -217,12 +219,24 @@ void check_surroundings(const Scene& scene, Report& report) {
 
 }  // namespace
 
+void check_region(const Region& region, const std::string& pointer, Report& report) {
+  if (region.kind == "box")
+    check_box(region.low, region.high, pointer + "/low", pointer + "/high", report);
+  if (region.kind == "half_space") check_normal(region.normal, pointer + "/normal", report);
+  if (region.kind == "axis_distance" && region.min_distance >= region.max_distance) {
+    report.add_relation(
+        {pointer + "/min_distance", pointer + "/max_distance"}, length(region.min_distance),
+        fmt::format("must be below {}/max_distance = {}", pointer, length(region.max_distance)));
+  }
+}
+
 void check_rules(const Scene& scene, Report& report) {
   check_time(scene, report);
   check_integrator(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);
   check_zoom(scene, report);
+  check_life(scene, report);
   check_lobule(scene, report);
   check_surroundings(scene, report);
 }

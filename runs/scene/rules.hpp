@@ -1,6 +1,8 @@
 #pragma once
 /// Rules between keys of a scene; what concerns one key alone stands in the registry.
 
+#include <string>
+
 #include "runs/scene/report.hpp"
 #include "runs/scene/scene.hpp"
 
@@ -8,5 +10,11 @@ namespace acinus::runs {
 
 /// Adds every broken rule to the report. Rules about keys that are already reported are left out.
 void check_rules(const Scene& scene, Report& report);
+
+/// The part about growth, division and death. @pre called by check_rules
+void check_life(const Scene& scene, Report& report);
+
+/// The part about one region, which stands at `pointer`.
+void check_region(const Region& region, const std::string& pointer, Report& report);
 
 }  // namespace acinus::runs

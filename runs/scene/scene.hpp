@@ -23,6 +23,7 @@ struct TimeBlock {
   double max_move = 0.3;    ///< displacement cap, in mean edge lengths; 0 = no cap
   std::string integrator = "linearly-implicit";
   bool with_contacts = false;  ///< ros2 although cells may touch
+  int until_cells = 0;         ///< the run ends when there are so many cells; 0 = no such end
 };
 
 struct SolverBlock {
@@ -60,10 +61,40 @@ struct CbmBlock {               ///< centre-based parameters of a cell type (Tab
   double ecm_friction = 0.5;  ///< nN s/um^3
 };
 
+/// Growth from V0 to 2 V0 at a constant rate, Eq. (18), then division.
+struct CycleBlock {
+  std::optional<double> time;     ///< s, mean time from birth to division; empty = no growth
+  double spread = 0.1;            ///< relative standard deviation per cell, truncated at 3 sigma
+  double mitosis = 3600;          ///< s after division in which daughters release their tension
+  double force_ramp = 0.1;        ///< share of the cycle over which forces between new spheres rise
+  std::string axis = "random";    ///< random | plane (random, horizontal) | given | vessel
+  Vec3 direction = Vec3::Zero();  ///< axis = given; any length but zero
+  std::string start = "birth";    ///< birth | random: where in the cycle the first cells stand
+};
+
+/// Factor on the growth rate. pressure: 1/(1 + (p/p0)^n) with p the contact pressure, 0 if cells
+/// are pulled; volume: x^n/(1 + x^n) with x = (V/V0)/threshold, for deformable cells only.
+struct InhibitionBlock {
+  std::string by = "none";        ///< none | pressure | volume
+  double pressure_threshold = 0;  ///< kPa, p0 where growth is halved
+  double volume_threshold = 0;    ///< V/V0 where growth is halved
+  double power = 4;               ///< n
+};
+
+struct DeathBlock {
+  std::string mode = "removal";  ///< removal (at once) | lysis (shrink, then removal)
+  double duration = 6 * 3600;    ///< s, lysis: time of shrinking
+  double final_volume = 0.2;     ///< lysis: share of the volume left at the end
+  double softening = 1;  ///< lysis: factor on cortex_young, bulk_modulus and adhesion meanwhile
+};
+
 struct CellType {
   double radius = 12;       ///< um at rest
   double adhesion = 0.01;   ///< nN/um (mJ/m^2... 1e-5 J/m^2), pair value = sqrt(Wa Wb)
   double diffusion = 1e-4;  ///< um^2/s, motility D (1e-16 m^2/s)
+  CycleBlock cycle;
+  InhibitionBlock inhibition;
+  DeathBlock death;
   DcmBlock dcm;
   CbmBlock cbm;
 };
@@ -90,9 +121,10 @@ struct FrictionBlock {
 
 struct MotilityBlock {
   bool random = true;
-  double grid = 60;          ///< s, time grid of the random force
-  double leader_force = 0;   ///< nN, toward the vein axis
-  double leader_grid = 600;  ///< s, re-evaluation of who leads
+  std::string directions = "space";  ///< or "plane": the random force is horizontal
+  double grid = 60;                  ///< s, time grid of the random force
+  double leader_force = 0;           ///< nN, toward the vein axis
+  double leader_grid = 600;          ///< s, re-evaluation of who leads
 };
 
 /// A region of space; which members count depends on `kind`.
@@ -104,6 +136,24 @@ struct Region {
   Vec3 point = Vec3::Zero(),
        normal = Vec3::UnitZ();                ///< half_space: (x - point).normal <= 0 is inside
   double min_distance = 0, max_distance = 0;  ///< axis_distance: distance from the vein axis, um
+};
+
+/// Who rests or dies, and when. A cell is meant if `region` and `cells` both are.
+struct LifeRule {
+  std::string action;               ///< key "do": rest (no growth while it holds) | die
+  std::optional<Region> region;     ///< cells with their centre in it; empty = anywhere
+  std::vector<std::int64_t> cells;  ///< lineage numbers; empty = all
+  bool descendants = true;          ///< those of `cells` too
+  double from = 0;                  ///< s after t = 0
+  std::optional<double> until;      ///< s after t = 0; empty = the end
+  double share = 1;                 ///< probability that a cell is meant, drawn once per cell
+};
+
+struct LifeBlock {
+  std::vector<LifeRule> rules;
+  double grid = 600;             ///< s between two looks at rules, inhibition and sleep
+  bool sleep = false;            ///< cells in balance are left out of the step until pushed
+  double sleep_traction = 1e-3;  ///< kPa out of balance, below which a cell falls asleep
 };
 
 struct CellEntry {
@@ -151,11 +201,15 @@ struct VesselBlock {
   double adhesion = 0;  ///< nN/um
 };
 
-struct WallEntry {  ///< mirror wall: cells stay where (x - point).normal >= 0
+struct WallEntry {  ///< cells stay where (x - point).normal >= 0
   std::string name;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
-  double speed = 0;   ///< um/s along the normal (a moving wall), from t = 0
-  double travel = 0;  ///< um, where the motion stops
+  double speed = 0;     ///< um/s along the normal (a moving wall), from t = 0
+  double travel = 0;    ///< um, where the motion stops
+  bool mirror = true;   ///< stands for equal cells on the other side: no adhesion, no friction
+  double adhesion = 0;  ///< nN/um between cell and wall, not mirror
+  std::optional<double> young;  ///< kPa, what spheres feel, not mirror; empty = rigid
+  double poisson = 0;           ///< not mirror
 };
 
 struct CapsuleEntry {  ///< rigid sphere seen from inside
@@ -185,12 +239,15 @@ struct Scene {
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
-  std::string experiment = "free";  ///< free | lobule | patch  (what is measured)
+  /// What is measured: free | lobule | patch | spheroid | monolayer.
+  std::string experiment = "free";
+  std::string model;  ///< dcm | cbm | zoom: replaces cells.model; "" = cells.model stays
   TimeBlock time;
   SolverBlock solver;
   StartUpBlock start_up;
   std::map<std::string, CellType> cell_types;
   CellsBlock cells;
+  LifeBlock life;
   std::vector<Region> zoom;        ///< union of regions
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical (z) through this point
   ContactBlock contact;

@@ -73,6 +73,11 @@ class SchemaBuilder final : public Visitor {
     set_default(key, schema, value);
     put(key, std::move(schema));
   }
+  void integers(const Key& key, std::vector<std::int64_t>& values) override {
+    Json schema{{"type", "array"}, {"items", integer_schema(key)}};
+    set_default(key, schema, values);
+    put(key, std::move(schema));
+  }
   void object(const Key& key, const Members& members) override { put(key, inner(members)); }
   void optional_object(const Key& key, bool, const std::function<void(bool)>&,
                        const Members& members) override {

@@ -44,6 +44,9 @@ class JsonWriter final : public Visitor {
   void counts(const Key& key, std::array<int, 3>& value) override {
     line(key.name, fmt::format("[{}]", fmt::join(value, ", ")));
   }
+  void integers(const Key& key, std::vector<std::int64_t>& values) override {
+    line(key.name, fmt::format("[{}]", fmt::join(values, ", ")));
+  }
   void object(const Key& key, const Members& members) override {
     open(key.name, '{');
     members(*this);

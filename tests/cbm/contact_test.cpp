@@ -8,83 +8,14 @@
 #include <cstdio>
 
 #include "core/solve/operator.hpp"
+#include "tests/cbm/spheres.hpp"
 #include "tests/core/contact/reference_table.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::cbm {
 namespace {
 
-using contact::SurroundingKind;
 using reference::kEps;
-
-/// Spheres with everything around them that a step needs.
-struct Spheres {
-  State state;
-  std::vector<Params> params = std::vector<Params>(1);
-  ContactParams options;
-  contact::Surroundings around;
-  double time = 0;
-  ContactWorkspace work;
-  solve::System system;
-  std::vector<SphereContact> sphere;  ///< of the last find()
-
-  explicit Spheres(const std::vector<NewCell>& cells) : state(make_state(cells)) {
-    params[0].adhesion = 0.01;
-    params[0].medium_friction = 0.5;
-    params[0].vessel_friction = 0.5;
-    options.cell_friction = 10;
-  }
-  std::vector<double> radius() const { return radii_at(state, time); }
-  void find() {
-    refresh_pairs(state, params, options, radius(), around, work);
-    solve::set_blocks(system, make_blocks(state));
-    find_contacts(state, params, options, radius(), around, time, 0, work, system.point_links);
-    add_contact_loads(state, params, around, work, 0, system);
-    sphere = list_sphere_contacts(state, params, options, radius(), work);
-  }
-  /// Links of what touches; near pairs that do not have links of zeros.
-  std::vector<solve::PointLink> links() const {
-    std::vector<solve::PointLink> out;
-    for (const solve::PointLink& l : system.point_links)
-      if (l.stiffness > 0 || l.friction > 0) out.push_back(l);
-    return out;
-  }
-  /// Force on a cell from other cells, and from surroundings, nN.
-  Vec3 force(std::size_t cell) const {
-    return load_point(system.force.data(), cell_address(0, cell));
-  }
-  Vec3 external_force(std::size_t cell) const {
-    return load_point(system.external_force.data(), cell_address(0, cell));
-  }
-  /// As after an accepted step.
-  void accept() { state.touching = work.touching; }
-  void move(std::size_t cell, const Vec3& to) {
-    store_point(state.position.data(), cell_address(0, cell), to);
-  }
-};
-
-NewCell sphere(const Vec3& center, double radius = 12, double young = 0.45) {
-  NewCell c;
-  c.center = center;
-  c.radius = radius;
-  c.young = young;
-  return c;
-}
-
-Spheres random_spheres(std::uint64_t seed, int n, double width) {
-  auto random = reference::stream(seed);
-  std::vector<NewCell> cells;
-  for (int k = 0; k < n; ++k) {
-    cells.push_back(sphere(reference::random_vector(random, width), random.uniform(9, 15),
-                           random.uniform(0.3, 0.6)));
-    cells.back().type = k % 3 == 0 ? 1 : 0;
-  }
-  Spheres s(cells);
-  s.params.push_back(s.params[0]);
-  s.params[1].adhesion = 0.05;
-  s.params[1].poisson = 0.4;
-  return s;
-}
 
 TEST(SpherePairs, BalanceForceAndTorque) {
   Spheres s = random_spheres(1, 60, 40);

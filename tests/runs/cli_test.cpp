@@ -58,6 +58,7 @@ TEST(Cli, UsageErrorsExitWithTwo) {
   for (const std::string& arguments : std::vector<std::string>{
            "", "rnu", "run", "run " + kScene + " --no-such-flag", "run " + kScene + " --threads 0",
            "run " + kScene + " --threads x", "run " + kScene + " --resume --overwrite",
+           "run " + kScene + " --until-cells 0", "run " + kScene + " --until-cells 1.5",
            "run " + kScene + " --until 5", "run " + kScene + " --max-walltime 5",
            "run " + kScene + " --progress xml", "check " + kScene + " --set time.end=5",
            "explain cell.raduis", "explain radius --markdown", "bench no-such-bench",

@@ -30,7 +30,7 @@ TEST(SceneErrors, UnknownKeyHasPlaceAndHint) {
             "(acinus explain time.step)");
   EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
             "scene.json:2:26 /time/quux: unknown key. Known here: end, step, min_step, adaptive, "
-            "tolerance, max_move, integrator, with_contacts");
+            "tolerance, max_move, integrator, with_contacts, until_cells");
 }
 
 TEST(SceneErrors, AllMistakesAreReportedAtOnceInOrder) {
@@ -129,6 +129,110 @@ TEST(SceneErrors, LongListsOfMistakesAreCut) {
       failure(minimal("{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}", list));
   EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 200);
   EXPECT_NE(message.find("... and 301 more"), std::string::npos);
+}
+
+TEST(SceneErrors, RulesOfLife) {
+  const auto cell = [](const std::string& body) {
+    return minimal(R"({"hepatocyte": {}})", R"({"hepatocyte": {)" + body + "}}");
+  };
+  const auto rule = [](const std::string& body) {
+    return with_block(R"("life": {"rules": [{)" + body + "}]}");
+  };
+  const std::string at = "scene.json:3:", type = "/cell_types/hepatocyte/";
+  EXPECT_EQ(failure(cell(R"("cycle": {"time": "24 h", "mitosis": "20 h"})")),
+            at + "70 " + type + R"(cycle/mitosis = "20 h": must not exceed 16.8 h, the shortest )" +
+                R"(cycle of /time = "24 h" and /spread = 0.1: mitosis is part of the cycle)");
+  EXPECT_EQ(failure(cell(R"("cycle": {"mitosis": "20 h"})")), "")
+      << "no cycle, nothing to fit into";
+  EXPECT_EQ(failure(cell(R"("cycle": {"spread": 0.31})")),
+            at + "53 " + type + "cycle/spread = 0.31: must be from 0 to 0.3");
+  EXPECT_EQ(failure(cell(R"("cycle": {"axis": "given"})")),
+            at + "42 " + type +
+                "cycle/direction: is missing: direction in which the cells divide, "
+                "of any length (acinus explain cell.cycle.direction)");
+  EXPECT_EQ(failure(cell(R"("cycle": {"axis": "given", "direction": [0, 0, 0]})")),
+            at + "73 " + type +
+                "cycle/direction = [0, 0, 0]: must not be zero: it is the direction "
+                "in which cells divide");
+  EXPECT_EQ(failure(cell(R"("cycle": {"direction": [0, 0, 1]})")),
+            at + "56 " + type +
+                "cycle/direction = [0, 0, 1]: is used only with axis = given. "
+                "Remove it");
+  EXPECT_EQ(failure(cell(R"("cycle": {"time": "1 day", "axis": "vessel"})")),
+            at + "68 " + type +
+                R"(cycle/axis = "vessel": needs vessels: give /vessels/file or a )"
+                "lobule block");
+  EXPECT_EQ(failure(cell(R"("inhibition": {"by": "pressure"})")),
+            at + "47 " + type +
+                "inhibition/pressure_threshold: is missing: contact pressure that "
+                "halves the growth rate, e.g. \"1 kPa\" (acinus explain "
+                "cell.inhibition.pressure_threshold)");
+  EXPECT_EQ(failure(cell(R"("inhibition": {"by": "volume", "volume_threshold": "0.8"})")),
+            at + "84 " + type +
+                "inhibition/volume_threshold = \"0.8\": must be a plain number, "
+                "without unit and quotes");
+  EXPECT_EQ(failure(cell(R"("death": {"softening": 0.5})")),
+            at + "56 " + type + "death/softening = 0.5: is used only with mode = lysis. Remove it");
+  EXPECT_EQ(failure(cell(R"("death": {"mode": "lysis", "final_volume": 1})")),
+            at + "76 " + type + "death/final_volume = 1: must be > 0 and < 1");
+  EXPECT_EQ(
+      failure(rule("")),
+      "scene.json:1:22 /life/rules/0/do: is missing: rest: the cells do not grow while the "
+      "rule holds for them; die: they die as soon as it holds (acinus explain life.rules.do)");
+  EXPECT_EQ(failure(rule(R"("do": "rest", "from": "2 h", "until": "60 min")")),
+            R"(scene.json:1:61 /life/rules/0/until = "60 min": must be after /life/rules/0/from = )"
+            R"("2 h")");
+  EXPECT_EQ(
+      failure(rule(R"("do": "rest", "cells": [0, -1, 1.5, "2"])")),
+      "scene.json:1:50 /life/rules/0/cells/1 = -1: must be >= 0\n"
+      "scene.json:1:54 /life/rules/0/cells/2 = 1.5: must be a whole number, without quotes\n"
+      "scene.json:1:59 /life/rules/0/cells/3 = \"2\": must be a whole number, without quotes");
+  EXPECT_EQ(
+      failure(rule(R"("do": "rest", "cells": 3)")),
+      "scene.json:1:46 /life/rules/0/cells = 3: must be a list of whole numbers, e.g. [0, 1]");
+  EXPECT_EQ(failure(rule(R"("do": "rest", "region": {"kind": "half_space", )"
+                         R"("point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 0]})")),
+            "scene.json:1:115 /life/rules/0/region/normal = [0, 0, 0]: must not be zero: it is the "
+            "direction of the plane's normal");
+  EXPECT_EQ(failure(rule(R"("do": "rest", "region": {"radius": "3 um"})")),
+            "scene.json:1:47 /life/rules/0/region/kind: is missing: shape of the region; a cell is "
+            "in it with its centre (acinus explain life.rules.region.kind)");
+}
+
+TEST(SceneErrors, OnlyOneIntegratorFollowsLife) {
+  const std::string growing =
+      minimal(R"({"hepatocyte": {}})", R"({"hepatocyte": {"cycle": {"time": "24 h"}}})");
+  for (const char* name : {"explicit-euler", "newton", "ros2"}) {
+    const std::string integrator = std::string("time.integrator=") + name;
+    EXPECT_EQ(failure(growing, {integrator}),
+              "--set " + integrator + ": /time/integrator = \"" + name +
+                  "\": cannot follow cells that grow, divide or die "
+                  "(/cell_types/hepatocyte/cycle/time). Choose \"linearly-implicit\"");
+    EXPECT_NE(
+        failure(kMinimal, {integrator, R"(life.rules=[{"do": "die"}])"}).find("(/life/rules/0/do)"),
+        std::string::npos);
+    EXPECT_EQ(failure(kMinimal, {integrator}), "");
+  }
+  EXPECT_EQ(failure(growing), "");
+}
+
+TEST(SceneErrors, OnlyWallsThatAreNoMirrorsAdhere) {
+  const auto wall = [](const std::string& body) { return with_block("\"walls\": [" + body + "]"); };
+  EXPECT_EQ(failure(wall(R"({"adhesion": "1e-5 J/m^2"})")),
+            R"(scene.json:1:26 /walls/0/adhesion = "1e-5 J/m^2": a mirror wall stands for equal )"
+            R"(cells and does not adhere. Set /walls/0/mirror to false)");
+  EXPECT_EQ(failure(wall(R"({"young": "600 Pa"})")),
+            R"(scene.json:1:23 /walls/0/young = "600 Pa": is used only with mirror = false. )"
+            "Remove it");
+  EXPECT_EQ(failure(wall(R"({"mirror": false, "adhesion": "1e-5 J/m^2", "young": "600 Pa"})")), "");
+}
+
+TEST(SceneErrors, ModelZoomFromOutsideNeedsRegions) {
+  EXPECT_EQ(failure(kMinimal, {"model=zoom"}),
+            "--set model=zoom: /model = \"zoom\": needs at least one region in /zoom. Add one, or "
+            "choose \"dcm\" or \"cbm\"");
+  EXPECT_EQ(failure(kMinimal, {"model=cmb"}),
+            "--set model=cmb: /model = \"cmb\": unknown choice. Did you mean \"cbm\"?");
 }
 
 struct BrokenRule {

@@ -65,9 +65,80 @@ TEST(Scene, EveryFieldIsRead) {
   EXPECT_EQ(scene.walls[0].name, "wall0");
   EXPECT_EQ(scene.walls[1].name, "top wall");
   EXPECT_EQ(scene.walls[1].speed, 7.0 / 3600);
+  EXPECT_TRUE(scene.walls[1].mirror);
+  EXPECT_FALSE(scene.walls[2].mirror);
+  EXPECT_EQ(scene.walls[2].adhesion, 0.01);
+  EXPECT_EQ(scene.walls[2].young, 0.6);
+  EXPECT_EQ(scene.walls[2].poisson, 0.4);
   EXPECT_TRUE(scene.capsule.enabled);
   EXPECT_EQ(scene.capsule.min_radius, 60);
   EXPECT_EQ(scene.output.compression, "none");
+}
+
+TEST(Scene, LifeIsRead) {
+  const Scene scene = parse_scene(kFull, "full.json");
+  EXPECT_EQ(scene.time.until_cells, 300);
+  const CellType &old = scene.cell_types.at("old"), &young = scene.cell_types.at("young");
+  EXPECT_EQ(old.cycle.time, 23.7 * 3600);
+  EXPECT_EQ(old.cycle.spread, 0.07);
+  EXPECT_EQ(old.cycle.mitosis, 3000);
+  EXPECT_EQ(old.cycle.force_ramp, 0.2);
+  EXPECT_EQ(old.cycle.axis, "given");
+  EXPECT_EQ(old.cycle.direction, Vec3(0, 1, 1));
+  EXPECT_EQ(old.cycle.start, "random");
+  EXPECT_EQ(old.inhibition.by, "pressure");
+  EXPECT_EQ(old.inhibition.pressure_threshold, 0.21);
+  EXPECT_EQ(old.inhibition.power, 3);
+  EXPECT_EQ(old.death.mode, "lysis");
+  EXPECT_EQ(old.death.duration, 7 * 3600);
+  EXPECT_EQ(old.death.final_volume, 0.3);
+  EXPECT_EQ(old.death.softening, 0.5);
+  EXPECT_FALSE(young.cycle.time);
+  EXPECT_EQ(young.inhibition.by, "volume");
+  EXPECT_EQ(young.inhibition.volume_threshold, 0.8);
+  EXPECT_EQ(young.death.mode, "removal");
+  EXPECT_EQ(scene.life.grid, 420);
+  ASSERT_EQ(scene.life.rules.size(), 2u);
+  const LifeRule &rest = scene.life.rules[0], &die = scene.life.rules[1];
+  EXPECT_EQ(rest.action, "rest");
+  ASSERT_TRUE(rest.region);
+  EXPECT_EQ(rest.region->radius, 50);
+  EXPECT_TRUE(rest.cells.empty());
+  EXPECT_TRUE(rest.descendants);
+  EXPECT_EQ(rest.from, 0);
+  EXPECT_EQ(rest.until, 1.7 * 86400);
+  EXPECT_EQ(rest.share, 1);
+  EXPECT_EQ(die.action, "die");
+  EXPECT_FALSE(die.region);
+  // 2^53 + 1 has no double: lineage numbers are not read through one.
+  EXPECT_EQ(die.cells, (std::vector<std::int64_t>{0, 9007199254740993}));
+  EXPECT_FALSE(die.descendants);
+  EXPECT_EQ(die.from, 18000);
+  EXPECT_FALSE(die.until);
+  EXPECT_EQ(die.share, 0.25);
+}
+
+TEST(Scene, WithoutACycleNothingGrows) {
+  const Scene scene = parse_scene(kMinimal, "scene.json");
+  const CellType& type = scene.cell_types.at("hepatocyte");
+  EXPECT_FALSE(type.cycle.time);
+  EXPECT_EQ(type.inhibition.by, "none");
+  EXPECT_TRUE(scene.life.rules.empty());
+  EXPECT_EQ(scene.time.until_cells, 0);
+}
+
+TEST(Scene, ModelReplacesTheModelOfAnyScene) {
+  const auto model = [](const char* text, const std::string& to) {
+    return parse_scene(text, "scene.json", ".", {"model=" + to}).cells.model;
+  };
+  EXPECT_EQ(model(kMinimal, "cbm"), "cbm");
+  EXPECT_EQ(model(kMinimal, "auto"), "dcm");
+  // Zoom regions stay but do not count, and cells with a model of their own keep it.
+  const Scene full = parse_scene(kFull, "scene.json", ".", {"model=dcm"});
+  EXPECT_EQ(full.cells.model, "dcm");
+  EXPECT_EQ(full.cells.list[1].model, "cbm");
+  EXPECT_EQ(full.zoom.size(), 5u);
+  EXPECT_EQ(parse_scene(full.resolved_json, "scene.json").sha, full.sha);
 }
 
 TEST(Scene, ResolvedSceneReadsBackToTheSameScene) {
@@ -81,6 +152,14 @@ TEST(Scene, ResolvedSceneReadsBackToTheSameScene) {
     EXPECT_EQ(second.start_up.speed_tolerance, first.start_up.speed_tolerance);
     EXPECT_EQ(second.start_up.pressure_tolerance, first.start_up.pressure_tolerance);
     EXPECT_EQ(second.time.tolerance, first.time.tolerance);
+    for (const auto& [name, type] : first.cell_types) {
+      EXPECT_EQ(second.cell_types.at(name).cycle.time, type.cycle.time);
+    }
+    ASSERT_EQ(second.life.rules.size(), first.life.rules.size());
+    for (std::size_t i = 0; i < first.life.rules.size(); ++i) {
+      EXPECT_EQ(second.life.rules[i].until, first.life.rules[i].until);
+      EXPECT_EQ(second.life.rules[i].cells, first.life.rules[i].cells);
+    }
     ASSERT_EQ(second.walls.size(), first.walls.size());
     for (std::size_t i = 0; i < first.walls.size(); ++i) {
       EXPECT_EQ(second.walls[i].speed, first.walls[i].speed);
@@ -174,7 +253,7 @@ TEST(SceneExtends, ObjectsAreMergedAndTheRestReplaced) {
   EXPECT_EQ(scene.cell_types.at("old").dcm.cortex_young, 0.9);
   EXPECT_EQ(scene.zoom.size(), 1u);
   EXPECT_EQ(scene.lobule->height, 48);
-  EXPECT_EQ(scene.walls.size(), 2u);
+  EXPECT_EQ(scene.walls.size(), 3u);
 }
 
 TEST(SceneExtends, ErrorsNameTheFileTheyStandIn) {
@@ -318,6 +397,44 @@ TEST(ShippedScenes, TwoCellsTouch) {
   EXPECT_EQ(scene.time.end, 7200);
   EXPECT_FALSE(scene.start_up.enabled);
   EXPECT_FALSE(scene.motility.random);
+}
+
+TEST(ShippedScenes, GrowingOnesDifferAsInThePaper) {
+  const auto type_of = [](const std::string& name) {
+    return read_scene(scene_folder() + "/" + name + ".json").cell_types.at("tumour");
+  };
+  // [VanLiedekerke2020, Fig. 7], in nN/um (1e-3 J/m^2) and um^2/s.
+  const struct {
+    const char* name;
+    double adhesion, diffusion;
+  } expected[] = {{"spheroid", 1e-2, 1e-4},
+                  {"monolayer_type1", 1e-13, 1e-3},
+                  {"monolayer_type2", 1e-2, 1e-4},
+                  {"monolayer_type3", 5e-2, 1e-4}};
+  for (const auto& e : expected) {
+    const CellType type = type_of(e.name);
+    EXPECT_EQ(type.adhesion, e.adhesion) << e.name;
+    EXPECT_EQ(type.diffusion, e.diffusion) << e.name;
+    EXPECT_EQ(type.cycle.time, 86400.0) << e.name;
+    EXPECT_EQ(type.cycle.spread, 0.1) << e.name;
+    const Scene scene = read_scene(scene_folder() + "/" + e.name + ".json");
+    // Ten doublings make a thousand cells.
+    EXPECT_GT(scene.time.end, 10 * 86400) << e.name;
+    if (scene.experiment == "spheroid") continue;
+    ASSERT_EQ(scene.walls.size(), 1u) << e.name;
+    EXPECT_FALSE(scene.walls[0].mirror) << e.name;
+    EXPECT_EQ(scene.walls[0].adhesion, 0.01) << e.name;
+  }
+}
+
+TEST(ShippedScenes, EveryModelCanBeChosenFromOutside) {
+  for (const ShippedScene& scene : shipped_scenes()) {
+    for (const char* model : {"dcm", "cbm"}) {
+      const std::vector<std::string> set{std::string("model=") + model};
+      EXPECT_NO_THROW(EXPECT_EQ(read_scene(scene.file, set).cells.model, model))
+          << file_failure(scene.file, set);
+    }
+  }
 }
 
 TEST(ShippedScenes, CopiesStandAlone) {

@@ -25,20 +25,29 @@ inline constexpr const char* kMinimal = R"({
 inline constexpr const char* kFull = R"({
   // a comment
   "name": "full", "description": "every block", "seed": 18446744073709551615,
-  "experiment": "lobule",
+  "experiment": "lobule", "model": "zoom",
   "time": {"end": "2 days", "step": "30 s", "min_step": "1 ms", "adaptive": false,
-           "tolerance": "5 nm", "max_move": 0.25},
+           "tolerance": "5 nm", "max_move": 0.25, "until_cells": 300},
   "solver": {"tolerance": 1e-4, "max_iterations": 500},
   "start_up": {"enabled": true, "initial_radius": "3 um", "growth_time": "1 h"},
   "cell_types": {
     "old": {"radius": "11.3 um", "adhesion": "2.5e-5 J/m^2",
             "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_kind": "axial"},
+            "cycle": {"time": "23.7 h", "spread": 0.07, "mitosis": "50 min", "force_ramp": 0.2,
+                      "axis": "given", "direction": [0, 1, 1], "start": "random"},
+            "inhibition": {"by": "pressure", "pressure_threshold": "210 Pa", "power": 3},
+            "death": {"mode": "lysis", "duration": "7 h", "final_volume": 0.3, "softening": 0.5},
             "cbm": {"young": "450 Pa", "poisson": 0.47}},
-    "young": {"diffusion": "3e-16 m^2/s"}},
+    "young": {"diffusion": "3e-16 m^2/s",
+              "inhibition": {"by": "volume", "volume_threshold": 0.8}}},
   "cells": {"source": "list", "model": "zoom", "list": [
       {"position": ["1 um", "2.7 um", "-3 um"], "type": "old", "radius": "9 um"},
       {"position": ["40 um", "0 um", "0 um"], "type": "young", "model": "cbm",
        "pull": ["0 nN", "0 nN", "0.1 nN"]}], "grid": [2, 3, 4]},
+  "life": {"grid": "7 min", "rules": [
+      {"do": "rest", "region": {"kind": "sphere", "radius": "50 um"}, "until": "1.7 days"},
+      {"do": "die", "cells": [0, 9007199254740993], "descendants": false, "from": "5 h",
+       "share": 0.25}]},
   "zoom": [{"kind": "sphere", "center": ["0 um", "0 um", "0 um"], "radius": "30 um"},
            {"kind": "box", "low": ["0 um", "0 um", "0 um"], "high": ["1 um", "2 um", "3 um"]},
            {"kind": "half_space", "point": ["0 um", "0 um", "0 um"], "normal": [1, 0, 0.5]},
@@ -52,7 +61,9 @@ inline constexpr const char* kFull = R"({
               "crop": [["0 um", "0 um", "0 um"], ["1 um", "2 um", "3 um"]]},
   "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1]},
             {"name": "top wall", "point": ["0 um", "0 um", "72 um"], "normal": [0, 0, -1],
-             "speed": "7 um/h", "travel": "10 um"}],
+             "speed": "7 um/h", "travel": "10 um"},
+            {"name": "floor", "mirror": false, "adhesion": "1e-5 J/m^2", "young": "600 Pa",
+             "poisson": 0.4}],
   "capsule": {"radius": "100 um", "speed": "10 um/h", "min_radius": "60 um"},
   "output": {"every": "7 min", "compression": "none", "start_up": true}
   /* the end */

@@ -1,0 +1,90 @@
+#pragma once
+/// How cells grow, divide and die: constants of a cell type, and what is kept of every cell.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "core/ramp.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::coupling {
+
+enum class DivisionAxis { kRandom, kPlane, kGiven, kVessel };  // kPlane: random, horizontal
+enum class InhibitedBy { kNothing, kPressure, kVolume };
+
+/// Contact inhibition of growth, a Hill function; see growth_factor.
+struct Inhibition {
+  InhibitedBy by = InhibitedBy::kNothing;
+  double threshold = 0;  ///< kPa, or V / V0
+  double power = 4;
+};
+
+struct DeathParams {
+  bool lysis = false;          ///< false: the cell is gone at once
+  double duration = 6 * 3600;  ///< s of shrinking
+  double final_volume = 0.2;   ///< share of the volume at which it is removed
+  int type = -1;               ///< cell type with the constants of lysis
+};
+
+/// Life of one cell type.
+struct CycleParams {
+  double time = 0;          ///< s, mean cycle time; 0: cells of this type neither grow nor divide
+  double spread = 0.1;      ///< relative standard deviation, truncated at 3
+  double mitosis = 3600;    ///< s over which the cortex of new daughters forgets the shape of birth
+  double force_ramp = 0.1;  ///< share of the cycle over which forces on new spheres rise
+  DivisionAxis axis = DivisionAxis::kRandom;
+  Vec3 direction = Vec3::UnitX();  ///< with kGiven: from one daughter to the other
+  bool random_start = false;       ///< cells of the start are anywhere in their cycle
+  Inhibition inhibition;
+  DeathParams death;
+};
+
+/// Cells that rest, or die, by decree.
+struct LifeRule {
+  bool die = false;
+  std::function<bool(const Vec3&)> inside;  ///< of a cell's centre; empty: everywhere
+  std::vector<std::int64_t> cells;          ///< lineage numbers; empty: all
+  bool descendants = true;                  ///< `cells` are founders: their offspring too
+  double from = 0, until = std::numeric_limits<double>::infinity();  ///< s since t = 0
+  double share = 1;                                                  ///< probability per cell
+};
+
+struct LifeParams {
+  std::vector<CycleParams> type;  ///< [cell type]
+  std::vector<LifeRule> rule;
+  double grid = 600;  ///< s, how often rules and inhibition are looked at
+  std::uint64_t seed = 1;
+};
+
+enum class Fate : std::int8_t { kIdle, kGrow, kRest, kLyse };
+
+/// What is kept of a cell's life.
+struct Cycle {
+  std::int64_t parent = -1;   ///< lineage; -1: there from the start
+  std::int64_t founder = -1;  ///< lineage of the ancestor that was there from the start
+  Fate fate = Fate::kIdle;
+  double birth = 0;         ///< s, clock time
+  double birth_volume = 0;  ///< um^3; a cell divides when its reference volume has doubled
+  double duration = 0;      ///< s, its own cycle time without inhibition
+  double wait_until = 0;    ///< s, clock time before which a failed division is not tried again
+};
+
+/// Mean cycle time of the type with the cell's own Gaussian deviation, s.
+double draw_cycle_time(const CycleParams& p, std::uint64_t seed, std::int64_t lineage);
+
+/// Share of its cycle a cell of the start has behind it, [0, 1): its reference volume is (1 + age)
+/// times that at birth. 0 unless the type starts at random.
+double draw_start_age(const CycleParams& p, std::uint64_t seed, std::int64_t lineage);
+
+/// Reference volume from now on: grows at alpha = birth volume / cycle time until it has doubled.
+/// [VanLiedekerke2020, Eq. (18)]
+/// @param factor  of growth_factor; 0 keeps the volume
+Ramp growth_from(const Cycle& cycle, double volume_now, double time, double factor);
+
+/// Share of the free growth rate: 1 / (1 + (p / p0)^n) by pressure, x^n / (1 + x^n) with
+/// x = (V / V0) / threshold by volume.
+double growth_factor(const Inhibition& p, double pressure, double relative_volume);
+
+}  // namespace acinus::coupling

@@ -1,0 +1,204 @@
+#include "coupling/life/division.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/mesh/inner_ball.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/random.hpp"
+#include "coupling/audit_body.hpp"
+#include "coupling/life/fill.hpp"
+#include "dcm/split.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+constexpr int kMostPlanes = 8;
+/// A daughter's mesh with a worse triangle than this is not accepted.
+constexpr double kLeastQuality = 0.1;
+/// How far later planes turn away from the wanted axis: the share of a random direction.
+constexpr double kTurn = 0.5;
+/// Nodes nearer the cut than this share of a mean edge lie on it and stay there when the volume is
+/// made exact: the sister is on the other side.
+constexpr double kOnCut = 0.15;
+
+/// A start in a folded half, as a share of its largest ball.
+constexpr double kSeed = 0.9;
+
+Vec3 random_direction(const World& world, std::int64_t lineage, int attempt) {
+  const Vec3 v =
+      normal3({world.params.life.seed, Purpose::kDivisionAxis, static_cast<std::uint64_t>(lineage),
+               0, static_cast<std::uint32_t>(attempt)});
+  return v.normalized();
+}
+
+/// Direction of the vessel segment nearest to a point; nothing without vessels.
+Vec3 nearest_vessel(const mesh::Network& network, const Vec3& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  Vec3 direction = Vec3::Zero();
+  for (std::size_t s = 0; s < network.segment.size(); ++s) {
+    const double gap = contact::gap_to_segment(network, static_cast<int>(s), x).gap;
+    if (gap >= nearest) continue;
+    nearest = gap;
+    const auto [a, b] = network.segment[s];
+    direction =
+        network.node[static_cast<std::size_t>(b)] - network.node[static_cast<std::size_t>(a)];
+  }
+  return direction.norm() > 0 ? direction.normalized() : Vec3::Zero();
+}
+
+/// The mother as the split sees her.
+struct Mother {
+  std::vector<Vec3> node;
+  const mesh::Topology* topology = nullptr;
+  double volume = 0, area = 0;  ///< um^3, um^2
+  double rest_volume = 0;       ///< um^3
+  double stretch = 1;           ///< area over its reference
+};
+
+Mother look_at(const World& world, std::size_t lane) {
+  const State& s = world.state;
+  Mother m;
+  m.topology = s.dcm.group[lane / kLanes].topology;
+  dcm::copy_nodes(s.dcm, lane, m.node);
+  m.volume = mesh::compute_volume(m.node, m.topology->triangle);
+  m.area = mesh::compute_area(m.node, m.topology->triangle);
+  m.rest_volume = s.dcm.volume[lane].at(s.clock.time);
+  const double r = std::cbrt(m.rest_volume / (4.0 / 3 * kPi));
+  m.stretch = m.area / (m.topology->rest_area * r * r);
+  return m;
+}
+
+/// Farthest of the nodes outside a closed surface, um.
+double farthest_outside(const std::vector<Vec3>& node, const AuditBody& body) {
+  double farthest = 0;
+  for (const Vec3& x : node)
+    if (body.side(x) == Side::kOutside) farthest = std::max(farthest, body.distance(x));
+  return farthest;
+}
+
+const char* describe(dcm::SplitFailure failure) {
+  switch (failure) {
+    case dcm::SplitFailure::kNone:
+      break;
+    case dcm::SplitFailure::kNoHalving:
+      return "no plane halves the volume";
+    case dcm::SplitFailure::kSeveralLoops:
+      return "the plane cuts the cell in more than one place";
+    case dcm::SplitFailure::kNotStarShaped:
+      return "a half is folded";
+    case dcm::SplitFailure::kNoVolume:
+      return "half the volume does not fit";
+  }
+  return "";
+}
+
+/// What is wrong with a daughter's mesh, or empty.
+std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& node) {
+  if (mesh::compute_quality(node, topology.triangle) < kLeastQuality)
+    return "a daughter's mesh is too distorted";
+  if (AuditBody(node, topology.triangle).self_intersects()) return "a daughter crosses herself";
+  return {};
+}
+
+/// Fills a half that no point sees whole: a ball inside it is blown up until it fills the mother's
+/// surface, which stands still.   @return empty, or what is wrong
+std::string blow_up(const World& world, int type, const Mother& mother, const mesh::CutPlane& plane,
+                    const mesh::Surface& half, std::vector<Vec3>& node, int& steps) {
+  const mesh::Topology& topology = *mother.topology;
+  const mesh::InnerBall ball = mesh::find_inner_ball(half);
+  if (!(ball.radius > 0)) return "a half has no inside";
+  std::vector<Vec3> seed;
+  for (const Vec3& x : topology.rest) seed.push_back(ball.center + kSeed * ball.radius * x);
+  const Filling filling = fill(world, type, topology, seed, half);
+  steps = filling.steps;
+  if (!filling.ok) return filling.cause;
+  node = filling.node;
+  const double edge = topology.mean_rest_length * std::cbrt(0.5 * mother.volume / (4.0 / 3 * kPi));
+  std::vector<double> weight;
+  for (const Vec3& x : node)
+    weight.push_back(std::abs(plane.normal.dot(x) - plane.offset) < kOnCut * edge ? 0 : 1);
+  if (!dcm::match_volume(topology, 0.5 * mother.volume, weight, node))
+    return "half the volume does not fit";
+  return {};
+}
+
+/// Both daughters on either side of a plane.   @return empty, or what is wrong with it
+std::string try_plane(const World& world, int type, const Mother& mother, const Vec3& axis,
+                      Daughters& daughters) {
+  const dcm::Split split = dcm::split_cell(*mother.topology, mother.node, axis);
+  std::string why;
+  if (split.daughters) {
+    daughters.node = split.daughters->node;
+  } else if (split.failure == dcm::SplitFailure::kNotStarShaped ||
+             split.failure == dcm::SplitFailure::kNoVolume) {
+    const auto plane = mesh::find_halving_plane(mother.node, mother.topology->triangle, axis);
+    const mesh::Cut cut = mesh::cut_surface(mother.node, mother.topology->triangle, *plane);
+    for (std::size_t k = 0; k < 2 && why.empty(); ++k) {
+      int steps = 0;
+      why = blow_up(world, type, mother, *plane, cut.half[k], daughters.node[k], steps);
+      daughters.figures.steps += steps;
+    }
+  } else {
+    why = describe(split.failure);
+  }
+  for (std::size_t k = 0; k < 2 && why.empty(); ++k)
+    why = find_fault(*mother.topology, daughters.node[k]);
+  return why;
+}
+
+}  // namespace
+
+Vec3 division_axis(const World& world, const CycleParams& cycle, std::int64_t lineage,
+                   const Vec3& center, int attempt) {
+  Vec3 random = random_direction(world, lineage, attempt);
+  if (cycle.axis == DivisionAxis::kPlane) {
+    random.z() = 0;
+    random.normalize();
+  }
+  Vec3 wanted = Vec3::Zero();
+  if (cycle.axis == DivisionAxis::kGiven) wanted = cycle.direction.normalized();
+  if (cycle.axis == DivisionAxis::kVessel)
+    wanted = nearest_vessel(world.params.around.vessels.network, center);
+  if (wanted.isZero()) return random;
+  return attempt == 0 ? wanted : (wanted + kTurn * random).normalized();
+}
+
+bool split_shell(const World& world, std::size_t lane, Daughters& daughters, std::string& why) {
+  const State& s = world.state;
+  const Mother mother = look_at(world, lane);
+  const int type = s.dcm.group[lane / kLanes].type;
+  const CycleParams& cycle = world.params.life.type[static_cast<std::size_t>(type)];
+  const Vec3 center = mesh::compute_centroid(mother.node, mother.topology->triangle);
+  const std::int64_t lineage = s.dcm.lineage[lane];
+  DivisionFigures& f = daughters.figures;
+  f.mother = lineage;
+  for (int attempt = 0; attempt < kMostPlanes; ++attempt) {
+    f.planes = attempt + 1;
+    daughters.axis = division_axis(world, cycle, lineage, center, attempt);
+    why = try_plane(world, type, mother, daughters.axis, daughters);
+    if (why.empty()) break;
+  }
+  if (!why.empty()) return false;
+
+  const AuditBody body(mother.node, mother.topology->triangle);
+  const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
+  const double before = dcm::cytosol_pressure(bulk, mother.volume, mother.rest_volume);
+  daughters.stretch = mother.stretch;
+  for (const std::vector<Vec3>& node : daughters.node) {
+    const double volume = mesh::compute_volume(node, mother.topology->triangle);
+    f.volume_error =
+        std::max(f.volume_error, std::abs(volume - 0.5 * mother.volume) / mother.volume);
+    f.outside = std::max(f.outside, farthest_outside(node, body));
+    f.min_quality = std::min(f.min_quality, mesh::compute_quality(node, mother.topology->triangle));
+    f.pressure_change =
+        std::max(f.pressure_change,
+                 std::abs(dcm::cytosol_pressure(bulk, volume, 0.5 * mother.rest_volume) - before));
+  }
+  return true;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,89 @@
+#include "coupling/life/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/measures.hpp"
+#include "coupling/step.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Friction with the medium and within the cortex, nN s/um^3 and nN s/um: far below that of any
+/// tissue, so that a few seconds bring the cell to rest.
+constexpr double kFriction = 1e-3;
+/// First step and time over which the volume grows, s.
+constexpr double kFirstStep = 0.02, kGrowth = 2;
+/// At rest: no node moves farther in a step at least this long.
+constexpr double kRestMove = 0.01, kRestStep = 1;  // um, s
+constexpr int kMostSteps = 150;
+/// Share of the enclosed volume from which a start counts as filling already.
+constexpr double kNearlyFull = 0.9;
+
+double reference_radius(double volume) { return std::cbrt(volume / (4.0 / 3 * kPi)); }
+
+contact::StaticMesh make_envelope(const mesh::Surface& surface) {
+  contact::StaticMesh m;
+  m.name = "mother";
+  m.inside = true;
+  m.triangle = surface.triangle;
+  for (auto& t : m.triangle) std::swap(t[1], t[2]);
+  m.body.node = surface.node;
+  return m;
+}
+
+}  // namespace
+
+Filling fill(const World& world, int type, const mesh::Topology& topology,
+             const std::vector<Vec3>& node, const mesh::Surface& envelope) {
+  World small;
+  dcm::Params p = world.params.dcm[static_cast<std::size_t>(type)];
+  p.medium_friction = kFriction;
+  p.nodal_friction = kFriction;
+  p.viscosity = p.diffusion = p.adhesion = p.vessel_friction = 0;
+  small.params.dcm = {p};
+  small.params.dcm_contact = world.params.dcm_contact;
+  small.params.dcm_contact.quadrature = contact::Quadrature::kThreePoint;
+  small.params.dcm_contact.cell_friction = 0;
+  small.params.numerics.min_step = 1e-7;
+  small.params.numerics.cg = world.params.numerics.cg;
+  small.params.around.meshes.push_back(make_envelope(envelope));
+  contact::StaticMesh& m = small.params.around.meshes.front();
+  m.body.triangle = &m.triangle;
+  contact::refresh_body(m.body);
+
+  const double full = mesh::compute_volume(envelope.node, envelope.triangle);
+  const double start = std::min(full, mesh::compute_volume(node, topology.triangle));
+  const double radius = reference_radius(full);
+  State& s = small.state;
+  s.dcm = dcm::make_state({{0, 0, &topology, Vec3::Zero(), radius}});
+  for (int i = 0; i < topology.n_node; ++i)
+    store_point(s.dcm.position.data(), dcm::node_address(s.dcm, 0, i),
+                node[static_cast<std::size_t>(i)]);
+  if (start < kNearlyFull * full) s.dcm.volume[0] = {start, full, 0, kGrowth};
+  dcm::BirthShape& shape = s.dcm.birth[0];
+  shape.weight = Ramp::constant(1);
+  shape.area =
+      mesh::compute_area(envelope.node, envelope.triangle) / (topology.rest_area * radius * radius);
+  shape.edge.assign(topology.edge.size(), std::sqrt(shape.area));
+  shape.triangle.assign(topology.triangle.size(), shape.area);
+  s.clock.step = kFirstStep;
+
+  Filling filling;
+  Workspace work;
+  size_workspace(small, work);
+  for (filling.steps = 0; filling.steps < kMostSteps;) {
+    const StepResult step = advance(small, work, small.params.numerics.max_step);
+    if (!step.accepted) {
+      filling.ok = false;
+      filling.cause = "the daughter cannot unfold: " + step.cause;
+      return filling;
+    }
+    ++filling.steps;
+    if (s.clock.time > kGrowth && step.step >= kRestStep && step.max_move < kRestMove) break;
+  }
+  dcm::copy_nodes(s.dcm, 0, filling.node);
+  return filling;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,231 @@
+#include "coupling/life/life.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cbm/division.hpp"
+#include "coupling/life/rules.hpp"
+#include "coupling/life/sleep.hpp"
+#include "coupling/population.hpp"
+#include "coupling/step.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A cell whose division failed waits this long before it is tried again, s.
+constexpr double kWait = 600;
+
+/// Cells to come. Entry k of each list belongs to cell k.
+struct Newborn {
+  std::vector<dcm::NewCell> shell;
+  std::vector<std::vector<Vec3>> node;
+  std::vector<double> stretch;
+  std::vector<double> mitosis;  ///< s
+  std::vector<Cycle> shell_cycle;
+  std::vector<cbm::NewCell> sphere;
+  std::vector<Cycle> sphere_cycle;
+};
+
+Cycle inherit(const World& world, const Cell& mother, std::int64_t lineage) {
+  const State& s = world.state;
+  const Cycle& m = s.cycle[mother.index];
+  Cycle c;
+  c.parent = lineage_of(s, mother);
+  c.founder = m.founder;
+  c.fate = Fate::kGrow;
+  c.birth = s.clock.time;
+  c.birth_volume = m.birth_volume;
+  c.duration = draw_cycle_time(cycle_of(world.params, s, mother), world.params.life.seed, lineage);
+  return c;
+}
+
+std::string describe(const Vec3& axis) {
+  return fmt::format("along ({:.3f}, {:.3f}, {:.3f})", axis.x(), axis.y(), axis.z());
+}
+
+void bear_spheres(World& world, const Cell& mother, Newborn& born, LifeReport& report) {
+  State& s = world.state;
+  const CycleParams& p = cycle_of(world.params, s, mother);
+  const std::int64_t parent = lineage_of(s, mother);
+  const Vec3 center = center_of(s, mother);
+  const int type = type_of(s, mother);
+  const double radius = std::cbrt(volume_of(s, mother).at(s.clock.time) / (4.0 / 3 * kPi));
+  const Vec3 axis = division_axis(world, p, parent, center, 0);
+  const cbm::Daughters daughters =
+      cbm::divide({center, radius, axis, 1, s.clock.time, p.force_ramp * p.time});
+  for (const Vec3& place : daughters.center) {
+    const std::int64_t id = s.next_lineage++;
+    born.sphere_cycle.push_back(inherit(world, mother, id));
+    born.sphere.push_back({id, type, place, daughters.radius,
+                           cbm::draw_young(world.params.cbm[static_cast<std::size_t>(type)],
+                                           world.params.life.seed, id),
+                           s.cbm.pull[mother.at], daughters.strength});
+  }
+  report.events.push_back(
+      {"division", {parent, s.next_lineage - 2, s.next_lineage - 1}, describe(axis)});
+}
+
+void bear_shells(World& world, const Cell& mother, const Daughters& daughters, Newborn& born,
+                 LifeReport& report) {
+  State& s = world.state;
+  const std::int64_t parent = lineage_of(s, mother);
+  const dcm::Group& group = s.dcm.group[mother.at / kLanes];
+  const double radius = std::cbrt(volume_of(s, mother).at(s.clock.time) / (8.0 / 3 * kPi));
+  for (const std::vector<Vec3>& node : daughters.node) {
+    const std::int64_t id = s.next_lineage++;
+    born.shell_cycle.push_back(inherit(world, mother, id));
+    born.shell.push_back({id, group.type, group.topology, Vec3::Zero(), radius,
+                          s.dcm.pull[mother.at], Mat3::Identity()});
+    born.node.push_back(node);
+    born.stretch.push_back(daughters.stretch);
+    born.mitosis.push_back(cycle_of(world.params, s, mother).mitosis);
+  }
+  const DivisionFigures& f = daughters.figures;
+  report.events.push_back(
+      {"division",
+       {parent, s.next_lineage - 2, s.next_lineage - 1},
+       describe(daughters.axis) + fmt::format(", {} planes, {} steps, volume {:.1e}, outside "
+                                              "{:.2f} um",
+                                              f.planes, f.steps, f.volume_error, f.outside)});
+  report.divisions.push_back(f);
+}
+
+/// The newborn as a state of their own.
+State make_state(const Newborn& born, double time) {
+  State s;
+  s.dcm = dcm::make_state(born.shell);
+  s.cbm = cbm::make_state(born.sphere);
+  s.cycle.assign(s.dcm.n_lane() + s.cbm.n_cell(), Cycle{});
+  for (std::size_t k = 0; k < born.shell.size(); ++k) {
+    const auto lane = static_cast<std::size_t>(
+        std::ranges::find(s.dcm.lineage, born.shell[k].lineage) - s.dcm.lineage.begin());
+    for (std::size_t i = 0; i < born.node[k].size(); ++i)
+      store_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, static_cast<int>(i)),
+                  born.node[k][i]);
+    s.dcm.birth[lane] =
+        dcm::make_birth_shape(*born.shell[k].topology, born.node[k], born.shell[k].radius,
+                              born.stretch[k], {1, 0, time, time + born.mitosis[k]});
+    s.cycle[lane] = born.shell_cycle[k];
+  }
+  for (std::size_t k = 0; k < born.sphere.size(); ++k)
+    s.cycle[cell_index(s, k)] = born.sphere_cycle[k];
+  return s;
+}
+
+/// Splits all deformable mothers; the two halves of many are worked on by all threads.
+void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born,
+                   std::vector<std::uint8_t>& gone, LifeReport& report) {
+  std::vector<Daughters> daughters(mothers.size());
+  std::vector<std::string> why(mothers.size());
+  std::vector<std::uint8_t> done(mothers.size(), 0);
+#pragma omp parallel for schedule(dynamic, 1) if (mothers.size() > 1)
+  for (std::size_t k = 0; k < mothers.size(); ++k)
+    done[k] = split_shell(world, mothers[k].at, daughters[k], why[k]) ? 1 : 0;
+  for (std::size_t k = 0; k < mothers.size(); ++k) {
+    State& s = world.state;
+    if (done[k] != 0) {
+      gone[mothers[k].index] = 1;
+      bear_shells(world, mothers[k], daughters[k], born, report);
+      continue;
+    }
+    s.cycle[mothers[k].index].wait_until = s.clock.time + kWait;
+    report.events.push_back({"division_waits",
+                             {lineage_of(s, mothers[k])},
+                             fmt::format("no plane divides it cleanly: {}", why[k])});
+  }
+}
+
+/// Starts to shrink a cell.
+void begin_lysis(World& world, const Cell& c, LifeReport& report) {
+  State& s = world.state;
+  const DeathParams& p = cycle_of(world.params, s, c).death;
+  const double t = s.clock.time, volume = volume_of(s, c).at(t);
+  volume_of(s, c) = {volume, p.final_volume * volume, t, t + p.duration};
+  s.cycle[c.index].fate = Fate::kLyse;
+  report.events.push_back({"lysis", {lineage_of(s, c)}, "shrinks"});
+}
+
+/// Survivors and newborn in one state, neighbours near each other.
+void replace_cells(World& world, const std::vector<std::uint8_t>& gone,
+                   const std::vector<std::uint8_t>& dissolves, const State& born) {
+  const State& s = world.state;
+  std::vector<Member> shells, spheres;
+  for_each_cell(s, [&](const Cell& c) {
+    if (gone[c.index] != 0) return;
+    const int type = dissolves[c.index] != 0 ? cycle_of(world.params, s, c).death.type : -1;
+    (c.deformable ? shells : spheres).push_back({&s, c.at, type});
+  });
+  for (const Member& m : list_dcm(born)) shells.push_back(m);
+  for (const Member& m : list_cbm(born)) spheres.push_back(m);
+  sort_by_place(shells, spheres);
+  world.state = compose(shells, spheres, s);
+}
+
+/// Division and death.
+LifeReport turn_over(World& world, Workspace& work) {
+  LifeReport report;
+  if (world.state.cycle.empty()) return report;
+  Plan plan = make_plan(world, work);
+  if (plan.empty()) return report;
+  const auto scope = work.timings.scope("life");
+  State& s = world.state;
+  std::vector<std::uint8_t> gone(s.cycle.size(), 0), dissolves(s.cycle.size(), 0);
+  Newborn born;
+  for (const Cell& c : plan.remove) {
+    gone[c.index] = 1;
+    ++s.deaths;
+    report.events.push_back({"death", {lineage_of(s, c)}, "removed"});
+  }
+  for (const Cell& c : plan.lyse) {
+    dissolves[c.index] = 1;
+    begin_lysis(world, c, report);
+  }
+  // In the order of their numbers: who is born when must not depend on how cells are stored.
+  std::ranges::sort(plan.divide, {}, [&](const Cell& c) { return lineage_of(s, c); });
+  std::vector<Cell> shells;
+  for (const Cell& c : plan.divide) {
+    if (c.deformable) {
+      shells.push_back(c);
+      continue;
+    }
+    gone[c.index] = 1;
+    bear_spheres(world, c, born, report);
+  }
+  divide_shells(world, shells, born, gone, report);
+  s.divisions += std::ssize(born.shell) / 2 + std::ssize(born.sphere) / 2;
+  const State newborn = make_state(born, s.clock.time);
+  replace_cells(world, gone, dissolves, newborn);
+  for_each_cell(s, [&](const Cell& c) {  // new cells start to grow, or rest where a rule says so
+    if (s.cycle[c.index].parent >= 0 && s.cycle[c.index].birth == s.clock.time)
+      set_growth(world.params, s, c, 1);
+  });
+  if (!born.shell.empty()) {
+    std::vector<std::int64_t> daughters;
+    for (const dcm::NewCell& c : born.shell) daughters.push_back(c.lineage);
+    const Settled settled = settle_daughters(world, daughters);
+    for (DivisionFigures& f : report.divisions) {
+      f.neighbour_shift = settled.neighbour_shift;
+      f.node_shift = settled.node_shift;
+      f.steps += settled.steps;
+    }
+    if (!settled.ok) report.events.push_back({"settling_failed", daughters, settled.cause});
+  }
+  size_workspace(world, work);
+  return report;
+}
+
+}  // namespace
+
+LifeReport live(World& world, Workspace& work) {
+  LifeReport report = turn_over(world, work);
+  update_sleep(world, work);
+  return report;
+}
+
+double time_to_event(const World& world) {
+  return std::min(time_to_life_event(world), time_to_sleep_event(world));
+}
+
+}  // namespace acinus::coupling

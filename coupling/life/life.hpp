@@ -1,0 +1,33 @@
+#pragma once
+/// The events between steps: cells enter and leave their cycle, divide and die.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "coupling/life/division.hpp"
+#include "coupling/workspace.hpp"
+#include "coupling/world.hpp"
+
+namespace acinus::coupling {
+
+struct LifeEvent {
+  std::string code;                 ///< division | division_waits | death | lysis
+  std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
+  std::string message;
+};
+
+struct LifeReport {
+  std::vector<LifeEvent> events;
+  std::vector<DivisionFigures> divisions;  ///< of deformable cells
+};
+
+/// Stage 5 of a step: applies rules and inhibition on their time grid, then divides what has
+/// doubled its reference volume and removes what is dead. Time stands still. The workspace is sized
+/// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp).
+LifeReport live(World& world, Workspace& work);
+
+/// Time until live() has to be called next, s; infinite if nothing is due on a time grid.
+double time_to_event(const World& world);
+
+}  // namespace acinus::coupling

@@ -1,0 +1,138 @@
+#include "coupling/life/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.hpp"
+#include "coupling/life/sleep.hpp"
+#include "coupling/measure.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+constexpr double kDoubled = 1 - 1e-9;  ///< share of twice the birth volume that counts as reached
+
+bool applies(const LifeParams& p, std::size_t number, const State& s, const Cell& c) {
+  const LifeRule& r = p.rule[number];
+  const double t = time_of(s);
+  if (t < r.from || t >= r.until) return false;
+  const std::int64_t lineage = lineage_of(s, c);
+  const std::int64_t named = r.descendants ? s.cycle[c.index].founder : lineage;
+  if (!r.cells.empty() && !std::ranges::binary_search(r.cells, named)) return false;
+  if (r.inside && !r.inside(center_of(s, c))) return false;
+  return r.share >= 1 || uniform({p.seed, Purpose::kLifeRule, static_cast<std::uint64_t>(lineage),
+                                  number, 0}) < r.share;
+}
+bool applies_any(const LifeParams& p, bool die, const State& s, const Cell& c) {
+  for (std::size_t k = 0; k < p.rule.size(); ++k)
+    if (p.rule[k].die == die && applies(p, k, s, c)) return true;
+  return false;
+}
+
+bool is_inhibited(const CycleParams& p) { return p.inhibition.by != InhibitedBy::kNothing; }
+
+/// Relative growth rates, [dcm lanes, then cbm cells]. Those of sleepers are looked at as well:
+/// they may grow when a rule ends.
+std::vector<double> growth_factors(const World& world, Workspace& work) {
+  const State& s = world.state;
+  std::vector<double> factor(s.cycle.size(), 1.0);
+  if (std::ranges::none_of(world.params.life.type, is_inhibited)) return factor;
+  Workspace& watch = waking_workspace(world, work);
+  observe(world, watch);
+  const std::vector<CellMeasure> measured = measure_cells(world, watch);
+  std::size_t k = 0;
+  for_each_cell(s, [&](const Cell& c) {
+    const CellMeasure& m = measured[k++];
+    const double relative = m.volume / (4.0 / 3 * kPi * std::pow(m.radius, 3));
+    factor[c.index] = growth_factor(cycle_of(world.params, s, c).inhibition, m.pressure, relative);
+  });
+  return factor;
+}
+
+void look_at_rules(World& world, Workspace& work, Plan& plan) {
+  State& s = world.state;
+  const LifeParams& p = world.params.life;
+  const auto now = static_cast<std::int64_t>(std::floor(time_of(s) / p.grid + 1e-9));
+  if (now == s.life_interval) return;
+  s.life_interval = now;
+  const std::vector<double> factor = growth_factors(world, work);
+  for_each_cell(s, [&](const Cell& c) {
+    Cycle& cycle = s.cycle[c.index];
+    if (cycle.fate == Fate::kLyse) return;
+    if (applies_any(p, true, s, c)) {
+      (cycle_of(world.params, s, c).death.lysis ? plan.lyse : plan.remove).push_back(c);
+      return;
+    }
+    if (cycle.duration > 0 && (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty()))
+      set_growth(world.params, s, c, factor[c.index]);
+  });
+}
+
+void look_at_clocks(const World& world, Plan& plan) {
+  const State& s = world.state;
+  const double t = s.clock.time;
+  std::vector<std::uint8_t> dies(s.cycle.size(), 0);
+  for (const std::vector<Cell>* list : {&plan.remove, &plan.lyse})
+    for (const Cell& c : *list) dies[c.index] = 1;
+  for_each_cell(s, [&](const Cell& c) {
+    if (dies[c.index] != 0) return;  // a rule took it just now: it does not divide any more
+    const Cycle& cycle = s.cycle[c.index];
+    const Ramp& volume = c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+    if (cycle.fate == Fate::kGrow && t >= cycle.wait_until &&
+        volume.at(t) >= 2 * cycle.birth_volume * kDoubled)
+      plan.divide.push_back(c);
+    if (cycle.fate == Fate::kLyse && t >= volume.end) plan.remove.push_back(c);
+  });
+}
+
+}  // namespace
+
+bool has_life(const Params& p) {
+  return !p.life.rule.empty() ||
+         std::ranges::any_of(p.life.type, [](const CycleParams& c) { return c.time > 0; });
+}
+
+void set_growth(const Params& p, State& s, const Cell& c, double factor) {
+  Cycle& cycle = s.cycle[c.index];
+  if (applies_any(p.life, false, s, c)) factor = 0;
+  cycle.fate = factor > 0 ? Fate::kGrow : Fate::kRest;
+  Ramp& volume = volume_of(s, c);
+  volume = growth_from(cycle, volume.at(s.clock.time), s.clock.time, factor);
+}
+
+void begin_life(World& world) {
+  if (!has_life(world.params)) return;
+  State& s = world.state;
+  const LifeParams& p = world.params.life;
+  s.cycle.assign(s.dcm.n_lane() + s.cbm.n_cell(), Cycle{});
+  for_each_cell(s, [&](const Cell& c) {
+    const std::int64_t lineage = lineage_of(s, c);
+    Cycle& cycle = s.cycle[c.index];
+    cycle.founder = lineage;
+    cycle.birth = s.clock.time;
+    const CycleParams& type = cycle_of(world.params, s, c);
+    if (type.time <= 0) return;
+    cycle.birth_volume =
+        volume_of(s, c).at(s.clock.time) / (1 + draw_start_age(type, p.seed, lineage));
+    cycle.duration = draw_cycle_time(type, p.seed, lineage);
+    set_growth(world.params, s, c, 1);
+  });
+}
+
+Plan make_plan(World& world, Workspace& work) {
+  Plan plan;
+  look_at_rules(world, work, plan);
+  look_at_clocks(world, plan);
+  return plan;
+}
+
+double time_to_life_event(const World& world) {
+  const LifeParams& p = world.params.life;
+  if (p.rule.empty() && std::ranges::none_of(p.type, is_inhibited))
+    return std::numeric_limits<double>::infinity();
+  const double t = time_of(world.state);
+  return (std::floor(t / p.grid + 1e-9) + 1) * p.grid - t;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,115 @@
+#include "coupling/life/sleep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "coupling/life/cell.hpp"
+#include "coupling/measure.hpp"
+#include "coupling/step.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Looks in a row at which a cell must be in balance before it sleeps.
+constexpr int kQuietLooks = 2;
+/// How much farther out of balance a sleeper must be to wake than a cell that falls asleep.
+constexpr double kWake = 2;
+
+/// Whether nothing makes the cell move by itself.
+bool may_sleep(const State& s, const Cell& c) {
+  const double t = s.clock.time;
+  const Ramp& volume = c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+  if (t < volume.end && volume.from != volume.to) return false;
+  if (c.index < s.leader.size() && s.leader[c.index] != 0) return false;
+  return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
+}
+
+/// Sleepers last, both parts along the space-filling curve, so that whole groups sleep.
+void sort_sleepers(World& world) {
+  const State& s = world.state;
+  std::vector<Member> shells = list_dcm(s), spheres = list_cbm(s);
+  sort_by_place(shells, spheres);
+  std::ranges::stable_partition(shells, [&](const Member& m) { return s.asleep[m.index] == 0; });
+  std::ranges::stable_partition(
+      spheres, [&](const Member& m) { return s.asleep[cell_index(s, m.index)] == 0; });
+  world.state = compose(shells, spheres, s);
+}
+
+}  // namespace
+
+int count_asleep(const State& s) {
+  return static_cast<int>(std::ranges::count(s.asleep, std::uint8_t{1}));
+}
+
+Workspace& waking_workspace(const World& world, Workspace& work) {
+  if (world.state.asleep.empty()) return work;
+  if (!work.watch) {
+    work.watch = std::make_shared<Workspace>();
+    work.watch->all_awake = true;
+    size_workspace(world, *work.watch);
+  }
+  return *work.watch;
+}
+
+std::vector<double> unbalanced_traction(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  std::vector<double> traction(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
+  const auto force_at = [&](Address a) -> Vec3 {
+    return load_point(w.system.force.data(), a) + load_point(w.system.external_force.data(), a);
+  };
+  for_each_cell(s, [&](const Cell& c) {
+    if (!c.deformable) {
+      const double r = w.cbm_radius[c.at];
+      traction[c.index] =
+          force_at(cbm::cell_address(s.dcm.n_row(), c.at)).norm() / (4 * kPi * r * r);
+      return;
+    }
+    const mesh::Topology& t = *s.dcm.group[c.at / kLanes].topology;
+    const double r2 = w.lanes.radius[c.at] * w.lanes.radius[c.at];
+    double sum = 0;
+    for (int i = 0; i < t.n_node; ++i)
+      sum += force_at(dcm::node_address(s.dcm, c.at, i)).squaredNorm() /
+             (t.rest_node_area[static_cast<std::size_t>(i)] * r2);
+    traction[c.index] = std::sqrt(sum / (t.rest_area * r2));
+  });
+  return traction;
+}
+
+double time_to_sleep_event(const World& world) {
+  const Sleep& p = world.params.sleep;
+  if (!p.enabled || world.state.clock.phase != Phase::kRun)
+    return std::numeric_limits<double>::infinity();
+  const double t = time_of(world.state);
+  return (std::floor(t / p.grid + 1e-9) + 1) * p.grid - t;
+}
+
+bool update_sleep(World& world, Workspace& work) {
+  State& s = world.state;
+  const Sleep& p = world.params.sleep;
+  if (!p.enabled || s.clock.phase != Phase::kRun) return false;
+  const auto now = static_cast<std::int64_t>(std::floor(time_of(s) / p.grid + 1e-9));
+  if (now == s.sleep_interval) return false;
+  s.sleep_interval = now;
+  Workspace& watch = waking_workspace(world, work);
+  observe(world, watch);
+  const std::vector<double> traction = unbalanced_traction(world, watch);
+  std::vector<std::uint8_t> asleep = s.asleep;
+  asleep.resize(traction.size(), 0);
+  s.quiet.resize(traction.size(), 0);
+  for_each_cell(s, [&](const Cell& c) {
+    std::uint8_t& quiet = s.quiet[c.index];
+    const double limit = asleep[c.index] != 0 ? kWake * p.traction : p.traction;
+    quiet = !may_sleep(s, c) || traction[c.index] > limit
+                ? std::uint8_t{0}
+                : static_cast<std::uint8_t>(std::min<int>(quiet + 1, kQuietLooks));
+    asleep[c.index] = quiet >= kQuietLooks ? 1 : 0;
+  });
+  if (asleep == s.asleep || (s.asleep.empty() && std::ranges::count(asleep, 1) == 0)) return false;
+  s.asleep = std::move(asleep);
+  sort_sleepers(world);
+  size_workspace(world, work);
+  return true;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,162 @@
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+namespace {
+
+void describe_rule(Visitor& v, LifeRule& b) {
+  v.text({.name = "do",
+          .meaning = "rest: the cells do not grow while the rule holds for them; die: they die as "
+                     "soon as it holds",
+          .choices = "rest|die",
+          .required = true},
+         b.action);
+  optional_block(v, {.name = "region", .meaning = "where the cells must be; null = anywhere"},
+                 b.region, describe_region);
+  v.integers({.name = "cells",
+              .meaning = "lineage numbers of the cells, from 0 in the order of the start; [] = all",
+              .range = kNotNegative},
+             b.cells);
+  v.flag({.name = "descendants", .meaning = "the rule is also for the descendants of its cells"},
+         b.descendants);
+  v.real({.name = "from",
+          .meaning = "time after t = 0 at which the rule begins",
+          .dimension = kTime,
+          .unit = "h",
+          .range = kNotNegative},
+         b.from);
+  v.optional_real({.name = "until",
+                   .meaning = "time after t = 0 at which the rule ends",
+                   .dimension = kTime,
+                   .unit = "h",
+                   .range = kPositive,
+                   .automatic = "never"},
+                  b.until);
+  v.real({.name = "share",
+          .meaning = "probability that the rule is for a cell, drawn once per cell and rule",
+          .range = kFraction},
+         b.share);
+}
+
+}  // namespace
+
+void describe_cycle(Visitor& v, CycleBlock& b) {
+  v.optional_real({.name = "time",
+                   .meaning = "mean time from birth to division, in which the volume doubles",
+                   .dimension = kTime,
+                   .unit = "h",
+                   .range = kPositive,
+                   .symbol = "tau",
+                   .automatic = "these cells do not grow"},
+                  b.time);
+  v.real({.name = "spread",
+          .meaning = "relative standard deviation of the cycle time from cell to cell, Gaussian, "
+                     "cut at 3 sigma",
+          .range = {.low = 0, .high = 0.3}},
+         b.spread);
+  v.real({.name = "mitosis",
+          .meaning = "time after division in which the daughters release their tension; part of "
+                     "the cycle",
+          .dimension = kTime,
+          .unit = "h",
+          .range = kPositive},
+         b.mitosis);
+  v.real({.name = "force_ramp",
+          .meaning = "share of the cycle over which the forces between two new spheres rise",
+          .range = {.low = 0, .high = 1, .low_open = true}},
+         b.force_ramp);
+  v.text({.name = "axis",
+          .meaning = "direction in which a cell divides: random in space, given by "
+                     "cycle.direction, or along the nearest vessel",
+          .choices = "random|plane|given|vessel"},
+         b.axis);
+  v.when(b.axis == "given", "axis = given", [&b](Visitor& w) {
+    w.vector({.name = "direction",
+              .meaning = "direction in which the cells divide, of any length",
+              .required = true},
+             b.direction);
+  });
+  v.text({.name = "start",
+          .meaning = "where in their cycle the first cells stand: just born, or uniformly spread",
+          .choices = "birth|random"},
+         b.start);
+}
+
+void describe_inhibition(Visitor& v, InhibitionBlock& b) {
+  v.text({.name = "by",
+          .meaning = "what slows growth down. pressure: rate times 1/(1 + (p/p0)^n), p the contact "
+                     "pressure, 0 if negative; volume: rate times x^n/(1 + x^n), x = "
+                     "(V/V0)/threshold, for DCM cells only, since spheres keep their volume",
+          .choices = "none|pressure|volume"},
+         b.by);
+  v.when(b.by == "pressure", "by = pressure", [&b](Visitor& w) {
+    w.real({.name = "pressure_threshold",
+            .meaning = "contact pressure that halves the growth rate",
+            .dimension = kStress,
+            .unit = "Pa",
+            .range = kPositive,
+            .required = true},
+           b.pressure_threshold);
+  });
+  v.when(b.by == "volume", "by = volume", [&b](Visitor& w) {
+    w.real({.name = "volume_threshold",
+            .meaning = "volume, relative to the volume at rest, that halves the growth rate",
+            .range = {.low = 0, .high = 1, .low_open = true},
+            .required = true},
+           b.volume_threshold);
+  });
+  v.real({.name = "power",
+          .meaning = "how sharply growth stops at the threshold, Hill exponent",
+          .range = {.low = 0, .high = 100, .low_open = true}},
+         b.power);
+}
+
+void describe_death(Visitor& v, DeathBlock& b) {
+  v.text({.name = "mode",
+          .meaning = "removal: the cell is gone at once; lysis: it shrinks before it is removed",
+          .choices = "removal|lysis"},
+         b.mode);
+  v.when(b.mode == "lysis", "mode = lysis", [&b](Visitor& w) {
+    w.real({.name = "duration",
+            .meaning = "time of shrinking",
+            .dimension = kTime,
+            .unit = "h",
+            .range = kPositive},
+           b.duration);
+    w.real({.name = "final_volume",
+            .meaning = "share of its volume at which the cell is removed",
+            .range = {.low = 0, .high = 1, .low_open = true, .high_open = true}},
+           b.final_volume);
+    w.real({.name = "softening",
+            .meaning = "factor on cortex_young, bulk_modulus and adhesion while it shrinks",
+            .range = {.low = 0, .high = 1, .low_open = true}},
+           b.softening);
+  });
+}
+
+void describe_life(Visitor& v, LifeBlock& b) {
+  blocks(v,
+         {.name = "rules",
+          .meaning = "who rests or dies; all rules that hold for a cell count",
+          .item = "life.rules"},
+         b.rules, describe_rule);
+  v.real({.name = "grid",
+          .meaning = "time between two looks at the rules, at inhibition and at sleep",
+          .dimension = kTime,
+          .unit = "min",
+          .range = kPositive},
+         b.grid);
+  v.flag(
+      {.name = "sleep",
+       .meaning = "cells that do not grow and are in balance are left out of the step until they "
+                  "are pushed"},
+      b.sleep);
+  v.real({.name = "sleep_traction",
+          .meaning = "force out of balance per area below which a cell falls asleep; it wakes at "
+                     "twice that",
+          .dimension = kStress,
+          .unit = "Pa",
+          .range = kPositive},
+         b.sleep_traction);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "core/units.hpp"
+#include "runs/scene/rules.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::string hours(double value) { return "\"" + format_quantity(value, kTime, "h") + "\""; }
+
+void check_cycle(const Scene& scene, const CycleBlock& cycle, const std::string& pointer,
+                 Report& report) {
+  if (cycle.axis == "given" && cycle.direction.norm() <= 1e-12) {
+    report.add_relation({pointer + "/direction"}, "[0, 0, 0]",
+                        "must not be zero: it is the direction in which cells divide");
+  }
+  if (!cycle.time) return;
+  const double shortest = *cycle.time * (1 - 3 * cycle.spread);
+  if (cycle.mitosis > shortest) {
+    report.add_relation(
+        {pointer + "/mitosis", pointer + "/time", pointer + "/spread"}, hours(cycle.mitosis),
+        fmt::format("must not exceed {:.4g} h, the shortest cycle of /time = {} and /spread = {}: "
+                    "mitosis is part of the cycle",
+                    shortest / 3600, hours(*cycle.time), cycle.spread));
+  }
+  if (cycle.axis == "vessel" && scene.vessels.file.empty() && !scene.lobule) {
+    report.add_relation({pointer + "/axis", "/vessels/file", "/lobule"}, "\"vessel\"",
+                        "needs vessels: give /vessels/file or a lobule block");
+  }
+}
+
+/// The other integrators have no way to put cells in or take them out.
+void check_integrator(const Scene& scene, const std::string& pointer, Report& report) {
+  if (scene.time.integrator == "linearly-implicit") return;
+  report.add_relation({"/time/integrator", pointer}, "\"" + scene.time.integrator + "\"",
+                      fmt::format("cannot follow cells that grow, divide or die ({}). Choose "
+                                  "\"linearly-implicit\"",
+                                  pointer));
+}
+
+}  // namespace
+
+void check_life(const Scene& scene, Report& report) {
+  std::string reason;  // one complaint about the integrator is enough
+  for (const auto& [name, type] : scene.cell_types) {
+    const std::string pointer = "/cell_types/" + name + "/cycle";
+    check_cycle(scene, type.cycle, pointer, report);
+    if (type.cycle.time && reason.empty()) reason = pointer + "/time";
+  }
+  for (std::size_t i = 0; i < scene.life.rules.size(); ++i) {
+    const LifeRule& rule = scene.life.rules[i];
+    const std::string pointer = fmt::format("/life/rules/{}", i);
+    if (rule.region) check_region(*rule.region, pointer + "/region", report);
+    if (rule.until && *rule.until <= rule.from) {
+      report.add_relation({pointer + "/until", pointer + "/from"}, hours(*rule.until),
+                          fmt::format("must be after {}/from = {}", pointer, hours(rule.from)));
+    }
+    if (rule.action == "die" && reason.empty()) reason = pointer + "/do";
+  }
+  if (!reason.empty()) check_integrator(scene, reason, report);
+}
+
+}  // namespace acinus::runs

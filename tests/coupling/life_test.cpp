@@ -1,0 +1,359 @@
+/// Growth, rules and death.
+
+#include "coupling/life/life.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/mesh/measures.hpp"
+#include "coupling/measure.hpp"
+#include "tests/coupling/lives.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+using Ids = std::vector<std::int64_t>;
+
+constexpr double kRoundOff = 1e-13;  // a few operations, relative
+
+double volume_at(World& w, std::int64_t id, double time) {
+  return volume_of(w.state, index_cells(w.state).at(id)).at(time);
+}
+/// Spheres 50 um apart along x, far from each other.
+World make_row(int n) {
+  std::vector<TestCell> cells;
+  for (int k = 0; k < n; ++k) cells.push_back({Vec3(50.0 * k, 0, 0), false});
+  return make_living_world(cells);
+}
+
+// ---- growth -----------------------------------------------------------------------------------
+
+TEST(Growth, DoublesTheVolumeInTheCycleTimeAtAConstantRate) {
+  Cycle c;
+  c.birth_volume = kBirthVolume;
+  c.duration = kDay;
+  const Ramp r = growth_from(c, kBirthVolume, 100, 1);
+  // 4/3 pi (12 um)^3 / 24 h = 8.37758e-20 m^3/s, Eq. (18)
+  for (double time : {100.0, 3700.0, 50000.0})
+    EXPECT_NEAR((r.at(time + 3600) - r.at(time)) / 3600, 8.37758e-2, 1e-7);
+  EXPECT_NEAR(r.at(100 + kDay), 2 * kBirthVolume, kRoundOff * kBirthVolume);
+  EXPECT_EQ(r.at(100 + 2 * kDay), 2 * c.birth_volume) << "not beyond";
+  const Ramp half = growth_from(c, 1.5 * kBirthVolume, 7, 0.5);
+  EXPECT_EQ(half.at(7), 1.5 * kBirthVolume);
+  EXPECT_NEAR(half.end, 7 + kDay, kRoundOff * kDay) << "half the way at half the speed";
+  const Ramp none = growth_from(c, 1.5 * kBirthVolume, 7, 0);
+  EXPECT_EQ(none.at(10 * kDay), 1.5 * kBirthVolume);
+  EXPECT_EQ(growth_from(c, 2 * c.birth_volume, 7, 1).at(kDay), 2 * c.birth_volume);
+}
+
+TEST(Growth, FactorHasTheLimitsOfAHillFunction) {
+  EXPECT_EQ(growth_factor({}, 1e9, 0.1), 1);
+  const Inhibition pressure{InhibitedBy::kPressure, 0.2, 4};
+  EXPECT_EQ(growth_factor(pressure, 0, 1), 1);
+  EXPECT_EQ(growth_factor(pressure, -5, 1), 1) << "pulled, not pressed";
+  EXPECT_EQ(growth_factor(pressure, 0.2, 1), 0.5);
+  EXPECT_NEAR(growth_factor(pressure, 0.4, 1), 1.0 / 17, kRoundOff);
+  EXPECT_LT(growth_factor(pressure, 2, 1), 1.01e-4);
+  const Inhibition volume{InhibitedBy::kVolume, 0.8, 4};
+  EXPECT_EQ(growth_factor(volume, 5, 0.8), 0.5);
+  EXPECT_NEAR(growth_factor(volume, 5, 1.6), 16.0 / 17, kRoundOff);
+  EXPECT_LT(growth_factor(volume, 5, 0.08), 1.01e-4);
+  EXPECT_GT(growth_factor(volume, 5, 8), 1 - 1.01e-4);
+  EXPECT_EQ(growth_factor({InhibitedBy::kPressure, 0.2, 1}, 0.4, 1), 1.0 / (1 + 0.4 / 0.2));
+}
+
+TEST(Growth, CycleTimesAreGaussianAndCutAtThreeSigma) {
+  const CycleParams p = cycle_params();
+  const double sigma = 0.1 * kDay;
+  const int n = 1000;
+  double sum = 0, sum2 = 0, third = 0, farthest = 0;
+  int within = 0;
+  for (int k = 0; k < n; ++k) {
+    const double x = (draw_cycle_time(p, 7, k) - kDay) / sigma;
+    sum += x, sum2 += x * x, third += x * x * x;
+    farthest = std::max(farthest, std::abs(x));
+    within += std::abs(x) < 1 ? 1 : 0;
+  }
+  const double deviation = std::sqrt(sum2 / n);
+  std::printf("cycle times: mean %.4f, deviation %.3f, farthest %.2f sigma\n", sum / n, deviation,
+              farthest);
+  // Four standard errors: 1/sqrt(n) of the mean, 1/sqrt(2 n) of the deviation, sqrt(15/n) of the
+  // third moment; cut at 3 the deviation is 0.987 and the share within one sigma 0.6845.
+  EXPECT_LT(std::abs(sum / n), 4 / std::sqrt(n));
+  EXPECT_NEAR(deviation, 0.9866, 4 * 0.9866 / std::sqrt(2 * n));
+  EXPECT_LT(std::abs(third / n), 4 * std::sqrt(15.0 / n));
+  EXPECT_NEAR(within / 1000.0, 0.6845, 4 * std::sqrt(0.6845 * 0.3155 / n));
+  EXPECT_LE(farthest, 3);
+  EXPECT_NE(draw_cycle_time(p, 8, 0), draw_cycle_time(p, 7, 0)) << "of the seed";
+  EXPECT_EQ(draw_cycle_time(cycle_params(0), 7, 0), kDay);
+}
+
+TEST(Growth, StartsAnywhereInTheCycleWhenAsked) {
+  CycleParams p = cycle_params();
+  p.random_start = true;
+  double sum = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const double age = draw_start_age(p, 7, k);
+    EXPECT_TRUE(age >= 0 && age < 1);
+    sum += age;
+  }
+  EXPECT_NEAR(sum / 1000, 0.5, 4 / std::sqrt(12 * 1000.0));
+  EXPECT_EQ(draw_start_age(cycle_params(), 7, 3), 0);
+  World w = make_row(1);
+  w.params.life.type[0].random_start = true;
+  begin_life(w);
+  const Cycle& c = w.state.cycle[0];
+  EXPECT_NEAR(c.birth_volume * (1 + draw_start_age(p, w.params.life.seed, 0)), kBirthVolume,
+              kRoundOff * kBirthVolume);
+  EXPECT_NEAR(volume_at(w, 0, 2 * kDay), 2 * c.birth_volume, kRoundOff * kBirthVolume);
+}
+
+/// One shell that has grown for an hour.
+struct Grown {
+  World world;
+  double volume = 0, pressure = 0, tension = 0;  ///< of the mesh um^3, cytosol kPa, largest nN/um
+  double mean_tension = 0;
+};
+Grown grow_alone(double viscosity, int n_node, double step = 60) {
+  Grown g;
+  g.world = make_living_world({{Vec3(1, 2, 3)}}, n_node, step);
+  World& w = g.world;
+  w.params.dcm[0].viscosity = viscosity;
+  w.params.life.type[0].spread = 0;
+  w.params.numerics.adaptive = false;
+  w.params.numerics.cg = {1e-12, 20000};
+  begin_life(w);
+  Workspace work;
+  size_workspace(w, work);
+  for (double t = 0; t < 3600; t += step) EXPECT_TRUE(advance(w, work, step).accepted);
+  observe(w, work);
+  const CellMeasure m = measure_cells(w, work).at(0);
+  g.volume = m.volume;
+  g.pressure = m.cytosol_pressure;
+  for (double t : measure_nodes(w, work).tension) {
+    g.tension = std::max(g.tension, std::abs(t));
+    g.mean_tension += t / n_node;
+  }
+  return g;
+}
+
+TEST(Growth, OfALoneShellInLiquidIsFree) {
+  const Grown g = grow_alone(1e-6, 42);  // water, 1e-3 Pa s
+  const dcm::Params& p = g.world.params.dcm[0];
+  std::printf("an hour in liquid: cytosol %.1e K_V, tension %.1e k_s\n",
+              g.pressure / p.bulk_modulus, g.tension / p.spring_stiffness);
+  EXPECT_NEAR(g.volume, kBirthVolume * (1 + 1.0 / 24), 1e-6 * kBirthVolume);
+  EXPECT_LE(std::abs(g.pressure), 1e-6 * p.bulk_modulus);
+  EXPECT_LE(g.tension, 1e-6 * p.spring_stiffness);
+}
+
+TEST(Growth, InAMatrixPushesItAway) {
+  const Grown g = grow_alone(0, 162, 10);
+  const dcm::Params& p = g.world.params.dcm[0];
+  const double r = std::cbrt(g.volume / (4.0 / 3 * kPi)),
+               speed = kBirthVolume / kDay / (4 * kPi * r * r), push = p.medium_friction * speed;
+  // All nodes move along their radius: p dV/dt = dissipation in the matrix and within the cortex +
+  // (2 T / R) dV/dt.
+  const mesh::Topology& t = mesh::shared_icosphere(162);
+  double outer = 0, inner = 0;
+  for (std::size_t i = 0; i < t.rest.size(); ++i)
+    outer += push * t.rest_node_area[i] * t.rest[i].squaredNorm() / (4 * kPi);
+  for (double l : t.rest_length) inner += p.nodal_friction * speed * l * l / (4 * kPi * r * r);
+  const double tension = 2 * g.mean_tension / r;
+  std::printf(
+      "an hour in a matrix: cytosol %.3e kPa, gamma dR/dt %.3e kPa (mesh %.3e, cortex %.1e, "
+      "2 T / R %.1e kPa)\n",
+      g.pressure, push, outer, inner, tension);
+  EXPECT_NEAR(g.pressure, push, 0.05 * push);
+  // A step h leaves K_V (dR/R)^2 with dR/R = h / (3 days): 4e-9 kPa, a thousandth of the push.
+  EXPECT_NEAR(g.pressure, outer + inner + tension, 0.005 * push);
+}
+
+// ---- rules ------------------------------------------------------------------------------------
+
+TEST(Rules, DieInTheirRegionAndTimeOnly) {
+  World w = make_row(10);
+  LifeRule rule;
+  rule.die = true;
+  rule.inside = [](const Vec3& x) { return x.x() > 275; };  // cells 6 to 9
+  rule.from = 1200;
+  rule.until = 2400;
+  LifeRule late = rule;
+  late.inside = {};
+  late.from = 2400.5;
+  late.until = 2999.5;  // between two looks
+  w.params.life.rule = {rule, late};
+  begin_life(w);
+  EXPECT_EQ(time_to_event(w), 600);
+  EXPECT_TRUE(look(w, 600).events.empty());
+  EXPECT_TRUE(look(w, 1199).events.empty());
+  const LifeReport report = look(w, 1200);
+  EXPECT_EQ(count_events(report, "death"), 4);
+  EXPECT_EQ(lineages(w.state), (Ids{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(w.state.deaths, 4);
+  store_point(w.state.cbm.position.data(), cbm::cell_address(0, 0), Vec3(400, 0, 0));
+  EXPECT_EQ(look(w, 1200).events.size(), 0u) << "one look per time of the grid";
+  EXPECT_EQ(look(w, 1800).events.size(), 1u) << "moved into the region";
+  store_point(w.state.cbm.position.data(), cbm::cell_address(0, 0), Vec3(400, 0, 0));
+  EXPECT_TRUE(look(w, 2400).events.empty()) << "over";
+  EXPECT_TRUE(look(w, 3000).events.empty());
+  EXPECT_EQ(w.state.cbm.n_cell(), 5u);
+}
+
+TEST(Rules, RestStopsGrowthForItsTime) {
+  World w = make_row(2);
+  LifeRule rule;
+  rule.cells = {1};
+  rule.from = 1200;
+  rule.until = 2400;
+  w.params.life.rule = {rule};
+  w.params.life.type[0].spread = 0;
+  begin_life(w);
+  for (double time = 600; time <= 6000; time += 600) look(w, time);
+  const double rate = kBirthVolume / kDay;
+  EXPECT_NEAR(volume_at(w, 0, 6000), kBirthVolume + 6000 * rate, 1e-12 * kBirthVolume);
+  EXPECT_NEAR(volume_at(w, 1, 6000), kBirthVolume + 4800 * rate, 1e-12 * kBirthVolume);
+}
+
+TEST(Rules, AreForDescendantsOfTheirCellsOrNot) {
+  for (bool descendants : {true, false}) {
+    World w = make_living_world({{Vec3::Zero(), false, Vec3::Zero(), kMotherRadius},
+                                 {Vec3(90, 0, 0), false, Vec3::Zero(), kMotherRadius}});
+    LifeRule rule;
+    rule.die = true;
+    rule.cells = {0};
+    rule.descendants = descendants;
+    rule.from = 300;
+    w.params.life.rule = {rule};
+    begin_with_mothers(w);
+    look(w, 60);
+    ASSERT_EQ(lineages(w.state), (Ids{2, 3, 4, 5}));
+    look(w, 600);
+    EXPECT_EQ(lineages(w.state), descendants ? (Ids{4, 5}) : (Ids{2, 3, 4, 5}));
+  }
+}
+
+TEST(Rules, HoldForAShareOfTheCellsOnceAndForAll) {
+  World w = make_row(1000);
+  LifeRule rule;
+  rule.die = true;
+  rule.share = 0.3;
+  w.params.life.rule = {rule};
+  begin_life(w);
+  const int died = count_events(look(w, 600), "death");
+  EXPECT_NEAR(died, 300, 4 * std::sqrt(1000 * 0.3 * 0.7));
+  EXPECT_TRUE(look(w, 1200).events.empty()) << "drawn anew";
+  w.params.life.rule.push_back(rule);
+  EXPECT_NEAR(count_events(look(w, 1800), "death"), 0.3 * (1000 - died),
+              4 * std::sqrt(1000 * 0.3 * 0.7))
+      << "another rule draws for itself";
+}
+
+TEST(Rules, PressureSlowsGrowth) {
+  World w =
+      make_living_world({{Vec3::Zero(), false}, {Vec3(20, 0, 0), false}, {Vec3(90, 0, 0), false}});
+  Workspace work;
+  size_workspace(w, work);
+  observe(w, work);
+  const double pressure = measure_cells(w, work).at(0).pressure;
+  ASSERT_GT(pressure, 1e-3);
+  w.params.life.type[0].spread = 0;
+  w.params.life.type[0].inhibition = {InhibitedBy::kPressure, 2 * pressure, 1};
+  begin_life(w);
+  w.state.clock.time = 600;
+  observe(w, work);
+  const double now = measure_cells(w, work).at(0).pressure;
+  look(w, 600);
+  const double rate = kBirthVolume / kDay;
+  for (std::int64_t id : {0, 1})
+    EXPECT_NEAR(volume_at(w, id, 4200) - volume_at(w, id, 600),
+                3600 * rate / (1 + now / (2 * pressure)), 1e-9 * kBirthVolume);
+  EXPECT_NEAR(volume_at(w, 2, 4200) - volume_at(w, 2, 600), 3600 * rate, 1e-9 * kBirthVolume);
+}
+
+// ---- death ------------------------------------------------------------------------------------
+
+TEST(Death, RemovedCellsLeaveTheOthersAsTheyAre) {
+  World w = make_living_world(checkered_cube());
+  LifeRule rule;
+  rule.die = true;
+  rule.cells = {0, 3, 4};
+  w.params.life.rule = {rule};
+  begin_life(w);
+  const World before = w;
+  const LifeReport report = look(w, 0);
+  EXPECT_EQ(count_events(report, "death"), 3);
+  EXPECT_EQ(lineages(w.state), (Ids{1, 2, 5, 6, 7}));
+  const auto old_index = index_cells(before.state);
+  for (const auto& [id, c] : index_cells(w.state))
+    EXPECT_EQ(center_of(w.state, c), center_of(before.state, old_index.at(id)));
+}
+
+TEST(Death, AMotherThatARuleTakesDoesNotDivide) {
+  for (bool lysis : {false, true}) {
+    World w = make_living_world({{Vec3::Zero(), false, Vec3::Zero(), kMotherRadius}});
+    LifeRule rule;
+    rule.die = true;
+    w.params.life.rule = {rule};
+    w.params.life.type[0].death.lysis = lysis;
+    begin_with_mothers(w);
+    const LifeReport report = look(w, 600);
+    EXPECT_EQ(count_events(report, "division"), 0);
+    EXPECT_EQ(lineages(w.state), lysis ? Ids{0} : Ids{});
+  }
+}
+
+TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
+  for (bool deformable : {true, false}) {
+    World w =
+        make_living_world({{Vec3::Zero(), deformable}, {Vec3(60, 0, 0), deformable}}, 42, 600);
+    w.params.dcm.push_back(w.params.dcm[0]);
+    w.params.dcm[1].bulk_modulus *= 0.5;
+    w.params.cbm.push_back(w.params.cbm[0]);
+    w.params.life.type.push_back({});
+    w.params.life.type[0].death = {true, 6 * 3600, 0.2, 1};
+    LifeRule rule;
+    rule.die = true;
+    rule.cells = {0};
+    rule.from = 1200;
+    w.params.life.rule = {rule};
+    begin_life(w);
+    Workspace work;
+    size_workspace(w, work);
+    double volume = 0;  // when it begins
+    bool gone = false;
+    while (w.state.clock.time < 8 * 3600 && !gone) {
+      const StepResult step = advance(w, work, time_to_event(w));
+      ASSERT_TRUE(step.accepted) << step.cause;
+      const LifeReport report = live(w, work);
+      const double t = w.state.clock.time;
+      const auto index = index_cells(w.state);
+      gone = !index.contains(0);
+      if (count_events(report, "lysis") > 0) {
+        EXPECT_EQ(t, 1200);
+        volume = volume_at(w, 0, t);
+        EXPECT_EQ(type_of(w.state, index.at(0)), 1);
+        EXPECT_EQ(type_of(w.state, index.at(1)), 0);
+      }
+      if (volume == 0 || gone) continue;
+      const double share = 1 - 0.8 * (t - 1200) / (6 * 3600);
+      EXPECT_NEAR(volume_at(w, 0, t), share * volume, kRoundOff * volume);
+      if (!deformable) continue;
+      std::vector<Vec3> node;
+      dcm::copy_nodes(w.state.dcm, index.at(0).at, node);
+      // The medium resists with gamma dR/dt, far below a thousandth of K_V.
+      EXPECT_NEAR(mesh::compute_volume(node, mesh::shared_icosphere(42).triangle), share * volume,
+                  1e-3 * volume);
+    }
+    EXPECT_TRUE(gone);
+    EXPECT_NEAR(w.state.clock.time, 1200 + 6 * 3600, 600 + 1e-6) << "the step that passes the end";
+    EXPECT_EQ(w.state.deaths, 1);
+    EXPECT_EQ(lineages(w.state), Ids{1});
+  }
+}
+
+}  // namespace
+}  // namespace acinus::coupling

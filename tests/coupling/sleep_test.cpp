@@ -1,0 +1,196 @@
+/// Cells that rest are left out until something pushes them.
+
+#include "coupling/life/sleep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "coupling/measure.hpp"
+#include "tests/coupling/lives.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Four cells of each model pressed together by a capsule.
+World make_pressed_clump(bool sleep) {
+  World w = make_test_world(checkered_cube(23.0), 60, 42);
+  contact::Capsule shell;
+  shell.center = Vec3::Constant(11.5);
+  shell.radius = 32;
+  shell.min_radius = 26;
+  shell.speed = 6.0 / 1800;
+  w.params.around.capsules = {shell};
+  w.params.sleep = {sleep, 600, 1e-3};
+  return w;
+}
+
+/// Steps and looks as a run does.
+void run_for(World& w, Workspace& work, double duration) {
+  const double end = w.state.clock.time + duration;
+  while (w.state.clock.time < end - 1e-6) {
+    const double left = std::min(end - w.state.clock.time, time_to_event(w));
+    const StepResult r = advance(w, work, left);
+    ASSERT_TRUE(r.accepted) << r.cause;
+    live(w, work);
+  }
+}
+
+std::map<std::int64_t, std::vector<Vec3>> places(const State& s) {
+  std::map<std::int64_t, std::vector<Vec3>> all;
+  for_each_cell(s, [&](const Cell& c) {
+    std::vector<Vec3>& node = all[lineage_of(s, c)];
+    if (c.deformable)
+      dcm::copy_nodes(s.dcm, c.at, node);
+    else
+      node = {center_of(s, c)};
+  });
+  return all;
+}
+bool is_asleep(const State& s, std::int64_t id) {
+  const std::size_t index = index_cells(s).at(id).index;
+  return index < s.asleep.size() && s.asleep[index] != 0;
+}
+std::map<std::int64_t, double> pressures(const World& w, Workspace& work) {
+  Workspace& watch = waking_workspace(w, work);
+  observe(w, watch);
+  std::map<std::int64_t, double> p;
+  for (const CellMeasure& m : measure_cells(w, watch)) p[m.id] = m.pressure;
+  return p;
+}
+
+TEST(Sleep, ARestingClumpFallsAsleepAndStaysWhereItIs) {
+  World w = make_pressed_clump(true);
+  Workspace work;
+  size_workspace(w, work);
+  EXPECT_EQ(time_to_event(w), 600);
+  run_for(w, work, 600);
+  EXPECT_LT(count_asleep(w.state), 8) << "one look is not enough";
+  run_for(w, work, 4 * 3600);
+  ASSERT_EQ(count_asleep(w.state), 8);
+  const auto before = places(w.state);
+  run_for(w, work, 3600);
+  EXPECT_EQ(count_asleep(w.state), 8);
+  EXPECT_EQ(places(w.state), before);
+}
+
+TEST(Sleep, PressuresOfAClumpAtRestAreThoseWithoutSleep) {
+  World awake = make_pressed_clump(false);
+  Workspace work, tired_work;
+  size_workspace(awake, work);
+  run_for(awake, work, 24 * 3600);
+  World tired = awake;
+  tired.params.sleep.enabled = true;
+  size_workspace(tired, tired_work);
+  run_for(awake, work, 3 * 3600);
+  run_for(tired, tired_work, 3 * 3600);
+  EXPECT_EQ(count_asleep(tired.state), 8);
+  EXPECT_EQ(count_asleep(awake.state), 0);
+  const auto p = pressures(tired, tired_work), q = pressures(awake, work);
+  double worst = 0;
+  for (const auto& [id, pressure] : q) {
+    EXPECT_GT(pressure, 0.01);
+    worst = std::max(worst, std::abs(p.at(id) / pressure - 1));
+  }
+  std::printf("pressures off by %.2f %%\n", 100 * worst);
+  EXPECT_LT(worst, 0.01);
+}
+
+// A clump that creeps falls asleep before it has come to rest. Its pressures are then off by what
+// its cells may be out of balance by, up to twice the limit, and so may their neighbours be.
+TEST(Sleep, PressuresOfAClumpThatCreepsAreOffByAFewTimesTheLimit) {
+  World awake = make_pressed_clump(false), tired = make_pressed_clump(true);
+  Workspace work, tired_work;
+  size_workspace(awake, work);
+  size_workspace(tired, tired_work);
+  run_for(awake, work, 6 * 3600);
+  run_for(tired, tired_work, 6 * 3600);
+  EXPECT_EQ(count_asleep(tired.state), 8);
+  const auto p = pressures(tired, tired_work), q = pressures(awake, work);
+  double off = 0;
+  for (const auto& [id, pressure] : q) off = std::max(off, std::abs(p.at(id) - pressure));
+  std::printf("pressures off by %.2e kPa at a limit of 1e-3\n", off);
+  EXPECT_LT(off, 2 * 2 * 1e-3);
+}
+
+TEST(Sleep, APulledCellWakesAndTheOthersKeepTheirPlaceToTheBit) {
+  World w = make_test_world({{Vec3::Zero()},
+                             {Vec3(23.8, 0, 0)},
+                             {Vec3(47.6, 0, 0)},
+                             {Vec3(0, 23.8, 0), false},
+                             {Vec3(0, 47, 0), false},
+                             {Vec3(0, 200, 0), false}},
+                            60, 42);
+  w.params.sleep = {true, 600, 1e-3};
+  Workspace work;
+  size_workspace(w, work);
+  run_for(w, work, 4 * 3600);
+  ASSERT_EQ(count_asleep(w.state), 6);
+  // 5 nN over 4 pi (12 um)^2 are 2.8e-3 kPa: above twice the limit.
+  const auto index = index_cells(w.state);
+  w.state.dcm.pull[index.at(2).at] = Vec3(0, 0, 5);
+  w.state.cbm.pull[index.at(5).at] = Vec3(0, 0, 5);
+  const auto before = places(w.state);
+  run_for(w, work, 600);  // the look at its end
+  EXPECT_EQ(places(w.state), before);
+  EXPECT_FALSE(is_asleep(w.state, 2));
+  EXPECT_FALSE(is_asleep(w.state, 5));
+  EXPECT_EQ(count_asleep(w.state), 4);
+  run_for(w, work, 600);
+  const auto after = places(w.state);
+  EXPECT_GT((after.at(2)[0] - before.at(2)[0]).norm(), 0.1);
+  // 5 nN against 0.5 nN s/um^3 times the surface for 600 s
+  EXPECT_NEAR((after.at(5)[0] - before.at(5)[0]).z(), 5.0 / (0.5 * 4 * kPi * 144) * 600, 1e-3);
+  for (std::int64_t id : {0, 1, 3, 4})
+    EXPECT_EQ(after.at(id), before.at(id)) << "asleep until the look, cell " << id;
+}
+
+TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
+  World w = make_living_world({{Vec3::Zero()}, {Vec3(60, 0, 0), false}, {Vec3(120, 0, 0), false}});
+  w.params.sleep = {true, 600, 1e-3};
+  w.params.numerics.adaptive = false;
+  LifeRule rest;
+  rest.cells = {2};
+  w.params.life.rule = {rest};
+  begin_life(w);
+  w.state.dcm.volume[0] = Ramp::constant(kBirthVolume);  // does not grow, but remembers its birth
+  w.state.cycle[0].duration = 0;
+  std::vector<Vec3> node;
+  dcm::copy_nodes(w.state.dcm, 0, node);
+  w.state.dcm.birth[0] =
+      dcm::make_birth_shape(mesh::shared_icosphere(42), node, 12, 1, {1, 0, 0, 5000});
+  Workspace work;
+  size_workspace(w, work);
+  run_for(w, work, 4800);
+  EXPECT_EQ(count_asleep(w.state), 1);
+  EXPECT_TRUE(is_asleep(w.state, 2));
+  run_for(w, work, 1200);
+  EXPECT_TRUE(is_asleep(w.state, 0)) << "two looks after it has forgotten its birth";
+  EXPECT_FALSE(is_asleep(w.state, 1));
+  w.params.life.rule.clear();
+  w.params.life.rule.emplace_back().until = 0;  // nobody rests any more
+  run_for(w, work, 600);
+  EXPECT_FALSE(is_asleep(w.state, 2)) << "grows again";
+}
+
+TEST(Sleep, GoesOnFromASavedStateBitForBit) {
+  World w = make_pressed_clump(true);
+  Workspace work;
+  size_workspace(w, work);
+  run_for(w, work, 1500);
+  World resumed = w;
+  Workspace fresh;
+  size_workspace(resumed, fresh);
+  run_for(w, work, 2 * 3600);
+  run_for(resumed, fresh, 2 * 3600);
+  EXPECT_GT(count_asleep(w.state), 0);
+  EXPECT_EQ(hash_state(resumed.state), hash_state(w.state));
+  EXPECT_EQ(resumed.state.asleep, w.state.asleep);
+  EXPECT_EQ(resumed.state.quiet, w.state.quiet);
+}
+
+}  // namespace
+}  // namespace acinus::coupling

@@ -1,0 +1,94 @@
+/// Runs with divisions that were stopped and resumed are those that were not, bit for bit.
+
+#include <gtest/gtest.h>
+
+#include "tests/runs/program.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using program::Json;
+using program::Words;
+
+/// A spheroid whose cells divide every two hours: 42 nodes, random motility, some cells asleep.
+constexpr const char* kSpheroid = R"({
+  "seed": 5,
+  "model": "dcm",
+  "experiment": "spheroid",
+  "time": {"end": "320 min", "step": "2 min", "tolerance": "0.05 um"},
+  "solver": {"tolerance": 0.02},
+  "cell_types": {"tumour": {"dcm": {"nodes": 42}, "adhesion": "1e-5 J/m^2",
+    "cycle": {"time": "2 h", "spread": 0.1, "mitosis": "40 min"}}},
+  "cells": {"source": "list", "list": [{"position": ["0 um", "0 um", "0 um"]}]},
+  "contact": {"quadrature": "nodes"},
+  "motility": {"random": true, "grid": "10 min"},
+  "output": {"every": "20 min"}
+})";
+
+class LifeResume : public program::ProgramTest {
+ protected:
+  Json finish(const std::string& out, const std::string& model, Words more) const {
+    more.insert(more.end(), {"--set", "model=" + model});
+    const program::Outcome outcome = call(run_words("spheroid.json", out, more));
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return summary(out);
+  }
+  void expect_same(const std::string& a, const std::string& b) const {
+    const Json p = summary(a), q = summary(b);
+    EXPECT_EQ(p["state_hash"], q["state_hash"]) << a << " " << b;
+    EXPECT_EQ(p["steps"], q["steps"]);
+    EXPECT_EQ(p["cells"], q["cells"]);
+    EXPECT_EQ(p["measures"], q["measures"]);
+    const io::RunReader x = reader(a), y = reader(b);
+    EXPECT_EQ(x.n_frame(), y.n_frame());
+    EXPECT_EQ(x.series(), y.series());
+    program::expect_first_frames(program::read_frames(x), program::read_frames(y), a + " " + b);
+  }
+};
+
+TEST_F(LifeResume, ThroughDivisionsIsBitForBitInBothModels) {
+  write("spheroid.json", kSpheroid);
+  for (const std::string model : {"dcm", "cbm"}) {
+    const std::string whole = model + "_whole", parts = model + "_parts";
+    const Json end = finish(whole, model, {});
+    std::printf("%s: %d divisions\n", model.c_str(), end["cells"]["divisions"].get<int>());
+    EXPECT_GE(end["cells"]["divisions"], 3);
+    finish(parts, model, {"--until", "100 min"});              // before the first division
+    finish(parts, model, {"--resume", "--until", "140 min"});  // near it: mitosis, or forces rise
+    finish(parts, model, {"--resume", "--until", "260 min"});
+    finish(parts, model, {"--resume"});
+    expect_same(whole, parts);
+  }
+}
+
+TEST_F(LifeResume, IsBitForBitWithSleepersRulesAndDeath) {
+  write("spheroid.json", kSpheroid);
+  const Words more{"--set",
+                   "life.sleep=true",
+                   "--set",
+                   R"(life.rules=[{"do": "rest", "share": 0.5, "from": "130 min"},)"
+                   R"({"do": "die", "share": 0.4, "from": "260 min"}])",
+                   "--set",
+                   "motility.random=false",
+                   "--set",
+                   R"(cell_types.tumour.death={"mode": "lysis", "duration": "30 min"})"};
+  for (const std::string model : {"dcm", "cbm"}) {
+    const std::string whole = model + "_whole", parts = model + "_parts";
+    const Json end = finish(whole, model, more);
+    std::printf("%s: %s\n", model.c_str(), end["cells"].dump().c_str());
+    double asleep = 0;
+    for (double n : reader(whole).series().at("asleep")) asleep = std::max(asleep, n);
+    EXPECT_GT(asleep, 0) << "the scene keeps everybody awake";
+    Words first = more, next = more, last = more;
+    first.insert(first.end(), {"--until", "200 min"});
+    next.insert(next.end(), {"--resume", "--until", "280 min"});
+    last.emplace_back("--resume");
+    finish(parts, model, first);
+    finish(parts, model, next);
+    finish(parts, model, last);
+    expect_same(whole, parts);
+  }
+}
+
+}  // namespace
+}  // namespace acinus::runs

@@ -1,0 +1,115 @@
+#include "runs/state_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/io/checkpoint.hpp"
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::runs {
+namespace {
+
+coupling::State two_spheres() {
+  return coupling::make_test_world({{Vec3::Zero(), false}, {Vec3(23, 0, 0), false}}).state;
+}
+
+TEST(StateFile, KeepsTheStrengthOfNewBornSpheres) {
+  coupling::State saved = two_spheres(), loaded = saved;
+  saved.cbm.strength[1] = {0, 1, 100, 8740};
+  io::CheckpointData data;
+  put_state(saved, data);
+  get_state(data, loaded);
+  EXPECT_EQ(coupling::hash_state(loaded), coupling::hash_state(saved));
+  EXPECT_EQ(loaded.cbm.strength[1].at(100 + 2160), 0.25);
+}
+
+/// One cell of each model in the middle of life.
+coupling::State living() {
+  coupling::State s =
+      coupling::make_test_world({{Vec3::Zero()}, {Vec3(23, 0, 0), false}}, 60, 42).state;
+  const std::size_t n = s.dcm.n_lane() + s.cbm.n_cell();
+  s.cycle.assign(n, {});
+  s.cycle[0] = {3, 1, coupling::Fate::kLyse, 10, 7000, 86000, 20};
+  s.cycle[n - 1] = {4, 2, coupling::Fate::kRest, 11, 7001, 86001, 21};
+  s.asleep.assign(n, 0);
+  s.quiet.assign(n, 0);
+  s.asleep[n - 1] = 1;
+  s.quiet[0] = 2;
+  s.life_interval = 5;
+  s.sleep_interval = 6;
+  s.next_lineage = 7;
+  s.divisions = 8;
+  s.deaths = 9;
+  const mesh::Topology& t = *s.dcm.group[0].topology;
+  s.dcm.birth[0] = {{1, 0, 60, 3660},
+                    1.2,
+                    std::vector<double>(static_cast<std::size_t>(t.n_edge), 1.1),
+                    std::vector<double>(static_cast<std::size_t>(t.n_triangle), 1.3)};
+  s.dcm.birth[0].edge[5] = 0.7;
+  s.dcm.birth[0].triangle[6] = 0.8;
+  s.dcm.volume[0] = {7000, 14000, 10, 86010};
+  return s;
+}
+
+TEST(StateFile, KeepsLives) {
+  const coupling::State saved = living();
+  coupling::State s;
+  io::CheckpointData data;
+  put_state(saved, data);
+  get_state(data, s);
+  EXPECT_EQ(coupling::hash_state(s), coupling::hash_state(saved));
+  ASSERT_EQ(s.cycle.size(), saved.cycle.size());
+  for (std::size_t k = 0; k < s.cycle.size(); ++k) {
+    const coupling::Cycle &a = s.cycle[k], &b = saved.cycle[k];
+    EXPECT_EQ(
+        std::tie(a.parent, a.founder, a.fate, a.birth, a.birth_volume, a.duration, a.wait_until),
+        std::tie(b.parent, b.founder, b.fate, b.birth, b.birth_volume, b.duration, b.wait_until));
+  }
+  EXPECT_EQ(s.asleep, saved.asleep);
+  EXPECT_EQ(s.quiet, saved.quiet);
+  EXPECT_EQ(std::tie(s.life_interval, s.sleep_interval, s.next_lineage, s.divisions, s.deaths),
+            std::tie(saved.life_interval, saved.sleep_interval, saved.next_lineage, saved.divisions,
+                     saved.deaths));
+  const dcm::BirthShape &a = s.dcm.birth.at(0), &b = saved.dcm.birth[0];
+  EXPECT_EQ(a.edge, b.edge);
+  EXPECT_EQ(a.triangle, b.triangle);
+  EXPECT_EQ(a.area, b.area);
+  for (double time : {0.0, 1000.0, 4000.0}) {
+    EXPECT_EQ(a.weight.at(time), b.weight.at(time));
+    EXPECT_EQ(s.dcm.volume[0].at(time), saved.dcm.volume[0].at(time));
+  }
+  EXPECT_TRUE(s.dcm.birth.at(1).edge.empty());
+}
+
+TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
+  io::CheckpointData sound;
+  put_state(living(), sound);
+  for (const char* damaged : {"cbm/strength", "dcm/birth_shape", "life/integers", "life/numbers",
+                              "life/counts", "life/asleep", "life/quiet"})
+    for (bool missing : {true, false}) {
+      io::CheckpointData data;
+      for (const auto& [name, value] : sound.all())
+        std::visit(
+            [&](auto v) {
+              if constexpr (requires { v.pop_back(); })
+                if (name == damaged && !v.empty()) v.pop_back();
+              if (name != damaged || !missing) data.put(name, v);
+            },
+            value);
+      coupling::State state;
+      try {
+        get_state(data, state);
+        ADD_FAILURE() << damaged << (missing ? " is missing" : " is too short");
+      } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(damaged), std::string::npos) << error.what();
+      }
+    }
+}
+
+}  // namespace
+}  // namespace acinus::runs
