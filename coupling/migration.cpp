@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "core/time_grid.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -49,8 +50,7 @@ bool choose_leaders(const World& world, std::span<const double> dcm_radius,
                     std::int64_t& interval) {
   const State& s = world.state;
   const Motility& m = world.params.motility;
-  const auto now =
-      static_cast<std::int64_t>(std::floor((s.clock.time - s.clock.origin) / m.leader_grid + 1e-9));
+  const std::int64_t now = grid_interval(s.clock.time - s.clock.origin, m.leader_grid);
   const std::size_t n_lane = s.dcm.n_lane(), n = n_lane + s.cbm.n_cell();
   if (now == interval && leader.size() == n) return false;
   interval = now;

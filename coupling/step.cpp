@@ -234,10 +234,7 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
   const auto scope = w.timings.scope("solve");
   const solve::CgOptions& options = world.params.numerics.cg;
   const bool coarse = world.state.clock.coarse;
-  const bool shaken = world.params.motility.random && !world.state.dcm.group.empty() &&
-                      controls_at(world.state.clock, world.params.start_up).motility;
-  if (coarse || shaken) w.coarse.prepare(w.op, w.position, w.active);
-  if (shaken && !w.partitioned) improve_guess(w.op, w.rhs, w.move, w.coarse, w.cg);
+  if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
       w.partitioned
           ? solve_partitioned(w.op, w.rhs, w.move, world.state.dcm.group.size(), options, w.cg)

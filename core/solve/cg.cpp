@@ -95,23 +95,6 @@ void add_correction(double size, const std::vector<T>& correction, std::span<dou
 
 }  // namespace
 
-void improve_guess(const Operator& op, std::span<const double> b, std::span<double> x,
-                   const CoarseSpace& coarse, CgWorkspace& work) {
-  const std::size_t n = b.size();
-  for (auto* v : {&work.residual, &work.product}) v->resize(n);
-  for (auto* v : {&work.full.residual, &work.full.direction}) v->resize(n);
-  op.apply(x, work.product);
-  auto &r = work.residual, &d = work.full.direction;
-  for_each_number(n, [&](std::size_t k) {
-    r[k] = b[k] - work.product[k];
-    d[k] = 0;
-  });
-  const double gain = coarse.add(r, d);
-  const double curvature = op.apply(d, work.product);
-  if (!(curvature > 0) || !std::isfinite(gain)) return;
-  for_each_number(n, [&](std::size_t k) { x[k] += gain / curvature * d[k]; });
-}
-
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
                   const CgOptions& options, CgWorkspace& work, BlockRange range,
                   const CoarseSpace* coarse) {

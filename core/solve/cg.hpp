@@ -49,12 +49,6 @@ struct BlockRange {
   std::size_t last = static_cast<std::size_t>(-1);
 };
 
-/// Moves the cells of a guess as rigid bodies to where the equations are better met: a step along
-/// the coarse space's correction as long as is best. Of use where forces on whole cells change from
-/// step to step.
-void improve_guess(const Operator& op, std::span<const double> b, std::span<double> x,
-                   const CoarseSpace& coarse, CgWorkspace& work);
-
 /// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
 /// side, not to the first residual, so that a good start saves iterations. Passes of iterations
 /// solve for a correction of x; each starts from the true residual in double, which also confirms

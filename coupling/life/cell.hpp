@@ -31,6 +31,9 @@ inline int type_of(const State& s, const Cell& c) {
 inline Ramp& volume_of(State& s, const Cell& c) {
   return c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
 }
+inline const Ramp& volume_of(const State& s, const Cell& c) {
+  return c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+}
 inline Vec3 center_of(const State& s, const Cell& c) {
   return c.deformable ? dcm::cell_center(s.dcm, c.at) : cbm::center_of(s.cbm, c.at);
 }

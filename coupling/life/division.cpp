@@ -9,6 +9,7 @@
 #include "core/mesh/inner_ball.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/random.hpp"
+#include "core/sphere.hpp"
 #include "coupling/audit_body.hpp"
 #include "coupling/life/fill.hpp"
 #include "dcm/split.hpp"
@@ -54,9 +55,8 @@ Vec3 nearest_vessel(const mesh::Network& network, const Vec3& x) {
 struct Mother {
   std::vector<Vec3> node;
   const mesh::Topology* topology = nullptr;
-  double volume = 0, area = 0;  ///< um^3, um^2
-  double rest_volume = 0;       ///< um^3
-  double stretch = 1;           ///< area over its reference
+  double volume = 0, rest_volume = 0;  ///< um^3
+  double stretch = 1;                  ///< of the surface, area over its reference
 };
 
 Mother look_at(const World& world, std::size_t lane) {
@@ -65,10 +65,9 @@ Mother look_at(const World& world, std::size_t lane) {
   m.topology = s.dcm.group[lane / kLanes].topology;
   dcm::copy_nodes(s.dcm, lane, m.node);
   m.volume = mesh::compute_volume(m.node, m.topology->triangle);
-  m.area = mesh::compute_area(m.node, m.topology->triangle);
   m.rest_volume = s.dcm.volume[lane].at(s.clock.time);
-  const double r = std::cbrt(m.rest_volume / (4.0 / 3 * kPi));
-  m.stretch = m.area / (m.topology->rest_area * r * r);
+  const double r = sphere_radius(m.rest_volume);
+  m.stretch = mesh::compute_area(m.node, m.topology->triangle) / (m.topology->rest_area * r * r);
   return m;
 }
 
@@ -117,7 +116,7 @@ std::string blow_up(const World& world, int type, const Mother& mother, const me
   steps = filling.steps;
   if (!filling.ok) return filling.cause;
   node = filling.node;
-  const double edge = topology.mean_rest_length * std::cbrt(0.5 * mother.volume / (4.0 / 3 * kPi));
+  const double edge = topology.mean_rest_length * sphere_radius(0.5 * mother.volume);
   std::vector<double> weight;
   for (const Vec3& x : node)
     weight.push_back(std::abs(plane.normal.dot(x) - plane.offset) < kOnCut * edge ? 0 : 1);

@@ -31,9 +31,9 @@ struct Daughters {
   DivisionFigures figures;
 };
 
-/// Splits a deformable cell: a plane through it halves its volume, and a fresh mesh fills each half
-/// in a sub-simulation within the mother's surface, which stands still. Other planes are tried if
-/// the cut is not one loop or a daughter's mesh is not sound.
+/// Splits a deformable cell: a plane through it halves its volume, and a fresh mesh follows the
+/// surface of each half; a half that is too folded for that is filled in a sub-simulation
+/// (fill.hpp). Other planes are tried if the cut is not one loop or a daughter's mesh is not sound.
 /// [VanLiedekerke2020, section 2.1.2 and Fig. 3; docs/decisions/0014.md]
 /// @return false if no plane served; `why` says what was wrong with the last one
 [[nodiscard]] bool split_shell(const World& world, std::size_t lane, Daughters& daughters,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/mesh/measures.hpp"
+#include "core/sphere.hpp"
 #include "coupling/step.hpp"
 
 namespace acinus::coupling {
@@ -19,8 +20,6 @@ constexpr double kRestMove = 0.01, kRestStep = 1;  // um, s
 constexpr int kMostSteps = 150;
 /// Share of the enclosed volume from which a start counts as filling already.
 constexpr double kNearlyFull = 0.9;
-
-double reference_radius(double volume) { return std::cbrt(volume / (4.0 / 3 * kPi)); }
 
 contact::StaticMesh make_envelope(const mesh::Surface& surface) {
   contact::StaticMesh m;
@@ -54,7 +53,7 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
 
   const double full = mesh::compute_volume(envelope.node, envelope.triangle);
   const double start = std::min(full, mesh::compute_volume(node, topology.triangle));
-  const double radius = reference_radius(full);
+  const double radius = sphere_radius(full);
   State& s = small.state;
   s.dcm = dcm::make_state({{0, 0, &topology, Vec3::Zero(), radius}});
   for (int i = 0; i < topology.n_node; ++i)

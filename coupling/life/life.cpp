@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cbm/division.hpp"
+#include "core/sphere.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/life/sleep.hpp"
 #include "coupling/population.hpp"
@@ -51,7 +52,7 @@ void bear_spheres(World& world, const Cell& mother, Newborn& born, LifeReport& r
   const std::int64_t parent = lineage_of(s, mother);
   const Vec3 center = center_of(s, mother);
   const int type = type_of(s, mother);
-  const double radius = std::cbrt(volume_of(s, mother).at(s.clock.time) / (4.0 / 3 * kPi));
+  const double radius = sphere_radius(volume_of(s, mother).at(s.clock.time));
   const Vec3 axis = division_axis(world, p, parent, center, 0);
   const cbm::Daughters daughters =
       cbm::divide({center, radius, axis, 1, s.clock.time, p.force_ramp * p.time});
@@ -72,7 +73,7 @@ void bear_shells(World& world, const Cell& mother, const Daughters& daughters, N
   State& s = world.state;
   const std::int64_t parent = lineage_of(s, mother);
   const dcm::Group& group = s.dcm.group[mother.at / kLanes];
-  const double radius = std::cbrt(volume_of(s, mother).at(s.clock.time) / (8.0 / 3 * kPi));
+  const double radius = sphere_radius(0.5 * volume_of(s, mother).at(s.clock.time));
   for (const std::vector<Vec3>& node : daughters.node) {
     const std::int64_t id = s.next_lineage++;
     born.shell_cycle.push_back(inherit(world, mother, id));
@@ -114,7 +115,7 @@ State make_state(const Newborn& born, double time) {
   return s;
 }
 
-/// Splits all deformable mothers; the two halves of many are worked on by all threads.
+/// Splits all deformable mothers; many are worked on by all threads.
 void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born,
                    std::vector<std::uint8_t>& gone, LifeReport& report) {
   std::vector<Daughters> daughters(mothers.size());

@@ -1,7 +1,6 @@
 #pragma once
 /// The events between steps: cells enter and leave their cycle, divide and die.
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 namespace acinus::coupling {
 
 struct LifeEvent {
-  std::string code;                 ///< division | division_waits | death | lysis
+  std::string code;                 ///< division | division_waits | settling_failed | death | lysis
   std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
   std::string message;
 };

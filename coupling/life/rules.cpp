@@ -1,10 +1,11 @@
 #include "coupling/life/rules.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/random.hpp"
+#include "core/sphere.hpp"
+#include "core/time_grid.hpp"
 #include "coupling/life/sleep.hpp"
 #include "coupling/measure.hpp"
 
@@ -44,7 +45,7 @@ std::vector<double> growth_factors(const World& world, Workspace& work) {
   std::size_t k = 0;
   for_each_cell(s, [&](const Cell& c) {
     const CellMeasure& m = measured[k++];
-    const double relative = m.volume / (4.0 / 3 * kPi * std::pow(m.radius, 3));
+    const double relative = m.volume / sphere_volume(m.radius);
     factor[c.index] = growth_factor(cycle_of(world.params, s, c).inhibition, m.pressure, relative);
   });
   return factor;
@@ -53,7 +54,7 @@ std::vector<double> growth_factors(const World& world, Workspace& work) {
 void look_at_rules(World& world, Workspace& work, Plan& plan) {
   State& s = world.state;
   const LifeParams& p = world.params.life;
-  const auto now = static_cast<std::int64_t>(std::floor(time_of(s) / p.grid + 1e-9));
+  const std::int64_t now = grid_interval(time_of(s), p.grid);
   if (now == s.life_interval) return;
   s.life_interval = now;
   const std::vector<double> factor = growth_factors(world, work);
@@ -78,7 +79,7 @@ void look_at_clocks(const World& world, Plan& plan) {
   for_each_cell(s, [&](const Cell& c) {
     if (dies[c.index] != 0) return;  // a rule took it just now: it does not divide any more
     const Cycle& cycle = s.cycle[c.index];
-    const Ramp& volume = c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+    const Ramp& volume = volume_of(s, c);
     if (cycle.fate == Fate::kGrow && t >= cycle.wait_until &&
         volume.at(t) >= 2 * cycle.birth_volume * kDoubled)
       plan.divide.push_back(c);
@@ -131,8 +132,7 @@ double time_to_life_event(const World& world) {
   const LifeParams& p = world.params.life;
   if (p.rule.empty() && std::ranges::none_of(p.type, is_inhibited))
     return std::numeric_limits<double>::infinity();
-  const double t = time_of(world.state);
-  return (std::floor(t / p.grid + 1e-9) + 1) * p.grid - t;
+  return time_to_next_interval(time_of(world.state), p.grid);
 }
 
 }  // namespace acinus::coupling

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/time_grid.hpp"
 #include "coupling/life/cell.hpp"
 #include "coupling/measure.hpp"
 #include "coupling/step.hpp"
@@ -19,7 +20,7 @@ constexpr double kWake = 2;
 /// Whether nothing makes the cell move by itself.
 bool may_sleep(const State& s, const Cell& c) {
   const double t = s.clock.time;
-  const Ramp& volume = c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+  const Ramp& volume = volume_of(s, c);
   if (t < volume.end && volume.from != volume.to) return false;
   if (c.index < s.leader.size() && s.leader[c.index] != 0) return false;
   return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
@@ -80,15 +81,14 @@ double time_to_sleep_event(const World& world) {
   const Sleep& p = world.params.sleep;
   if (!p.enabled || world.state.clock.phase != Phase::kRun)
     return std::numeric_limits<double>::infinity();
-  const double t = time_of(world.state);
-  return (std::floor(t / p.grid + 1e-9) + 1) * p.grid - t;
+  return time_to_next_interval(time_of(world.state), p.grid);
 }
 
 bool update_sleep(World& world, Workspace& work) {
   State& s = world.state;
   const Sleep& p = world.params.sleep;
   if (!p.enabled || s.clock.phase != Phase::kRun) return false;
-  const auto now = static_cast<std::int64_t>(std::floor(time_of(s) / p.grid + 1e-9));
+  const std::int64_t now = grid_interval(time_of(s), p.grid);
   if (now == s.sleep_interval) return false;
   s.sleep_interval = now;
   Workspace& watch = waking_workspace(world, work);

@@ -1,0 +1,22 @@
+#pragma once
+/// Fixed time grids on which things are looked at, whatever the steps are.
+
+#include <cmath>
+#include <cstdint>
+
+namespace acinus {
+
+/// Share of an interval by which a sum of steps may fall short of its end.
+inline constexpr double kGridSlack = 1e-9;
+
+/// Number of the interval a time is in.
+inline std::int64_t grid_interval(double time, double grid) {
+  return static_cast<std::int64_t>(std::floor(time / grid + kGridSlack));
+}
+
+/// Time until the next interval begins.
+inline double time_to_next_interval(double time, double grid) {
+  return (std::floor(time / grid + kGridSlack) + 1) * grid - time;
+}
+
+}  // namespace acinus
