@@ -143,6 +143,12 @@ void keep_worst(WorstPair& worst, double depth, std::int64_t a, std::int64_t b) 
   if (depth > worst.depth_um) worst = {depth, {a, b}};
 }
 
+/// A depth that ought not to be, of a pair with or without a newborn cell.
+void keep_penetration(AuditResult& result, double depth, bool newborn) {
+  result.max_penetration_um = std::max(result.max_penetration_um, depth);
+  if (!newborn) result.max_penetration_grown_um = std::max(result.max_penetration_grown_um, depth);
+}
+
 void check_finite(std::span<const Vec3> nodes, const std::string& what) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     check(nodes[i].allFinite(), fmt::format("audit: {}: node {} is not finite", what, i),
@@ -198,21 +204,23 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
     const AuditMesh& cell = frame.meshes[c];
     std::int64_t wall = 0;
+    const auto keep = [&](double depth) {
+      keep_worst(result.dcm_wall, depth, cell.id, wall);
+      keep_penetration(result, depth, cell.newborn);
+    };
     for (const AuditPlane& plane : frame.planes) {
-      for (const Vec3& x : cell.node)
-        keep_worst(result.dcm_wall, -(x - plane.point).dot(plane.normal), cell.id, wall);
+      for (const Vec3& x : cell.node) keep(-(x - plane.point).dot(plane.normal));
       ++wall;
     }
     for (const AuditCapsule& capsule : frame.capsules) {
-      for (const Vec3& x : cell.node)
-        keep_worst(result.dcm_wall, (x - capsule.center).norm() - capsule.radius, cell.id, wall);
+      for (const Vec3& x : cell.node) keep((x - capsule.center).norm() - capsule.radius);
       ++wall;
     }
     for (std::size_t f = 0; f < bodies.fixed.size(); ++f, ++wall)
       if (frame.statics[f].inside) {
         const AuditBody &body = bodies.cell[c], &fixed = bodies.fixed[f];
-        keep_worst(result.dcm_wall, surface_depth(body, fixed, Side::kOutside), cell.id, wall);
-        keep_worst(result.dcm_wall, surface_depth(fixed, body, Side::kInside), cell.id, wall);
+        keep(surface_depth(body, fixed, Side::kOutside));
+        keep(surface_depth(fixed, body, Side::kInside));
       }
   }
 }
@@ -263,7 +271,7 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
       return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
     case Pair::Kind::kSphereSphere: {
       const AuditSphere &a = frame.spheres[pair.a], &b = frame.spheres[pair.b];
-      if (a.strength < 1 || b.strength < 1) return 0;
+      if (a.strength < 1 && b.strength < 1) return 0;
       return a.radius + b.radius - (a.center - b.center).norm();
     }
   }
@@ -272,8 +280,10 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
 
 void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
   const auto other = static_cast<std::int64_t>(pair.b);
+  const bool newborn = pair.kind != Pair::Kind::kSphereSphere && frame.meshes[pair.a].newborn;
   switch (pair.kind) {
     case Pair::Kind::kCellCell:
+      keep_penetration(result, pair.depth, newborn || frame.meshes[pair.b].newborn);
       return keep_worst(result.dcm_dcm, pair.depth, frame.meshes[pair.a].id,
                         frame.meshes[pair.b].id);
     case Pair::Kind::kCellSphere: {
@@ -282,13 +292,17 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
         return d.mesh_id == mesh && d.sphere_id == sphere;
       });
       const double explained = dent == frame.dents.end() ? 0 : std::max(0.0, dent->depth);
-      keep_worst(result.dcm_cbm_beyond_dent, std::max(0.0, pair.depth - explained), mesh, sphere);
+      const double beyond = std::max(0.0, pair.depth - explained);
+      keep_penetration(result, beyond, newborn);
+      keep_worst(result.dcm_cbm_beyond_dent, beyond, mesh, sphere);
       return keep_worst(result.dcm_cbm, pair.depth, mesh, sphere);
     }
     case Pair::Kind::kCellVessel:
+      keep_penetration(result, pair.depth, newborn);
       return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
     case Pair::Kind::kCellFixed: {
       const auto before = static_cast<std::int64_t>(frame.planes.size() + frame.capsules.size());
+      keep_penetration(result, pair.depth, newborn);
       return keep_worst(result.dcm_wall, pair.depth, frame.meshes[pair.a].id, before + other);
     }
     case Pair::Kind::kSphereSphere:
@@ -313,9 +327,6 @@ AuditResult audit(const AuditFrame& frame) {
   }
   for (const Pair& pair : pairs)
     keep_pair(frame, pair, result);  // in list order, whoever computed it
-  result.max_penetration_um =
-      std::max({result.dcm_dcm.depth_um, result.dcm_vessel.depth_um, result.dcm_wall.depth_um,
-                result.dcm_cbm_beyond_dent.depth_um});
   result.max_overlap_cbm_um = result.cbm_cbm.depth_um;
   return result;
 }

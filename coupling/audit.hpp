@@ -17,12 +17,13 @@ struct AuditMesh {
   std::int64_t id = 0;
   std::span<const Vec3> node;                    ///< um
   std::span<const std::array<int, 3>> triangle;  ///< closed, outward
+  bool newborn = false;                          ///< just born and still settling
 };
 struct AuditSphere {
   std::int64_t id = 0;
   Vec3 center = Vec3::Zero();
   double radius = 0;
-  double strength = 1;  ///< below 1: new-born and still within its sister, which is not an overlap
+  double strength = 1;  ///< two below 1 are sisters that start in one place: not an overlap
 };
 /// How deep a sphere is known to be dented by a cell, from the force between them.
 struct AuditDent {
@@ -64,6 +65,8 @@ struct AuditResult {
   /// cell presses on it, as two spheres overlap by their law; only what goes deeper counts
   /// (docs/decisions/0009.md).
   double max_penetration_um = 0;
+  /// The same without the pairs in which a cell is newborn.
+  double max_penetration_grown_um = 0;
   WorstPair dcm_dcm;              ///< ids of the cells
   WorstPair dcm_vessel;           ///< cell id, vessel segment
   WorstPair dcm_wall;             ///< cell id, index counted through planes, capsules, statics

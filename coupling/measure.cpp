@@ -15,6 +15,13 @@ namespace {
 
 /// Reference values a step of this length ahead are those of now, to rounding.
 constexpr double kNow = 1e-9;
+/// A cell this old has settled in its place, s.
+constexpr double kNewborn = 600;
+
+void set_origin(const State& s, const Cycle& cycle, CellMeasure& m) {
+  m.parent = cycle.parent;
+  m.newborn = cycle.parent >= 0 && s.clock.time < cycle.birth + kNewborn;
+}
 
 void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, const Vec3& arm) {
   const double w = 1 / reference_volume;
@@ -46,7 +53,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.deformable = true;
     m.type = s.dcm.group[lane / kLanes].type;
     m.leader = lane < w.leader.size() && w.leader[lane];
-    if (lane < s.cycle.size()) m.parent = s.cycle[lane].parent;
+    if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
     m.center = dcm::cell_center(s.dcm, lane);
     m.radius = w.lanes.radius[lane];
     m.volume = dcm::compute_volumes(g)[l];
@@ -68,7 +75,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.type = s.cbm.type[c];
     const std::size_t at = s.dcm.n_lane() + c;
     m.leader = at < w.leader.size() && w.leader[at];
-    if (at < s.cycle.size()) m.parent = s.cycle[at].parent;
+    if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
     m.center = cbm::center_of(s.cbm, c);
     m.radius = w.cbm_radius[c];
     if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];

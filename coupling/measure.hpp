@@ -26,6 +26,7 @@ struct CellMeasure {
   std::array<double, 6> stress{};  ///< kPa, xx xy xz yy yz zz of (1/V0) sum f (x) (x_contact - c)
   double contact_area = 0;         ///< um^2
   double strength = 1;             ///< of a new sphere, see cbm::CellData
+  bool newborn = false;            ///< in the first ten minutes after a division
   /// nN, sum over partners of the size of the force with each; all surroundings are one partner.
   double contact_force = 0;
   int contacts = 0;            ///< cells in contact

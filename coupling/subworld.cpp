@@ -22,6 +22,18 @@ contact::Box box_of(const State& s, std::size_t lane) {
   return box;
 }
 
+/// Walls stay where they are at this moment.
+void stop_walls(contact::Surroundings& around, double time) {
+  for (contact::Plane& p : around.planes) {
+    p.point = p.point_at(time);
+    p.speed = 0;
+  }
+  for (contact::Capsule& c : around.capsules) {
+    c.radius = c.radius_at(time);
+    c.speed = 0;
+  }
+}
+
 Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
 
 /// Index of every lineage that moves.
@@ -87,6 +99,7 @@ Subworld extract(const World& world, const Selected& moving, const Selected& hel
   Subworld sub;
   sub.time = s.clock.time;
   sub.world.params = world.params;
+  stop_walls(sub.world.params.around, time_since_start(world));
   sub.world.params.motility.random = false;
   sub.world.params.motility.leader_force = 0;
   sub.world.params.numerics.adaptive = true;

@@ -66,20 +66,29 @@ std::uint64_t hash_state(const State& s) {
   add(s.dcm.lineage);
   add(s.cbm.lineage);
   add(s.cbm.young);
-  add(s.cbm.strength);
+  const auto add_ramps = [&](const std::vector<Ramp>& v) {
+    for (const Ramp& r : v) add(std::array{r.from, r.to, r.start, r.end});
+  };
+  add_ramps(s.dcm.volume);
+  add_ramps(s.cbm.volume);
+  add_ramps(s.cbm.strength);
   for (const auto& [a, b] : s.cbm.touching) add(std::array{a, b});
   add(s.last_move);
   add(s.leader);
+  add(s.asleep);
+  add(s.quiet);
   for (const Cycle& c : s.cycle)
     add(std::array{c.birth, c.birth_volume, c.duration, c.wait_until, static_cast<double>(c.parent),
-                   static_cast<double>(c.fate)});
+                   static_cast<double>(c.founder), static_cast<double>(c.fate)});
   for (const dcm::BirthShape& b : s.dcm.birth) {
     add(b.edge);
+    add(b.triangle);
     if (!b.edge.empty()) add(std::array{b.area, b.weight.start, b.weight.end});
   }
   add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
   add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
-                 static_cast<std::int64_t>(s.clock.coarse ? 1 : 0)});
+                 static_cast<std::int64_t>(s.clock.coarse ? 1 : 0), s.leader_interval,
+                 s.sleep_interval, s.life_interval, s.next_lineage, s.divisions, s.deaths});
   const std::uint64_t value = XXH64_digest(hash);
   XXH64_freeState(hash);
   return value;

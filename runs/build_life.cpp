@@ -53,6 +53,7 @@ coupling::LifeRule make_rule(const Scene& scene, const LifeRule& r) {
 void build_life(const Scene& scene, coupling::Params& p, std::vector<std::string>& type_names) {
   p.life.seed = scene.seed;
   p.life.grid = scene.life.grid;
+  p.life.remesh = scene.life.remesh;
   p.sleep = {scene.life.sleep, scene.life.grid, scene.life.sleep_traction};
   for (const auto& [name, type] : scene.cell_types) p.life.type.push_back(make_cycle(type));
   for (const LifeRule& r : scene.life.rules) p.life.rule.push_back(make_rule(scene, r));

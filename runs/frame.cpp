@@ -177,7 +177,8 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   std::vector<coupling::AuditMesh> meshes;
   std::vector<coupling::AuditSphere> spheres;
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b)
-    meshes.push_back({snapshot.cells[b].id, w.dcm.body[b].node, *w.dcm.body[b].triangle});
+    meshes.push_back({snapshot.cells[b].id, w.dcm.body[b].node, *w.dcm.body[b].triangle,
+                      snapshot.cells[b].newborn});
   for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k)
     spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
                        snapshot.cells[k].strength});

@@ -10,7 +10,7 @@ namespace {
 
 double count_of(std::size_t k) { return std::pow(10.0, static_cast<double>(k) + 1); }
 
-constexpr std::size_t kNumbers = 10;
+constexpr std::size_t kNumbers = 12;
 
 }  // namespace
 
@@ -20,21 +20,26 @@ void add_life(LifeTotals& t, const coupling::LifeReport& report, int n_cell, dou
   for (const coupling::DivisionFigures& f : report.divisions) {
     t.volume_error = std::max(t.volume_error, f.volume_error);
     t.outside_um = std::max(t.outside_um, f.outside);
-    t.neighbour_shift_um = std::max(t.neighbour_shift_um, f.neighbour_shift);
-    t.node_shift_um = std::max(t.node_shift_um, f.node_shift);
+    t.settled_shift_um = std::max(t.settled_shift_um, f.settled_shift);
+    t.settled_pressure_change_kPa =
+        std::max(t.settled_pressure_change_kPa, f.settled_pressure_change);
     t.pressure_change_kPa = std::max(t.pressure_change_kPa, f.pressure_change);
     t.planes = std::max(t.planes, static_cast<double>(f.planes));
     t.min_quality = std::min(t.min_quality, f.min_quality);
     t.steps += f.steps;
   }
-  for (const coupling::LifeEvent& e : report.events)
+  for (const coupling::LifeEvent& e : report.events) {
     if (e.code == "division_waits") t.waits += 1;
+    if (e.code == "remeshed") t.remeshed += 1;
+    if (e.code == "mesh_degenerate") t.degenerate += 1;
+  }
 }
 
 void put_totals(const LifeTotals& t, io::CheckpointData& data) {
-  data.put("life/totals", std::vector<double>{t.start_cells, t.volume_error, t.outside_um,
-                                              t.neighbour_shift_um, t.pressure_change_kPa, t.planes,
-                                              t.steps, t.waits, t.min_quality, t.node_shift_um});
+  data.put("life/totals",
+           std::vector<double>{t.start_cells, t.volume_error, t.outside_um, t.settled_shift_um,
+                               t.pressure_change_kPa, t.planes, t.steps, t.waits, t.min_quality,
+                               t.settled_pressure_change_kPa, t.remeshed, t.degenerate});
   data.put("life/wall_s_at", std::vector<double>(t.wall_s_at.begin(), t.wall_s_at.end()));
 }
 
@@ -47,13 +52,15 @@ LifeTotals get_totals(const io::CheckpointData& data) {
   t.start_cells = v[0];
   t.volume_error = v[1];
   t.outside_um = v[2];
-  t.neighbour_shift_um = v[3];
+  t.settled_shift_um = v[3];
   t.pressure_change_kPa = v[4];
   t.planes = v[5];
   t.steps = v[6];
   t.waits = v[7];
   t.min_quality = v[8];
-  t.node_shift_um = v[9];
+  t.settled_pressure_change_kPa = v[9];
+  t.remeshed = v[10];
+  t.degenerate = v[11];
   std::ranges::copy(wall, t.wall_s_at.begin());
   return t;
 }

@@ -174,10 +174,11 @@ void Run::start_or_resume() {
   check_same_scene(loaded.data, scene_);
   get_state(loaded.data, world().state);
   const std::vector<double>& t = loaded.data.numbers("totals");
-  check(t.size() == 13, loaded.data.source() + ": the run's totals are damaged.", Exit::kFileError);
+  check(t.size() == 14, loaded.data.source() + ": the run's totals are damaged.", Exit::kFileError);
   wall_before_ = t[0];
   cpu_before_ = t[1];
-  totals_ = {t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[12], t[7], t[8], t[9], t[10], 0, 0, 0};
+  totals_ = {t[0],  t[1], t[2], t[13], t[3],  t[4], t[5], t[6],
+             t[12], t[7], t[8], t[9],  t[10], 0,    0,    0};
   last_frame_ = t[11];
   life_ = get_totals(loaded.data);
   excess_ = loaded.data.contains("file/excess") ? loaded.data.number("file/excess") : 0;
@@ -271,10 +272,11 @@ void Run::save() {
   const double wall = wall_before_ + wall_seconds() - started_,
                cpu = cpu_before_ + cpu_seconds() - started_cpu_;
   const RunTotals& t = totals_;
-  data.put("totals", std::vector<double>{
-                         wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um,
-                         t.dcm_wall_um, t.dcm_cbm_um, t.max_overlap_cbm_um, t.min_triangle_quality,
-                         t.self_intersecting, t.inverted, last_frame_, t.dcm_cbm_beyond_um});
+  data.put("totals",
+           std::vector<double>{wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um,
+                               t.dcm_wall_um, t.dcm_cbm_um, t.max_overlap_cbm_um,
+                               t.min_triangle_quality, t.self_intersecting, t.inverted, last_frame_,
+                               t.dcm_cbm_beyond_um, t.max_penetration_grown_um});
   put_totals(life_, data);
   for (const auto& [name, values] : measures_) data.put("measures/" + name, values);
   const io::RunFileCounts c = file_->counts();

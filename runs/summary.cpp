@@ -22,19 +22,25 @@ Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 Json division_figures(const LifeTotals& t) {
   return {{"max_volume_error", number(t.volume_error)},
           {"max_outside_um", number(t.outside_um)},
-          {"max_neighbour_shift_um", number(t.neighbour_shift_um)},
-          {"max_neighbour_node_shift_um", number(t.node_shift_um)},
           {"max_pressure_change_Pa", number(1e3 * t.pressure_change_kPa)},
+          {"max_settled_shift_um", number(t.settled_shift_um)},
+          {"max_settled_pressure_change_Pa", number(1e3 * t.settled_pressure_change_kPa)},
           {"min_triangle_quality", number(t.min_quality)},
           {"most_planes", static_cast<int>(t.planes)},
           {"sub_steps", static_cast<int>(t.steps)},
           {"put_off", static_cast<int>(t.waits)}};
 }
 
+Json mesh_figures(const LifeTotals& t) {
+  return {{"mended", static_cast<int>(t.remeshed)},
+          {"left_degenerate", static_cast<int>(t.degenerate)}};
+}
+
 }  // namespace
 
 void add_audit(RunTotals& t, const coupling::AuditResult& a) {
   t.max_penetration_um = std::max(t.max_penetration_um, a.max_penetration_um);
+  t.max_penetration_grown_um = std::max(t.max_penetration_grown_um, a.max_penetration_grown_um);
   t.dcm_dcm_um = std::max(t.dcm_dcm_um, a.dcm_dcm.depth_um);
   t.dcm_vessel_um = std::max(t.dcm_vessel_um, a.dcm_vessel.depth_um);
   t.dcm_wall_um = std::max(t.dcm_wall_um, a.dcm_wall.depth_um);
@@ -78,12 +84,14 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
                 {"deaths", s.deaths},
                 {"switched", 0}};
   if (dcm_cells > 0 && s.divisions > 0) j["division"] = division_figures(in.life);
+  if (in.life.remeshed + in.life.degenerate > 0) j["meshes"] = mesh_figures(in.life);
   j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
   j["balance"] = {{"momentum", number(s.balance.momentum)},
                   {"torque", number(s.balance.torque)},
                   {"friction_torque", number(s.balance.friction_torque)}};
   j["state_hash"] = fmt::format("{:016x}", coupling::hash_state(s));
   j["max_penetration_um"] = number(t.max_penetration_um);
+  if (s.divisions > 0) j["max_penetration_grown_um"] = number(t.max_penetration_grown_um);
   j["penetration_um"] = {{"dcm_dcm", number(t.dcm_dcm_um)},
                          {"dcm_vessel", number(t.dcm_vessel_um)},
                          {"dcm_wall", number(t.dcm_wall_um)},

@@ -17,7 +17,8 @@ namespace acinus::runs {
 /// Figures that accumulate over a run and its resumes.
 struct RunTotals {
   double wall_s = 0, cpu_s = 0;
-  double max_penetration_um = 0, dcm_dcm_um = 0, dcm_vessel_um = 0, dcm_wall_um = 0, dcm_cbm_um = 0;
+  double max_penetration_um = 0, max_penetration_grown_um = 0;
+  double dcm_dcm_um = 0, dcm_vessel_um = 0, dcm_wall_um = 0, dcm_cbm_um = 0;
   double dcm_cbm_beyond_um = 0;  ///< deeper than the dent that the pair's force explains
   double max_overlap_cbm_um = 0;
   double min_triangle_quality = 1;

@@ -56,6 +56,7 @@ struct LifeParams {
   std::vector<LifeRule> rule;
   double grid = 600;  ///< s, how often rules and inhibition are looked at
   std::uint64_t seed = 1;
+  bool remesh = true;  ///< meshes that degenerate are mended
 };
 
 enum class Fate : std::int8_t { kIdle, kGrow, kRest, kLyse };

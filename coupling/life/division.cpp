@@ -187,6 +187,7 @@ bool split_shell(const World& world, std::size_t lane, Daughters& daughters, std
   const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
   const double before = dcm::cytosol_pressure(bulk, mother.volume, mother.rest_volume);
   daughters.stretch = mother.stretch;
+  f.pressure = before;
   for (const std::vector<Vec3>& node : daughters.node) {
     const double volume = mesh::compute_volume(node, mother.topology->triangle);
     f.volume_error =

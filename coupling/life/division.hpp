@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,14 @@ namespace acinus::coupling {
 /// How well one division of a deformable cell went.
 struct DivisionFigures {
   std::int64_t mother = -1;
-  int planes = 0;              ///< tried
-  int steps = 0;               ///< of the sub-simulations
-  double volume_error = 0;     ///< larger |V_daughter - V_mother / 2| / V_mother
-  double outside = 0;          ///< um, farthest node of a daughter outside the mother
-  double neighbour_shift = 0;  ///< um, farthest a neighbour moved as a whole while all settled
-  double node_shift = 0;       ///< um, farthest a node of a neighbour moved meanwhile
-  double pressure_change = 0;  ///< kPa, larger change of cytosol pressure from mother to daughter
+  int planes = 0;                      ///< tried
+  int steps = 0;                       ///< of the sub-simulations
+  double volume_error = 0;             ///< larger |V_daughter - V_mother / 2| / V_mother
+  double outside = 0;                  ///< um, farthest node of a daughter outside the mother
+  double pressure = 0;                 ///< kPa, of the mother's cytosol
+  double pressure_change = 0;          ///< kPa, larger change from mother to daughter as cut
+  double settled_pressure_change = 0;  ///< kPa, the same when the daughters have settled
+  double settled_shift = 0;            ///< um, farthest a node of a daughter moved meanwhile
   double min_quality = 1;
 };
 
@@ -48,12 +50,13 @@ struct Settled {
   bool ok = true;
   std::string cause;
   int steps = 0;
-  double neighbour_shift = 0;  ///< um, farthest that a neighbour moved as a whole
-  double node_shift = 0;       ///< um, farthest that a node of a neighbour moved
+  std::map<std::int64_t, double> shift;     ///< um, farthest a node of each daughter moved
+  std::map<std::int64_t, double> pressure;  ///< kPa, of each daughter's cytosol
 };
 
-/// Lets new deformable daughters and their neighbours settle while all others stand still, so that
-/// the next step of the whole world is an ordinary one. Without success all stay where they were.
+/// Lets new deformable daughters settle against each other and their neighbours, who stand still,
+/// so that the next step of the whole world is an ordinary one. Without success all stay where they
+/// were.
 Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughters);
 
 }  // namespace acinus::coupling

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "cbm/division.hpp"
 #include "core/sphere.hpp"
+#include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/life/sleep.hpp"
 #include "coupling/population.hpp"
@@ -115,6 +117,17 @@ State make_state(const Newborn& born, double time) {
   return s;
 }
 
+void add_settling(const Settled& settled, const std::array<std::int64_t, 2>& daughters,
+                  DivisionFigures& f) {
+  f.steps += settled.steps;
+  if (!settled.ok) return;
+  for (const std::int64_t id : daughters) {
+    f.settled_shift = std::max(f.settled_shift, settled.shift.at(id));
+    f.settled_pressure_change =
+        std::max(f.settled_pressure_change, std::abs(settled.pressure.at(id) - f.pressure));
+  }
+}
+
 /// Splits all deformable mothers; many are worked on by all threads.
 void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born,
                    std::vector<std::uint8_t>& gone, LifeReport& report) {
@@ -122,8 +135,13 @@ void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born
   std::vector<std::string> why(mothers.size());
   std::vector<std::uint8_t> done(mothers.size(), 0);
 #pragma omp parallel for schedule(dynamic, 1) if (mothers.size() > 1)
-  for (std::size_t k = 0; k < mothers.size(); ++k)
-    done[k] = split_shell(world, mothers[k].at, daughters[k], why[k]) ? 1 : 0;
+  for (std::size_t k = 0; k < mothers.size(); ++k) {
+    try {  // an exception must not leave a loop of threads
+      done[k] = split_shell(world, mothers[k].at, daughters[k], why[k]) ? 1 : 0;
+    } catch (const std::exception& e) {
+      why[k] = e.what();
+    }
+  }
   for (std::size_t k = 0; k < mothers.size(); ++k) {
     State& s = world.state;
     if (done[k] != 0) {
@@ -206,11 +224,8 @@ LifeReport turn_over(World& world, Workspace& work) {
     std::vector<std::int64_t> daughters;
     for (const dcm::NewCell& c : born.shell) daughters.push_back(c.lineage);
     const Settled settled = settle_daughters(world, daughters);
-    for (DivisionFigures& f : report.divisions) {
-      f.neighbour_shift = settled.neighbour_shift;
-      f.node_shift = settled.node_shift;
-      f.steps += settled.steps;
-    }
+    for (std::size_t k = 0; k < report.divisions.size(); ++k)
+      add_settling(settled, {daughters[2 * k], daughters[2 * k + 1]}, report.divisions[k]);
     if (!settled.ok) report.events.push_back({"settling_failed", daughters, settled.cause});
   }
   size_workspace(world, work);
@@ -222,6 +237,7 @@ LifeReport turn_over(World& world, Workspace& work) {
 LifeReport live(World& world, Workspace& work) {
   LifeReport report = turn_over(world, work);
   update_sleep(world, work);
+  mend_meshes(world, work, report);
   return report;
 }
 

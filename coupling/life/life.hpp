@@ -11,7 +11,8 @@
 namespace acinus::coupling {
 
 struct LifeEvent {
-  std::string code;                 ///< division | division_waits | settling_failed | death | lysis
+  /// division | division_waits | settling_failed | death | lysis | remeshed | mesh_degenerate
+  std::string code;
   std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
   std::string message;
 };
@@ -23,7 +24,8 @@ struct LifeReport {
 
 /// Stage 5 of a step: applies rules and inhibition on their time grid, then divides what has
 /// doubled its reference volume and removes what is dead. Time stands still. The workspace is sized
-/// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp).
+/// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp), and
+/// mends meshes that degenerate (mesh_health.hpp).
 LifeReport live(World& world, Workspace& work);
 
 /// Time until live() has to be called next, s; infinite if nothing is due on a time grid.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/mesh/measures.hpp"
 #include "coupling/life/division.hpp"
 #include "coupling/subworld.hpp"
 
@@ -12,6 +13,14 @@ constexpr double kReach = 0.5;
 /// what is stiff has come to rest, and nothing next to the time in which tissue flows.
 constexpr double kSteps = 1;
 
+double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>& node) {
+  const State& s = world.state;
+  const dcm::Group& group = s.dcm.group[lane / kLanes];
+  return dcm::cytosol_pressure(world.params.dcm[static_cast<std::size_t>(group.type)].bulk_modulus,
+                               mesh::compute_volume(node, group.topology->triangle),
+                               s.dcm.volume[lane].at(s.clock.time));
+}
+
 }  // namespace
 
 Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughters) {
@@ -19,28 +28,22 @@ Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughter
   Selected born;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (std::ranges::find(daughters, s.dcm.lineage[l]) != daughters.end()) born.dcm.push_back(l);
-  const Selected near = find_neighbours(world, born, kReach);
-  Selected moving = near;
-  moving.dcm.insert(moving.dcm.end(), born.dcm.begin(), born.dcm.end());
-  std::ranges::sort(moving.dcm);
-  Subworld sub = extract(world, moving, find_neighbours(world, moving, kReach));
+  Subworld sub = extract(world, born, find_neighbours(world, born, kReach));
   const Settling settling = relax(sub, kSteps * world.params.numerics.max_step);
-  Settled result{settling.ok, settling.cause, settling.steps, 0, 0};
+  Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;
 
-  std::vector<std::vector<Vec3>> before(near.dcm.size());
-  for (std::size_t k = 0; k < near.dcm.size(); ++k) dcm::copy_nodes(s.dcm, near.dcm[k], before[k]);
+  std::vector<std::vector<Vec3>> before(born.dcm.size());
+  for (std::size_t k = 0; k < born.dcm.size(); ++k) dcm::copy_nodes(s.dcm, born.dcm[k], before[k]);
   write_back(sub, world);
   std::vector<Vec3> node;
-  for (std::size_t k = 0; k < near.dcm.size(); ++k) {
-    dcm::copy_nodes(s.dcm, near.dcm[k], node);
-    Vec3 mean = Vec3::Zero();
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      const Vec3 shift = node[i] - before[k][i];
-      mean += shift / static_cast<double>(node.size());
-      result.node_shift = std::max(result.node_shift, shift.norm());
-    }
-    result.neighbour_shift = std::max(result.neighbour_shift, mean.norm());
+  for (std::size_t k = 0; k < born.dcm.size(); ++k) {
+    const std::size_t lane = born.dcm[k];
+    dcm::copy_nodes(s.dcm, lane, node);
+    double& shift = result.shift[s.dcm.lineage[lane]];
+    for (std::size_t i = 0; i < node.size(); ++i)
+      shift = std::max(shift, (node[i] - before[k][i]).norm());
+    result.pressure[s.dcm.lineage[lane]] = pressure_of(world, lane, node);
   }
   return result;
 }

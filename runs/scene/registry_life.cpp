@@ -140,7 +140,7 @@ void describe_life(Visitor& v, LifeBlock& b) {
           .item = "life.rules"},
          b.rules, describe_rule);
   v.real({.name = "grid",
-          .meaning = "time between two looks at the rules, at inhibition and at sleep",
+          .meaning = "time between two looks at the rules, at inhibition, at sleep and at meshes",
           .dimension = kTime,
           .unit = "min",
           .range = kPositive},
@@ -157,6 +157,10 @@ void describe_life(Visitor& v, LifeBlock& b) {
           .unit = "Pa",
           .range = kPositive},
          b.sleep_traction);
+  v.flag({.name = "remesh",
+          .meaning = "the mesh of a cell whose triangles degenerate or fold is replaced by a sound "
+                     "one on the same surface"},
+         b.remesh);
 }
 
 }  // namespace acinus::runs

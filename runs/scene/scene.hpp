@@ -151,9 +151,10 @@ struct LifeRule {
 
 struct LifeBlock {
   std::vector<LifeRule> rules;
-  double grid = 600;             ///< s between two looks at rules, inhibition and sleep
+  double grid = 600;             ///< s between two looks at rules, inhibition, sleep and meshes
   bool sleep = false;            ///< cells in balance are left out of the step until pushed
   double sleep_traction = 1e-3;  ///< kPa out of balance, below which a cell falls asleep
+  bool remesh = true;            ///< cell meshes that degenerate are mended
 };
 
 struct CellEntry {

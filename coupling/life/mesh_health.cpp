@@ -1,0 +1,126 @@
+#include "coupling/life/mesh_health.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "core/mesh/measures.hpp"
+#include "core/threads.hpp"
+#include "coupling/life/cell.hpp"
+#include "coupling/life/mesh_remedy.hpp"
+#include "coupling/step.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Time in which the cortex of a mended cell forgets the mesh it was given, s. As long as mitosis:
+/// slow next to what settles a cell, fast next to its cycle.
+constexpr double kForget = 3600;
+
+double reference_radius(const State& s, std::size_t lane) {
+  return std::cbrt(s.dcm.volume[lane].at(s.clock.time) / (4.0 / 3 * kPi));
+}
+
+const mesh::Topology& topology_of(const State& s, std::size_t lane) {
+  return *s.dcm.group[lane / kLanes].topology;
+}
+
+/// Whether the last step crossed the grid. Follows from the clock alone, so a resumed run looks at
+/// the same times as one that was never stopped.
+bool is_due(const State& s, double grid) {
+  if (s.clock.phase != Phase::kRun || !(s.clock.last_step > 0)) return false;
+  const auto interval = [&](double time) { return std::floor(time / grid + 1e-9); };
+  return interval(time_of(s)) != interval(time_of(s) - s.clock.last_step);
+}
+
+/// Area over what the cell's membrane takes for rest at this moment.
+double find_stretch(const State& s, std::size_t lane, const std::vector<Vec3>& node) {
+  const mesh::Topology& t = topology_of(s, lane);
+  const double radius = reference_radius(s, lane), time = s.clock.time;
+  const dcm::BirthShape& b = s.dcm.birth[lane];
+  const double rest = b.is_forgotten(time) ? 1 : 1 + b.weight.at(time) * (b.area - 1);
+  return mesh::compute_area(node, t.triangle) / (t.rest_area * radius * radius * rest);
+}
+
+void replace_mesh(State& s, std::size_t lane, const std::vector<Vec3>& node) {
+  std::vector<Vec3> old;
+  dcm::copy_nodes(s.dcm, lane, old);
+  const double stretch = find_stretch(s, lane, old), t = s.clock.time;
+  s.dcm.birth[lane] = dcm::make_birth_shape(topology_of(s, lane), node, reference_radius(s, lane),
+                                            stretch, {1, 0, t, t + kForget});
+  const bool moved = has_last_move(s);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const Address a = dcm::node_address(s.dcm, lane, static_cast<int>(i));
+    store_point(s.dcm.position.data(), a, node[i]);
+    if (moved) store_point(s.last_move.data(), a, Vec3::Zero());
+  }
+  if (lane < s.asleep.size()) s.asleep[lane] = 0;
+  if (lane < s.quiet.size()) s.quiet[lane] = 0;
+}
+
+std::string describe(const Mended& m) {
+  if (!m.ok)
+    return fmt::format("quality {:.2g}, spacing {:.2g}, fold {:.2g}{}; {}", m.before.quality,
+                       m.before.spacing, m.before.opposed, m.crossed ? ", crosses itself" : "",
+                       m.why);
+  return fmt::format(
+      "{}: quality {:.2g} -> {:.2g}, spacing {:.2g} -> {:.2g}, fold {:.2g} -> {:.2g}{}; surface "
+      "{:.2f} um out, {:.2f} um in, area {:+.2f} %",
+      m.method, m.before.quality, m.after.quality, m.before.spacing, m.after.spacing,
+      m.before.opposed, m.after.opposed, m.crossed ? ", had crossed itself" : "", m.shift.outside,
+      m.shift.inside, 100 * m.area_change);
+}
+
+}  // namespace
+
+std::vector<std::size_t> find_suspicious(const State& s) {
+  const std::size_t n = s.dcm.n_lane();
+  std::vector<std::uint8_t> suspicious(n, 0);
+#pragma omp parallel if (worth_threads(s.dcm.n_row()))
+  {
+    std::vector<Vec3> node;
+#pragma omp for schedule(static)
+    for (std::size_t l = 0; l < n; ++l) {
+      if (!s.dcm.active(l)) continue;
+      dcm::copy_nodes(s.dcm, l, node);
+      suspicious[l] =
+          is_suspicious(measure_health(topology_of(s, l), node, reference_radius(s, l))) ? 1 : 0;
+    }
+  }
+  std::vector<std::size_t> lanes;
+  for (std::size_t l = 0; l < n; ++l)
+    if (suspicious[l] != 0) lanes.push_back(l);
+  return lanes;
+}
+
+void mend_meshes(World& world, Workspace& work, LifeReport& report) {
+  State& s = world.state;
+  if (!world.params.life.remesh || !is_due(s, world.params.life.grid)) return;
+  const auto scope = work.timings.scope("mesh health");
+  const std::vector<std::size_t> lanes = find_suspicious(s);
+  if (lanes.empty()) return;
+  std::vector<Mended> mended(lanes.size());
+#pragma omp parallel for schedule(dynamic, 1) if (lanes.size() > 1)
+  for (std::size_t k = 0; k < lanes.size(); ++k) {
+    std::vector<Vec3> node;
+    dcm::copy_nodes(s.dcm, lanes[k], node);
+    mended[k] = mend_mesh(topology_of(s, lanes[k]), node, reference_radius(s, lanes[k]));
+  }
+  std::vector<std::int64_t> changed;
+  for (std::size_t k = 0; k < lanes.size(); ++k) {
+    const std::int64_t lineage = s.dcm.lineage[lanes[k]];
+    report.events.push_back(
+        {mended[k].ok ? "remeshed" : "mesh_degenerate", {lineage}, describe(mended[k])});
+    if (!mended[k].ok) continue;
+    replace_mesh(s, lanes[k], mended[k].node);
+    changed.push_back(lineage);
+  }
+  if (changed.empty()) return;
+  const Settled settled = settle_daughters(world, changed);
+  if (!settled.ok) report.events.push_back({"settling_failed", changed, settled.cause});
+  size_workspace(world, work);
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,25 @@
+#pragma once
+/// Finds deformable cells whose mesh degenerates and gives them a better one (mesh_remedy.hpp).
+
+#include <cstddef>
+#include <vector>
+
+#include "coupling/life/life.hpp"
+#include "coupling/workspace.hpp"
+#include "coupling/world.hpp"
+
+namespace acinus::coupling {
+
+/// Lanes of the cells with a suspicious mesh, ascending. One pass over all triangles, on all
+/// threads.
+std::vector<std::size_t> find_suspicious(const State& state);
+
+/// Looks at all meshes if the last step crossed the time grid of life, and mends what is
+/// suspicious. A mended cell has its old volume and the mean tension of its old surface: its cortex
+/// takes the new mesh for rest and forgets that within an hour, as after a division. It and its
+/// neighbours then settle while all others stand still. What cannot be mended is left as it is and
+/// named at every look. Nothing at all changes while all meshes are sound. The workspace is sized
+/// anew when a cell was mended.
+void mend_meshes(World& world, Workspace& work, LifeReport& report);
+
+}  // namespace acinus::coupling
