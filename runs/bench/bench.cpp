@@ -42,6 +42,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"work-precision-capsule", bench_capsule},
       {"work-precision-cbm", bench_cbm},
       {"work-precision-clump", bench_clump},
+      {"work-precision-growth", bench_growth},
       {"work-precision-stretch", bench_stretch}};
   return all;
 }

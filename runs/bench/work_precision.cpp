@@ -163,6 +163,14 @@ BenchTable bench_stretch(const BenchOptions& options) {
 BenchTable bench_capsule(const BenchOptions& options) {
   return bench_case(capsule_case(), options);
 }
+BenchTable bench_growth(const BenchOptions& options) {
+  BenchTable table;
+  for (const int cells : {8, 24, 64}) {
+    const BenchTable rows = bench_case(growth_case(cells), options);
+    table.insert(table.end(), rows.begin(), rows.end());
+  }
+  return table;
+}
 BenchTable bench_cbm(const BenchOptions& options) { return bench_case(cbm_case(), options); }
 
 BenchTable bench_clump(const BenchOptions& options) {
@@ -185,7 +193,7 @@ BenchTable bench_clump(const BenchOptions& options) {
 
 BenchTable bench_work_precision(const BenchOptions& options) {
   BenchTable table;
-  for (const auto bench : {bench_stretch, bench_clump, bench_capsule, bench_cbm}) {
+  for (const auto bench : {bench_stretch, bench_clump, bench_capsule, bench_growth, bench_cbm}) {
     const BenchTable rows = bench(options);
     table.insert(table.end(), rows.begin(), rows.end());
   }

@@ -11,6 +11,7 @@ BenchTable bench_work_precision(const BenchOptions& options);  ///< all of those
 BenchTable bench_stretch(const BenchOptions& options);         ///< one stretched cell
 BenchTable bench_clump(const BenchOptions& options);           ///< 13 growing cells, and 27
 BenchTable bench_capsule(const BenchOptions& options);         ///< 27 squeezed cells
+BenchTable bench_growth(const BenchOptions& options);          ///< growing spheroids
 BenchTable bench_cbm(const BenchOptions& options);             ///< 1000 spheres
 
 }  // namespace acinus::runs

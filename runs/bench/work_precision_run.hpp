@@ -39,6 +39,7 @@ struct WorkScene {
   std::function<std::string(const Discretisation&)> text;  ///< the scene
   std::function<void(coupling::World&)> prepare{};         ///< before the warm-up; may be empty
   double warm_up = 0, warm_up_step = 1;                    ///< s
+  int grow_to = 0;  ///< cells at least before it starts, by division; 0: as many as there are
   std::function<void(coupling::World&)> begin{};  ///< after the warm-up, at t = 0; may be empty
   bool deformable = true;
   Vec3 axis = Vec3::Zero();  ///< strain of the first cell is measured along it; zero: is not
@@ -55,6 +56,7 @@ struct Study {
 
 /// The cells at one moment.
 struct Sample {
+  std::vector<std::int64_t> id;                         ///< of the cells, ascending
   std::vector<Vec3> center;                             ///< um
   std::vector<double> pressure, volume, contact_force;  ///< kPa (cytosol), um^3, nN
   double strain = 0;                                    ///< of the first cell, along the axis
@@ -67,8 +69,9 @@ struct Trajectory {
   std::int64_t steps = 0, rejected = 0, cg_iterations = 0;
 };
 
-/// Against the reference, over all cells and samples: rms of the difference over rms of the
-/// reference; centres after removing the rigid motion of the whole cluster.
+/// Against the reference, over all samples and the cells that are there in both: rms of the
+/// difference over rms of the reference; centres after removing the rigid motion of the whole
+/// cluster.
 struct Errors {
   double pressure = 0, volume = 0, contact_force = 0, strain = 0;  ///< relative
   double center_max = 0, center_rms = 0;                           ///< um
@@ -102,7 +105,7 @@ class WarmScene {
   std::map<Discretisation, coupling::World> start_;
 };
 
-/// @pre both without failure, with equally many cells and samples
+/// @pre both without failure, with equally many samples
 Errors compute_errors(const Trajectory& trajectory, const Trajectory& reference);
 
 /// Runs the reference, then every setting. `done` is told of every outcome as it comes.

@@ -165,6 +165,34 @@ WorkCase packed_case() {
   return c;
 }
 
+WorkCase growth_case(int cells) {
+  WorkCase c;
+  c.scene = {.name = fmt::format("growth{}", cells),
+             .title = fmt::format("a spheroid that grows by division, from {} cells on", cells),
+             .text =
+                 [](const Discretisation& d) {
+                   return fmt::format(
+                       R"({{"name": "growth", "time": {{"end": "30 days"}},
+  "cell_types": {{"cell": {{"dcm": {{"nodes": {}}}, "adhesion": "1e-5 J/m^2",
+                           "cycle": {{"time": "24 h", "start": "birth"}}}}}},
+  "cells": {{"source": "list", "model": "dcm", "list": [{{"position": ["0 um", "0 um", "0 um"]}}]}},
+  "motility": {{"random": true, "grid": "10 min"}}, "contact": {{"quadrature": "{}"}}}})",
+                       d.nodes, d.quadrature);
+                 },
+             .warm_up = 600,
+             .warm_up_step = 120,
+             .grow_to = cells};
+  Study s{"error of time stepping, nodes",
+          2 * 3600,
+          4,
+          {kNodes, Integrator::kLinearlyImplicit, 7.5, 1e-4},
+          {}};
+  for (const double tolerance : {3e-3, 2e-2})
+    add_steps(s.setting, kNodes, Integrator::kLinearlyImplicit, {30, 60, 120, 240}, tolerance);
+  c.time = {s};
+  return c;
+}
+
 WorkCase capsule_case() {
   WorkCase c;
   c.scene = {

@@ -21,6 +21,8 @@ WorkCase stretch_case();
 WorkCase clump_case();
 /// 27 cells of the same kind: the usual step against a short one.
 WorkCase packed_case();
+/// A spheroid of deformable cells that grows and divides, from about so many cells on.
+WorkCase growth_case(int cells);
 /// 27 deformable cells in a shrinking rigid sphere.
 WorkCase capsule_case();
 /// 1000 spheres with random motility; the random forces are fixed on a grid in time.
