@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "core/threads.hpp"
+#include "core/time_grid.hpp"
 #include "coupling/judge.hpp"
 #include "coupling/step.hpp"
 
@@ -46,10 +48,54 @@ void move_trial(const World& world, std::span<const double> d, StageScratch& s) 
   for (std::size_t k = 0; k < cbm.size(); ++k) cbm[k] += d[dcm.size() + k];
 }
 
-Attempt try_linearly_implicit(const World& world, double step, Workspace& w) {
-  Attempt a;
+/// Whether the last step's velocity says where the next one leads.
+bool is_steady(const World& world) {
+  const State& s = world.state;
+  if (!has_last_move(s)) return false;
+  const Motility& m = world.params.motility;
+  if (!m.random || !controls_at(s.clock, world.params.start_up).motility) return true;
+  const double now = s.clock.time - s.clock.origin;
+  return grid_interval(now, m.grid) == grid_interval(now - s.clock.last_step, m.grid);
+}
+
+void move_points(State& s, std::span<const double> d) {
+  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
+  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
+}
+
+/// Finds contacts and assembles where the last step's velocity leads.
+void assemble_ahead(World& world, double step, Workspace& w) {
+  State& s = world.state;
+  Ahead& ahead = w.ahead;
+  const double ratio = std::min(1.0, step / s.clock.last_step);
+  for (auto* v : {&ahead.move, &ahead.friction, &ahead.pair_friction, &ahead.product})
+    v->resize(w.move.size());
+  for_each_number(w.move.size(), [&](std::size_t k) { ahead.move[k] = ratio * s.last_move[k]; });
+  const std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
+  move_points(s, ahead.move);
   find_all_contacts(world, step, w);
+  assemble(world, step, w, {.stiffness_scale = 0});
+  w.op.apply(ahead.move, ahead.friction);
+  w.cg.product.resize(w.move.size());
+  w.op.apply_external(ahead.move, w.cg.product);
+  for_each_number(w.move.size(), [&](std::size_t k) {
+    ahead.pair_friction[k] = ahead.friction[k] - w.cg.product[k];
+  });
   assemble(world, step, w);
+  s.dcm.position = dcm;
+  s.cbm.position = cbm;
+}
+
+Attempt try_linearly_implicit(World& world, double step, bool extrapolate, Workspace& w) {
+  Attempt a;
+  if (extrapolate && is_steady(world)) {
+    assemble_ahead(world, step, w);
+  } else {
+    w.ahead = {};
+    find_all_contacts(world, step, w);
+    assemble(world, step, w);
+  }
   a.status = solve_step(world, step, w, a.cg_iterations);
   a.solves = 1;
   return a;
@@ -161,9 +207,9 @@ double largest_move(const Workspace& w, std::span<const double> field) {
   return largest;
 }
 
-Attempt try_newton(const World& world, double step, Workspace& w) {
+Attempt try_newton(World& world, double step, Workspace& w) {
   // The first iteration is a linearly implicit step; it also leaves what the judge looks at.
-  Attempt a = try_linearly_implicit(world, step, w);
+  Attempt a = try_linearly_implicit(world, step, false, w);
   if (!a.status.ok) return a;
   StageScratch& s = stage_scratch(world, w);
   find_all_contacts(world, step, s.friction);
@@ -198,7 +244,7 @@ Attempt try_newton(const World& world, double step, Workspace& w) {
 
 }  // namespace
 
-Attempt attempt_step(const World& world, double step, Workspace& w) {
+Attempt attempt_step(World& world, double step, bool first_try, Workspace& w) {
   switch (world.params.numerics.integrator) {
     case Integrator::kExplicitEuler:
       return try_explicit_euler(world, step, w);
@@ -209,7 +255,7 @@ Attempt attempt_step(const World& world, double step, Workspace& w) {
     case Integrator::kLinearlyImplicit:
       break;
   }
-  return try_linearly_implicit(world, step, w);
+  return try_linearly_implicit(world, step, first_try && world.params.numerics.extrapolate, w);
 }
 
 std::string name_of(Integrator integrator) {

@@ -29,7 +29,11 @@ struct Attempt {
 ///   ROS2:               two stages with one matrix, Gamma/(g h) + K, g = 1 - 1/sqrt 2, order 2 for
 ///                       any K [Verwer1999, Eq. (1.3)]
 ///   Newton:             Gamma/h dx = F(x + dx; t + h) by Newton with line search, order 1
-Attempt attempt_step(const World& world, double step, Workspace& work);
+/// With `extrapolate` and `first_try` the linearly implicit method takes F and K at x + h v of the
+/// last step, which takes the lag out of steady motion (docs/decisions/0016.md); not after a jump
+/// of the random force, whose velocity is gone.
+/// @post world is as before
+Attempt attempt_step(World& world, double step, bool first_try, Workspace& work);
 
 /// The name a scene uses: "linearly-implicit", "explicit-euler", "ros2", "newton".
 std::string name_of(Integrator integrator);

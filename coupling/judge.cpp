@@ -78,6 +78,12 @@ int find_turned_face(const dcm::State& s, std::size_t lane, const std::vector<do
   return -1;
 }
 
+/// The part of a point's move that is not in the gaps of contacts yet.
+Vec3 rest_of_move(const Workspace& w, Address a) {
+  const Vec3 move = load_point(w.move.data(), a);
+  return w.ahead.used() ? Vec3(move - load_point(w.ahead.move.data(), a)) : move;
+}
+
 }  // namespace
 
 double move_limit(double max_move, double mean_edge) {
@@ -197,7 +203,7 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
     const solve::Stencil stencil = solve::stencil_of(link);
     Vec3 r = Vec3::Zero();
     for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
-      r += stencil.weight[k] * load_point(w.move.data(), stencil.address[k]);
+      r += stencil.weight[k] * rest_of_move(w, stencil.address[k]);
     double opening = 0;
     for (int k = 0; k < 3; ++k)
       opening += static_cast<double>(link.normal[static_cast<std::size_t>(k)]) * r[k];
@@ -232,7 +238,16 @@ Balance measure_balance(const World& world, Workspace& w) {
     for_each_number(w.rhs.size(),
                     [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
-  w.op.apply_external(w.move, w.cg.product);
+  if (w.ahead.used()) {  // the matrix is that of the rest of the way
+    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] -= w.ahead.move[k]; });
+    w.op.apply_external(w.move, w.cg.product);
+    for_each_number(w.move.size(), [&](std::size_t k) {
+      w.move[k] += w.ahead.move[k];
+      w.cg.product[k] -= w.ahead.pair_friction[k];
+    });
+  } else {
+    w.op.apply_external(w.move, w.cg.product);
+  }
   struct Middle {
     Vec3 sum = Vec3::Zero();
     double n = 0;

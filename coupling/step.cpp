@@ -220,6 +220,17 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   for_each_number(w.rhs.size(), [&](std::size_t k) {
     w.rhs[k] = w.system.force[k] + w.system.external_force[k];
   });
+  if (w.ahead.used()) {
+    // A (d - ahead) = F - Gamma/h ahead, solved for d: the tolerance refers to the whole way.
+    w.op.apply(w.ahead.move, w.ahead.product);
+    for_each_number(w.rhs.size(), [&](std::size_t k) {
+      w.rhs[k] += w.ahead.product[k] - w.ahead.friction[k];
+      w.move[k] = w.ahead.move[k];
+    });
+    const Status status = solve_system(world, w, cg_iterations);
+    for_each_number(w.rhs.size(), [&](std::size_t k) { w.rhs[k] -= w.ahead.product[k]; });
+    return status;
+  }
   // The last step's velocity is a good first guess.
   if (has_last_move(s)) {
     const double ratio = step / s.clock.last_step;
@@ -260,7 +271,8 @@ StepResult advance(World& world, Workspace& w, double limit) {
   int cg_iterations = 0, solves = 0;
   for (;;) {
     const double step = std::min(wanted, limit);
-    const Attempt attempt = attempt_step(world, step, w);  // 1 life, 2 contact, 3 solve
+    const Attempt attempt =
+        attempt_step(world, step, result.rejections == 0, w);  // 1 life, 2 contact, 3 solve
     cg_iterations += attempt.cg_iterations;
     solves += attempt.solves;
     Verdict verdict;  // 4 judge

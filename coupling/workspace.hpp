@@ -15,6 +15,15 @@ namespace acinus::coupling {
 
 struct StageScratch;
 
+/// Where a step was linearised, as displacements from the present positions; empty: there.
+struct Ahead {
+  std::vector<double> move;           ///< [n_row][3][lane] um
+  std::vector<double> friction;       ///< Gamma/h times it, nN
+  std::vector<double> product;        ///< Gamma/h + K times it, nN
+  std::vector<double> pair_friction;  ///< of that what cells exert on each other
+  bool used() const { return !move.empty(); }
+};
+
 struct Workspace {
   solve::System system;
   solve::Operator op;
@@ -36,6 +45,7 @@ struct Workspace {
   std::vector<std::uint8_t> held;    ///< written by: find_all_contacts
   std::vector<double> rhs;           ///< written by: solve_step
   std::vector<double> move;          ///< displacement of the step; written by: solve_step
+  Ahead ahead;                       ///< written by: attempt_step
   std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
   bool all_awake = false;            ///< nobody sleeps here

@@ -59,6 +59,8 @@ struct Numerics {
   double max_move = 0.3;    ///< displacement cap in mean edge lengths, 0 = none
   solve::CgOptions cg;
   Integrator integrator = Integrator::kLinearlyImplicit;
+  /// Linearly implicit steps linearise where the last step's velocity leads, not where cells are.
+  bool extrapolate = false;
 };
 
 /// Constants of a run.

@@ -217,6 +217,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   p.numerics = {scene.time.step,     scene.time.min_step,
                 scene.time.adaptive, scene.time.tolerance,
                 scene.time.max_move, {scene.solver.tolerance, scene.solver.max_iterations}};
+  p.numerics.extrapolate = scene.time.extrapolate;
   for (const auto method : {coupling::Integrator::kExplicitEuler, coupling::Integrator::kRos2,
                             coupling::Integrator::kNewton})
     if (scene.time.integrator == coupling::name_of(method)) p.numerics.integrator = method;

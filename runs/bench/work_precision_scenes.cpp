@@ -182,14 +182,16 @@ WorkCase growth_case(int cells) {
              .warm_up = 600,
              .warm_up_step = 120,
              .grow_to = cells};
-  Study s{"error of time stepping, nodes",
-          2 * 3600,
-          4,
-          {kNodes, Integrator::kLinearlyImplicit, 7.5, 1e-4},
-          {}};
-  for (const double tolerance : {3e-3, 2e-2})
-    add_steps(s.setting, kNodes, Integrator::kLinearlyImplicit, {30, 60, 120, 240}, tolerance);
-  c.time = {s};
+  for (const Discretisation& d : {kUsual, kNodes}) {
+    Study s{"error of time stepping, " + d.quadrature,
+            2 * 3600,
+            4,
+            {d, Integrator::kLinearlyImplicit, 7.5, 1e-4},
+            {}};
+    for (const double tolerance : {3e-3, 2e-2})
+      add_steps(s.setting, d, Integrator::kLinearlyImplicit, {30, 60, 120, 240}, tolerance);
+    c.time.push_back(s);
+  }
   return c;
 }
 

@@ -44,6 +44,11 @@ void describe_time(Visitor& v, TimeBlock& b) {
                      "(newton)",
           .choices = "linearly-implicit|explicit-euler|ros2|newton"},
          b.integrator);
+  v.flag({.name = "extrapolate",
+          .meaning =
+              "linearly implicit steps look ahead along the last step's velocity: steady motion "
+              "has a quarter of the error"},
+         b.extrapolate);
   v.flag({.name = "with_contacts",
           .meaning = "allow ros2 although cells may touch something: contacts make it chatter"},
          b.with_contacts);

@@ -23,6 +23,7 @@ struct TimeBlock {
   double max_move = 0.3;    ///< displacement cap, in mean edge lengths; 0 = no cap
   std::string integrator = "linearly-implicit";
   bool with_contacts = false;  ///< ros2 although cells may touch
+  bool extrapolate = false;    ///< linearise where the last step's velocity leads
   int until_cells = 0;         ///< the run ends when there are so many cells; 0 = no such end
 };
 
