@@ -14,25 +14,6 @@ namespace {
 using contact::SphereBody;
 using contact::SurroundingKind;
 
-/// How far apart two adhering spheres may stand before they let go, um (bound over all pairs).
-double largest_separation(const State& s, std::span<const Params> params,
-                          std::span<const double> radius, const contact::Surroundings& around) {
-  if (s.n_cell() == 0) return 0;
-  double adhesion = around.vessels.material.adhesion;
-  for (const Params& p : params) adhesion = std::max(adhesion, p.adhesion);
-  for (const auto& p : around.planes) adhesion = std::max(adhesion, p.material.adhesion);
-  for (const auto& m : around.meshes) adhesion = std::max(adhesion, m.material.adhesion);
-  if (adhesion <= 0) return 0;
-  double softest = *std::ranges::min_element(s.young);
-  if (!around.vessels.network.segment.empty())
-    softest = std::min(softest, around.vessels.material.young);
-  const double largest = *std::ranges::max_element(radius);
-  // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst
-  // case.
-  const contact::SpherePair pair{largest, softest / 2, adhesion};
-  return -contact::jkr_special(pair).fold.overlap;
-}
-
 bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
@@ -88,6 +69,24 @@ MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) 
 }
 
 }  // namespace
+
+double largest_separation(const State& s, std::span<const Params> params,
+                          std::span<const double> radius, const contact::Surroundings& around) {
+  if (s.n_cell() == 0) return 0;
+  double adhesion = around.vessels.material.adhesion;
+  for (const Params& p : params) adhesion = std::max(adhesion, p.adhesion);
+  for (const auto& p : around.planes) adhesion = std::max(adhesion, p.material.adhesion);
+  for (const auto& m : around.meshes) adhesion = std::max(adhesion, m.material.adhesion);
+  if (adhesion <= 0) return 0;
+  double softest = *std::ranges::min_element(s.young);
+  if (!around.vessels.network.segment.empty())
+    softest = std::min(softest, around.vessels.material.young);
+  const double largest = *std::ranges::max_element(radius);
+  // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst
+  // case.
+  const contact::SpherePair pair{largest, softest / 2, adhesion};
+  return -contact::jkr_special(pair).fold.overlap;
+}
 
 double overlap_weight(double relative_overlap) {
   const double s = std::clamp(relative_overlap / kOverlapRise, 0.0, 1.0);

@@ -70,6 +70,11 @@ double overlap_weight(double relative_overlap);
 /// Mean relative overlap of a cell.   [VanLiedekerke2020, Eq. (22) with smooth weights]
 double mean_overlap(const ContactWorkspace& work, std::size_t cell);
 
+/// How far apart two adhering spheres may stand before they let go, um: a bound over all pairs and
+/// surroundings.
+double largest_separation(const State& state, std::span<const Params> params,
+                          std::span<const double> radius, const contact::Surroundings& around);
+
 /// Renews the near pairs if a cell moved more than half the skin. Returns whether it did.
 bool refresh_pairs(const State& state, std::span<const Params> params, const ContactParams& c,
                    std::span<const double> radius, const contact::Surroundings& around,

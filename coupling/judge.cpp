@@ -257,7 +257,7 @@ Balance measure_balance(const World& world, Workspace& w) {
     }
   };
   const Middle middle =
-      sum_over_cells<Middle>(w, false, [&](std::size_t, Address first, int n_point, Middle& part) {
+      sum_over_cells<Middle>(w, true, [&](std::size_t, Address first, int n_point, Middle& part) {
         for (int i = 0; i < n_point; ++i)
           part.sum += load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
         part.n += n_point;

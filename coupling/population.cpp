@@ -20,7 +20,8 @@ void sort_along_curve(std::vector<Member>& members, const std::vector<Vec3>& cen
 
 }  // namespace
 
-State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like) {
+State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
+              std::vector<std::size_t>* stands) {
   State s;
   std::vector<dcm::CellRef> shells;
   std::vector<cbm::CellRef> spheres;
@@ -68,6 +69,7 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
   s.next_lineage = like.next_lineage;
   s.divisions = like.divisions;
   s.deaths = like.deaths;
+  if (stands != nullptr) *stands = std::move(lane);
   return s;
 }
 

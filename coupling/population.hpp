@@ -20,7 +20,10 @@ struct Member {
 /// A state with these cells in this order and everything that belongs to each of them (position,
 /// last movement, contacts that exist, cycle). Deformable cells are grouped by type and mesh.
 /// Clock, balance and counters are those of `like`.
-State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like);
+/// @param lane  [dcm] where each deformable cell came to stand; null: nobody asks. Spheres keep
+///              their order
+State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
+              std::vector<std::size_t>* lane = nullptr);
 
 /// Sorts the members along a space-filling curve, so that neighbours stand near each other in
 /// memory.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/threads.hpp"
+#include "coupling/awake.hpp"
 #include "coupling/integrators.hpp"
 #include "coupling/judge.hpp"
 #include "coupling/partitioned.hpp"
@@ -64,7 +65,7 @@ void commit(World& world, double step, int cg_iterations, int solves, Workspace&
 /// Cells that sleep exert no forces of their own.
 void hold_sleepers(const State& s, Workspace& w) {
   w.held.clear();
-  if (!w.all_awake) w.held = s.asleep;
+  if (w.holds) w.held = s.asleep;
   w.dcm.held.clear();
   if (w.held.empty()) return;
   w.held.resize(w.active.size(), 0);
@@ -116,7 +117,7 @@ double next_step(const Numerics& n, double step, double error) {
 void size_workspace(const World& world, Workspace& w) {
   std::vector<solve::Block> blocks =
       dcm::make_blocks(world.state.dcm, world.params.dcm,
-                       w.all_awake ? std::span<const std::uint8_t>{} : world.state.asleep);
+                       w.holds ? world.state.asleep : std::span<const std::uint8_t>{});
   const std::vector<solve::Block> spheres = cbm::make_blocks(world.state.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
   dcm::size_rank_one(world.state.dcm, world.params.dcm, w.system);
@@ -126,7 +127,8 @@ void size_workspace(const World& world, Workspace& w) {
   w.rhs.assign(w.system.n_dof(), 0.0);
   w.move.assign(w.system.n_dof(), 0.0);
   w.stages.reset();
-  w.watch.reset();
+  w.awake.reset();
+  w.sleepers.reset();
   w.dcm.body.clear();
   w.dcm.list_position.clear();
   w.cbm.list_position.clear();
@@ -264,6 +266,7 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
 }
 
 StepResult advance(World& world, Workspace& w, double limit) {
+  if (!w.holds && count_asleep(world.state) > 0) return advance_awake(world, w, limit);
   State& s = world.state;
   const Numerics& n = world.params.numerics;
   StepResult result;

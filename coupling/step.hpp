@@ -54,6 +54,7 @@ Status solve_step(const World& world, double step, Workspace& work, int& cg_iter
 Status solve_system(const World& world, Workspace& work, int& cg_iterations);
 
 /// Advances by one accepted step no longer than `limit`, with as many smaller retries as it takes.
+/// Sleepers keep their place to the bit (awake.hpp).
 /// Not accepted: a step of min_step was still bad; State is the last good one.
 StepResult advance(World& world, Workspace& work, double limit);
 

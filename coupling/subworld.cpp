@@ -79,18 +79,28 @@ Selected find_neighbours(const World& world, const Selected& cells, double reach
   const auto sphere = [&](std::size_t c) {
     return contact::sphere_box(cbm::center_of(s.cbm, c), radius[c]);
   };
-  std::vector<contact::Box> around;
-  for (std::size_t l : cells.dcm) around.push_back(box_of(s, l).grown(reach));
-  for (std::size_t c : cells.cbm) around.push_back(sphere(c).grown(reach));
-  const auto meets = [&](const contact::Box& box) {
-    return std::ranges::any_of(around, [&](const contact::Box& b) { return b.overlaps(box); });
-  };
-  Selected found;
+  std::vector<contact::Box> inner, outer;
+  for (std::size_t l : cells.dcm) inner.push_back(box_of(s, l));
+  for (std::size_t c : cells.cbm) inner.push_back(sphere(c));
+  Selected others;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (s.dcm.active(l) && !std::ranges::binary_search(cells.dcm, l) && meets(box_of(s, l)))
-      found.dcm.push_back(l);
+    if (s.dcm.active(l) && !std::ranges::binary_search(cells.dcm, l)) others.dcm.push_back(l);
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    if (!std::ranges::binary_search(cells.cbm, c) && meets(sphere(c))) found.cbm.push_back(c);
+    if (!std::ranges::binary_search(cells.cbm, c)) others.cbm.push_back(c);
+  for (std::size_t l : others.dcm) outer.push_back(box_of(s, l));
+  for (std::size_t c : others.cbm) outer.push_back(sphere(c));
+  std::vector<std::uint8_t> near(outer.size(), 0);
+  for (const auto& pair : contact::find_pairs_between(inner, outer, reach))
+    near[static_cast<std::size_t>(pair.second)] = 1;
+  const std::size_t n_shell = others.dcm.size();
+  Selected found;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    if (near[k] == 0) continue;
+    if (k < n_shell)
+      found.dcm.push_back(others.dcm[k]);
+    else
+      found.cbm.push_back(others.cbm[k - n_shell]);
+  }
   return found;
 }
 
@@ -129,6 +139,7 @@ Subworld extract(const World& world, const Selected& moving, const Selected& hel
   small.clock.last_step = 0;
   small.clock.accepted = small.clock.rejected = small.clock.cg_iterations = small.clock.solves = 0;
   small.clock.coarse = false;
+  sub.work.holds = true;
   size_workspace(sub.world, sub.work);
   return sub;
 }

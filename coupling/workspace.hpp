@@ -14,6 +14,7 @@
 namespace acinus::coupling {
 
 struct StageScratch;
+struct AwakePart;
 
 /// Where a step was linearised, as displacements from the present positions; empty: there.
 struct Ahead {
@@ -48,8 +49,9 @@ struct Workspace {
   Ahead ahead;                       ///< written by: attempt_step
   std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
-  bool all_awake = false;            ///< nobody sleeps here
-  std::shared_ptr<Workspace> watch;  ///< of the same world with everybody awake; see life/sleep.hpp
+  bool holds = false;  ///< sleepers take part in the steps made here, held in place
+  /// Where a world with sleepers steps; see awake.hpp.
+  std::shared_ptr<AwakePart> awake, sleepers;
   Timings timings;
   std::shared_ptr<StageScratch> stages;  ///< of methods with more than one stage
   int reject_every = 0;                  ///< tests: throw away every n-th attempt, as if judged bad

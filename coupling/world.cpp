@@ -10,6 +10,10 @@
 
 namespace acinus::coupling {
 
+int count_asleep(const State& s) {
+  return static_cast<int>(std::ranges::count(s.asleep, std::uint8_t{1}));
+}
+
 double time_since_start(const World& w) {
   const Clock& c = w.state.clock;
   if (c.phase == Phase::kRun) return c.time - c.origin;

@@ -118,6 +118,9 @@ struct State {
   double settle_time = -1;              ///< s, when that was
 };
 
+/// Number of cells asleep.
+int count_asleep(const State& state);
+
 /// Whether `last_move` is a step of the rows there are now: not before the first step.
 inline bool has_last_move(const State& s) {
   return s.clock.last_step > 0 &&

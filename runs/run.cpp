@@ -18,7 +18,6 @@
 #include "core/io/run_file.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/life/life.hpp"
-#include "coupling/life/sleep.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step.hpp"
 #include "runs/build_world.hpp"
@@ -207,18 +206,17 @@ double Run::time_to_next_event() const {
 
 Excess Run::write_frame() {
   const auto scope = work_.timings.scope("frames and audit");
-  coupling::Workspace& work = coupling::waking_workspace(world(), work_);
-  const Snapshot snapshot = take_snapshot(world(), work);
-  const coupling::AuditResult audit = audit_world(world(), work, snapshot);
+  const Snapshot snapshot = take_snapshot(world(), work_);
+  const coupling::AuditResult audit = audit_world(world(), work_, snapshot);
   add_audit(totals_, audit);
   if (world().state.clock.phase == coupling::Phase::kRun)
     sample_experiment(scene_, world(), snapshot, measures_);
-  if (world().ranks.is_root()) file_->append(make_frame(world(), work, snapshot, vessel_surface_));
+  if (world().ranks.is_root()) file_->append(make_frame(world(), work_, snapshot, vessel_surface_));
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
               fmt::format("{} cells cross themselves", audit.n_self_intersecting));
-  Excess excess = find_excess(audit, world(), work);
+  Excess excess = find_excess(audit, world(), work_);
   if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
   // Overlaps of the start must shrink from frame to frame and be gone at the end.
   const bool shrinks = excess.depth_um < excess_ && time() < end_ - kSameTime;

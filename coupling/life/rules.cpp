@@ -6,7 +6,6 @@
 #include "core/random.hpp"
 #include "core/sphere.hpp"
 #include "core/time_grid.hpp"
-#include "coupling/life/sleep.hpp"
 #include "coupling/measure.hpp"
 
 namespace acinus::coupling {
@@ -39,9 +38,8 @@ std::vector<double> growth_factors(const World& world, Workspace& work) {
   const State& s = world.state;
   std::vector<double> factor(s.cycle.size(), 1.0);
   if (std::ranges::none_of(world.params.life.type, is_inhibited)) return factor;
-  Workspace& watch = waking_workspace(world, work);
-  observe(world, watch);
-  const std::vector<CellMeasure> measured = measure_cells(world, watch);
+  observe(world, work);
+  const std::vector<CellMeasure> measured = measure_cells(world, work);
   std::size_t k = 0;
   for_each_cell(s, [&](const Cell& c) {
     const CellMeasure& m = measured[k++];

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/time_grid.hpp"
+#include "coupling/awake.hpp"
 #include "coupling/life/cell.hpp"
 #include "coupling/measure.hpp"
-#include "coupling/step.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -26,32 +27,25 @@ bool may_sleep(const State& s, const Cell& c) {
   return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
 }
 
-/// Sleepers last, both parts along the space-filling curve, so that whole groups sleep.
-void sort_sleepers(World& world) {
-  const State& s = world.state;
-  std::vector<Member> shells = list_dcm(s), spheres = list_cbm(s);
-  sort_by_place(shells, spheres);
-  std::ranges::stable_partition(shells, [&](const Member& m) { return s.asleep[m.index] == 0; });
-  std::ranges::stable_partition(
-      spheres, [&](const Member& m) { return s.asleep[cell_index(s, m.index)] == 0; });
-  world.state = compose(shells, spheres, s);
+/// Loads of everybody, without what only trembles: sleepers have no random motility.
+void observe_rest(World& world, Workspace& work) {
+  bool& random = world.params.motility.random;
+  const bool trembles = std::exchange(random, false);
+  observe(world, work);
+  random = trembles;
+}
+
+/// Who falls asleep has stopped.
+void stop(State& s, const Cell& c) {
+  if (!has_last_move(s)) return;
+  const int n = c.deformable ? s.dcm.group[c.at / kLanes].topology->n_node : 1;
+  const Address first =
+      c.deformable ? dcm::node_address(s.dcm, c.at, 0) : cbm::cell_address(s.dcm.n_row(), c.at);
+  for (int i = 0; i < n; ++i)
+    store_point(s.last_move.data(), first + static_cast<Address>(i * kPointStride), Vec3::Zero());
 }
 
 }  // namespace
-
-int count_asleep(const State& s) {
-  return static_cast<int>(std::ranges::count(s.asleep, std::uint8_t{1}));
-}
-
-Workspace& waking_workspace(const World& world, Workspace& work) {
-  if (world.state.asleep.empty()) return work;
-  if (!work.watch) {
-    work.watch = std::make_shared<Workspace>();
-    work.watch->all_awake = true;
-    size_workspace(world, *work.watch);
-  }
-  return *work.watch;
-}
 
 std::vector<double> unbalanced_traction(const World& world, const Workspace& w) {
   const State& s = world.state;
@@ -90,10 +84,13 @@ bool update_sleep(World& world, Workspace& work) {
   if (!p.enabled || s.clock.phase != Phase::kRun) return false;
   const std::int64_t now = grid_interval(time_of(s), p.grid);
   if (now == s.sleep_interval) return false;
+  if (count_asleep(s) > 0 &&
+      !advance_sleepers(world, work, static_cast<double>(now - s.sleep_interval) * p.grid))
+    s.asleep.clear();
   s.sleep_interval = now;
-  Workspace& watch = waking_workspace(world, work);
-  observe(world, watch);
-  const std::vector<double> traction = unbalanced_traction(world, watch);
+  const auto scope = work.timings.scope("sleep");
+  observe_rest(world, work);
+  const std::vector<double> traction = unbalanced_traction(world, work);
   std::vector<std::uint8_t> asleep = s.asleep;
   asleep.resize(traction.size(), 0);
   s.quiet.resize(traction.size(), 0);
@@ -106,9 +103,11 @@ bool update_sleep(World& world, Workspace& work) {
     asleep[c.index] = quiet >= kQuietLooks ? 1 : 0;
   });
   if (asleep == s.asleep || (s.asleep.empty() && std::ranges::count(asleep, 1) == 0)) return false;
+  for_each_cell(s, [&](const Cell& c) {
+    if (asleep[c.index] != 0) stop(s, c);
+  });
   s.asleep = std::move(asleep);
-  sort_sleepers(world);
-  size_workspace(world, work);
+  if (count_asleep(s) == 0) s.asleep.clear();
   return true;
 }
 

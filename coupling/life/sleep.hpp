@@ -3,30 +3,24 @@
 ///
 /// A cell falls asleep when it does not grow and the force on it is out of balance by less than a
 /// traction, and wakes when it is out of balance by twice that. In between it stands still and is a
-/// fixed surrounding of those awake. Balance is looked at on a time grid, with all loads of all
-/// cells as if nobody slept. (docs/decisions/0015.md)
+/// fixed surrounding of those awake. On a time grid sleepers make one step as long as the time they
+/// slept (awake.hpp); then balance is looked at, with all loads of all cells as if nobody slept.
+/// (docs/decisions/0015.md)
 
 #include "coupling/workspace.hpp"
 #include "coupling/world.hpp"
 
 namespace acinus::coupling {
 
-/// A workspace in which everybody is awake: for measuring, and for finding who must wake. It is
-/// `work` itself while nobody sleeps.
-Workspace& waking_workspace(const World& world, Workspace& work);
-
 /// Root mean square over a cell's surface of the force out of balance per area, kPa; [dcm lanes,
-/// then cbm cells].   @pre observe(world, work) with everybody awake
+/// then cbm cells].   @pre observe(world, work)
 std::vector<double> unbalanced_traction(const World& world, const Workspace& work);
 
-/// Puts cells to sleep and wakes others if the time grid was crossed. The workspace is sized anew
-/// when someone did.   @return whether someone did
+/// Puts cells to sleep and wakes others if the time grid was crossed.
+/// @return whether someone did
 bool update_sleep(World& world, Workspace& work);
 
 /// Time until sleep is looked at again, s; infinite when no cell may sleep.
 double time_to_sleep_event(const World& world);
-
-/// Number of cells asleep.
-int count_asleep(const State& state);
 
 }  // namespace acinus::coupling

@@ -15,6 +15,7 @@
 #include "core/timing.hpp"
 #include "runs/bench/assembly.hpp"
 #include "runs/bench/skipping.hpp"
+#include "runs/bench/sleep.hpp"
 #include "runs/bench/speed_index.hpp"
 #include "runs/bench/step_cost.hpp"
 #include "runs/bench/stress.hpp"
@@ -36,6 +37,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
       {"skipping", bench_skipping},
+      {"sleep", bench_sleep},
       {"stress", bench_stress},
       {"threads", bench_threads},
       {"work-precision", bench_work_precision},

@@ -1,0 +1,134 @@
+#include "runs/bench/sleep.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/timing.hpp"
+#include "coupling/difference.hpp"
+#include "coupling/life/life.hpp"
+#include "coupling/measure.hpp"
+#include "coupling/start_up.hpp"
+#include "coupling/step.hpp"
+#include "runs/build_world.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// The scene's cells rest for so long, s, before some of them begin to grow.
+constexpr double kSettle = 3600;
+/// What is compared, s, and how often pressures are looked at.
+constexpr double kWindow = 3 * 3600, kEvery = 1800;
+
+/// By lineage, kPa: contact pressure and that of the cytosol.
+using Pressures = std::map<std::int64_t, std::pair<double, double>>;
+
+struct Record {
+  double cpu = 0;    ///< s
+  double awake = 0;  ///< mean share of the cells
+  double grows = 0;  ///< the same of those that grow
+  std::int64_t divisions = 0;
+  std::vector<Pressures> pressure;
+};
+
+int count_cells(const coupling::State& s) {
+  return dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
+}
+
+void make_step(coupling::World& world, coupling::Workspace& work, double limit) {
+  const coupling::StepResult r = coupling::advance(world, work, limit);
+  check(r.accepted, "bench sleep: a step failed: " + r.cause, Exit::kCannotContinue);
+}
+
+/// The scene with everybody awake, up to the moment its cells begin to grow.
+coupling::World settle(coupling::World world) {
+  world.params.sleep.enabled = false;
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  const coupling::Clock& clock = world.state.clock;
+  while (clock.phase != coupling::Phase::kRun) {
+    make_step(world, work, coupling::time_to_phase_event(world));
+    coupling::update_phase(world, work);
+  }
+  const double slack = 1e-6;  // s: sums of steps are not exact
+  while (clock.time < clock.origin + kSettle - slack) {
+    make_step(world, work,
+              std::min(clock.origin + kSettle - clock.time, coupling::time_to_event(world)));
+    coupling::live(world, work);
+  }
+  return world;
+}
+
+Pressures measure(const coupling::World& world, coupling::Workspace& work) {
+  coupling::observe(world, work);
+  Pressures p;
+  for (const coupling::CellMeasure& m : coupling::measure_cells(world, work))
+    p[m.id] = {m.pressure, m.cytosol_pressure};
+  return p;
+}
+
+Record run(coupling::World world, bool sleep) {
+  world.params.sleep.enabled = sleep;
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  Record record;
+  const coupling::State& s = world.state;
+  const double start = s.clock.time;
+  for (double end = start + kEvery; end < start + kWindow + 1; end += kEvery) {
+    while (s.clock.time < end - 1e-6) {
+      const double cpu = cpu_seconds(), before = s.clock.time;
+      make_step(world, work, std::min(end - s.clock.time, coupling::time_to_event(world)));
+      coupling::live(world, work);
+      record.cpu += cpu_seconds() - cpu;
+      const double share = (s.clock.time - before) / kWindow / count_cells(s);
+      record.awake += share * (count_cells(s) - coupling::count_asleep(s));
+      record.grows += share * static_cast<double>(std::ranges::count(s.cycle, coupling::Fate::kGrow,
+                                                                     &coupling::Cycle::fate));
+    }
+    record.pressure.push_back(measure(world, work));
+  }
+  record.divisions = s.divisions;
+  return record;
+}
+
+/// Of the cells that both have.
+double relative_error(const Record& record, const Record& reference,
+                      double std::pair<double, double>::*which) {
+  std::vector<double> value, wanted;
+  for (std::size_t k = 0; k < record.pressure.size(); ++k)
+    for (const auto& [id, p] : reference.pressure[k]) {
+      const auto found = record.pressure[k].find(id);
+      if (found == record.pressure[k].end()) continue;
+      value.push_back(found->second.*which);
+      wanted.push_back(p.*which);
+    }
+  return coupling::relative_error(value, wanted);
+}
+
+}  // namespace
+
+BenchTable bench_sleep(const BenchOptions&) {
+  const Scene scene = read_scene(scene_folder() + "/lobule_rest.json");
+  const coupling::World world = settle(build_world(scene, Ranks::serial()).world);
+  const Record awake = run(world, false), asleep = run(world, true);
+  using Both = std::pair<double, double>;
+  BenchRow row{"lobule with resting cells, 3 h",
+               count_cells(world.state),
+               {{"speedup", awake.cpu / asleep.cpu},
+                {"pressure_error", relative_error(asleep, awake, &Both::first)},
+                {"cytosol_pressure_error", relative_error(asleep, awake, &Both::second)},
+                {"share_awake", asleep.awake},
+                {"share_growing", asleep.grows},
+                {"divisions", static_cast<double>(asleep.divisions)},
+                {"cpu_awake_s", awake.cpu},
+                {"cpu_asleep_s", asleep.cpu}}};
+  print_row(row);
+  return {row};
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,111 @@
+/// Steps of a world in which somebody sleeps.
+
+#include "coupling/awake.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/coupling/lives.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+void run_steps(World& w, Workspace& work, int n) {
+  for (int k = 0; k < n; ++k) ASSERT_TRUE(advance(w, work, 60).accepted);
+}
+
+/// Six shells in a row, a row of spheres on them, all in contact; two of each are pulled. Stepped
+/// once, so that contacts are known.
+World make_rows() {
+  std::vector<TestCell> cells;
+  for (int k = 0; k < 6; ++k)
+    cells.push_back({Vec3(23.9 * k, 0, 0), true, k < 2 ? Vec3(0.1, 0.5, 0.2) : Vec3::Zero()});
+  for (int k = 0; k < 6; ++k)
+    cells.push_back({Vec3(23.5 * k, 23.5, 0), false, k < 2 ? Vec3(-0.1, 0.2, 0) : Vec3::Zero()});
+  World w = make_test_world(cells, 60, 42);
+  w.params.numerics.cg = {1e-12, 20000};
+  Workspace work;
+  size_workspace(w, work);
+  run_steps(w, work, 1);
+  return w;
+}
+/// All but the pulled ones.
+void put_to_sleep(State& s) {
+  s.asleep.assign(s.dcm.n_lane() + s.cbm.n_cell(), 0);
+  for_each_cell(s, [&](const Cell& c) {
+    const std::int64_t id = lineage_of(s, c);
+    s.asleep[c.index] = id % 6 >= 2 ? 1 : 0;
+  });
+}
+const Selected kAwake{{0, 1}, {0, 1}};
+
+TEST(AwakePart, HoldsWhatMayTouchThoseAwakeAndWhatTouchesTheSpheresAmongThem) {
+  World w = make_rows();
+  put_to_sleep(w.state);
+  // Shell 2 and sphere 2 may touch; sphere 2 has contacts with sphere 3 and shells 2 and 3.
+  const Selected ring = find_ring(w, kAwake);
+  EXPECT_EQ(ring.dcm, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(ring.cbm, (std::vector<std::size_t>{2, 3}));
+  World shells = w;
+  for (double& x : shells.state.cbm.position) x += 1000;
+  EXPECT_EQ(find_ring(shells, {{0, 1}, {}}).dcm, (std::vector<std::size_t>{2}));
+}
+
+TEST(AwakePart, StepsAsTheWholeWorldDoesWithItsSleepersHeld) {
+  World part = make_rows();
+  put_to_sleep(part.state);
+  World whole = part;
+  Workspace work, whole_work;
+  whole_work.holds = true;
+  size_workspace(part, work);
+  size_workspace(whole, whole_work);
+  run_steps(part, work, 5);
+  run_steps(whole, whole_work, 5);
+  ASSERT_TRUE(work.awake);
+  EXPECT_LT(work.awake->world.state.cbm.n_cell(), 6u);
+  double off = 0, moved = 0;
+  const World start = make_rows();
+  for_each_cell(part.state, [&](const Cell& c) {
+    const Vec3 x = center_of(part.state, c);
+    off = std::max(off, (x - center_of(whole.state, c)).norm());
+    moved = std::max(moved, (x - center_of(start.state, c)).norm());
+  });
+  std::printf("moved by %.3g um, off by %.3g um\n", moved, off);
+  EXPECT_GT(moved, 0.1);
+  EXPECT_LT(off, 1e-8 * moved) << "ten thousand times the solver's tolerance";
+  EXPECT_EQ(part.state.cbm.touching, whole.state.cbm.touching);
+  EXPECT_EQ(part.state.clock.accepted, 1 + 5);
+}
+
+TEST(AwakePart, MakesNoDifferenceToTheBitWhereverItsWorkspaceWasMade) {
+  World w = make_rows();
+  put_to_sleep(w.state);
+  Workspace work;
+  size_workspace(w, work);
+  run_steps(w, work, 3);
+  World again = w;
+  Workspace fresh;
+  size_workspace(again, fresh);
+  run_steps(w, work, 3);
+  run_steps(again, fresh, 3);
+  EXPECT_EQ(hash_state(again.state), hash_state(w.state));
+}
+
+TEST(AwakePart, IsLeftOutWhenAllSleep) {
+  World w = make_rows();
+  w.state.asleep.assign(w.state.dcm.n_lane() + w.state.cbm.n_cell(), 1);
+  const World before = w;
+  Workspace work;
+  size_workspace(w, work);
+  const StepResult r = advance(w, work, 45);
+  EXPECT_TRUE(r.accepted);
+  EXPECT_EQ(r.step, 45);
+  EXPECT_EQ(w.state.clock.time, before.state.clock.time + 45);
+  EXPECT_EQ(w.state.dcm.position, before.state.dcm.position);
+  EXPECT_EQ(w.state.cbm.position, before.state.cbm.position);
+}
+
+}  // namespace
+}  // namespace acinus::coupling
