@@ -76,13 +76,17 @@ std::vector<double> strengths_at(const State& state, double time);
 struct CellData {
   std::span<const double> radius;         ///< [n_cell] um
   std::span<const double> strength = {};  ///< [n_cell] 0..1; empty: all 1
+  std::span<const std::int64_t> mother =
+      {};  ///< [n_cell] lineage, -1: none; empty: all are sisters
 
   double strength_of(std::size_t cell) const { return strength.empty() ? 1 : strength[cell]; }
-  /// Share of a contact of two spheres: the stronger one decides. Only siblings, who are born deep
-  /// in each other, come apart slowly; neighbours hold a daughter's place with full force. With the
-  /// weaker one they fell into the mother's place before her daughters were strong.
+  /// Share of a contact of two spheres. Only sisters, who are born deep in each other, come apart
+  /// slowly; neighbours hold a daughter's place with full force, newborn or not: else they fell
+  /// into the mother's place, or into each other, before they were strong.
   double pair_share(std::size_t a, std::size_t b) const {
-    return strength.empty() ? 1 : std::max(strength[a], strength[b]);
+    if (strength.empty()) return 1;
+    const bool sisters = mother.empty() || (mother[a] >= 0 && mother[a] == mother[b]);
+    return sisters ? std::max(strength[a], strength[b]) : 1;
   }
 };
 

@@ -15,6 +15,10 @@ namespace {
 /// Where between two neighbouring crossings a passing edge is probed.
 constexpr std::array<double, 3> kProbe{0.25, 0.5, 0.75};
 
+/// Sisters are born 2 (R_m - R_d) apart (cbm::divide), here in radii of cells about to divide: as
+/// they grow where they are, they may come to no less.
+const double kSisterDistance = 2 - std::cbrt(4.0);
+
 /// Calls f(point on a-b) at probes of every piece between neighbouring crossings.
 template <class F>
 void probe_pieces(const Vec3& a, const Vec3& b, const std::vector<double>& crossing, F&& f) {
@@ -259,6 +263,14 @@ std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
   return pair;
 }
 
+double sphere_overlap(const AuditSphere& a, const AuditSphere& b) {
+  const double distance = (a.center - b.center).norm(), depth = a.radius + b.radius - distance;
+  const bool sisters = a.mother >= 0 && a.mother == b.mother;
+  if (!sisters || depth <= std::max(a.radius, b.radius)) return depth;
+  const bool weak = a.strength < 1 || b.strength < 1;
+  return weak || distance >= kSisterDistance * 0.5 * (a.radius + b.radius) ? 0 : depth;
+}
+
 double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pair) {
   switch (pair.kind) {
     case Pair::Kind::kCellCell:
@@ -269,11 +281,8 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
       return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
     case Pair::Kind::kCellFixed:
       return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
-    case Pair::Kind::kSphereSphere: {
-      const AuditSphere &a = frame.spheres[pair.a], &b = frame.spheres[pair.b];
-      if (a.strength < 1 && b.strength < 1) return 0;
-      return a.radius + b.radius - (a.center - b.center).norm();
-    }
+    case Pair::Kind::kSphereSphere:
+      return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
   }
   return 0;
 }

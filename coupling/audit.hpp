@@ -23,7 +23,8 @@ struct AuditSphere {
   std::int64_t id = 0;
   Vec3 center = Vec3::Zero();
   double radius = 0;
-  double strength = 1;  ///< two below 1 are sisters that start in one place: not an overlap
+  double strength = 1;       ///< of a new sphere, see cbm::CellData
+  std::int64_t mother = -1;  ///< sisters start in one place; -1: there from the start
 };
 /// How deep a sphere is known to be dented by a cell, from the force between them.
 struct AuditDent {
@@ -91,6 +92,9 @@ struct AuditResult {
 /// axis
 ///   itself runs inside the cell, radius + distance to the cell's surface.
 /// - cell behind a plane or outside a capsule: the farthest node.
+/// - two spheres: Ri + Rj - distance. Sisters deeper in each other than to the centre count only
+/// when
+///   their forces have full strength and they are nearer than at birth: until then they come apart.
 /// - cell and sphere: radius - distance to the cell's surface, or radius + distance if the centre
 /// is inside. Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel,
 /// and the result does not depend on the number of threads. Throws Error if a coordinate is not

@@ -130,6 +130,7 @@ void size_workspace(const World& world, Workspace& w) {
   w.awake.reset();
   w.sleepers.reset();
   w.dcm.body.clear();
+  w.dcm.lane_of_body.clear();
   w.dcm.list_position.clear();
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();
@@ -146,7 +147,11 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   w.lanes = dcm::make_lane_data(s.dcm, end);
   w.cbm_radius = cbm::radii_at(s.cbm, end);
   w.cbm_strength = cbm::strengths_at(s.cbm, end);
-  const cbm::CellData spheres{w.cbm_radius, w.cbm_strength};
+  w.cbm_mother.clear();
+  if (!w.cbm_strength.empty() && !s.cycle.empty())
+    for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+      w.cbm_mother.push_back(s.cycle[s.dcm.n_lane() + c].parent);
+  const cbm::CellData spheres{w.cbm_radius, w.cbm_strength, w.cbm_mother};
   hold_sleepers(s, w);
   w.leader = s.leader;
   w.leader_interval = s.leader_interval;
@@ -214,7 +219,7 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Workspace
 
 std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& w) {
   return cbm::list_sphere_contacts(world.state.cbm, world.params.cbm, phase_params(world).cbm,
-                                   {w.cbm_radius, w.cbm_strength}, w.cbm);
+                                   {w.cbm_radius, w.cbm_strength, w.cbm_mother}, w.cbm);
 }
 
 Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {

@@ -37,6 +37,7 @@ struct Workspace {
   dcm::LaneData lanes;                         ///< written by: set_references
   std::vector<double> cbm_radius;              ///< written by: set_references
   std::vector<double> cbm_strength;            ///< empty: all 1; written by: set_references
+  std::vector<std::int64_t> cbm_mother;        ///< lineage; empty with cbm_strength; by the same
   std::vector<double> free_area;               ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble
   CellForces forces;                           ///< written by: assemble

@@ -256,7 +256,8 @@ bool refresh_lists(const State& state, const ContactParams& c, const LaneData& l
   const contact::SearchOptions options = search_options(c, state, lanes);
   const std::size_t n_body = work.body.size();
   work.motion.assign(n_body, {});
-  if (work.list_position.size() == state.position.size() &&
+  // Without bodies no positions are no sign of lists that still hold: the last cells may have died.
+  if (n_body > 0 && work.list_position.size() == state.position.size() &&
       !lists_expired(state, c, lanes, around, work))
     return false;
   work.motion.assign(n_body, {});

@@ -134,6 +134,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                    "first seed of random cases (default: 1); --seeds 1 --first N repeats one")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000000));
+  bench->add_flag("--life", arguments.bench_options.life,
+                  "stress: the cells of the same scenes also grow, divide and die");
   bench->add_option("--out", arguments.bench_options.folder, "folder for plots and scenes")
       ->type_name("DIR");
 }

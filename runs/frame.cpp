@@ -181,7 +181,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
                       snapshot.cells[b].newborn});
   for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k)
     spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
-                       snapshot.cells[k].strength});
+                       snapshot.cells[k].strength, snapshot.cells[k].parent});
   std::vector<coupling::AuditPlane> planes;
   for (const contact::Plane& p : around.planes) planes.push_back({p.point_at(time), p.normal});
   std::vector<coupling::AuditCapsule> capsules;

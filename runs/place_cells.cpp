@@ -69,6 +69,11 @@ double nearest_gap(const contact::Surroundings& around, const Vec3& x, std::stri
   return nearest;
 }
 
+/// Cells that start anywhere in their cycle have up to twice the volume.
+double largest_start(const CellType& t) {
+  return t.radius * (t.cycle.time && t.cycle.start == "random" ? std::cbrt(2.0) : 1);
+}
+
 /// Darts thrown into a box, at least min_distance apart and clear of the surroundings.
 std::vector<Vec3> fill_box(const Scene& scene, double radius, const contact::Surroundings& around) {
   const CellsBlock& c = scene.cells;
@@ -185,7 +190,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
           {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
           uniform);
     else if (c.source == "fill")
-      centers = fill_box(scene, radius, around);
+      centers = fill_box(scene, largest_start(scene.cell_types.begin()->second), around);
     else if (lobule)
       centers = lobule->seeds;
     cells.reserve(centers.size());

@@ -7,15 +7,18 @@
 #include <cmath>
 #include <limits>
 
+#include "core/sphere.hpp"
+
 namespace acinus::runs {
 namespace {
 
 /// Share of a mean edge that a surface may stand deeper between contact points.
 constexpr double kBetweenPoints = 0.25;
 
-double sphere_radius(const cbm::State& s, std::int64_t id) {
-  const auto k = static_cast<std::size_t>(std::ranges::find(s.lineage, id) - s.lineage.begin());
-  return std::cbrt(3 * s.volume[k].to / (4 * kPi));
+double radius_of(const coupling::State& s, std::int64_t id) {
+  const auto k =
+      static_cast<std::size_t>(std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin());
+  return sphere_radius(s.cbm.volume[k].at(s.clock.time));
 }
 
 /// The sphere whose centre is deepest inside its surroundings.
@@ -54,7 +57,7 @@ double deepest_overlap(const coupling::World& world) {
   for (std::size_t l = 0; l < s.n_lane(); ++l)
     if (s.active(l))
       edge = std::max(edge, s.group[l / kLanes].topology->mean_rest_length *
-                                std::cbrt(3 * s.volume[l].to / (4 * kPi)));
+                                sphere_radius(s.volume[l].at(world.state.clock.time)));
   return world.params.dcm_contact.max_depth + kBetweenPoints * edge;
 }
 
@@ -73,12 +76,12 @@ Excess find_excess(const coupling::AuditResult& audit, const coupling::World& wo
   look(audit.dcm_dcm, limit, "DCM cells", 2);
   look(audit.dcm_wall, limit, "DCM cell and wall", 1);
   look(audit.dcm_vessel, limit, "DCM cell and vessel segment", 1);
-  const cbm::State& s = world.state.cbm;
+  const coupling::State& s = world.state;
   if (!audit.dcm_cbm.ids.empty())
-    look(audit.dcm_cbm, sphere_radius(s, audit.dcm_cbm.ids[1]), "DCM cell and CBM cell", 2);
+    look(audit.dcm_cbm, radius_of(s, audit.dcm_cbm.ids[1]), "DCM cell and CBM cell", 2);
   if (!audit.cbm_cbm.ids.empty())
     look(audit.cbm_cbm,
-         std::max(sphere_radius(s, audit.cbm_cbm.ids[0]), sphere_radius(s, audit.cbm_cbm.ids[1])),
+         std::max(radius_of(s, audit.cbm_cbm.ids[0]), radius_of(s, audit.cbm_cbm.ids[1])),
          "CBM cells", 2);
   if (audit.n_inverted > 0)
     worst = {std::numeric_limits<double>::infinity(),

@@ -12,6 +12,7 @@ struct BenchOptions {
   int threads = 0;        ///< 0 = all cores
   int seeds = 3;          ///< repetitions with different random numbers, for cases that have any
   int first = 1;          ///< the first of these seeds
+  bool life = false;      ///< cells of random scenes grow, divide and die
 };
 
 /// Runs a benchmark and prints its table.

@@ -9,13 +9,17 @@
 #include <map>
 
 #include "core/mesh/measures.hpp"
+#include "core/sphere.hpp"
 #include "coupling/audit.hpp"
-#include "runs/soundness.hpp"
+#include "coupling/life/cell.hpp"
 
 namespace acinus::runs {
 namespace {
 
 constexpr std::uint8_t kShell = 0;
+constexpr double kSameTime = 1e-6;  ///< s
+/// Share of a mean edge that a surface may stand deeper between contact points.
+constexpr double kBetweenPoints = 0.25;
 
 struct Mesh {
   std::int64_t id = 0;
@@ -73,48 +77,67 @@ std::vector<coupling::AuditSphere> spheres_of(const io::Frame& f) {
   return spheres;
 }
 
-/// Where every cell starts and how large it is at rest.
+/// Where every cell of the start is, and how easily it moves.
 struct Origin {
   Vec3 center = Vec3::Zero();
-  double volume = 0;    ///< um^3
   double friction = 0;  ///< nN s/um with the medium, at least
+  double pull = 0;      ///< nN
 };
-std::map<std::int64_t, Origin> origins(const coupling::World& start) {
+std::map<std::int64_t, Origin> origins(const coupling::World& start, const Pedigree& pedigree) {
   std::map<std::int64_t, Origin> all;
-  const dcm::State& d = start.state.dcm;
   const auto medium = [](double per_area, double viscosity, double volume) {
-    const double radius = std::cbrt(3 * volume / (4 * kPi));
+    const double radius = sphere_radius(volume);
     return viscosity > 0 ? 6 * kPi * viscosity * radius : 4 * kPi * radius * radius * per_area;
   };
-  for (std::size_t l = 0; l < d.n_lane(); ++l) {
-    if (!d.active(l)) continue;
-    const dcm::Params& p = start.params.dcm[static_cast<std::size_t>(d.group[l / kLanes].type)];
-    const double volume = d.volume[l].to;
-    all[d.lineage[l]] = {dcm::cell_center(d, l), volume,
-                         medium(p.medium_friction, p.viscosity, volume)};
-  }
-  const cbm::State& c = start.state.cbm;
-  for (std::size_t k = 0; k < c.n_cell(); ++k) {
-    const cbm::Params& p = start.params.cbm[static_cast<std::size_t>(c.type[k])];
-    const double volume = c.volume[k].to;
-    // Neighbours may cover a sphere but for the least share that is always free.
-    all[c.lineage[k]] = {cbm::center_of(c, k), volume,
-                         cbm::kLeastFree * medium(p.medium_friction, p.viscosity, volume)};
-  }
+  coupling::for_each_cell(start.state, [&](const coupling::Cell& c) {
+    const Relative& r = pedigree.all().at(coupling::lineage_of(start.state, c));
+    const coupling::DeathParams& death = start.params.life.type[r.type].death;
+    const double smallest = r.unit * (death.lysis ? death.final_volume : 1);
+    Origin& o = all[r.founder];
+    o.center = coupling::center_of(start.state, c);
+    if (c.deformable) {
+      const dcm::Params& p = start.params.dcm[r.type];
+      o.friction = medium(p.medium_friction, p.viscosity, smallest);
+      o.pull = start.state.dcm.pull[c.at].norm();
+    } else {
+      const cbm::Params& p = start.params.cbm[r.type];
+      // Neighbours may cover a sphere but for the least share that is always free.
+      o.friction = cbm::kLeastFree * medium(p.medium_friction, p.viscosity, smallest);
+      o.pull = start.state.cbm.pull[c.at].norm();
+    }
+  });
   return all;
+}
+
+/// Mean edge at rest of meshes on a sphere of radius one; 0 without meshes.
+double unit_edge(const coupling::World& start) {
+  double edge = 0;
+  for (const dcm::Group& g : start.state.dcm.group)
+    edge = std::max(edge, g.topology->mean_rest_length);
+  return edge;
 }
 
 /// Collects what is wrong with one frame.
 class Inspection {
  public:
-  Inspection(const io::Frame& frame, const Scene& scene, const coupling::World& start)
+  Inspection(const io::Frame& frame, const Scene& scene, const coupling::World& start,
+             const Pedigree& pedigree)
       : frame_(frame),
         scene_(scene),
+        start_(start),
         around_(start.params.around),
-        deepest_(deepest_overlap(start)),
-        origins_(origins(start)),
+        pedigree_(pedigree),
+        rest_(rest_volumes(frame)),
         meshes_(meshes_of(frame)),
-        spheres_(spheres_of(frame)) {}
+        spheres_(spheres_of(frame)),
+        findings_(pedigree.compare(frame)) {
+    const auto unknown = [&](const auto& cell) {
+      return !pedigree_.all().contains(cell.id) || !rest_.contains(cell.id);
+    };
+    std::erase_if(meshes_, unknown);  // already a finding
+    std::erase_if(spheres_, unknown);
+    for (coupling::AuditSphere& s : spheres_) s.mother = pedigree_.all().at(s.id).parent;
+  }
   std::vector<Finding> go() {
     inspect_shapes();
     inspect_overlaps();
@@ -131,13 +154,15 @@ class Inspection {
   void inspect_overlaps();
   void inspect_spheres();
   void inspect_places();
+  double deepest_overlap() const;
   double time() const { return std::max(0.0, frame_.time_s); }
 
   const io::Frame& frame_;
   const Scene& scene_;
+  const coupling::World& start_;
   const contact::Surroundings& around_;
-  double deepest_;  ///< um
-  std::map<std::int64_t, Origin> origins_;
+  const Pedigree& pedigree_;
+  std::map<std::int64_t, double> rest_;  ///< um^3
   std::vector<Mesh> meshes_;
   std::vector<coupling::AuditSphere> spheres_;
   std::vector<Finding> findings_;
@@ -146,7 +171,7 @@ class Inspection {
 void Inspection::inspect_shapes() {
   for (const Mesh& m : meshes_) {
     const double volume = mesh::compute_volume(m.node, m.triangle);
-    const double share = volume / origins_.at(m.id).volume;
+    const double share = volume / rest_.at(m.id);
     if (volume <= 0)
       add(Defect::kInverted, fmt::format("cell {} has a volume of {:.3g} um^3", m.id, volume));
     else if (share < kLeastVolume || share > kMostVolume)
@@ -154,7 +179,15 @@ void Inspection::inspect_shapes() {
   }
 }
 
+/// As runs themselves have it (runs/soundness.hpp), of the cells of this frame.
+double Inspection::deepest_overlap() const {
+  double radius = 0;
+  for (const Mesh& m : meshes_) radius = std::max(radius, sphere_radius(rest_.at(m.id)));
+  return start_.params.dcm_contact.max_depth + kBetweenPoints * unit_edge(start_) * radius;
+}
+
 void Inspection::inspect_overlaps() {
+  const double deepest = deepest_overlap();
   std::vector<coupling::AuditMesh> meshes;
   for (const Mesh& m : meshes_) meshes.push_back({m.id, m.node, m.triangle});
   std::vector<coupling::AuditPlane> planes;
@@ -176,9 +209,9 @@ void Inspection::inspect_overlaps() {
       add(Defect::kTunnelled, fmt::format("{} {} overlap by {:.3g} um", what,
                                           fmt::join(worst.ids, " and "), worst.depth_um));
   };
-  look("cells", audit.dcm_dcm, deepest_);
-  look("cell and wall", audit.dcm_wall, deepest_);
-  look("cell and vessel segment", audit.dcm_vessel, deepest_);
+  look("cells", audit.dcm_dcm, deepest);
+  look("cell and wall", audit.dcm_wall, deepest);
+  look("cell and vessel segment", audit.dcm_vessel, deepest);
   const auto radius_of = [&](std::int64_t id) {
     return std::ranges::find(spheres_, id, &coupling::AuditSphere::id)->radius;
   };
@@ -207,23 +240,25 @@ void Inspection::inspect_spheres() {
 }
 
 void Inspection::inspect_places() {
+  const std::map<std::int64_t, Origin> origin = origins(start_, pedigree_);
   double force = 0, friction = std::numeric_limits<double>::infinity(), size = 0, diffusion = 0;
-  for (const auto& [id, o] : origins_) {
-    friction = std::min(friction, o.friction);
-    size += 2 * std::cbrt(3 * o.volume / (4 * kPi));
-    force += scene_.motility.leader_force;
+  for (const auto& [id, o] : origin) friction = std::min(friction, o.friction);
+  for (const auto& [id, r] : pedigree_.all()) {
+    size += 2 * sphere_radius(pedigree_.rest_volume(r, time()).high);
+    force += scene_.motility.leader_force + origin.at(r.founder).pull;
   }
-  for (const CellEntry& c : scene_.cells.list) force += c.pull.norm();
   for (const auto& [name, type] : scene_.cell_types)
     if (scene_.motility.random) diffusion = std::max(diffusion, type.diffusion);
   // Contacts may push a cell as far as all cells in a row; six sigma of random motion.
   const double time = this->time();
   const double limit = size + force / friction * time + 6 * std::sqrt(6 * diffusion * time);
   const auto look = [&](std::int64_t id, const Vec3& center) {
-    const double way = (center - origins_.at(id).center).norm();
+    const std::int64_t founder = pedigree_.all().at(id).founder;
+    const double way = (center - origin.at(founder).center).norm();
     if (way > limit)
-      add(Defect::kLost, fmt::format("cell {} is {:.3g} um from its start; {:.3g} um are possible",
-                                     id, way, limit));
+      add(Defect::kLost, fmt::format("cell {} is {:.3g} um from where cell {} started; {:.3g} um "
+                                     "are possible",
+                                     id, way, founder, limit));
   };
   for (const Mesh& m : meshes_) {
     Vec3 mean = Vec3::Zero();
@@ -231,6 +266,41 @@ void Inspection::inspect_places() {
     look(m.id, mean / static_cast<double>(m.node.size()));
   }
   for (const coupling::AuditSphere& s : spheres_) look(s.id, s.center);
+}
+
+/// Volume and rest volume of a deformable cell, um^3.
+struct Load {
+  double volume = 0, rest = 0;
+};
+std::map<std::int64_t, Load> loads_of(const io::Frame& f) {
+  const std::map<std::int64_t, double> rest = rest_volumes(f);
+  std::map<std::int64_t, Load> all;
+  for (const Mesh& m : meshes_of(f))
+    if (rest.contains(m.id)) all[m.id] = {mesh::compute_volume(m.node, m.triangle), rest.at(m.id)};
+  return all;
+}
+
+/// Daughters against their mother in the frame before.
+std::vector<Finding> compare_volumes(const std::map<std::int64_t, Load>& before,
+                                     const std::map<std::int64_t, Load>& now,
+                                     const Pedigree& pedigree, double time) {
+  std::map<std::int64_t, std::vector<Load>> born;
+  for (const auto& [id, load] : now)
+    if (const auto it = pedigree.all().find(id); it != pedigree.all().end())
+      if (before.contains(it->second.parent)) born[it->second.parent].push_back(load);
+  std::vector<Finding> wrong;
+  for (const auto& [mother, pair] : born) {
+    if (pair.size() != 2) continue;  // one has died or divided since
+    const double had = before.at(mother).volume / before.at(mother).rest;
+    const double have = (pair[0].volume + pair[1].volume) / (pair[0].rest + pair[1].rest);
+    const double change = have / had;
+    if (!(change < kMostDivisionChange && change > 1 / kMostDivisionChange))
+      wrong.push_back({Defect::kVolume, time,
+                       fmt::format("the daughters of cell {} have {:.3g} of their rest volume, she "
+                                   "had {:.3g} of hers",
+                                   mother, have, had)});
+  }
+  return wrong;
 }
 
 }  // namespace
@@ -248,26 +318,56 @@ const char* name_of(Defect defect) {
     case Defect::kVolume:
       return "volume";
     case Defect::kLost:
+      return "lost";
+    case Defect::kUnborn:
+      return "unborn";
+    case Defect::kVanished:
+      return "vanished";
+    case Defect::kUntimely:
       break;
   }
-  return "lost";
+  return "untimely";
 }
 
 std::vector<Finding> inspect_frame(const io::Frame& frame, const Scene& scene,
-                                   const coupling::World& start) {
+                                   const coupling::World& start, const Pedigree& pedigree) {
   if (!all_finite(frame))
     return {{Defect::kNotFinite, frame.time_s, "a number of the frame is not finite"}};
-  return Inspection(frame, scene, start).go();
+  return Inspection(frame, scene, start, pedigree).go();
+}
+
+std::vector<Finding> inspect_frames(std::span<const io::Frame> frames,
+                                    std::span<const io::Event> events, const Scene& scene,
+                                    const coupling::World& start) {
+  std::vector<Finding> all;
+  const auto keep = [&](const std::vector<Finding>& some) {
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  Pedigree pedigree(start);
+  std::size_t told = 0;
+  const auto tell_until = [&](double time) {
+    for (; told < events.size() && events[told].time_s <= time; ++told)
+      keep(pedigree.add(events[told]));
+  };
+  std::map<std::int64_t, Load> before;
+  for (const io::Frame& frame : frames) {
+    tell_until(frame.time_s + kSameTime);
+    keep(inspect_frame(frame, scene, start, pedigree));
+    if (!all.empty() && all.back().defect == Defect::kNotFinite) return all;
+    const std::map<std::int64_t, Load> now = loads_of(frame);
+    keep(compare_volumes(before, now, pedigree, frame.time_s));
+    before = now;
+  }
+  if (!frames.empty()) keep(pedigree.find_overdue(frames.back().time_s));
+  tell_until(std::numeric_limits<double>::infinity());
+  return all;
 }
 
 std::vector<Finding> inspect_run(const io::RunReader& run, const Scene& scene,
                                  const coupling::World& start) {
-  std::vector<Finding> all;
-  for (int k = 0; k < run.n_frame(); ++k) {
-    const std::vector<Finding> some = inspect_frame(run.frame(k), scene, start);
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  return all;
+  std::vector<io::Frame> frames;
+  for (int k = 0; k < run.n_frame(); ++k) frames.push_back(run.frame(k));
+  return inspect_frames(frames, run.events(), scene, start);
 }
 
 }  // namespace acinus::runs

@@ -9,6 +9,7 @@
 
 #include "core/random.hpp"
 #include "coupling/generate/packing.hpp"
+#include "runs/bench/random_life.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -42,7 +43,7 @@ class Drawing {
       : seed_(seed),
         wide_(family_of(seed) == Family::kWide),
         random_(seed, Purpose::kSampling, 0) {}
-  RandomScene draw();
+  RandomScene draw(bool life);
 
  private:
   bool chance(double p) { return random_.uniform() < p; }
@@ -62,6 +63,7 @@ class Drawing {
   void add_capsule(double reach);
   void add_zoom(double half_width);
   void draw_time();
+  void add_life();
   /// Volume into which the cells are squeezed, as a share of theirs at rest.
   double squeezed_volume();
   double rest_volume() const { return count_ * 4.0 / 3 * kPi * std::pow(radius_, 3); }
@@ -329,7 +331,27 @@ void Drawing::draw_lobule() {
                         {"max_duration", quantity(decades(5, 30), "min")}};
 }
 
-RandomScene Drawing::draw() {
+void Drawing::add_life() {
+  bool confined = false;
+  for (const char* room : {"capsule", "walls", "lobule"}) confined |= scene_.contains(room);
+  scene_.merge_patch(Json::parse(
+      draw_life({seed_, wide_, end_, count_, radius_, scene_.contains("vessels"), confined})));
+  const Json& type = scene_["cell_types"]["cell"];
+  if (!type.contains("cycle") || type["cycle"]["start"] != "random") return;
+  // The oldest cells of the start have almost twice the volume: they are to fit where the others
+  // did, in the same places.
+  const auto shrink = [](Json& radius) {
+    radius = quantity(std::stod(radius.get<std::string>()) / std::cbrt(2.0), "um");
+  };
+  shrink(scene_["cell_types"]["cell"]["radius"]);
+  if (scene_["cells"].contains("list"))
+    for (Json& cell : scene_["cells"]["list"]) shrink(cell["radius"]);
+  for (const char* key : {"spacing", "jitter"})  // in diameters
+    if (scene_["cells"].contains(key))
+      scene_["cells"][key] = scene_["cells"][key].get<double>() * std::cbrt(2.0);
+}
+
+RandomScene Drawing::draw(bool life) {
   scene_["name"] = fmt::format("stress_{}", seed_);
   scene_["description"] = fmt::format("{} stress scene", name_of(family_of(seed_)));
   scene_["seed"] = seed_;
@@ -349,6 +371,7 @@ RandomScene Drawing::draw() {
     draw_fill();
   else
     draw_lobule();
+  if (life) add_life();
   result_.cells = count_;
   result_.text = scene_.dump(2) + "\n";
   return result_;
@@ -360,6 +383,6 @@ const char* name_of(Family family) { return family == Family::kWide ? "wide" : "
 
 Family family_of(std::uint64_t seed) { return seed % 2 == 1 ? Family::kNominal : Family::kWide; }
 
-RandomScene draw_scene(std::uint64_t seed) { return Drawing(seed).draw(); }
+RandomScene draw_scene(std::uint64_t seed, bool life) { return Drawing(seed).draw(life); }
 
 }  // namespace acinus::runs

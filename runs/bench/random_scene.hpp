@@ -19,11 +19,12 @@ Family family_of(std::uint64_t seed);
 struct RandomScene {
   std::string text;     ///< JSON in the scene format
   std::string network;  ///< SWC text for the file kNetworkFile beside the scene; "" = none
-  int cells = 0;        ///< at most; darts may find less room
+  int cells = 0;        ///< at the start, at most; darts may find less room
 };
 inline constexpr const char* kNetworkFile = "vessels.swc";
 
 /// The scene of a seed, the same text every time.
-RandomScene draw_scene(std::uint64_t seed);
+/// @param life  the cells of the same scene also grow, divide, die and rest (random_life.hpp)
+RandomScene draw_scene(std::uint64_t seed, bool life = false);
 
 }  // namespace acinus::runs

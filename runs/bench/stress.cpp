@@ -58,6 +58,7 @@ struct Judgement {
   std::string cause;
   int cells = 0;
   double cpu_s = 0;
+  std::map<std::string, int> events;  ///< how often each was told
 };
 
 /// Whether the run told of a finding itself, in the frame that shows it.
@@ -98,7 +99,7 @@ class Workplace {
 /// One scene on its way: written, running, judged.
 class Trial {
  public:
-  Trial(std::uint64_t seed, const fs::path& root);
+  Trial(std::uint64_t seed, bool life, const fs::path& root);
   const Child& child() const { return *child_; }
   Judgement judge();
   void remove() const {
@@ -121,12 +122,12 @@ class Trial {
   std::optional<Child> child_;
 };
 
-Trial::Trial(std::uint64_t seed, const fs::path& root)
+Trial::Trial(std::uint64_t seed, bool life, const fs::path& root)
     : folder_(root / fmt::format("seed_{}", seed)) {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
   fs::create_directories(folder_, ignored);  // what fails shows when the scene is written
-  const RandomScene scene = draw_scene(seed);
+  const RandomScene scene = draw_scene(seed, life);
   result_.seed = seed;
   result_.cells = scene.cells;
   io::write_text_file(file("scene.json"), scene.text);
@@ -183,11 +184,15 @@ Judgement Trial::judge() {
   const Scene scene = read_scene(file("scene.json"));
   const io::RunReader run(file("run/run.vtkhdf"));
   std::vector<Finding> found = inspect_run(run, scene, build_world(scene, Ranks::serial()).world);
+  const std::vector<io::Event> events = run.events();
+  for (const io::Event& e : events) ++j.events[e.code];
   const auto text = [&](const Finding& f) {
     return fmt::format("{} at {:.4g} s: {}", name_of(f.defect), f.time_s, f.what);
   };
   for (const Finding& f : found)
     if (f.defect == Defect::kNotFinite) return settle(Outcome::kNotFinite, text(f));
+  for (const Finding& f : found)
+    if (concerns_family(f.defect)) return settle(Outcome::kUnnoticed, text(f));
   if (stopped) {
     const std::string cause = s.value("cause", "");
     if (cause.empty()) return settle(Outcome::kUnnoticed, "exit 3 without a cause");
@@ -200,7 +205,6 @@ Judgement Trial::judge() {
     return f.defect == Defect::kTunnelled && f.time_s == 0 && !scene.start_up.enabled;
   });
   if (!found.empty()) {
-    const std::vector<io::Event> events = run.events();
     const bool named =
         std::ranges::all_of(found, [&](const Finding& f) { return names(events, f); });
     return settle(named ? Outcome::kNamed : Outcome::kUnnoticed,
@@ -212,9 +216,14 @@ Judgement Trial::judge() {
   return settle(Outcome::kClean, "");
 }
 
-BenchRow row_of(Family family, const std::vector<Judgement>& all) {
+/// What happened in scenes with life, as counted in the table.
+constexpr std::array kLifeEvents{"division", "division_waits", "settling_failed", "death",
+                                 "lysis",    "remeshed",       "mesh_degenerate"};
+
+BenchRow row_of(Family family, bool life, const std::vector<Judgement>& all) {
   BenchRow row{name_of(family), 0, {}};
   std::map<Outcome, int> count;
+  std::map<std::string, int> event;
   int n = 0;
   double cpu = 0;
   for (const Judgement& j : all) {
@@ -222,11 +231,14 @@ BenchRow row_of(Family family, const std::vector<Judgement>& all) {
     ++n;
     ++count[j.outcome];
     cpu += j.cpu_s;
+    for (const auto& [code, times] : j.events) event[code] += times;
     row.cells += j.cells;
     row.passed = row.passed && !is_failure(j.outcome);
   }
   row.value.emplace_back("scenes", n);
   for (const Outcome o : kOutcomes) row.value.emplace_back(name_of(o), count[o]);
+  if (life)
+    for (const char* code : kLifeEvents) row.value.emplace_back(code, event[code]);
   row.value.emplace_back("cpu_s", cpu);
   return row;
 }
@@ -244,7 +256,8 @@ BenchTable bench_stress(const BenchOptions& options) {
   std::vector<Judgement> all;
   std::vector<Trial> running;
   for (std::uint64_t seed = first; seed < end || !running.empty();) {
-    while (running.size() < most && seed < end) running.emplace_back(seed++, place.path());
+    while (running.size() < most && seed < end)
+      running.emplace_back(seed++, options.life, place.path());
     std::vector<const Child*> children;
     for (const Trial& trial : running) children.push_back(&trial.child());
     const auto done = running.begin() + static_cast<std::ptrdiff_t>(wait_for_any(children));
@@ -259,7 +272,7 @@ BenchTable bench_stress(const BenchOptions& options) {
   std::ranges::sort(all, {}, &Judgement::seed);
   BenchTable table;
   for (const Family family : {Family::kNominal, Family::kWide}) {
-    table.push_back(row_of(family, all));
+    table.push_back(row_of(family, options.life, all));
     print_row(table.back());
   }
   for (const Judgement& j : all)

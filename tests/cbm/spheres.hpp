@@ -19,6 +19,7 @@ struct Spheres {
   ContactWorkspace work;
   solve::System system;
   std::vector<SphereContact> sphere;  ///< of the last find()
+  std::vector<std::int64_t> mother;   ///< empty: all are sisters
 
   explicit Spheres(const std::vector<NewCell>& cells) : state(make_state(cells)) {
     params[0].adhesion = 0.01;
@@ -31,9 +32,10 @@ struct Spheres {
     const std::vector<double> r = radius(), strength = strengths_at(state, time);
     refresh_pairs(state, params, options, r, around, work);
     solve::set_blocks(system, make_blocks(state));
-    find_contacts(state, params, options, {r, strength}, around, time, 0, work, system.point_links);
+    find_contacts(state, params, options, {r, strength, mother}, around, time, 0, work,
+                  system.point_links);
     add_contact_loads(state, params, around, work, 0, system);
-    sphere = list_sphere_contacts(state, params, options, {r, strength}, work);
+    sphere = list_sphere_contacts(state, params, options, {r, strength, mother}, work);
   }
   /// Links of what touches; near pairs that do not have links of zeros.
   std::vector<solve::PointLink> links() const {

@@ -167,6 +167,22 @@ TEST(Strength, OfANeighbourIsEnoughForTheFullContact) {
   EXPECT_EQ(born.work.overlap_weight[2], 0);
 }
 
+TEST(Strength, IsForSistersOnly) {
+  Spheres old({sphere({0, 0, 0}), sphere({22, 0, 0}), sphere({0, 22, 0})}), born = old;
+  for (Ramp& r : born.state.strength) r = Ramp::constant(0);
+  born.mother = {4, 5, 4};
+  old.find();
+  born.find();
+  // Cells 0 and 2 are sisters, 1 is as new but of another mother.
+  ASSERT_EQ(born.sphere.size(), 1u);
+  EXPECT_EQ(born.force(1), old.force(1));
+  EXPECT_EQ(born.force(0), -old.force(1));
+  EXPECT_EQ(born.force(2), Vec3::Zero());
+  born.mother = {-1, -1, -1};  // there from the start: nobody is a sister
+  born.find();
+  EXPECT_EQ(born.sphere.size(), old.sphere.size());
+}
+
 TEST(DeepOverlap, ForceStiffnessAndAreaRiseAndStayFinite) {
   for (double adhesion : {0.0, 0.01, 0.05}) {
     double last_force = -1e9, last_stiffness = 0, last_radius = 0;

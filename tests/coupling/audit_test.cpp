@@ -258,6 +258,25 @@ TEST(Audit, SpheresAgainstCellsAndEachOther) {
   EXPECT_EQ(audit_bodies({cell}, frame).dcm_cbm.depth_um, 0);
 }
 
+/// Radius 10: sisters are born 5.2 um apart, and 4.1 um are what is left of it in radii when they
+/// have grown to twice their volume without moving.
+TEST(Audit, SistersMayBeInEachOtherUntilTheyHaveComeApart) {
+  AuditFrame frame;
+  const auto overlap = [&](double distance, double strength, std::int64_t other_mother) {
+    const std::vector<AuditSphere> spheres{{7, {0, 0, 0}, 10, strength, 3},
+                                           {8, {distance, 0, 0}, 10, strength, other_mother}};
+    frame.spheres = spheres;
+    return audit_bodies({}, frame).cbm_cbm.depth_um;
+  };
+  EXPECT_EQ(overlap(5, 0.5, 3), 0) << "coming apart";
+  EXPECT_EQ(overlap(1, 0.5, 3), 0) << "squeezed while weak";
+  EXPECT_EQ(overlap(5, 1, 3), 0) << "not apart yet";
+  EXPECT_DOUBLE_EQ(overlap(4, 1, 3), 16) << "nearer than at birth";
+  EXPECT_DOUBLE_EQ(overlap(11, 1, 3), 9) << "an overlap like any other";
+  EXPECT_DOUBLE_EQ(overlap(5, 0.5, 4), 15) << "newborn, but not sisters";
+  EXPECT_DOUBLE_EQ(overlap(5, 0.5, -1), 15);
+}
+
 TEST(Audit, BrokenCellsAreCounted) {
   Surface inverted = ball({100, 0, 0}, 12);
   for (auto& t : inverted.triangle) std::swap(t[0], t[1]);

@@ -10,6 +10,7 @@
 
 #include "core/mesh/measures.hpp"
 #include "coupling/measure.hpp"
+#include "coupling/step.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
@@ -352,6 +353,32 @@ TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
     EXPECT_NEAR(w.state.clock.time, 1200 + 6 * 3600, 600 + 1e-6) << "the step that passes the end";
     EXPECT_EQ(w.state.deaths, 1);
     EXPECT_EQ(lineages(w.state), Ids{1});
+  }
+}
+
+/// Two touching cells die in the same moment: the world goes on without them.
+TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
+  for (const bool spheres_stay : {false, true}) {
+    std::vector<TestCell> cells{{Vec3(0, 0, 0)}, {Vec3(23, 0, 0)}};
+    if (spheres_stay) cells.push_back({Vec3(0, 60, 0), false});
+    World w = make_living_world(cells);
+    LifeRule rule;
+    rule.die = true;
+    rule.cells = {0, 1};
+    rule.from = 600;
+    w.params.life.rule = {rule};
+    begin_life(w);
+    Workspace work;
+    size_workspace(w, work);
+    while (w.state.clock.time < 1200) {
+      const StepResult step = advance(w, work, time_to_event(w));
+      ASSERT_TRUE(step.accepted) << step.cause;
+      live(w, work);
+      const bool dead = w.state.clock.time >= 600;
+      EXPECT_EQ(lineages(w.state).size(), cells.size() - (dead ? 2 : 0));
+    }
+    EXPECT_TRUE(work.dcm.list.empty());
+    EXPECT_TRUE(work.dcm.surface.empty());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "coupling/step.hpp"
@@ -18,24 +19,30 @@ namespace {
 
 constexpr std::uint64_t kSeeds = 300;
 
+std::vector<Scene> read_scenes(bool life) {
+  const scene_texts::TemporaryFolder folder;
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const RandomScene drawn = draw_scene(seed, life);
+    if (!drawn.network.empty()) folder.write(kNetworkFile, drawn.network);
+    scenes.push_back(read_scene(folder.write("scene.json", drawn.text)));
+    const BuiltWorld built = build_world(scenes.back(), Ranks::serial());
+    const coupling::State& s = built.world.state;
+    const int cells = dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
+    EXPECT_GE(cells, 1) << "seed " << seed;
+    EXPECT_LE(cells, 64) << "seed " << seed;
+    EXPECT_LE(cells, drawn.cells) << "seed " << seed;
+  }
+  return scenes;
+}
+
 /// Seeds 1 .. kSeeds as the program reads them.
 const std::vector<Scene>& drawn_scenes() {
-  static const std::vector<Scene> all = [] {
-    const scene_texts::TemporaryFolder folder;
-    std::vector<Scene> scenes;
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const RandomScene drawn = draw_scene(seed);
-      if (!drawn.network.empty()) folder.write(kNetworkFile, drawn.network);
-      scenes.push_back(read_scene(folder.write("scene.json", drawn.text)));
-      const BuiltWorld built = build_world(scenes.back(), Ranks::serial());
-      const coupling::State& s = built.world.state;
-      const int cells = dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
-      EXPECT_GE(cells, 1) << "seed " << seed;
-      EXPECT_LE(cells, 64) << "seed " << seed;
-      EXPECT_LE(cells, drawn.cells) << "seed " << seed;
-    }
-    return scenes;
-  }();
+  static const std::vector<Scene> all = read_scenes(false);
+  return all;
+}
+const std::vector<Scene>& living_scenes() {
+  static const std::vector<Scene> all = read_scenes(true);
   return all;
 }
 
@@ -52,9 +59,69 @@ TEST(RandomScene, IsTheSameTextEveryTimeAndAnotherForAnotherSeed) {
   EXPECT_EQ(texts.size(), 50u);
 }
 
+/// A seed names a scene for ever: FNV-1a of the texts as they were before scenes could have life.
+TEST(RandomScene, IsTheSceneItHasAlwaysBeen) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const RandomScene drawn = draw_scene(seed);
+    for (const char c : drawn.text + drawn.network)
+      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  EXPECT_EQ(hash, 0xaeb176d62af30cdu) << std::hex << hash;
+}
+
+using Json = nlohmann::json;
+
+/// Takes the lengths of cells out of a scene: radii um; spacing and jitter in diameters.
+struct Lengths {
+  std::vector<double> radius, relative;
+};
+Lengths take_lengths(Json& scene) {
+  Lengths l;
+  const auto take = [&](Json& cell) {
+    l.radius.push_back(std::stod(cell["radius"].get<std::string>()));
+    cell.erase("radius");
+  };
+  Json& cells = scene["cells"];
+  take(scene["cell_types"]["cell"]);
+  if (cells.contains("list"))
+    for (Json& cell : cells["list"]) take(cell);
+  for (const char* key : {"spacing", "jitter"}) {
+    if (cells.contains(key)) l.relative.push_back(cells[key]);
+    cells.erase(key);
+  }
+  return l;
+}
+
+TEST(RandomScene, LifeIsAnAdditionToTheSameScene) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const RandomScene with = draw_scene(seed, true), without = draw_scene(seed);
+    EXPECT_EQ(with.network, without.network);
+    Json living = Json::parse(with.text), plain = Json::parse(without.text);
+    ASSERT_TRUE(living.contains("life")) << seed;
+    living.erase("life");
+    living["time"].erase("until_cells");
+    for (const char* key : {"cycle", "inhibition", "death"})
+      living["cell_types"]["cell"].erase(key);
+    for (const char* key : {"integrator", "with_contacts"}) plain["time"].erase(key);
+    // Where cells start anywhere in their cycle, the oldest are as large as those of the scene.
+    const auto& cycle = living_scenes()[seed - 1].cell_types.begin()->second.cycle;
+    const double smaller = cycle.time && cycle.start == "random" ? std::cbrt(0.5) : 1;
+    const Lengths has = take_lengths(living), had = take_lengths(plain);
+    ASSERT_EQ(has.radius.size(), had.radius.size());
+    ASSERT_EQ(has.relative.size(), had.relative.size());
+    for (std::size_t k = 0; k < has.radius.size(); ++k)  // texts have five digits
+      EXPECT_NEAR(has.radius[k], smaller * had.radius[k], 1e-4 * had.radius[k]) << seed;
+    for (std::size_t k = 0; k < has.relative.size(); ++k)
+      EXPECT_NEAR(smaller * has.relative[k], had.relative[k], 1e-12) << seed;
+    EXPECT_EQ(living, plain) << seed;
+  }
+}
+
 TEST(RandomScene, IsAcceptedByTheProgram) {
   try {
     EXPECT_EQ(drawn_scenes().size(), kSeeds);
+    EXPECT_EQ(living_scenes().size(), kSeeds);
   } catch (const Error& error) {
     FAIL() << error.what();
   }
@@ -127,6 +194,40 @@ TEST(RandomScene, MeetsEverySituation) {
     EXPECT_TRUE(seen.contains(what)) << what;
 }
 
+TEST(RandomScene, MeetsEveryKindOfLife) {
+  std::set<std::string> seen;
+  int dividing = 0;
+  for (const Scene& s : living_scenes()) {
+    const CellType& t = type_of(s);
+    seen.insert("by " + t.inhibition.by);
+    seen.insert(t.death.mode);
+    if (t.death.softening < 1) seen.insert("soft");
+    if (s.life.sleep) seen.insert("sleep");
+    seen.insert(s.life.remesh ? "remesh" : "no remesh");
+    for (const LifeRule& r : s.life.rules) {
+      seen.insert(r.action);
+      if (r.region) seen.insert(r.region->kind);
+      if (!r.cells.empty()) seen.insert(r.descendants ? "kin" : "one");
+      if (r.share == 1 && !r.until) seen.insert("everybody");
+    }
+    if (!t.cycle.time) continue;
+    seen.insert(t.cycle.axis);
+    seen.insert("start " + t.cycle.start);
+    if (t.cycle.start == "random" || *t.cycle.time < 0.9 * s.time.end) ++dividing;
+    if (family_of(s.seed) == Family::kNominal) {
+      EXPECT_GE(*t.cycle.time, 1800) << s.seed;
+      EXPECT_LE(t.cycle.mitosis, 0.2 * *t.cycle.time * (1 + 1e-4)) << s.seed;
+    }
+  }
+  for (const char* what :
+       {"by none", "by pressure", "by volume",    "removal",    "lysis",  "soft",
+        "sleep",   "remesh",      "no remesh",    "die",        "rest",   "half_space",
+        "sphere",  "kin",         "one",          "everybody",  "random", "plane",
+        "given",   "vessel",      "start random", "start birth"})
+    EXPECT_TRUE(seen.contains(what)) << what;
+  EXPECT_GT(dividing, 200);
+}
+
 /// Two deformable cells and a sphere, each in touch with nothing; a wall below.
 class Inspection : public testing::Test {
  protected:
@@ -158,7 +259,8 @@ class Inspection : public testing::Test {
   }
   std::set<Defect> defects() const {
     std::set<Defect> all;
-    for (const Finding& f : inspect_frame(frame_, scene_, start_)) all.insert(f.defect);
+    for (const Finding& f : inspect_frame(frame_, scene_, start_, Pedigree(start_)))
+      all.insert(f.defect);
     return all;
   }
 
