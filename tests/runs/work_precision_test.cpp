@@ -80,8 +80,8 @@ TEST(WorkPrecision, FixedStepThatCannotBeTakenIsTold) {
 
 TEST(WorkPrecision, ErrorsGoOverAllCellsAndSamples) {
   Trajectory reference, t;
-  reference.sample = {{{Vec3(0, 0, 0), Vec3(4, 0, 0)}, {3, 4}, {1, 1}, {1, 0}, 0.1},
-                      {{Vec3(0, 0, 0), Vec3(4, 0, 0)}, {0, 0}, {1, 1}, {1, 0}, 0.1}};
+  reference.sample = {{{5, 7}, {Vec3(0, 0, 0), Vec3(4, 0, 0)}, {3, 4}, {1, 1}, {1, 0}, 0.1},
+                      {{5, 7}, {Vec3(0, 0, 0), Vec3(4, 0, 0)}, {0, 0}, {1, 1}, {1, 0}, 0.1}};
   t = reference;
   t.sample[1].pressure = {1, 0};          // 1 of sqrt(9 + 16)
   t.sample[0].center[1] = Vec3(0, 6, 0);  // turned, and 2 um longer: 1 um at each end
@@ -93,6 +93,18 @@ TEST(WorkPrecision, ErrorsGoOverAllCellsAndSamples) {
   EXPECT_DOUBLE_EQ(e.strain, 1 / std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(e.center_max, 1);
   EXPECT_DOUBLE_EQ(e.center_rms, 1 / std::sqrt(2.0));
+}
+
+TEST(WorkPrecision, CellsThatAreInOneRunOnlyDoNotCount) {
+  Trajectory reference, t;
+  reference.sample = {{{1, 2, 3}, {Vec3::Zero(), Vec3(4, 0, 0), Vec3(0, 9, 0)}, {3, 4, 5}, {}, {}}};
+  for (auto* v : {&reference.sample[0].volume, &reference.sample[0].contact_force}) *v = {1, 1, 1};
+  t.sample = {{{1, 2, 4}, {Vec3::Zero(), Vec3(4, 0, 0), Vec3(0, 0, 9)}, {3, 3, 50}, {}, {}}};
+  t.sample[0].volume = t.sample[0].contact_force = {1, 1, 7};
+  const Errors e = compute_errors(t, reference);
+  EXPECT_DOUBLE_EQ(e.pressure, 0.2);  // 1 of sqrt(9 + 16)
+  EXPECT_EQ(e.volume, 0);
+  EXPECT_NEAR(e.center_max, 0, 1e-12);
 }
 
 TEST(WorkPrecision, CheapestIsTheLeastCpuWithinTheError) {
