@@ -101,7 +101,11 @@ const coupling::World& WarmScene::start(const Discretisation& space) {
   if (scene_.prepare) scene_.prepare(world);
   coupling::Workspace work;
   coupling::size_workspace(world, work);
-  set_numerics({.space = space, .step = scene_.warm_up_step, .cg_tolerance = 1e-5},
+  // Divisions bring moments that long steps cannot take.
+  set_numerics({.space = space,
+                .step = scene_.warm_up_step,
+                .cg_tolerance = scene_.grow_to > 0 ? 1e-2 : 1e-5,
+                .adaptive = scene_.grow_to > 0},
                world.params.numerics);
   std::string failure = grow_to(world, work, scene_.grow_to);
   if (failure.empty()) failure = advance_to(world, work, world.state.clock.time + scene_.warm_up);

@@ -30,7 +30,7 @@ TEST(SceneErrors, UnknownKeyHasPlaceAndHint) {
             "(acinus explain time.step)");
   EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
             "scene.json:2:26 /time/quux: unknown key. Known here: end, step, min_step, adaptive, "
-            "tolerance, max_move, integrator, with_contacts, until_cells");
+            "tolerance, max_move, integrator, extrapolate, with_contacts, until_cells");
 }
 
 TEST(SceneErrors, AllMistakesAreReportedAtOnceInOrder) {
