@@ -69,9 +69,8 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
     const Vec3 center = cbm::center_of(cbm_state, static_cast<std::size_t>(sphere));
     const double radius = cbm_radius[static_cast<std::size_t>(sphere)];
     for (std::size_t site = 0; site < contact::n_sites(b, c.quadrature); ++site) {
-      const bool face = c.quadrature == contact::Quadrature::kThreePoint;
-      const Vec3& at = face ? b.center[site] : b.node[site];
-      const double far = radius + range + (face ? b.reach[site] : 0);
+      const Vec3 at = contact::site_place(b, c.quadrature, site);
+      const double far = radius + range + contact::site_reach(b, c.quadrature, site);
       if ((at - center).squaredNorm() > far * far) continue;
       for (int q = 0; q < per_site; ++q) {
         const int point = static_cast<int>(site) * per_site + q;

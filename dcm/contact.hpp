@@ -42,9 +42,9 @@ struct ObstacleContact {
   Vec3 normal = Vec3::Zero();
   /// The point is a node (0 .. n_node - 1) or a face centre (n_node ..) deep inside a vessel.
   /// Three-point quadrature would not see a vessel's tip in the middle of a face, nor the tip of a
-  /// corner at a vessel, and node quadrature not a thin vessel between the nodes (so there only
-  /// face centres guard); such points are pushed out, without adhesion or friction. Walls that are
-  /// flat or hollow have no tips.
+  /// corner at a vessel, and the quadratures with nodes not a thin vessel between the points (so
+  /// there only face centres guard); such points are pushed out, without adhesion or friction.
+  /// Walls that are flat or hollow have no tips.
   bool guard = false;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/mesh/measures.hpp"
@@ -120,6 +121,17 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
   state.next_lineage = static_cast<std::int64_t>(cells.size());
 }
 
+struct QuadratureChoice {
+  contact::Quadrature quadrature = contact::Quadrature::kThreePoint;
+  double range_factor = 0.3;  ///< mean edges: the farther points are apart, the more they need
+};
+
+QuadratureChoice quadrature_of(const std::string& name) {
+  if (name == "nodes") return {contact::Quadrature::kNodes, 0.5};
+  if (name == "nodes-and-edges") return {contact::Quadrature::kNodesAndEdges, 0.35};
+  return {};
+}
+
 }  // namespace
 
 dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
@@ -193,10 +205,10 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     p.cbm.push_back(make_cbm_params(scene, type));
   }
   build_life(scene, p, built.type_names);
-  const bool nodes = scene.contact.quadrature == "nodes";
-  p.dcm_contact.quadrature = nodes ? contact::Quadrature::kNodes : contact::Quadrature::kThreePoint;
+  const auto [quadrature, range_factor] = quadrature_of(scene.contact.quadrature);
+  p.dcm_contact.quadrature = quadrature;
   p.dcm_contact.repulsion = scene.contact.repulsion;
-  p.dcm_contact.range_factor = scene.contact.range.value_or(nodes ? 0.5 : 0.3);
+  p.dcm_contact.range_factor = scene.contact.range.value_or(range_factor);
   p.dcm_contact.friction_range = scene.friction.range;
   p.dcm_contact.max_depth = scene.contact.max_depth;
   p.dcm_contact.skin = p.cbm_contact.skin = scene.contact.skin;

@@ -35,7 +35,15 @@ Vec3 rest_center(const mesh::Topology& t, std::size_t triangle) {
 /// On the rest shape, far enough along the surface to count as another part of it.
 bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::size_t triangle) {
   const mesh::Topology& t = *b.topology;
-  const Vec3 from = q == Quadrature::kThreePoint ? rest_center(t, site) : t.rest[site];
+  Vec3 from;
+  if (has_face_sites(q)) {
+    from = rest_center(t, site);
+  } else if (site < t.rest.size()) {
+    from = t.rest[site];
+  } else {
+    const auto& [i, j] = t.edge[site - t.rest.size()];
+    from = 0.5 * (t.rest[static_cast<std::size_t>(i)] + t.rest[static_cast<std::size_t>(j)]);
+  }
   return (from - rest_center(t, triangle)).norm() > kSelfRings * t.mean_rest_length;
 }
 
@@ -143,8 +151,7 @@ struct Reach {
 /// Makes lists, one after the other.
 class ListBuilder {
  public:
-  explicit ListBuilder(const SearchOptions& o)
-      : o_(o), face_(o.quadrature == Quadrature::kThreePoint) {}
+  explicit ListBuilder(const SearchOptions& o) : o_(o) {}
 
   void fill(const SurfaceBody& a, const SurfaceBody& b, bool self, Candidates& list) {
     a_ = &a;
@@ -165,10 +172,7 @@ class ListBuilder {
     near_index_.resize(discs_.triangle.size());
     clear_block();
     if (discs_.n == 0) return;
-    if (face_)
-      find_included(near_b_, a.center, a.reach);
-    else
-      find_included(near_b_, a.node, {});
+    find_included_sites();
     for (const int s : included_) look_from(static_cast<std::size_t>(s));
     flush();
   }
@@ -205,6 +209,21 @@ class ListBuilder {
     included_.resize(n);
   }
 
+  /// Writes which sites of a are near b.
+  void find_included_sites() {
+    switch (o_.quadrature) {
+      case Quadrature::kThreePoint:
+        return find_included(near_b_, a_->center, a_->reach);
+      case Quadrature::kNodes:
+        return find_included(near_b_, a_->node, {});
+      case Quadrature::kNodesAndEdges:
+        break;
+    }
+    place_.resize(n_sites(*a_, o_.quadrature));
+    for (std::size_t s = 0; s < place_.size(); ++s) place_[s] = site_place(*a_, o_.quadrature, s);
+    find_included(near_b_, place_, {});
+  }
+
   void compute_bounds_from(const Discs& discs, const Vec3& x, const Vec3& normal) {
     const Vec3 d = x - origin_;
     Viewpoint from;
@@ -217,10 +236,10 @@ class ListBuilder {
 
   /// Adds the points of one site to the block, if they come near.
   void look_from(std::size_t site) {
-    const Vec3& at = face_ ? a_->center[site] : a_->node[site];
-    const Vec3& normal = face_ ? a_->triangle_normal[site] : a_->node_normal[site];
+    const Vec3 at = site_place(*a_, o_.quadrature, site);
+    const Vec3 normal = site_normal(*a_, o_.quadrature, site);
     // The points of a site are no farther from its place than this.
-    const double radius = face_ ? 0.5 * a_->reach[site] : 0;
+    const double radius = 0.5 * site_reach(*a_, o_.quadrature, site);
     compute_bounds_from(discs_, at, normal);
     const auto far = static_cast<float>(margin_ + radius + kRounding);
     const int n_disc = static_cast<int>(discs_.n);
@@ -333,13 +352,13 @@ class ListBuilder {
   }
 
   const SearchOptions& o_;
-  bool face_;
   // of the list being made:
   const SurfaceBody *a_ = nullptr, *b_ = nullptr;
   Candidates* list_ = nullptr;
   bool self_ = false;
   double out_ = 0, depth_ = 0, margin_ = 0;
   Reach near_a_, near_b_;
+  std::vector<Vec3> place_;  ///< of the sites of a
   std::vector<int> included_;
   Vec3 origin_ = Vec3::Zero();  ///< of the discs
   Discs discs_;                 ///< triangles of b that anything of a may come near
@@ -438,8 +457,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
       // A sheet met through the cell's own inside is not a contact.
       if (self && gap < 0) continue;
       const auto site = static_cast<std::size_t>(point[i] / per_site);
-      const Vec3& facing =
-          o.quadrature == Quadrature::kThreePoint ? a.triangle_normal[site] : a.node_normal[site];
+      const Vec3 facing = site_normal(a, o.quadrature, site);
       if (facing.dot(Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])) > kFacing)
         continue;
       out.push_back({list.body_a,

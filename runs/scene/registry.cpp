@@ -112,9 +112,10 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
 }
 
 void describe_contact(Visitor& v, ContactBlock& b) {
-  v.text(
-      {.name = "quadrature", .meaning = "contact points of a triangle", .choices = "3-point|nodes"},
-      b.quadrature);
+  v.text({.name = "quadrature",
+          .meaning = "contact points of a triangle",
+          .choices = "3-point|nodes|nodes-and-edges"},
+         b.quadrature);
   v.real({.name = "repulsion",
           .meaning = "stiffness against overlap, pressure per depth",
           .dimension = kStiffnessPerArea,
@@ -125,7 +126,7 @@ void describe_contact(Visitor& v, ContactBlock& b) {
                    .meaning = "range of adhesion in mean reference edge lengths",
                    .range = {.low = 0, .high = 2, .low_open = true},
                    .symbol = "h_0",
-                   .automatic = "0.3 for 3-point, 0.5 for nodes"},
+                   .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges"},
                   b.range);
   v.real({.name = "max_depth",
           .meaning = "deepest overlap a contact point looks for",

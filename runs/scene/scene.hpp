@@ -101,12 +101,12 @@ struct CellType {
 };
 
 struct ContactBlock {
-  std::string quadrature = "3-point";  ///< or "nodes"
+  std::string quadrature = "3-point";  ///< or "nodes", "nodes-and-edges"
   double repulsion = 5;                ///< kPa/um (nN/um^3), k_rep
-  std::optional<double>
-      range;  ///< cohesive range in mean reference edges; empty = 0.3 (3-point), 0.5 (nodes)
-  double max_depth = 1.5;  ///< um, deepest gap a contact point looks for
-  double skin = 0.3;       ///< um
+  std::optional<double> range;  ///< cohesive range in mean reference edges; empty = 0.3 (3-point),
+                                ///< 0.5 (nodes), 0.35 (both)
+  double max_depth = 1.5;       ///< um, deepest gap a contact point looks for
+  double skin = 0.3;            ///< um
 };
 
 struct FrictionBlock {

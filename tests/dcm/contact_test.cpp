@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "tests/dcm/clump.hpp"
+#include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"
 
 namespace acinus::dcm {
@@ -64,9 +65,9 @@ Clump make_surrounded_clump(std::uint64_t seed) {
 TEST(ContactLoads, PairsBalanceForceAndTorque) {
   double worst = 0;
   std::size_t n = 0;
-  for (std::uint64_t seed = 70; seed < 74; ++seed) {
+  for (std::uint64_t seed = 70; seed < 76; ++seed) {
     Clump c = make_clump(seed);
-    if (seed % 2 == 1) c.options.quadrature = contact::Quadrature::kNodes;
+    c.options.quadrature = kAll[seed % 3];
     c.find();
     n += c.links.size();
     const std::vector<double> force = c.node_force();
@@ -125,9 +126,7 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
     if (kind == contact::SurroundingKind::kVessel) adhesion = c.around.vessels.material.adhesion;
     if (kind == contact::SurroundingKind::kMesh) adhesion = c.around.meshes[0].material.adhesion;
   }
-  const double area = c.options.quadrature == contact::Quadrature::kThreePoint
-                          ? t.rest_triangle_area[static_cast<std::size_t>(point / 3)] / 3
-                          : t.rest_node_area[static_cast<std::size_t>(point)];
+  const double area = rest_share(t, c.options.quadrature, point);
   return weight * area * radius * radius *
          contact::well_energy(
              {adhesion, c.options.repulsion, c.options.range_factor * t.mean_rest_length * radius},
@@ -155,10 +154,10 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
   std::array<double, 5> worst{};
   std::size_t tried = 0;
   std::array<int, 5> kinds{};
-  for (std::uint64_t seed = 80; seed < 84; ++seed) {
+  for (std::uint64_t seed = 80; seed < 86; ++seed) {
     Clump c = make_surrounded_clump(seed);
     connect_meshes(c.around);
-    if (seed % 2 == 1) c.options.quadrature = contact::Quadrature::kNodes;
+    c.options.quadrature = kAll[seed < 84 ? seed % 2 : 2];
     c.find();
     auto random = reference::stream(seed + 10);
     std::vector<double> direction(c.state.position.size());
@@ -240,7 +239,7 @@ TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
 // The solver pulls at the very places between which gap and normal were measured: that is what
 // keeps the torque of rounded weights at zero.
 TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
-  for (const auto q : {contact::Quadrature::kThreePoint, contact::Quadrature::kNodes}) {
+  for (const auto q : kAll) {
     Clump c = make_surrounded_clump(94);
     connect_meshes(c.around);
     c.options.quadrature = q;
@@ -273,11 +272,12 @@ TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
   }
 }
 
-TEST(ContactLoads, TurnWithTheCells) {
+void expect_turning(contact::Quadrature quadrature) {
   Clump c = make_clump(86), turned = make_clump(86);
   auto random = reference::stream(87);
   const Mat3 q = reference::random_rotation(random);
   const Vec3 shift = reference::random_vector(random, 15);
+  c.options.quadrature = turned.options.quadrature = quadrature;
   turned.for_each_node([&](Address a) {
     store_point(turned.state.position.data(), a,
                 q * load_point(turned.state.position.data(), a) + shift);
@@ -308,6 +308,10 @@ TEST(ContactLoads, TurnWithTheCells) {
   // rounded.
   EXPECT_LT(worst_tie, 1e-7 * scale);
   EXPECT_LT(ties, static_cast<int>(c.links.size()) / 10);
+}
+
+TEST(ContactLoads, TurnWithTheCells) {
+  for (const auto q : kAll) expect_turning(q);
 }
 
 TEST(Contacts, OldListsGiveWhatNewListsGive) {
@@ -372,7 +376,7 @@ TEST(Contacts, SameBitsForAnyNumberOfThreads) {
 
 // A point's weight goes chi to its contacts and 1 - chi to the medium.
 TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
-  for (const auto q : {contact::Quadrature::kThreePoint, contact::Quadrature::kNodes}) {
+  for (const auto q : kAll) {
     Clump c = make_surrounded_clump(92);
     connect_meshes(c.around);
     c.options.quadrature = q;

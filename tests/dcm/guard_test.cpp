@@ -6,13 +6,14 @@
 
 #include "dcm/contact.hpp"
 #include "tests/dcm/clump.hpp"
+#include "tests/dcm/quadratures.hpp"
 
 namespace acinus::dcm {
 namespace {
 
 // The contact points of a coarse mesh are farther apart than a thin vessel is thick.
 TEST(ObstacleContacts, AVesselTipInTheMiddleOfAFaceIsPushedOut) {
-  for (const auto q : {contact::Quadrature::kThreePoint, contact::Quadrature::kNodes}) {
+  for (const auto q : kAll) {
     Clump c;
     c.add_cells(
         {{0, 0, &mesh::shared_icosphere(42), Vec3::Zero(), 12, Vec3::Zero(), Mat3::Identity()}});

@@ -95,6 +95,19 @@ TEST(RigidPullOff, NodeQuadratureNeedsHalfAnEdge) {
   EXPECT_LT(2 * wide.deviation, narrow.deviation);
 }
 
+// Points half an edge apart: more range than three a face, less than nodes (0.3 edge: 0.947 +-
+// 0.075).
+TEST(RigidPullOff, NodesAndEdgesNeedLittleMoreThanThreePoints) {
+  ContactParams options;
+  options.quadrature = contact::Quadrature::kNodesAndEdges;
+  options.range_factor = 0.35;
+  const Statistics s = statistics(options, 24, 162);
+  std::printf("pull-off / (2 pi W R^), 162 nodes, nodes and edges, 0.35 edge: %.3f +- %.3f\n",
+              s.mean, s.deviation);
+  EXPECT_NEAR(s.mean, 1, 0.05);
+  EXPECT_LT(s.deviation, 0.1);
+}
+
 TEST(RigidPullOff, FinerMeshScattersLess) {
   const Statistics s = statistics(ContactParams{}, 6, 642);
   std::printf("pull-off / (2 pi W R^), 642 nodes, 3-point, 0.3 edge: %.3f +- %.3f\n", s.mean,

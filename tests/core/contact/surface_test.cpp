@@ -40,9 +40,17 @@ std::vector<SurfaceContact> find_all(const std::vector<SurfaceBody>& bodies, con
   return out;
 }
 
+constexpr Quadrature kAll[] = {Quadrature::kThreePoint, Quadrature::kNodes,
+                               Quadrature::kNodesAndEdges};
+
 Vec3 facing_of(const SurfaceBody& b, Quadrature q, int point) {
-  return q == Quadrature::kThreePoint ? b.triangle_normal[static_cast<std::size_t>(point / 3)]
-                                      : b.node_normal[static_cast<std::size_t>(point)];
+  const auto p = static_cast<std::size_t>(point);
+  if (q == Quadrature::kThreePoint) return b.triangle_normal[p / 3];
+  if (p < b.node.size()) return b.node_normal[p];
+  Vec3 sum = Vec3::Zero();
+  for (int t : b.topology->edge_triangle[p - b.node.size()])
+    sum += b.triangle_normal[static_cast<std::size_t>(t)];
+  return sum.normalized();
 }
 
 TEST(SurfaceBody, NormalsPointOutward) {
@@ -81,13 +89,44 @@ TEST(PointStencil, PointsShareTheirTriangle) {
   EXPECT_EQ(point_position(b, point_stencil(b, Quadrature::kNodes, 7)), b.node[7]);
 }
 
+TEST(PointStencil, NodesThenMidpointsOfEdges) {
+  const Quadrature q = Quadrature::kNodesAndEdges;
+  const SurfaceBody b = make_body(mesh::shared_icosphere(42).rest, 42);
+  ASSERT_EQ(n_points(b, q), 42u + 120u);
+  for (int p = 0; p < 42; ++p) {
+    EXPECT_EQ(point_position(b, point_stencil(b, q, p)), b.node[static_cast<std::size_t>(p)]);
+    EXPECT_EQ(site_normal(b, q, static_cast<std::size_t>(p)), facing_of(b, q, p));
+  }
+  for (int p = 42; p < 162; ++p) {
+    const auto edge = static_cast<std::size_t>(p - 42);
+    const auto [i, j] = b.topology->edge[edge];
+    const Vec3 middle =
+        0.5 * (b.node[static_cast<std::size_t>(i)] + b.node[static_cast<std::size_t>(j)]);
+    const PointStencil s = point_stencil(b, q, p);
+    EXPECT_EQ(point_position(b, s), middle);
+    EXPECT_EQ(site_place(b, q, static_cast<std::size_t>(p)), middle);
+    EXPECT_EQ(site_normal(b, q, static_cast<std::size_t>(p)), facing_of(b, q, p));
+    EXPECT_EQ(s.weight[2], 0);
+    // The solver takes the three for the corners of a face.
+    std::array<int, 3> corners = s.node;
+    std::ranges::sort(corners);
+    int faces = 0;
+    for (int t : b.topology->edge_triangle[edge]) {
+      std::array<int, 3> face = b.topology->triangle[static_cast<std::size_t>(t)];
+      std::ranges::sort(face);
+      faces += face == corners ? 1 : 0;
+    }
+    EXPECT_EQ(faces, 1);
+  }
+}
+
 // Every gap is the distance to the closest of all triangles, negative inside; and nothing is
 // missed.
 TEST(FindContacts, GapsAreThoseOfTryingEveryTriangle) {
   auto random = reference::stream(61);
   double worst = 0;
   int n_contact = 0, n_inside = 0;
-  for (const Quadrature q : {Quadrature::kThreePoint, Quadrature::kNodes})
+  for (const Quadrature q : kAll)
     for (int k = 0; k < 8; ++k) {
       const double apart = random.uniform(18.8, 20.8);
       const std::vector<SurfaceBody> bodies{
@@ -145,7 +184,7 @@ TEST(FindContacts, GapsAreThoseOfTryingEveryTriangle) {
 TEST(FindCandidates, HoldEveryTriangleThatMayBecomeTheClosest) {
   auto random = reference::stream(65);
   int n_point = 0, n_triangle = 0;
-  for (const Quadrature q : {Quadrature::kThreePoint, Quadrature::kNodes}) {
+  for (const Quadrature q : kAll) {
     const std::vector<SurfaceBody> bodies{
         make_body(sphere_nodes(162, 10, {5, -3, 8}, reference::random_rotation(random)), 162),
         make_body(sphere_nodes(162, 10, Vec3(5, -3, 8) + 19 * random.unit_vector(),
@@ -202,8 +241,7 @@ TEST(FindContacts, OldListsFindWhatNewListsFind) {
                                      reference::random_vector(random, 0.3),
                                  reference::random_rotation(random)),
                     162));
-    const SearchOptions o{k % 2 == 0 ? Quadrature::kThreePoint : Quadrature::kNodes, 0.9, 1.5, 0.3,
-                          0.3};
+    const SearchOptions o{kAll[k % 3], 0.9, 1.5, 0.3, 0.3};
     const auto lists = find_candidates(bodies, {}, find_near_bodies(bodies, o, 0), o);
     for (SurfaceBody& b : bodies) {
       for (Vec3& x : b.node) x += random.uniform(0, 0.15) * random.unit_vector();
@@ -265,23 +303,23 @@ std::vector<Vec3> horseshoe(double a, double b, double opening) {
 }
 
 TEST(SelfContact, HorseshoeMeetsItself) {
-  for (double opening : {0.03, 0.1}) {
-    const std::vector<SurfaceBody> bodies{make_body(horseshoe(30, 5, opening), 162)};
-    const auto contacts = find_all(bodies, {Quadrature::kThreePoint, 0.9, 1.5, 0.3, 0.3});
-    std::printf("horseshoe open by %.2f um: %zu self contacts\n", opening, contacts.size());
-    EXPECT_GT(contacts.size(), 10u);
-    for (const SurfaceContact& c : contacts) {
-      EXPECT_EQ(c.body_a, c.body_b);
-      EXPECT_GT(c.gap, 0);
-      EXPECT_LT(c.gap, 0.3);
-      const Vec3 x =
-          point_position(bodies[0], point_stencil(bodies[0], Quadrature::kThreePoint, c.point));
-      EXPECT_LT(x.y(), 0) << "only the ends meet";
-      EXPECT_LT(facing_of(bodies[0], Quadrature::kThreePoint, c.point)
-                    .dot(bodies[0].triangle_normal[static_cast<std::size_t>(c.triangle_b)]),
-                0.2);
+  for (double opening : {0.03, 0.1})
+    for (const Quadrature q : {Quadrature::kThreePoint, Quadrature::kNodesAndEdges}) {
+      const std::vector<SurfaceBody> bodies{make_body(horseshoe(30, 5, opening), 162)};
+      const auto contacts = find_all(bodies, {q, 0.9, 1.5, 0.3, 0.3});
+      std::printf("horseshoe open by %.2f um: %zu self contacts\n", opening, contacts.size());
+      EXPECT_GT(contacts.size(), 10u);
+      for (const SurfaceContact& c : contacts) {
+        EXPECT_EQ(c.body_a, c.body_b);
+        EXPECT_GT(c.gap, 0);
+        EXPECT_LT(c.gap, 0.3);
+        const Vec3 x = point_position(bodies[0], point_stencil(bodies[0], q, c.point));
+        EXPECT_LT(x.y(), 0) << "only the ends meet";
+        EXPECT_LT(facing_of(bodies[0], q, c.point)
+                      .dot(bodies[0].triangle_normal[static_cast<std::size_t>(c.triangle_b)]),
+                  0.2);
+      }
     }
-  }
   const std::vector<SurfaceBody> open{make_body(horseshoe(30, 5, 2), 162)};
   EXPECT_TRUE(find_all(open, {Quadrature::kThreePoint, 0.9, 1.5, 0.3, 0.3}).empty());
 }
@@ -291,7 +329,7 @@ TEST(SelfContact, SpheresAndPancakesDoNotMeetThemselves) {
   for (int n : {42, 162, 642})
     for (const Vec3& axes :
          {Vec3(10, 10, 10), Vec3(14, 14, 0.5), Vec3(14, 5, 0.5), Vec3(20, 1, 1), Vec3(14, 14, 0.1)})
-      for (const Quadrature q : {Quadrature::kThreePoint, Quadrature::kNodes}) {
+      for (const Quadrature q : kAll) {
         std::vector<Vec3> x;
         const Mat3 turn = reference::random_rotation(random);
         for (const Vec3& p : mesh::shared_icosphere(n).rest)
