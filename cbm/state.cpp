@@ -1,8 +1,9 @@
 #include "cbm/state.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+
+#include "core/sphere.hpp"
 
 namespace acinus::cbm {
 
@@ -19,7 +20,7 @@ State make_state(const std::vector<NewCell>& cells) {
     store_point(s.position.data(), cell_address(0, c), cells[c].center);
     s.lineage.push_back(cells[c].lineage);
     s.type.push_back(cells[c].type);
-    s.volume.push_back(Ramp::constant(4.0 / 3 * kPi * std::pow(cells[c].radius, 3)));
+    s.volume.push_back(Ramp::constant(sphere_volume(cells[c].radius)));
     s.strength.push_back(cells[c].strength);
     s.young.push_back(cells[c].young);
     s.pull.push_back(cells[c].pull);
@@ -56,8 +57,7 @@ State compose(std::span<const CellRef> cells) {
 
 std::vector<double> radii_at(const State& s, double time) {
   std::vector<double> r(s.n_cell());
-  for (std::size_t c = 0; c < r.size(); ++c)
-    r[c] = std::cbrt(s.volume[c].at(time) / (4.0 / 3 * kPi));
+  for (std::size_t c = 0; c < r.size(); ++c) r[c] = sphere_radius(s.volume[c].at(time));
   return r;
 }
 

@@ -14,6 +14,11 @@ inline std::int64_t grid_interval(double time, double grid) {
   return static_cast<std::int64_t>(std::floor(time / grid + kGridSlack));
 }
 
+/// Whether a step from one time to another ends in another interval than it began in.
+inline bool crosses_grid(double before, double now, double grid) {
+  return grid_interval(before, grid) != grid_interval(now, grid);
+}
+
 /// Time until the next interval begins.
 inline double time_to_next_interval(double time, double grid) {
   return (std::floor(time / grid + kGridSlack) + 1) * grid - time;

@@ -42,10 +42,7 @@ StageScratch& stage_scratch(const World& world, Workspace& w) {
 /// The trial world: everything as in `world`, all points moved by d.
 void move_trial(const World& world, std::span<const double> d, StageScratch& s) {
   s.world.state = world.state;
-  auto& dcm = s.world.state.dcm.position;
-  auto& cbm = s.world.state.cbm.position;
-  for (std::size_t k = 0; k < dcm.size(); ++k) dcm[k] += d[k];
-  for (std::size_t k = 0; k < cbm.size(); ++k) cbm[k] += d[dcm.size() + k];
+  move_points(s.world.state, d);
 }
 
 /// Whether the last step's velocity says where the next one leads.
@@ -55,13 +52,7 @@ bool is_steady(const World& world) {
   const Motility& m = world.params.motility;
   if (!m.random || !controls_at(s.clock, world.params.start_up).motility) return true;
   const double now = s.clock.time - s.clock.origin;
-  return grid_interval(now, m.grid) == grid_interval(now - s.clock.last_step, m.grid);
-}
-
-void move_points(State& s, std::span<const double> d) {
-  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
-  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
-  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
+  return !crosses_grid(now - s.clock.last_step, now, m.grid);
 }
 
 /// Finds contacts and assembles where the last step's velocity leads.

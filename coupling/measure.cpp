@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/sphere.hpp"
 #include "coupling/step.hpp"
 #include "dcm/stress.hpp"
 #include "dcm/terms/area.hpp"
@@ -58,7 +59,7 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.radius = w.lanes.radius[lane];
     m.volume = dcm::compute_volumes(g)[l];
     m.area = dcm::compute_areas(g)[l];
-    const double v0 = 4.0 / 3 * kPi * std::pow(m.radius, 3);
+    const double v0 = sphere_volume(m.radius);
     m.cytosol_pressure = dcm::cytosol_pressure(
         world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus, m.volume, v0);
     m.migration_force = w.forces.dcm[lane].norm();
@@ -79,16 +80,14 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.center = cbm::center_of(s.cbm, c);
     m.radius = w.cbm_radius[c];
     if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
-    m.volume = 4.0 / 3 * kPi * std::pow(m.radius, 3);
+    m.volume = sphere_volume(m.radius);
     m.area = 4 * kPi * m.radius * m.radius;
     m.contact_area = std::min(w.cbm.contact_area[c], m.area);
     m.migration_force = w.forces.cbm[c].norm();
     cells.push_back(m);
   }
 
-  auto reference_volume = [&](std::size_t cell) {
-    return 4.0 / 3 * kPi * std::pow(cells[cell].radius, 3);
-  };
+  auto reference_volume = [&](std::size_t cell) { return sphere_volume(cells[cell].radius); };
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], reference_volume(cell), force, arm);
   };

@@ -1,5 +1,4 @@
 #include "coupling/start_up.hpp"
-#include "coupling/life/rules.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/sphere.hpp"
+#include "coupling/life/rules.hpp"
 #include "coupling/measure.hpp"
 
 namespace acinus::coupling {
@@ -59,7 +60,7 @@ void enter(Clock& c, Phase phase) {
 void begin_start_up(World& world, double initial_radius) {
   State& s = world.state;
   const double end = world.params.start_up.growth_time;
-  const double initial_volume = 4.0 / 3 * kPi * std::pow(initial_radius, 3);
+  const double initial_volume = sphere_volume(initial_radius);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
     const double full = s.dcm.volume[l].to;

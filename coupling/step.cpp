@@ -46,9 +46,7 @@ bool want_coarse(const State& s, int iterations_per_solve) {
 
 void commit(World& world, double step, int cg_iterations, int solves, Workspace& w) {
   State& s = world.state;
-  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
-  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += w.move[k]; });
-  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += w.move[dcm.size() + k]; });
+  move_points(s, w.move);
   std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;

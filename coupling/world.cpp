@@ -10,6 +10,10 @@
 
 namespace acinus::coupling {
 
+int count_cells(const State& s) {
+  return dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
+}
+
 int count_asleep(const State& s) {
   return static_cast<int>(std::ranges::count(s.asleep, std::uint8_t{1}));
 }
@@ -57,6 +61,12 @@ void gather_positions(const State& s, std::vector<double>& out) {
   out.resize(dcm.size() + cbm.size());
   for_each_number(dcm.size(), [&](std::size_t k) { out[k] = dcm[k]; });
   for_each_number(cbm.size(), [&](std::size_t k) { out[dcm.size() + k] = cbm[k]; });
+}
+
+void move_points(State& s, std::span<const double> d) {
+  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
+  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
 }
 
 std::uint64_t hash_state(const State& s) {

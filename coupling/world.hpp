@@ -118,6 +118,9 @@ struct State {
   double settle_time = -1;              ///< s, when that was
 };
 
+/// Number of cells of both models.
+int count_cells(const State& state);
+
 /// Number of cells asleep.
 int count_asleep(const State& state);
 
@@ -153,6 +156,10 @@ std::vector<std::uint8_t> active_lanes(const State& state);
 /// Positions of all unknowns in one array, [n_row][3][lane].
 std::vector<double> gather_positions(const State& state);
 void gather_positions(const State& state, std::vector<double>& out);
+
+/// Moves all unknowns.
+/// @param by  [n_row][3][lane] um
+void move_points(State& state, std::span<const double> by);
 
 /// Hash of the whole state in storage order: equal bits give equal hashes.
 std::uint64_t hash_state(const State& state);

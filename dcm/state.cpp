@@ -1,8 +1,8 @@
 #include "dcm/state.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/sphere.hpp"
 #include "dcm/mesh_pattern.hpp"
 
 namespace acinus::dcm {
@@ -91,7 +91,7 @@ int count_cells(const State& s) {
 std::vector<double> reference_radii(const State& s, double time) {
   std::vector<double> r(s.n_lane(), 1.0);
   for (std::size_t l = 0; l < r.size(); ++l)
-    if (s.active(l)) r[l] = std::cbrt(s.volume[l].at(time) / (4.0 / 3 * kPi));
+    if (s.active(l)) r[l] = sphere_radius(s.volume[l].at(time));
   return r;
 }
 

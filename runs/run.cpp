@@ -246,9 +246,7 @@ void Run::add_event(const std::string& code, const std::string& message,
   file_->append_event({time(), code, cells, message});
 }
 
-int Run::count_cells() const {
-  return dcm::count_cells(world().state.dcm) + static_cast<int>(world().state.cbm.n_cell());
-}
+int Run::count_cells() const { return coupling::count_cells(world().state); }
 
 bool Run::enough_cells() const {
   const int most = options_.until_cells.value_or(scene_.time.until_cells);

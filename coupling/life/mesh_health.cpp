@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "core/mesh/measures.hpp"
+#include "core/sphere.hpp"
 #include "core/threads.hpp"
+#include "core/time_grid.hpp"
 #include "coupling/life/cell.hpp"
 #include "coupling/life/mesh_remedy.hpp"
 #include "coupling/step.hpp"
@@ -20,7 +21,7 @@ namespace {
 constexpr double kForget = 3600;
 
 double reference_radius(const State& s, std::size_t lane) {
-  return std::cbrt(s.dcm.volume[lane].at(s.clock.time) / (4.0 / 3 * kPi));
+  return sphere_radius(s.dcm.volume[lane].at(s.clock.time));
 }
 
 const mesh::Topology& topology_of(const State& s, std::size_t lane) {
@@ -31,8 +32,7 @@ const mesh::Topology& topology_of(const State& s, std::size_t lane) {
 /// the same times as one that was never stopped.
 bool is_due(const State& s, double grid) {
   if (s.clock.phase != Phase::kRun || !(s.clock.last_step > 0)) return false;
-  const auto interval = [&](double time) { return std::floor(time / grid + 1e-9); };
-  return interval(time_of(s)) != interval(time_of(s) - s.clock.last_step);
+  return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), grid);
 }
 
 /// Area over what the cell's membrane takes for rest at this moment.

@@ -36,10 +36,6 @@ struct Record {
   std::vector<Pressures> pressure;
 };
 
-int count_cells(const coupling::State& s) {
-  return dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
-}
-
 void make_step(coupling::World& world, coupling::Workspace& work, double limit) {
   const coupling::StepResult r = coupling::advance(world, work, limit);
   check(r.accepted, "bench sleep: a step failed: " + r.cause, Exit::kCannotContinue);
@@ -85,8 +81,8 @@ Record run(coupling::World world, bool sleep) {
       make_step(world, work, std::min(end - s.clock.time, coupling::time_to_event(world)));
       coupling::live(world, work);
       record.cpu += cpu_seconds() - cpu;
-      const double share = (s.clock.time - before) / kWindow / count_cells(s);
-      record.awake += share * (count_cells(s) - coupling::count_asleep(s));
+      const double share = (s.clock.time - before) / kWindow / coupling::count_cells(s);
+      record.awake += share * (coupling::count_cells(s) - coupling::count_asleep(s));
       record.grows += share * static_cast<double>(std::ranges::count(s.cycle, coupling::Fate::kGrow,
                                                                      &coupling::Cycle::fate));
     }
@@ -118,7 +114,7 @@ BenchTable bench_sleep(const BenchOptions&) {
   const Record awake = run(world, false), asleep = run(world, true);
   using Both = std::pair<double, double>;
   BenchRow row{"lobule with resting cells, 3 h",
-               count_cells(world.state),
+               coupling::count_cells(world.state),
                {{"speedup", awake.cpu / asleep.cpu},
                 {"pressure_error", relative_error(asleep, awake, &Both::first)},
                 {"cytosol_pressure_error", relative_error(asleep, awake, &Both::second)},

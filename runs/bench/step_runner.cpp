@@ -51,9 +51,7 @@ StepSample StepRunner::measure_median() {
   return samples[samples.size() / 2];
 }
 
-int StepRunner::cells() const {
-  return dcm::count_cells(world_.state.dcm) + static_cast<int>(world_.state.cbm.n_cell());
-}
+int StepRunner::cells() const { return coupling::count_cells(world_.state); }
 
 double StepRunner::contacts_per_cell() const {
   return static_cast<double>(work_.system.links.size() + work_.system.point_links.size()) / cells();

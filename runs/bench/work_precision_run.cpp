@@ -44,14 +44,10 @@ std::string advance_to(coupling::World& world, coupling::Workspace& work, double
   return {};
 }
 
-int count_cells(const coupling::State& s) {
-  return dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
-}
-
 /// Steps until there are so many cells; returns why it could not.
 std::string grow_to(coupling::World& world, coupling::Workspace& work, int cells) {
   std::string failure;
-  while (failure.empty() && count_cells(world.state) < cells)
+  while (failure.empty() && coupling::count_cells(world.state) < cells)
     failure = advance_to(world, work, world.state.clock.time + world.params.numerics.max_step);
   return failure;
 }
