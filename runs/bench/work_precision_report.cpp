@@ -47,6 +47,7 @@ std::string series_of(const Outcome& e, bool deformable, bool spatial, double us
   if (spatial) return quadrature;
   std::string name = short_name(s.integrator);
   if (s.adaptive) name = "adaptive" + (s.integrator == Setting{}.integrator ? "" : ", " + name);
+  if (s.extrapolate) name += ", extrapolated";
   if (deformable && s.space.quadrature != Discretisation{}.quadrature) name += ", " + quadrature;
   if (s.cg_tolerance != kUsualTolerance) name += ", other CG";
   if (e.window != usual_window) name += fmt::format(", {:g} min", e.window / 60);
@@ -56,9 +57,9 @@ std::string series_of(const Outcome& e, bool deformable, bool spatial, double us
 }  // namespace
 
 std::string describe(const Setting& s, bool deformable) {
-  return fmt::format("{}{}, {}dt {}, CG {:g}", coupling::name_of(s.integrator),
-                     s.adaptive ? " (adaptive)" : "", deformable ? name_space(s.space) + ", " : "",
-                     name_step(s), s.cg_tolerance);
+  return fmt::format("{}{}{}, {}dt {}, CG {:g}", coupling::name_of(s.integrator),
+                     s.extrapolate ? " (extrapolated)" : "", s.adaptive ? " (adaptive)" : "",
+                     deformable ? name_space(s.space) + ", " : "", name_step(s), s.cg_tolerance);
 }
 
 std::string table_head(const WorkScene& scene, const Study& study) {
@@ -83,8 +84,8 @@ std::string table_head(const WorkScene& scene, const Study& study) {
 std::string table_line(const WorkScene& scene, const Outcome& e) {
   const Setting& s = e.setting;
   std::string out = fmt::format(
-      "| {}{} | {}{} | {:g} | {:.3g} | {} | {:.1f} |", coupling::name_of(s.integrator),
-      s.adaptive ? ", adaptive" : "",
+      "| {}{}{} | {}{} | {:g} | {:.3g} | {} | {:.1f} |", coupling::name_of(s.integrator),
+      s.extrapolate ? ", extrapolated" : "", s.adaptive ? ", adaptive" : "",
       scene.deformable ? fmt::format("{} | {} | ", s.space.nodes, s.space.quadrature) : "",
       name_step(s), s.cg_tolerance, e.cpu, e.steps,
       static_cast<double>(e.cg_iterations) /

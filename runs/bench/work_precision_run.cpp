@@ -30,6 +30,7 @@ void set_numerics(const Setting& setting, coupling::Numerics& n) {
   n.max_move = setting.adaptive ? usual.max_move : 0;
   n.cg.tolerance = setting.cg_tolerance;
   n.integrator = setting.integrator;
+  n.extrapolate = setting.extrapolate;
 }
 
 /// Steps to a time; returns why it could not.
@@ -101,7 +102,8 @@ const coupling::World& WarmScene::start(const Discretisation& space) {
   set_numerics({.space = space,
                 .step = scene_.warm_up_step,
                 .cg_tolerance = scene_.grow_to > 0 ? 1e-2 : 1e-5,
-                .adaptive = scene_.grow_to > 0},
+                .adaptive = scene_.grow_to > 0,
+                .extrapolate = scene_.grow_to > 0},
                world.params.numerics);
   std::string failure = grow_to(world, work, scene_.grow_to);
   if (failure.empty()) failure = advance_to(world, work, world.state.clock.time + scene_.warm_up);

@@ -28,8 +28,9 @@ struct Setting {
   coupling::Integrator integrator = coupling::Integrator::kLinearlyImplicit;
   double step = 60;                                    ///< s; the longest when adaptive
   double cg_tolerance = solve::CgOptions{}.tolerance;  ///< as solver.tolerance
-  bool adaptive = false;    ///< step-size control and displacement cap as a scene has them
-  double tolerance = 0.01;  ///< um, as time.tolerance; Newton's method stops at a tenth of it
+  bool adaptive = false;     ///< step-size control and displacement cap as a scene has them
+  double tolerance = 0.01;   ///< um, as time.tolerance; Newton's method stops at a tenth of it
+  bool extrapolate = false;  ///< as time.extrapolate
 };
 
 /// What a scene is and how it gets to the state all settings start from.

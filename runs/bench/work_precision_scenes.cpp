@@ -14,6 +14,7 @@ using coupling::Integrator;
 
 const Discretisation kUsual{};  ///< what a scene has by default
 const Discretisation kNodes{162, "nodes"};
+const Discretisation kNodesAndEdges{162, "nodes-and-edges"};
 
 std::string clump_text(int count, const Discretisation& space) {
   return packed_clump_text(
@@ -182,14 +183,20 @@ WorkCase growth_case(int cells) {
              .warm_up = 600,
              .warm_up_step = 120,
              .grow_to = cells};
-  for (const Discretisation& d : {kUsual, kNodes}) {
+  for (const Discretisation& d : {kNodesAndEdges, kNodes}) {
     Study s{"error of time stepping, " + d.quadrature,
             2 * 3600,
             4,
-            {d, Integrator::kLinearlyImplicit, 7.5, 1e-4},
+            {.space = d, .step = 15, .cg_tolerance = 1e-4, .extrapolate = true},
             {}};
-    for (const double tolerance : {3e-3, 2e-2})
-      add_steps(s.setting, d, Integrator::kLinearlyImplicit, {30, 60, 120, 240}, tolerance);
+    for (const bool extrapolate : {false, true})
+      for (const double step : {30.0, 60.0, 100.0, 120.0})
+        s.setting.push_back({.space = d,
+                             .step = step,
+                             .cg_tolerance = 2e-2,
+                             .adaptive = true,
+                             .tolerance = 0.05,
+                             .extrapolate = extrapolate});
     c.time.push_back(s);
   }
   return c;
