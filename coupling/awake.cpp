@@ -1,6 +1,7 @@
 #include "coupling/awake.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace acinus::coupling {
 namespace {
 
 constexpr double kSameTime = 1e-6;  // s
+/// How far cells may be thought to go on at their present pace, um.
+constexpr double kLongestWay = 0.25;
 
 Selected find_cells(const State& s, bool asleep) {
   Selected cells;
@@ -66,6 +69,11 @@ bool have_same_cells(const State& a, const State& b) {
          });
 }
 
+/// Whether what sleeps goes on at its pace: only linearly implicit steps know of it.
+bool glides(const World& world) {
+  return world.params.numerics.integrator == Integrator::kLinearlyImplicit;
+}
+
 /// The part as it is now, in which the first cells move and the others are held.
 AwakePart& make_part(const World& world, Selected moving, Selected held,
                      std::shared_ptr<AwakePart>& made, const Workspace& w) {
@@ -94,6 +102,7 @@ AwakePart& make_part(const World& world, Selected moving, Selected held,
   part.held = std::move(held);
   part.lane = std::move(lane);
   if (!same) size_workspace(part.world, part.work);
+  part.work.glides = glides(world);
   part.work.reject_every = w.reject_every;
   part.work.partitioned = w.partitioned;
   return part;
@@ -120,28 +129,40 @@ void write_touching(const AwakePart& part, cbm::State& to) {
   std::ranges::sort(to.touching);
 }
 
-/// What moved in the part did so in the whole.
-void write_moves(const AwakePart& part, State& to) {
+/// Where a point of a cell is kept.
+double* position_of(State& s, Address a) {
+  const std::size_t n = s.dcm.position.size();
+  const auto k = static_cast<std::size_t>(a);
+  return k < n ? s.dcm.position.data() + k : s.cbm.position.data() + (k - n);
+}
+
+/// Calls f with where each point that moves stands in the part and in the whole.
+template <class F>
+void for_each_moving_point(const AwakePart& part, const State& to, F f) {
   const State& from = part.world.state;
-  if (!has_last_move(to)) to.last_move.assign(to.dcm.position.size() + to.cbm.position.size(), 0.0);
-  const auto copy_move = [&](Address a, Address b) {
-    store_point(to.last_move.data(), b, load_point(from.last_move.data(), a));
-  };
   for (std::size_t k = 0; k < part.moving.dcm.size(); ++k) {
     const std::size_t lane = part.moving.dcm[k];
     const int n = to.dcm.group[lane / kLanes].topology->n_node;
-    for (int i = 0; i < n; ++i) {
-      const Address a = dcm::node_address(from.dcm, part.lane[k], i),
-                    b = dcm::node_address(to.dcm, lane, i);
-      store_point(to.dcm.position.data(), b, load_point(from.dcm.position.data(), a));
-      copy_move(a, b);
-    }
+    for (int i = 0; i < n; ++i)
+      f(dcm::node_address(from.dcm, part.lane[k], i), dcm::node_address(to.dcm, lane, i));
   }
-  for (std::size_t k = 0; k < part.moving.cbm.size(); ++k) {
-    const std::size_t c = part.moving.cbm[k];
-    store_point(to.cbm.position.data(), cbm::cell_address(0, c), cbm::center_of(from.cbm, k));
-    copy_move(cbm::cell_address(from.dcm.n_row(), k), cbm::cell_address(to.dcm.n_row(), c));
-  }
+  for (std::size_t k = 0; k < part.moving.cbm.size(); ++k)
+    f(cbm::cell_address(from.dcm.n_row(), k),
+      cbm::cell_address(to.dcm.n_row(), part.moving.cbm[k]));
+}
+
+/// What moves in the part does so in the whole.
+void write_pace(const AwakePart& part, State& to) {
+  if (!has_last_move(to)) to.last_move.assign(to.dcm.position.size() + to.cbm.position.size(), 0.0);
+  for_each_moving_point(part, to, [&](Address a, Address b) {
+    store_point(to.last_move.data(), b, load_point(part.world.state.last_move.data(), a));
+  });
+}
+void write_moves(AwakePart& part, State& to) {
+  write_pace(part, to);
+  for_each_moving_point(part, to, [&](Address a, Address b) {
+    store_point(position_of(to, b), 0, load_point(position_of(part.world.state, a), 0));
+  });
   if (to.cbm.n_cell() > 0) write_touching(part, to.cbm);
 }
 
@@ -155,16 +176,47 @@ void move_counts(Workspace& from, Workspace& to) {
   to.cbm.searches += std::exchange(from.cbm.searches, 0);
 }
 
-/// Time passes and nobody moves.
+/// Sleepers go on at their pace.
+void glide(State& s, double step) {
+  if (!has_last_move(s)) return;
+  const double pace = step / s.clock.last_step;
+  for_each_cell(s, [&](const Cell& c) {
+    if (s.asleep[c.index] == 0) return;
+    for_each_point(s, c, [&](Address a) {
+      const Vec3 move = pace * load_point(s.last_move.data(), a);
+      store_point(s.last_move.data(), a, move);
+      double* at = position_of(s, a);
+      store_point(at, 0, load_point(at, 0) + move);
+    });
+  });
+}
+
+/// Time passes: sleepers glide, and nobody is awake.
 StepResult pass_time(World& world, double limit) {
   Clock& clock = world.state.clock;
   StepResult result;
   result.accepted = true;
   result.step = std::min(world.params.numerics.max_step, limit);
+  if (glides(world)) glide(world.state, result.step);
   clock.time += result.step;
   clock.last_step = result.step;
   ++clock.accepted;
   return result;
+}
+
+/// Slows cells down that would go too far in so long a time.
+void limit_pace(State& s, double duration) {
+  for_each_cell(s, [&](const Cell& c) {
+    double farthest2 = 0;
+    for_each_point(s, c, [&](Address a) {
+      farthest2 = std::max(farthest2, load_point(s.last_move.data(), a).squaredNorm());
+    });
+    const double way = duration / s.clock.last_step * std::sqrt(farthest2);
+    if (!(way > kLongestWay)) return;
+    for_each_point(s, c, [&](Address a) {
+      store_point(s.last_move.data(), a, kLongestWay / way * load_point(s.last_move.data(), a));
+    });
+  });
 }
 
 }  // namespace
@@ -192,30 +244,38 @@ StepResult advance_awake(World& world, Workspace& w, double limit) {
   move_counts(part.work, w);
   if (!result.accepted) return result;
   const auto scope = w.timings.scope("awake part");
+  if (glides(world)) glide(world.state, result.step);
   write_moves(part, world.state);
   world.state.clock = part.world.state.clock;
   world.state.balance = part.world.state.balance;
   return result;
 }
 
-bool advance_sleepers(World& world, Workspace& w, double duration) {
+bool set_sleepers_pace(World& world, Workspace& w, double duration) {
+  State& s = world.state;
+  if (!glides(world) || !(s.clock.last_step > 0)) return true;
   const auto scope = w.timings.scope("sleepers");
-  Selected sleepers = find_cells(world.state, true);
+  Selected sleepers = find_cells(s, true);
   Selected ring = find_ring(world, sleepers);
   AwakePart& part = make_part(world, std::move(sleepers), std::move(ring), w.sleepers, w);
+  State& small = part.world.state;
+  limit_pace(small, duration);
   Params& params = part.world.params;
   params.motility.random = false;
   params.motility.leader_force = 0;
+  params.numerics.extrapolate = false;
   params.numerics.max_step = duration;
-  Clock& clock = part.world.state.clock;
-  const double end = clock.time;
-  clock.time -= duration;
+  Clock& clock = small.clock;
+  const double pace = clock.last_step / duration, end = clock.time + duration;
   clock.step = duration;
+  const std::vector<double> start = gather_positions(small);
   while (clock.time < end - kSameTime)
     if (!advance(part.world, part.work, end - clock.time).accepted) return false;
   move_counts(part.work, w);
-  std::ranges::fill(part.world.state.last_move, 0.0);
-  write_moves(part, world.state);
+  small.last_move = gather_positions(small);
+  for (std::size_t k = 0; k < start.size(); ++k)
+    small.last_move[k] = pace * (small.last_move[k] - start[k]);
+  write_pace(part, s);
   return true;
 }
 

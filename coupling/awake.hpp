@@ -1,7 +1,7 @@
 #pragma once
 /// Steps of a world in which somebody sleeps. Those awake step in a smaller world of their own,
-/// with the sleepers they may touch held in place around them. Sleepers make up for the time they
-/// slept in one long step, with those awake held. (docs/decisions/0015.md)
+/// with the sleepers they may touch around them. Sleepers glide at a pace that is set now and then
+/// by one long step. (docs/decisions/0015.md)
 
 #include "coupling/step.hpp"
 #include "coupling/subworld.hpp"
@@ -26,9 +26,10 @@ Selected find_ring(const World& world, const Selected& cells);
 /// advance() of a world with sleepers: of those awake. With nobody awake only time passes.
 StepResult advance_awake(World& world, Workspace& work, double limit);
 
-/// Moves the sleepers over the time they have slept, s, up to now: creeping tissue goes on creeping
-/// in steps as long as that. They have no motility.
-/// @return false if they cannot: then they are where they were
-[[nodiscard]] bool advance_sleepers(World& world, Workspace& work, double duration);
+/// Sets the pace, kept as their last move, at which sleepers glide for a duration, s, to come: that
+/// of one step of everybody as long as it, without motility. (With those awake at a prescribed pace
+/// nobody would look at the balance of both together, and whatever pace they have would last.)
+/// @return false if there is no such step: then nothing has changed
+[[nodiscard]] bool set_sleepers_pace(World& world, Workspace& work, double duration);
 
 }  // namespace acinus::coupling

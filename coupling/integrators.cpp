@@ -7,6 +7,7 @@
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
 #include "coupling/judge.hpp"
+#include "coupling/life/cell.hpp"
 #include "coupling/step.hpp"
 
 namespace acinus::coupling {
@@ -56,18 +57,35 @@ bool is_steady(const World& world) {
   return !crosses_grid(now - s.clock.last_step, now, m.grid);
 }
 
-/// Finds contacts and assembles where the last step's velocity leads.
-void assemble_ahead(World& world, double step, Workspace& w) {
+/// Moves at the pace of the last step: of what is held, and of all others if wanted. Theirs may end
+/// and is not stretched over a longer step.
+void look_ahead(const World& world, double step, bool all, const Workspace& w,
+                std::vector<double>& move) {
+  const State& s = world.state;
+  const double pace = step / s.clock.last_step;
+  const double others = all ? std::min(1.0, pace) : 0.0, held = w.glides ? pace : 0.0;
+  move.resize(s.last_move.size());
+  for_each_number(move.size(), [&](std::size_t k) { move[k] = others * s.last_move[k]; });
+  if (!w.holds) return;
+  for_each_cell(s, [&](const Cell& c) {
+    if (s.asleep[c.index] == 0) return;
+    for_each_point(s, c, [&](Address a) {
+      store_point(move.data(), a, held * load_point(s.last_move.data(), a));
+    });
+  });
+}
+
+/// Finds contacts and assembles where the last step's velocity leads all; or, if only what is held
+/// goes ahead, where all are now: F and K belong to shapes that fit together.
+void assemble_ahead(World& world, double step, bool all, Workspace& w) {
   State& s = world.state;
   Ahead& ahead = w.ahead;
-  const double ratio = std::min(1.0, step / s.clock.last_step);
-  for (auto* v : {&ahead.move, &ahead.friction, &ahead.pair_friction, &ahead.product})
-    v->resize(w.move.size());
-  for_each_number(w.move.size(), [&](std::size_t k) { ahead.move[k] = ratio * s.last_move[k]; });
+  for (auto* v : {&ahead.friction, &ahead.pair_friction, &ahead.product}) v->resize(w.move.size());
+  look_ahead(world, step, all, w, ahead.move);
   const std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
-  move_points(s, ahead.move);
+  if (all) move_points(s, ahead.move);
   find_all_contacts(world, step, w);
-  assemble(world, step, w, {.stiffness_scale = 0});
+  assemble(world, step, w, {.stiffness_scale = all ? 0.0 : 1.0, .hold = false});
   w.op.apply(ahead.move, ahead.friction);
   w.cg.product.resize(w.move.size());
   w.op.apply_external(ahead.move, w.cg.product);
@@ -81,8 +99,9 @@ void assemble_ahead(World& world, double step, Workspace& w) {
 
 Attempt try_linearly_implicit(World& world, double step, bool extrapolate, Workspace& w) {
   Attempt a;
-  if (extrapolate && is_steady(world)) {
-    assemble_ahead(world, step, w);
+  const bool ahead = extrapolate && is_steady(world);
+  if (ahead || (w.glides && has_last_move(world.state))) {
+    assemble_ahead(world, step, ahead, w);
   } else {
     w.ahead = {};
     find_all_contacts(world, step, w);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/threads.hpp"
@@ -74,7 +75,7 @@ void hold_sleepers(const State& s, Workspace& w) {
 
 /// What a held point resists with, nN/um: so much more than anything pushes with that nobody feels
 /// it move, and little enough for the solver. What it moves in the solution is left out: add_holds
-/// makes the force that holds it, keep_held its place.
+/// makes the force that holds it, place_held its place.
 constexpr double kHold = 1e6;
 
 /// Ties every point of a held cell to its place, and those of empty lanes beside them.
@@ -88,16 +89,17 @@ void add_holds(double step, Workspace& w) {
   }
 }
 
-/// Held cells stay where they are to the bit, however many steps push at them.
-void keep_held(Workspace& w) {
+/// Held cells go exactly where they are to go, however many steps push at them.
+/// @param move  [n_row][3][lane] um; empty: they stay where they are
+void place_held(Workspace& w, std::span<const double> move) {
   for (std::size_t lane = 0; lane < w.held.size(); ++lane) {
     if (w.held[lane] == 0) continue;
     const solve::Block& b = w.system.block[lane / kLanes];
-    for (int i = 0; i < b.pattern->n_point; ++i)
-      store_point(
-          w.move.data(),
-          make_address(b.first_row + static_cast<std::size_t>(i), static_cast<int>(lane % kLanes)),
-          Vec3::Zero());
+    for (int i = 0; i < b.pattern->n_point; ++i) {
+      const Address a =
+          make_address(b.first_row + static_cast<std::size_t>(i), static_cast<int>(lane % kLanes));
+      store_point(w.move.data(), a, move.empty() ? Vec3::Zero() : load_point(move.data(), a));
+    }
   }
 }
 
@@ -205,7 +207,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
                          links);
   cbm::add_contact_loads(s.cbm, world.params.cbm, world.params.around, w.cbm, first, w.system);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
-  add_holds(step, w);
+  if (selection.hold) add_holds(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);
 }
@@ -226,14 +228,16 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
     w.rhs[k] = w.system.force[k] + w.system.external_force[k];
   });
   if (w.ahead.used()) {
-    // A (d - ahead) = F - Gamma/h ahead, solved for d: the tolerance refers to the whole way.
-    w.op.apply(w.ahead.move, w.ahead.product);
-    for_each_number(w.rhs.size(), [&](std::size_t k) {
-      w.rhs[k] += w.ahead.product[k] - w.ahead.friction[k];
-      w.move[k] = w.ahead.move[k];
-    });
+    // A (d - ahead) = F - Gamma/h ahead, solved for d: the tolerance refers to the whole way. Of
+    // what is held the way is known: its ties would drown all other forces.
+    for_each_number(w.rhs.size(), [&](std::size_t k) { w.move[k] = w.ahead.move[k]; });
+    place_held(w, {});
+    w.op.apply(w.move, w.ahead.product);
+    for_each_number(w.rhs.size(),
+                    [&](std::size_t k) { w.rhs[k] += w.ahead.product[k] - w.ahead.friction[k]; });
     const Status status = solve_system(world, w, cg_iterations);
     for_each_number(w.rhs.size(), [&](std::size_t k) { w.rhs[k] -= w.ahead.product[k]; });
+    place_held(w, w.ahead.move);
     return status;
   }
   // The last step's velocity is a good first guess.
@@ -305,7 +309,7 @@ StepResult advance(World& world, Workspace& w, double limit) {
       s.balance.momentum = std::max(s.balance.momentum, b.momentum);
       s.balance.torque = std::max(s.balance.torque, b.torque);
       s.balance.friction_torque = std::max(s.balance.friction_torque, b.friction_torque);
-      keep_held(w);
+      place_held(w, w.glides ? std::span<const double>(w.ahead.move) : std::span<const double>());
       commit(world, step, cg_iterations, solves, w);
       s.clock.rejected += result.rejections;
       // A step cut short by an event says little about the next one's length.

@@ -30,6 +30,7 @@ struct Selection {
   bool interface = true;       ///< tests look at one model with and without it
   double stiffness_scale = 1;  ///< 0: friction only
   double friction_factor = 1;  ///< on Gamma/h
+  bool hold = true;            ///< tie what is held to where it shall be
 };
 
 /// Stages 1 and 2: reference values at the end of the step, migration choices, contacts of the

@@ -43,14 +43,15 @@ struct Workspace {
   CellForces forces;                           ///< written by: assemble
   std::vector<double> position;                ///< [n_row][3][lane]; written by: assemble
   std::vector<std::uint8_t> active;            ///< written by: size_workspace
-  /// [dcm lanes, then cbm lanes] 1: does not move this step; empty: all do.
+  /// [dcm lanes, then cbm lanes] 1: the solver does not move it; empty: all move.
   std::vector<std::uint8_t> held;    ///< written by: find_all_contacts
   std::vector<double> rhs;           ///< written by: solve_step
   std::vector<double> move;          ///< displacement of the step; written by: solve_step
   Ahead ahead;                       ///< written by: attempt_step
   std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;
-  bool holds = false;  ///< sleepers take part in the steps made here, held in place
+  bool holds = false;   ///< sleepers take part in the steps made here, held in place
+  bool glides = false;  ///< what is held goes on at the pace of its last move (linearly implicit)
   /// Where a world with sleepers steps; see awake.hpp.
   std::shared_ptr<AwakePart> awake, sleepers;
   Timings timings;

@@ -79,7 +79,9 @@ class Run {
   void write_series(const coupling::StepResult& step);
   void add_event(const std::string& code, const std::string& message,
                  const std::vector<std::int64_t>& cells = {});
-  void live();  ///< what happens to cells between steps
+  void tell(const coupling::LifeReport& report);  ///< what happened to cells between steps
+  /// Whether the step failed at cells that die anyway: they are gone now.
+  bool goes_on_without(const coupling::StepResult& step);
   bool enough_cells() const;
   int count_cells() const;
   void save();
@@ -106,7 +108,7 @@ class Run {
   double last_save_ = wall_seconds();
   double last_frame_ = -1e300;  ///< s, time of the last written frame
   /// um beyond the limit in the last frame. The first one may overlap: contact is given a chance.
-  double excess_ = std::numeric_limits<double>::infinity();
+  Excess excess_{std::numeric_limits<double>::infinity(), {}, {}};
   Progress progress_;
 };
 
@@ -180,7 +182,9 @@ void Run::start_or_resume() {
              t[12], t[7], t[8], t[9],  t[10], 0,    0,    0};
   last_frame_ = t[11];
   life_ = get_totals(loaded.data);
-  excess_ = loaded.data.contains("file/excess") ? loaded.data.number("file/excess") : 0;
+  excess_ = {loaded.data.contains("file/excess") ? loaded.data.number("file/excess") : 0,
+             "some cells overlap beyond what contact mends",
+             {}};
   const std::vector<std::int64_t>& counts = loaded.data.integers("file/counts");
   check(counts.size() == 3, loaded.data.source() + ": the run file's counts are damaged.",
         Exit::kFileError);
@@ -219,8 +223,8 @@ Excess Run::write_frame() {
   Excess excess = find_excess(audit, world(), work_);
   if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
   // Overlaps of the start must shrink from frame to frame and be gone at the end.
-  const bool shrinks = excess.depth_um < excess_ && time() < end_ - kSameTime;
-  excess_ = excess.depth_um;
+  const bool shrinks = excess.depth_um < excess_.depth_um && time() < end_ - kSameTime;
+  excess_ = excess;
   return shrinks ? Excess{} : excess;
 }
 
@@ -253,10 +257,16 @@ bool Run::enough_cells() const {
   return most > 0 && count_cells() >= most;
 }
 
-void Run::live() {
-  const coupling::LifeReport report = coupling::live(world(), work_);
+void Run::tell(const coupling::LifeReport& report) {
   add_life(life_, report, count_cells(), wall_before_ + wall_seconds() - started_);
   for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
+}
+
+bool Run::goes_on_without(const coupling::StepResult& step) {
+  const coupling::LifeReport report =
+      coupling::remove_dying(world(), work_, step.cells, step.cause);
+  tell(report);
+  return !report.events.empty();
 }
 
 void Run::save() {
@@ -276,7 +286,7 @@ void Run::save() {
   put_totals(life_, data);
   for (const auto& [name, values] : measures_) data.put("measures/" + name, values);
   const io::RunFileCounts c = file_->counts();
-  data.put_number("file/excess", excess_);
+  data.put_number("file/excess", excess_.depth_um);
   data.put("file/counts", std::vector<std::int64_t>{c.frame, c.series, c.event});
   io::save_checkpoint(options_.out, data);
   last_save_ = wall_seconds();
@@ -310,8 +320,11 @@ int Run::fail(const coupling::StepResult& step) {
   const std::string cause = fmt::format(
       "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good state is "
       "in {}. Try a larger "
-      "contact.repulsion, a smaller load or adhesion, a smaller time.min_step, or for a face that "
-      "turns over a local_area_modulus, which keeps meshes regular.",
+      "contact.repulsion, a smaller load or adhesion, a smaller time.min_step, for a face that "
+      "turns "
+      "over a local_area_modulus, which keeps meshes regular, or for a solve that does not "
+      "converge "
+      "a larger solver.max_iterations.",
       world().params.numerics.min_step, time() / 3600, step.cause,
       step.cells.empty() ? std::string("none named")
                          : fmt::format("{}", fmt::join(step.cells, ", ")),
@@ -357,7 +370,10 @@ int Run::loop() {
     }
     first = false;
     const coupling::StepResult step = coupling::advance(world(), work_, time_to_next_event());
-    if (!step.accepted) return fail(step);
+    if (!step.accepted) {
+      if (goes_on_without(step)) continue;
+      return fail(step);
+    }
     write_series(step);
     progress_.step(world());
     if (!running) {
@@ -369,7 +385,7 @@ int Run::loop() {
       }
     }
     const bool now_running = world().state.clock.phase == coupling::Phase::kRun;
-    if (running) live();
+    if (running) tell(coupling::live(world(), work_));
     const bool last = time() >= end_ - kSameTime || (running && enough_cells());
     const double t = time(), part = t / scene_.output.every;
     const bool on_grid = std::abs(part - std::round(part)) * scene_.output.every < kSameTime;
@@ -379,8 +395,7 @@ int Run::loop() {
     if (last && now_running) break;
     if (wall_seconds() - last_save_ > options_.checkpoint_every_s) save();
   }
-  if (excess_ > 0)  // resumed at the end of a run that failed there
-    return fail(Excess{excess_, "some cells overlap beyond what contact mends", {}});
+  if (excess_.depth_um > 0) return fail(excess_);
   close("completed", "");
   return static_cast<int>(Exit::kDone);
 }

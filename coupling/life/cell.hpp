@@ -41,6 +41,14 @@ inline const CycleParams& cycle_of(const Params& p, const State& s, const Cell& 
   return p.life.type[static_cast<std::size_t>(type_of(s, c))];
 }
 
+/// Calls f with where each point of a cell stands among all unknowns.
+template <class F>
+void for_each_point(const State& s, const Cell& c, F f) {
+  if (!c.deformable) return f(cbm::cell_address(s.dcm.n_row(), c.at));
+  const int n = s.dcm.group[c.at / kLanes].topology->n_node;
+  for (int i = 0; i < n; ++i) f(dcm::node_address(s.dcm, c.at, i));
+}
+
 /// Time since t = 0, s.   @pre Phase::kRun
 inline double time_of(const State& s) { return s.clock.time - s.clock.origin; }
 

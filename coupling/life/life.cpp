@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <span>
 
 #include "cbm/division.hpp"
 #include "core/sphere.hpp"
@@ -238,6 +239,25 @@ LifeReport live(World& world, Workspace& work) {
   LifeReport report = turn_over(world, work);
   update_sleep(world, work);
   mend_meshes(world, work, report);
+  return report;
+}
+
+LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int64_t> cells,
+                        const std::string& why) {
+  LifeReport report;
+  State& s = world.state;
+  if (s.cycle.empty()) return report;
+  std::vector<std::uint8_t> gone(s.cycle.size(), 0);
+  for_each_cell(s, [&](const Cell& c) {
+    const std::int64_t id = lineage_of(s, c);
+    if (s.cycle[c.index].fate != Fate::kLyse || std::ranges::find(cells, id) == cells.end()) return;
+    gone[c.index] = 1;
+    ++s.deaths;
+    report.events.push_back({"death", {id}, "removed before it had shrunk: " + why});
+  });
+  if (report.events.empty()) return report;
+  replace_cells(world, gone, std::vector<std::uint8_t>(gone.size(), 0), State{});
+  size_workspace(world, work);
   return report;
 }
 

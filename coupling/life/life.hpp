@@ -1,6 +1,8 @@
 #pragma once
 /// The events between steps: cells enter and leave their cycle, divide and die.
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,13 @@ struct LifeReport {
 /// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp), and
 /// mends meshes that degenerate (mesh_health.hpp).
 LifeReport live(World& world, Workspace& work);
+
+/// Removes those of the cells that dissolve. Their membrane gives way to the last, so a step that
+/// fails at them ends what is left of them, not the run.
+/// @param why  as the step said it
+/// @return without events: none of them dissolves
+LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int64_t> cells,
+                        const std::string& why);
 
 /// Time until live() has to be called next, s; infinite if nothing is due on a time grid.
 double time_to_event(const World& world);

@@ -35,16 +35,6 @@ void observe_rest(World& world, Workspace& work) {
   random = trembles;
 }
 
-/// Who falls asleep has stopped.
-void stop(State& s, const Cell& c) {
-  if (!has_last_move(s)) return;
-  const int n = c.deformable ? s.dcm.group[c.at / kLanes].topology->n_node : 1;
-  const Address first =
-      c.deformable ? dcm::node_address(s.dcm, c.at, 0) : cbm::cell_address(s.dcm.n_row(), c.at);
-  for (int i = 0; i < n; ++i)
-    store_point(s.last_move.data(), first + static_cast<Address>(i * kPointStride), Vec3::Zero());
-}
-
 }  // namespace
 
 std::vector<double> unbalanced_traction(const World& world, const Workspace& w) {
@@ -84,9 +74,6 @@ bool update_sleep(World& world, Workspace& work) {
   if (!p.enabled || s.clock.phase != Phase::kRun) return false;
   const std::int64_t now = grid_interval(time_of(s), p.grid);
   if (now == s.sleep_interval) return false;
-  if (count_asleep(s) > 0 &&
-      !advance_sleepers(world, work, static_cast<double>(now - s.sleep_interval) * p.grid))
-    s.asleep.clear();
   s.sleep_interval = now;
   const auto scope = work.timings.scope("sleep");
   observe_rest(world, work);
@@ -102,13 +89,13 @@ bool update_sleep(World& world, Workspace& work) {
                 : static_cast<std::uint8_t>(std::min<int>(quiet + 1, kQuietLooks));
     asleep[c.index] = quiet >= kQuietLooks ? 1 : 0;
   });
-  if (asleep == s.asleep || (s.asleep.empty() && std::ranges::count(asleep, 1) == 0)) return false;
-  for_each_cell(s, [&](const Cell& c) {
-    if (asleep[c.index] != 0) stop(s, c);
-  });
+  const bool slept = count_asleep(s) > 0;
+  const bool changed = slept ? asleep != s.asleep : std::ranges::count(asleep, 1) > 0;
   s.asleep = std::move(asleep);
+  if (count_asleep(s) > 0 && !set_sleepers_pace(world, work, time_to_sleep_event(world)))
+    std::ranges::fill(s.asleep, std::uint8_t{0});
   if (count_asleep(s) == 0) s.asleep.clear();
-  return true;
+  return changed;
 }
 
 }  // namespace acinus::coupling

@@ -2,9 +2,9 @@
 /// Cells that rest in balance are left out of the step until something pushes them.
 ///
 /// A cell falls asleep when it does not grow and the force on it is out of balance by less than a
-/// traction, and wakes when it is out of balance by twice that. In between it stands still and is a
-/// fixed surrounding of those awake. On a time grid sleepers make one step as long as the time they
-/// slept (awake.hpp); then balance is looked at, with all loads of all cells as if nobody slept.
+/// traction, and wakes when it is out of balance by twice that. Balance is looked at on a time
+/// grid, with all loads of all cells as if nobody slept; from there to the next look a sleeper
+/// glides at the pace of one long step (awake.hpp) and is a surrounding of those awake.
 /// (docs/decisions/0015.md)
 
 #include "coupling/workspace.hpp"

@@ -65,8 +65,8 @@ void describe_cycle(Visitor& v, CycleBlock& b) {
           .range = {.low = 0, .high = 1, .low_open = true}},
          b.force_ramp);
   v.text({.name = "axis",
-          .meaning = "direction in which a cell divides: random in space, given by "
-                     "cycle.direction, or along the nearest vessel",
+          .meaning = "direction in which a cell divides: random in space, random in the horizontal "
+                     "plane, given by cycle.direction, or along the nearest vessel",
           .choices = "random|plane|given|vessel"},
          b.axis);
   v.when(b.axis == "given", "axis = given", [&b](Visitor& w) {

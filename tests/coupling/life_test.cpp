@@ -357,6 +357,27 @@ TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
 }
 
 /// Two touching cells die in the same moment: the world goes on without them.
+TEST(Death, TakesTheDyingAloneWhenAStepFailsAtThem) {
+  World w =
+      make_living_world({{Vec3::Zero(), true}, {Vec3(30, 0, 0), true}, {Vec3(60, 0, 0), false}});
+  begin_life(w);
+  Workspace work;
+  size_workspace(w, work);
+  const std::int64_t all[] = {0, 1, 2};
+  EXPECT_TRUE(remove_dying(w, work, all, "nobody dissolves").events.empty());
+  for (std::int64_t id : {1, 2})
+    w.state.cycle[index_cells(w.state).at(id).index].fate = Fate::kLyse;
+  const std::int64_t named[] = {0, 1};
+  const LifeReport report = remove_dying(w, work, named, "a face would turn over");
+  ASSERT_EQ(report.events.size(), 1u);
+  EXPECT_EQ(report.events[0].code, "death");
+  EXPECT_EQ(report.events[0].cells, Ids{1});
+  EXPECT_NE(report.events[0].message.find("a face would turn over"), std::string::npos);
+  EXPECT_EQ(lineages(w.state), (Ids{0, 2}));
+  EXPECT_EQ(w.state.deaths, 1);
+  EXPECT_TRUE(advance(w, work, 60).accepted);
+}
+
 TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
   for (const bool spheres_stay : {false, true}) {
     std::vector<TestCell> cells{{Vec3(0, 0, 0)}, {Vec3(23, 0, 0)}};
