@@ -34,12 +34,10 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
   s.leader.assign(n_cell, 0);
   s.cycle.assign(n_cell, Cycle{});
-  s.quiet.assign(n_cell, 0);
   s.last_move.assign(s.dcm.position.size() + s.cbm.position.size(), 0.0);
   const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to) {
     s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
     s.cycle[to] = value_of(from.cycle, at, Cycle{});
-    s.quiet[to] = value_of(from.quiet, at, std::uint8_t{0});
     if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
     s.asleep.resize(n_cell, 0);
     s.asleep[to] = 1;

@@ -78,29 +78,31 @@ void hold_sleepers(const State& s, Workspace& w) {
 /// makes the force that holds it, place_held its place.
 constexpr double kHold = 1e6;
 
-/// Ties every point of a held cell to its place, and those of empty lanes beside them.
-void add_holds(double step, Workspace& w) {
+/// Calls f with the row and the lane of every point that is held.
+template <class F>
+void for_each_held_point(const Workspace& w, F f) {
   for (std::size_t lane = 0; lane < w.held.size(); ++lane) {
     const solve::Block& b = w.system.block[lane / kLanes];
-    if (w.held[lane] == 0 && !b.still) continue;
+    if (w.held[lane] == 0 && !b.still) continue;  // with the empty lanes beside those held
     for (int i = 0; i < b.pattern->n_point; ++i)
-      w.system.medium[(b.first_row + static_cast<std::size_t>(i)) * kLanes + lane % kLanes] +=
-          kHold * step;
+      f(b.first_row + static_cast<std::size_t>(i), lane % kLanes);
   }
+}
+
+/// Ties every point of a held cell to its place.
+void add_holds(double step, Workspace& w) {
+  for_each_held_point(w, [&](std::size_t row, std::size_t lane) {
+    w.system.medium[row * kLanes + lane] += kHold * step;
+  });
 }
 
 /// Held cells go exactly where they are to go, however many steps push at them.
 /// @param move  [n_row][3][lane] um; empty: they stay where they are
 void place_held(Workspace& w, std::span<const double> move) {
-  for (std::size_t lane = 0; lane < w.held.size(); ++lane) {
-    if (w.held[lane] == 0) continue;
-    const solve::Block& b = w.system.block[lane / kLanes];
-    for (int i = 0; i < b.pattern->n_point; ++i) {
-      const Address a =
-          make_address(b.first_row + static_cast<std::size_t>(i), static_cast<int>(lane % kLanes));
-      store_point(w.move.data(), a, move.empty() ? Vec3::Zero() : load_point(move.data(), a));
-    }
-  }
+  for_each_held_point(w, [&](std::size_t row, std::size_t lane) {
+    const Address a = make_address(row, static_cast<int>(lane));
+    store_point(w.move.data(), a, move.empty() ? Vec3::Zero() : load_point(move.data(), a));
+  });
 }
 
 /// Length of the next step from the error of this one. A quarter more or less is not worth a
@@ -207,9 +209,16 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
                          links);
   cbm::add_contact_loads(s.cbm, world.params.cbm, world.params.around, w.cbm, first, w.system);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
-  if (selection.hold) add_holds(step, w);
+  add_holds(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);
+}
+
+void leave_out_holds(const Workspace& w, std::span<const double> move, std::span<double> product) {
+  for_each_held_point(w, [&](std::size_t row, std::size_t lane) {
+    const Address a = make_address(row, static_cast<int>(lane));
+    add_point(product.data(), a, -kHold * load_point(move.data(), a));
+  });
 }
 
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {

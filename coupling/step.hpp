@@ -30,7 +30,6 @@ struct Selection {
   bool interface = true;       ///< tests look at one model with and without it
   double stiffness_scale = 1;  ///< 0: friction only
   double friction_factor = 1;  ///< on Gamma/h
-  bool hold = true;            ///< tie what is held to where it shall be
 };
 
 /// Stages 1 and 2: reference values at the end of the step, migration choices, contacts of the
@@ -39,6 +38,10 @@ void find_all_contacts(const World& world, double step, Workspace& work);
 
 /// First half of stage 3: both models and the interface add their loads to one system.
 void assemble(const World& world, double step, Workspace& work, Selection selection = {});
+
+/// Takes out of the product of the assembled matrix with `move` what the ties of held cells add.
+void leave_out_holds(const Workspace& work, std::span<const double> move,
+                     std::span<double> product);
 
 /// Forces between deformable cells and spheres, per pair of cells.   @pre assemble
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& work);

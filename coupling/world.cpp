@@ -90,7 +90,6 @@ std::uint64_t hash_state(const State& s) {
   add(s.last_move);
   add(s.leader);
   add(s.asleep);
-  add(s.quiet);
   for (const Cycle& c : s.cycle)
     add(std::array{c.birth, c.birth_volume, c.duration, c.wait_until, static_cast<double>(c.parent),
                    static_cast<double>(c.founder), static_cast<double>(c.fate)});

@@ -108,7 +108,6 @@ struct State {
   std::vector<std::uint8_t> leader;   ///< [dcm lanes, then cbm cells]
   std::int64_t leader_interval = -1;  ///< grid interval the leaders were chosen in
   std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] does not move; empty: all do
-  std::vector<std::uint8_t> quiet;    ///< [dcm lanes, then cbm cells] looks spent in balance
   std::int64_t sleep_interval = -1;   ///< grid interval sleep was looked at in
   std::vector<Cycle> cycle;           ///< [dcm lanes, then cbm cells]; empty: nothing grows
   std::int64_t life_interval = -1;    ///< grid interval the rules of life were looked at

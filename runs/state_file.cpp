@@ -140,7 +140,6 @@ void put_life(const coupling::State& s, io::CheckpointData& d) {
   d.put("life/counts",
         std::vector<std::int64_t>{s.life_interval, s.next_lineage, s.divisions, s.deaths});
   d.put("life/asleep", as_integers(s.asleep));
-  d.put("life/quiet", as_integers(s.quiet));
   d.put_count("life/sleep_interval", s.sleep_interval);
 }
 
@@ -168,9 +167,6 @@ void get_life(const io::CheckpointData& d, coupling::State& s) {
   const std::vector<std::int64_t>& asleep = d.integers("life/asleep");
   check_none_or_all("life/asleep", asleep.size());
   s.asleep.assign(asleep.begin(), asleep.end());
-  const std::vector<std::int64_t>& quiet = d.integers("life/quiet");
-  check_none_or_all("life/quiet", quiet.size());
-  s.quiet.assign(quiet.begin(), quiet.end());
   s.sleep_interval = d.count("life/sleep_interval");
 }
 

@@ -57,7 +57,6 @@ void replace_mesh(State& s, std::size_t lane, const std::vector<Vec3>& node) {
     if (moved) store_point(s.last_move.data(), a, Vec3::Zero());
   }
   if (lane < s.asleep.size()) s.asleep[lane] = 0;
-  if (lane < s.quiet.size()) s.quiet[lane] = 0;
 }
 
 std::string describe(const Mended& m) {

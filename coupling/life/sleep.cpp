@@ -13,8 +13,6 @@
 namespace acinus::coupling {
 namespace {
 
-/// Looks in a row at which a cell must be in balance before it sleeps.
-constexpr int kQuietLooks = 2;
 /// How much farther out of balance a sleeper must be to wake than a cell that falls asleep.
 constexpr double kWake = 2;
 
@@ -80,14 +78,9 @@ bool update_sleep(World& world, Workspace& work) {
   const std::vector<double> traction = unbalanced_traction(world, work);
   std::vector<std::uint8_t> asleep = s.asleep;
   asleep.resize(traction.size(), 0);
-  s.quiet.resize(traction.size(), 0);
   for_each_cell(s, [&](const Cell& c) {
-    std::uint8_t& quiet = s.quiet[c.index];
     const double limit = asleep[c.index] != 0 ? kWake * p.traction : p.traction;
-    quiet = !may_sleep(s, c) || traction[c.index] > limit
-                ? std::uint8_t{0}
-                : static_cast<std::uint8_t>(std::min<int>(quiet + 1, kQuietLooks));
-    asleep[c.index] = quiet >= kQuietLooks ? 1 : 0;
+    asleep[c.index] = may_sleep(s, c) && traction[c.index] <= limit ? 1 : 0;
   });
   const bool slept = count_asleep(s) > 0;
   const bool changed = slept ? asleep != s.asleep : std::ranges::count(asleep, 1) > 0;

@@ -43,7 +43,6 @@ State make_state(std::int64_t first_lineage = 0) {
   s.cbm.touching = {{0, ~5}, {0, 3}, {2, 3}, {2, 7}, {4, ~1}, {5, 10}};
   const std::size_t n = s.dcm.n_lane() + s.cbm.n_cell();
   s.leader.assign(n, 0);
-  s.quiet.assign(n, 0);
   s.asleep.assign(n, 0);
   s.cycle.assign(n, Cycle{});
   s.last_move.assign(s.dcm.position.size() + s.cbm.position.size(), 0.0);
@@ -51,7 +50,6 @@ State make_state(std::int64_t first_lineage = 0) {
   for_each_cell(s, [&](const Cell& c) {
     const std::int64_t id = lineage_of(s, c);
     s.leader[c.index] = id % 2 == 0;
-    s.quiet[c.index] = static_cast<std::uint8_t>(id % 3);
     s.asleep[c.index] = id % 5 == 0;
     s.cycle[c.index] = {id - 100, id - 200, Fate::kGrow, 1.0 * id, 2.0 * id, 3.0 * id, 4.0 * id};
     volume_of(s, c) = {1000.0 + static_cast<double>(id), 2000, 1, 2};
@@ -109,7 +107,6 @@ void expect_same_cell(State& now, const Cell& c, State& before, const Cell& d) {
   ASSERT_EQ(c.deformable, d.deformable);
   expect_same_ramp(volume_of(now, c), volume_of(before, d));
   EXPECT_EQ(now.leader[c.index], before.leader[d.index]);
-  EXPECT_EQ(now.quiet[c.index], before.quiet[d.index]);
   EXPECT_EQ(now.asleep.empty() ? 0 : now.asleep[c.index], before.asleep[d.index]);
   const Cycle &x = now.cycle[c.index], &y = before.cycle[d.index];
   EXPECT_EQ(
@@ -201,7 +198,6 @@ TEST(Compose, OfTwoStatesAddsTheCellsOfTheSecond) {
   State before = make_state(), born = make_state(100);
   born.last_move.clear();
   born.leader.clear();
-  born.quiet.clear();
   born.asleep.clear();
   std::vector<Member> shells = list_dcm(born), spheres = list_cbm(born);
   std::ranges::copy(list_dcm(before), std::back_inserter(shells));
@@ -214,7 +210,7 @@ TEST(Compose, OfTwoStatesAddsTheCellsOfTheSecond) {
     if (id < 100) continue;
     EXPECT_EQ(now.cycle[c.index].founder, id - 200);
     EXPECT_EQ(last_move(now, c, 0), Vec3::Zero()) << "has not moved yet";
-    EXPECT_EQ(now.leader[c.index] + now.quiet[c.index] + now.asleep[c.index], 0);
+    EXPECT_EQ(now.leader[c.index] + now.asleep[c.index], 0);
   }
   Touching expected = touching_lineages(before.cbm);
   expected.merge(touching_lineages(born.cbm));

@@ -67,7 +67,7 @@ TEST(Sleep, ARestingClumpFallsAsleepAndGlidesFromLookToLook) {
   size_workspace(w, work);
   EXPECT_EQ(time_to_event(w), 600);
   run_for(w, work, 600);
-  EXPECT_LT(count_asleep(w.state), 8) << "one look is not enough";
+  EXPECT_LT(count_asleep(w.state), 8) << "pressed just now";
   run_for(w, work, 4 * 3600);
   ASSERT_EQ(count_asleep(w.state), 8);
   const auto start = places(w.state);
@@ -177,7 +177,7 @@ TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
   EXPECT_EQ(count_asleep(w.state), 1);
   EXPECT_TRUE(is_asleep(w.state, 2));
   run_for(w, work, 1200);
-  EXPECT_TRUE(is_asleep(w.state, 0)) << "two looks after it has forgotten its birth";
+  EXPECT_TRUE(is_asleep(w.state, 0)) << "at the look after it has forgotten its birth";
   EXPECT_FALSE(is_asleep(w.state, 1));
   w.params.life.rule.clear();
   w.params.life.rule.emplace_back().until = 0;  // nobody rests any more
@@ -198,7 +198,6 @@ TEST(Sleep, GoesOnFromASavedStateBitForBit) {
   EXPECT_GT(count_asleep(w.state), 0);
   EXPECT_EQ(hash_state(resumed.state), hash_state(w.state));
   EXPECT_EQ(resumed.state.asleep, w.state.asleep);
-  EXPECT_EQ(resumed.state.quiet, w.state.quiet);
 }
 
 }  // namespace

@@ -37,9 +37,7 @@ coupling::State living() {
   s.cycle[0] = {3, 1, coupling::Fate::kLyse, 10, 7000, 86000, 20};
   s.cycle[n - 1] = {4, 2, coupling::Fate::kRest, 11, 7001, 86001, 21};
   s.asleep.assign(n, 0);
-  s.quiet.assign(n, 0);
   s.asleep[n - 1] = 1;
-  s.quiet[0] = 2;
   s.life_interval = 5;
   s.sleep_interval = 6;
   s.next_lineage = 7;
@@ -71,7 +69,6 @@ TEST(StateFile, KeepsLives) {
         std::tie(b.parent, b.founder, b.fate, b.birth, b.birth_volume, b.duration, b.wait_until));
   }
   EXPECT_EQ(s.asleep, saved.asleep);
-  EXPECT_EQ(s.quiet, saved.quiet);
   EXPECT_EQ(std::tie(s.life_interval, s.sleep_interval, s.next_lineage, s.divisions, s.deaths),
             std::tie(saved.life_interval, saved.sleep_interval, saved.next_lineage, saved.divisions,
                      saved.deaths));
@@ -90,7 +87,7 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
   io::CheckpointData sound;
   put_state(living(), sound);
   for (const char* damaged : {"cbm/strength", "dcm/birth_shape", "life/integers", "life/numbers",
-                              "life/counts", "life/asleep", "life/quiet"})
+                              "life/counts", "life/asleep"})
     for (bool missing : {true, false}) {
       io::CheckpointData data;
       for (const auto& [name, value] : sound.all())
