@@ -85,15 +85,19 @@ void assemble_ahead(World& world, double step, bool all, Workspace& w) {
   const std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
   if (all) move_points(s, ahead.move);
   find_all_contacts(world, step, w);
-  assemble(world, step, w, {.stiffness_scale = all ? 0.0 : 1.0});
-  w.op.apply(ahead.move, ahead.friction);
+  assemble(world, step, w);
   w.cg.product.resize(w.move.size());
-  w.op.apply_external(ahead.move, w.cg.product);
+  if (all) {
+    w.op.apply_friction(ahead.move, ahead.friction);
+    w.op.apply_external_friction(ahead.move, w.cg.product);
+  } else {
+    w.op.apply(ahead.move, ahead.friction);
+    w.op.apply_external(ahead.move, w.cg.product);
+  }
   for_each_number(w.move.size(), [&](std::size_t k) {
     ahead.pair_friction[k] = ahead.friction[k] - w.cg.product[k];
   });
   leave_out_holds(w, ahead.move, ahead.friction);
-  if (all) assemble(world, step, w);
   s.dcm.position = dcm;
   s.cbm.position = cbm;
 }

@@ -120,9 +120,11 @@ std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> pa
     block.still = !held.empty();
     for (std::size_t l = k * kLanes; l < (k + 1) * kLanes && block.still; ++l)
       block.still = !s.active(l) || held[l] != 0;
-    block.pattern =
-        block.still ? &shared_point_pattern(g.topology->n_node)
-                    : &shared_mesh_pattern(*g.topology, params[static_cast<std::size_t>(g.type)]);
+    const Params& p = params[static_cast<std::size_t>(g.type)];
+    block.pattern = block.still ? &shared_point_pattern(g.topology->n_node)
+                                : &shared_mesh_pattern(*g.topology, p);
+    block.dashpot = p.nodal_friction;
+    block.axial = p.axial_friction;
     blocks.push_back(block);
   }
   return blocks;

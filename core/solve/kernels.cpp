@@ -183,6 +183,8 @@ BlockView view_block(const System& s, std::size_t b, const float* edge) {
                  s.hinge.data() + block.first_hinge * kHingeStride,
                  s.face.data() + block.first_face * kFaceStride,
                  s.friction_scale,
+                 block.dashpot,
+                 block.axial,
                  0,
                  {},
                  {}};
@@ -201,6 +203,29 @@ ACINUS_KERNEL double multiply_block(const BlockView& b, const double* x,
 ACINUS_KERNEL double multiply_block(const BlockView& b, const float* x,
                                     const Packed<float>* contact, float* y) {
   return multiply<float>(b, x, contact, y);
+}
+
+ACINUS_KERNEL void multiply_friction(const BlockView& b, const double* x,
+                                     const Packed<double>* contact, double* y) {
+  for (int i = 0; i < b.pattern->n_point; ++i)
+    store3(y + i * kPointStride,
+           (b.friction_scale * load(b.medium + i * kLanes)) * load3(x + i * kPointStride) +
+               load_packed<double>(contact + i * kLanes));
+  if (!(b.dashpot > 0)) return;
+  const Lane friction = lane_of(b.friction_scale * b.dashpot);
+  const float* e = b.spring;
+  for (const auto& [first, second] : b.pattern->spring) {
+    const int i = first * kPointStride, j = second * kPointStride;
+    const Lane3 r = load3(x + j) - load3(x + i);
+    Lane3 f = friction * r;
+    if (b.axial) {
+      const Lane3 u = load3(e);
+      f = (friction * dot(u, r)) * u;
+    }
+    add3(y + j, f);
+    add3(y + i, -f);
+    e += kSpringStride;
+  }
 }
 
 ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {

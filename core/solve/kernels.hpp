@@ -18,6 +18,8 @@ struct BlockView {
   const float* hinge;
   const float* face;
   double friction_scale;
+  double dashpot;  ///< nN s/um
+  bool axial;
   std::size_t n_family = 0;
   std::array<const double*, kMaxFamilies> vector{};       ///< [n_point][3][lane]
   std::array<const double*, kMaxFamilies> coefficient{};  ///< [lane]
@@ -31,6 +33,10 @@ double multiply_block(const BlockView& block, const double* x, const Packed<doub
                       double* y);
 double multiply_block(const BlockView& block, const float* x, const Packed<float>* contact,
                       float* y);
+
+/// The part of that which is friction.
+void multiply_friction(const BlockView& block, const double* x, const Packed<double>* contact,
+                       double* y);
 
 /// Adds the diagonal blocks of everything within the cells but the rank-one terms.
 /// @param diagonal [n_point][6][lane]

@@ -224,7 +224,34 @@ void Operator::apply_within(std::span<const double> x, std::span<double> y) cons
   });
 }
 
+void Operator::apply_friction(std::span<const double> x, std::span<double> y) const {
+  const System& s = *system_;
+  const PackedVectors<double> work = packed<double>();
+  for_each_range([&](const Range& range) {
+    for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
+      pack_points(x.data() + row * kPointStride, n, work.x + row * kLanes);
+      std::fill_n(work.y + row * kLanes, n * kLanes, Packed<double>{});
+    });
+  });
+  const LinkScales scales{0, s.friction_scale};
+  for_each_range([&](const Range& range) {
+    multiply_links(links_of(range), scales, work.x, work.y);
+    multiply_links(point_links_of(range), scales, work.x, work.y);
+    for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
+      multiply_friction(view_block(s, b), x.data() + row * kPointStride, work.y + row * kLanes,
+                        y.data() + row * kPointStride);
+    });
+  });
+}
+
 void Operator::apply_external(std::span<const double> x, std::span<double> y) const {
+  apply_external(x, y, {system_->stiffness_scale, system_->friction_scale});
+}
+void Operator::apply_external_friction(std::span<const double> x, std::span<double> y) const {
+  apply_external(x, y, {0, system_->friction_scale});
+}
+void Operator::apply_external(std::span<const double> x, std::span<double> y,
+                              LinkScales scales) const {
   const System& s = *system_;
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
@@ -239,8 +266,8 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y) co
     for (std::size_t k = 0; k < static_cast<std::size_t>(at.n); ++k)
       r += at.weight[k] * load_point(x.data(), at.address[k]);
     const Vec3 n(l.normal[0], l.normal[1], l.normal[2]);
-    const Vec3 f = s.stiffness_scale * static_cast<double>(l.stiffness) * n.dot(r) * n +
-                   s.friction_scale * static_cast<double>(l.friction) * r;
+    const Vec3 f = scales.stiffness * static_cast<double>(l.stiffness) * n.dot(r) * n +
+                   scales.friction * static_cast<double>(l.friction) * r;
     for (std::size_t k = 0; k < static_cast<std::size_t>(at.n); ++k)
       add_point(y.data(), at.address[k], at.weight[k] * f);
   };

@@ -61,6 +61,10 @@ class Operator {
   /// y = A_external x: friction with the medium and contacts with surroundings only.
   void apply_external(std::span<const double> x, std::span<double> y) const;
 
+  /// y = Gamma/h x, the part of A x that is friction; and what of it is with the surroundings.
+  void apply_friction(std::span<const double> x, std::span<double> y) const;
+  void apply_external_friction(std::span<const double> x, std::span<double> y) const;
+
   /// Adds the force of every link to the points it joins: to force, or to external_force where one
   /// side is surroundings. Changes what the system asks for, not its matrix: prepare comes after.
   void add_link_forces(System& system);
@@ -97,6 +101,7 @@ class Operator {
   void for_each_block(const Range& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
   double sum_partials() const;
+  void apply_external(std::span<const double> x, std::span<double> y, LinkScales scales) const;
 
   const System* system_ = nullptr;
   std::vector<Range> range_;

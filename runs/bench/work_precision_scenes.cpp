@@ -195,7 +195,7 @@ WorkCase growth_case(int cells) {
                              .step = step,
                              .cg_tolerance = 5e-2,
                              .adaptive = true,
-                             .tolerance = 0.05,
+                             .tolerance = 0.1,
                              .extrapolate = extrapolate});
     c.time.push_back(s);
   }

@@ -234,5 +234,36 @@ TEST(Ros2, ErrorEstimateFallsWithTheSquareOfTheStep) {
   }
 }
 
+// The matrix holds friction and stiffness in one; what is friction in it is worked out apart.
+TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
+  for (const bool axial : {false, true}) {
+    World w = make_test_world(checkered_cube(23.5), 60, 42);
+    for (dcm::Params& p : w.params.dcm) p.axial_friction = axial;
+    contact::Capsule shell;
+    shell.center = Vec3::Constant(11.75);
+    shell.radius = 32;
+    w.params.around.capsules = {shell};
+    Workspace work;
+    size_workspace(w, work);
+    ASSERT_TRUE(advance(w, work, 60).accepted);
+    const std::vector<double>& x = w.state.last_move;
+    std::vector<double> wanted(x.size()), found(x.size()), external(x.size()), outside(x.size());
+    find_all_contacts(w, 60, work);
+    assemble(w, 60, work, {.stiffness_scale = 0});
+    work.op.apply(x, wanted);
+    work.op.apply_external(x, external);
+    assemble(w, 60, work);
+    work.op.apply_friction(x, found);
+    work.op.apply_external_friction(x, outside);
+    double largest = 0, off = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      largest = std::max(largest, std::abs(wanted[k]));
+      off = std::max({off, std::abs(found[k] - wanted[k]), std::abs(outside[k] - external[k])});
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LT(off, 1e-6 * largest) << "rounding of springs to float";
+  }
+}
+
 }  // namespace
 }  // namespace acinus::coupling
