@@ -12,8 +12,6 @@ namespace acinus::coupling {
 namespace {
 
 constexpr double kSameTime = 1e-6;  // s
-/// Of the solver for a pace: what it leaves is not made good by a next step soon.
-constexpr double kPaceTolerance = 1e-3;
 /// How far cells may be thought to go on at their present pace, um.
 constexpr double kLongestWay = 0.25;
 
@@ -267,7 +265,6 @@ bool set_sleepers_pace(World& world, Workspace& w, double duration) {
   params.motility.leader_force = 0;
   params.numerics.extrapolate = false;
   params.numerics.max_step = duration;
-  params.numerics.cg.tolerance = std::min(world.params.numerics.cg.tolerance, kPaceTolerance);
   Clock& clock = small.clock;
   const double pace = clock.last_step / duration, end = clock.time + duration;
   clock.step = duration;
