@@ -319,12 +319,9 @@ std::string Run::reason_to_stop() const {
 int Run::fail(const coupling::StepResult& step) {
   const std::string cause = fmt::format(
       "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good state is "
-      "in {}. Try a larger "
-      "contact.repulsion, a smaller load or adhesion, a smaller time.min_step, for a face that "
-      "turns "
-      "over a local_area_modulus, which keeps meshes regular, or for a solve that does not "
-      "converge "
-      "a larger solver.max_iterations.",
+      "in {}. Try a larger contact.repulsion, a smaller load or adhesion, a smaller "
+      "time.min_step, for a face that turns over a local_area_modulus, which keeps meshes "
+      "regular, or for a solve that does not converge a larger solver.max_iterations.",
       world().params.numerics.min_step, time() / 3600, step.cause,
       step.cells.empty() ? std::string("none named")
                          : fmt::format("{}", fmt::join(step.cells, ", ")),

@@ -184,8 +184,7 @@ double Operator::sum_partials() const {
 }
 
 template <class T>
-double Operator::apply(In<T> x, Out<T> y) const {
-  const System& s = *system_;
+Operator::PackedVectors<T> Operator::pack(In<T> x) const {
   const PackedVectors<T> work = packed<T>();
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
@@ -193,6 +192,13 @@ double Operator::apply(In<T> x, Out<T> y) const {
       std::fill_n(work.y + row * kLanes, n * kLanes, Packed<T>{});
     });
   });
+  return work;
+}
+
+template <class T>
+double Operator::apply(In<T> x, Out<T> y) const {
+  const System& s = *system_;
+  const PackedVectors<T> work = pack<T>(x);
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const Range& range) {
     const float* edge = nullptr;
@@ -226,13 +232,7 @@ void Operator::apply_within(std::span<const double> x, std::span<double> y) cons
 
 void Operator::apply_friction(std::span<const double> x, std::span<double> y) const {
   const System& s = *system_;
-  const PackedVectors<double> work = packed<double>();
-  for_each_range([&](const Range& range) {
-    for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-      pack_points(x.data() + row * kPointStride, n, work.x + row * kLanes);
-      std::fill_n(work.y + row * kLanes, n * kLanes, Packed<double>{});
-    });
-  });
+  const PackedVectors<double> work = pack<double>(x);
   const LinkScales scales{0, s.friction_scale};
   for_each_range([&](const Range& range) {
     multiply_links(links_of(range), scales, work.x, work.y);

@@ -85,6 +85,9 @@ class Operator {
   };
   template <class T>
   PackedVectors<T> packed() const;
+  /// With x in it, and zero.
+  template <class T>
+  PackedVectors<T> pack(In<T> x) const;
   SymBlock* diagonal() const;
   void start(const System& system);
   void divide();
