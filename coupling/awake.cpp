@@ -168,7 +168,8 @@ void write_moves(AwakePart& part, State& to) {
 
 /// What a run tells about work done and left out counts wherever it happened.
 void move_counts(Workspace& from, Workspace& to) {
-  to.dcm.list_builds += std::exchange(from.dcm.list_builds, 0);
+  to.dcm.lists.checked += std::exchange(from.dcm.lists.checked, 0);
+  to.dcm.lists.made += std::exchange(from.dcm.lists.made, 0);
   to.dcm.searches += std::exchange(from.dcm.searches, 0);
   to.dcm.points_listed += std::exchange(from.dcm.points_listed, 0);
   to.dcm.points_seen += std::exchange(from.dcm.points_seen, 0);

@@ -133,7 +133,6 @@ void size_workspace(const World& world, Workspace& w) {
   w.sleepers.reset();
   w.dcm.body.clear();
   w.dcm.lane_of_body.clear();
-  w.dcm.list_position.clear();
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();
   for (const contact::StaticMesh& m : world.params.around.meshes) w.dcm.fixed.push_back(m.body);

@@ -10,10 +10,6 @@ namespace {
 
 using contact::SurroundingKind;
 
-/// Extra distance, um, at which bodies count as near each other: how far all may move together
-/// before the pairs are looked for again.
-constexpr double kReserve = 2;
-
 contact::SearchOptions search_options(const ContactParams& c, const State& state,
                                       const LaneData& lanes) {
   double range = 0;
@@ -23,92 +19,13 @@ contact::SearchOptions search_options(const ContactParams& c, const State& state
   return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
 }
 
-/// Segments within reach of every site of a body.
-SegmentCandidates find_segments(int body, const contact::SurfaceBody& b, const ContactParams& c,
-                                double range, const mesh::Network& network) {
-  SegmentCandidates list;
-  list.body = body;
-  list.start.push_back(0);
-  const double margin = std::max(range, c.max_depth) + c.skin;
-  std::vector<int> near;
-  for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    contact::Box box;
-    for (int n : network.segment[s]) box.include(network.node[static_cast<std::size_t>(n)]);
-    const double r = std::max(network.radius[s][0], network.radius[s][1]);
-    if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
-  }
-  if (near.empty()) return list;
-  // A node also finds what may stand in the middle of its faces; an edge need not as well.
-  const double widest = *std::ranges::max_element(b.reach);
-  for (std::size_t site = 0; site < contact::n_sites(b, c.quadrature); ++site) {
-    const bool node = !contact::has_face_sites(c.quadrature) && site < b.node.size();
-    const Vec3 at = contact::site_place(b, c.quadrature, site);
-    const double reach = (node ? widest : contact::site_reach(b, c.quadrature, site)) + margin;
-    const std::size_t before = list.segment.size();
-    for (int s : near)
-      if (contact::gap_to_segment(network, s, at).gap < reach) list.segment.push_back(s);
-    if (list.segment.size() == before) continue;
-    list.site.push_back(static_cast<int>(site));
-    list.start.push_back(static_cast<std::uint32_t>(list.segment.size()));
-  }
-  return list;
-}
-
-/// Nothing between two bodies that do not move is of interest.
-bool is_held(const ContactWorkspace& work, int body) {
-  const auto k = static_cast<std::size_t>(body);
-  return k >= work.lane_of_body.size() ||
-         (!work.held.empty() && work.held[work.lane_of_body[k]] != 0);
-}
-
-/// How much the two bodies of a list moved relative to each other since it was made.
-double relative_motion(const ContactWorkspace& work, int a, int b) {
-  const BodyMotion& i = work.motion[static_cast<std::size_t>(a)];
-  if (a == b) return 2 * i.spread;
-  if (static_cast<std::size_t>(b) >= work.motion.size()) return i.spread + i.mean.norm();
-  const BodyMotion& j = work.motion[static_cast<std::size_t>(b)];
-  return i.spread + j.spread + (i.mean - j.mean).norm();
-}
-
-/// Works out the motion of every body since the lists were made, and whether that is too much.
-bool lists_expired(const State& state, const ContactParams& c, const LaneData& lanes,
-                   const contact::Surroundings& around, ContactWorkspace& work) {
-  double wider = 0;  // a growing cell also reaches farther; that eats into the skin
-  double farthest = 0;
-  for (std::size_t k = 0; k < work.body.size(); ++k) {
-    const std::size_t lane = work.lane_of_body[k];
-    const mesh::Topology& t = *state.group[lane / kLanes].topology;
-    BodyMotion& m = work.motion[k];
-    auto moved = [&](int i) -> Vec3 {
-      return work.body[k].node[static_cast<std::size_t>(i)] -
-             load_point(work.list_position.data(), node_address(state, lane, i));
-    };
-    for (int i = 0; i < t.n_node; ++i) m.mean += moved(i);
-    m.mean /= t.n_node;
-    double spread2 = 0;
-    for (int i = 0; i < t.n_node; ++i)
-      spread2 = std::max(spread2, (moved(i) - m.mean).squaredNorm());
-    m.spread = std::sqrt(spread2);
-    farthest = std::max(farthest, m.mean.norm() + m.spread);
-    wider = std::max(wider, contact_range(c, t, lanes.radius[lane]) -
-                                contact_range(c, t, work.list_radius[lane]));
-  }
-  if (2 * farthest > kReserve) return true;
-  const bool held = !work.fixed.empty() || !around.vessels.network.segment.empty();
-  if (held && farthest + wider > c.skin) return true;
-  double most = 0;
-  for (auto [a, b] : work.near) most = std::max(most, relative_motion(work, a, b));
-  for (const BodyMotion& m : work.motion) most = std::max(most, 2 * m.spread);
-  return most + wider > c.skin;
-}
-
 /// Contacts of one body with the vessels, one per point: the nearest segment of the network.
-void find_vessel_contacts(const contact::SurfaceBody& b, const ContactParams& c, double range,
-                          const SegmentCandidates& list, const mesh::Network& network,
+void find_vessel_contacts(const contact::SurfaceBody& b, int number, const ContactParams& c,
+                          double range, const SegmentCandidates& list, const mesh::Network& network,
                           std::vector<ObstacleContact>& out) {
   const int per_site = contact::points_per_site(c.quadrature);
   auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
-    ObstacleContact best{list.body, p, SurroundingKind::kVessel, -1, range, {}, guard};
+    ObstacleContact best{number, p, SurroundingKind::kVessel, -1, range, {}, guard};
     for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
       const contact::Gap g = contact::gap_to_segment(network, list.segment[e], x);
       if (g.gap >= best.gap) continue;
@@ -175,7 +92,8 @@ void find_obstacle_contacts(const contact::SurfaceBody& b, int number, const Con
   for (std::size_t i = 0; i < around.capsules.size(); ++i)
     probe(SurroundingKind::kCapsule, i,
           [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, time); });
-  if (!list.site.empty()) find_vessel_contacts(b, c, range, list, around.vessels.network, out);
+  if (!list.site.empty())
+    find_vessel_contacts(b, number, c, range, list, around.vessels.network, out);
 }
 
 /// Area on the unit rest shape that a point stands for.
@@ -256,7 +174,6 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
   if (work.body.size() != n) {
     work.body.assign(n, {});
     work.lane_of_body.clear();
-    work.list_position.clear();
     for (std::size_t l = 0; l < state.n_lane(); ++l)
       if (state.active(l)) work.lane_of_body.push_back(l);
   }
@@ -270,39 +187,23 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
   }
 }
 
-bool refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
+void refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, ContactWorkspace& work) {
-  const contact::SearchOptions options = search_options(c, state, lanes);
-  const std::size_t n_body = work.body.size();
-  work.motion.assign(n_body, {});
-  // Without bodies no positions are no sign of lists that still hold: the last cells may have died.
-  if (n_body > 0 && work.list_position.size() == state.position.size() &&
-      !lists_expired(state, c, lanes, around, work))
-    return false;
-  work.motion.assign(n_body, {});
-  work.list.clear();  // before the new ones take memory
-  work.near = contact::find_near_bodies(work.body, options, kReserve);
-  const auto both_held = [&](int a, int b) { return is_held(work, a) && is_held(work, b); };
-  if (!work.held.empty())
-    std::erase_if(work.near, [&](const auto& pair) { return both_held(pair.first, pair.second); });
-  work.list = contact::find_candidates(work.body, work.fixed, work.near, options);
-  if (!work.held.empty())
-    std::erase_if(work.list, [&](const auto& list) { return both_held(list.body_a, list.body_b); });
-  work.segment_list.assign(work.body.size(), {});
-#pragma omp parallel for schedule(dynamic, 4) if (worth_threads(state.n_row()))
-  for (std::size_t k = 0; k < work.body.size(); ++k)
-    if (!is_held(work, static_cast<int>(k)))
-      work.segment_list[k] = find_segments(static_cast<int>(k), work.body[k], c, options.range,
-                                           around.vessels.network);
-  work.list_position = state.position;
-  work.list_radius = lanes.radius;
-  ++work.list_builds;
-  return true;
+  std::vector<std::int64_t> lineage;
+  std::vector<std::uint8_t> held;
+  for (std::size_t lane : work.lane_of_body) {
+    lineage.push_back(state.lineage[lane]);
+    if (!work.held.empty()) held.push_back(work.held[lane]);
+  }
+  refresh_lists({work.body, work.fixed, lineage, held, around.vessels.network,
+                 search_options(c, state, lanes)},
+                work.lists);
 }
 
 void find_contacts(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, double time, ContactWorkspace& work) {
   const contact::SearchOptions options = search_options(c, state, lanes);
+  const std::vector<contact::Candidates>& pair = work.lists.pair;
   // Each thread takes a run of lists, the first one writes in place: order as with one thread.
   work.surface.clear();
   const std::size_t n_part = count_threads(state.n_row());
@@ -314,13 +215,11 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
     const std::size_t before = found.size();
     found.clear();
     found.reserve(before + before / 8);  // contacts change little: doubling would waste memory
-    for (std::size_t k = part * work.list.size() / n_part;
-         k < (part + 1) * work.list.size() / n_part; ++k) {
-      const contact::Candidates& list = work.list[k];
-      listed += static_cast<std::int64_t>(list.point.size());
-      seen += static_cast<std::int64_t>(
-          contact::find_contacts(list, work.body, work.fixed, options,
-                                 relative_motion(work, list.body_a, list.body_b), found));
+    for (std::size_t k = part * pair.size() / n_part; k < (part + 1) * pair.size() / n_part; ++k) {
+      if (pair[k].point.empty()) continue;
+      listed += static_cast<std::int64_t>(pair[k].point.size());
+      seen += static_cast<std::int64_t>(contact::find_contacts(
+          pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
     }
   }
   work.searches += 1;
@@ -331,9 +230,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
 #pragma omp parallel for schedule(dynamic, 2) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k)
-    if (!is_held(work, static_cast<int>(k)))
+    if (work.held.empty() || work.held[work.lane_of_body[k]] == 0)
       find_obstacle_contacts(work.body[k], static_cast<int>(k), c, options.range, around, time,
-                             work.segment_list[k], obstacle[k]);
+                             work.lists.segment[k], obstacle[k]);
   work.obstacle.clear();
   for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());
   find_shares(c, state.n_row(), work);

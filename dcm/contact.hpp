@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/candidates.hpp"
 #include "core/contact/surface.hpp"
 #include "core/contact/surroundings.hpp"
 #include "core/contact/well.hpp"
 #include "core/solve/system.hpp"
+#include "dcm/contact_lists.hpp"
 #include "dcm/loads.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
@@ -63,40 +63,20 @@ inline std::size_t n_guards(const contact::SurfaceBody& b) {
 }
 double guard_area(const mesh::Topology& t, int point, double radius);
 
-/// Vessel segments that each site of a body may meet.
-struct SegmentCandidates {
-  int body = 0;
-  std::vector<int> site;
-  std::vector<std::uint32_t> start;
-  std::vector<int> segment;
-};
-
-/// How a body's nodes moved since the lists were made.
-struct BodyMotion {
-  Vec3 mean = Vec3::Zero();  ///< um
-  double spread = 0;         ///< um, largest deviation of a node from the mean
-};
-
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       held;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
-  std::vector<std::size_t> lane_of_body;
-  std::vector<contact::SurfaceBody> body;       ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> fixed;      ///< static meshes
-  std::vector<double> list_position;            ///< positions when the lists were made
-  std::vector<double> list_radius;              ///< and the radii of that moment
-  std::vector<std::pair<int, int>> near;        ///< bodies whose boxes were close then
-  std::vector<BodyMotion> motion;               ///< [body] since then; written by: refresh_lists
-  std::vector<contact::Candidates> list;        ///< written by: refresh_lists
-  std::vector<SegmentCandidates> segment_list;  ///< written by: refresh_lists
+  std::vector<std::size_t> lane_of_body;                    ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> body;                   ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;                  ///< static meshes
+  ContactLists lists;                                       ///< written by: refresh_lists
   std::vector<std::vector<contact::SurfaceContact>> found;  ///< [thread] scratch of one search
   std::vector<contact::SurfaceContact> surface;             ///< written by: find_contacts
   std::vector<ObstacleContact> obstacle;                    ///< written by: find_contacts
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;
-  int list_builds = 0;
   std::int64_t searches = 0;                        ///< calls of find_contacts
   std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
 };
@@ -110,10 +90,8 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
 /// Copies the nodes out of the lanes and recomputes normals and boxes.
 void refresh_bodies(const State& state, ContactWorkspace& work);
 
-/// Finds candidate lists again if bodies that are near each other moved apart, together or out of
-/// shape by more than the skin since the last time; moving along together costs nothing. Returns
-/// whether it did. @pre refresh_bodies
-bool refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
+/// Makes the lists again that no longer hold (contact_lists.hpp). @pre refresh_bodies
+void refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, ContactWorkspace& work);
 
 /// Finds all contacts between cells and with surroundings, and each point's touching share.

@@ -141,7 +141,7 @@ std::vector<std::string> Run::work_skipped() const {
       list.push_back(fmt::format("{} in {:.0f} % of cases", what,
                                  100 * (1 - static_cast<double>(done) / static_cast<double>(of))));
   };
-  share("building DCM contact lists", work_.dcm.list_builds, work_.dcm.searches);
+  share("building DCM contact lists", work_.dcm.lists.made, work_.dcm.lists.checked);
   share("searching listed contact points", work_.dcm.points_seen, work_.dcm.points_listed);
   if (world().state.cbm.n_cell() > 0)
     share("building CBM pair lists", work_.cbm.list_builds, work_.cbm.searches);

@@ -25,7 +25,7 @@ using PointAndTriangle = std::array<Vec3, 4>;
 std::vector<PointAndTriangle> listed_pairs() {
   const dcm::ContactWorkspace& work = packed_clump(64).work.dcm;
   std::vector<PointAndTriangle> pair;
-  for (const contact::Candidates& list : work.list) {
+  for (const contact::Candidates& list : work.lists.pair) {
     const contact::SurfaceBody &a = work.body[static_cast<std::size_t>(list.body_a)],
                                &b = work.body[static_cast<std::size_t>(list.body_b)];
     for (std::size_t k = 0; k < list.point.size(); ++k) {
@@ -95,7 +95,7 @@ void find_contacts(benchmark::State& state) {
   std::vector<contact::SurfaceContact> found;
   for (auto _ : state) {
     found.clear();
-    for (const contact::Candidates& list : clump.work.dcm.list)
+    for (const contact::Candidates& list : clump.work.dcm.lists.pair)
       contact::find_contacts(list, clump.work.dcm.body, {}, options, 0, found);
     benchmark::ClobberMemory();
   }
@@ -104,15 +104,19 @@ void find_contacts(benchmark::State& state) {
 BENCHMARK(find_contacts)->Apply(clump_sizes);
 
 /// The lists themselves.
-void find_candidates(benchmark::State& state) {
+void fill_candidates(benchmark::State& state) {
   const runs::AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const contact::SearchOptions options = search_options(clump);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        contact::find_candidates(clump.work.dcm.body, {}, clump.work.dcm.near, options));
+  std::vector<contact::Candidates> lists = contact::list_pairs(clump.work.dcm.body, {}, options, 0);
+  std::vector<contact::Candidates*> all;
+  for (contact::Candidates& list : lists) all.push_back(&list);
+  for (auto _ : state) {
+    contact::fill_candidates(clump.work.dcm.body, {}, options, all);
+    benchmark::ClobberMemory();
+  }
   count(state, "cells", static_cast<std::size_t>(state.range()));
 }
-BENCHMARK(find_candidates)->Apply(clump_sizes);
+BENCHMARK(fill_candidates)->Apply(clump_sizes);
 
 /// Spheres as in a clump: both sides of rest, some far pressed.
 struct SpherePairs {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/contact/closest.hpp"
@@ -14,8 +15,6 @@ namespace acinus::contact {
 namespace {
 
 constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not oppose each other
-/// The same for lists: leaves room for turning within the skin.
-constexpr double kListFacing = 0.7;
 /// Self contact starts this many rest edges away on the surface.
 constexpr double kSelfRings = 3.0;
 
@@ -104,33 +103,25 @@ struct Discs {
   }
 };
 
-/// Where discs are looked at from.
-struct Viewpoint {
-  std::array<float, 3> at, normal;  ///< um from the origin of the discs; unit
-};
-
 /// Distances to discs, um, up to the end of the last eight: never more than to the triangles.
-/// Discs that do not oppose the viewpoint's normal are infinitely far.
-ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n, const Viewpoint& from,
-                                  float* bound) {
+/// @param from  um from the origin of the discs
+ACINUS_KERNEL void compute_bounds(const float* number, std::size_t n,
+                                  const std::array<float, 3>& from, float* bound) {
   using Floats = LaneOf<float>;
-  const Floats zero{}, never = zero + std::numeric_limits<float>::infinity();
+  const Floats zero{};
   const auto root = [](Floats v) __attribute__((always_inline))->Floats {
     for (int l = 0; l < kLanes; ++l) v[l] = __builtin_sqrtf(v[l]);
     return v;
   };
   for (std::size_t k = 0; k < n; k += kLanes, number += Discs::kStride) {
     const auto center = load3<float>(number), normal = load3<float>(number + 3 * kLanes);
-    const Lane3Of<float> d{from.at[0] - center.x, from.at[1] - center.y, from.at[2] - center.z};
+    const Lane3Of<float> d{from[0] - center.x, from[1] - center.y, from[2] - center.z};
     const Floats height = dot(d, normal), squared = height * height;
     const Floats in_plane = dot(d, d) - squared;
     const Floats beyond =
         root(in_plane > 0.0f ? in_plane : zero) - load<float>(number + 6 * kLanes);
     const Floats across = beyond > 0.0f ? beyond : zero;
-    const Floats facing =
-        from.normal[0] * normal.x + from.normal[1] * normal.y + from.normal[2] * normal.z;
-    store(bound + k,
-          facing > static_cast<float>(kListFacing) ? never : root(squared + across * across));
+    store(bound + k, root(squared + across * across));
   }
 }
 
@@ -147,6 +138,9 @@ struct Reach {
            (center.dot(axis) - limit <= radius);
   }
 };
+
+/// How far apart, um, what a list holds may be.
+double find_margin(const SearchOptions& o) { return std::max(o.range, o.max_depth) + o.skin; }
 
 /// Makes lists, one after the other.
 class ListBuilder {
@@ -224,23 +218,19 @@ class ListBuilder {
     find_included(near_b_, place_, {});
   }
 
-  void compute_bounds_from(const Discs& discs, const Vec3& x, const Vec3& normal) {
+  void compute_bounds_from(const Discs& discs, const Vec3& x) {
     const Vec3 d = x - origin_;
-    Viewpoint from;
-    for (std::size_t m = 0; m < 3; ++m) {
-      from.at[m] = static_cast<float>(d[static_cast<int>(m)]);
-      from.normal[m] = static_cast<float>(normal[static_cast<int>(m)]);
-    }
-    compute_bounds(discs.number.data(), discs.n, from, bound_.data());
+    compute_bounds(discs.number.data(), discs.n,
+                   {static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])},
+                   bound_.data());
   }
 
   /// Adds the points of one site to the block, if they come near.
   void look_from(std::size_t site) {
     const Vec3 at = site_place(*a_, o_.quadrature, site);
-    const Vec3 normal = site_normal(*a_, o_.quadrature, site);
     // The points of a site are no farther from its place than this.
     const double radius = 0.5 * site_reach(*a_, o_.quadrature, site);
-    compute_bounds_from(discs_, at, normal);
+    compute_bounds_from(discs_, at);
     const auto far = static_cast<float>(margin_ + radius + kRounding);
     const int n_disc = static_cast<int>(discs_.n);
     int* const near = near_index_.data();
@@ -272,15 +262,14 @@ class ListBuilder {
     for (int k = 0; k < n; ++k)
       if (bound[near[k]] <= matters) near_.add(discs_, static_cast<std::size_t>(near[k]));
     const int per_site = points_per_site(o_.quadrature);
-    for (int q = 0; q < per_site; ++q)
-      add(static_cast<int>(site) * per_site + q, normal, no_more + radius);
+    for (int q = 0; q < per_site; ++q) add(static_cast<int>(site) * per_site + q, no_more + radius);
   }
 
   /// Adds a point to the block with the triangles near its site that may be closest to it before
   /// the list expires. @param no_more  um, the closest is no farther
-  void add(int point, const Vec3& normal, double no_more) {
+  void add(int point, double no_more) {
     const Vec3 x = point_position(*a_, point_stencil(*a_, o_.quadrature, point));
-    compute_bounds_from(near_, x, normal);
+    compute_bounds_from(near_, x);
     const auto matters = static_cast<float>(no_more + 2 * o_.skin + kRounding);
     const std::size_t first = n_wide_, most = n_wide_ + near_.n + 1;
     if (wide_triangle_.size() < most) {
@@ -377,60 +366,52 @@ class ListBuilder {
 
 }  // namespace
 
-std::vector<std::pair<int, int>> find_near_bodies(std::span<const SurfaceBody> bodies,
-                                                  const SearchOptions& o, double reserve) {
-  std::vector<Box> boxes;
+std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
+                                   std::span<const SurfaceBody> fixed, const SearchOptions& o,
+                                   double reserve) {
+  const double margin = find_margin(o) + reserve;
+  std::vector<Box> boxes, fixed_boxes;
   for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
-  return find_pairs(boxes, std::max(o.range, o.max_depth) + o.skin + reserve);
-}
-
-std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
-                                        std::span<const SurfaceBody> fixed,
-                                        std::span<const std::pair<int, int>> near,
-                                        const SearchOptions& o) {
-  const double margin = std::max(o.range, o.max_depth) + o.skin;
-  std::vector<Candidates> lists;
-  auto add_list = [&](int a, int b) {
-    lists.emplace_back();
-    lists.back().body_a = a;
-    lists.back().body_b = b;
-  };
-  for (auto [a, b] : near) {
-    if (!bodies[static_cast<std::size_t>(a)].box.grown(margin).overlaps(
-            bodies[static_cast<std::size_t>(b)].box))
-      continue;
-    add_list(a, b);
-    add_list(b, a);
+  for (const SurfaceBody& b : fixed) fixed_boxes.push_back(b.box);
+  std::vector<std::pair<int, int>> pairs;
+  for (auto [a, b] : find_pairs(boxes, margin)) {
+    pairs.emplace_back(a, b);
+    pairs.emplace_back(b, a);
   }
-  if (!fixed.empty()) {
-    std::vector<Box> boxes, fixed_boxes;
-    for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
-    for (const SurfaceBody& b : fixed) fixed_boxes.push_back(b.box);
-    for (auto [a, b] : find_pairs_between(boxes, fixed_boxes, margin))
-      add_list(a, b + static_cast<int>(bodies.size()));
-  }
+  for (auto [a, b] : find_pairs_between(boxes, fixed_boxes, margin))
+    pairs.emplace_back(a, b + static_cast<int>(bodies.size()));
   if (o.self_range > 0)
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
-      if (bodies[static_cast<std::size_t>(a)].topology &&
-          may_fold(bodies[static_cast<std::size_t>(a)]))
-        add_list(a, a);
-#pragma omp parallel
+      if (bodies[static_cast<std::size_t>(a)].topology != nullptr) pairs.emplace_back(a, a);
+  std::ranges::sort(pairs);
+  std::vector<Candidates> lists(pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    std::tie(lists[k].body_a, lists[k].body_b) = pairs[k];
+  return lists;
+}
+
+void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
+                     const SearchOptions& o, std::span<Candidates* const> lists) {
+  const double margin = find_margin(o);
+  const auto may_touch = [&](const SurfaceBody& a, const SurfaceBody& b) {
+    return &a == &b ? may_fold(a) : a.box.grown(margin).overlaps(b.box);
+  };
+  constexpr std::size_t kWorthThreads = 8;
+#pragma omp parallel if (lists.size() >= kWorthThreads)
   {
     Candidates scratch;  // grows as needed; what is kept is copied to measure
     ListBuilder builder(o);
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < lists.size(); ++k) {
+      const SurfaceBody& a = body_at(bodies, fixed, lists[k]->body_a);
+      const SurfaceBody& b = body_at(bodies, fixed, lists[k]->body_b);
       scratch.clear();
-      scratch.body_a = lists[k].body_a;
-      scratch.body_b = lists[k].body_b;
-      builder.fill(body_at(bodies, fixed, lists[k].body_a), body_at(bodies, fixed, lists[k].body_b),
-                   lists[k].body_a == lists[k].body_b, scratch);
-      lists[k] = scratch;
+      scratch.body_a = lists[k]->body_a;
+      scratch.body_b = lists[k]->body_b;
+      if (may_touch(a, b)) builder.fill(a, b, &a == &b, scratch);
+      *lists[k] = scratch;
     }
   }
-  std::erase_if(lists, [](const Candidates& c) { return c.point.empty(); });
-  std::ranges::sort(lists, {}, [](const Candidates& c) { return std::pair(c.body_a, c.body_b); });
-  return lists;
 }
 
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,

@@ -34,21 +34,21 @@ struct Candidates {
   }
 };
 
-/// Candidates of every ordered pair of bodies that come near (both passes), and of bodies with
-/// themselves. Bodies of `fixed` are only probed, never probe: they are numbered after `bodies`.
-/// @param near  pairs of bodies, a < b, that may touch
-std::vector<Candidates> find_candidates(std::span<const SurfaceBody> bodies,
-                                        std::span<const SurfaceBody> fixed,
-                                        std::span<const std::pair<int, int>> near,
-                                        const SearchOptions& options);
+/// Empty lists, ascending, for all that may touch once boxes have come closer by `reserve`: pairs
+/// of bodies both ways, bodies with themselves if o.self_range > 0, and bodies with `fixed`, which
+/// are only probed, never probe, and are numbered after `bodies`.
+std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
+                                   std::span<const SurfaceBody> fixed, const SearchOptions& o,
+                                   double reserve);
 
-/// Pairs of bodies, a < b, whose boxes are closer than search depth, skin and `reserve`.
-std::vector<std::pair<int, int>> find_near_bodies(std::span<const SurfaceBody> bodies,
-                                                  const SearchOptions& options, double reserve);
+/// Fills lists of such pairs for where their bodies are now, on all threads.
+void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
+                     const SearchOptions& o, std::span<Candidates* const> lists);
 
 /// Closest features of one candidate list, appended in order of points.
-/// Rejected: normals that do not oppose each other, gaps outside [-max_depth, range]. The result
-/// does not depend on when the list was made.
+/// Rejected: normals that do not oppose each other, gaps outside [-max_depth, range]. The closest
+/// triangle decides, opposing or not: nothing that turns while a list lasts must choose what is on
+/// it, for the result does not depend on when the list was made.
 /// @param moved  um, bound of what the two bodies moved relative to each other since then: points
 ///               and triangles that cannot touch yet are not looked at
 /// @return how many points were looked at

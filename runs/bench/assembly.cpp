@@ -79,11 +79,11 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
     dcm::find_contacts(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, 0, w.dcm);
   });
   const double lists = time_us([&] {
-    w.dcm.list_position.clear();
+    w.dcm.lists = {};
     dcm::refresh_lists(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, w.dcm);
   });
   double listed_points = 0, listed_triangles = 0;
-  for (const contact::Candidates& c : w.dcm.list) {
+  for (const contact::Candidates& c : w.dcm.lists.pair) {
     listed_points += static_cast<double>(c.point.size());
     listed_triangles += static_cast<double>(c.triangle.size());
   }

@@ -37,7 +37,7 @@ struct Clump {
   }
   /// Contacts as if no list had been made before.
   void find_afresh() {
-    work.list_position.clear();
+    work.lists = {};
     find();
   }
   /// Force of a contact on its side a, nN.

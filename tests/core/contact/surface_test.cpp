@@ -32,10 +32,20 @@ std::vector<Vec3> sphere_nodes(int n_node, double radius, const Vec3& center, co
   return x;
 }
 
+std::vector<Candidates> find_candidates(const std::vector<SurfaceBody>& bodies,
+                                        const std::vector<SurfaceBody>& fixed,
+                                        const SearchOptions& o) {
+  std::vector<Candidates> lists = list_pairs(bodies, fixed, o, 0);
+  std::vector<Candidates*> all;
+  for (Candidates& list : lists) all.push_back(&list);
+  fill_candidates(bodies, fixed, o, all);
+  return lists;
+}
+
 std::vector<SurfaceContact> find_all(const std::vector<SurfaceBody>& bodies, const SearchOptions& o,
                                      const std::vector<SurfaceBody>& fixed = {}) {
   std::vector<SurfaceContact> out;
-  for (const Candidates& c : find_candidates(bodies, fixed, find_near_bodies(bodies, o, 0), o))
+  for (const Candidates& c : find_candidates(bodies, fixed, o))
     find_contacts(c, bodies, fixed, o, 0, out);
   return out;
 }
@@ -191,7 +201,7 @@ TEST(FindCandidates, HoldEveryTriangleThatMayBecomeTheClosest) {
                                reference::random_rotation(random)),
                   162)};
     const SearchOptions o{q, 0.9, 1.5, 0.3, 0};
-    for (const Candidates& c : find_candidates(bodies, {}, find_near_bodies(bodies, o, 0), o)) {
+    for (const Candidates& c : find_candidates(bodies, {}, o)) {
       const SurfaceBody& a = bodies[static_cast<std::size_t>(c.body_a)];
       const SurfaceBody& b = bodies[static_cast<std::size_t>(c.body_b)];
       ASSERT_EQ(c.start.size(), c.point.size() + 1);
@@ -242,7 +252,7 @@ TEST(FindContacts, OldListsFindWhatNewListsFind) {
                                  reference::random_rotation(random)),
                     162));
     const SearchOptions o{kAll[k % 3], 0.9, 1.5, 0.3, 0.3};
-    const auto lists = find_candidates(bodies, {}, find_near_bodies(bodies, o, 0), o);
+    const auto lists = find_candidates(bodies, {}, o);
     for (SurfaceBody& b : bodies) {
       for (Vec3& x : b.node) x += random.uniform(0, 0.15) * random.unit_vector();
       refresh_body(b);
