@@ -61,21 +61,38 @@ Part sum_over_cells(const Workspace& w, bool moving_only, F f) {
   return total;
 }
 
-/// The first triangle of a cell that the move turns over, or -1.
-int find_turned_face(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
+/// Whether a move turns a face over or folds two faces of an edge through each other.
+bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
   const mesh::Topology& t = *s.group[lane / kLanes].topology;
-  for (std::size_t f = 0; f < t.triangle.size(); ++f) {
+  struct Normals {
+    Vec3 before, after;
+  };
+  thread_local std::vector<Normals> normal;
+  normal.clear();
+  for (const auto& corner : t.triangle) {
     Vec3 before[3], after[3];
     for (std::size_t m = 0; m < 3; ++m) {
-      const Address a = dcm::node_address(s, lane, t.triangle[f][m]);
+      const Address a = dcm::node_address(s, lane, corner[m]);
       before[m] = load_point(s.position.data(), a);
       after[m] = before[m] + load_point(move.data(), a);
     }
-    const Vec3 n0 = (before[1] - before[0]).cross(before[2] - before[0]);
-    const Vec3 n1 = (after[1] - after[0]).cross(after[2] - after[0]);
-    if (!(n0.dot(n1) > 0)) return static_cast<int>(f);
+    normal.push_back({(before[1] - before[0]).cross(before[2] - before[0]),
+                      (after[1] - after[0]).cross(after[2] - after[0])});
+    if (!(normal.back().before.dot(normal.back().after) > 0)) return true;
   }
-  return -1;
+  for (std::size_t e = 0; e < t.edge.size(); ++e) {
+    const Normals &f = normal[static_cast<std::size_t>(t.edge_triangle[e][0])],
+                  &g = normal[static_cast<std::size_t>(t.edge_triangle[e][1])];
+    if (f.before.dot(g.before) > 0 || f.after.dot(g.after) > 0) continue;
+    // Faces beyond a right angle on both sides of the step: the edge must bend the same way still.
+    const Address a = dcm::node_address(s, lane, t.edge[e][0]),
+                  b = dcm::node_address(s, lane, t.edge[e][1]);
+    const Vec3 along = load_point(s.position.data(), b) - load_point(s.position.data(), a);
+    const Vec3 moved = load_point(move.data(), b) - load_point(move.data(), a);
+    if (f.before.cross(g.before).dot(along) * f.after.cross(g.after).dot(along + moved) < 0)
+      return true;
+  }
+  return false;
 }
 
 /// The part of a point's move that is not in the gaps of contacts yet.
@@ -178,7 +195,7 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
         own.excess = largest / move_limit(world.params.numerics.max_move, edge);
         own.too_far = lane;
         own.distance = largest;
-        if (finite && deformable && find_turned_face(s.dcm, lane, w.move) >= 0) own.turned = lane;
+        if (finite && deformable && turns_over(s.dcm, lane, w.move)) own.turned = lane;
         part.add(own);
       });
   v.max_move = p.largest;

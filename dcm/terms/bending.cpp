@@ -1,9 +1,16 @@
 #include "dcm/terms/bending.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace acinus::dcm {
 namespace {
+
+/// cos theta at which an edge begins to be a fold: 60 degrees between its faces.
+constexpr double kFoldCos = -0.5;
+/// 1 + cos theta below which the fold's energy bends off, so that all numbers stay finite: 11
+/// degrees.
+constexpr double kFoldFloor = 0.02;
 
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
                                   double* force, float* element) {
@@ -24,8 +31,15 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane sin_theta = -dot(cross(n1, n2), edge) * inverse_length * inverse_norms;
     const double c0 = t.rest_angle_cos[static_cast<std::size_t>(e)];
     const double s0 = t.rest_angle_sin[static_cast<std::size_t>(e)];
-    const Lane moment = k * (sin_theta * c0 - cos_theta * s0);
-    const Lane stiffness = stiffness_scale * k * lane_max0(cos_theta * c0 + sin_theta * s0);
+    const Lane open = kFoldFloor + lane_max0(1.0 + cos_theta - kFoldFloor);
+    const Lane inverse_open = 1.0 / open;
+    const Lane fold = lane_max0(kFoldCos - cos_theta) * inverse_open;
+    // d fold / d theta
+    const Lane bends_off = 1.0 + cos_theta < kFoldFloor ? lane_of(0) : fold;
+    const Lane slope = fold > 0.0 ? sin_theta * inverse_open * (1.0 + bends_off) : lane_of(0);
+    const Lane moment = k * (sin_theta * c0 - cos_theta * s0 + 2.0 * fold * slope);
+    const Lane stiffness =
+        stiffness_scale * k * (lane_max0(cos_theta * c0 + sin_theta * s0) + 2.0 * slope * slope);
     const Lane root = lane_sqrt(stiffness);
 
     const Lane inverse_squares = inverse_norms * inverse_norms;
@@ -63,7 +77,9 @@ double bending_energy(const Params& p, const GroupView& g, int lane) {
     const Vec3 n1 = (x[0] - x[2]).cross(x[0] - x[3]), n2 = (x[1] - x[3]).cross(x[1] - x[2]);
     const double theta = -std::atan2(n1.cross(n2).dot(edge) / edge.norm(), n1.dot(n2));
     const double rest = std::atan2(g.topology->rest_angle_sin[e], g.topology->rest_angle_cos[e]);
-    energy += p.bending_stiffness * (1 - std::cos(theta - rest));
+    const double open = std::max(1 + std::cos(theta), kFoldFloor);
+    const double fold = std::max(kFoldCos - std::cos(theta), 0.0) / open;
+    energy += p.bending_stiffness * (1 - std::cos(theta - rest) + fold * fold);
   }
   return g.active[lane] * energy;
 }

@@ -7,10 +7,13 @@
 
 namespace acinus::dcm {
 
-/// Adds hinges, E = k_b (1 - cos(theta - theta0)), moment k_b sin(theta - theta0), with theta0 the
-/// angle of the rest shape. Forces are the exact gradient, so net force and torque vanish.
-/// [VanLiedekerke2020, Eq. (9)]
-/// Stiffness: k_b max(0, cos(theta - theta0)) grad theta grad theta^T (Gauss-Newton).
+/// Adds hinges, E = k_b (1 - cos(theta - theta0) + fold^2), with theta0 the angle of the rest
+/// shape. Forces are the exact gradient, so net force and torque vanish. [VanLiedekerke2020, Eq.
+/// (9)] fold = max(0, -1/2 - cos theta) / (1 + cos theta), which the paper's energy lacks: that one
+/// is largest for faces folded flat on each other and draws an edge on beyond. Where strong
+/// adhesion zips up the sharp rim of two cells, or of two daughters, faces were folded into each
+/// other. Stiffness: k_b (max(0, cos(theta - theta0)) + 2 fold'^2) grad theta grad theta^T
+/// (Gauss-Newton).
 void add_bending(const Params& p, const GroupView& g, solve::System& system);
 
 /// Bending energy of one lane, fJ.

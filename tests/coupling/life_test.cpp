@@ -398,7 +398,7 @@ TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
       const bool dead = w.state.clock.time >= 600;
       EXPECT_EQ(lineages(w.state).size(), cells.size() - (dead ? 2 : 0));
     }
-    EXPECT_TRUE(work.dcm.list.empty());
+    EXPECT_TRUE(work.dcm.lists.pair.empty());
     EXPECT_TRUE(work.dcm.surface.empty());
   }
 }

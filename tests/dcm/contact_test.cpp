@@ -9,58 +9,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/dcm/clump.hpp"
 #include "tests/dcm/quadratures.hpp"
+#include "tests/dcm/surrounded_clump.hpp"
 #include "tests/reference/dense_system.hpp"
 
 namespace acinus::dcm {
 namespace {
-
-/// All kinds of surroundings, each in reach of some cell of make_clump.
-contact::Surroundings make_surroundings() {
-  contact::Surroundings s;
-  contact::Plane floor;
-  floor.point = {0, 0, -23.9};
-  floor.material.adhesion = 0.02;
-  contact::Plane mirror;
-  mirror.point = {-3.3, 0, 0};
-  mirror.normal = Vec3::UnitX();
-  mirror.material.mirror = true;
-  s.planes = {floor, mirror};
-  contact::Capsule shell;
-  shell.center = {17, 0, 3};
-  shell.radius = 26.8;  // its lowest point lies where the floor is touched
-  shell.material.adhesion = 0.01;
-  s.capsules = {shell};
-  mesh::Network n;
-  n.node = {{36.6, -20, 0}, {41, 1, 6}, {38, 12, 4}, {45, 30, 10}};
-  n.segment = {{0, 1}, {1, 2}, {2, 3}};
-  n.radius = {{4, 5}, {5, 4}, {4, 4}};
-  contact::set_network(s.vessels, n);
-  s.vessels.material.adhesion = 0.01;
-  contact::StaticMesh block;
-  block.body.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
-                     {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};
-  block.triangle = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 4, 5}, {0, 5, 1},
-                    {1, 5, 6}, {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
-  block.material.adhesion = 0.01;
-  s.meshes.push_back(block);
-  return s;
-}
-
-void connect_meshes(contact::Surroundings& s) {
-  for (contact::StaticMesh& m : s.meshes) {
-    m.body.triangle = &m.triangle;
-    contact::refresh_body(m.body);
-  }
-}
-
-Clump make_surrounded_clump(std::uint64_t seed) {
-  Clump c = make_clump(seed);
-  c.around = make_surroundings();
-  c.params[0].vessel_friction = 0.1;
-  return c;
-}
 
 TEST(ContactLoads, PairsBalanceForceAndTorque) {
   double worst = 0;
@@ -131,22 +85,6 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
          contact::well_energy(
              {adhesion, c.options.repulsion, c.options.range_factor * t.mean_rest_length * radius},
              gap);
-}
-
-std::vector<double> gaps_of(const Clump& c) {
-  std::vector<double> g;
-  for (const auto& s : c.work.surface) g.push_back(s.gap);
-  for (const auto& o : c.work.obstacle) g.push_back(o.gap);
-  return g;
-}
-
-/// Who meets whom, to tell whether a small move kept the closest features.
-std::vector<std::array<int, 4>> features_of(const Clump& c) {
-  std::vector<std::array<int, 4>> f;
-  for (const auto& s : c.work.surface) f.push_back({s.body_a, s.point, s.body_b, s.triangle_b});
-  for (const auto& o : c.work.obstacle)
-    f.push_back({o.body, o.guard ? -1 - o.point : o.point, -1 - static_cast<int>(o.kind), o.index});
-  return f;
 }
 
 // One contact at a time and all nodes moved at once: -F . dx = E(x + dx) - E(x - dx).
@@ -312,93 +250,6 @@ void expect_turning(contact::Quadrature quadrature) {
 
 TEST(ContactLoads, TurnWithTheCells) {
   for (const auto q : kAll) expect_turning(q);
-}
-
-TEST(Contacts, OldListsGiveWhatNewListsGive) {
-  Clump c = make_surrounded_clump(88);
-  connect_meshes(c.around);
-  auto random = reference::stream(89);
-  c.find();
-  const State start = c.state;
-  for (int k = 0; k < 5; ++k) {
-    c.state = start;
-    c.for_each_node([&](Address a) {
-      add_point(c.state.position.data(), a, random.uniform(0, 0.13) * random.unit_vector());
-    });
-    const auto made = c.work.lists.made;
-    c.find();
-    EXPECT_EQ(c.work.lists.made, made) << "less than the skin, two and two";
-    const auto features = features_of(c);
-    const auto gap = gaps_of(c);
-    const auto force = c.node_force();
-    Clump fresh = c;
-    connect_meshes(fresh.around);
-    fresh.find_afresh();
-    EXPECT_EQ(fresh.work.lists.made, fresh.work.lists.pair.size());
-    EXPECT_EQ(features, features_of(fresh));
-    EXPECT_EQ(gap, gaps_of(fresh));
-    EXPECT_EQ(force, fresh.node_force());
-  }
-  store_point(c.state.position.data(), node_address(c.state, 0, 5),
-              c.work.body[0].node[5] + Vec3(0, 0, 0.4));
-  const auto made = c.work.lists.made;
-  c.find();
-  EXPECT_GT(c.work.lists.made, made);
-}
-
-TEST(Contacts, OnlyListsOfACellThatMovedAreMade) {
-  Clump c = make_surrounded_clump(92);
-  connect_meshes(c.around);
-  c.find();
-  const auto made = c.work.lists.made;
-  for (int i = 0; i < 162; ++i)
-    add_point(c.state.position.data(), node_address(c.state, 3, i), Vec3(0, 0, 0.4));
-  c.find();
-  const auto with_it = std::ranges::count_if(c.work.lists.pair, [](const contact::Candidates& p) {
-    return (p.body_a == 3) != (p.body_b == 3);
-  });
-  EXPECT_GT(with_it, 0);
-  EXPECT_EQ(c.work.lists.made, made + with_it);
-  Clump fresh = c;
-  connect_meshes(fresh.around);
-  fresh.find_afresh();
-  EXPECT_EQ(features_of(c), features_of(fresh));
-  EXPECT_EQ(gaps_of(c), gaps_of(fresh));
-}
-
-TEST(Contacts, ListsOutliveNewNumbersOfTheCells) {
-  Clump c = make_surrounded_clump(93);
-  connect_meshes(c.around);
-  c.find();
-  const auto made = c.work.lists.made;
-  const std::vector<CellRef> rest{{&c.state, 3}, {&c.state, 8}, {&c.state, 0}, {&c.state, 2}};
-  std::vector<std::size_t> lane;
-  State fewer = compose(rest, lane);
-  c.state = std::move(fewer);
-  c.work.body.clear();
-  c.find();
-  EXPECT_EQ(c.work.lists.body.size(), 4u);
-  EXPECT_EQ(c.work.lists.made, made);
-  Clump fresh = c;
-  connect_meshes(fresh.around);
-  fresh.find_afresh();
-  EXPECT_GT(fresh.work.lists.made, 0);
-  EXPECT_EQ(features_of(c), features_of(fresh));
-  EXPECT_EQ(gaps_of(c), gaps_of(fresh));
-  EXPECT_EQ(c.node_force(), fresh.node_force());
-}
-
-TEST(Contacts, GrowthAloneRenewsTheLists) {
-  Clump c = make_clump(90);
-  c.options.friction_range = 0.01;
-  c.find();
-  const auto made = c.work.lists.made;
-  for (Ramp& v : c.state.volume) v = Ramp::constant(v.to * 1.2);  // range grows by 6 % of 0.9 um
-  c.find();
-  EXPECT_EQ(c.work.lists.made, made);
-  for (Ramp& v : c.state.volume) v = Ramp::constant(v.to * 2.5);
-  c.find();
-  EXPECT_GT(c.work.lists.made, made);
 }
 
 TEST(Contacts, SameBitsForAnyNumberOfThreads) {

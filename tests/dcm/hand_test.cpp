@@ -84,7 +84,7 @@ TEST(Area, ForceOfABlownTetrahedron) {
 }
 
 // The corner of a cube: three right angles and three of arccos(1/sqrt 3) inside, against
-// arccos(1/3).
+// arccos(1/3); the three are folds, beyond a half of cosine.
 TEST(Bending, EnergyOfACubeCorner) {
   Blown b(1);
   const Vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
@@ -92,7 +92,8 @@ TEST(Bending, EnergyOfACubeCorner) {
   ASSERT_GT(compute_volumes(b.c.view())[0], 0) << "corners must be in outward order";
   Params p;
   p.bending_stiffness = 0.02;
-  const double expected = 3 * 0.02 * (2 - std::sqrt(8.0) / 3 - 5 / (3 * std::sqrt(3.0)));
+  const double root = std::sqrt(3.0), fold = (1 / root - 0.5) / (1 - 1 / root);
+  const double expected = 3 * 0.02 * (2 - std::sqrt(8.0) / 3 - 5 / (3 * root) + fold * fold);
   EXPECT_NEAR(bending_energy(p, b.c.view(), 0), expected, 1e-13 * expected);
 }
 

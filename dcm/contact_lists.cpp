@@ -1,0 +1,256 @@
+#include "dcm/contact_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "core/contact/surroundings.hpp"
+#include "core/threads.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+/// Extra distance, um, at which bodies count as near each other: how far two may come closer before
+/// pairs are looked for again.
+constexpr double kReserve = 2;
+
+bool is_held(const ListInput& in, std::size_t body) {
+  return body >= in.body.size() || (!in.held.empty() && in.held[body] != 0);
+}
+
+/// Whether lists made then say anything about now.
+bool made_alike(const ContactLists& lists, const ListInput& in) {
+  const contact::SearchOptions &a = lists.options, &b = in.options;
+  return a.quadrature == b.quadrature && a.max_depth == b.max_depth && a.skin == b.skin &&
+         a.self_range == b.self_range && lists.n_fixed == in.fixed.size();
+}
+
+/// Whether the pairs listed are all that may be near, of the same bodies.
+bool pairs_hold(const ListInput& in, const ContactLists& lists) {
+  if (lists.body.size() != in.body.size()) return false;
+  const double wider = std::max(in.options.range - lists.options.range, 0.0);
+  const double room = 0.5 * (kReserve - wider);
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    const ListedBody& b = lists.body[k];
+    if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology || b.held != is_held(in, k))
+      return false;
+    const contact::Box within = b.box.grown(room);
+    if (!within.contains(in.body[k].box.low) || !within.contains(in.body[k].box.high)) return false;
+  }
+  return true;
+}
+
+/// Which body each one was before; -1: none.
+std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
+  std::unordered_map<std::int64_t, int> before;
+  for (std::size_t k = 0; k < lists.body.size(); ++k)
+    before.emplace(lists.body[k].lineage, static_cast<int>(k));
+  std::vector<int> was(in.body.size(), -1);
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    const auto found = before.find(in.lineage[k]);
+    if (found == before.end()) continue;
+    if (lists.body[static_cast<std::size_t>(found->second)].topology == in.body[k].topology)
+      was[k] = found->second;
+    before.erase(found);
+  }
+  return was;
+}
+
+/// Counts the lists of every snapshot.
+void count_lists(ContactLists& lists) {
+  for (ListedBody& b : lists.body)
+    for (Snapshot& s : b.snapshot) s.lists = 0;
+  const auto count = [&](int body, int snapshot) {
+    if (snapshot >= 0)
+      ++lists.body[static_cast<std::size_t>(body)]
+            .snapshot[static_cast<std::size_t>(snapshot)]
+            .lists;
+  };
+  for (std::size_t k = 0; k < lists.pair.size(); ++k) {
+    count(lists.pair[k].body_a, lists.age[k].a);
+    count(lists.pair[k].body_b, lists.age[k].b);
+  }
+  for (std::size_t k = 0; k < lists.segment.size(); ++k)
+    count(static_cast<int>(k), lists.segment_age[k].a);
+}
+
+/// Looks for pairs of bodies that are near; lists that exist are kept.
+void renew_pairs(const ListInput& in, ContactLists& lists) {
+  const std::vector<int> was = match_bodies(in, lists);
+  ContactLists next;
+  next.options = in.options;
+  next.n_fixed = in.fixed.size();
+  next.checked = lists.checked;
+  next.made = lists.made;
+  next.body.resize(in.body.size());
+  next.segment.resize(in.body.size());
+  next.segment_age.resize(in.body.size());
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    ListedBody& b = next.body[k];
+    if (was[k] >= 0) {
+      const auto from = static_cast<std::size_t>(was[k]);
+      b = std::move(lists.body[from]);
+      next.segment[k] = std::move(lists.segment[from]);
+      next.segment_age[k] = lists.segment_age[from];
+    }
+    b.lineage = in.lineage[k];
+    b.topology = in.body[k].topology;
+    b.held = is_held(in, k);
+    b.box = in.body[k].box;
+  }
+  next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);
+  std::erase_if(next.pair, [&](const contact::Candidates& c) {
+    return is_held(in, static_cast<std::size_t>(c.body_a)) &&
+           is_held(in, static_cast<std::size_t>(c.body_b));
+  });
+  next.age.resize(next.pair.size());
+  const auto number_before = [&](int body) {
+    const auto k = static_cast<std::size_t>(body);
+    return k < was.size() ? was[k] : body - static_cast<int>(was.size() - lists.body.size());
+  };
+  const auto bodies_of = [](const contact::Candidates& c) { return std::pair(c.body_a, c.body_b); };
+  for (std::size_t k = 0; k < next.pair.size(); ++k) {
+    contact::Candidates& c = next.pair[k];
+    const std::pair before(number_before(c.body_a), number_before(c.body_b));
+    const auto found = std::ranges::lower_bound(lists.pair, before, {}, bodies_of);
+    if (found == lists.pair.end() || bodies_of(*found) != before) continue;
+    next.age[k] = lists.age[static_cast<std::size_t>(found - lists.pair.begin())];
+    const auto [a, b] = bodies_of(c);
+    c = std::move(*found);
+    c.body_a = a;
+    c.body_b = b;
+  }
+  lists = std::move(next);
+  count_lists(lists);
+}
+
+void find_motion(const contact::SurfaceBody& now, Snapshot& s) {
+  const std::size_t n = s.node.size();
+  s.mean = Vec3::Zero();
+  for (std::size_t i = 0; i < n; ++i) s.mean += now.node[i] - s.node[i];
+  s.mean /= static_cast<double>(n);
+  double spread2 = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    spread2 = std::max(spread2, (now.node[i] - s.node[i] - s.mean).squaredNorm());
+  s.spread = std::sqrt(spread2);
+}
+
+const Snapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {
+  if (snapshot < 0) return nullptr;
+  return &lists.body[static_cast<std::size_t>(body)].snapshot[static_cast<std::size_t>(snapshot)];
+}
+
+/// The place of a new snapshot of a body.
+int add_snapshot(const contact::SurfaceBody& now, ListedBody& body) {
+  std::size_t place = 0;
+  while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
+  if (place == body.snapshot.size()) body.snapshot.emplace_back();
+  Snapshot& s = body.snapshot[place];
+  s.node = now.node;
+  s.mean = Vec3::Zero();
+  s.spread = 0;
+  s.lists = 1;  // not free
+  return static_cast<int>(place);
+}
+
+/// Segments within reach of every site of a body.
+SegmentCandidates find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& o,
+                                const mesh::Network& network) {
+  SegmentCandidates list;
+  list.start.push_back(0);
+  const double margin = std::max(o.range, o.max_depth) + o.skin;
+  std::vector<int> near;
+  for (std::size_t s = 0; s < network.segment.size(); ++s) {
+    contact::Box box;
+    for (int n : network.segment[s]) box.include(network.node[static_cast<std::size_t>(n)]);
+    const double r = std::max(network.radius[s][0], network.radius[s][1]);
+    if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
+  }
+  if (near.empty()) return list;
+  // A node also finds what may stand in the middle of its faces; an edge need not as well.
+  const double widest = *std::ranges::max_element(b.reach);
+  for (std::size_t site = 0; site < contact::n_sites(b, o.quadrature); ++site) {
+    const bool node = !contact::has_face_sites(o.quadrature) && site < b.node.size();
+    const Vec3 at = contact::site_place(b, o.quadrature, site);
+    const double reach = (node ? widest : contact::site_reach(b, o.quadrature, site)) + margin;
+    const std::size_t before = list.segment.size();
+    for (int s : near)
+      if (contact::gap_to_segment(network, s, at).gap < reach) list.segment.push_back(s);
+    if (list.segment.size() == before) continue;
+    list.site.push_back(static_cast<int>(site));
+    list.start.push_back(static_cast<std::uint32_t>(list.segment.size()));
+  }
+  return list;
+}
+
+}  // namespace
+
+double relative_motion(const ContactLists& lists, std::size_t pair) {
+  const contact::Candidates& list = lists.pair[pair];
+  const Snapshot* a = snapshot_of(lists, list.body_a, lists.age[pair].a);
+  const Snapshot* b = snapshot_of(lists, list.body_b, lists.age[pair].b);
+  if (b == nullptr) return a->spread + a->mean.norm();  // a static mesh
+  if (a == b) return 2 * a->spread;
+  return a->spread + b->spread + (a->mean - b->mean).norm();
+}
+
+void refresh_lists(const ListInput& in, ContactLists& lists) {
+  if (!made_alike(lists, in)) {
+    const std::int64_t checked = lists.checked, made = lists.made;
+    lists = {};
+    lists.checked = checked;
+    lists.made = made;
+  }
+  if (!pairs_hold(in, lists)) renew_pairs(in, lists);
+  const std::size_t n_body = in.body.size();
+  const bool threads =
+      n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
+#pragma omp parallel for schedule(static) if (threads)
+  for (std::size_t k = 0; k < n_body; ++k)
+    for (Snapshot& s : lists.body[k].snapshot)
+      if (s.lists > 0) find_motion(in.body[k], s);
+
+  const double range = in.options.range, skin = in.options.skin;
+  std::vector<std::size_t> expired;
+  for (std::size_t k = 0; k < lists.pair.size(); ++k)
+    if (!lists.age[k].made() || relative_motion(lists, k) + range - lists.age[k].range > skin)
+      expired.push_back(k);
+  std::vector<std::size_t> segments_expired;
+  if (!in.network.segment.empty())
+    for (std::size_t k = 0; k < n_body; ++k) {
+      if (is_held(in, k)) continue;
+      const ListAge& age = lists.segment_age[k];
+      const Snapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
+      if (s == nullptr || s->spread + s->mean.norm() + range - age.range > skin)
+        segments_expired.push_back(k);
+    }
+  lists.checked += static_cast<std::int64_t>(lists.pair.size());
+  lists.made += static_cast<std::int64_t>(expired.size());
+  if (expired.empty() && segments_expired.empty()) return;
+
+  std::vector<int> latest(n_body, -1);  // the snapshot of this moment
+  const auto snapshot_now = [&](std::size_t body) {
+    if (body >= n_body) return -1;
+    if (latest[body] < 0) latest[body] = add_snapshot(in.body[body], lists.body[body]);
+    return latest[body];
+  };
+  std::vector<contact::Candidates*> to_fill;
+  for (std::size_t k : expired) {
+    contact::Candidates& list = lists.pair[k];
+    const int a = snapshot_now(static_cast<std::size_t>(list.body_a)),
+              b = snapshot_now(static_cast<std::size_t>(list.body_b));
+    lists.age[k] = {a, b, range};
+    to_fill.push_back(&list);
+  }
+  for (std::size_t k : segments_expired) lists.segment_age[k] = {snapshot_now(k), -1, range};
+  count_lists(lists);
+  contact::fill_candidates(in.body, in.fixed, in.options, to_fill);
+#pragma omp parallel for schedule(dynamic, 4) if (threads)
+  for (std::size_t e = 0; e < segments_expired.size(); ++e) {
+    const std::size_t k = segments_expired[e];
+    lists.segment[k] = find_segments(in.body[k], in.options, in.network);
+  }
+}
+
+}  // namespace acinus::dcm

@@ -1,0 +1,76 @@
+#pragma once
+/// Cells among surroundings of every kind, and what their contacts are.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/contact/surroundings.hpp"
+#include "tests/dcm/clump.hpp"
+
+namespace acinus::dcm {
+
+/// All kinds of surroundings, each in reach of some cell of make_clump.
+inline contact::Surroundings make_surroundings() {
+  contact::Surroundings s;
+  contact::Plane floor;
+  floor.point = {0, 0, -23.9};
+  floor.material.adhesion = 0.02;
+  contact::Plane mirror;
+  mirror.point = {-3.3, 0, 0};
+  mirror.normal = Vec3::UnitX();
+  mirror.material.mirror = true;
+  s.planes = {floor, mirror};
+  contact::Capsule shell;
+  shell.center = {17, 0, 3};
+  shell.radius = 26.8;  // its lowest point lies where the floor is touched
+  shell.material.adhesion = 0.01;
+  s.capsules = {shell};
+  mesh::Network n;
+  n.node = {{36.6, -20, 0}, {41, 1, 6}, {38, 12, 4}, {45, 30, 10}};
+  n.segment = {{0, 1}, {1, 2}, {2, 3}};
+  n.radius = {{4, 5}, {5, 4}, {4, 4}};
+  contact::set_network(s.vessels, n);
+  s.vessels.material.adhesion = 0.01;
+  contact::StaticMesh block;
+  block.body.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
+                     {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};
+  block.triangle = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 4, 5}, {0, 5, 1},
+                    {1, 5, 6}, {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
+  block.material.adhesion = 0.01;
+  s.meshes.push_back(block);
+  return s;
+}
+
+/// To be called once more after every copy.
+inline void connect_meshes(contact::Surroundings& s) {
+  for (contact::StaticMesh& m : s.meshes) {
+    m.body.triangle = &m.triangle;
+    contact::refresh_body(m.body);
+  }
+}
+
+inline Clump make_surrounded_clump(std::uint64_t seed) {
+  Clump c = make_clump(seed);
+  c.around = make_surroundings();
+  c.params[0].vessel_friction = 0.1;
+  return c;
+}
+
+inline std::vector<double> gaps_of(const Clump& c) {
+  std::vector<double> g;
+  for (const auto& s : c.work.surface) g.push_back(s.gap);
+  for (const auto& o : c.work.obstacle) g.push_back(o.gap);
+  return g;
+}
+
+/// Who meets whom, to tell whether a small move kept the closest features.
+inline std::vector<std::array<int, 4>> features_of(const Clump& c) {
+  std::vector<std::array<int, 4>> f;
+  for (const auto& s : c.work.surface) f.push_back({s.body_a, s.point, s.body_b, s.triangle_b});
+  for (const auto& o : c.work.obstacle)
+    f.push_back({o.body, o.guard ? -1 - o.point : o.point, -1 - static_cast<int>(o.kind), o.index});
+  return f;
+}
+
+}  // namespace acinus::dcm
