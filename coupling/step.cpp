@@ -255,6 +255,7 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
   } else {
     std::ranges::fill(w.move, 0.0);
   }
+  place_held(w, {});  // a guess their ties would make a huge force of
   return solve_system(world, w, cg_iterations);
 }
 

@@ -396,7 +396,7 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
   const auto may_touch = [&](const SurfaceBody& a, const SurfaceBody& b) {
     return &a == &b ? may_fold(a) : a.box.grown(margin).overlaps(b.box);
   };
-  constexpr std::size_t kWorthThreads = 8;
+  constexpr std::size_t kWorthThreads = 64;
 #pragma omp parallel if (lists.size() >= kWorthThreads)
   {
     Candidates scratch;  // grows as needed; what is kept is copied to measure
