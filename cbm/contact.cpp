@@ -68,7 +68,72 @@ MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) 
   return gap;
 }
 
+/// The moduli of all cells, from the overlaps where a law asks for them.
+void find_moduli(const State& s, std::span<const Params> params, ContactWorkspace& work) {
+  work.modulus.resize(s.n_cell());
+  const bool corrects = has_correction(params);
+  work.coupling.assign(corrects ? s.n_cell() : 0, 0.0);
+  for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    const StiffnessLaw& law = params[static_cast<std::size_t>(s.type[i])].correction;
+    if (!law.corrects()) {
+      work.modulus[i] = {s.young[i], 0};
+      continue;
+    }
+    const double d = mean_overlap(work, i);
+    work.modulus[i] = corrected_modulus(law, s.young[i], d);
+    ++work.corrected;
+    work.beyond += d > law.range ? 1 : 0;
+  }
+}
+
+/// Adds the coupling of its cells to the stiffness of every contact.
+void add_coupling(ContactWorkspace& work, std::vector<solve::PointLink>& link) {
+  std::size_t k = 0;
+  for (const auto& touching : work.touching) {
+    if (touching.second < 0) continue;  // surroundings
+    while (work.pair[k] != touching) ++k;
+    link[k].stiffness +=
+        static_cast<float>(work.coupling[static_cast<std::size_t>(touching.first)] +
+                           work.coupling[static_cast<std::size_t>(touching.second)]);
+  }
+  for (ObstacleContact& o : work.obstacle)
+    o.law.stiffness =
+        std::max(o.law.stiffness, 0.0) + work.coupling[static_cast<std::size_t>(o.cell)];
+}
+
 }  // namespace
+
+bool has_correction(std::span<const Params> params) {
+  return std::ranges::any_of(params, [](const Params& p) { return p.correction.corrects(); });
+}
+
+void find_overlaps(const State& s, const CellData& cells, const contact::Surroundings& around,
+                   double time, ContactWorkspace& work) {
+  const std::span<const double> radius = cells.radius;
+  work.overlap_sum.assign(s.n_cell(), 0.0);
+  work.overlap_weight.assign(s.n_cell(), 0.0);
+  std::vector<double> relative(work.pair.size());
+#pragma omp parallel for schedule(static) if (relative.size() > 10000)
+  for (std::size_t k = 0; k < relative.size(); ++k) {
+    const auto i = static_cast<std::size_t>(work.pair[k].first),
+               j = static_cast<std::size_t>(work.pair[k].second);
+    relative[k] = 1 - (center_of(s, i) - center_of(s, j)).norm() / (radius[i] + radius[j]);
+  }
+  for (std::size_t k = 0; k < relative.size(); ++k) {
+    if (!(relative[k] > 0)) continue;
+    const auto [a, b] = work.pair[k];
+    const double share = cells.pair_share(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    count_overlap(work, a, relative[k], share);
+    count_overlap(work, b, relative[k], share);
+  }
+  for (std::size_t i = 0; i < s.n_cell(); ++i)
+    for (const contact::Plane& p : around.planes) {
+      const double gap = contact::gap_to_plane(p, center_of(s, i), time).gap;
+      if (p.material.mirror && gap < radius[i])
+        count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
+                      cells.strength_of(i));
+    }
+}
 
 double largest_separation(const State& s, std::span<const Params> params,
                           std::span<const double> radius, const contact::Surroundings& around) {
@@ -146,21 +211,29 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
   return true;
 }
 
-void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
-                   const CellData& cells, const contact::Surroundings& around, double time,
-                   std::size_t first_row, ContactWorkspace& work,
-                   std::vector<solve::PointLink>& link) {
-  ++work.searches;
-  find_pair_contacts(s, params, c, cells, first_row, work, link);
+namespace {
+
+void find_obstacle_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
+                            const CellData& cells, const contact::Surroundings& around, double time,
+                            ContactWorkspace& work) {
   work.obstacle.clear();
   if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
       work.segment.empty())
     return;
   const std::span<const double> radius = cells.radius;
   auto body = [&](std::size_t i) {
-    return SphereBody{radius[i], s.young[i], params[static_cast<std::size_t>(s.type[i])].poisson};
+    return SphereBody{radius[i], work.modulus[i].value,
+                      params[static_cast<std::size_t>(s.type[i])].poisson};
   };
 
+  // As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
+  auto couple = [&](std::size_t i, const contact::SphereForce& law, double reach) {
+    if (work.coupling.empty()) return;
+    const double poisson = params[static_cast<std::size_t>(s.type[i])].poisson;
+    work.coupling[i] =
+        std::max(work.coupling[i], std::max(law.force_by_modulus, 0.0) / (1 - poisson * poisson) *
+                                       work.modulus[i].slope / reach);
+  };
   auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
                   double overlap, const Vec3& normal) {
     const int key = surrounding_key(kind, index);
@@ -172,6 +245,7 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
         weaken(contact::jkr_force(pair, overlap, before), cells.strength_of(i));
     if (!law.touching) return;
     work.touching.emplace_back(static_cast<int>(i), key);
+    couple(i, law, 2 * radius[i]);
     work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
     work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
   };
@@ -190,8 +264,7 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
         work.obstacle.push_back({static_cast<int>(i), SurroundingKind::kPlane, static_cast<int>(k),
                                  g.normal, radius[i] - g.gap, law});
         work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
-        count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], g.gap),
-                      share);
+        couple(i, law, radius[i]);
       } else {
         meet(i, SurroundingKind::kPlane, static_cast<int>(k),
              contact::reduced_pair(body(i), flat(p.material, contact::kFlat),
@@ -232,6 +305,19 @@ void find_contacts(const State& s, std::span<const Params> params, const Contact
          radius[i] - g.gap, g.normal);
   }
   std::ranges::sort(work.touching);
+}
+
+}  // namespace
+
+void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
+                   const CellData& cells, const contact::Surroundings& around, double time,
+                   std::size_t first_row, ContactWorkspace& work,
+                   std::vector<solve::PointLink>& link) {
+  ++work.searches;
+  find_moduli(s, params, work);
+  find_pair_contacts(s, params, c, cells, first_row, work, link);
+  find_obstacle_contacts(s, params, c, cells, around, time, work);
+  if (!work.coupling.empty()) add_coupling(work, link);
 }
 
 void add_contact_loads(const State& s, std::span<const Params> params,

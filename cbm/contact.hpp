@@ -49,11 +49,16 @@ struct ContactWorkspace {
   std::vector<ObstacleContact> obstacle;  ///< written by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
-  /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out; the
-  /// DCM-CBM interface adds its own.
+  /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out. By
+  /// find_overlaps; the DCM-CBM interface adds its own. Empty: nobody asks.
   std::vector<double> overlap_sum, overlap_weight;
+  std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
+  /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
+  /// grows with all its overlaps, C_i; written by: find_contacts. Empty: no law corrects.
+  std::vector<double> coupling;
   int list_builds = 0;
-  std::int64_t searches = 0;  ///< calls of find_contacts
+  std::int64_t searches = 0;               ///< calls of find_contacts
+  std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
 };
 
 /// A contact that exerts this share of its force: stiffness and contact area, and with it friction,
@@ -80,10 +85,22 @@ bool refresh_pairs(const State& state, std::span<const Params> params, const Con
                    std::span<const double> radius, const contact::Surroundings& around,
                    ContactWorkspace& work);
 
+/// Whether the modulus of any type depends on the overlaps.
+bool has_correction(std::span<const Params> params);
+
+/// Counts the overlaps of pairs and with mirror walls, each with its share. @pre refresh_pairs
+void find_overlaps(const State& state, const CellData& cells, const contact::Surroundings& around,
+                   double time, ContactWorkspace& work);
+
 /// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
-/// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. All that a contact of two cells
+/// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. Where a law corrects the modulus,
+/// the stiffness of a pair is max(0, dF/d overlap) + C_i + C_j,
+///   C_i = max_j dF/dE^ dE^/dE~_i dE~_i/dd_i / (R_i + R_j),
+/// a bound of what the other contacts of both do to this one: with E~ held fixed long steps are
+/// unstable above d = 0.09. All that a contact of two cells
 /// does is multiplied by the larger of their strengths, so that spheres born into each other come
 /// apart slowly, and all that a contact with surroundings does by the cell's own.
+/// @pre find_overlaps if has_correction, and the interface's overlaps are added
 /// @param first_row  where the CBM rows start in the system
 /// @param link       one per near pair, zero where not touching
 void find_contacts(const State& state, std::span<const Params> params, const ContactParams& c,

@@ -21,7 +21,7 @@ struct alignas(64) Batch {
   double adhesion[kLanes], was_touching[kLanes];
   // out; all zero where not touching
   double normal[3][kLanes], force[kLanes], stiffness[kLanes], area[kLanes], touching[kLanes];
-  double relative[kLanes], weight[kLanes];  ///< overlap over the sum of radii, and its weight
+  double overlap[kLanes];  ///< um
 };
 
 ACINUS_KERNEL void evaluate(Batch& p) {
@@ -41,19 +41,13 @@ ACINUS_KERNEL void evaluate(Batch& p) {
   store(p.stiffness, lane_max0(law.stiffness));
   store(p.area, kPi * law.squared_radius);
   store(p.touching, law.touching);
-  const Lane relative = overlap / sum;
-  Lane s = relative / kOverlapRise;
-  s = s > 0.0 ? (s < 1.0 ? s : one) : zero;
-  const Lane weight = law.touching * (s * s * (3.0 - 2.0 * s));
-  store(p.weight, weight);
-  store(p.relative, weight * lane_max0(relative));
+  store(p.overlap, overlap);
 }
 
 /// Leaves each pair its share of all that it does; without a share it does not touch.
 void weaken(const double (&share)[kLanes], Batch& p) {
   for (std::size_t l = 0; l < kLanes; ++l) {
-    for (double* v : {&p.force[l], &p.stiffness[l], &p.area[l], &p.relative[l], &p.weight[l]})
-      *v *= share[l];
+    for (double* v : {&p.force[l], &p.stiffness[l], &p.area[l]}) *v *= share[l];
     if (share[l] <= 0) p.touching[l] = 0;
   }
 }
@@ -109,8 +103,9 @@ class RangeSearch {
  private:
   void clear() {
     const auto from = static_cast<std::size_t>(first_), to = static_cast<std::size_t>(last_);
-    for (auto* v : {&work_.contact_area, &work_.overlap_sum, &work_.overlap_weight})
-      std::fill(v->begin() + first_, v->begin() + last_, 0.0);
+    std::fill(work_.contact_area.begin() + first_, work_.contact_area.begin() + last_, 0.0);
+    if (!work_.coupling.empty())
+      std::fill(work_.coupling.begin() + first_, work_.coupling.begin() + last_, 0.0);
     std::fill(work_.force.begin() + static_cast<std::ptrdiff_t>(from / kLanes * kPointStride),
               work_.force.begin() +
                   static_cast<std::ptrdiff_t>((to + kLanes - 1) / kLanes * kPointStride),
@@ -136,7 +131,8 @@ class RangeSearch {
     batch_.radius_b[n_] = cells_.radius[j];
     if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
     const auto ta = static_cast<std::size_t>(s_.type[i]), tb = static_cast<std::size_t>(s_.type[j]);
-    batch_.compliance[n_] = table_.softness[ta] / s_.young[i] + table_.softness[tb] / s_.young[j];
+    batch_.compliance[n_] =
+        table_.softness[ta] / work_.modulus[i].value + table_.softness[tb] / work_.modulus[j].value;
     batch_.adhesion[n_] = table_.root[ta] * table_.root[tb];
     batch_.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     if (++n_ == kLanes) flush();
@@ -184,11 +180,20 @@ class RangeSearch {
       for (std::size_t m = 0; m < 3; ++m)
         work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
       work_.contact_area[i] += batch_.area[l];
-      work_.overlap_sum[i] += batch_.relative[l];
-      work_.overlap_weight[i] += batch_.weight[l];
+      if (!work_.coupling.empty()) couple(i, l);
     };
     add(a, 1);
     add(b, -1);
+  }
+
+  /// dF/dE^ is (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
+  void couple(std::size_t cell, std::size_t l) {
+    const Modulus& m = work_.modulus[cell];
+    const double softness = table_.softness[static_cast<std::size_t>(s_.type[cell])];
+    const double by_own = 2.0 / 3 * std::max(batch_.overlap[l], 0.0) * batch_.stiffness[l] *
+                          softness / (batch_.compliance[l] * m.value * m.value);
+    work_.coupling[cell] = std::max(work_.coupling[cell],
+                                    by_own * m.slope / (batch_.radius_a[l] + batch_.radius_b[l]));
   }
 
   void write_link(std::size_t k, std::size_t l) {
@@ -224,7 +229,7 @@ void find_pair_contacts(const State& s, std::span<const Params> params, const Co
   const std::size_t n = s.n_cell();
   work.force.resize(s.position.size());
   link.resize(work.pair.size());
-  for (auto* v : {&work.contact_area, &work.overlap_sum, &work.overlap_weight}) v->resize(n);
+  work.contact_area.resize(n);
   const TypeTable table = make_table(params, c.adhesion_factor);
   const double friction = c.friction_factor * c.cell_friction;
   const std::size_t n_part =
@@ -254,10 +259,10 @@ std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const 
     const auto ta = static_cast<std::size_t>(s.type[i]), tb = static_cast<std::size_t>(s.type[j]);
     const Vec3 d = center_of(s, i) - center_of(s, j);
     const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
-    const contact::SpherePair pair{
-        radius[i] * radius[j] / (radius[i] + radius[j]),
-        1 / (table.softness[ta] / s.young[i] + table.softness[tb] / s.young[j]),
-        table.root[ta] * table.root[tb]};
+    const contact::SpherePair pair{radius[i] * radius[j] / (radius[i] + radius[j]),
+                                   1 / (table.softness[ta] / work.modulus[i].value +
+                                        table.softness[tb] / work.modulus[j].value),
+                                   table.root[ta] * table.root[tb]};
     list.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap,
                     weaken(contact::jkr_force(pair, overlap, true), cells.pair_share(i, j))});
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cbm/stiffness_law.hpp"
 #include "core/random.hpp"
 
 namespace acinus::cbm {
@@ -16,6 +17,7 @@ struct Params {
   double diffusion = 0;        ///< um^2/s
   double adhesion = 0;         ///< nN/um
   double vessel_friction = 0;  ///< nN s/um^3
+  StiffnessLaw correction;
 };
 
 /// Young's modulus that matches a deformable cell's bulk modulus, E = 3 K_V (1 - 2 nu), kPa.

@@ -23,7 +23,7 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
   const dcm::Params& a =
       v.dcm_params[static_cast<std::size_t>(v.dcm_state.group[lane / kLanes].type)];
   const cbm::Params& b = v.cbm_params[static_cast<std::size_t>(v.cbm_state.type[sphere])];
-  const double reduced_young = v.cbm_state.young[sphere] / (1 - b.poisson * b.poisson);
+  const double reduced_young = v.cbm_modulus[sphere].value / (1 - b.poisson * b.poisson);
   Patch p;
   p.well = {
       v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion),
@@ -48,6 +48,7 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
                     std::span<const double> cbm_radius, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
   work.contact.clear();
+  work.area.clear();
   if (dcm_work.body.empty() || cbm_state.n_cell() == 0) return;
   std::vector<contact::Box> bodies, sphere_boxes;
   double range = 0;
@@ -95,9 +96,9 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
       area += share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point,
                                       lanes.radius[lane]);
     }
-    cbm_work.contact_area[i] += area;
+    if (area > 0) work.area.emplace_back(sphere, area);
     // A deformable neighbour enters the sphere's mean overlap with its reference radius.
-    if (area > 0) {
+    if (area > 0 && !cbm_work.overlap_sum.empty()) {
       const double reach = lanes.radius[lane] + cbm_radius[i];
       const double relative =
           1 - (dcm::cell_center(dcm_state, lane) - cbm::center_of(cbm_state, i)).norm() / reach;
@@ -107,6 +108,11 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
     }
     work.contact.insert(work.contact.end(), found[p].begin(), found[p].end());
   }
+}
+
+void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work) {
+  for (const auto& [sphere, area] : work.area)
+    cbm_work.contact_area[static_cast<std::size_t>(sphere)] += area;
 }
 
 void add_interface_loads(const InterfaceView& v, std::size_t cbm_first_row, solve::Links& links) {

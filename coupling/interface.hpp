@@ -41,6 +41,8 @@ struct InterfaceForce {
 
 struct InterfaceWorkspace {
   std::vector<InterfaceContact> contact;  ///< written by: find_interface
+  /// (sphere, um^2) of every pair of cells in touch; written by: find_interface
+  std::vector<std::pair<int, double>> area;
 };
 
 /// Smallest dent, in radii, that enters the compliance of a sphere.
@@ -49,13 +51,16 @@ inline constexpr double kLeastDent = 0.01;
 /// Series stiffness k_s of a sphere's surface under a deformable one, nN/um^3.
 double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent);
 
-/// Finds all interface contacts. Adds their touching shares to the surface points, and their areas
-/// and overlaps to the spheres, young ones too: a deformable cell is a neighbour of full strength.
-/// @pre both models' find_contacts
+/// Finds all interface contacts. Adds their touching shares to the surface points and, if overlaps
+/// are counted, theirs to the spheres, young ones too: a deformable cell is a neighbour of full
+/// strength. @pre the deformable cells' find_contacts, the spheres' find_overlaps if any
 void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& dcm_contact,
                     const dcm::LaneData& lanes, const cbm::State& cbm_state,
                     std::span<const double> cbm_radius, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work);
+
+/// Adds the areas in touch to the spheres. @pre find_interface, then the spheres' find_contacts
+void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work);
 
 /// What add_interface_loads reads, named because there is much of it.
 struct InterfaceView {
@@ -66,7 +71,8 @@ struct InterfaceView {
   const dcm::ContactWorkspace& dcm_work;
   const cbm::State& cbm_state;
   std::span<const cbm::Params> cbm_params;
-  std::span<const double> cbm_radius;  ///< [n_cell] um
+  std::span<const double> cbm_radius;         ///< [n_cell] um
+  std::span<const cbm::Modulus> cbm_modulus;  ///< [n_cell] kPa
   const InterfaceParams& params;
   const InterfaceWorkspace& work;
 };

@@ -34,8 +34,9 @@ PhaseParams phase_params(const World& world) {
 }
 
 InterfaceView view_interface(const World& world, const PhaseParams& phase, const Workspace& w) {
-  return {world.state.dcm, world.params.dcm, phase.dcm,    w.lanes,         w.dcm,
-          world.state.cbm, world.params.cbm, w.cbm_radius, phase.interface, w.interface};
+  return {world.state.dcm, world.params.dcm, phase.dcm,        w.lanes,
+          w.dcm,           world.state.cbm,  world.params.cbm, w.cbm_radius,
+          w.cbm.modulus,   phase.interface,  w.interface};
 }
 
 /// Whether the next step is worth a coarse space. It is of use where cells with many nodes hang
@@ -166,9 +167,13 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   }
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(s.dcm, phase.dcm, w.lanes, around, wall_time, w.dcm);
+  w.cbm.overlap_sum.clear();
+  if (cbm::has_correction(world.params.cbm))
+    cbm::find_overlaps(s.cbm, spheres, around, wall_time, w.cbm);
+  find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
   cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, spheres, around, wall_time,
                      cbm_first_row(s), w.cbm, w.system.point_links);
-  find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
+  add_interface_areas(w.interface, w.cbm);
 }
 
 void assemble(const World& world, double step, Workspace& w, Selection selection) {

@@ -38,8 +38,9 @@ void sample_patch(const Scene& scene, const coupling::World& world, const Snapsh
 /// Series: time_s, cells, mean_pressure_Pa (contact pressure),
 ///   radius_of_gyration_um    sqrt(1/N sum |x_i - x_com|^2), always in space
 ///                            [VanLiedekerke2020, Sect. 3.2]
-///   inner_*, outer_*         mean pressure_Pa and density of the cells below 1/3 and from 2/3 of
-///                            the largest r on; density per mm^3, in a monolayer per mm^2
+///   inner_*, outer_*         mean pressure_Pa (contact), cytosol_pressure_Pa (within; a sphere's
+///                            contact pressure again) and density of the cells below 1/3 and from
+///                            2/3 of the largest r on; density per mm^3, in a monolayer per mm^2
 ///   sphericity               mean of pi^(1/3) (6 V)^(2/3) / A, 1 for a sphere, 0.99 for its mesh
 ///   height_um, height_to_width  monolayer: mean extent along z, and its ratio to the mean of those
 ///                            along x and y

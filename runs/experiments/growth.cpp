@@ -37,21 +37,25 @@ Layout lay_out(const std::vector<coupling::CellMeasure>& cells, bool flat) {
   return out;
 }
 
-/// Mean pressure and density of the cells with low <= r < high; the last shell has its outer edge.
+/// Mean pressures and density of the cells with low <= r < high; the last shell has its outer edge.
 struct Shell {
-  double pressure_Pa = kNone, density = kNone;
+  double pressure_Pa = kNone, cytosol_Pa = kNone, density = kNone;
 };
 Shell look_at(const std::vector<coupling::CellMeasure>& cells, const Layout& layout, double low,
               double high) {
-  double pressure = 0, count = 0;
+  double pressure = 0, cytosol = 0, count = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const double r = layout.r[i];
     if (r < low || (r >= high && high < layout.largest)) continue;
     pressure += cells[i].pressure;
+    cytosol += cells[i].cytosol_pressure;
     ++count;
   }
   Shell shell;
-  if (count > 0) shell.pressure_Pa = 1e3 * pressure / count;
+  if (count > 0) {
+    shell.pressure_Pa = 1e3 * pressure / count;
+    shell.cytosol_Pa = 1e3 * cytosol / count;
+  }
   const double size = layout.flat ? kPi * (high * high - low * low)
                                   : 4.0 / 3 * kPi * (std::pow(high, 3) - std::pow(low, 3));
   if (size > 0) shell.density = (layout.flat ? 1e6 : 1e9) * count / size;
@@ -124,6 +128,8 @@ void sample_growth(const Scene& scene, const coupling::World& world, const Snaps
   m["mean_pressure_Pa"].push_back(pressure);
   m["inner_pressure_Pa"].push_back(inner.pressure_Pa);
   m["outer_pressure_Pa"].push_back(outer.pressure_Pa);
+  m["inner_cytosol_pressure_Pa"].push_back(inner.cytosol_Pa);
+  m["outer_cytosol_pressure_Pa"].push_back(outer.cytosol_Pa);
   m["inner_density"].push_back(inner.density);
   m["outer_density"].push_back(outer.density);
   add_profiles(s.cells, layout, m);

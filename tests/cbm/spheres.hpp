@@ -32,6 +32,7 @@ struct Spheres {
     const std::vector<double> r = radius(), strength = strengths_at(state, time);
     refresh_pairs(state, params, options, r, around, work);
     solve::set_blocks(system, make_blocks(state));
+    find_overlaps(state, {r, strength, mother}, around, time, work);
     find_contacts(state, params, options, {r, strength, mother}, around, time, 0, work,
                   system.point_links);
     add_contact_loads(state, params, around, work, 0, system);

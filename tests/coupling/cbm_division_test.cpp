@@ -284,6 +284,7 @@ TEST(CbmDivision, AcrossANarrowGapFindsItsBalance) {
 TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
   auto look = [](double strength) {
     World w = make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}});
+    w.params.cbm[0].correction = {{{4000, 4}}, 0.2};
     w.state.cbm.strength[0] = Ramp::constant(strength);
     Workspace work;
     size_workspace(w, work);

@@ -21,6 +21,7 @@ coupling::CellMeasure cell(const Vec3& center, double pressure_kPa, bool deforma
   coupling::CellMeasure c;
   c.center = center;
   c.pressure = pressure_kPa;
+  c.cytosol_pressure = 2 * pressure_kPa;
   c.deformable = deformable;
   return c;
 }
@@ -57,6 +58,8 @@ TEST(Spheroid, SeriesOfKnownCells) {
   const double third = 4.0 / 3 * kPi * 1000;
   EXPECT_NEAR(last(m, "inner_pressure_Pa"), 400, 400 * kRoundOff);
   EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kRoundOff);
+  EXPECT_NEAR(last(m, "inner_cytosol_pressure_Pa"), 800, 800 * kRoundOff);
+  EXPECT_NEAR(last(m, "outer_cytosol_pressure_Pa"), 200, 800 * kRoundOff);
   EXPECT_NEAR(last(m, "inner_density") / (1e9 / third), 1, kRoundOff);
   EXPECT_NEAR(last(m, "outer_density") / (6e9 / (19 * third)), 1, kRoundOff);
   EXPECT_FALSE(m.contains("sphericity")) << "there are only spheres";
@@ -91,9 +94,9 @@ TEST(Spheroid, SeriesGrowAndProfilesAreOfTheLastFrame) {
   Snapshot later = star();
   for (coupling::CellMeasure& c : later.cells) c.center *= 2;
   sample_experiment(scene, coupling::World{}, later, m);
-  for (const char* name :
-       {"time_s", "cells", "radius_of_gyration_um", "mean_pressure_Pa", "inner_pressure_Pa",
-        "outer_pressure_Pa", "inner_density", "outer_density"})
+  for (const char* name : {"time_s", "cells", "radius_of_gyration_um", "mean_pressure_Pa",
+                           "inner_pressure_Pa", "outer_pressure_Pa", "inner_cytosol_pressure_Pa",
+                           "outer_cytosol_pressure_Pa", "inner_density", "outer_density"})
     EXPECT_EQ(m.at(name).size(), 2u) << name;
   const std::vector<double>& gyration = m.at("radius_of_gyration_um");
   EXPECT_NEAR(gyration[1] / gyration[0], 2, 2 * kRoundOff);
