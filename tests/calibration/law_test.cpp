@@ -1,0 +1,123 @@
+/// Law files: what is written is read again, and nothing else is.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+
+namespace acinus::calibration {
+namespace {
+
+Law make_law() {
+  Law law;
+  law.a0 = 0.45;
+  law.a1 = 4000.0 / 3;
+  law.a1_interval = {1200, 1500};
+  law.overlap_range = {0.03, 0.19};
+  law.r_squared = 0.998;
+  law.rms_relative = 0.06;
+  law.jkr_underestimation = 5.5;
+  law.dcm = {{"bulk_modulus_kPa", 2.5}, {"cortex_young_kPa", 1}};
+  law.cbm = {{"young_kPa", 0.45}, {"poisson", 0.47}};
+  law.provenance = {{"version", "0.1.0"}};
+  return law;
+}
+
+class LawFile : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = io::make_temporary_folder("acinus_law_"); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path() const { return folder_ + "/law.json"; }
+
+  /// What read_law says of the file after a change of its text.
+  std::string message(const std::string& from, const std::string& to) const {
+    std::string text = law_text(make_law());
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    io::write_text_file(path(), text);
+    try {
+      read_law(path());
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "read";
+  }
+
+ private:
+  std::string folder_;
+};
+
+TEST_F(LawFile, IsReadAsItWasWritten) {
+  Law law = make_law();
+  law.further.push_back({-3, 6});
+  write_law(law, path());
+  const Law read = read_law(path());
+  EXPECT_EQ(law_text(read), law_text(law));
+  EXPECT_EQ(read.a1, law.a1);
+  EXPECT_EQ(read.provenance, law.provenance);
+  const cbm::StiffnessLaw s = stiffness_law(read);
+  ASSERT_EQ(s.term.size(), 2u);
+  EXPECT_EQ(s.term[0].factor, law.a1);
+  EXPECT_EQ(s.term[1].power, 6);
+  EXPECT_EQ(s.range, 0.19);
+}
+
+TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
+  const auto expect = [&](const char* from, const char* to, const char* reason) {
+    const std::string m = message(from, to);
+    EXPECT_NE(m.find(reason), std::string::npos) << from << " -> " << to << ": " << m;
+    EXPECT_NE(m.find("law.json"), std::string::npos) << m;
+  };
+  expect("\"schema_version\": 1", "\"schema_version\": 7", "another version");
+  expect("0.45", "NaN", "not JSON");
+  expect("0.45", "null", "expected a number");
+  expect("0.45", "-0.45", "not allowed");
+  expect("0.45", "\"450 Pa\"", "expected a number");
+  expect("1200.0", "1600.0", "is above");
+  expect("0.19", "0.7", "not allowed");
+  expect("\"a1_kPa\"", "\"a_kPa\"", "missing");
+  expect("2.5", "2.6", "changed by hand");
+  expect("{", "", "not JSON");
+  try {
+    read_law("/nonexistent/law.json");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), Exit::kFileError);
+  }
+}
+
+TEST_F(LawFile, NoNumberThatIsNotFiniteIsWritten) {
+  for (const std::function<void(Law&)>& spoil : std::vector<std::function<void(Law&)>>{
+           [](Law& l) { l.a1 = std::numeric_limits<double>::quiet_NaN(); },
+           [](Law& l) { l.a1_interval[1] = std::numeric_limits<double>::infinity(); },
+           [](Law& l) { l.dcm["cortex_young_kPa"] = -std::numeric_limits<double>::infinity(); }}) {
+    Law law = make_law();
+    spoil(law);
+    EXPECT_THROW(write_law(law, path()), Error);
+    EXPECT_FALSE(std::filesystem::exists(path()));
+  }
+}
+
+TEST(Law, TellsForWhichCellsItHolds) {
+  const Law law = make_law();
+  EXPECT_TRUE(list_differences(law, law.dcm, law.cbm).empty());
+  Parameters other = law.dcm;
+  other["bulk_modulus_kPa"] = 5;
+  other.erase("cortex_young_kPa");
+  other["nodes"] = 162;
+  const auto lines = list_differences(law, other, law.cbm);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0], "dcm.bulk_modulus_kPa: the law holds for 2.5, here it is 5");
+  EXPECT_EQ(lines[1], "dcm.cortex_young_kPa: the law holds for 1, here there is none");
+  EXPECT_EQ(lines[2], "dcm.nodes: the law does not say, here it is 162");
+}
+
+}  // namespace
+}  // namespace acinus::calibration
