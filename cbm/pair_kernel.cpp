@@ -104,8 +104,6 @@ class RangeSearch {
   void clear() {
     const auto from = static_cast<std::size_t>(first_), to = static_cast<std::size_t>(last_);
     std::fill(work_.contact_area.begin() + first_, work_.contact_area.begin() + last_, 0.0);
-    if (!work_.coupling.empty())
-      std::fill(work_.coupling.begin() + first_, work_.coupling.begin() + last_, 0.0);
     std::fill(work_.force.begin() + static_cast<std::ptrdiff_t>(from / kLanes * kPointStride),
               work_.force.begin() +
                   static_cast<std::ptrdiff_t>((to + kLanes - 1) / kLanes * kPointStride),

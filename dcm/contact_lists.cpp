@@ -41,12 +41,13 @@ bool pairs_hold(const ListInput& in, const ContactLists& lists) {
   return true;
 }
 
-/// Which body each one was before; -1: none.
+/// Which body each one was before; -1: none, or none whose lists say anything about now.
 std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
+  std::vector<int> was(in.body.size(), -1);
+  if (!made_alike(lists, in)) return was;
   std::unordered_map<std::int64_t, int> before;
   for (std::size_t k = 0; k < lists.body.size(); ++k)
     before.emplace(lists.body[k].lineage, static_cast<int>(k));
-  std::vector<int> was(in.body.size(), -1);
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     const auto found = before.find(in.lineage[k]);
     if (found == before.end()) continue;
@@ -196,13 +197,7 @@ double relative_motion(const ContactLists& lists, std::size_t pair) {
 }
 
 void refresh_lists(const ListInput& in, ContactLists& lists) {
-  if (!made_alike(lists, in)) {
-    const std::int64_t checked = lists.checked, made = lists.made;
-    lists = {};
-    lists.checked = checked;
-    lists.made = made;
-  }
-  if (!pairs_hold(in, lists)) renew_pairs(in, lists);
+  if (!made_alike(lists, in) || !pairs_hold(in, lists)) renew_pairs(in, lists);
   const std::size_t n_body = in.body.size();
   const bool threads =
       n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
