@@ -275,7 +275,7 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
     for (std::size_t k = 0; k < around.capsules.size(); ++k) {
       const contact::Capsule& shell = around.capsules[k];
       const double r = shell.radius_at(time);
-      if (r <= radius[i]) continue;
+      if (r <= radius[i] || !std::isfinite(r)) continue;
       const contact::Gap g = contact::gap_to_capsule(shell, x, time);
       meet(i, SurroundingKind::kCapsule, static_cast<int>(k),
            contact::reduced_pair(body(i), flat(shell.material, -r),

@@ -7,9 +7,9 @@
 
 namespace acinus::cbm {
 
-/// E~(d) - E = sum a d^power up to `range`, on along the tangent from there, and constant from
-/// kLawCap ranges on: a law is known where it was fitted only, and beyond it must neither jump nor
-/// run away.
+/// E~(d) - E = sum a d^power up to `range`, on along the tangent from there (level where that
+/// falls), and constant from kLawCap ranges on: a law is known where it was fitted only, and beyond
+/// it must neither jump nor run away.
 struct StiffnessLaw {
   struct Term {
     double factor = 0;  ///< kPa
@@ -38,7 +38,10 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
     m.slope += t.factor * t.power * std::pow(within, t.power - 1);
   }
   const double end = kLawCap * law.range;
-  if (d > law.range) m.value += m.slope * ((d < end ? d : end) - law.range);
+  if (d > law.range) {
+    if (m.slope < 0) m.slope = 0;
+    m.value += m.slope * ((d < end ? d : end) - law.range);
+  }
   if (d >= end) m.slope = 0;
   return m;
 }

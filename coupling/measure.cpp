@@ -154,11 +154,15 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     if (f.squaredNorm() > 0) touch(a, b, f);
   }
   for (std::size_t k = 0; k < cells.size(); ++k) cells[k].contact_force = wall_force[k].norm();
-  for (const auto& [pair, force] : pair_force)
+  for (const auto& [pair, force] : pair_force) {
+    const double normal =
+        force.dot((cells[pair.first].center - cells[pair.second].center).normalized());
     for (const std::size_t k : {pair.first, pair.second}) {
       ++cells[k].contacts;
       cells[k].contact_force += force.norm();
+      cells[k].normal_force += normal;
     }
+  }
   for (CellMeasure& m : cells) {
     m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
     if (!m.deformable) m.cytosol_pressure = m.pressure;

@@ -29,6 +29,9 @@ struct CellMeasure {
   bool newborn = false;            ///< in the first ten minutes after a division
   /// nN, sum over partners of the size of the force with each; all surroundings are one partner.
   double contact_force = 0;
+  /// nN, sum over partner cells of the force along the line between the centres, positive where
+  /// they press.
+  double normal_force = 0;
   int contacts = 0;            ///< cells in contact
   double migration_force = 0;  ///< nN, active force on the cell
 };

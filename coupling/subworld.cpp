@@ -30,7 +30,7 @@ void stop_walls(contact::Surroundings& around, double time) {
   }
   for (contact::Capsule& c : around.capsules) {
     c.radius = c.radius_at(time);
-    c.speed = 0;
+    c.speed = 0;  // and one that is open has an infinite radius
   }
 }
 

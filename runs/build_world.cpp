@@ -17,6 +17,7 @@
 #include "coupling/integrators.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/start_up.hpp"
+#include "runs/build_correction.hpp"
 #include "runs/build_life.hpp"
 #include "runs/place_cells.hpp"
 
@@ -75,6 +76,7 @@ void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
                                scene.capsule.radius,
                                scene.capsule.speed,
                                scene.capsule.min_radius,
+                               scene.capsule.opens.value_or(contact::Capsule{}.opens),
                                {}});
   for (const StaticMeshEntry& m : scene.static_meshes) {
     for (mesh::Surface& s : mesh::read_closed_surfaces(m.file, m.unit * m.scale)) {
@@ -204,6 +206,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     p.dcm.push_back(make_dcm_params(scene, type));
     p.cbm.push_back(make_cbm_params(scene, type));
   }
+  build_corrections(scene, p.cbm, built.notes);
   build_life(scene, p, built.type_names);
   const auto [quadrature, range_factor] = quadrature_of(scene.contact.quadrature);
   p.dcm_contact.quadrature = quadrature;

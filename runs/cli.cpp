@@ -15,6 +15,7 @@
 #include "core/units.hpp"
 #include "runs/bench/bench.hpp"
 #include "runs/build_world.hpp"
+#include "runs/calibrate/calibrate.hpp"
 #include "runs/run.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/library.hpp"
@@ -34,6 +35,7 @@ struct Arguments {
   std::string name, folder;  ///< new
   std::string bench;         ///< bench
   BenchOptions bench_options;
+  CalibrateOptions calibrate;
 };
 
 void add_set(CLI::App& command, RunOptions& run) {
@@ -79,6 +81,47 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* meaning, cons
   return command;
 }
 
+void add_calibrate(CLI::App& app, Arguments& arguments) {
+  CalibrateOptions& o = arguments.calibrate;
+  CLI::App* command =
+      add_command(app, "calibrate", "find the law that makes spheres push as deformable cells do",
+                  "acinus calibrate runs/scenes/lobule_hybrid.json --out law.json");
+  command->add_option("SCENE", arguments.run.scene_file,
+                      "scene with the cell type (default: the shipped scene calibration)");
+  command->add_option("--out", o.out, "law file; runs, curves and plots stand beside it")
+      ->type_name("LAW.json")
+      ->required();
+  add_set(*command, arguments.run);
+  command->add_option("--type", o.clump.type, "cell type, where the scene has several")
+      ->type_name("NAME");
+  command->add_option("--cells", o.clump.cells, "cells of the clump, e.g. 9, 15 or 27")
+      ->type_name("N")
+      ->check(CLI::Range(9, 1000));
+  command->add_option("--rate", o.clump.rate, "factor on the speed of squeezing")
+      ->type_name("F")
+      ->check(CLI::Range(0.01, 10.0));
+  command->add_option("--highest", o.fit.highest, "largest overlap d of the fit (default: 0.2)")
+      ->type_name("D")
+      ->check(CLI::Range(0.05, 0.3));
+  command->add_option("--power", o.fit.power, "power of the leading term (default: 4)")
+      ->type_name("P")
+      ->check(CLI::Range(1.1, 12.0));
+  command->add_flag("--free-power", o.fit.free_power, "fit the power as well");
+  command->add_flag("--free-modulus", o.fit.free_modulus, "fit a0 as well");
+  command
+      ->add_option("--good-enough", o.fit.good_enough,
+                   "relative error up to which one term is enough (default: 0.1)")
+      ->type_name("E")
+      ->check(CLI::Range(0.0, 10.0));
+  command->add_flag("!--no-relaxation", o.relaxation,
+                    "leave out how long the clump takes to relax");
+  command->add_flag("--fresh", o.fresh, "do not go on from what an earlier attempt left");
+  command->add_flag("--quiet", o.quiet, "warnings and errors only");
+  command->add_option("--threads", o.threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* run = add_command(app, "run", "simulate a scene",
                               "acinus run runs/scenes/two_cells.json --set time.end=\"30 min\"");
@@ -114,6 +157,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                                 "acinus new two_cells my_cells");
   fresh->add_option("SCENE", arguments.name, "name of a shipped scene")->required();
   fresh->add_option("DIR", arguments.folder, "folder, made if needed")->required();
+
+  add_calibrate(app, arguments);
 
   CLI::App* bench =
       add_command(app, "bench", "measure speed and error; without NAME, list the names",
@@ -166,8 +211,9 @@ int do_run(Arguments& arguments) {
     run.max_walltime_s = flag_value("--max-walltime", arguments.max_walltime, parse_wall_time);
   }
   run.progress_json = arguments.progress == "json";
-  const Scene scene = read_scene(run.scene_file, run.set);
+  Scene scene = read_scene(run.scene_file, run.set);
   if (run.out.empty()) run.out = scene.name + ".run";
+  if (const int stop = resolve_corrections(scene, run.threads, run.quiet)) return stop;
   return run_scene(scene, run);
 }
 
@@ -217,6 +263,14 @@ int do_new(const Arguments& arguments) {
   for (const std::string& file : written) fmt::print("wrote {}\n", file);
   fmt::print("run it with: acinus run {}\n", written.front());
   return 0;
+}
+
+int do_calibrate(Arguments& arguments) {
+  CalibrateOptions& options = arguments.calibrate;
+  if (arguments.run.scene_file.empty())
+    arguments.run.scene_file = scene_folder() + "/calibration.json";
+  options.command_line = arguments.run.command_line;
+  return calibrate(read_scene(arguments.run.scene_file, arguments.run.set), options);
 }
 
 int do_bench(const Arguments& arguments) {
@@ -310,6 +364,7 @@ int run_cli(int argc, const char* const* argv) {
   if (command == "list") return do_list();
   if (command == "new") return do_new(arguments);
   if (command == "bench") return do_bench(arguments);
+  if (command == "calibrate") return do_calibrate(arguments);
   fmt::print("{}", scene_schema());
   return 0;
 }

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "acinus_version.hpp"
@@ -37,6 +38,29 @@ constexpr double kSameTime = 1e-6;  ///< s: times closer than this are the same 
 
 volatile std::sig_atomic_t g_signal = 0;  // the only thing a signal handler may touch
 void remember_signal(int signal) { g_signal = signal; }
+
+/// Signals ask for a checkpoint and a stop while one of these lives.
+struct SignalsRemembered {
+  SignalsRemembered() { set(remember_signal); }
+  ~SignalsRemembered() { set(SIG_DFL); }
+  SignalsRemembered(const SignalsRemembered&) = delete;
+  SignalsRemembered& operator=(const SignalsRemembered&) = delete;
+  static void set(void (*handler)(int)) {
+    for (int s : {SIGTERM, SIGUSR1, SIGINT}) std::signal(s, handler);
+  }
+};
+
+/// The logger of a run goes with it: a process may run several scenes.
+struct LoggerKept {
+  std::shared_ptr<spdlog::logger> before = spdlog::default_logger();
+  LoggerKept() = default;
+  ~LoggerKept() {
+    spdlog::set_default_logger(before);
+    spdlog::drop("run");
+  }
+  LoggerKept(const LoggerKept&) = delete;
+  LoggerKept& operator=(const LoggerKept&) = delete;
+};
 
 std::string now_text() {
   const std::time_t t = std::time(nullptr);
@@ -403,12 +427,13 @@ int Run::go() {
   check(world().ranks.size() == 1,
         "this version runs on one rank; start it without mpirun and use --threads.");
   prepare_folder(options_.out, options_);
+  const LoggerKept keeping;
   auto log = spdlog::basic_logger_mt("run", options_.out + "/run.log", !options_.resume);
   log->flush_on(spdlog::level::info);  // few lines; someone may be following them, and a kill must
                                        // not lose them
   spdlog::set_default_logger(log);
   spdlog::info("acinus {} {}: {}", ACINUS_VERSION, ACINUS_GIT, options_.command_line);
-  for (int s : {SIGTERM, SIGUSR1, SIGINT}) std::signal(s, remember_signal);
+  const SignalsRemembered remembering;
 
   vessel_surface_ = coupling::make_vessel_surface(world().params.around.vessels.network);
   start_or_resume();

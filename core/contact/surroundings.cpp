@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace acinus::contact {
@@ -17,6 +18,7 @@ Vec3 Plane::point_at(double time) const {
 }
 
 double Capsule::radius_at(double time) const {
+  if (time >= opens) return std::numeric_limits<double>::infinity();
   return std::max(min_radius, radius - speed * std::max(time, 0.0));
 }
 

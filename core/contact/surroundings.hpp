@@ -31,15 +31,16 @@ struct Plane {
   Vec3 point_at(double time) const;
 };
 
-/// A rigid sphere seen from inside, which may shrink.
+/// A rigid sphere seen from inside, which may shrink and, in the end, vanish.
 struct Capsule {
   std::string name;
   Vec3 center = Vec3::Zero();
   double radius = 0;
   double speed = 0;  ///< um/s, shrink rate
   double min_radius = 0;
+  double opens = std::numeric_limits<double>::infinity();  ///< s, from then on it is gone
   Material material;
-  double radius_at(double time) const;
+  double radius_at(double time) const;  ///< infinite once it is open
 };
 
 struct Vessels {

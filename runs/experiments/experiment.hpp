@@ -33,6 +33,14 @@ void sample_lobule(const Scene& scene, const coupling::World& world, const Snaps
 void sample_patch(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                   Measures& measures);
 
+/// A clump in a capsule that shrinks and may open: time_s, capsule_radius_um, and of the cell
+/// nearest its centre overlap (d of [VanLiedekerke2020, Eq. (22)]), shell_overlap (mean over the 14
+/// nearest cells), contact_force_nN (sum of sizes), normal_force_nN (mean of a contact, positive
+/// pressing), contacts, pressure_Pa (contact) and volume_relative (to the reference volume). Without
+/// a capsule the cell nearest the origin is looked at.
+void sample_capsule(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
+                    Measures& measures);
+
 /// A growing tissue: "spheroid" in space, "monolayer" in the plane z = const. Distances r are those
 /// of the cells' centres from their mean, in a monolayer horizontally.
 /// Series: time_s, cells, mean_pressure_Pa (contact pressure),

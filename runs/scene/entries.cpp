@@ -112,7 +112,8 @@ class EntryCollector final : public Visitor {
   }
 
   static std::string bounds(const Key& key) {
-    std::string text = key.choices[0] ? fmt::format("{}", fmt::join(choices_of(key), ", "))
+    std::string text = key.choices[0] ? fmt::format("{}{}", key.is_file ? "a file, " : "",
+                                                    fmt::join(choices_of(key), ", "))
                                       : range_text(key.range, key.dimension, key.unit);
     if (key.automatic[0]) {
       text += fmt::format("{}\"auto\" = {}", text.empty() ? "" : "; ", key.automatic);

@@ -87,7 +87,10 @@ class SceneReader final : public Visitor {
     if (node->kind != Kind::kText) {
       report_.add_value(*node, pointer, "must be a text in quotes");
     } else if (const auto choices = choices_of(key);
-               !choices.empty() &&
+               key.is_file &&
+               std::find(choices.begin(), choices.end(), node->text) == choices.end()) {
+      read_file_name(key, *node, pointer, value);
+    } else if (!choices.empty() &&
                std::find(choices.begin(), choices.end(), node->text) == choices.end()) {
       const std::string hint = nearest_name(node->text, choices);
       report_.add_value(*node, pointer,
@@ -99,8 +102,6 @@ class SceneReader final : public Visitor {
       report_.add_value(*node, pointer, kNameRule);
     } else if (key.is_label && !is_label(node->text)) {
       report_.add_value(*node, pointer, std::string(kNameRule) + ", with spaces inside if wanted");
-    } else if (key.is_file) {
-      read_file_name(key, *node, pointer, value);
     } else {
       value = node->text;
     }

@@ -248,7 +248,7 @@ void describe(Visitor& v, Scene& s) {
   v.seed({.name = "seed", .meaning = "seed of all random numbers"}, s.seed);
   v.text({.name = "experiment",
           .meaning = "what is measured",
-          .choices = "free|lobule|patch|spheroid|monolayer"},
+          .choices = "free|lobule|patch|capsule|spheroid|monolayer"},
          s.experiment);
   v.text({.name = "model",
           .meaning = "replaces cells.model, whatever the scene says there; cells of cells.list "

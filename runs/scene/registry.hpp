@@ -41,7 +41,7 @@ struct Key {
   const char* symbol = "";   ///< in the paper
   bool required = false;
   const char* automatic = "";  ///< what "auto" stands for; "" = "auto" is not allowed
-  bool is_file = false;        ///< a text that is a path
+  bool is_file = false;        ///< a text that is a path, or one of the choices
   bool is_name = false;        ///< a text that is a name: letters, digits, _ and -
   bool is_label = false;       ///< the same with spaces inside
   const char* item = "";       ///< lists and maps: what `explain` calls one element

@@ -94,6 +94,14 @@ void describe_cbm(Visitor& v, CbmBlock& b) {
           .range = kPositive,
           .symbol = "gamma_ECM+"},
          b.ecm_friction);
+  v.text({.name = "stiffness_correction",
+          .meaning = "law by which the modulus grows with the overlap, a file `acinus calibrate` "
+                     "wrote, relative to the scene's folder; auto: calibrate for this cell type, "
+                     "once",
+          .choices = "none|auto",
+          .symbol = "E~",
+          .is_file = true},
+         b.stiffness_correction);
 }
 
 void describe_cell(Visitor& v, CellEntry& b) {

@@ -190,6 +190,13 @@ void describe_capsule(Visitor& v, CapsuleEntry& b) {
           .unit = "um",
           .range = kNotNegative},
          b.min_radius);
+  v.optional_real({.name = "opens",
+                   .meaning = "when the capsule vanishes and lets the cells go",
+                   .dimension = kTime,
+                   .unit = "h",
+                   .range = kNotNegative,
+                   .automatic = "never"},
+                  b.opens);
 }
 
 void describe_static_mesh(Visitor& v, StaticMeshEntry& b) {

@@ -60,6 +60,7 @@ struct CbmBlock {               ///< centre-based parameters of a cell type (Tab
   double young_spread = 0.1;    ///< relative standard deviation per cell, truncated at 3 sigma
   double poisson = 0.47;
   double ecm_friction = 0.5;  ///< nN s/um^3
+  std::string stiffness_correction = "none";  ///< law file | none | auto (calibrate here)
 };
 
 /// Growth from V0 to 2 V0 at a constant rate, Eq. (18), then division.
@@ -220,6 +221,7 @@ struct CapsuleEntry {  ///< rigid sphere seen from inside
   double radius = 0;
   double speed = 0;  ///< um/s, shrink rate from t = 0
   double min_radius = 0;
+  std::optional<double> opens;  ///< s after t = 0, from when on it is gone; empty = never
 };
 
 struct StaticMeshEntry {
@@ -241,7 +243,7 @@ struct Scene {
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
-  /// What is measured: free | lobule | patch | spheroid | monolayer.
+  /// What is measured: free | lobule | patch | capsule | spheroid | monolayer.
   std::string experiment = "free";
   std::string model;  ///< dcm | cbm | zoom: replaces cells.model; "" = cells.model stays
   TimeBlock time;

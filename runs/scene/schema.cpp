@@ -44,7 +44,7 @@ class SchemaBuilder final : public Visitor {
   }
   void text(const Key& key, std::string& value) override {
     Json schema{{"type", "string"}};
-    if (key.choices[0]) {
+    if (key.choices[0] && !key.is_file) {
       schema["enum"] = choices_of(key);
       if (key.automatic[0]) schema["enum"].push_back("auto");
     }

@@ -1,0 +1,84 @@
+#include "calibration/clump.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "core/error.hpp"
+#include "core/sphere.hpp"
+#include "coupling/step.hpp"
+
+namespace acinus::calibration {
+namespace {
+
+constexpr std::size_t kShell = 14;
+
+}  // namespace
+
+std::size_t find_central_cell(std::span<const coupling::CellMeasure> cells, const Vec3& point) {
+  const auto nearest = std::ranges::min_element(
+      cells, {}, [&](const coupling::CellMeasure& c) { return (c.center - point).squaredNorm(); });
+  return static_cast<std::size_t>(nearest - cells.begin());
+}
+
+ClumpSample measure_clump(std::span<const coupling::CellMeasure> cells, std::size_t central) {
+  const coupling::CellMeasure& middle = cells[central];
+  std::vector<double> relative;
+  double sum = 0, weight = 0;
+  for (const coupling::CellMeasure& c : cells) {
+    if (&c == &middle) continue;
+    relative.push_back(1 - (c.center - middle.center).norm() / (c.radius + middle.radius));
+    const double w = cbm::overlap_weight(relative.back());
+    sum += w * std::max(0.0, relative.back());
+    weight += w;
+  }
+  ClumpSample s;
+  s.overlap = weight > 0 ? sum / weight : 0;
+  std::ranges::sort(relative, std::greater());
+  relative.resize(std::min(relative.size(), kShell));
+  for (const double r : relative) s.shell_overlap += r / static_cast<double>(relative.size());
+  s.contacts = middle.contacts;
+  s.force = middle.contacts > 0 ? middle.normal_force / middle.contacts : 0;
+  s.contact_force = middle.contact_force;
+  s.pressure = middle.pressure;
+  s.volume = middle.volume / sphere_volume(middle.radius);
+  return s;
+}
+
+std::vector<coupling::CellMeasure> observe_cells(const coupling::World& world,
+                                                 coupling::Workspace& work) {
+  coupling::observe(world, work);
+  return coupling::measure_cells(world, work);
+}
+
+void advance_to(coupling::World& world, coupling::Workspace& work, double time) {
+  constexpr double kSameTime = 1e-6;
+  while (world.state.clock.time < time - kSameTime) {
+    const coupling::StepResult step = coupling::advance(world, work, time - world.state.clock.time);
+    check(step.accepted,
+          fmt::format("calibration: a step fails {:.4g} h after t = 0: {}. Cells concerned: {}",
+                      coupling::time_since_start(world) / 3600, step.cause,
+                      fmt::join(step.cells, ", ")),
+          Exit::kCannotContinue);
+  }
+}
+
+std::vector<ClumpSample> squeeze_clump(coupling::World world, double end, double every) {
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  const std::vector<contact::Capsule>& capsules = world.params.around.capsules;
+  const Vec3 center = capsules.empty() ? Vec3(Vec3::Zero()) : capsules.front().center;
+  std::vector<ClumpSample> out;
+  const double start = world.state.clock.time, length = end - coupling::time_since_start(world);
+  for (int k = 0;; ++k) {
+    const double t = std::min(k * every, length);
+    advance_to(world, work, start + t);
+    const std::vector<coupling::CellMeasure> cells = observe_cells(world, work);
+    out.push_back(measure_clump(cells, find_central_cell(cells, center)));
+    if (t >= length) return out;
+  }
+}
+
+}  // namespace acinus::calibration

@@ -1,0 +1,46 @@
+#pragma once
+/// What calibration looks at in a clump of cells: how far the central cell and its neighbours are
+/// pressed into each other, and how hard.
+
+#include <span>
+#include <vector>
+
+#include "coupling/measure.hpp"
+#include "coupling/workspace.hpp"
+#include "coupling/world.hpp"
+
+namespace acinus::calibration {
+
+struct ClumpSample {
+  double overlap = 0;  ///< mean relative overlap d of the central cell   [Eq. (22)]
+  /// Mean of 1 - |x_i - x_j| / (R_i + R_j) over the 14 cells nearest the central one, neighbours
+  /// and next neighbours of a body-centred lattice: unlike d it does not jump when a cell parts.
+  double shell_overlap = 0;
+  double force = 0;          ///< nN, mean normal force of a contact of the central cell
+  double contact_force = 0;  ///< nN, sum of the sizes of the forces on it
+  double contacts = 0;       ///< cells it touches
+  double pressure = 0;       ///< kPa, its contact pressure
+  double volume = 0;         ///< its volume over the reference volume
+};
+
+/// Index of the cell nearest to a point. @pre there is a cell
+std::size_t find_central_cell(std::span<const coupling::CellMeasure> cells, const Vec3& point);
+
+/// d and shell overlap come from centres and reference radii alone, alike for both models, with the
+/// weights of the contact law of spheres.
+ClumpSample measure_clump(std::span<const coupling::CellMeasure> cells, std::size_t central);
+
+/// Every cell of this moment.
+std::vector<coupling::CellMeasure> observe_cells(const coupling::World& world,
+                                                 coupling::Workspace& work);
+
+/// Steps until clock.time is `time`, with the tissue only: no birth, death or look of any rule.
+/// @throws Error(kCannotContinue) when a step fails
+void advance_to(coupling::World& world, coupling::Workspace& work, double time);
+
+/// Squeezes a clump in its capsule from now until `end`, s since t = 0, and looks at it every
+/// `every` s.
+/// @throws Error(kCannotContinue) when a step fails
+std::vector<ClumpSample> squeeze_clump(coupling::World world, double end, double every);
+
+}  // namespace acinus::calibration

@@ -1,0 +1,42 @@
+#include "calibration/curve.hpp"
+
+#include <algorithm>
+
+namespace acinus::calibration {
+
+Curve loading_branch(std::span<const double> overlap, std::span<const double> force) {
+  Curve curve;
+  if (overlap.empty()) return curve;
+  const auto last = static_cast<std::size_t>(std::ranges::max_element(overlap) - overlap.begin());
+  std::size_t first = last;
+  while (first > 0 && overlap[first - 1] < overlap[first]) --first;
+  for (std::size_t k = first; k <= last; ++k) {
+    curve.overlap.push_back(overlap[k]);
+    curve.force.push_back(force[k]);
+  }
+  return curve;
+}
+
+double force_at(const Curve& curve, double overlap) {
+  const auto after = std::ranges::lower_bound(curve.overlap, overlap);
+  if (after == curve.overlap.begin()) return curve.force.front();
+  if (after == curve.overlap.end()) return curve.force.back();
+  const auto k = static_cast<std::size_t>(after - curve.overlap.begin());
+  const double share = (overlap - curve.overlap[k - 1]) / (curve.overlap[k] - curve.overlap[k - 1]);
+  return curve.force[k - 1] + share * (curve.force[k] - curve.force[k - 1]);
+}
+
+std::vector<double> common_overlaps(std::span<const Curve* const> curves, double highest, int n) {
+  double low = 0, high = highest;
+  for (const Curve* c : curves) {
+    if (c->empty()) return {};
+    low = std::max(low, c->overlap.front());
+    high = std::min(high, c->overlap.back());
+  }
+  std::vector<double> out;
+  if (low >= high) return out;
+  for (int k = 0; k < n; ++k) out.push_back(low + (high - low) * k / (n - 1));
+  return out;
+}
+
+}  // namespace acinus::calibration

@@ -1,0 +1,28 @@
+#pragma once
+/// Contact force over overlap, as a clump that is squeezed gives it.
+
+#include <span>
+#include <vector>
+
+namespace acinus::calibration {
+
+/// Mean normal force of a contact of the central cell over its mean relative overlap d.
+struct Curve {
+  std::vector<double> overlap;  ///< strictly ascending
+  std::vector<double> force;    ///< nN
+  bool empty() const { return overlap.empty(); }
+};
+
+/// The last stretch of a history on which d rises without a break up to its largest value. Before
+/// it cells settle and find new neighbours, and d says little about the force.
+/// @param overlap, force  [n] over time, all finite
+Curve loading_branch(std::span<const double> overlap, std::span<const double> force);
+
+/// Force at d, linear between the points. @pre d within the curve
+double force_at(const Curve& curve, double overlap);
+
+/// n overlaps at equal distances over what all curves cover, at most up to `highest`. Empty if they
+/// have no overlap in common.
+std::vector<double> common_overlaps(std::span<const Curve* const> curves, double highest, int n);
+
+}  // namespace acinus::calibration

@@ -1,0 +1,50 @@
+#pragma once
+/// How fast a squeezed clump comes back once it is let go, and the friction that makes it take a
+/// given time.   [VanLiedekerke2020, Appendix 1, Fig. 12c]
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "coupling/world.hpp"
+
+namespace acinus::calibration {
+
+/// y(t) = end + (start - end) exp(-t / time), by least squares over time.
+struct Decay {
+  double time = 0;  ///< s
+  double start = 0, end = 0;
+  double rms = 0;  ///< of the misfit, over |start - end|
+};
+
+/// Samples count with the time they stand for, so that their spacing does not matter.
+/// @param t  [n] s, ascending from 0, n >= 4
+Decay fit_decay(std::span<const double> t, std::span<const double> y);
+
+struct Relaxation {
+  std::vector<double> time;     ///< s since the release
+  std::vector<double> overlap;  ///< shell overlap, see clump.hpp
+  Decay decay;
+};
+
+/// Follows a squeezed clump from the moment its capsule opens, until the second half of the time
+/// brings less than 1 % of the way.
+/// @param world   squeezed; its capsules are taken away, motion of its own is off
+/// @param friction_scale  expected slow-down over Table 1 friction: times and steps scale with it
+/// @throws Error(kCannotContinue) if a step fails or the clump does not come to rest
+Relaxation relax_clump(coupling::World world, double friction_scale);
+
+/// Multiplies every friction coefficient of a run. All times scale with the factor exactly.
+void scale_all_friction(coupling::Params& params, double factor);
+
+struct FrictionFit {
+  double friction = 0;  ///< nN s/um^3 between deformable cells
+  Relaxation relaxation;
+};
+
+/// Cell-cell friction of deformable cells with which the clump takes `time` s to relax, all other
+/// friction as it is, to 2 %.
+/// @throws Error(kCannotContinue) when no friction does within 12 attempts
+FrictionFit fit_friction(const coupling::World& world, double time);
+
+}  // namespace acinus::calibration

@@ -1,0 +1,247 @@
+#include "runs/calibrate/calibrate.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "acinus_version.hpp"
+#include "calibration/clump.hpp"
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "core/io/checkpoint.hpp"
+#include "runs/build_correction.hpp"
+#include "runs/build_world.hpp"
+#include "runs/read_summary.hpp"
+#include "runs/run.hpp"
+#include "runs/state_file.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Largest overlap from which on a squeeze that ended early still says how cells stiffen.
+constexpr double kWorthFitting = 0.15;
+
+/// Runs of one calibration.
+class Stages {
+ public:
+  Stages(const Scene& scene, const CalibrateOptions& options)
+      : options_(options),
+        folder_(fs::path(options.out).replace_extension(".calibration").string()),
+        squeeze_(squeeze_scene(scene, options.clump)) {}
+
+  const Scene& squeeze() const { return squeeze_; }
+  const std::string& folder() const { return folder_; }
+  std::string path(const char* name) const { return folder_ + "/" + name; }
+
+  void say(const std::string& text) const {
+    if (!options_.quiet) fmt::print("calibrate: {}\n", text);
+    std::fflush(stdout);
+  }
+
+  /// Runs a scene to its end, from where an earlier attempt left it.
+  int run(const Scene& scene, const char* name, bool quiet, bool anew = false) const {
+    RunOptions run;
+    run.scene_file = scene.file;
+    run.out = path(name);
+    run.threads = options_.threads;
+    run.quiet = quiet || options_.quiet;
+    run.command_line = options_.command_line;
+    run.checkpoint_every_s = 60;
+    if (const std::optional<RunSummary> before = earlier(scene, name); before && !anew) {
+      if (before->status == "completed") return 0;
+      if (before->status == "failed") return static_cast<int>(Exit::kCannotContinue);
+      run.resume = before->status == "stopped";
+    }
+    run.overwrite = !run.resume;
+    return run_scene(scene, run);
+  }
+
+  /// Whether a squeeze that could not go on reached overlaps that are worth a fit.
+  bool got_far(int code, const char* name) const {
+    if (code != static_cast<int>(Exit::kCannotContinue)) return false;
+    const double reached = curve(name).overlap.back();
+    if (reached < kWorthFitting) return false;
+    say(fmt::format("the squeeze ended early, at d = {:.3f}: the law is fitted up to there",
+                    reached));
+    return true;
+  }
+
+  calibration::Curve curve(const char* name) const {
+    const RunSummary s = read_summary(path(name));
+    return calibration::loading_branch(series(s, "overlap"), series(s, "normal_force_nN"));
+  }
+
+ private:
+  /// What stands in the folder of a stage, if it is of the same scene.
+  std::optional<RunSummary> earlier(const Scene& scene, const char* name) const {
+    std::error_code code;
+    if (options_.fresh || !fs::exists(path(name) + "/summary.json", code)) return std::nullopt;
+    RunSummary s = read_summary(path(name));
+    if (s.sha != scene.sha || s.version != ACINUS_VERSION) return std::nullopt;
+    return s;
+  }
+
+  const CalibrateOptions& options_;
+  std::string folder_;
+  Scene squeeze_;
+};
+
+/// Spheres squeezed in memory, again and again with other laws.
+calibration::SqueezeSpheres make_squeezer(const Scene& spheres) {
+  const coupling::World world = build_world(spheres, Ranks::serial()).world;
+  const double end = spheres.time.end, every = spheres.output.every;
+  return [world, end, every](const cbm::StiffnessLaw& law, double a0) {
+    coupling::World w = world;
+    w.params.cbm.front().young = a0;
+    w.params.cbm.front().correction = law;
+    for (double& e : w.state.cbm.young) e = a0;
+    std::vector<double> overlap, force;
+    for (const calibration::ClumpSample& s : calibration::squeeze_clump(w, end, every)) {
+      overlap.push_back(s.overlap);
+      force.push_back(s.force);
+    }
+    return calibration::loading_branch(overlap, force);
+  };
+}
+
+/// d of the central cell when its clump has come to rest and nothing presses it yet: where its
+/// contact pressure is smallest after the first tenth of the time.
+double overlap_at_rest(const RunSummary& squeeze) {
+  const std::vector<double>& pressure = series(squeeze, "pressure_Pa");
+  const auto first = pressure.begin() + static_cast<std::ptrdiff_t>(pressure.size() / 10);
+  const auto least = std::min_element(first, pressure.end());
+  return series(squeeze, "overlap")[static_cast<std::size_t>(least - pressure.begin())];
+}
+
+/// The squeezed deformable cells of the end of a run.
+coupling::World squeezed_world(const Scene& squeeze, const std::string& folder) {
+  coupling::World world = build_world(squeeze, Ranks::serial()).world;
+  get_state(io::load_checkpoint(folder).data, world.state);
+  return world;
+}
+
+void relax(const Stages& stages, const CalibrateOptions& options, Calibration& found) {
+  const coupling::World world = squeezed_world(stages.squeeze(), stages.path("squeeze_dcm"));
+  found.friction_before = world.params.dcm_contact.cell_friction;
+  stages.say("letting the clump go");
+  found.relaxation.push_back(calibration::relax_clump(world, 1));
+  coupling::World slow = world;
+  calibration::scale_all_friction(slow.params, 5);
+  found.relaxation.push_back(calibration::relax_clump(slow, 5));
+  stages.say(fmt::format("looking for the friction that makes it take {:.3g} h",
+                         options.relaxation_time / 3600));
+  found.friction = calibration::fit_friction(world, options.relaxation_time);
+}
+
+std::map<std::string, std::string> provenance(const Scene& squeeze, const Calibration& found,
+                                              const CalibrateOptions& options) {
+  return {{"version", ACINUS_VERSION},
+          {"git", ACINUS_GIT},
+          {"command_line", options.command_line},
+          {"form", found.attempts.back().form},
+          {"cells", std::to_string(squeeze.cells.count)},
+          {"seed", std::to_string(squeeze.seed)},
+          {"scene_sha", squeeze.sha}};
+}
+
+std::string cache_folder() {
+  if (const char* base = std::getenv("XDG_CACHE_HOME"); base != nullptr && *base != '\0')
+    return std::string(base) + "/acinus/laws";
+  const char* home = std::getenv("HOME");
+  check(home != nullptr && *home != '\0',
+        "stiffness_correction \"auto\" keeps laws in XDG_CACHE_HOME or ~/.cache, but neither "
+        "XDG_CACHE_HOME nor HOME is set. Calibrate yourself and name the law file.");
+  return std::string(home) + "/.cache/acinus/laws";
+}
+
+/// Name of a law in the cache: the constants it depends on, to the last digit.
+std::string key_of(const LawParameters& p) {
+  std::string text = fmt::format("{}\n", calibration::kLawSchema);
+  for (const auto* model : {&p.dcm, &p.cbm})
+    for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
+  return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
+}
+
+}  // namespace
+
+int calibrate(const Scene& scene, const CalibrateOptions& options) {
+  const Stages stages(scene, options);
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  std::error_code code;
+  fs::create_directories(stages.folder(), code);
+  check(!code, fmt::format("{}: cannot be made: {}", stages.folder(), code.message()),
+        Exit::kFileError);
+  const Scene& squeeze = stages.squeeze();
+  Calibration found;
+
+  stages.say(fmt::format("squeezing {} deformable cells ({})", squeeze.cells.count,
+                         stages.path("squeeze_dcm")));
+  if (const int stop = stages.run(squeeze, "squeeze_dcm", false);
+      stop != 0 && !stages.got_far(stop, "squeeze_dcm"))
+    return stop;
+  stages.say("squeezing spheres without correction");
+  const Scene spheres = as_spheres(squeeze, "none");
+  if (const int stop = stages.run(spheres, "squeeze_cbm", true)) return stop;
+  found.dcm = stages.curve("squeeze_dcm");
+  found.plain = stages.curve("squeeze_cbm");
+  const RunSummary history = read_summary(stages.path("squeeze_dcm"));
+  found.contacts_first = series(history, "contacts").front();
+  found.contacts_last = series(history, "contacts").back();
+  found.overlap_at_rest = overlap_at_rest(history);
+
+  stages.say("fitting the law");
+  const std::string type = choose_type(scene, options.clump.type);
+  const LawParameters parameters = law_parameters(scene, scene.cell_types.at(type));
+  found.attempts = calibration::fit_law(found.dcm, parameters.cbm.at("young_kPa"),
+                                        make_squeezer(spheres), options.fit);
+  calibration::Law law = found.attempts.back().law;
+  law.dcm = parameters.dcm;
+  law.cbm = parameters.cbm;
+  law.provenance = provenance(squeeze, found, options);
+  const std::string law_file = stages.path("law.json");
+  calibration::write_law(law, law_file);
+
+  stages.say("squeezing corrected spheres");
+  // Another law may stand in the file of an earlier attempt.
+  if (const int stop = stages.run(as_spheres(squeeze, law_file), "squeeze_corrected", true, true))
+    return stop;
+  found.corrected = stages.curve("squeeze_corrected");
+  const double highest = law.overlap_range[1];
+  found.error_plain = calibration::relative_error(found.dcm, found.plain, highest);
+  found.error_corrected = calibration::relative_error(found.dcm, found.corrected, highest);
+  if (options.relaxation) relax(stages, options, found);
+
+  write_curves(found, stages.folder());
+  calibration::write_law(law, options.out);
+  if (!options.quiet) fmt::print("{}", calibration_table(squeeze, found, options.out));
+  return 0;
+}
+
+int resolve_corrections(Scene& scene, int threads, bool quiet) {
+  for (auto& [name, type] : scene.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    const std::string file = cache_folder() + "/" + key_of(law_parameters(scene, type)) + ".json";
+    std::error_code code;
+    if (!fs::exists(file, code)) {
+      fs::create_directories(cache_folder(), code);
+      CalibrateOptions options;
+      options.clump.type = name;
+      options.out = file;
+      options.relaxation = false;
+      options.threads = threads;
+      options.quiet = quiet;
+      options.command_line = "stiffness_correction auto";
+      if (const int stop = calibrate(scene, options)) return stop;
+    }
+    type.cbm.stiffness_correction = file;
+  }
+  return 0;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,58 @@
+#pragma once
+/// `acinus calibrate`: from a scene to the law that corrects its spheres.
+
+#include <string>
+#include <vector>
+
+#include "calibration/fit.hpp"
+#include "calibration/relaxation.hpp"
+#include "runs/calibrate/squeeze_scene.hpp"
+
+namespace acinus::runs {
+
+struct CalibrateOptions {
+  ClumpOptions clump;
+  calibration::FitOptions fit;
+  std::string out;                    ///< law file
+  bool relaxation = true;             ///< also the time the clump takes to relax
+  double relaxation_time = 5 * 3600;  ///< s, to which the cell-cell friction is fitted
+  bool fresh = false;                 ///< do not use what an earlier run left
+  int threads = 0;                    ///< 0 = all cores
+  bool quiet = false;
+  std::string command_line;
+};
+
+/// What a calibration found.
+struct Calibration {
+  std::vector<calibration::FitAttempt> attempts;  ///< the last one is the law
+  calibration::Curve dcm, plain, corrected;       ///< force over overlap
+  double error_plain = 0, error_corrected = 0;    ///< relative, over the fitted range
+  double contacts_first = 0, contacts_last = 0;   ///< of the central deformable cell
+  double overlap_at_rest = 0;                     ///< its d when nothing presses
+  std::vector<calibration::Relaxation>
+      relaxation;  ///< Table 1, all friction x 5 (empty: not asked)
+  calibration::FrictionFit friction;
+  double friction_before = 0;  ///< nN s/um^3
+};
+
+/// Squeezes the clump as deformable cells and as spheres, fits, squeezes the corrected spheres,
+/// lets the deformable ones relax. Runs stand in a folder beside the law file and are taken up
+/// again where they were left; the law file appears at the end, with curves.json and plots in that
+/// folder.
+/// @return exit code of a stage that was stopped or failed, else 0
+int calibrate(const Scene& scene, const CalibrateOptions& options);
+
+/// The law of every cell type that asks for "auto": found in the cache, or calibrated now and kept
+/// there. The cache is acinus/laws in XDG_CACHE_HOME or ~/.cache, its names hashes of the
+/// constants.
+/// @return exit code of a calibration that was stopped or failed, else 0
+int resolve_corrections(Scene& scene, int threads, bool quiet);
+
+/// The table that `acinus calibrate` prints.
+std::string calibration_table(const Scene& squeeze, const Calibration& found,
+                              const std::string& law_file);
+
+/// Writes curves.json, force.svg and relaxation.svg into the folder.   @throws Error(kFileError)
+void write_curves(const Calibration& found, const std::string& folder);
+
+}  // namespace acinus::runs

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/io/disk.hpp"
+#include "core/io/plot.hpp"
+#include "runs/calibrate/calibrate.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using calibration::Curve;
+using Json = nlohmann::ordered_json;
+
+constexpr double kPa_per_Pa = 1e3;
+
+io::PlotLine line(const std::string& name, const std::vector<double>& x,
+                  const std::vector<double>& y, double x_unit = 1) {
+  io::PlotLine out{name, {}, false, true};
+  for (std::size_t k = 0; k < x.size(); ++k) out.point.emplace_back(x[k] / x_unit, y[k]);
+  return out;
+}
+
+Json json_of(const Curve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
+
+Json json_of(const calibration::Relaxation& r) {
+  return {{"time_s", r.time},
+          {"overlap", r.overlap},
+          {"relaxation_time_h", r.decay.time / 3600},
+          {"misfit", r.decay.rms}};
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("  {:44} {}\n", name, value);
+}
+
+}  // namespace
+
+std::string calibration_table(const Scene& squeeze, const Calibration& c,
+                              const std::string& law_file) {
+  const calibration::FitAttempt &first = c.attempts.front(), &last = c.attempts.back();
+  const CellType& type = squeeze.cell_types.begin()->second;
+  std::string t = fmt::format("{} cells of {} nodes, seed {}\n", squeeze.cells.count,
+                              type.dcm.nodes, squeeze.seed);
+  t += row("contacts of the central cell",
+           fmt::format("{:.0f} at the start, {:.0f} squeezed", c.contacts_first, c.contacts_last));
+  t += row("its overlap d while nothing presses", fmt::format("{:.3f}", c.overlap_at_rest));
+  for (const calibration::FitAttempt& a : c.attempts)
+    t += row(fmt::format("error of {}", a.form),
+             fmt::format("{:.1f} % rms of the force, {:.0f} % point by point",
+                         100 * a.law.rms_relative, 100 * a.pointwise));
+  t += row("a0", fmt::format("{:.4g} Pa", kPa_per_Pa * first.law.a0));
+  t += row("a1", fmt::format("{:.3g} Pa, 95 % interval {:.3g} to {:.3g} Pa, power {:.3g}",
+                             kPa_per_Pa * first.law.a1, kPa_per_Pa * first.law.a1_interval[0],
+                             kPa_per_Pa * first.law.a1_interval[1], first.law.power));
+  for (const cbm::StiffnessLaw::Term& term : last.law.further)
+    t +=
+        row("further term", fmt::format("{:+.4g} Pa d^{:g}", kPa_per_Pa * term.factor, term.power));
+  t += row("range of d",
+           fmt::format("{:.3f} to {:.3f}", last.law.overlap_range[0], last.law.overlap_range[1]));
+  t += row("deformable cells over plain spheres",
+           fmt::format("{:.1f} times the force at d = {:.2f}", last.law.jkr_underestimation,
+                       last.law.overlap_range[1]));
+  t += row("error of plain spheres", fmt::format("{:.0f} %", 100 * c.error_plain));
+  t += row("error of corrected spheres", fmt::format("{:.1f} %", 100 * c.error_corrected));
+  if (!c.relaxation.empty()) {
+    const double t1 = c.relaxation[0].decay.time, t5 = c.relaxation[1].decay.time;
+    t += row("relaxation after release",
+             fmt::format("{:.3g} h (misfit {:.0f} %)", t1 / 3600, 100 * c.relaxation[0].decay.rms));
+    t += row("with all friction x 5", fmt::format("{:.3f} times as long", t5 / t1));
+    t +=
+        row(fmt::format("cell-cell friction for {:.2g} h", c.friction.relaxation.decay.time / 3600),
+            fmt::format("{:.3g} N s/m^3, {:.3g} times the scene's", 1e9 * c.friction.friction,
+                        c.friction.friction / c.friction_before));
+  }
+  return t + fmt::format("law file: {}\n", law_file);
+}
+
+void write_curves(const Calibration& c, const std::string& folder) {
+  Json j;
+  j["dcm"] = json_of(c.dcm);
+  j["cbm"] = json_of(c.plain);
+  j["cbm_corrected"] = json_of(c.corrected);
+  j["error_plain"] = c.error_plain;
+  j["error_corrected"] = c.error_corrected;
+  j["contacts"] = {c.contacts_first, c.contacts_last};
+  j["forms"] = Json::array();
+  for (const calibration::FitAttempt& a : c.attempts)
+    j["forms"].push_back({{"form", a.form},
+                          {"a1_kPa", a.law.a1},
+                          {"rms_relative", a.law.rms_relative},
+                          {"pointwise", a.pointwise}});
+  if (!c.relaxation.empty()) {
+    j["relaxation"] = json_of(c.relaxation[0]);
+    j["relaxation_friction_x5"] = json_of(c.relaxation[1]);
+    j["relaxation_fitted"] = json_of(c.friction.relaxation);
+    j["fitted_friction_N_s_per_m3"] = 1e9 * c.friction.friction;
+  }
+  io::write_text_file(folder + "/curves.json", j.dump(1) + "\n");
+  io::write_plot(folder + "/force.svg",
+                 {"Squeezed clump, central cell",
+                  "mean relative overlap d",
+                  "normal force of a contact, nN",
+                  false,
+                  false,
+                  {line("deformable cells", c.dcm.overlap, c.dcm.force),
+                   line("spheres, JKR", c.plain.overlap, c.plain.force),
+                   line("spheres, corrected", c.corrected.overlap, c.corrected.force)}});
+  if (c.relaxation.empty()) return;
+  io::write_plot(
+      folder + "/relaxation.svg",
+      {"Clump let go",
+       "time, h",
+       "overlap with the nearest 14",
+       true,
+       false,
+       {line("friction of the scene", c.relaxation[0].time, c.relaxation[0].overlap, 3600),
+        line("all friction x 5", c.relaxation[1].time, c.relaxation[1].overlap, 3600),
+        line("fitted cell-cell friction", c.friction.relaxation.time, c.friction.relaxation.overlap,
+             3600)}});
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,109 @@
+#include "runs/calibrate/squeeze_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "runs/place_cells.hpp"
+#include "runs/scene/writer.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Volume of a capsule in which neighbours overlap by d = 0.2, over that of the free cells:
+/// measured with 15 cells.
+constexpr double kSqueezedVolume = 0.70;
+/// Shrink rate over the smallest radius, 1/s: 0.3 um/h at 26 um. Half of it changes the force by
+/// 1 % (docs/calibration.md).
+constexpr double kRate = 0.0115 / 3600;
+constexpr double kLeastLocalArea = 0.1;  ///< nN/um: surfaces under this pressure would fold
+
+void finish(Scene& scene) {
+  scene.resolved_json = write_resolved(scene);
+  scene.sha = hash_scene(scene);
+}
+
+/// Largest distance of a cell's centre from the middle, um.
+double reach_of(const Scene& scene) {
+  double reach = 0;
+  for (const PlacedCell& c : place_cells(scene, nullptr, {}))
+    reach = std::max(reach, c.center.norm());
+  return reach;
+}
+
+}  // namespace
+
+std::string choose_type(const Scene& scene, const std::string& type) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : scene.cell_types) names.push_back(name);
+  check(type.empty() || scene.cell_types.contains(type),
+        fmt::format("--type {}: no such cell type in {}; there is {}", type, scene.file,
+                    fmt::join(names, ", ")));
+  check(!type.empty() || names.size() == 1,
+        fmt::format("{} has the cell types {}: say which with --type", scene.file,
+                    fmt::join(names, ", ")));
+  return type.empty() ? names.front() : type;
+}
+
+Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
+  const bool itself = scene.experiment == "capsule" && scene.capsule.enabled;
+  Scene s = scene;
+  if (!itself) {
+    s = Scene{};
+    s.file = scene.file;
+    s.seed = scene.seed;
+    s.contact = scene.contact;
+    s.friction = scene.friction;
+    s.solver = scene.solver;
+    s.experiment = "capsule";
+    s.time.step = 60;
+    s.time.tolerance = 0.1;
+    s.time.extrapolate = true;
+    s.motility.random = false;
+    s.cells.source = "clump";
+    s.cells.lattice = "bcc";
+    s.cells.count = 15;
+    s.cells.jitter = 0.01;
+    s.output.every = 1200;
+  }
+  const std::string name = choose_type(scene, options.type);
+  CellType type = scene.cell_types.at(name);
+  type.cycle.time.reset();
+  type.diffusion = 0;
+  type.dcm.local_area_modulus = std::max(type.dcm.local_area_modulus, kLeastLocalArea);
+  type.cbm.young_spread = 0;
+  type.cbm.stiffness_correction = "none";
+  s.cell_types = {{name, type}};
+  s.life = {};
+  s.name = "calibration";
+  s.model = s.cells.model = "dcm";
+  if (options.cells > 0) s.cells.count = options.cells;
+  if (!itself || options.cells > 0) {
+    s.capsule = CapsuleEntry{};
+    s.capsule.enabled = true;
+    s.capsule.radius = reach_of(s) + 1.1 * type.radius;
+    s.capsule.min_radius = type.radius * std::cbrt(s.cells.count * kSqueezedVolume);
+    s.capsule.speed = kRate * s.capsule.min_radius;
+    s.time.end = (s.capsule.radius - s.capsule.min_radius) / s.capsule.speed;
+  }
+  if (options.rate != 1) {
+    s.capsule.speed *= options.rate;
+    s.time.end /= options.rate;
+    s.output.every /= options.rate;
+  }
+  finish(s);
+  return s;
+}
+
+Scene as_spheres(const Scene& squeeze, const std::string& law_file) {
+  Scene s = squeeze;
+  s.model = s.cells.model = "cbm";
+  for (auto& [name, type] : s.cell_types) type.cbm.stiffness_correction = law_file;
+  finish(s);
+  return s;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,26 @@
+#pragma once
+/// The numbers of a finished run, read back from its summary.json.
+
+#include <string>
+#include <vector>
+
+#include "runs/experiments/experiment.hpp"
+
+namespace acinus::runs {
+
+struct RunSummary {
+  std::string folder;
+  std::string scene, sha, version, git, status;
+  double simulated_s = 0, wall_s = 0, cpu_s = 0;
+  int dcm = 0, cbm = 0;  ///< cells at the end
+  Measures measures;     ///< NaN where there was no value
+};
+
+/// @throws Error naming file and key: kFileError if it cannot be read, kBadInput if it is no
+/// summary
+RunSummary read_summary(const std::string& folder);
+
+/// A series of the run. @throws Error(kBadInput) if the run did not measure it
+const std::vector<double>& series(const RunSummary& run, const std::string& name);
+
+}  // namespace acinus::runs
