@@ -40,7 +40,7 @@ ClumpSample measure_clump(std::span<const coupling::CellMeasure> cells, std::siz
   relative.resize(std::min(relative.size(), kShell));
   for (const double r : relative) s.shell_overlap += r / static_cast<double>(relative.size());
   s.contacts = middle.contacts;
-  s.force = middle.contacts > 0 ? middle.normal_force / middle.contacts : 0;
+  s.force = middle.normal_force;
   s.contact_force = middle.contact_force;
   s.pressure = middle.pressure;
   s.volume = middle.volume / sphere_volume(middle.radius);
@@ -65,20 +65,18 @@ void advance_to(coupling::World& world, coupling::Workspace& work, double time) 
   }
 }
 
-std::vector<ClumpSample> squeeze_clump(coupling::World world, double end, double every) {
+ClumpSample measure_as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point) {
+  coupling::World world;
+  world.params.cbm = {sphere};
+  std::vector<cbm::NewCell> cells;
+  for (std::size_t k = 0; k < moment.center.size(); ++k)
+    cells.push_back({static_cast<std::int64_t>(k), 0, moment.center[k], moment.radius[k],
+                     sphere.young, Vec3::Zero()});
+  world.state.cbm = cbm::make_state(cells);
   coupling::Workspace work;
   coupling::size_workspace(world, work);
-  const std::vector<contact::Capsule>& capsules = world.params.around.capsules;
-  const Vec3 center = capsules.empty() ? Vec3(Vec3::Zero()) : capsules.front().center;
-  std::vector<ClumpSample> out;
-  const double start = world.state.clock.time, length = end - coupling::time_since_start(world);
-  for (int k = 0;; ++k) {
-    const double t = std::min(k * every, length);
-    advance_to(world, work, start + t);
-    const std::vector<coupling::CellMeasure> cells = observe_cells(world, work);
-    out.push_back(measure_clump(cells, find_central_cell(cells, center)));
-    if (t >= length) return out;
-  }
+  const std::vector<coupling::CellMeasure> measured = observe_cells(world, work);
+  return measure_clump(measured, find_central_cell(measured, point));
 }
 
 }  // namespace acinus::calibration

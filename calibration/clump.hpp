@@ -16,11 +16,18 @@ struct ClumpSample {
   /// Mean of 1 - |x_i - x_j| / (R_i + R_j) over the 14 cells nearest the central one, neighbours
   /// and next neighbours of a body-centred lattice: unlike d it does not jump when a cell parts.
   double shell_overlap = 0;
-  double force = 0;          ///< nN, mean normal force of a contact of the central cell
+  double force = 0;          ///< nN, sum of the normal forces of its contacts, pressing positive
   double contact_force = 0;  ///< nN, sum of the sizes of the forces on it
   double contacts = 0;       ///< cells it touches
   double pressure = 0;       ///< kPa, its contact pressure
   double volume = 0;         ///< its volume over the reference volume
+};
+
+/// A clump at one moment of a squeeze of deformable cells.
+struct Moment {
+  std::vector<Vec3> center;    ///< um
+  std::vector<double> radius;  ///< um, reference radii
+  double force = 0;            ///< nN, as ClumpSample::force
 };
 
 /// Index of the cell nearest to a point. @pre there is a cell
@@ -38,9 +45,8 @@ std::vector<coupling::CellMeasure> observe_cells(const coupling::World& world,
 /// @throws Error(kCannotContinue) when a step fails
 void advance_to(coupling::World& world, coupling::Workspace& work, double time);
 
-/// Squeezes a clump in its capsule from now until `end`, s since t = 0, and looks at it every
-/// `every` s.
-/// @throws Error(kCannotContinue) when a step fails
-std::vector<ClumpSample> squeeze_clump(coupling::World world, double end, double every);
+/// Spheres in the places of the cells of a moment: what the cell nearest `point` feels by the
+/// contact law of spheres, with their own d.
+ClumpSample measure_as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point);
 
 }  // namespace acinus::calibration

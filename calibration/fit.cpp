@@ -13,9 +13,10 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr int kPoints = 40;
 constexpr double kDifference = 1e-3;  ///< relative step of difference quotients
 constexpr double kNormal95 = 1.96;
+constexpr std::size_t kLeastSamples = 8;
+constexpr double kPresses = 0.01;  ///< share of the largest force from which on a moment counts
 
 /// Which numbers of a law are sought, each of order one.
 struct Unknowns {
@@ -50,21 +51,23 @@ struct Residuals {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  const Curve& target;
-  const SqueezeSpheres& squeeze;
+  const std::vector<Moment>& moments;
+  const cbm::Params& sphere;
+  const Vec3& point;
   const Unknowns& unknowns;
   const Trial& fixed;
   double highest, rms;
-  std::vector<double> overlap;
 
   int inputs() const { return unknowns.size(); }
-  int values() const { return static_cast<int>(overlap.size()); }
+  int values() const { return static_cast<int>(moments.size()); }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
     const Trial t = trial_at(x, unknowns, fixed, highest);
-    const Curve c = squeeze({t.term, highest}, t.a0);
-    for (std::size_t k = 0; k < overlap.size(); ++k)
+    cbm::Params p = sphere;
+    p.young = t.a0;
+    p.correction = {t.term, highest};
+    for (std::size_t k = 0; k < moments.size(); ++k)
       r[static_cast<Eigen::Index>(k)] =
-          c.empty() ? 1e3 : (force_at(c, overlap[k]) - force_at(target, overlap[k])) / rms;
+          (measure_as_spheres(moments[k], p, point).force - moments[k].force) / rms;
     return 0;
   }
 };
@@ -98,61 +101,75 @@ Solution solve(Residuals& residuals, const Eigen::VectorXd& start) {
 }
 
 /// What the figures of a law say about its curve.
-void judge(const Curve& target, const Curve& plain, const std::vector<double>& overlap,
-           const Eigen::VectorXd& residual, double rms, FitAttempt& attempt) {
-  const auto n = static_cast<double>(overlap.size());
+void judge(const Residuals& residuals, const Eigen::VectorXd& residual, FitAttempt& attempt) {
+  const auto n = static_cast<double>(residuals.moments.size());
   double mean = 0, total = 0, pointwise = 0;
-  for (const double d : overlap) mean += force_at(target, d) / n;
-  for (std::size_t k = 0; k < overlap.size(); ++k) {
-    const double f = force_at(target, overlap[k]);
+  for (const Moment& m : residuals.moments) mean += m.force / n;
+  for (std::size_t k = 0; k < residuals.moments.size(); ++k) {
+    const double f = residuals.moments[k].force;
     total += (f - mean) * (f - mean);
-    pointwise += std::pow(residual[static_cast<Eigen::Index>(k)] * rms / f, 2) / n;
+    pointwise += std::pow(residual[static_cast<Eigen::Index>(k)] * residuals.rms / f, 2) / n;
   }
-  const double misfit = residual.squaredNorm() * rms * rms;
   attempt.law.rms_relative = std::sqrt(residual.squaredNorm() / n);
-  attempt.law.r_squared = 1 - misfit / total;
-  attempt.law.overlap_range = {overlap.front(), overlap.back()};
-  attempt.law.jkr_underestimation =
-      force_at(target, overlap.back()) / force_at(plain, overlap.back());
+  attempt.law.r_squared = 1 - residual.squaredNorm() * residuals.rms * residuals.rms / total;
   attempt.pointwise = std::sqrt(pointwise);
 }
 
-double rms_force(const Curve& curve, const std::vector<double>& overlap) {
-  double sum = 0;
-  for (const double d : overlap) sum += std::pow(force_at(curve, d), 2);
-  return std::sqrt(sum / static_cast<double>(overlap.size()));
+/// Whether the modulus nowhere falls below what it was at a smaller d by more than a rounding of
+/// the fit.
+bool never_falls(const Law& law) {
+  constexpr double kRounding = 0.02;
+  const cbm::StiffnessLaw whole = stiffness_law(law);
+  double highest = law.a0;
+  for (int k = 0; k <= 200; ++k) {
+    const double e =
+        cbm::corrected_modulus(whole, law.a0, whole.range * cbm::kLawCap * k / 200).value;
+    if (e < (1 - kRounding) * highest) return false;
+    highest = std::max(highest, e);
+  }
+  return true;
 }
 
 }  // namespace
 
-double relative_error(const Curve& target, const Curve& spheres, double highest, int n) {
+double relative_error(const Curve& target, const Curve& spheres, double highest) {
   const Curve* both[] = {&target, &spheres};
-  const std::vector<double> overlap = common_overlaps(both, highest, n);
-  check(!overlap.empty(), "the two force-overlap curves have no overlap in common",
-        Exit::kCannotContinue);
-  double sum = 0;
-  for (const double d : overlap) sum += std::pow(force_at(spheres, d) - force_at(target, d), 2);
-  return std::sqrt(sum / n) / rms_force(target, overlap);
+  double difference = 0, size = 0;
+  for (const double d : common_overlaps(both, highest, 40)) {
+    difference += std::pow(force_at(spheres, d) - force_at(target, d), 2);
+    size += std::pow(force_at(target, d), 2);
+  }
+  return std::sqrt(difference / size);
 }
 
-std::vector<FitAttempt> fit_law(const Curve& target, double a0, const SqueezeSpheres& squeeze,
-                                const FitOptions& options) {
-  const Curve plain = squeeze({}, a0);
-  const Curve* both[] = {&target, &plain};
-  const std::vector<double> overlap = common_overlaps(both, options.highest, kPoints);
-  check(!overlap.empty(),
-        "calibration: the squeezed spheres and the squeezed deformable cells have no overlap d in "
-        "common. Squeeze further (capsule.min_radius).",
+std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
+                                const Vec3& point, const FitOptions& options) {
+  std::vector<Moment> moments;
+  double low = options.highest, high = 0, rms = 0, largest = 0, stiffer = 0;
+  for (const Moment& m : squeeze) largest = std::max(largest, m.force);
+  for (const Moment& m : squeeze) {
+    const ClumpSample s = measure_as_spheres(m, sphere, point);
+    if (m.force < kPresses * largest || s.overlap > options.highest) continue;
+    moments.push_back(m);
+    low = std::min(low, s.overlap);
+    if (s.overlap > high) stiffer = m.force / s.force;
+    high = std::max(high, s.overlap);
+    rms += m.force * m.force;
+  }
+  check(moments.size() >= kLeastSamples && low < high,
+        fmt::format("calibration: only {} samples of the squeeze press at overlaps up to {}. "
+                    "Squeeze further (capsule.min_radius) or write more often (output.every).",
+                    moments.size(), options.highest),
         Exit::kCannotContinue);
-  const double highest = overlap.back(), rms = rms_force(target, overlap);
+  rms = std::sqrt(rms / static_cast<double>(moments.size()));
   std::vector<FitAttempt> attempts;
 
   const Unknowns leading{{options.power}, options.free_modulus, options.free_power};
-  const Trial none{a0, {}};
-  Residuals residuals{target, squeeze, leading, none, highest, rms, overlap};
+  const Trial none{sphere.young, {}};
+  Residuals residuals{moments, sphere, point, leading, none, high, rms};
   Eigen::VectorXd start = Eigen::VectorXd::Ones(leading.size());
   start[0] = 5;
-  Solution first = solve(residuals, start);
+  const Solution first = solve(residuals, start);
   const double a1 = first.trial.term[0].factor, power = first.trial.term[0].power;
   check(std::isfinite(a1) && a1 > 0,
         fmt::format("calibration: no positive a1 fits (found {:.4g} kPa): these deformable cells "
@@ -164,9 +181,11 @@ std::vector<FitAttempt> fit_law(const Curve& target, double a0, const SqueezeSph
   attempt.law.a0 = first.trial.a0;
   attempt.law.a1 = a1;
   attempt.law.power = power;
-  const double spread = kNormal95 * first.spread * scale_of(a0, highest, options.power);
+  const double spread = kNormal95 * first.spread * scale_of(sphere.young, high, options.power);
   attempt.law.a1_interval = {a1 - spread, a1 + spread};
-  judge(target, plain, overlap, first.residual, rms, attempt);
+  attempt.law.overlap_range = {low, high};
+  attempt.law.jkr_underestimation = stiffer;
+  judge(residuals, first.residual, attempt);
   attempts.push_back(attempt);
 
   const Trial known = first.trial;
@@ -174,14 +193,15 @@ std::vector<FitAttempt> fit_law(const Curve& target, double a0, const SqueezeSph
        {std::vector<double>{4, 6}, std::vector<double>{4, 6, 8}}) {
     if (attempts.back().law.rms_relative <= options.good_enough) break;
     const Unknowns more{powers, false, false};
-    Residuals again{target, squeeze, more, known, highest, rms, overlap};
+    Residuals again{moments, sphere, point, more, known, high, rms};
     const Solution s = solve(again, Eigen::VectorXd::Zero(more.size()));
     FitAttempt next = attempt;
     next.form += " + terms";
     for (const double p : powers) next.form += fmt::format(" d^{:g}", p);
     next.law.further.assign(s.trial.term.begin() + 1, s.trial.term.end());
-    judge(target, plain, overlap, s.residual, rms, next);
-    if (next.law.rms_relative < attempts.back().law.rms_relative) attempts.push_back(next);
+    judge(again, s.residual, next);
+    if (next.law.rms_relative < attempts.back().law.rms_relative && never_falls(next.law))
+      attempts.push_back(next);
   }
   return attempts;
 }

@@ -1,10 +1,10 @@
 #pragma once
 /// Finds the law that makes squeezed spheres push as squeezed deformable cells do.
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "calibration/clump.hpp"
 #include "calibration/curve.hpp"
 #include "calibration/law.hpp"
 
@@ -26,23 +26,24 @@ struct FitAttempt {
   double pointwise = 0;  ///< rms of the relative error point by point
 };
 
-/// Squeezes the clump of spheres with this law and modulus a0 (kPa); its loading branch.
-using SqueezeSpheres = std::function<Curve(const cbm::StiffnessLaw& law, double a0)>;
+/// Least squares on the force of the central cell over the moments of a squeeze that press, with
+/// spheres put where the deformable cells are: same places, hence same d, by the spheres' own law.
+/// First the leading term alone; while the error exceeds good_enough, d^4 and d^6, then d^8 as well
+/// join it, with a1 as found before. A form whose modulus falls with d is not taken: tissue could
+/// collapse. rms_relative is the rms of the difference over the rms of the force; the interval of
+/// a1 is that of least squares at 95 %, from the scatter about the first form.
+/// Law::jkr_underestimation is for the moments that are squeezed most. Law::dcm, cbm and provenance
+/// are left empty.
+/// @param sphere  constants of the spheres; young is a0
+/// @param point   um, the central cell is the one nearest to it
+/// @return all forms taken, the one to use last
+/// @throws Error(kCannotContinue) where the squeeze hardly presses, or no law with a positive a1
+/// fits
+std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
+                                const Vec3& point, const FitOptions& options);
 
-/// Least squares on the force over 40 overlaps at equal distances, over the spheres' own squeeze:
-/// they carry the same force at the same d by their own law, d and neighbours. First the leading
-/// term alone; while the error exceeds good_enough, terms d^4, d^6 and then d^8 join it, with a1 as
-/// found before. rms_relative is the rms of the difference over the rms of the force; the interval
-/// of a1 is that of least squares at 95 %, from the scatter about the first form.
-/// Law::dcm, cbm and provenance are left empty.
-/// @param a0  kPa, modulus of the spheres
-/// @return all forms tried, the one to use last
-/// @throws Error(kCannotContinue) where the curves have no overlap in common, or no law with a
-/// positive a1 fits
-std::vector<FitAttempt> fit_law(const Curve& target, double a0, const SqueezeSpheres& squeeze,
-                                const FitOptions& options);
-
-/// rms of (spheres - target) over rms of target, at n overlaps at equal distances up to `highest`.
-double relative_error(const Curve& target, const Curve& spheres, double highest, int n = 40);
+/// rms of (spheres - target) over rms of target, at 40 overlaps at equal distances up to `highest`
+/// that both curves cover. NaN if there are none.
+double relative_error(const Curve& target, const Curve& spheres, double highest);
 
 }  // namespace acinus::calibration

@@ -17,6 +17,7 @@ enum class Exit : int {
   kBadInput = 2,
   kCannotContinue = 3,
   kFileError = 4,
+  kBeyond = 5,  ///< compared runs differ by more than was allowed
   kStopped = 75
 };
 

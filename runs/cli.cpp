@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
@@ -16,6 +17,7 @@
 #include "runs/bench/bench.hpp"
 #include "runs/build_world.hpp"
 #include "runs/calibrate/calibrate.hpp"
+#include "runs/compare/compare.hpp"
 #include "runs/run.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/library.hpp"
@@ -36,6 +38,9 @@ struct Arguments {
   std::string bench;         ///< bench
   BenchOptions bench_options;
   CalibrateOptions calibrate;
+  std::vector<std::string> folders, tolerances;  ///< compare
+  std::string scene, comparison;                 ///< compare
+  CompareScenes compare;
 };
 
 void add_set(CLI::App& command, RunOptions& run) {
@@ -122,6 +127,48 @@ void add_calibrate(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 4096));
 }
 
+void add_compare(CLI::App& app, Arguments& arguments) {
+  CompareScenes& o = arguments.compare;
+  CLI::App* command = add_command(
+      app, "compare", "how runs of the same scene differ; the first one is the reference",
+      "acinus compare lobule_dcm.run lobule_cbm.run --tolerance pressure=0.2");
+  command->add_option("RUN", arguments.folders, "run folders")->type_name("DIR");
+  command->add_option("--out", arguments.comparison, "JSON file; plots stand beside it")
+      ->type_name("FILE.json");
+  std::string known;
+  for (const auto& [name, meaning] : comparable_quantities())
+    known += fmt::format("\n  {:14} {}", name, meaning);
+  command
+      ->add_option(
+          "--tolerance", arguments.tolerances,
+          "verdict on a quantity: NAME=VALUE, relative but for positions (um); exit code 5 "
+          "if one is beyond. Names:" +
+              known)
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  CLI::Option* scene =
+      command
+          ->add_option("--scene", arguments.scene,
+                       "first run this scene with deformable cells and with spheres, into --runs")
+          ->type_name("SCENE");
+  command->add_option("--runs", o.folder, "folder for the runs of --scene")
+      ->type_name("DIR")
+      ->needs(scene);
+  command->add_option("--law", o.law, "with --scene: a third run with spheres of this law")
+      ->type_name("LAW.json")
+      ->check(CLI::ExistingFile)
+      ->needs(scene);
+  command
+      ->add_flag("--equal-drag", o.equal_drag,
+                 "with --scene: spheres get the medium and cell friction of deformable cells")
+      ->needs(scene);
+  add_set(*command, arguments.run);
+  command->add_option("--threads", o.threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--quiet", o.quiet, "the table only");
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* run = add_command(app, "run", "simulate a scene",
                               "acinus run runs/scenes/two_cells.json --set time.end=\"30 min\"");
@@ -159,6 +206,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   fresh->add_option("DIR", arguments.folder, "folder, made if needed")->required();
 
   add_calibrate(app, arguments);
+  add_compare(app, arguments);
 
   CLI::App* bench =
       add_command(app, "bench", "measure speed and error; without NAME, list the names",
@@ -273,6 +321,41 @@ int do_calibrate(Arguments& arguments) {
   return calibrate(read_scene(arguments.run.scene_file, arguments.run.set), options);
 }
 
+/// "pressure=0.2" and so on.
+std::map<std::string, double> read_tolerances(const std::vector<std::string>& texts) {
+  std::map<std::string, double> out;
+  for (const std::string& text : texts) {
+    const std::size_t at = text.find('=');
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const char* first = at == std::string::npos ? end : text.data() + at + 1;
+    const auto [rest, code] = std::from_chars(first, end, value);
+    check(at != std::string::npos && code == std::errc() && rest == end,
+          fmt::format("--tolerance \"{}\": write NAME=VALUE, e.g. pressure=0.2", text));
+    out[text.substr(0, at)] = value;
+  }
+  return out;
+}
+
+int do_compare(Arguments& arguments) {
+  std::vector<std::string> folders = arguments.folders;
+  const std::map<std::string, double> tolerance = read_tolerances(arguments.tolerances);
+  if (!arguments.scene.empty()) {
+    check(folders.empty(), "compare takes run folders or --scene, not both");
+    CompareScenes& options = arguments.compare;
+    const Scene scene = read_scene(arguments.scene, arguments.run.set);
+    if (options.folder.empty()) options.folder = scene.name + ".compare";
+    options.command_line = arguments.run.command_line;
+    std::filesystem::create_directories(options.folder);
+    if (const int stop = run_models(scene, options, folders)) return stop;
+    if (arguments.comparison.empty()) arguments.comparison = options.folder + "/compare.json";
+  }
+  const Comparison comparison = compare_runs(folders, tolerance);
+  fmt::print("{}", comparison_table(comparison));
+  if (!arguments.comparison.empty()) write_comparison(comparison, arguments.comparison);
+  return static_cast<int>(comparison.passes() ? Exit::kDone : Exit::kBeyond);
+}
+
 int do_bench(const Arguments& arguments) {
   const std::vector<std::string> names = list_benches();
   if (arguments.bench.empty()) {
@@ -346,7 +429,8 @@ int run_cli(int argc, const char* const* argv) {
   app.footer(
       "Help on a command: acinus run --help\n"
       "Exit codes: 0 done, 1 internal error, 2 bad scene or command line, 3 cannot continue,\n"
-      "4 disk or file error, 75 stopped with a checkpoint written");
+      "4 disk or file error, 5 compared runs beyond a tolerance, 75 stopped with a checkpoint "
+      "written");
   add_commands(app, arguments);
   try {
     app.parse(argc, argv);
@@ -365,6 +449,7 @@ int run_cli(int argc, const char* const* argv) {
   if (command == "new") return do_new(arguments);
   if (command == "bench") return do_bench(arguments);
   if (command == "calibrate") return do_calibrate(arguments);
+  if (command == "compare") return do_compare(arguments);
   fmt::print("{}", scene_schema());
   return 0;
 }

@@ -23,7 +23,7 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
       volume{"volume", "um^3", 1, {}}, area{"area", "um^2", 1, {}},
       pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
       stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}},
-      active{"migration_force", "nN", 1, {}};
+      active{"migration_force", "nN", 1, {}}, pushing{"contact_force", "nN", 1, {}};
   for (const CellMeasure& c : cells) {
     id.value.push_back(c.id);
     parent.value.push_back(c.parent);
@@ -40,9 +40,10 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
     stress.value.insert(stress.value.end(), c.stress.begin(), c.stress.end());
     touching.value.push_back(c.contact_area);
     active.value.push_back(c.migration_force);
+    pushing.value.push_back(c.contact_force);
   }
   t.ids = {id, parent, kind, type, leader, contacts};
-  t.columns = {center, radius, volume, area, pressure, cytosol, stress, touching, active};
+  t.columns = {center, radius, volume, area, pressure, cytosol, stress, touching, active, pushing};
   return t;
 }
 

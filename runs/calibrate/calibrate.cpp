@@ -13,10 +13,11 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
+#include "core/io/run_reader.hpp"
 #include "runs/build_correction.hpp"
 #include "runs/build_world.hpp"
 #include "runs/read_summary.hpp"
-#include "runs/run.hpp"
+#include "runs/stage.hpp"
 #include "runs/state_file.hpp"
 
 namespace acinus::runs {
@@ -44,22 +45,9 @@ class Stages {
     std::fflush(stdout);
   }
 
-  /// Runs a scene to its end, from where an earlier attempt left it.
-  int run(const Scene& scene, const char* name, bool quiet, bool anew = false) const {
-    RunOptions run;
-    run.scene_file = scene.file;
-    run.out = path(name);
-    run.threads = options_.threads;
-    run.quiet = quiet || options_.quiet;
-    run.command_line = options_.command_line;
-    run.checkpoint_every_s = 60;
-    if (const std::optional<RunSummary> before = earlier(scene, name); before && !anew) {
-      if (before->status == "completed") return 0;
-      if (before->status == "failed") return static_cast<int>(Exit::kCannotContinue);
-      run.resume = before->status == "stopped";
-    }
-    run.overwrite = !run.resume;
-    return run_scene(scene, run);
+  int run(const Scene& scene, const char* name, bool quiet, bool fresh = false) const {
+    return run_stage(scene, {path(name), options_.threads, quiet || options_.quiet,
+                             fresh || options_.fresh, options_.command_line});
   }
 
   /// Whether a squeeze that could not go on reached overlaps that are worth a fit.
@@ -78,36 +66,26 @@ class Stages {
   }
 
  private:
-  /// What stands in the folder of a stage, if it is of the same scene.
-  std::optional<RunSummary> earlier(const Scene& scene, const char* name) const {
-    std::error_code code;
-    if (options_.fresh || !fs::exists(path(name) + "/summary.json", code)) return std::nullopt;
-    RunSummary s = read_summary(path(name));
-    if (s.sha != scene.sha || s.version != ACINUS_VERSION) return std::nullopt;
-    return s;
-  }
-
   const CalibrateOptions& options_;
   std::string folder_;
   Scene squeeze_;
 };
 
-/// Spheres squeezed in memory, again and again with other laws.
-calibration::SqueezeSpheres make_squeezer(const Scene& spheres) {
-  const coupling::World world = build_world(spheres, Ranks::serial()).world;
-  const double end = spheres.time.end, every = spheres.output.every;
-  return [world, end, every](const cbm::StiffnessLaw& law, double a0) {
-    coupling::World w = world;
-    w.params.cbm.front().young = a0;
-    w.params.cbm.front().correction = law;
-    for (double& e : w.state.cbm.young) e = a0;
-    std::vector<double> overlap, force;
-    for (const calibration::ClumpSample& s : calibration::squeeze_clump(w, end, every)) {
-      overlap.push_back(s.overlap);
-      force.push_back(s.force);
+/// The cells of every frame of a squeeze, and what its central cell felt.
+std::vector<calibration::Moment> read_moments(const RunSummary& squeeze) {
+  const io::RunReader reader(squeeze.folder + "/run.vtkhdf");
+  const std::vector<double>& force = series(squeeze, "normal_force_nN");
+  std::vector<calibration::Moment> moments(force.size());
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    moments[k].force = force[k];
+    const io::Table cells = reader.cells(static_cast<int>(k));
+    for (const io::Column& c : cells.columns) {
+      if (c.name == "radius") moments[k].radius = c.value;
+      for (std::size_t i = 0; c.name == "center" && i < c.value.size(); i += 3)
+        moments[k].center.emplace_back(c.value[i], c.value[i + 1], c.value[i + 2]);
     }
-    return calibration::loading_branch(overlap, force);
-  };
+  }
+  return moments;
 }
 
 /// d of the central cell when its clump has come to rest and nothing presses it yet: where its
@@ -198,8 +176,9 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   stages.say("fitting the law");
   const std::string type = choose_type(scene, options.clump.type);
   const LawParameters parameters = law_parameters(scene, scene.cell_types.at(type));
-  found.attempts = calibration::fit_law(found.dcm, parameters.cbm.at("young_kPa"),
-                                        make_squeezer(spheres), options.fit);
+  found.attempts = calibration::fit_law(read_moments(history),
+                                        make_cbm_params(squeeze, squeeze.cell_types.at(type)),
+                                        squeeze.capsule.center, options.fit);
   calibration::Law law = found.attempts.back().law;
   law.dcm = parameters.dcm;
   law.cbm = parameters.cbm;
@@ -212,10 +191,17 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   if (const int stop = stages.run(as_spheres(squeeze, law_file), "squeeze_corrected", true, true))
     return stop;
   found.corrected = stages.curve("squeeze_corrected");
-  const double highest = law.overlap_range[1];
-  found.error_plain = calibration::relative_error(found.dcm, found.plain, highest);
-  found.error_corrected = calibration::relative_error(found.dcm, found.corrected, highest);
-  if (options.relaxation) relax(stages, options, found);
+  found.error_plain = calibration::relative_error(found.dcm, found.plain, options.fit.highest);
+  found.error_corrected =
+      calibration::relative_error(found.dcm, found.corrected, options.fit.highest);
+  if (options.relaxation) {
+    try {
+      relax(stages, options, found);
+    } catch (const Error& error) {  // the law does not depend on it
+      found.relaxation.clear();
+      stages.say(fmt::format("no relaxation time: {}", error.what()));
+    }
+  }
 
   write_curves(found, stages.folder());
   calibration::write_law(law, options.out);

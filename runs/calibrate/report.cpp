@@ -22,6 +22,8 @@ io::PlotLine line(const std::string& name, const std::vector<double>& x,
   return out;
 }
 
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
 Json json_of(const Curve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
 
 Json json_of(const calibration::Relaxation& r) {
@@ -62,8 +64,11 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
   t += row("deformable cells over plain spheres",
            fmt::format("{:.1f} times the force at d = {:.2f}", last.law.jkr_underestimation,
                        last.law.overlap_range[1]));
-  t += row("error of plain spheres", fmt::format("{:.0f} %", 100 * c.error_plain));
-  t += row("error of corrected spheres", fmt::format("{:.1f} %", 100 * c.error_corrected));
+  t += row("plain spheres squeezed by themselves",
+           fmt::format("{:.0f} % rms off the deformable cells' force at the same d",
+                       100 * c.error_plain));
+  t += row("corrected spheres squeezed by themselves",
+           fmt::format("{:.1f} %", 100 * c.error_corrected));
   if (!c.relaxation.empty()) {
     const double t1 = c.relaxation[0].decay.time, t5 = c.relaxation[1].decay.time;
     t += row("relaxation after release",
@@ -82,8 +87,8 @@ void write_curves(const Calibration& c, const std::string& folder) {
   j["dcm"] = json_of(c.dcm);
   j["cbm"] = json_of(c.plain);
   j["cbm_corrected"] = json_of(c.corrected);
-  j["error_plain"] = c.error_plain;
-  j["error_corrected"] = c.error_corrected;
+  j["error_plain"] = number(c.error_plain);
+  j["error_corrected"] = number(c.error_corrected);
   j["contacts"] = {c.contacts_first, c.contacts_last};
   j["forms"] = Json::array();
   for (const calibration::FitAttempt& a : c.attempts)
@@ -101,7 +106,7 @@ void write_curves(const Calibration& c, const std::string& folder) {
   io::write_plot(folder + "/force.svg",
                  {"Squeezed clump, central cell",
                   "mean relative overlap d",
-                  "normal force of a contact, nN",
+                  "sum of normal forces, nN",
                   false,
                   false,
                   {line("deformable cells", c.dcm.overlap, c.dcm.force),

@@ -19,7 +19,9 @@ constexpr double kSqueezedVolume = 0.70;
 /// Shrink rate over the smallest radius, 1/s: 0.3 um/h at 26 um. Half of it changes the force by
 /// 1 % (docs/calibration.md).
 constexpr double kRate = 0.0115 / 3600;
-constexpr double kLeastLocalArea = 0.1;  ///< nN/um: surfaces under this pressure would fold
+/// Least modulus of each triangle over the bulk modulus, um: surfaces under this pressure would
+/// fold.
+constexpr double kLeastLocalArea = 0.04;
 
 void finish(Scene& scene) {
   scene.resolved_json = write_resolved(scene);
@@ -73,7 +75,8 @@ Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
   CellType type = scene.cell_types.at(name);
   type.cycle.time.reset();
   type.diffusion = 0;
-  type.dcm.local_area_modulus = std::max(type.dcm.local_area_modulus, kLeastLocalArea);
+  type.dcm.local_area_modulus =
+      std::max(type.dcm.local_area_modulus, kLeastLocalArea * type.dcm.bulk_modulus);
   type.cbm.young_spread = 0;
   type.cbm.stiffness_correction = "none";
   s.cell_types = {{name, type}};

@@ -35,9 +35,9 @@ void sample_patch(const Scene& scene, const coupling::World& world, const Snapsh
 
 /// A clump in a capsule that shrinks and may open: time_s, capsule_radius_um, and of the cell
 /// nearest its centre overlap (d of [VanLiedekerke2020, Eq. (22)]), shell_overlap (mean over the 14
-/// nearest cells), contact_force_nN (sum of sizes), normal_force_nN (mean of a contact, positive
-/// pressing), contacts, pressure_Pa (contact) and volume_relative (to the reference volume). Without
-/// a capsule the cell nearest the origin is looked at.
+/// nearest cells), contact_force_nN (sum of sizes), normal_force_nN (sum of normal forces, positive
+/// pressing), contacts, pressure_Pa (contact) and volume_relative (to the reference volume).
+/// Without a capsule the cell nearest the origin is looked at.
 void sample_capsule(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                     Measures& measures);
 

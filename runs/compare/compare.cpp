@@ -1,0 +1,365 @@
+#include "runs/compare/compare.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/io/run_reader.hpp"
+#include "core/nearest.hpp"
+#include "core/units.hpp"
+#include "core/vec.hpp"
+#include "runs/compare/scene_differences.hpp"
+#include "runs/read_summary.hpp"
+#include "runs/scene/writer.hpp"
+#include "runs/stage.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr double kSameTime = 1;  ///< s
+
+struct Cell {
+  Vec3 center = Vec3::Zero();
+  double pressure = 0, force = 0, contacts = 0, volume = 0;
+  bool deformable = false;
+};
+using Cells = std::map<std::int64_t, Cell>;
+
+const std::vector<double>& column(const io::Table& t, const std::string& name,
+                                  const std::string& folder) {
+  for (const io::Column& c : t.columns)
+    if (c.name == name) return c.value;
+  throw Error(
+      fmt::format("{}: its cells have no \"{}\": an older version of acinus wrote it. Run "
+                  "the scene again.",
+                  folder, name));
+}
+
+const std::vector<std::int64_t>& ids(const io::Table& t, const std::string& name) {
+  return std::ranges::find(t.ids, name, &io::IdColumn::name)->value;
+}
+
+Cells read_cells(const io::RunReader& reader, int frame, const std::string& folder) {
+  const io::Table t = reader.cells(frame);
+  const auto &center = column(t, "center", folder), &pressure = column(t, "pressure", folder),
+             &force = column(t, "contact_force", folder), &volume = column(t, "volume", folder);
+  const auto &id = ids(t, "id"), &contacts = ids(t, "contacts"), &kind = ids(t, "kind");
+  Cells cells;
+  for (std::size_t k = 0; k < id.size(); ++k)
+    cells[id[k]] = {{center[3 * k], center[3 * k + 1], center[3 * k + 2]},
+                    1e3 * pressure[k],
+                    force[k],
+                    static_cast<double>(contacts[k]),
+                    volume[k],
+                    kind[k] == 0};
+  return cells;
+}
+
+double mean(const Cells& cells, double Cell::*what) {
+  double sum = 0;
+  for (const auto& [id, c] : cells) sum += c.*what;
+  return cells.empty() ? 0 : sum / static_cast<double>(cells.size());
+}
+
+/// The ball round the middle of the reference's cells that holds half of them.
+struct Middle {
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+};
+Middle middle_of(const Cells& cells) {
+  Middle m;
+  for (const auto& [id, c] : cells) m.center += c.center / static_cast<double>(cells.size());
+  std::vector<double> r;
+  for (const auto& [id, c] : cells) r.push_back((c.center - m.center).norm());
+  std::ranges::sort(r);
+  // Midway to the next cell: a cell on the border would count in one run and not in another.
+  const std::size_t half = (r.size() - 1) / 2, next = std::min(half + 1, r.size() - 1);
+  m.radius = 0.5 * (r[half] + r[next]);
+  return m;
+}
+
+/// Cells per mm^3 in the ball. Cells count with a border one cell wide, so that their number does
+/// not jump when one crosses it.
+double density_in(const Cells& cells, const Middle& m) {
+  constexpr double kBorder = 12;  // um
+  double count = 0;
+  for (const auto& [id, c] : cells)
+    count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / kBorder, 0.0, 1.0);
+  return 1e9 * count / (4.0 / 3 * kPi * std::pow(m.radius, 3));
+}
+
+/// rms difference over the cells both have, by lineage.
+double rms_by_lineage(const Cells& a, const Cells& b, double Cell::*what) {
+  double sum = 0, n = 0;
+  for (const auto& [id, c] : a)
+    if (const auto other = b.find(id); other != b.end()) {
+      sum += std::pow(c.*what - other->second.*what, 2);
+      ++n;
+    }
+  return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+double rms_distance(const Cells& a, const Cells& b) {
+  double sum = 0, n = 0;
+  for (const auto& [id, c] : a)
+    if (const auto other = b.find(id); other != b.end()) {
+      sum += (c.center - other->second.center).squaredNorm();
+      ++n;
+    }
+  return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+struct RunData {
+  RunSummary summary;
+  io::RunReader reader;
+  std::vector<int> frame;  ///< those that all runs have
+};
+
+std::vector<RunData> open_runs(const std::vector<std::string>& folders) {
+  std::vector<RunData> runs;
+  for (const std::string& folder : folders) {
+    RunSummary s = read_summary(folder);
+    runs.push_back({std::move(s), io::RunReader(folder + "/run.vtkhdf"), {}});
+  }
+  auto find = [](const RunData& run, double time) {
+    for (int k = 0; k < run.reader.n_frame(); ++k)
+      if (std::abs(run.reader.time_s(k) - time) <= kSameTime) return k;
+    return -1;
+  };
+  for (int k = 0; k < runs[0].reader.n_frame(); ++k) {
+    const double time = runs[0].reader.time_s(k);
+    if (std::ranges::any_of(runs, [&](const RunData& r) { return find(r, time) < 0; })) continue;
+    for (RunData& r : runs) r.frame.push_back(find(r, time));
+  }
+  check(!runs[0].frame.empty(),
+        fmt::format("no frame at the same time in {}. Give the runs the same output.every.",
+                    fmt::join(folders, " and ")));
+  return runs;
+}
+
+/// A mean over cells, averaged over the frames, as one difference; fills its trace as well.
+struct Recorder {
+  const std::map<std::string, double>& tolerance;
+  Comparison& out;
+
+  std::optional<double> allowed(const std::string& name) const {
+    const auto found = tolerance.find(name);
+    return found == tolerance.end() ? std::nullopt : std::optional(found->second);
+  }
+  void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
+                double value) const {
+    const double difference =
+        reference == value ? 0 : std::abs(value - reference) / std::abs(reference);
+    out.difference[run - 1].push_back(
+        {name, unit, reference, value, difference, false, allowed(name)});
+  }
+  void absolute(std::size_t run, const std::string& name, const std::string& unit,
+                double difference) const {
+    out.difference[run - 1].push_back({name, unit, 0, difference, difference, true, allowed(name)});
+  }
+};
+
+double average(const std::vector<double>& v) {
+  double sum = 0;
+  for (const double x : v) sum += x / static_cast<double>(v.size());
+  return sum;
+}
+
+/// rms over time of a difference, over the rms of the reference.
+double rms_over_time(const std::vector<double>& reference, const std::vector<double>& value) {
+  double difference = 0, size = 0;
+  for (std::size_t k = 0; k < reference.size(); ++k) {
+    difference += std::pow(value[k] - reference[k], 2);
+    size += std::pow(reference[k], 2);
+  }
+  return size > 0 ? std::sqrt(difference / size) : 0;
+}
+
+/// A series of the summary at the frames compared; empty if a run has it not or not everywhere.
+std::vector<double> measured(const RunData& run, const std::string& name) {
+  const auto found = run.summary.measures.find(name);
+  std::vector<double> out;
+  if (found == run.summary.measures.end() ||
+      static_cast<int>(found->second.size()) != run.reader.n_frame())
+    return out;
+  for (const int k : run.frame) out.push_back(found->second[static_cast<std::size_t>(k)]);
+  if (!std::ranges::all_of(out, [](double v) { return std::isfinite(v); })) out.clear();
+  return out;
+}
+
+void compare_measures(const std::vector<RunData>& runs, const Recorder& record, Comparison& c) {
+  struct Measure {
+    const char *name, *series, *unit;
+  };
+  for (const Measure& m :
+       {Measure{"lesion_area", "lesion_area_relative", "1"}, Measure{"overlap", "overlap", "1"},
+        Measure{"normal_force", "normal_force_nN", "nN"}}) {
+    Trace trace{m.name, m.unit, {}, {}};
+    for (const RunData& r : runs) trace.value.push_back(measured(r, m.series));
+    if (std::ranges::any_of(trace.value, [](const auto& v) { return v.empty(); })) continue;
+    for (const int k : runs[0].frame) trace.time.push_back(runs[0].reader.time_s(k));
+    for (std::size_t r = 1; r < runs.size(); ++r) {
+      record.relative(r, m.name, m.unit, average(trace.value[0]), average(trace.value[r]));
+      c.difference[r - 1].back().difference = rms_over_time(trace.value[0], trace.value[r]);
+    }
+    c.trace.push_back(std::move(trace));
+  }
+}
+
+void check_names(const std::map<std::string, double>& tolerance) {
+  std::vector<std::string> known;
+  for (const auto& [name, meaning] : comparable_quantities()) known.push_back(name);
+  for (const auto& [name, value] : tolerance) {
+    const std::string hint = nearest_name(name, known);
+    check(comparable_quantities().contains(name),
+          fmt::format("--tolerance {}: no such quantity. {}Known: {}", name,
+                      hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint),
+                      fmt::join(known, ", ")));
+    check(std::isfinite(value) && value >= 0,
+          fmt::format("--tolerance {}={}: must be a number >= 0", name, value));
+  }
+}
+
+}  // namespace
+
+const std::map<std::string, std::string>& comparable_quantities() {
+  static const std::map<std::string, std::string> names{
+      {"cells", "number of cells at the end"},
+      {"positions", "rms distance of the same cells at the end, um"},
+      {"density", "cells per volume where the reference has its inner half, at the end"},
+      {"pressure", "mean contact pressure, rms over time"},
+      {"cell_pressure", "contact pressure of the same cells at the end, rms"},
+      {"contact_force", "mean contact force of a cell, rms over time"},
+      {"cell_force", "contact force of the same cells at the end, rms"},
+      {"contacts", "mean number of cells a cell touches, rms over time"},
+      {"lesion_area", "relative lesion area, rms over time"},
+      {"overlap", "overlap of the central cell of a squeezed clump, rms over time"},
+      {"normal_force", "normal forces on it, rms over time"},
+      {"cpu", "CPU time"}};
+  return names;
+}
+
+bool Comparison::passes() const {
+  return std::ranges::all_of(difference, [](const std::vector<Difference>& run) {
+    return std::ranges::all_of(run, &Difference::passes);
+  });
+}
+
+Comparison compare_runs(const std::vector<std::string>& folders,
+                        const std::map<std::string, double>& tolerance) {
+  check(folders.size() >= 2, "compare needs two run folders or more, the reference first");
+  check_names(tolerance);
+  const std::vector<RunData> runs = open_runs(folders);
+  Comparison c;
+  c.runs = folders;
+  c.difference.resize(folders.size() - 1);
+  c.frames = static_cast<int>(runs[0].frame.size());
+  c.from = runs[0].reader.time_s(runs[0].frame.front());
+  c.to = runs[0].reader.time_s(runs[0].frame.back());
+
+  Trace count{"cells", "1", {}, {}}, pressure{"pressure", "Pa", {}, {}},
+      force{"contact_force", "nN", {}, {}}, contacts{"contacts", "1", {}, {}};
+  std::vector<Cells> end;
+  for (const RunData& run : runs) {
+    for (Trace* t : {&count, &pressure, &force, &contacts}) t->value.emplace_back();
+    Cells cells;
+    for (const int k : run.frame) {
+      cells = read_cells(run.reader, k, run.summary.folder);
+      count.value.back().push_back(static_cast<double>(cells.size()));
+      pressure.value.back().push_back(mean(cells, &Cell::pressure));
+      force.value.back().push_back(mean(cells, &Cell::force));
+      contacts.value.back().push_back(mean(cells, &Cell::contacts));
+    }
+    end.push_back(cells);
+  }
+  for (const int k : runs[0].frame)
+    for (Trace* t : {&count, &pressure, &force, &contacts})
+      t->time.push_back(runs[0].reader.time_s(k));
+
+  const Recorder record{tolerance, c};
+  check(!end[0].empty(), fmt::format("{}: no cells in its last frame", folders[0]));
+  const Middle middle = middle_of(end[0]);
+  auto rms_of = [](const Cells& cells, double Cell::*what) {
+    double sum = 0;
+    for (const auto& [id, cell] : cells) sum += std::pow(cell.*what, 2);
+    return std::sqrt(sum / static_cast<double>(cells.size()));
+  };
+  for (std::size_t r = 1; r < runs.size(); ++r) {
+    auto over_time = [&](const Trace& t) {
+      record.relative(r, t.name, t.unit, average(t.value[0]), average(t.value[r]));
+      c.difference[r - 1].back().difference = rms_over_time(t.value[0], t.value[r]);
+    };
+    auto by_cell = [&](const char* name, const char* unit, double Cell::*what) {
+      record.relative(r, name, unit, rms_of(end[0], what), rms_of(end[r], what));
+      c.difference[r - 1].back().difference =
+          rms_by_lineage(end[0], end[r], what) / rms_of(end[0], what);
+    };
+    record.relative(r, "cells", "1", count.value[0].back(), count.value[r].back());
+    record.absolute(r, "positions", "um", rms_distance(end[0], end[r]));
+    record.relative(r, "density", "1/mm^3", density_in(end[0], middle), density_in(end[r], middle));
+    over_time(pressure);
+    by_cell("cell_pressure", "Pa", &Cell::pressure);
+    over_time(force);
+    by_cell("cell_force", "nN", &Cell::force);
+    over_time(contacts);
+  }
+  c.trace = {count, pressure, force, contacts};
+  compare_measures(runs, record, c);
+  for (std::size_t r = 1; r < runs.size(); ++r)
+    record.relative(r, "cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s);
+
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const auto provenance = runs[r].reader.provenance();
+    auto has = [&](bool deformable) {
+      return std::ranges::any_of(
+          end[r], [&](const auto& cell) { return cell.second.deformable == deformable; });
+    };
+    c.drag.push_back(drag_of(provenance.at("scene"), has(true), has(false)));
+    if (runs[r].summary.status != "completed")
+      c.notes.push_back(fmt::format("{} is {}", folders[r], runs[r].summary.status));
+    if (r == 0) continue;
+    const std::vector<std::string> other =
+        scene_differences(runs[0].reader.provenance().at("scene"), provenance.at("scene"));
+    if (!other.empty())
+      c.notes.push_back(fmt::format("{} is not the scene of {}: {}", folders[r], folders[0],
+                                    fmt::join(other, "; ")));
+  }
+  return c;
+}
+
+int run_models(const Scene& scene, const CompareScenes& options,
+               std::vector<std::string>& folders) {
+  struct Model {
+    const char *folder, *model;
+    bool corrected;
+  };
+  std::vector<Model> models{{"dcm", "dcm", false}, {"cbm", "cbm", false}};
+  if (!options.law.empty()) models.push_back({"cbm_calibrated", "cbm", true});
+  for (const Model& m : models) {
+    Scene s = scene;
+    s.model = s.cells.model = m.model;
+    for (auto& [name, type] : s.cell_types) {
+      type.cbm.stiffness_correction = m.corrected ? options.law : "none";
+      if (options.equal_drag) type.cbm.ecm_friction = type.dcm.ecm_friction;
+    }
+    if (options.equal_drag) {
+      s.friction.cbm_cbm = s.friction.dcm_dcm;
+      s.friction.cbm_vessel = s.friction.dcm_vessel;
+    }
+    s.resolved_json = write_resolved(s);
+    s.sha = hash_scene(s);
+    const std::string folder = options.folder + "/" + m.folder;
+    folders.push_back(folder);
+    // The law's file may hold another law than it did; its name is all that a scene's hash knows.
+    if (const int stop = run_stage(
+            s, {folder, options.threads, options.quiet, m.corrected, options.command_line}))
+      return stop;
+  }
+  return 0;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/io/disk.hpp"
+#include "core/io/plot.hpp"
+#include "runs/compare/compare.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+std::string show(const Difference& d) {
+  if (d.absolute) return fmt::format("{:.3g} {}", d.difference, d.unit);
+  return std::isfinite(d.difference) ? fmt::format("{:.1f} %", 100 * d.difference) : "undefined";
+}
+
+std::string verdict(const Difference& d) {
+  if (!d.tolerance) return "";
+  return fmt::format("{} ({})", d.passes() ? "within" : "BEYOND",
+                     d.absolute ? fmt::format("{:g} {}", *d.tolerance, d.unit)
+                                : fmt::format("{:g} %", 100 * *d.tolerance));
+}
+
+}  // namespace
+
+std::string comparison_table(const Comparison& c) {
+  std::string t = fmt::format("{} frames from {:.4g} h to {:.4g} h; reference: {}\n", c.frames,
+                              c.from / 3600, c.to / 3600, c.runs[0]);
+  for (std::size_t r = 0; r < c.runs.size(); ++r)
+    for (const Drag& d : c.drag[r])
+      t +=
+          fmt::format("drag in {}: {} {:.4g} nN s/um per free cell, {:.4g} N s/m^3 between cells\n",
+                      c.runs[r], d.model, d.medium, 1e9 * d.cell_friction);
+  for (std::size_t r = 0; r < c.difference.size(); ++r) {
+    t += fmt::format("\n{}\n  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", c.runs[r + 1], "quantity",
+                     "reference", "here", "unit", "difference", "verdict");
+    for (const Difference& d : c.difference[r])
+      t += fmt::format("  {:14} {:>12} {:>12.5g} {:7} {:>12}  {}\n", d.name,
+                       d.absolute ? std::string("-") : fmt::format("{:.5g}", d.reference), d.value,
+                       d.unit, show(d), verdict(d));
+  }
+  for (const std::string& note : c.notes) t += "note: " + note + "\n";
+  return t;
+}
+
+void write_comparison(const Comparison& c, const std::string& file) {
+  Json j;
+  j["runs"] = c.runs;
+  j["from_s"] = c.from;
+  j["to_s"] = c.to;
+  j["frames"] = c.frames;
+  j["passes"] = c.passes();
+  j["notes"] = c.notes;
+  j["drag"] = Json::array();
+  for (std::size_t r = 0; r < c.runs.size(); ++r)
+    for (const Drag& d : c.drag[r])
+      j["drag"].push_back({{"run", c.runs[r]},
+                           {"model", d.model},
+                           {"medium_nN_s_per_um", d.medium},
+                           {"cell_cell_N_s_per_m3", 1e9 * d.cell_friction}});
+  j["differences"] = Json::array();
+  for (std::size_t r = 0; r < c.difference.size(); ++r)
+    for (const Difference& d : c.difference[r]) {
+      Json row{{"run", c.runs[r + 1]},     {"quantity", d.name},
+               {"unit", d.unit},           {"reference", number(d.reference)},
+               {"value", number(d.value)}, {"difference", number(d.difference)},
+               {"absolute", d.absolute}};
+      if (d.tolerance) {
+        row["tolerance"] = *d.tolerance;
+        row["passes"] = d.passes();
+      }
+      j["differences"].push_back(row);
+    }
+  j["traces"] = Json::object();
+  const std::string stem = std::filesystem::path(file).replace_extension().string();
+  for (const Trace& trace : c.trace) {
+    Json values = Json::object();
+    io::Plot plot{trace.name, "time, h", trace.name + ", " + trace.unit, false, false, {}};
+    for (std::size_t r = 0; r < c.runs.size(); ++r) {
+      values[c.runs[r]] = trace.value[r];
+      io::PlotLine line{c.runs[r], {}, false, true};
+      for (std::size_t k = 0; k < trace.time.size(); ++k)
+        line.point.emplace_back(trace.time[k] / 3600, trace.value[r][k]);
+      plot.line.push_back(line);
+    }
+    j["traces"][trace.name] = {{"time_s", trace.time}, {"unit", trace.unit}, {"value", values}};
+    io::write_plot(fmt::format("{}_{}.svg", stem, trace.name), plot);
+  }
+  io::write_text_file(file, j.dump(1) + "\n");
+}
+
+}  // namespace acinus::runs
