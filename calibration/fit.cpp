@@ -14,6 +14,11 @@ namespace acinus::calibration {
 namespace {
 
 constexpr double kDifference = 1e-3;  ///< relative step of difference quotients
+constexpr double kLeastPower = 1.05;
+constexpr double kLeastModulus = 0.05;  ///< of a0, over the modulus at rest
+/// Of the largest force: where a0 is sought, errors below it count absolutely, above it relatively.
+/// Large forces say nothing about a0.
+constexpr double kSmallForce = 0.2;
 constexpr double kNormal95 = 1.96;
 constexpr std::size_t kLeastSamples = 8;
 constexpr double kPresses = 0.01;  ///< share of the largest force from which on a moment counts
@@ -37,9 +42,9 @@ Trial trial_at(const Eigen::VectorXd& x, const Unknowns& u, const Trial& fixed, 
   Trial t = fixed;
   Eigen::Index k = 0;
   std::vector<double> powers = u.powers;
-  if (u.power) powers[0] = std::max(1.05, powers[0] * x[u.size() - 1]);
+  if (u.power) powers[0] = kLeastPower + (powers[0] - kLeastPower) * std::exp(x[u.size() - 1]);
   for (const double p : powers) t.term.push_back({x[k++] * scale_of(fixed.a0, highest, p), p});
-  if (u.modulus) t.a0 = fixed.a0 * std::max(1e-3, x[k]);
+  if (u.modulus) t.a0 = fixed.a0 * (kLeastModulus + (1 - kLeastModulus) * std::exp(x[k]));
   return t;
 }
 
@@ -57,6 +62,7 @@ struct Residuals {
   const Unknowns& unknowns;
   const Trial& fixed;
   double highest, rms;
+  std::vector<double> scale;  ///< nN, what an error counts against
 
   int inputs() const { return unknowns.size(); }
   int values() const { return static_cast<int>(moments.size()); }
@@ -67,7 +73,7 @@ struct Residuals {
     p.correction = {t.term, highest};
     for (std::size_t k = 0; k < moments.size(); ++k)
       r[static_cast<Eigen::Index>(k)] =
-          (measure_as_spheres(moments[k], p, point).force - moments[k].force) / rms;
+          (measure_as_spheres(moments[k], p, point).force - moments[k].force) / scale[k];
     return 0;
   }
 };
@@ -83,7 +89,8 @@ Solution solve(Residuals& residuals, const Eigen::VectorXd& start) {
   s.x = start;
   Eigen::NumericalDiff<Residuals> model(residuals, kDifference * kDifference);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> solver(model);
-  solver.parameters.ftol = 1e-6;
+  solver.parameters.factor = 1;  // first steps no longer than the start: powers are touchy
+  solver.parameters.ftol = 1e-8;
   solver.parameters.xtol = 1e-4;
   solver.parameters.maxfev = 60;
   solver.minimize(s.x);
@@ -103,15 +110,17 @@ Solution solve(Residuals& residuals, const Eigen::VectorXd& start) {
 /// What the figures of a law say about its curve.
 void judge(const Residuals& residuals, const Eigen::VectorXd& residual, FitAttempt& attempt) {
   const auto n = static_cast<double>(residuals.moments.size());
-  double mean = 0, total = 0, pointwise = 0;
+  double mean = 0, total = 0, misfit = 0, pointwise = 0;
   for (const Moment& m : residuals.moments) mean += m.force / n;
   for (std::size_t k = 0; k < residuals.moments.size(); ++k) {
     const double f = residuals.moments[k].force;
     total += (f - mean) * (f - mean);
-    pointwise += std::pow(residual[static_cast<Eigen::Index>(k)] * residuals.rms / f, 2) / n;
+    const double miss = residual[static_cast<Eigen::Index>(k)] * residuals.scale[k];
+    misfit += miss * miss;
+    pointwise += std::pow(miss / f, 2) / n;
   }
-  attempt.law.rms_relative = std::sqrt(residual.squaredNorm() / n);
-  attempt.law.r_squared = 1 - residual.squaredNorm() * residuals.rms * residuals.rms / total;
+  attempt.law.rms_relative = std::sqrt(misfit / n) / residuals.rms;
+  attempt.law.r_squared = 1 - misfit / total;
   attempt.pointwise = std::sqrt(pointwise);
 }
 
@@ -162,12 +171,15 @@ std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::P
                     moments.size(), options.highest),
         Exit::kCannotContinue);
   rms = std::sqrt(rms / static_cast<double>(moments.size()));
+  std::vector<double> scale;
+  for (const Moment& m : moments)
+    scale.push_back(options.free_modulus ? m.force + kSmallForce * largest : rms);
   std::vector<FitAttempt> attempts;
 
   const Unknowns leading{{options.power}, options.free_modulus, options.free_power};
   const Trial none{sphere.young, {}};
-  Residuals residuals{moments, sphere, point, leading, none, high, rms};
-  Eigen::VectorXd start = Eigen::VectorXd::Ones(leading.size());
+  Residuals residuals{moments, sphere, point, leading, none, high, rms, scale};
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(leading.size());
   start[0] = 5;
   const Solution first = solve(residuals, start);
   const double a1 = first.trial.term[0].factor, power = first.trial.term[0].power;
@@ -193,7 +205,7 @@ std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::P
        {std::vector<double>{4, 6}, std::vector<double>{4, 6, 8}}) {
     if (attempts.back().law.rms_relative <= options.good_enough) break;
     const Unknowns more{powers, false, false};
-    Residuals again{moments, sphere, point, more, known, high, rms};
+    Residuals again{moments, sphere, point, more, known, high, rms, scale};
     const Solution s = solve(again, Eigen::VectorXd::Zero(more.size()));
     FitAttempt next = attempt;
     next.form += " + terms";

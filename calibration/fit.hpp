@@ -11,10 +11,12 @@
 namespace acinus::calibration {
 
 struct FitOptions {
-  double highest = 0.2;       ///< largest d that counts
-  double power = 4;           ///< of the leading term
-  bool free_modulus = false;  ///< fit a0 as well
-  bool free_power = false;    ///< fit the power as well
+  double highest = 0.2;  ///< largest d that counts
+  double power = 4;      ///< of the leading term
+  /// Fit a0 as well, at least 5 % of the modulus at rest: closer in loose tissue, where adhering
+  /// deformable cells are softer than any sphere.
+  bool free_modulus = false;
+  bool free_power = false;  ///< fit the power as well
   /// Relative error above which the law gets further terms. [VanLiedekerke2020] has one term.
   double good_enough = 0.1;
 };

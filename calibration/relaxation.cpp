@@ -12,10 +12,11 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kFirstLook = 5;   ///< s after the release, at Table 1 friction
-constexpr double kGrowth = 1.15;   ///< of the time from look to look
-constexpr double kRest = 0.01;     ///< share of the way in the second half of the time
-constexpr double kShortest = 600;  ///< s, at Table 1 friction
+constexpr double kFirstLook = 5;           ///< s after the release, at Table 1 friction
+constexpr double kGrowth = 1.15;           ///< of the time from look to look
+constexpr double kRest = 0.01;             ///< share of the way in the second half of the time
+constexpr double kShortest = 600;          ///< s, at Table 1 friction
+constexpr double kSolverTolerance = 1e-5;  ///< the slow tail is small change
 constexpr double kLongest = 1e3 * 3600;
 
 /// Time each sample stands for, the trapezoidal rule's weights.
@@ -108,6 +109,8 @@ Relaxation relax_clump(coupling::World world, double scale) {
   world.params.motility.random = false;
   world.params.numerics.max_step *= scale;
   world.params.numerics.min_step *= scale;
+  double& solver = world.params.numerics.cg.tolerance;
+  solver = std::min(solver, kSolverTolerance);
   coupling::Clock& clock = world.state.clock;
   clock.step = kFirstLook * scale / 10;
   clock.last_step = 0;  // what happened in the capsule says nothing about what comes

@@ -112,6 +112,14 @@ void relax(const Stages& stages, const CalibrateOptions& options, Calibration& f
   coupling::World slow = world;
   calibration::scale_all_friction(slow.params, 5);
   found.relaxation.push_back(calibration::relax_clump(slow, 5));
+  if (options.check_friction > 0) {
+    coupling::World other = world;
+    other.params.dcm_contact.cell_friction = options.check_friction;
+    found.checked = {options.check_friction,
+                     calibration::relax_clump(
+                         other, std::max(1.0, options.check_friction / found.friction_before))};
+    return;
+  }
   stages.say(fmt::format("looking for the friction that makes it take {:.3g} h",
                          options.relaxation_time / 3600));
   found.friction = calibration::fit_friction(world, options.relaxation_time);

@@ -16,8 +16,10 @@ struct CalibrateOptions {
   std::string out;                    ///< law file
   bool relaxation = true;             ///< also the time the clump takes to relax
   double relaxation_time = 5 * 3600;  ///< s, to which the cell-cell friction is fitted
-  bool fresh = false;                 ///< do not use what an earlier run left
-  int threads = 0;                    ///< 0 = all cores
+  double check_friction =
+      0;               ///< nN s/um^3: relaxation time with this cell-cell friction too; 0 = no
+  bool fresh = false;  ///< do not use what an earlier run left
+  int threads = 0;     ///< 0 = all cores
   bool quiet = false;
   std::string command_line;
 };
@@ -32,7 +34,8 @@ struct Calibration {
   std::vector<calibration::Relaxation>
       relaxation;  ///< Table 1, all friction x 5 (empty: not asked)
   calibration::FrictionFit friction;
-  double friction_before = 0;  ///< nN s/um^3
+  double friction_before = 0;        ///< nN s/um^3
+  calibration::FrictionFit checked;  ///< CalibrateOptions::check_friction
 };
 
 /// Squeezes the clump as deformable cells and as spheres, fits, squeezes the corrected spheres,

@@ -1,0 +1,105 @@
+/// The fit finds laws that are known, from clumps of spheres whose force they made.
+
+#include "calibration/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace acinus::calibration {
+namespace {
+
+cbm::Params sphere() {
+  cbm::Params p;
+  p.young = 0.45;
+  p.poisson = 0.47;
+  p.adhesion = 0.01;
+  return p;
+}
+
+/// Neighbours and next neighbours of a body-centred lattice, shrunk so that the middle cell
+/// overlaps its neighbours by d.
+Moment lattice(double d) {
+  Moment m;
+  const double edge = 24 * (1 - d) * 2 / std::sqrt(3.0);
+  m.center.push_back(Vec3::Zero());
+  for (int x : {-1, 1})
+    for (int y : {-1, 1})
+      for (int z : {-1, 1}) m.center.push_back(0.5 * edge * Vec3(x, y, z));
+  for (int k = 0; k < 3; ++k)
+    for (int s : {-1, 1}) m.center.push_back(s * edge * Vec3::Unit(k));
+  m.radius.assign(m.center.size(), 12.0);
+  return m;
+}
+
+/// A squeeze whose force is that of spheres of this law.
+std::vector<Moment> squeeze_with(const cbm::StiffnessLaw& law, double young) {
+  cbm::Params p = sphere();
+  p.young = young;
+  p.correction = law;
+  std::vector<Moment> moments;
+  for (int k = 0; k <= 40; ++k) {
+    Moment m = lattice(0.03 + 0.005 * k);
+    m.force = measure_as_spheres(m, p, Vec3::Zero()).force;
+    moments.push_back(m);
+  }
+  return moments;
+}
+
+TEST(Fit, SpheresInPlaceFeelTheLawOfTheirOwnOverlap) {
+  const ClumpSample plain = measure_as_spheres(lattice(0.1), sphere(), Vec3::Zero());
+  EXPECT_EQ(plain.contacts, 8);  // next neighbours are 0.04 diameters apart
+  EXPECT_NEAR(plain.overlap, 0.1, 1e-12);
+  cbm::Params stiff = sphere();
+  stiff.correction = {{{4000, 4}}, 0.2};
+  EXPECT_GT(measure_as_spheres(lattice(0.1), stiff, Vec3::Zero()).force, 1.2 * plain.force);
+}
+
+TEST(Fit, FindsTheFactorOfAKnownLaw) {
+  const auto found = fit_law(squeeze_with({{{4000, 4}}, 0.3}, 0.45), sphere(), Vec3::Zero(), {});
+  ASSERT_EQ(found.size(), 1u);  // one term is enough
+  // Outer cells overlap more than the middle one, where the law found goes on along its tangent.
+  EXPECT_NEAR(found[0].law.a1, 4000, 40);
+  EXPECT_LT(found[0].law.rms_relative, 0.005);
+  EXPECT_LE(found[0].law.a1_interval[0], found[0].law.a1);
+  EXPECT_GE(found[0].law.a1_interval[1], found[0].law.a1);
+  EXPECT_GT(found[0].law.overlap_range[1], 0.15);
+  EXPECT_LE(found[0].law.overlap_range[1], 0.2);
+  EXPECT_GT(found[0].law.jkr_underestimation, 3);
+}
+
+TEST(Fit, FindsPowerAndModulusWhenAsked) {
+  FitOptions options;
+  options.free_power = true;
+  const auto power =
+      fit_law(squeeze_with({{{1000, 3}}, 0.3}, 0.45), sphere(), Vec3::Zero(), options);
+  EXPECT_NEAR(power[0].law.power, 3, 0.05);
+  EXPECT_NEAR(power[0].law.a1, 1000, 100);
+  FitOptions modulus;
+  modulus.free_modulus = true;
+  const auto soft = fit_law(squeeze_with({{{4000, 4}}, 0.3}, 0.6), sphere(), Vec3::Zero(), modulus);
+  EXPECT_NEAR(soft[0].law.a0, 0.6, 0.01);
+  EXPECT_NEAR(soft[0].law.a1, 4000, 100);
+}
+
+TEST(Fit, AddsTermsWhereOneIsNotEnoughAndKeepsA1) {
+  const auto found = fit_law(squeeze_with({{{9000, 4}, {-1e5, 6}}, 0.3}, 0.45), sphere(),
+                             Vec3::Zero(), FitOptions{.good_enough = 0.01});
+  ASSERT_GE(found.size(), 2u);
+  EXPECT_EQ(found.back().law.a1, found.front().law.a1);
+  EXPECT_LT(found.back().law.rms_relative, 0.01);
+  double d4 = found.back().law.a1;
+  for (const auto& t : found.back().law.further)
+    if (t.power == 4) d4 += t.factor;
+  EXPECT_NEAR(d4, 9000, 200);
+}
+
+TEST(Fit, RefusesWhatIsNoSqueezeOrNeedsNoCorrection) {
+  EXPECT_THROW(fit_law({}, sphere(), Vec3::Zero(), {}), Error);
+  EXPECT_THROW(fit_law(squeeze_with({}, 0.1), sphere(), Vec3::Zero(), {}), Error);
+}
+
+}  // namespace
+}  // namespace acinus::calibration

@@ -1,0 +1,148 @@
+/// `acinus calibrate` and `acinus compare` as a user calls them, on a small coarse clump that is
+/// squeezed fast, and scenes that name what came out.
+
+#include "tests/runs/program.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using program::Json;
+using program::Outcome;
+using program::Words;
+namespace fs = std::filesystem;
+
+constexpr const char* kClump = R"({
+  "name": "clump", "experiment": "capsule", "model": "dcm",
+  "time": { "end": "4.4 h", "step": "60 s", "tolerance": "0.1 um" },
+  "cell_types": { "a": { "adhesion": "0 J/m^2", "dcm": { "nodes": 42, "local_area_modulus": "1e-4 N/m" },
+                         "cbm": { "young_spread": 0 } } },
+  "cells": { "source": "clump", "count": 15, "lattice": "bcc" },
+  "capsule": { "radius": "40 um", "speed": "3 um/h", "min_radius": "26.8 um" },
+  "motility": { "random": false },
+  "output": { "every": "6 min" }
+})";
+
+class Calibrate : public program::ProgramTest {
+ protected:
+  Calibrate() { write("clump.json", kClump); }
+
+  Outcome calibrate(const Words& more = {}) const {
+    Words words{"calibrate", "clump.json", "--out", "law.json", "--threads", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words);
+  }
+  Json read(const std::string& name) const {
+    std::ifstream file(path(name));
+    return Json::parse(file);
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream file(path(name));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void replace(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string all = text(name);
+    const auto at = all.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write(name, all.replace(at, from.size(), to));
+  }
+};
+
+bool has(const Outcome& outcome, const std::string& part) {
+  return outcome.text.find(part) != std::string::npos;
+}
+
+TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
+  const Outcome first = calibrate();
+  ASSERT_EQ(first.code, 0) << first.text;
+  for (const char* part : {"a1", "95 % interval", "range of d", "relaxation after release"})
+    EXPECT_TRUE(has(first, part)) << part << "\n" << first.text;
+  const Json law = read("law.json");
+  EXPECT_GT(law["a1_kPa"], 0);
+  EXPECT_NEAR(law["cbm"]["young_kPa"].get<double>(), 0.45, 1e-12);
+  for (const char* file : {"curves.json", "force.svg", "relaxation.svg"})
+    EXPECT_TRUE(fs::exists(path(std::string("law.calibration/") + file))) << file;
+
+  // Everything is there: the second time squeezes nothing.
+  const Json before = read("law.calibration/squeeze_dcm/summary.json");
+  ASSERT_EQ(calibrate().code, 0);
+  EXPECT_EQ(read("law.calibration/squeeze_dcm/summary.json"), before);
+  EXPECT_EQ(read("law.json")["a1_kPa"], law["a1_kPa"]);
+
+  const Words spheres{"--set", "model=cbm", "--set",
+                      "cell_types.a.cbm.stiffness_correction=law.json"};
+  Words words = run_words("clump.json", "used", spheres);
+  std::erase(words, std::string("--quiet"));
+  const Outcome used = call(words);
+  EXPECT_EQ(used.code, 0) << used.text;
+  EXPECT_TRUE(has(used, "kPa d^4")) << used.text;
+  EXPECT_FALSE(has(used, "warning")) << used.text;
+  EXPECT_EQ(summary("used")["state_hash"],
+            summary("law.calibration/squeeze_corrected")["state_hash"]);
+
+  // A law for other cells is told.
+  words = run_words("clump.json", "other", spheres);
+  words.insert(words.end(), {"--set", "cell_types.a.dcm.bulk_modulus=5 kPa"});
+  std::erase(words, std::string("--quiet"));
+  const Outcome other = call(words);
+  EXPECT_EQ(other.code, 0) << other.text;
+  EXPECT_TRUE(has(other, "bulk_modulus_kPa: the law holds for 2.5, here it is 5")) << other.text;
+
+  const std::string runs = "law.calibration/squeeze_";
+  const Outcome same = call({"compare", runs + "dcm", runs + "dcm", "--tolerance", "pressure=0",
+                             "--tolerance", "positions=0", "--out", "same.json"});
+  EXPECT_EQ(same.code, 0) << same.text;
+  const Json compared = read("same.json");
+  EXPECT_TRUE(compared["passes"]);
+  for (const Json& row : compared["differences"]) EXPECT_EQ(row["difference"], 0) << row;
+  EXPECT_TRUE(fs::exists(path("same_pressure.svg")));
+  const Outcome apart =
+      call({"compare", runs + "dcm", runs + "cbm", "--tolerance", "normal_force=0.01"});
+  EXPECT_EQ(apart.code, 5) << apart.text;
+  EXPECT_TRUE(has(apart, "BEYOND (1 %)")) << apart.text;
+  EXPECT_TRUE(has(apart, "drag in")) << apart.text;
+}
+
+TEST_F(Calibrate, GoesOnWhereItWasStopped) {
+  program::Process process(path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads",
+                                      "1", "--no-relaxation"});
+  ASSERT_TRUE(process.await("skipped:"));
+  process.send(SIGTERM);
+  const Outcome stopped = process.wait();
+  EXPECT_EQ(stopped.code, 75) << stopped.text;
+  EXPECT_FALSE(fs::exists(path("law.json")));
+  const Outcome again = calibrate({"--no-relaxation"});
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_TRUE(has(again, "resumed at")) << again.text;
+  EXPECT_TRUE(fs::exists(path("law.json")));
+}
+
+TEST_F(Calibrate, BadInputIsRefusedWithTheReason) {
+  EXPECT_EQ(calibrate({"--type", "b"}).code, 2);
+  EXPECT_EQ(call({"calibrate"}).code, 2);
+  const Outcome weak =
+      calibrate({"--set", "capsule.min_radius=39.9 um", "--set", "time.end=30 min"});
+  EXPECT_EQ(weak.code, 3) << weak.text;
+  EXPECT_TRUE(has(weak, "Squeeze further")) << weak.text;
+  EXPECT_EQ(call({"compare", "nowhere", "here"}).code, 4);
+  const Outcome unknown = call({"compare", "a", "b", "--tolerance", "presure=1"});
+  EXPECT_EQ(unknown.code, 2) << unknown.text;
+  EXPECT_TRUE(has(unknown, "Did you mean \"pressure\"?")) << unknown.text;
+  EXPECT_EQ(call({"compare", "a"}).code, 2);
+
+  const Words spheres{"--set", "model=cbm", "--set",
+                      "cell_types.a.cbm.stiffness_correction=law.json"};
+  const auto refuse = [&](const char* part) {
+    const Outcome outcome = call(run_words("clump.json", "refused", spheres));
+    EXPECT_EQ(outcome.code, 2) << outcome.text;
+    EXPECT_TRUE(has(outcome, part)) << part << "\n" << outcome.text;
+    EXPECT_FALSE(fs::exists(path("refused")));
+  };
+  refuse("no such file");
+  write("law.json", R"({"schema_version": 9})");
+  refuse("that of another version");
+  write("law.json", R"({"schema_version": 1, "a0_kPa": NaN})");
+  refuse("not JSON");
+}
+
+}  // namespace
+}  // namespace acinus::runs
