@@ -59,7 +59,7 @@ struct CbmBlock {               ///< centre-based parameters of a cell type (Tab
   std::optional<double> young;  ///< kPa; empty = 3 K_V (1 - 2 nu)
   double young_spread = 0.1;    ///< relative standard deviation per cell, truncated at 3 sigma
   double poisson = 0.47;
-  double ecm_friction = 0.5;  ///< nN s/um^3
+  double ecm_friction = 0.5;                  ///< nN s/um^3
   std::string stiffness_correction = "none";  ///< law file | none | auto (calibrate here)
 };
 
