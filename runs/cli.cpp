@@ -39,6 +39,7 @@ struct Arguments {
   BenchOptions bench_options;
   CalibrateOptions calibrate;
   std::vector<std::string> folders, tolerances;  ///< compare
+  std::string check_friction;                    ///< calibrate
   std::string scene, comparison;                 ///< compare
   CompareScenes compare;
 };
@@ -120,6 +121,11 @@ void add_calibrate(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(0.0, 10.0));
   command->add_flag("!--no-relaxation", o.relaxation,
                     "leave out how long the clump takes to relax");
+  command
+      ->add_option("--check-friction", arguments.check_friction,
+                   "relaxation time with this cell-cell friction instead of the friction for 5 h, "
+                   "e.g. \"3e12 N s/m^3\"")
+      ->type_name("FRICTION");
   command->add_flag("--fresh", o.fresh, "do not go on from what an earlier attempt left");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
   command->add_option("--threads", o.threads, "threads (default: all cores)")
@@ -318,6 +324,10 @@ int do_calibrate(Arguments& arguments) {
   if (arguments.run.scene_file.empty())
     arguments.run.scene_file = scene_folder() + "/calibration.json";
   options.command_line = arguments.run.command_line;
+  if (!arguments.check_friction.empty())
+    options.check_friction =
+        flag_value("--check-friction", arguments.check_friction,
+                   [](const std::string& text) { return parse_quantity(text, kFrictionPerArea); });
   return calibrate(read_scene(arguments.run.scene_file, arguments.run.set), options);
 }
 

@@ -323,6 +323,12 @@ void Run::close(const std::string& status, const std::string& cause) {
   file_->close();
   totals_.wall_s = wall_before_ + wall_seconds() - started_;
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
+  if (work_.cbm.beyond > 0) {
+    built_.notes.push_back(fmt::format(
+        "the stiffness of spheres was asked beyond the range of its law in {:.2g} % of cases",
+        100 * static_cast<double>(work_.cbm.beyond) / static_cast<double>(work_.cbm.corrected)));
+    progress_.note(built_.notes.back());
+  }
   std::vector<std::string> skip = skipped();
   const std::vector<std::string> unneeded = work_skipped();
   skip.insert(skip.end(), unneeded.begin(), unneeded.end());

@@ -33,6 +33,11 @@ Json json_of(const calibration::Relaxation& r) {
           {"misfit", r.decay.rms}};
 }
 
+/// The relaxation with another cell-cell friction: the one that was asked for, else the fitted one.
+const calibration::FrictionFit& other_friction(const Calibration& c) {
+  return c.checked.friction > 0 ? c.checked : c.friction;
+}
+
 std::string row(const std::string& name, const std::string& value) {
   return fmt::format("  {:44} {}\n", name, value);
 }
@@ -74,10 +79,11 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
     t += row("relaxation after release",
              fmt::format("{:.3g} h (misfit {:.0f} %)", t1 / 3600, 100 * c.relaxation[0].decay.rms));
     t += row("with all friction x 5", fmt::format("{:.3f} times as long", t5 / t1));
-    t +=
-        row(fmt::format("cell-cell friction for {:.2g} h", c.friction.relaxation.decay.time / 3600),
-            fmt::format("{:.3g} N s/m^3, {:.3g} times the scene's", 1e9 * c.friction.friction,
-                        c.friction.friction / c.friction_before));
+    const calibration::FrictionFit& f = other_friction(c);
+    t += row(fmt::format("cell-cell friction {} {:.3g} h", c.checked.friction > 0 ? "gives" : "for",
+                         f.relaxation.decay.time / 3600),
+             fmt::format("{:.3g} N s/m^3, {:.3g} times the scene's", 1e9 * f.friction,
+                         f.friction / c.friction_before));
   }
   return t + fmt::format("law file: {}\n", law_file);
 }
@@ -99,8 +105,9 @@ void write_curves(const Calibration& c, const std::string& folder) {
   if (!c.relaxation.empty()) {
     j["relaxation"] = json_of(c.relaxation[0]);
     j["relaxation_friction_x5"] = json_of(c.relaxation[1]);
-    j["relaxation_fitted"] = json_of(c.friction.relaxation);
-    j["fitted_friction_N_s_per_m3"] = 1e9 * c.friction.friction;
+    const calibration::FrictionFit& other = other_friction(c);
+    j["relaxation_other_friction"] = json_of(other.relaxation);
+    j["other_friction_N_s_per_m3"] = 1e9 * other.friction;
   }
   io::write_text_file(folder + "/curves.json", j.dump(1) + "\n");
   io::write_plot(folder + "/force.svg",
@@ -122,8 +129,8 @@ void write_curves(const Calibration& c, const std::string& folder) {
        false,
        {line("friction of the scene", c.relaxation[0].time, c.relaxation[0].overlap, 3600),
         line("all friction x 5", c.relaxation[1].time, c.relaxation[1].overlap, 3600),
-        line("fitted cell-cell friction", c.friction.relaxation.time, c.friction.relaxation.overlap,
-             3600)}});
+        line("other cell-cell friction", other_friction(c).relaxation.time,
+             other_friction(c).relaxation.overlap, 3600)}});
 }
 
 }  // namespace acinus::runs
