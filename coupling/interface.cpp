@@ -39,7 +39,8 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
 
 double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent) {
   const double winkler =
-      4 * reduced_young / (3 * kPi * radius * std::sqrt(std::max(dent / radius, kLeastDent)));
+      4 * reduced_young /
+      (3 * kPi * radius * std::sqrt(std::clamp(dent / radius, kLeastDent, kMostDent)));
   return 1 / (1 / repulsion + 1 / winkler);
 }
 

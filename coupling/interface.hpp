@@ -48,6 +48,12 @@ struct InterfaceWorkspace {
 /// Smallest dent, in radii, that enters the compliance of a sphere.
 inline constexpr double kLeastDent = 0.01;
 
+/// Largest dent, in radii, that does. Beyond it a sphere's neighbours share its whole surface, the
+/// area of a contact grows no more, and softening on as that of two single spheres does would let
+/// a deformable cell under pressure flow into the sphere: at uniform pressure the dent would be
+/// (3 pi p / 4 E*)^2 R.
+inline constexpr double kMostDent = 0.15;
+
 /// Series stiffness k_s of a sphere's surface under a deformable one, nN/um^3.
 double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent);
 

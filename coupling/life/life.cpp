@@ -253,7 +253,8 @@ LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int6
     if (s.cycle[c.index].fate != Fate::kLyse || std::ranges::find(cells, id) == cells.end()) return;
     gone[c.index] = 1;
     ++s.deaths;
-    report.events.push_back({"death", {id}, "removed before it had shrunk: " + why});
+    report.events.push_back({"death_early", {id}, "removed before it had shrunk: " + why});
+    report.events.push_back({"death", {id}, "removed"});
   });
   if (report.events.empty()) return report;
   replace_cells(world, gone, std::vector<std::uint8_t>(gone.size(), 0), State{});

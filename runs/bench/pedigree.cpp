@@ -121,6 +121,7 @@ std::string Pedigree::end_life(const io::Event& e) {
   if (e.code == "death") r.end = e.time_s;
   if (e.code == "death" && death.lysis) {
     if (e.time_s >= r.dissolves + death.duration - slack) return {};
+    if (r.early && std::isfinite(r.dissolves)) return {};
     return fmt::format("cell {} is gone before it has dissolved", id);
   }
   if (e.code == "lysis") {
@@ -134,6 +135,8 @@ std::string Pedigree::end_life(const io::Event& e) {
 std::vector<Finding> Pedigree::add(const io::Event& e) {
   std::string wrong;
   if (e.code == "division") wrong = bear(e);
+  if (e.code == "death_early" && !e.cell_id.empty() && is_there(e.cell_id[0]))
+    all_.at(e.cell_id[0]).early = true;
   if (e.code == "death" || e.code == "lysis") wrong = end_life(e);
   if (e.code == "division_waits" && !e.cell_id.empty() && is_there(e.cell_id[0]))
     all_.at(e.cell_id[0]).waits = true;

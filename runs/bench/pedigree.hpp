@@ -24,6 +24,7 @@ struct Relative {
   double end = std::numeric_limits<double>::infinity();        ///< it divided or died
   double dissolves = std::numeric_limits<double>::infinity();  ///< lysis began
   bool waits = false;                                          ///< a division of it failed
+  bool early = false;  ///< taken away while dissolving, as the run says
 };
 
 struct Range {

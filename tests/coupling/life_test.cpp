@@ -369,10 +369,12 @@ TEST(Death, TakesTheDyingAloneWhenAStepFailsAtThem) {
     w.state.cycle[index_cells(w.state).at(id).index].fate = Fate::kLyse;
   const std::int64_t named[] = {0, 1};
   const LifeReport report = remove_dying(w, work, named, "a face would turn over");
-  ASSERT_EQ(report.events.size(), 1u);
-  EXPECT_EQ(report.events[0].code, "death");
+  ASSERT_EQ(report.events.size(), 2u);
+  EXPECT_EQ(report.events[0].code, "death_early");
   EXPECT_EQ(report.events[0].cells, Ids{1});
   EXPECT_NE(report.events[0].message.find("a face would turn over"), std::string::npos);
+  EXPECT_EQ(report.events[1].code, "death");
+  EXPECT_EQ(report.events[1].cells, Ids{1});
   EXPECT_EQ(lineages(w.state), (Ids{0, 2}));
   EXPECT_EQ(w.state.deaths, 1);
   EXPECT_TRUE(advance(w, work, 60).accepted);

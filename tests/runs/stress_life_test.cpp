@@ -160,6 +160,20 @@ TEST_F(LifeInspection, FindsTheDeadAmongTheLivingAndAWrongMother) {
   EXPECT_EQ(defects(), Found{Defect::kUnborn});
 }
 
+TEST_F(LifeInspection, ADissolvingCellMayGoEarlyIfTheRunSaysSo) {
+  const std::vector<std::int64_t> dissolves = event("lysis").cell_id;
+  const auto death = std::ranges::find_if(record_.events, [&](const io::Event& e) {
+    return e.code == "death" && e.cell_id == dissolves;
+  });
+  ASSERT_NE(death, record_.events.end());
+  death->time_s -= 20;
+  io::Event told = *death;
+  told.code = "death_early";
+  EXPECT_EQ(defects(), Found{Defect::kUntimely});
+  record_.events.insert(death, told);
+  EXPECT_TRUE(defects().empty());
+}
+
 TEST_F(LifeInspection, FindsEventsThatCannotBe) {
   event("division").time_s = 800;  // the cycle takes 1000 s without exception
   std::ranges::stable_sort(record_.events, {}, &io::Event::time_s);
