@@ -8,8 +8,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/mesh/topology.hpp"
-#include "coupling/step.hpp"
+#include "tests/coupling/worlds.hpp"
 
 namespace acinus::calibration {
 namespace {
@@ -31,25 +30,11 @@ TEST(Decay, IsFoundWhateverTheSpacingOfSamples) {
 
 /// Two deformable cells pushed into each other by 2 um.
 coupling::World pressed_pair() {
-  coupling::World w;
-  dcm::Params p;
-  p.spring_stiffness = dcm::cortex_spring_stiffness(1, 0.5);
-  p.bending_stiffness = dcm::cortex_bending_stiffness(1, 0.5, 0.5);
-  p.area_modulus = 0.8;
-  p.bulk_modulus = 2.5;
-  p.nodal_friction = 0.1;
-  p.medium_friction = 0.1;
-  p.adhesion = 0.01;
-  w.params.dcm = {p};
-  w.params.dcm_contact.cell_friction = 50;
+  coupling::World w = coupling::make_test_world({{Vec3::Zero()}, {Vec3(22, 0, 0)}}, 60, 42);
+  w.params.numerics.adaptive = true;
   w.params.numerics.tolerance = 0.05;
+  w.params.numerics.max_move = 0.3;
   w.params.numerics.cg.tolerance = 1e-8;
-  std::vector<dcm::NewCell> cells;
-  for (int k = 0; k < 2; ++k)
-    cells.push_back({k, 0, &mesh::shared_icosphere(42), Vec3(22.0 * k, 0, 0), 12.0, Vec3::Zero(),
-                     Mat3(Mat3::Identity())});
-  w.state.dcm = dcm::make_state(cells);
-  w.state.next_lineage = 2;
   return w;
 }
 
