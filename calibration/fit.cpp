@@ -48,7 +48,7 @@ Trial trial_at(const Eigen::VectorXd& x, const Unknowns& u, const Trial& fixed, 
   return t;
 }
 
-/// Residuals as Eigen's solver wants them: force of spheres minus target, over the target's rms.
+/// Residuals as Eigen's solver wants them: force of spheres minus target, over `scale`.
 struct Residuals {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -62,7 +62,7 @@ struct Residuals {
   const Unknowns& unknowns;
   const Trial& fixed;
   double highest, rms;
-  std::vector<double> scale;  ///< nN, what an error counts against
+  const std::vector<double>& scale;  ///< nN, what an error counts against
 
   int inputs() const { return unknowns.size(); }
   int values() const { return static_cast<int>(moments.size()); }

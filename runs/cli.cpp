@@ -8,7 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
@@ -356,7 +355,6 @@ int do_compare(Arguments& arguments) {
     const Scene scene = read_scene(arguments.scene, arguments.run.set);
     if (options.folder.empty()) options.folder = scene.name + ".compare";
     options.command_line = arguments.run.command_line;
-    std::filesystem::create_directories(options.folder);
     if (const int stop = run_models(scene, options, folders)) return stop;
     if (arguments.comparison.empty()) arguments.comparison = options.folder + "/compare.json";
   }

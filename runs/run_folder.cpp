@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "runs/scene_differences.hpp"
 
 namespace acinus::runs {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr std::array kResultFiles{"run.vtkhdf",         "run.xmf", "summary.json", "checkpoint.h5",
                                   "checkpoint.prev.h5", "run.log"};
@@ -23,25 +22,6 @@ constexpr std::array kResultFiles{"run.vtkhdf",         "run.xmf", "summary.json
 bool may_change(const std::string& pointer) {
   return pointer == "/name" || pointer == "/description" || pointer == "/time/end" ||
          pointer.starts_with("/output");
-}
-
-/// Collects "pointer: then -> now" of every leaf that differs.
-void compare(const Json& then, const Json& now, std::string& differences) {
-  for (const Json& change : Json::diff(then, now)) {
-    const std::string path = change["path"];
-    if (may_change(path)) continue;
-    Json::json_pointer at(path);
-    if (path.ends_with("/-")) {  // one of these for every entry appended to a list
-      at.pop_back();
-      const std::string line = fmt::format("  {}: {} entries -> {} entries\n", at.to_string(),
-                                           then[at].size(), now[at].size());
-      if (!differences.ends_with(line)) differences += line;
-      continue;
-    }
-    differences +=
-        fmt::format("  {}: {} -> {}\n", path, then.contains(at) ? then[at].dump() : "absent",
-                    now.contains(at) ? now[at].dump() : "absent");
-  }
 }
 
 }  // namespace
@@ -78,7 +58,9 @@ void prepare_folder(const std::string& folder, const RunOptions& options) {
 
 void check_same_scene(const io::CheckpointData& checkpoint, const Scene& scene) {
   std::string differences;
-  compare(Json::parse(checkpoint.text("scene")), Json::parse(scene.resolved_json), differences);
+  for (const std::string& line :
+       list_scene_differences(checkpoint.text("scene"), scene.resolved_json, may_change))
+    differences += "  " + line + "\n";
   check(differences.empty(),
         fmt::format("{}: made from another scene. Keys that differ (then -> now):\n{}Only time.end "
                     "and output may change on "

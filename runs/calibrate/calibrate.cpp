@@ -223,7 +223,6 @@ int resolve_corrections(Scene& scene, int threads, bool quiet) {
     const std::string file = cache_folder() + "/" + key_of(law_parameters(scene, type)) + ".json";
     std::error_code code;
     if (!fs::exists(file, code)) {
-      fs::create_directories(cache_folder(), code);
       CalibrateOptions options;
       options.clump.type = name;
       options.out = file;

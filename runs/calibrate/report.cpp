@@ -13,7 +13,7 @@ namespace {
 using calibration::Curve;
 using Json = nlohmann::ordered_json;
 
-constexpr double kPa_per_Pa = 1e3;
+constexpr double kPa_in_Pa = 1e3;
 
 io::PlotLine line(const std::string& name, const std::vector<double>& x,
                   const std::vector<double>& y, double x_unit = 1) {
@@ -21,8 +21,6 @@ io::PlotLine line(const std::string& name, const std::vector<double>& x,
   for (std::size_t k = 0; k < x.size(); ++k) out.point.emplace_back(x[k] / x_unit, y[k]);
   return out;
 }
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 Json json_of(const Curve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
 
@@ -57,13 +55,12 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
     t += row(fmt::format("error of {}", a.form),
              fmt::format("{:.1f} % rms of the force, {:.0f} % point by point",
                          100 * a.law.rms_relative, 100 * a.pointwise));
-  t += row("a0", fmt::format("{:.4g} Pa", kPa_per_Pa * first.law.a0));
+  t += row("a0", fmt::format("{:.4g} Pa", kPa_in_Pa * first.law.a0));
   t += row("a1", fmt::format("{:.3g} Pa, 95 % interval {:.3g} to {:.3g} Pa, power {:.3g}",
-                             kPa_per_Pa * first.law.a1, kPa_per_Pa * first.law.a1_interval[0],
-                             kPa_per_Pa * first.law.a1_interval[1], first.law.power));
+                             kPa_in_Pa * first.law.a1, kPa_in_Pa * first.law.a1_interval[0],
+                             kPa_in_Pa * first.law.a1_interval[1], first.law.power));
   for (const cbm::StiffnessLaw::Term& term : last.law.further)
-    t +=
-        row("further term", fmt::format("{:+.4g} Pa d^{:g}", kPa_per_Pa * term.factor, term.power));
+    t += row("further term", fmt::format("{:+.4g} Pa d^{:g}", kPa_in_Pa * term.factor, term.power));
   t += row("range of d",
            fmt::format("{:.3f} to {:.3f}", last.law.overlap_range[0], last.law.overlap_range[1]));
   t += row("deformable cells over plain spheres",
@@ -93,8 +90,8 @@ void write_curves(const Calibration& c, const std::string& folder) {
   j["dcm"] = json_of(c.dcm);
   j["cbm"] = json_of(c.plain);
   j["cbm_corrected"] = json_of(c.corrected);
-  j["error_plain"] = number(c.error_plain);
-  j["error_corrected"] = number(c.error_corrected);
+  j["error_plain"] = c.error_plain;  // JSON has null where there is no number
+  j["error_corrected"] = c.error_corrected;
   j["contacts"] = {c.contacts_first, c.contacts_last};
   j["forms"] = Json::array();
   for (const calibration::FitAttempt& a : c.attempts)

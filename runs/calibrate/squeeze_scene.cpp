@@ -23,11 +23,6 @@ constexpr double kRate = 0.0115 / 3600;
 /// fold.
 constexpr double kLeastLocalArea = 0.04;
 
-void finish(Scene& scene) {
-  scene.resolved_json = write_resolved(scene);
-  scene.sha = hash_scene(scene);
-}
-
 /// Largest distance of a cell's centre from the middle, um.
 double reach_of(const Scene& scene) {
   double reach = 0;
@@ -97,7 +92,7 @@ Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
     s.time.end /= options.rate;
     s.output.every /= options.rate;
   }
-  finish(s);
+  set_canonical(s);
   return s;
 }
 
@@ -105,7 +100,7 @@ Scene as_spheres(const Scene& squeeze, const std::string& law_file) {
   Scene s = squeeze;
   s.model = s.cells.model = "cbm";
   for (auto& [name, type] : s.cell_types) type.cbm.stiffness_correction = law_file;
-  finish(s);
+  set_canonical(s);
   return s;
 }
 

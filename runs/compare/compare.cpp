@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/error.hpp"
 #include "core/io/run_reader.hpp"
 #include "core/nearest.hpp"
 #include "core/units.hpp"
 #include "core/vec.hpp"
-#include "runs/compare/scene_differences.hpp"
 #include "runs/read_summary.hpp"
 #include "runs/scene/writer.hpp"
+#include "runs/scene_differences.hpp"
 #include "runs/stage.hpp"
 
 namespace acinus::runs {
@@ -22,9 +21,18 @@ namespace {
 
 constexpr double kSameTime = 1;  ///< s
 
+/// Keys that may differ between runs of the same scene: which cells are which model, the constants
+/// of spheres, and how the run was made.
+bool may_differ(const std::string& path) {
+  for (const char* start : {"/name", "/description", "/model", "/cells/model", "/zoom", "/time",
+                            "/solver", "/output", "/friction/cbm", "/friction/dcm_cbm", "/contact"})
+    if (path.starts_with(start)) return true;
+  return path.starts_with("/cell_types/") && path.find("/cbm/") != std::string::npos;
+}
+
 struct Cell {
   Vec3 center = Vec3::Zero();
-  double pressure = 0, force = 0, contacts = 0, volume = 0;
+  double pressure = 0, force = 0, contacts = 0;
   bool deformable = false;
 };
 using Cells = std::map<std::int64_t, Cell>;
@@ -46,7 +54,7 @@ const std::vector<std::int64_t>& ids(const io::Table& t, const std::string& name
 Cells read_cells(const io::RunReader& reader, int frame, const std::string& folder) {
   const io::Table t = reader.cells(frame);
   const auto &center = column(t, "center", folder), &pressure = column(t, "pressure", folder),
-             &force = column(t, "contact_force", folder), &volume = column(t, "volume", folder);
+             &force = column(t, "contact_force", folder);
   const auto &id = ids(t, "id"), &contacts = ids(t, "contacts"), &kind = ids(t, "kind");
   Cells cells;
   for (std::size_t k = 0; k < id.size(); ++k)
@@ -54,7 +62,6 @@ Cells read_cells(const io::RunReader& reader, int frame, const std::string& fold
                     1e3 * pressure[k],
                     force[k],
                     static_cast<double>(contacts[k]),
-                    volume[k],
                     kind[k] == 0};
   return cells;
 }
@@ -92,22 +99,13 @@ double density_in(const Cells& cells, const Middle& m) {
   return 1e9 * count / (4.0 / 3 * kPi * std::pow(m.radius, 3));
 }
 
-/// rms difference over the cells both have, by lineage.
-double rms_by_lineage(const Cells& a, const Cells& b, double Cell::*what) {
+/// rms over the cells both have, by lineage, of what the squared difference of two cells is.
+template <class Squared>
+double rms_by_lineage(const Cells& a, const Cells& b, Squared squared) {
   double sum = 0, n = 0;
   for (const auto& [id, c] : a)
     if (const auto other = b.find(id); other != b.end()) {
-      sum += std::pow(c.*what - other->second.*what, 2);
-      ++n;
-    }
-  return n > 0 ? std::sqrt(sum / n) : 0;
-}
-
-double rms_distance(const Cells& a, const Cells& b) {
-  double sum = 0, n = 0;
-  for (const auto& [id, c] : a)
-    if (const auto other = b.find(id); other != b.end()) {
-      sum += (c.center - other->second.center).squaredNorm();
+      sum += squared(c, other->second);
       ++n;
     }
   return n > 0 ? std::sqrt(sum / n) : 0;
@@ -141,25 +139,29 @@ std::vector<RunData> open_runs(const std::vector<std::string>& folders) {
   return runs;
 }
 
-/// A mean over cells, averaged over the frames, as one difference; fills its trace as well.
+/// Adds rows to the table of differences.
 struct Recorder {
   const std::map<std::string, double>& tolerance;
   Comparison& out;
 
-  std::optional<double> allowed(const std::string& name) const {
-    const auto found = tolerance.find(name);
-    return found == tolerance.end() ? std::nullopt : std::optional(found->second);
+  void add(std::size_t run, Difference row) const {
+    if (const auto found = tolerance.find(row.name); found != tolerance.end())
+      row.tolerance = found->second;
+    out.difference[run - 1].push_back(std::move(row));
+  }
+  /// @param difference  over the reference
+  void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
+                double value, double difference) const {
+    add(run, {name, unit, reference, value, difference, false, {}});
   }
   void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
                 double value) const {
-    const double difference =
-        reference == value ? 0 : std::abs(value - reference) / std::abs(reference);
-    out.difference[run - 1].push_back(
-        {name, unit, reference, value, difference, false, allowed(name)});
+    relative(run, name, unit, reference, value,
+             reference == value ? 0 : std::abs(value - reference) / std::abs(reference));
   }
   void absolute(std::size_t run, const std::string& name, const std::string& unit,
                 double difference) const {
-    out.difference[run - 1].push_back({name, unit, 0, difference, difference, true, allowed(name)});
+    add(run, {name, unit, 0, difference, difference, true, {}});
   }
 };
 
@@ -177,6 +179,11 @@ double rms_over_time(const std::vector<double>& reference, const std::vector<dou
     size += std::pow(reference[k], 2);
   }
   return size > 0 ? std::sqrt(difference / size) : 0;
+}
+
+void record_trace(const Recorder& record, std::size_t run, const Trace& t) {
+  record.relative(run, t.name, t.unit, average(t.value[0]), average(t.value[run]),
+                  rms_over_time(t.value[0], t.value[run]));
 }
 
 /// A series of the summary at the frames compared; empty if a run has it not or not everywhere.
@@ -202,10 +209,7 @@ void compare_measures(const std::vector<RunData>& runs, const Recorder& record, 
     for (const RunData& r : runs) trace.value.push_back(measured(r, m.series));
     if (std::ranges::any_of(trace.value, [](const auto& v) { return v.empty(); })) continue;
     for (const int k : runs[0].frame) trace.time.push_back(runs[0].reader.time_s(k));
-    for (std::size_t r = 1; r < runs.size(); ++r) {
-      record.relative(r, m.name, m.unit, average(trace.value[0]), average(trace.value[r]));
-      c.difference[r - 1].back().difference = rms_over_time(trace.value[0], trace.value[r]);
-    }
+    for (std::size_t r = 1; r < runs.size(); ++r) record_trace(record, r, trace);
     c.trace.push_back(std::move(trace));
   }
 }
@@ -289,41 +293,43 @@ Comparison compare_runs(const std::vector<std::string>& folders,
     return std::sqrt(sum / static_cast<double>(cells.size()));
   };
   for (std::size_t r = 1; r < runs.size(); ++r) {
-    auto over_time = [&](const Trace& t) {
-      record.relative(r, t.name, t.unit, average(t.value[0]), average(t.value[r]));
-      c.difference[r - 1].back().difference = rms_over_time(t.value[0], t.value[r]);
-    };
     auto by_cell = [&](const char* name, const char* unit, double Cell::*what) {
-      record.relative(r, name, unit, rms_of(end[0], what), rms_of(end[r], what));
-      c.difference[r - 1].back().difference =
-          rms_by_lineage(end[0], end[r], what) / rms_of(end[0], what);
+      const double reference = rms_of(end[0], what);
+      const double rms = rms_by_lineage(end[0], end[r], [&](const Cell& a, const Cell& b) {
+        return std::pow(a.*what - b.*what, 2);
+      });
+      record.relative(r, name, unit, reference, rms_of(end[r], what), rms / reference);
     };
     record.relative(r, "cells", "1", count.value[0].back(), count.value[r].back());
-    record.absolute(r, "positions", "um", rms_distance(end[0], end[r]));
+    record.absolute(r, "positions", "um",
+                    rms_by_lineage(end[0], end[r], [](const Cell& a, const Cell& b) {
+                      return (a.center - b.center).squaredNorm();
+                    }));
     record.relative(r, "density", "1/mm^3", density_in(end[0], middle), density_in(end[r], middle));
-    over_time(pressure);
+    record_trace(record, r, pressure);
     by_cell("cell_pressure", "Pa", &Cell::pressure);
-    over_time(force);
+    record_trace(record, r, force);
     by_cell("cell_force", "nN", &Cell::force);
-    over_time(contacts);
+    record_trace(record, r, contacts);
   }
   c.trace = {count, pressure, force, contacts};
   compare_measures(runs, record, c);
   for (std::size_t r = 1; r < runs.size(); ++r)
     record.relative(r, "cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s);
 
+  const std::string reference_scene = runs[0].reader.provenance().at("scene");
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const auto provenance = runs[r].reader.provenance();
+    const std::string scene = runs[r].reader.provenance().at("scene");
     auto has = [&](bool deformable) {
       return std::ranges::any_of(
           end[r], [&](const auto& cell) { return cell.second.deformable == deformable; });
     };
-    c.drag.push_back(drag_of(provenance.at("scene"), has(true), has(false)));
+    c.drag.push_back(drag_of(scene, has(true), has(false)));
     if (runs[r].summary.status != "completed")
       c.notes.push_back(fmt::format("{} is {}", folders[r], runs[r].summary.status));
     if (r == 0) continue;
     const std::vector<std::string> other =
-        scene_differences(runs[0].reader.provenance().at("scene"), provenance.at("scene"));
+        list_scene_differences(reference_scene, scene, may_differ);
     if (!other.empty())
       c.notes.push_back(fmt::format("{} is not the scene of {}: {}", folders[r], folders[0],
                                     fmt::join(other, "; ")));
@@ -350,8 +356,7 @@ int run_models(const Scene& scene, const CompareScenes& options,
       s.friction.cbm_cbm = s.friction.dcm_dcm;
       s.friction.cbm_vessel = s.friction.dcm_vessel;
     }
-    s.resolved_json = write_resolved(s);
-    s.sha = hash_scene(s);
+    set_canonical(s);
     const std::string folder = options.folder + "/" + m.folder;
     folders.push_back(folder);
     // The law's file may hold another law than it did; its name is all that a scene's hash knows.

@@ -453,8 +453,7 @@ Scene read(Document& document, const std::string& label, const std::vector<std::
   check_rules(scene, report);
   report.finish();
   scene.file = label;
-  scene.resolved_json = write_resolved(scene);
-  scene.sha = hash_scene(scene);
+  set_canonical(scene);
   return scene;
 }
 

@@ -144,4 +144,9 @@ std::string hash_scene(const Scene& scene) {
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
+void set_canonical(Scene& scene) {
+  scene.resolved_json = write_resolved(scene);
+  scene.sha = hash_scene(scene);
+}
+
 }  // namespace acinus::runs

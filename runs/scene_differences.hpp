@@ -1,0 +1,16 @@
+#pragma once
+/// How two scenes differ, key by key.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace acinus::runs {
+
+/// "path: then -> now" of every leaf of two canonical scenes that differs, but for the paths that
+/// may. A list that became longer is one line.
+std::vector<std::string> list_scene_differences(
+    const std::string& then, const std::string& now,
+    const std::function<bool(const std::string& path)>& may_differ);
+
+}  // namespace acinus::runs
