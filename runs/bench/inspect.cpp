@@ -280,7 +280,21 @@ std::map<std::int64_t, Load> loads_of(const io::Frame& f) {
   return all;
 }
 
-/// Daughters against their mother in the frame before.
+/// How the volume over rest volume of the middle one of the cells that are in both frames has
+/// changed: what walls do to everybody. 1 without such cells.
+double typical_change(const std::map<std::int64_t, Load>& before,
+                      const std::map<std::int64_t, Load>& now) {
+  std::vector<double> change;
+  for (const auto& [id, load] : now)
+    if (const auto it = before.find(id); it != before.end())
+      change.push_back(load.volume / load.rest / (it->second.volume / it->second.rest));
+  if (change.empty()) return 1;
+  const auto middle = change.begin() + static_cast<std::ptrdiff_t>(change.size() / 2);
+  std::ranges::nth_element(change, middle);
+  return *middle;
+}
+
+/// Daughters against their mother in the frame before, next to how all others have fared.
 std::vector<Finding> compare_volumes(const std::map<std::int64_t, Load>& before,
                                      const std::map<std::int64_t, Load>& now,
                                      const Pedigree& pedigree, double time) {
@@ -288,12 +302,13 @@ std::vector<Finding> compare_volumes(const std::map<std::int64_t, Load>& before,
   for (const auto& [id, load] : now)
     if (const auto it = pedigree.all().find(id); it != pedigree.all().end())
       if (before.contains(it->second.parent)) born[it->second.parent].push_back(load);
+  const double typical = typical_change(before, now);
   std::vector<Finding> wrong;
   for (const auto& [mother, pair] : born) {
     if (pair.size() != 2) continue;  // one has died or divided since
     const double had = before.at(mother).volume / before.at(mother).rest;
     const double have = (pair[0].volume + pair[1].volume) / (pair[0].rest + pair[1].rest);
-    const double change = have / had;
+    const double change = have / had / typical;
     if (!(change < kMostDivisionChange && change > 1 / kMostDivisionChange))
       wrong.push_back({Defect::kVolume, time,
                        fmt::format("the daughters of cell {} have {:.3g} of their rest volume, she "
