@@ -13,9 +13,6 @@
 namespace acinus::coupling {
 namespace {
 
-/// How much farther out of balance a sleeper must be to wake than a cell that falls asleep.
-constexpr double kWake = 2;
-
 /// Whether nothing makes the cell move by itself.
 bool may_sleep(const State& s, const Cell& c) {
   const double t = s.clock.time;
@@ -79,8 +76,7 @@ bool update_sleep(World& world, Workspace& work) {
   std::vector<std::uint8_t> asleep = s.asleep;
   asleep.resize(traction.size(), 0);
   for_each_cell(s, [&](const Cell& c) {
-    const double limit = asleep[c.index] != 0 ? kWake * p.traction : p.traction;
-    asleep[c.index] = may_sleep(s, c) && traction[c.index] <= limit ? 1 : 0;
+    asleep[c.index] = may_sleep(s, c) && traction[c.index] <= p.traction ? 1 : 0;
   });
   const bool slept = count_asleep(s) > 0;
   const bool changed = slept ? asleep != s.asleep : std::ranges::count(asleep, 1) > 0;

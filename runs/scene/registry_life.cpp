@@ -151,8 +151,7 @@ void describe_life(Visitor& v, LifeBlock& b) {
                   "are pushed"},
       b.sleep);
   v.real({.name = "sleep_traction",
-          .meaning = "force out of balance per area below which a cell falls asleep; it wakes at "
-                     "twice that",
+          .meaning = "force out of balance per area below which a cell sleeps",
           .dimension = kStress,
           .unit = "Pa",
           .range = kPositive},

@@ -110,7 +110,7 @@ TEST(Sleep, PressuresOfAClumpAtRestAreThoseWithoutSleep) {
 }
 
 // A clump that creeps falls asleep before it has come to rest. Its pressures are then off by what
-// its cells may be out of balance by, up to twice the limit, and so may their neighbours be.
+// its cells may be out of balance by, up to the limit, and so may their neighbours be.
 TEST(Sleep, PressuresOfAClumpThatCreepsAreOffByAFewTimesTheLimit) {
   World awake = make_pressed_clump(false), tired = make_pressed_clump(true);
   Workspace work, tired_work;
@@ -118,12 +118,12 @@ TEST(Sleep, PressuresOfAClumpThatCreepsAreOffByAFewTimesTheLimit) {
   size_workspace(tired, tired_work);
   run_for(awake, work, 6 * 3600);
   run_for(tired, tired_work, 6 * 3600);
-  EXPECT_EQ(count_asleep(tired.state), 8);
+  EXPECT_GE(count_asleep(tired.state), 4);
   const auto p = pressures(tired, tired_work), q = pressures(awake, work);
   double off = 0;
   for (const auto& [id, pressure] : q) off = std::max(off, std::abs(p.at(id) - pressure));
   std::printf("pressures off by %.2e kPa at a limit of 1e-3\n", off);
-  EXPECT_LT(off, 2 * 2 * 1e-3);
+  EXPECT_LT(off, 2 * 1e-3);
 }
 
 TEST(Sleep, APulledCellWakesAtTheNextLook) {
