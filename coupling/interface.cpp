@@ -12,8 +12,9 @@ namespace {
 /// The law of one contact and the area it acts on.
 struct Patch {
   contact::Well well;
-  double area = 0;      ///< um^2
-  double touching = 0;  ///< share of the area that rubs
+  double hardening = 0;  ///< nN/um^3, by how much the contact stiffens as the dent grows
+  double area = 0;       ///< um^2
+  double touching = 0;   ///< share of the area that rubs
 };
 
 Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
@@ -23,12 +24,17 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
   const dcm::Params& a =
       v.dcm_params[static_cast<std::size_t>(v.dcm_state.group[lane / kLanes].type)];
   const cbm::Params& b = v.cbm_params[static_cast<std::size_t>(v.cbm_state.type[sphere])];
-  const double reduced_young = v.cbm_modulus[sphere].value / (1 - b.poisson * b.poisson);
+  const Compliance under =
+      find_compliance(v.dcm_contact.repulsion,
+                      {v.cbm_radius[sphere], v.cbm_state.young[sphere], b.poisson,
+                       v.cbm_modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
+                      k.dent);
   Patch p;
   p.well = {
       v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion),
-      compliant_stiffness(v.dcm_contact.repulsion, reduced_young, v.cbm_radius[sphere], k.dent),
+      under.stiffness,
       v.dcm_contact.range_factor * t.mean_rest_length * v.lanes.radius[lane]};
+  if (k.gap < 0) p.hardening = under.slope * k.dent;
   p.area = dcm::point_area(t, v.dcm_contact.quadrature, k.point, v.lanes.radius[lane]);
   p.touching = dcm::share_scale(v.dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
                contact::contact_share(k.gap, v.dcm_contact.friction_range);
@@ -37,11 +43,20 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
 
 }  // namespace
 
-double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent) {
-  const double winkler =
-      4 * reduced_young /
-      (3 * kPi * radius * std::sqrt(std::clamp(dent / radius, kLeastDent, kMostDent)));
-  return 1 / (1 / repulsion + 1 / winkler);
+Compliance find_compliance(double repulsion, const SphereSurface& sphere, double dent) {
+  const double d = dent / sphere.radius;
+  cbm::Modulus modulus{sphere.modulus.value, 0};
+  if (sphere.law) {
+    const cbm::Modulus here = cbm::corrected_modulus(*sphere.law, sphere.young, d);
+    if (here.value > modulus.value) modulus = here;
+  }
+  const double per_modulus =
+      4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
+           std::sqrt(std::clamp(d, kLeastDent, kMostDent)));
+  const double winkler = per_modulus * modulus.value, together = 1 / (1 / repulsion + 1 / winkler);
+  // That the contact widens at the same time softens it; the matrix may be too stiff.
+  const double yields = together / winkler;
+  return {together, yields * yields * per_modulus * modulus.slope / sphere.radius};
 }
 
 void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
@@ -74,12 +89,13 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
       const Vec3 at = contact::site_place(b, c.quadrature, site);
       const double far = radius + range + contact::site_reach(b, c.quadrature, site);
       if ((at - center).squaredNorm() > far * far) continue;
+      const Vec3 outward = contact::site_normal(b, c.quadrature, site);
       for (int q = 0; q < per_site; ++q) {
         const int point = static_cast<int>(site) * per_site + q;
         const Vec3 d =
             contact::point_position(b, contact::point_stencil(b, c.quadrature, point)) - center;
         const double distance = d.norm(), gap = distance - radius;
-        if (gap < range && distance > 0)
+        if (gap < range && distance > 0 && contact::are_facing(outward, d / distance))
           found[p].push_back({body, point, sphere, gap, 0, d / distance});
       }
     }
@@ -127,7 +143,7 @@ void add_interface_loads(const InterfaceView& v, std::size_t cbm_first_row, solv
     solve::Link& link = links.link[at];
     link.a = dcm::side_at(v.dcm_state, v.dcm_work.lane_of_body[body], s);
     link.b = solve::Side::at(cbm::cell_point(cbm_first_row, static_cast<std::size_t>(k.sphere)));
-    solve::set_law(p.area * contact::well_stiffness(p.well, k.gap),
+    solve::set_law(p.area * (contact::well_stiffness(p.well, k.gap) + p.hardening),
                    v.params.friction_factor * v.params.friction * p.area * p.touching,
                    std::numeric_limits<double>::infinity(), k.normal, link);
     links.load[at++] = {k.normal, -p.area * contact::well_traction(p.well, k.gap)};

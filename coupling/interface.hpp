@@ -5,7 +5,8 @@
 /// gap with 1/k_s = 1/k_rep + 1/k_w and the Winkler constant k_w = 4 E* / (3 pi R sqrt(d)) that
 /// matches the sphere's half of a Hertz contact. d = dent / R, with the dent the deepest point of
 /// this pair's contact at the start of the step (docs/decisions/0008.md). A rigid sphere would be
-/// about 40 times too stiff.
+/// about 40 times too stiff. A calibrated sphere has the modulus of its mean overlap, or of this
+/// dent where that is deeper (docs/decisions/0020.md).
 
 #include <cstdint>
 #include <span>
@@ -45,6 +46,15 @@ struct InterfaceWorkspace {
   std::vector<std::pair<int, double>> area;
 };
 
+/// What a deformable cell presses on.
+struct SphereSurface {
+  double radius = 0;                       ///< um
+  double young = 0;                        ///< kPa, without correction
+  double poisson = 0;
+  cbm::Modulus modulus;                    ///< kPa, at the mean overlap
+  const cbm::StiffnessLaw* law = nullptr;  ///< nothing: none corrects
+};
+
 /// Smallest dent, in radii, that enters the compliance of a sphere.
 inline constexpr double kLeastDent = 0.01;
 
@@ -54,8 +64,14 @@ inline constexpr double kLeastDent = 0.01;
 /// (3 pi p / 4 E*)^2 R.
 inline constexpr double kMostDent = 0.15;
 
-/// Series stiffness k_s of a sphere's surface under a deformable one, nN/um^3.
-double compliant_stiffness(double repulsion, double reduced_young, double radius, double dent);
+/// Stiffness of a sphere's surface under a deformable one, nN/um^3, and how it grows with the dent,
+/// nN/um^4: 0 where it falls.
+struct Compliance {
+  double stiffness = 0, slope = 0;
+};
+
+/// The series stiffness k_s. @param dent  um
+Compliance find_compliance(double repulsion, const SphereSurface& sphere, double dent);
 
 /// Finds all interface contacts. Adds their touching shares to the surface points and, if overlaps
 /// are counted, theirs to the spheres, young ones too: a deformable cell is a neighbour of full

@@ -14,7 +14,6 @@
 namespace acinus::contact {
 namespace {
 
-constexpr double kFacing = 0.2;  ///< normals with a larger dot product do not oppose each other
 /// Self contact starts this many rest edges away on the surface.
 constexpr double kSelfRings = 3.0;
 
@@ -439,7 +438,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
       if (self && gap < 0) continue;
       const auto site = static_cast<std::size_t>(point[i] / per_site);
       const Vec3 facing = site_normal(a, o.quadrature, site);
-      if (facing.dot(Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])) > kFacing)
+      if (!are_facing(facing, Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])))
         continue;
       out.push_back({list.body_a,
                      point[i],

@@ -73,6 +73,14 @@ inline Vec3 site_normal(const SurfaceBody& b, Quadrature q, std::size_t site) {
       .normalized();
 }
 
+/// Whether two surfaces can touch where their outward normals are these. Beside each other still
+/// counts: a rim that bends away is held. What turns its back does not: it is the far side of a
+/// thin part of a cell.
+inline bool are_facing(const Vec3& outward, const Vec3& other_outward) {
+  constexpr double kMostAlike = 0.2;
+  return outward.dot(other_outward) <= kMostAlike;
+}
+
 /// The nodes and weights that make up one probing point.
 struct PointStencil {
   int n = 0;

@@ -197,6 +197,8 @@ WorkCase growth_case(int cells) {
                              .adaptive = true,
                              .tolerance = 0.1,
                              .extrapolate = extrapolate});
+    s.setting.push_back(s.setting[4]);
+    s.setting.back().cg_tolerance = 2e-2;
     c.time.push_back(s);
   }
   return c;

@@ -101,9 +101,41 @@ TEST(Interface, PartitionedTwinAgreesWithTheSingleSolve) {
 TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
   // k_w = 4 E* / (3 pi R sqrt(dent / R)); E* = 0.45/(1 - 0.47^2), R = 12, dent = 0.48
   const double young = 0.45 / (1 - 0.47 * 0.47), winkler = 4 * young / (3 * kPi * 12 * 0.2);
-  EXPECT_NEAR(compliant_stiffness(5, young, 12, 0.48), 5 * winkler / (5 + winkler), 1e-15);
-  EXPECT_EQ(compliant_stiffness(5, young, 12, 0),
-            compliant_stiffness(5, young, 12, 12 * kLeastDent));
+  const SphereSurface plain{12, 0.45, 0.47, {0.45, 0}, nullptr};
+  EXPECT_NEAR(find_compliance(5, plain, 0.48).stiffness, 5 * winkler / (5 + winkler), 1e-15);
+  EXPECT_EQ(find_compliance(5, plain, 0.48).slope, 0);
+  EXPECT_EQ(find_compliance(5, plain, 0).stiffness,
+            find_compliance(5, plain, 12 * kLeastDent).stiffness);
+  EXPECT_EQ(find_compliance(5, plain, 12 * kMostDent).stiffness,
+            find_compliance(5, plain, 12 * 0.3).stiffness);
+}
+
+TEST(Interface, ACalibratedSphereHardensUnderADentDeeperThanItsMeanOverlap) {
+  const cbm::StiffnessLaw law{{{4000, 4}}, 0.2};
+  const double mean = 0.12;
+  const SphereSurface sphere{12, 0.45, 0.47, cbm::corrected_modulus(law, 0.45, mean), &law};
+  SphereSurface frozen = sphere;
+  frozen.law = nullptr;
+  // As deep as the mean or less: the modulus of the mean overlap, which does not depend on the dent.
+  for (const double d : {0.05, 0.12}) {
+    EXPECT_EQ(find_compliance(5, sphere, 12 * d).stiffness,
+              find_compliance(5, frozen, 12 * d).stiffness);
+    EXPECT_EQ(find_compliance(5, sphere, 12 * 0.999 * d).slope, 0);
+  }
+  // Deeper: stiffer, without a jump, and by what the slope says where the contact does not widen.
+  double before = find_compliance(5, sphere, 12 * mean).stiffness;
+  for (double d = mean; d < 0.35; d += 1e-3) {
+    const double now = find_compliance(5, sphere, 12 * d).stiffness;
+    EXPECT_LT(std::abs(now - before), 0.04 * before);
+    before = now;
+    if (d < kMostDent + 1e-4) continue;
+    EXPECT_GT(now, 1.5 * find_compliance(5, frozen, 12 * d).stiffness);
+    const double step = 1e-4, above = find_compliance(5, sphere, 12 * d + step).stiffness,
+                 below = find_compliance(5, sphere, 12 * d - step).stiffness;
+    if (std::abs(d - 0.2) > 1e-3 && std::abs(d - 0.3) > 1e-3) {
+      EXPECT_NEAR(find_compliance(5, sphere, 12 * d).slope, (above - below) / (2 * step), 1e-6);
+    }
+  }
 }
 
 TEST(Step, SameBitsForOneAndTwoThreads) {
