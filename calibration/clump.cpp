@@ -26,16 +26,14 @@ std::size_t find_central_cell(std::span<const coupling::CellMeasure> cells, cons
 ClumpSample measure_clump(std::span<const coupling::CellMeasure> cells, std::size_t central) {
   const coupling::CellMeasure& middle = cells[central];
   std::vector<double> relative;
-  double sum = 0, weight = 0;
+  double sum = 0;
   for (const coupling::CellMeasure& c : cells) {
     if (&c == &middle) continue;
     relative.push_back(1 - (c.center - middle.center).norm() / (c.radius + middle.radius));
-    const double w = cbm::overlap_weight(relative.back());
-    sum += w * std::max(0.0, relative.back());
-    weight += w;
+    sum += std::max(0.0, relative.back());
   }
   ClumpSample s;
-  s.overlap = weight > 0 ? sum / weight : 0;
+  s.overlap = sum / cbm::kNeighbours;
   std::ranges::sort(relative, std::greater());
   relative.resize(std::min(relative.size(), kShell));
   for (const double r : relative) s.shell_overlap += r / static_cast<double>(relative.size());

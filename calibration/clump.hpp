@@ -12,7 +12,7 @@
 namespace acinus::calibration {
 
 struct ClumpSample {
-  double overlap = 0;  ///< mean relative overlap d of the central cell   [Eq. (22)]
+  double overlap = 0;  ///< relative overlap d of the central cell, as spheres have it
   /// Mean of 1 - |x_i - x_j| / (R_i + R_j) over the 14 cells nearest the central one, neighbours
   /// and next neighbours of a body-centred lattice: unlike d it does not jump when a cell parts.
   double shell_overlap = 0;
@@ -33,8 +33,7 @@ struct Moment {
 /// Index of the cell nearest to a point. @pre there is a cell
 std::size_t find_central_cell(std::span<const coupling::CellMeasure> cells, const Vec3& point);
 
-/// d and shell overlap come from centres and reference radii alone, alike for both models, with the
-/// weights of the contact law of spheres.
+/// d and shell overlap come from centres and reference radii alone, alike for both models.
 ClumpSample measure_clump(std::span<const coupling::CellMeasure> cells, std::size_t central);
 
 /// Every cell of this moment.

@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>
 
+#include "calibration/table.hpp"
 #include "core/error.hpp"
 
 namespace acinus::calibration {
@@ -15,40 +16,53 @@ namespace {
 
 constexpr double kDifference = 1e-3;  ///< relative step of difference quotients
 constexpr double kLeastPower = 1.05;
-constexpr double kLeastModulus = 0.05;  ///< of a0, over the modulus at rest
-/// Of the largest force: where a0 is sought, errors below it count absolutely, above it relatively.
-/// Large forces say nothing about a0.
-constexpr double kSmallForce = 0.2;
 constexpr double kNormal95 = 1.96;
 constexpr std::size_t kLeastSamples = 8;
 constexpr double kPresses = 0.01;  ///< share of the largest force from which on a moment counts
 
-/// Which numbers of a law are sought, each of order one.
-struct Unknowns {
-  std::vector<double> powers;  ///< of the terms whose factors are sought
-  bool modulus = false, power = false;
-  int size() const { return static_cast<int>(powers.size()) + (modulus ? 1 : 0) + (power ? 1 : 0); }
+/// The moments that count, and what is known about them.
+struct Samples {
+  std::vector<Moment> moment;
+  std::array<double, 2> range{};  ///< of d
+  double rms = 0;                 ///< nN, of the force
+  double stiffer = 0;  ///< their force over that of plain spheres at the end of the range
 };
 
-struct Trial {
-  double a0 = 0;
-  std::vector<cbm::StiffnessLaw::Term> term;
-};
-
-/// A factor enters as what its term adds at the end of the range, over a0.
-double scale_of(double a0, double highest, double power) { return a0 / std::pow(highest, power); }
-
-Trial trial_at(const Eigen::VectorXd& x, const Unknowns& u, const Trial& fixed, double highest) {
-  Trial t = fixed;
-  Eigen::Index k = 0;
-  std::vector<double> powers = u.powers;
-  if (u.power) powers[0] = kLeastPower + (powers[0] - kLeastPower) * std::exp(x[u.size() - 1]);
-  for (const double p : powers) t.term.push_back({x[k++] * scale_of(fixed.a0, highest, p), p});
-  if (u.modulus) t.a0 = fixed.a0 * (kLeastModulus + (1 - kLeastModulus) * std::exp(x[k]));
-  return t;
+Samples choose_samples(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
+                       const Vec3& point, double highest) {
+  Samples chosen;
+  chosen.range = {highest, 0};
+  double largest = 0;
+  for (const Moment& m : squeeze) largest = std::max(largest, m.force);
+  for (const Moment& m : squeeze) {
+    const ClumpSample s = measure_as_spheres(m, sphere, point);
+    if (m.force < kPresses * largest || s.overlap > highest) continue;
+    chosen.moment.push_back(m);
+    chosen.range[0] = std::min(chosen.range[0], s.overlap);
+    if (s.overlap > chosen.range[1]) chosen.stiffer = m.force / s.force;
+    chosen.range[1] = std::max(chosen.range[1], s.overlap);
+    chosen.rms += m.force * m.force;
+  }
+  check(chosen.moment.size() >= kLeastSamples && chosen.range[0] < chosen.range[1],
+        fmt::format("calibration: only {} samples of the squeeze press at overlaps up to {}. "
+                    "Squeeze further (capsule.min_radius) or write more often (output.every).",
+                    chosen.moment.size(), highest),
+        Exit::kCannotContinue);
+  chosen.rms = std::sqrt(chosen.rms / static_cast<double>(chosen.moment.size()));
+  return chosen;
 }
 
-/// Residuals as Eigen's solver wants them: force of spheres minus target, over `scale`.
+/// The leading term, and its power if that is sought as well: x = {factor, power}, of order one.
+struct LeadingTerm {
+  double modulus = 0, highest = 0, power = 4;
+  /// The factor is what the term adds at the end of the range, over the modulus.
+  cbm::StiffnessLaw::Term at(const Eigen::VectorXd& x) const {
+    const double p = x.size() > 1 ? kLeastPower + (power - kLeastPower) * std::exp(x[1]) : power;
+    return {x[0] * modulus / std::pow(highest, p), p};
+  }
+};
+
+/// Residuals as Eigen's solver wants them: force of spheres minus target, over the rms of it.
 struct Residuals {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -56,37 +70,34 @@ struct Residuals {
   using JacobianType = Eigen::MatrixXd;
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-  const std::vector<Moment>& moments;
+  const Samples& samples;
   const cbm::Params& sphere;
   const Vec3& point;
-  const Unknowns& unknowns;
-  const Trial& fixed;
-  double highest, rms;
-  const std::vector<double>& scale;  ///< nN, what an error counts against
+  const LeadingTerm& term;
+  int unknowns;
 
-  int inputs() const { return unknowns.size(); }
-  int values() const { return static_cast<int>(moments.size()); }
+  int inputs() const { return unknowns; }
+  int values() const { return static_cast<int>(samples.moment.size()); }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
-    const Trial t = trial_at(x, unknowns, fixed, highest);
     cbm::Params p = sphere;
-    p.young = t.a0;
-    p.correction = {t.term, highest};
-    for (std::size_t k = 0; k < moments.size(); ++k)
+    p.correction = {{term.at(x)}, {}, term.highest};
+    for (std::size_t k = 0; k < samples.moment.size(); ++k)
       r[static_cast<Eigen::Index>(k)] =
-          (measure_as_spheres(moments[k], p, point).force - moments[k].force) / scale[k];
+          (measure_as_spheres(samples.moment[k], p, point).force - samples.moment[k].force) /
+          samples.rms;
     return 0;
   }
 };
 
 struct Solution {
-  Trial trial;
-  Eigen::VectorXd x, residual;
+  Eigen::VectorXd x;
   double spread = 0;  ///< standard deviation of x[0]
 };
 
-Solution solve(Residuals& residuals, const Eigen::VectorXd& start) {
+Solution solve(Residuals& residuals) {
   Solution s;
-  s.x = start;
+  s.x = Eigen::VectorXd::Zero(residuals.inputs());
+  s.x[0] = 5;
   Eigen::NumericalDiff<Residuals> model(residuals, kDifference * kDifference);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> solver(model);
   solver.parameters.factor = 1;  // first steps no longer than the start: powers are touchy
@@ -94,49 +105,33 @@ Solution solve(Residuals& residuals, const Eigen::VectorXd& start) {
   solver.parameters.xtol = 1e-4;
   solver.parameters.maxfev = 60;
   solver.minimize(s.x);
-  s.residual.resize(residuals.values());
-  residuals(s.x, s.residual);
+  Eigen::VectorXd residual(residuals.values());
+  residuals(s.x, residual);
   Eigen::MatrixXd j(residuals.values(), residuals.inputs());
   model.df(s.x, j);
   const double freedom = std::max(1, residuals.values() - residuals.inputs());
   const Eigen::MatrixXd covariance =
-      s.residual.squaredNorm() / freedom *
+      residual.squaredNorm() / freedom *
       (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse();
   s.spread = std::sqrt(std::max(0.0, covariance(0, 0)));
-  s.trial = trial_at(s.x, residuals.unknowns, residuals.fixed, residuals.highest);
   return s;
 }
 
 /// What the figures of a law say about its curve.
-void judge(const Residuals& residuals, const Eigen::VectorXd& residual, FitAttempt& attempt) {
-  const auto n = static_cast<double>(residuals.moments.size());
+void judge(const Samples& samples, const cbm::Params& sphere, const Vec3& point,
+           FitAttempt& attempt) {
+  const auto n = static_cast<double>(samples.moment.size());
   double mean = 0, total = 0, misfit = 0, pointwise = 0;
-  for (const Moment& m : residuals.moments) mean += m.force / n;
-  for (std::size_t k = 0; k < residuals.moments.size(); ++k) {
-    const double f = residuals.moments[k].force;
-    total += (f - mean) * (f - mean);
-    const double miss = residual[static_cast<Eigen::Index>(k)] * residuals.scale[k];
+  for (const Moment& m : samples.moment) mean += m.force / n;
+  for (const Moment& m : samples.moment) {
+    const double miss = force_with(attempt.law, m, sphere, point) - m.force;
+    total += (m.force - mean) * (m.force - mean);
     misfit += miss * miss;
-    pointwise += std::pow(miss / f, 2) / n;
+    pointwise += std::pow(miss / m.force, 2) / n;
   }
-  attempt.law.rms_relative = std::sqrt(misfit / n) / residuals.rms;
+  attempt.law.rms_relative = std::sqrt(misfit / n) / samples.rms;
   attempt.law.r_squared = 1 - misfit / total;
   attempt.pointwise = std::sqrt(pointwise);
-}
-
-/// Whether the modulus nowhere falls below what it was at a smaller d by more than a rounding of
-/// the fit.
-bool never_falls(const Law& law) {
-  constexpr double kRounding = 0.02;
-  const cbm::StiffnessLaw whole = stiffness_law(law);
-  double highest = law.a0;
-  for (int k = 0; k <= 200; ++k) {
-    const double e =
-        cbm::corrected_modulus(whole, law.a0, whole.range * cbm::kLawCap * k / 200).value;
-    if (e < (1 - kRounding) * highest) return false;
-    highest = std::max(highest, e);
-  }
-  return true;
 }
 
 }  // namespace
@@ -153,68 +148,34 @@ double relative_error(const Curve& target, const Curve& spheres, double highest)
 
 std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
                                 const Vec3& point, const FitOptions& options) {
-  std::vector<Moment> moments;
-  double low = options.highest, high = 0, rms = 0, largest = 0, stiffer = 0;
-  for (const Moment& m : squeeze) largest = std::max(largest, m.force);
-  for (const Moment& m : squeeze) {
-    const ClumpSample s = measure_as_spheres(m, sphere, point);
-    if (m.force < kPresses * largest || s.overlap > options.highest) continue;
-    moments.push_back(m);
-    low = std::min(low, s.overlap);
-    if (s.overlap > high) stiffer = m.force / s.force;
-    high = std::max(high, s.overlap);
-    rms += m.force * m.force;
-  }
-  check(moments.size() >= kLeastSamples && low < high,
-        fmt::format("calibration: only {} samples of the squeeze press at overlaps up to {}. "
-                    "Squeeze further (capsule.min_radius) or write more often (output.every).",
-                    moments.size(), options.highest),
-        Exit::kCannotContinue);
-  rms = std::sqrt(rms / static_cast<double>(moments.size()));
-  std::vector<double> scale;
-  for (const Moment& m : moments)
-    scale.push_back(options.free_modulus ? m.force + kSmallForce * largest : rms);
-  std::vector<FitAttempt> attempts;
-
-  const Unknowns leading{{options.power}, options.free_modulus, options.free_power};
-  const Trial none{sphere.young, {}};
-  Residuals residuals{moments, sphere, point, leading, none, high, rms, scale};
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(leading.size());
-  start[0] = 5;
-  const Solution first = solve(residuals, start);
-  const double a1 = first.trial.term[0].factor, power = first.trial.term[0].power;
-  check(std::isfinite(a1) && a1 > 0,
+  const Samples samples = choose_samples(squeeze, sphere, point, options.highest);
+  const LeadingTerm leading{sphere.young, samples.range[1], options.power};
+  Residuals residuals{samples, sphere, point, leading, options.free_power ? 2 : 1};
+  const Solution best = solve(residuals);
+  const cbm::StiffnessLaw::Term term = leading.at(best.x);
+  check(std::isfinite(term.factor) && term.factor > 0,
         fmt::format("calibration: no positive a1 fits (found {:.4g} kPa): these deformable cells "
                     "are softer than spheres at every overlap, so spheres need no correction",
-                    a1),
+                    term.factor),
         Exit::kCannotContinue);
   FitAttempt attempt;
-  attempt.form = fmt::format("a0 + a1 d^{:.3g}", power);
-  attempt.law.a0 = first.trial.a0;
-  attempt.law.a1 = a1;
-  attempt.law.power = power;
-  const double spread = kNormal95 * first.spread * scale_of(sphere.young, high, options.power);
-  attempt.law.a1_interval = {a1 - spread, a1 + spread};
-  attempt.law.overlap_range = {low, high};
-  attempt.law.jkr_underestimation = stiffer;
-  judge(residuals, first.residual, attempt);
-  attempts.push_back(attempt);
+  attempt.form = fmt::format("a0 + a1 d^{:.3g}", term.power);
+  attempt.law.a0 = sphere.young;
+  attempt.law.a1 = term.factor;
+  attempt.law.power = term.power;
+  const double spread =
+      kNormal95 * best.spread * sphere.young / std::pow(leading.highest, options.power);
+  attempt.law.a1_interval = {term.factor - spread, term.factor + spread};
+  attempt.law.overlap_range = samples.range;
+  attempt.law.jkr_underestimation = samples.stiffer;
+  judge(samples, sphere, point, attempt);
+  std::vector<FitAttempt> attempts{attempt};
+  if (attempt.law.rms_relative <= options.good_enough) return attempts;
 
-  const Trial known = first.trial;
-  for (const std::vector<double>& powers :
-       {std::vector<double>{4, 6}, std::vector<double>{4, 6, 8}}) {
-    if (attempts.back().law.rms_relative <= options.good_enough) break;
-    const Unknowns more{powers, false, false};
-    Residuals again{moments, sphere, point, more, known, high, rms, scale};
-    const Solution s = solve(again, Eigen::VectorXd::Zero(more.size()));
-    FitAttempt next = attempt;
-    next.form += " + terms";
-    for (const double p : powers) next.form += fmt::format(" d^{:g}", p);
-    next.law.further.assign(s.trial.term.begin() + 1, s.trial.term.end());
-    judge(again, s.residual, next);
-    if (next.law.rms_relative < attempts.back().law.rms_relative && never_falls(next.law))
-      attempts.push_back(next);
-  }
+  attempt.law = tabulate_law(squeeze, sphere, point, attempt.law);
+  attempt.form = fmt::format("a table of {} moduli", attempt.law.table.size());
+  judge(samples, sphere, point, attempt);
+  if (attempt.law.rms_relative < attempts[0].law.rms_relative) attempts.push_back(attempt);
   return attempts;
 }
 

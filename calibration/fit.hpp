@@ -11,13 +11,10 @@
 namespace acinus::calibration {
 
 struct FitOptions {
-  double highest = 0.2;  ///< largest d that counts
-  double power = 4;      ///< of the leading term
-  /// Fit a0 as well, at least 5 % of the modulus at rest: closer in loose tissue, where adhering
-  /// deformable cells are softer than any sphere.
-  bool free_modulus = false;
+  double highest = 0.2;     ///< largest d that counts
+  double power = 4;         ///< of the leading term
   bool free_power = false;  ///< fit the power as well
-  /// Relative error above which the law gets further terms. [VanLiedekerke2020] has one term.
+  /// Relative error above which the law becomes a table. [VanLiedekerke2020] has one term.
   double good_enough = 0.1;
 };
 
@@ -30,9 +27,8 @@ struct FitAttempt {
 
 /// Least squares on the force of the central cell over the moments of a squeeze that press, with
 /// spheres put where the deformable cells are: same places, hence same d, by the spheres' own law.
-/// First the leading term alone; while the error exceeds good_enough, d^4 and d^6, then d^8 as well
-/// join it, with a1 as found before. A form whose modulus falls with d is not taken: tissue could
-/// collapse. rms_relative is the rms of the difference over the rms of the force; the interval of
+/// First the leading term with the a0 of the spheres; where its error exceeds good_enough, a table
+/// of moduli. rms_relative is the rms of the difference over the rms of the force; the interval of
 /// a1 is that of least squares at 95 %, from the scatter about the first form.
 /// Law::jkr_underestimation is for the moments that are squeezed most. Law::dcm, cbm and provenance
 /// are left empty.

@@ -32,8 +32,8 @@ void compare(const char* model, const Parameters& law, const Parameters& here,
 
 cbm::StiffnessLaw stiffness_law(const Law& law) {
   cbm::StiffnessLaw s;
-  s.term.push_back({law.a1, law.power});
-  s.term.insert(s.term.end(), law.further.begin(), law.further.end());
+  if (law.table.empty()) s.term.push_back({law.a1, law.power});
+  for (const TableEntry& e : law.table) s.table.push_back({e.overlap, e.modulus - law.a0});
   s.range = law.overlap_range[1];
   return s;
 }

@@ -13,12 +13,16 @@ namespace acinus::calibration {
 /// Constants of a cell type by name with unit, e.g. "bulk_modulus_kPa".
 using Parameters = std::map<std::string, double>;
 
-/// E~(d) = a0 + a1 d^power + further terms   [VanLiedekerke2020, Eq. (22)]
+struct TableEntry {
+  double overlap = 0, modulus = 0;  ///< d, kPa
+};
+
+/// E~(d) = a0 + a1 d^power   [VanLiedekerke2020, Eq. (22)], or a table
 struct Law {
-  double a0 = 0;     ///< kPa
-  double a1 = 0;     ///< kPa
-  double power = 4;  ///< of the term with a1
-  std::vector<cbm::StiffnessLaw::Term> further;
+  double a0 = 0;                          ///< kPa, of a cell that nothing touches
+  double a1 = 0;                          ///< kPa
+  double power = 4;                       ///< of the term with a1
+  std::vector<TableEntry> table;          ///< in place of that term; ascending, the first one is a0
   std::array<double, 2> a1_interval{};    ///< kPa, 95 % confidence
   std::array<double, 2> overlap_range{};  ///< of d in the fit
   double r_squared = 0;

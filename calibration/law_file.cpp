@@ -23,9 +23,9 @@ Json numbers_of(const Law& law) {
   j["a0_kPa"] = law.a0;
   j["a1_kPa"] = law.a1;
   j["power"] = law.power;
-  j["further_terms"] = Json::array();
-  for (const cbm::StiffnessLaw::Term& t : law.further)
-    j["further_terms"].push_back({{"factor_kPa", t.factor}, {"power", t.power}});
+  j["table"] = Json::array();
+  for (const TableEntry& e : law.table)
+    j["table"].push_back({{"overlap", e.overlap}, {"modulus_kPa", e.modulus}});
   j["a1_interval_kPa"] = law.a1_interval;
   j["overlap_range"] = law.overlap_range;
   j["r_squared"] = law.r_squared;
@@ -99,6 +99,18 @@ class Reader {
   std::string where_;
 };
 
+std::vector<TableEntry> read_table(const Json& json, const std::string& where) {
+  check(json.is_array() && json.size() != 1, where + ": expected a list of two or more, or none");
+  std::vector<TableEntry> table;
+  for (std::size_t k = 0; k < json.size(); ++k) {
+    const Reader entry(json[k], fmt::format("{}/{}", where, k));
+    table.push_back({entry.number("overlap", 0, 0.5), entry.number("modulus_kPa", 1e-12)});
+    check(k == 0 || table[k - 1].overlap < table[k].overlap,
+          fmt::format("{}/{}: overlaps must rise from one entry to the next", where, k));
+  }
+  return table;
+}
+
 Json parse(const std::string& path) {
   const std::string text = io::read_text_file(path);
   try {
@@ -140,16 +152,12 @@ Law read_law(const std::string& path) {
   law.a0 = r.number("a0_kPa", 1e-12);
   law.a1 = r.number("a1_kPa", 0);
   law.power = r.number("power", 1.000001, 20);
-  const Json& further = r.at("further_terms");
-  check(further.is_array(), path + "/further_terms: expected a list");
-  for (std::size_t k = 0; k < further.size(); ++k) {
-    const Reader term(further[k], fmt::format("{}/further_terms/{}", path, k));
-    law.further.push_back(
-        {term.number("factor_kPa", -Reader::kAny), term.number("power", 1.000001, 20)});
-  }
+  law.table = read_table(r.at("table"), path + "/table");
   law.a1_interval = r.interval("a1_interval_kPa", -Reader::kAny);
   law.overlap_range = r.interval("overlap_range", 0, 0.5);
   check(law.overlap_range[1] > 0, path + "/overlap_range: the fit covers nothing");
+  check(law.table.empty() || law.overlap_range[1] == law.table.back().overlap,
+        path + "/overlap_range: the table ends elsewhere");
   law.r_squared = r.number("r_squared", -Reader::kAny, 1);
   law.rms_relative = r.number("rms_relative", 0);
   law.jkr_underestimation = r.number("jkr_underestimation", 0);

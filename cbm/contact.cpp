@@ -34,9 +34,7 @@ bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int ce
 }
 
 void count_overlap(ContactWorkspace& work, int cell, double relative, double share) {
-  const double w = share * overlap_weight(relative);
-  work.overlap_sum[static_cast<std::size_t>(cell)] += w * std::max(relative, 0.0);
-  work.overlap_weight[static_cast<std::size_t>(cell)] += w;
+  work.overlap_sum[static_cast<std::size_t>(cell)] += share * std::max(relative, 0.0);
 }
 
 struct MeshGap {
@@ -79,7 +77,7 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
       work.modulus[i] = {s.young[i], 0};
       continue;
     }
-    const double d = mean_overlap(work, i);
+    const double d = relative_overlap(work, i);
     work.modulus[i] = corrected_modulus(law, s.young[i], d);
     ++work.corrected;
     work.beyond += d > law.range ? 1 : 0;
@@ -88,6 +86,14 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
 
 /// Adds the coupling of its cells to the stiffness of every contact.
 void add_coupling(ContactWorkspace& work, std::vector<solve::PointLink>& link) {
+  std::vector<double> contacts(work.coupling.size(), 0.0);
+  for (const auto& [a, b] : work.touching) {
+    if (b < 0) continue;
+    ++contacts[static_cast<std::size_t>(a)];
+    ++contacts[static_cast<std::size_t>(b)];
+  }
+  for (const ObstacleContact& o : work.obstacle) ++contacts[static_cast<std::size_t>(o.cell)];
+  for (std::size_t i = 0; i < contacts.size(); ++i) work.coupling[i] *= contacts[i] / kNeighbours;
   std::size_t k = 0;
   for (const auto& touching : work.touching) {
     if (touching.second < 0) continue;  // surroundings
@@ -111,7 +117,6 @@ void find_overlaps(const State& s, const CellData& cells, const contact::Surroun
                    double time, ContactWorkspace& work) {
   const std::span<const double> radius = cells.radius;
   work.overlap_sum.assign(s.n_cell(), 0.0);
-  work.overlap_weight.assign(s.n_cell(), 0.0);
   std::vector<double> relative(work.pair.size());
 #pragma omp parallel for schedule(static) if (relative.size() > 10000)
   for (std::size_t k = 0; k < relative.size(); ++k) {
@@ -126,13 +131,17 @@ void find_overlaps(const State& s, const CellData& cells, const contact::Surroun
     count_overlap(work, a, relative[k], share);
     count_overlap(work, b, relative[k], share);
   }
-  for (std::size_t i = 0; i < s.n_cell(); ++i)
-    for (const contact::Plane& p : around.planes) {
-      const double gap = contact::gap_to_plane(p, center_of(s, i), time).gap;
-      if (p.material.mirror && gap < radius[i])
-        count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
-                      cells.strength_of(i));
-    }
+  // A wall is as much of an obstacle as the cell's own image behind it.
+  for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    const auto count = [&](double gap) {
+      count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
+                    cells.strength_of(i));
+    };
+    for (const contact::Plane& p : around.planes)
+      count(contact::gap_to_plane(p, center_of(s, i), time).gap);
+    for (const contact::Capsule& c : around.capsules)
+      count(contact::gap_to_capsule(c, center_of(s, i), time).gap);
+  }
 }
 
 double largest_separation(const State& s, std::span<const Params> params,
@@ -153,14 +162,8 @@ double largest_separation(const State& s, std::span<const Params> params,
   return -contact::jkr_special(pair).fold.overlap;
 }
 
-double overlap_weight(double relative_overlap) {
-  const double s = std::clamp(relative_overlap / kOverlapRise, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
-}
-
-double mean_overlap(const ContactWorkspace& work, std::size_t cell) {
-  const double w = work.overlap_weight[cell];
-  return w > 0 ? work.overlap_sum[cell] / w : 0;
+double relative_overlap(const ContactWorkspace& work, std::size_t cell) {
+  return work.overlap_sum[cell] / kNeighbours;
 }
 
 contact::SphereForce weaken(contact::SphereForce law, double share) {
@@ -245,7 +248,7 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         weaken(contact::jkr_force(pair, overlap, before), cells.strength_of(i));
     if (!law.touching) return;
     work.touching.emplace_back(static_cast<int>(i), key);
-    couple(i, law, 2 * radius[i]);
+    couple(i, law, radius[i]);
     work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
     work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
   };

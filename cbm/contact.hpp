@@ -49,9 +49,9 @@ struct ContactWorkspace {
   std::vector<ObstacleContact> obstacle;  ///< written by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
-  /// [n_cell] mean relative overlap d of Eq. (22): numerator and weight, vessels left out. By
+  /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
   /// find_overlaps; the DCM-CBM interface adds its own. Empty: nobody asks.
-  std::vector<double> overlap_sum, overlap_weight;
+  std::vector<double> overlap_sum;
   std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
   /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
   /// grows with all its overlaps, C_i; written by: find_contacts. Empty: no law corrects.
@@ -65,15 +65,13 @@ struct ContactWorkspace {
 /// fall alike. With a share of 0 there is none.
 contact::SphereForce weaken(contact::SphereForce law, double share);
 
-/// Relative overlap over which a contact's weight in the mean rises to one.
-inline constexpr double kOverlapRise = 0.02;
+/// Neighbours of a cell in dense tissue: those of a close packing of spheres.
+inline constexpr double kNeighbours = 12;
 
-/// Weight of one contact in the mean overlap: rises smoothly from 0 with the overlap so that a new
-/// contact makes no jump.
-double overlap_weight(double relative_overlap);
-
-/// Mean relative overlap of a cell.   [VanLiedekerke2020, Eq. (22) with smooth weights]
-double mean_overlap(const ContactWorkspace& work, std::size_t cell);
+/// Relative overlap d of a cell: of all its contacts together, over those of dense tissue. With
+/// twelve neighbours it is the mean of [VanLiedekerke2020, Eq. (22)]; with others it still says how
+/// full its room is, and a new contact makes no jump. (docs/decisions/0021.md)
+double relative_overlap(const ContactWorkspace& work, std::size_t cell);
 
 /// How far apart two adhering spheres may stand before they let go, um: a bound over all pairs and
 /// surroundings.
@@ -95,7 +93,7 @@ void find_overlaps(const State& state, const CellData& cells, const contact::Sur
 /// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
 /// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. Where a law corrects the modulus,
 /// the stiffness of a pair is max(0, dF/d overlap) + C_i + C_j,
-///   C_i = max_j dF/dE^ dE^/dE~_i dE~_i/dd_i / (R_i + R_j),
+///   C_i = n_i / 12 max_j dF/dE^ dE^/dE~_i dE~_i/dd_i / (R_i + R_j),   n_i contacts of the cell,
 /// a bound of what the other contacts of both do to this one: with E~ held fixed long steps are
 /// unstable above d = 0.09. All that a contact of two cells
 /// does is multiplied by the larger of their strengths, so that spheres born into each other come

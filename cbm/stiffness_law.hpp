@@ -1,24 +1,30 @@
 #pragma once
-/// How the modulus of a sphere grows with its mean relative overlap d, so that spheres carry what
+/// How the modulus of a sphere grows with its relative overlap d, so that spheres carry what
 /// deformable cells carry in dense tissue: E~ = E + a1 d^4   [VanLiedekerke2020, Eq. (22)]
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace acinus::cbm {
 
-/// E~(d) - E = sum a d^power up to `range`, on along the tangent from there (level where that
-/// falls), and constant from kLawCap ranges on: a law is known where it was fitted only, and beyond
-/// it must neither jump nor run away.
+/// E~(d) - E = sum a d^power, or a table, up to `range`, on along the tangent from there (level
+/// where that falls), and constant from kLawCap ranges on: a law is known where it was fitted only,
+/// and beyond it must neither jump nor run away.
 struct StiffnessLaw {
   struct Term {
     double factor = 0;  ///< kPa
     double power = 4;   ///< > 1: a cell that is hardly touched is as soft as ever
   };
-  std::vector<Term> term;  ///< none: E~ = E
-  double range = 0.2;      ///< largest d of the fit
+  struct Knot {
+    double overlap = 0, added = 0;  ///< d, and E~ - E there, kPa
+  };
+  std::vector<Term> term;
+  /// In place of terms: linear between knots of rising d, level before the first one.
+  std::vector<Knot> table{};
+  double range = 0.2;  ///< largest d of the fit, and of the table
 
-  bool corrects() const { return !term.empty(); }
+  bool corrects() const { return !term.empty() || !table.empty(); }
 };
 
 /// Where a law ends to grow, over its range.
@@ -29,13 +35,30 @@ struct Modulus {
   double value = 0, slope = 0;
 };
 
-/// E~ of a cell of modulus `young` at the mean overlap d >= 0.
+/// What a table adds at d, and its slope there; on the last knot that of the stretch before it.
+inline Modulus look_up(const std::vector<StiffnessLaw::Knot>& table, double d) {
+  if (d <= table.front().overlap) return {table.front().added, 0};
+  auto after = std::lower_bound(
+      table.begin(), table.end(), d,
+      [](const StiffnessLaw::Knot& k, double overlap) { return k.overlap < overlap; });
+  if (after == table.end()) --after;
+  const auto before = after - 1;
+  const double slope = (after->added - before->added) / (after->overlap - before->overlap);
+  return {before->added + slope * (d - before->overlap), slope};
+}
+
+/// E~ of a cell of modulus `young` at the overlap d >= 0.
 inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d) {
   Modulus m{young, 0};
   const double within = d < law.range ? d : law.range;
   for (const StiffnessLaw::Term& t : law.term) {
     m.value += t.factor * std::pow(within, t.power);
     m.slope += t.factor * t.power * std::pow(within, t.power - 1);
+  }
+  if (!law.table.empty()) {
+    const Modulus added = look_up(law.table, within);
+    m.value += added.value;
+    m.slope += added.slope;
   }
   const double end = kLawCap * law.range;
   if (d > law.range) {

@@ -30,10 +30,8 @@ Patch make_patch(const InterfaceView& v, const InterfaceContact& k) {
                        v.cbm_modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
                       k.dent);
   Patch p;
-  p.well = {
-      v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion),
-      under.stiffness,
-      v.dcm_contact.range_factor * t.mean_rest_length * v.lanes.radius[lane]};
+  p.well = {v.dcm_contact.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), under.stiffness,
+            v.dcm_contact.range_factor * t.mean_rest_length * v.lanes.radius[lane]};
   if (k.gap < 0) p.hardening = under.slope * k.dent;
   p.area = dcm::point_area(t, v.dcm_contact.quadrature, k.point, v.lanes.radius[lane]);
   p.touching = dcm::share_scale(v.dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
@@ -50,9 +48,8 @@ Compliance find_compliance(double repulsion, const SphereSurface& sphere, double
     const cbm::Modulus here = cbm::corrected_modulus(*sphere.law, sphere.young, d);
     if (here.value > modulus.value) modulus = here;
   }
-  const double per_modulus =
-      4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
-           std::sqrt(std::clamp(d, kLeastDent, kMostDent)));
+  const double per_modulus = 4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
+                                  std::sqrt(std::clamp(d, kLeastDent, kMostDent)));
   const double winkler = per_modulus * modulus.value, together = 1 / (1 / repulsion + 1 / winkler);
   // That the contact widens at the same time softens it; the matrix may be too stiff.
   const double yields = together / winkler;
@@ -114,14 +111,12 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
                                       lanes.radius[lane]);
     }
     if (area > 0) work.area.emplace_back(sphere, area);
-    // A deformable neighbour enters the sphere's mean overlap with its reference radius.
+    // A deformable neighbour counts in the sphere's overlap with its reference radius.
     if (area > 0 && !cbm_work.overlap_sum.empty()) {
       const double reach = lanes.radius[lane] + cbm_radius[i];
       const double relative =
           1 - (dcm::cell_center(dcm_state, lane) - cbm::center_of(cbm_state, i)).norm() / reach;
-      const double w = cbm::overlap_weight(relative);
-      cbm_work.overlap_sum[i] += w * std::max(relative, 0.0);
-      cbm_work.overlap_weight[i] += w;
+      cbm_work.overlap_sum[i] += std::max(relative, 0.0);
     }
     work.contact.insert(work.contact.end(), found[p].begin(), found[p].end());
   }

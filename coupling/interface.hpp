@@ -5,7 +5,7 @@
 /// gap with 1/k_s = 1/k_rep + 1/k_w and the Winkler constant k_w = 4 E* / (3 pi R sqrt(d)) that
 /// matches the sphere's half of a Hertz contact. d = dent / R, with the dent the deepest point of
 /// this pair's contact at the start of the step (docs/decisions/0008.md). A rigid sphere would be
-/// about 40 times too stiff. A calibrated sphere has the modulus of its mean overlap, or of this
+/// about 40 times too stiff. A calibrated sphere has the modulus of its overlap, or of this
 /// dent where that is deeper (docs/decisions/0020.md).
 
 #include <cstdint>
@@ -48,10 +48,10 @@ struct InterfaceWorkspace {
 
 /// What a deformable cell presses on.
 struct SphereSurface {
-  double radius = 0;                       ///< um
-  double young = 0;                        ///< kPa, without correction
+  double radius = 0;  ///< um
+  double young = 0;   ///< kPa, without correction
   double poisson = 0;
-  cbm::Modulus modulus;                    ///< kPa, at the mean overlap
+  cbm::Modulus modulus;                    ///< kPa, at its overlap d
   const cbm::StiffnessLaw* law = nullptr;  ///< nothing: none corrects
 };
 

@@ -8,6 +8,18 @@
 #include "runs/build_world.hpp"
 
 namespace acinus::runs {
+namespace {
+
+std::string describe(const calibration::Law& law) {
+  if (law.table.empty())
+    return fmt::format("E = {:.4g} kPa + {:.4g} kPa d^{:g}, fitted for d from {:.2g} to {:.2g}",
+                       law.a0, law.a1, law.power, law.overlap_range[0], law.overlap_range[1]);
+  return fmt::format("E from {:.3g} kPa at d = {:.2g} to {:.3g} kPa at d = {:.2g} by a table",
+                     law.table.front().modulus, law.table.front().overlap, law.table.back().modulus,
+                     law.table.back().overlap);
+}
+
+}  // namespace
 
 LawParameters law_parameters(const Scene& scene, const CellType& type) {
   const DcmBlock& d = type.dcm;
@@ -40,11 +52,7 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
                       "Calibrate first and name the law file.",
                       name));
     const calibration::Law law = calibration::read_law(file);
-    notes.push_back(fmt::format(
-        "{}: E = {:.4g} kPa + {:.4g} kPa d^{:g}{}, fitted for d from {:.2g} "
-        "to {:.2g} ({})",
-        name, law.a0, law.a1, law.power, law.further.empty() ? "" : " and further terms",
-        law.overlap_range[0], law.overlap_range[1], file));
+    notes.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
     const LawParameters here = law_parameters(scene, type);
     const std::vector<std::string> differences =
         calibration::list_differences(law, here.dcm, here.cbm);

@@ -99,7 +99,8 @@ void add_calibrate(CLI::App& app, Arguments& arguments) {
   add_set(*command, arguments.run);
   command->add_option("--type", o.clump.type, "cell type, where the scene has several")
       ->type_name("NAME");
-  command->add_option("--cells", o.clump.cells, "cells of the clump, e.g. 9, 15 or 27")
+  command
+      ->add_option("--cells", o.clump.cells, "cells of the clump, e.g. 15, 27 or 59 (default: 59)")
       ->type_name("N")
       ->check(CLI::Range(9, 1000));
   command->add_option("--rate", o.clump.rate, "factor on the speed of squeezing")
@@ -112,10 +113,10 @@ void add_calibrate(CLI::App& app, Arguments& arguments) {
       ->type_name("P")
       ->check(CLI::Range(1.1, 12.0));
   command->add_flag("--free-power", o.fit.free_power, "fit the power as well");
-  command->add_flag("--free-modulus", o.fit.free_modulus, "fit a0 as well");
   command
-      ->add_option("--good-enough", o.fit.good_enough,
-                   "relative error up to which one term is enough (default: 0.1)")
+      ->add_option(
+          "--good-enough", o.fit.good_enough,
+          "relative error up to which one term is enough and no table is made (default: 0.1)")
       ->type_name("E")
       ->check(CLI::Range(0.0, 10.0));
   command->add_flag("!--no-relaxation", o.relaxation,

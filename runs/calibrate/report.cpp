@@ -59,10 +59,13 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
   t += row("a1", fmt::format("{:.3g} Pa, 95 % interval {:.3g} to {:.3g} Pa, power {:.3g}",
                              kPa_in_Pa * first.law.a1, kPa_in_Pa * first.law.a1_interval[0],
                              kPa_in_Pa * first.law.a1_interval[1], first.law.power));
-  for (const cbm::StiffnessLaw::Term& term : last.law.further)
-    t += row("further term", fmt::format("{:+.4g} Pa d^{:g}", kPa_in_Pa * term.factor, term.power));
+  if (!last.law.table.empty())
+    t += row("moduli of the table",
+             fmt::format("{:.3g} Pa at d = {:.3f} to {:.3g} Pa at d = {:.3f}",
+                         kPa_in_Pa * last.law.table.front().modulus, last.law.table.front().overlap,
+                         kPa_in_Pa * last.law.table.back().modulus, last.law.table.back().overlap));
   t += row("range of d",
-           fmt::format("{:.3f} to {:.3f}", last.law.overlap_range[0], last.law.overlap_range[1]));
+           fmt::format("{:.3f} to {:.3f}", first.law.overlap_range[0], first.law.overlap_range[1]));
   t += row("deformable cells over plain spheres",
            fmt::format("{:.1f} times the force at d = {:.2f}", last.law.jkr_underestimation,
                        last.law.overlap_range[1]));
@@ -109,7 +112,7 @@ void write_curves(const Calibration& c, const std::string& folder) {
   io::write_text_file(folder + "/curves.json", j.dump(1) + "\n");
   io::write_plot(folder + "/force.svg",
                  {"Squeezed clump, central cell",
-                  "mean relative overlap d",
+                  "relative overlap d",
                   "sum of normal forces, nN",
                   false,
                   false,

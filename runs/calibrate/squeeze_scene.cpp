@@ -62,7 +62,7 @@ Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
     s.motility.random = false;
     s.cells.source = "clump";
     s.cells.lattice = "bcc";
-    s.cells.count = 15;
+    s.cells.count = 59;  // fewer, and the neighbours of the central cell stand at the wall
     s.cells.jitter = 0.01;
     s.output.every = 1200;
   }

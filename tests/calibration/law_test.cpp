@@ -56,17 +56,21 @@ class LawFile : public testing::Test {
 
 TEST_F(LawFile, IsReadAsItWasWritten) {
   Law law = make_law();
-  law.further.push_back({-3, 6});
+  law.table = {{0.05, 0.45}, {0.1, 1.5}, {0.19, 4}};
   write_law(law, path());
   const Law read = read_law(path());
   EXPECT_EQ(law_text(read), law_text(law));
   EXPECT_EQ(read.a1, law.a1);
   EXPECT_EQ(read.provenance, law.provenance);
   const cbm::StiffnessLaw s = stiffness_law(read);
-  ASSERT_EQ(s.term.size(), 2u);
-  EXPECT_EQ(s.term[0].factor, law.a1);
-  EXPECT_EQ(s.term[1].power, 6);
+  EXPECT_TRUE(s.term.empty());
+  ASSERT_EQ(s.table.size(), 3u);
+  EXPECT_EQ(s.table[0].added, 0);
+  EXPECT_EQ(s.table[1].overlap, 0.1);
+  EXPECT_EQ(s.table[1].added, 1.5 - 0.45);
   EXPECT_EQ(s.range, 0.19);
+  ASSERT_EQ(stiffness_law(make_law()).term.size(), 1u);
+  EXPECT_EQ(stiffness_law(make_law()).term[0].factor, make_law().a1);
 }
 
 TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
@@ -75,7 +79,7 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
     EXPECT_NE(m.find(reason), std::string::npos) << from << " -> " << to << ": " << m;
     EXPECT_NE(m.find("law.json"), std::string::npos) << m;
   };
-  expect("\"schema_version\": 1", "\"schema_version\": 7", "another version");
+  expect("\"schema_version\": 2", "\"schema_version\": 7", "another version");
   expect("0.45", "NaN", "not JSON");
   expect("0.45", "null", "expected a number");
   expect("0.45", "-0.45", "not allowed");

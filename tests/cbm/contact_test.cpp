@@ -232,7 +232,7 @@ TEST(Vessels, OneContactForAnySpacingOfTheChain) {
     EXPECT_EQ(s.force(0).norm(), 0);
     const double friction = 0.5 * kPi * law.contact_radius * law.contact_radius;
     EXPECT_NEAR(static_cast<double>(s.links()[0].friction), friction, 1e-7 * friction);  // a float
-    EXPECT_EQ(mean_overlap(s.work, 0), 0) << "vessels are kept out of the mean overlap";
+    EXPECT_EQ(relative_overlap(s.work, 0), 0) << "vessels are kept out of the overlap";
   }
 }
 
@@ -267,8 +267,8 @@ TEST(Walls, MirrorActsAsTheImageCell) {
   ASSERT_EQ(image.links().size(), 1u);
   EXPECT_LT((wall.external_force(0) - image.force(0)).norm(), 1e-12);
   EXPECT_EQ(wall.links()[0].friction, 0);  // no tangential friction
-  EXPECT_NEAR(mean_overlap(wall.work, 0), 1 - 11.0 / 12, 1e-14);
-  EXPECT_NEAR(mean_overlap(image.work, 0), 1 - 11.0 / 12, 1e-14);
+  EXPECT_NEAR(relative_overlap(wall.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
+  EXPECT_NEAR(relative_overlap(image.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
   EXPECT_NEAR(wall.work.contact_area[0], image.work.contact_area[0], 1e-10);
   const auto hertz = 4.0 / 3 * 0.45 / (1 - 0.47 * 0.47) * std::sqrt(12.0);
   EXPECT_NEAR(wall.external_force(0).z(), hertz, 1e-12);
@@ -313,36 +313,38 @@ TEST(Walls, MovingPlaneAndShrinkingCapsule) {
   }
 }
 
-TEST(MeanOverlap, DoesNotJumpWhenAContactAppears) {
+TEST(RelativeOverlap, IsThatOfAllContactsTogetherAndNeverFallsAsOneComesNearer) {
   Spheres s({sphere({0, 0, 0}), sphere({23, 0, 0}), sphere({-26, 0, 0})});
-  double last = -1, steepest = 0;
+  const double own = 1 - 23.0 / 24;
+  double last = own / kNeighbours, steepest = 0;
   for (double gap = 26; gap > 22; gap -= 1e-3) {
     s.move(2, {-gap, 0, 0});
     s.find();
     s.accept();
-    const double d = mean_overlap(s.work, 0);
-    if (last >= 0) steepest = std::max(steepest, std::abs(d - last));
+    const double d = relative_overlap(s.work, 0);
+    EXPECT_GE(d, last);
+    steepest = std::max(steepest, d - last);
     last = d;
   }
-  const double own = 1 - 23.0 / 24;
-  std::printf(
-      "mean overlap: largest change in 1 nm of approach %.1e (d of the other contact %.3f)\n",
-      steepest, own);
-  EXPECT_LT(
-      steepest,
-      1e-3 * own * 10);  // of order d per um of approach, in steps of 1 nm; a jump would be d/2
-  EXPECT_NEAR(last, (own + (1 - 22.0 / 24)) / 2, 1e-4);
-  // And back out, through the adhesive branch.
-  for (double gap = 22; gap < 25; gap += 1e-3) {
-    s.move(2, {-gap, 0, 0});
+  EXPECT_LT(steepest, 1.001e-3 / 24 / kNeighbours);  // no jump where they meet
+  EXPECT_NEAR(last, (own + (1 - 22.0 / 24)) / kNeighbours, 1e-5);
+}
+
+TEST(RelativeOverlap, CountsWallsOfAnyKindAsTheImageBehindThem) {
+  for (const bool mirror : {false, true}) {
+    Spheres s({sphere({0, 0, 11})});
+    contact::Plane floor;
+    floor.material.mirror = mirror;
+    s.around.planes = {floor};
     s.find();
-    s.accept();
-    const double d = mean_overlap(s.work, 0);
-    steepest = std::max(steepest, std::abs(d - last));
-    last = d;
+    EXPECT_NEAR(relative_overlap(s.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14) << mirror;
   }
-  EXPECT_LT(steepest, 1e-2 * own);
-  EXPECT_NEAR(last, own, 1e-14);
+  Spheres s({sphere({0, 0, 11})});
+  contact::Capsule shell;
+  shell.radius = 22;
+  s.around.capsules = {shell};
+  s.find();
+  EXPECT_NEAR(relative_overlap(s.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
 }
 
 TEST(MediumFriction, ActsOnWhatTouchesNothing) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kA1 = 4000;  // kPa, the paper's value
 
-StiffnessLaw quartic() { return {{{kA1, 4}}, 0.2}; }
+StiffnessLaw quartic() { return {{{kA1, 4}}, {}, 0.2}; }
 
 TEST(StiffnessLaw, IsThePolynomialWithinItsRange) {
   for (double d : {0.0, 0.03, 0.1, 0.2}) {
@@ -23,10 +23,23 @@ TEST(StiffnessLaw, IsThePolynomialWithinItsRange) {
     EXPECT_NEAR(m.value, 0.45 + kA1 * std::pow(d, 4), 1e-14 * m.value);
     EXPECT_NEAR(m.slope, 4 * kA1 * std::pow(d, 3), 1e-14 * m.slope);
   }
-  const StiffnessLaw two{{{100, 2}, {kA1, 4}}, 0.2};
+  const StiffnessLaw two{{{100, 2}, {kA1, 4}}, {}, 0.2};
   EXPECT_NEAR(corrected_modulus(two, 0.45, 0.1).value, 0.45 + 1 + 0.4, 1e-14);
   EXPECT_EQ(corrected_modulus({}, 0.45, 0.3).value, 0.45);
   EXPECT_EQ(corrected_modulus({}, 0.45, 0.3).slope, 0);
+}
+
+TEST(StiffnessLaw, FollowsATable) {
+  const StiffnessLaw law{{}, {{0.07, 0}, {0.08, 1}, {0.2, 4}}, 0.2};
+  ASSERT_TRUE(law.corrects());
+  EXPECT_EQ(corrected_modulus(law, 0.1, 0.03).value, 0.1);
+  EXPECT_EQ(corrected_modulus(law, 0.1, 0.03).slope, 0);
+  EXPECT_NEAR(corrected_modulus(law, 0.1, 0.075).value, 0.6, 1e-13);
+  EXPECT_NEAR(corrected_modulus(law, 0.1, 0.075).slope, 100, 1e-10);
+  EXPECT_NEAR(corrected_modulus(law, 0.1, 0.2).value, 4.1, 1e-13);
+  EXPECT_NEAR(corrected_modulus(law, 0.1, 0.24).value, 5.1, 1e-13) << "on along the last stretch";
+  EXPECT_NEAR(corrected_modulus(law, 0.1, 5).value, 6.6, 1e-13);
+  EXPECT_EQ(corrected_modulus(law, 0.1, 5).slope, 0);
 }
 
 TEST(StiffnessLaw, GoesOnAlongItsTangentAndEnds) {
@@ -167,15 +180,11 @@ TEST(Correction, StiffensTheCentralCell) {
   soft.params[0].correction = {};
   soft.find();
   stiff.find();
-  const double d = mean_overlap(stiff.work, 0);
-  double sum = 0, weights = 0;
-  for (const SphereContact& c : stiff.sphere) {
-    const double relative = c.overlap / 24, w = overlap_weight(relative);
-    if (c.a != 0 && c.b != 0) continue;
-    sum += w * relative;
-    weights += w;
-  }
-  EXPECT_NEAR(d, sum / weights, 1e-13);
+  const double d = relative_overlap(stiff.work, 0);
+  double sum = 0;
+  for (const SphereContact& c : stiff.sphere)
+    if (c.a == 0 || c.b == 0) sum += std::max(0.0, c.overlap / 24);
+  EXPECT_NEAR(d, sum / 12, 1e-13);
   EXPECT_GT(d, 0.1);
   EXPECT_NEAR(stiff.work.modulus[0].value, 0.45 + kA1 * std::pow(d, 4), 1e-12);
   EXPECT_EQ(soft.work.modulus[0].value, 0.45);
@@ -189,7 +198,7 @@ TEST(Correction, StepsOfAnyLengthAreStable) {
     Spheres s = make_clump(squeeze, 5);
     settle(s);
     forces(s);
-    const double d = mean_overlap(s.work, 0);
+    const double d = relative_overlap(s.work, 0);
     const Eigen::MatrixXd j = jacobian(s);
     for (double h : {60.0, 300.0, 1800.0}) {
       const Spectrum with = spectrum(matrix(s, h), j);

@@ -36,7 +36,7 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
   weak.find();
   const std::size_t n = full.state.n_cell();
   std::vector<Vec3> force(n, Vec3::Zero());
-  std::vector<double> area(n), overlap(n), weight(n), size(n);
+  std::vector<double> area(n), overlap(n), size(n);
   std::vector<std::pair<int, int>> touching;
   std::vector<SphereContact> listed;
   const std::vector<double> r = full.radius();
@@ -46,13 +46,12 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
         std::max(weak.state.strength[a].at(weak.time), weak.state.strength[b].at(weak.time));
     if (share == 0) continue;
     touching.emplace_back(c.a, c.b);
-    const double relative = c.overlap / (r[a] + r[b]), w = share * overlap_weight(relative);
+    const double relative = std::max(0.0, c.overlap / (r[a] + r[b]));
     for (std::size_t k : {a, b}) {
       force[k] += (k == a ? share : -share) * c.law.force * c.normal;
       size[k] += share * std::abs(c.law.force);
       area[k] += share * area_of(c.law);
-      overlap[k] += w * relative;
-      weight[k] += w;
+      overlap[k] += share * relative;
     }
     listed.push_back(c);
     listed.back().law.force *= share;
@@ -71,7 +70,6 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
     EXPECT_LE((weak.force(k) - force[k]).norm(), 1e-11 * size[k]);
     EXPECT_NEAR(weak.work.contact_area[k], area[k], 1e-12 * area[k]);
     EXPECT_NEAR(weak.work.overlap_sum[k], overlap[k], 1e-12 * overlap[k]);
-    EXPECT_NEAR(weak.work.overlap_weight[k], weight[k], 1e-12 * weight[k]);
     net += weak.force(k);
     sum += weak.force(k).norm();
   }
@@ -144,11 +142,11 @@ TEST(Strength, ScalesContactsWithSurroundings) {
   }
   EXPECT_EQ(half.external_force(0), 0.5 * full.external_force(0));
   EXPECT_NEAR(half.work.contact_area[0], 0.5 * full.work.contact_area[0], 1e-10);
-  EXPECT_EQ(half.work.overlap_weight[0], 0.5 * full.work.overlap_weight[0]);
+  EXPECT_EQ(half.work.overlap_sum[0], 0.5 * full.work.overlap_sum[0]);
   EXPECT_TRUE(none.work.obstacle.empty());
   EXPECT_TRUE(none.work.touching.empty());
   EXPECT_EQ(none.external_force(0).norm(), 0);
-  EXPECT_EQ(none.work.overlap_weight[0], 0);
+  EXPECT_EQ(none.work.overlap_sum[0], 0);
 }
 
 TEST(Strength, OfANeighbourIsEnoughForTheFullContact) {
@@ -163,8 +161,8 @@ TEST(Strength, OfANeighbourIsEnoughForTheFullContact) {
   EXPECT_EQ(born.force(1), old.force(1));
   EXPECT_EQ(born.force(0), -old.force(1));
   EXPECT_EQ(born.force(2), Vec3::Zero());
-  EXPECT_EQ(born.work.overlap_weight[1], old.work.overlap_weight[1]);
-  EXPECT_EQ(born.work.overlap_weight[2], 0);
+  EXPECT_EQ(born.work.overlap_sum[1], old.work.overlap_sum[1]);
+  EXPECT_EQ(born.work.overlap_sum[2], 0);
 }
 
 TEST(Strength, IsForSistersOnly) {

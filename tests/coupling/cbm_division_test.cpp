@@ -284,7 +284,7 @@ TEST(CbmDivision, AcrossANarrowGapFindsItsBalance) {
 TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
   auto look = [](double strength) {
     World w = make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}});
-    w.params.cbm[0].correction = {{{4000, 4}}, 0.2};
+    w.params.cbm[0].correction = {{{4000, 4}}, {}, 0.2};
     w.state.cbm.strength[0] = Ramp::constant(strength);
     Workspace work;
     size_workspace(w, work);
@@ -298,8 +298,8 @@ TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
   EXPECT_GT(f.force.norm(), 0.1);
   EXPECT_EQ(g.force, f.force);
   EXPECT_EQ(g.area, f.area);
-  EXPECT_GT(old.cbm.overlap_weight[0], 0);
-  EXPECT_EQ(born.cbm.overlap_weight[0], old.cbm.overlap_weight[0]);
+  EXPECT_GT(old.cbm.overlap_sum[0], 0);
+  EXPECT_EQ(born.cbm.overlap_sum[0], old.cbm.overlap_sum[0]);
   EXPECT_EQ(born.cbm.contact_area[0], old.cbm.contact_area[0]);
   EXPECT_EQ(born.system.force, old.system.force);
 }

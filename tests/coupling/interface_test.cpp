@@ -110,13 +110,14 @@ TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
             find_compliance(5, plain, 12 * 0.3).stiffness);
 }
 
-TEST(Interface, ACalibratedSphereHardensUnderADentDeeperThanItsMeanOverlap) {
-  const cbm::StiffnessLaw law{{{4000, 4}}, 0.2};
+TEST(Interface, ACalibratedSphereHardensUnderADentDeeperThanItsOverlap) {
+  const cbm::StiffnessLaw law{{{4000, 4}}, {}, 0.2};
   const double mean = 0.12;
   const SphereSurface sphere{12, 0.45, 0.47, cbm::corrected_modulus(law, 0.45, mean), &law};
   SphereSurface frozen = sphere;
   frozen.law = nullptr;
-  // As deep as the mean or less: the modulus of the mean overlap, which does not depend on the dent.
+  // As deep as the mean or less: the modulus of the mean overlap, which does not depend on the
+  // dent.
   for (const double d : {0.05, 0.12}) {
     EXPECT_EQ(find_compliance(5, sphere, 12 * d).stiffness,
               find_compliance(5, frozen, 12 * d).stiffness);
