@@ -175,6 +175,8 @@ void move_counts(Workspace& from, Workspace& to) {
   to.dcm.points_seen += std::exchange(from.dcm.points_seen, 0);
   to.cbm.list_builds += std::exchange(from.cbm.list_builds, 0);
   to.cbm.searches += std::exchange(from.cbm.searches, 0);
+  to.cbm.corrected += std::exchange(from.cbm.corrected, 0);
+  to.cbm.beyond += std::exchange(from.cbm.beyond, 0);
 }
 
 /// Sleepers go on at their pace.

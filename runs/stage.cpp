@@ -1,5 +1,7 @@
 #include "runs/stage.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "acinus_version.hpp"
@@ -27,7 +29,14 @@ int run_stage(const Scene& scene, const StageOptions& options) {
   if (const std::optional<RunSummary> before = find_run(scene, options.folder);
       before && !options.fresh) {
     if (before->status == "completed") return static_cast<int>(Exit::kDone);
-    if (before->status == "failed") return static_cast<int>(Exit::kCannotContinue);
+    if (before->status == "failed") {
+      if (!options.quiet)
+        fmt::print(
+            "{}: an earlier run of this scene could not go on ({}/run.log says why); remove "
+            "the folder to run it again\n",
+            options.folder, options.folder);
+      return static_cast<int>(Exit::kCannotContinue);
+    }
     run.resume = before->status == "stopped";
   }
   run.overwrite = !run.resume;

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/timing.hpp"
 #include "runs/bench/assembly.hpp"
+#include "runs/bench/patch.hpp"
 #include "runs/bench/skipping.hpp"
 #include "runs/bench/sleep.hpp"
 #include "runs/bench/speed_index.hpp"
@@ -36,6 +37,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
+      {"patch", bench_patch},
       {"skipping", bench_skipping},
       {"sleep", bench_sleep},
       {"stress", bench_stress},

@@ -34,7 +34,7 @@ void sample_patch(const Scene& scene, const coupling::World& world, const Snapsh
                   Measures& measures);
 
 /// A clump in a capsule that shrinks and may open: time_s, capsule_radius_um, and of the cell
-/// nearest its centre overlap (d of [VanLiedekerke2020, Eq. (22)]), shell_overlap (mean over the 14
+/// nearest its centre overlap (d, cbm::relative_overlap), shell_overlap (mean over the 14
 /// nearest cells), contact_force_nN (sum of sizes), normal_force_nN (sum of normal forces, positive
 /// pressing), contacts, pressure_Pa (contact) and volume_relative (to the reference volume).
 /// Without a capsule the cell nearest the origin is looked at.

@@ -220,6 +220,16 @@ TEST(Plane, GapAndMotion) {
   EXPECT_NEAR(gap_to_plane(p, Vec3(1, 2, 3), 2).gap, 1, 1e-14);
 }
 
+TEST(Capsule, IsGoneOnceItOpens) {
+  Capsule c;
+  c.radius = 50;
+  c.speed = 0.01;
+  c.min_radius = 20;
+  c.opens = 1000;
+  EXPECT_NEAR(gap_to_capsule(c, Vec3(0, 0, 30), 999).gap, 50 - 9.99 - 30, 1e-12);
+  EXPECT_EQ(gap_to_capsule(c, Vec3(0, 0, 30), 1000).gap, std::numeric_limits<double>::infinity());
+}
+
 TEST(Capsule, GapAndShrinking) {
   Capsule c;
   c.center = {1, 0, 0};
