@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/io/run_reader.hpp"
 #include "runs/calibrate/calibrate.hpp"
+#include "runs/read_cells.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/writer.hpp"
@@ -22,56 +20,38 @@
 namespace acinus::runs {
 namespace {
 
-/// Pressures of the deformable ball at which the models are compared, kPa.
-constexpr double kLowest = 5e-3, kHighest = 0.25;
+/// Pressures of the deformable ball at which the models are compared, Pa.
+constexpr double kLowest = 5, kHighest = 250;
 /// Cells this near the middle count, over the radius of the capsule: others touch it.
 constexpr double kInner = 0.65;
 /// Neighbours whose distance stands for the density about a cell.
 constexpr std::size_t kNear = 12;
 
-struct Cell {
-  Vec3 center = Vec3::Zero();
-  bool deformable = false;
-  double pressure = 0, force = 0;  ///< kPa, nN
-  double density = 0;              ///< 1 / um^3, up to a factor, from the nearest neighbours
+/// A frame: its cells, and how dense they are about each, 1/um^3 up to a factor.
+struct Moment {
+  CellRecords cells;
+  std::map<std::int64_t, double> density;
 };
-using Moment = std::map<std::int64_t, Cell>;  ///< by lineage
 
-const std::vector<double>& column(const io::Table& table, const std::string& name) {
-  const auto found = std::ranges::find(table.columns, name, &io::Column::name);
-  check(found != table.columns.end(), "bench patch: the run has no column cells/" + name);
-  return found->value;
-}
-
-void find_densities(Moment& cells) {
+/// From the distances of the nearest neighbours.
+double density_about(const CellRecords& cells, std::int64_t id) {
   std::vector<double> distance;
-  for (auto& [id, cell] : cells) {
-    distance.clear();
-    for (const auto& [other, c] : cells)
-      if (other != id) distance.push_back((c.center - cell.center).norm());
-    const std::size_t n = std::min(kNear, distance.size());
-    std::ranges::partial_sort(distance, distance.begin() + static_cast<std::ptrdiff_t>(n));
-    double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += distance[k];
-    cell.density = std::pow(static_cast<double>(n) / sum, 3);
-  }
+  for (const auto& [other, c] : cells)
+    if (other != id) distance.push_back((c.center - cells.at(id).center).norm());
+  const std::size_t n = std::min(kNear, distance.size());
+  std::ranges::partial_sort(distance, distance.begin() + static_cast<std::ptrdiff_t>(n));
+  double sum = 0;
+  for (std::size_t k = 0; k < n; ++k) sum += distance[k];
+  return std::pow(static_cast<double>(n) / sum, 3);
 }
 
 std::vector<Moment> read_moments(const std::string& folder) {
   const io::RunReader run(folder + "/run.vtkhdf");
   std::vector<Moment> moments;
   for (int k = 0; k < run.n_frame(); ++k) {
-    const io::Table t = run.cells(k);
-    const std::vector<double>&id = column(t, "id"), &center = column(t, "center"),
-          &kind = column(t, "kind"), &pressure = column(t, "pressure"),
-          &force = column(t, "contact_force");
-    Moment cells;
-    for (std::size_t i = 0; i < id.size(); ++i)
-      cells[static_cast<std::int64_t>(id[i])] = {
-          Vec3(center[3 * i], center[3 * i + 1], center[3 * i + 2]), kind[i] == 0, pressure[i],
-          force[i], 0};
-    find_densities(cells);
-    moments.push_back(std::move(cells));
+    Moment m{read_cells(run, k, folder), {}};
+    for (const auto& [id, unused] : m.cells) m.density[id] = density_about(m.cells, id);
+    moments.push_back(std::move(m));
   }
   return moments;
 }
@@ -83,16 +63,16 @@ struct Bulk {
 };
 
 /// @param like  the cells that count are those that are deformable here
-Bulk measure(const Moment& cells, const Moment& like, bool deformable, double reach) {
+Bulk measure(const Moment& moment, const Moment& like, bool deformable, double reach) {
   Bulk b;
-  for (const auto& [id, c] : cells) {
-    const auto there = like.find(id);
-    if (there == like.end() || there->second.deformable != deformable ||
+  for (const auto& [id, c] : moment.cells) {
+    const auto there = like.cells.find(id);
+    if (there == like.cells.end() || there->second.deformable != deformable ||
         !(there->second.center.norm() < reach))
       continue;
     b.pressure += c.pressure;
     b.force += c.force;
-    b.density += c.density;
+    b.density += moment.density.at(id);
     ++b.cells;
   }
   const double n = std::max(1, b.cells);
@@ -149,7 +129,7 @@ BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipp
     const Bulk shells = measure(moments[k], moments[k], true, reach),
                spheres = measure(moments[k], moments[k], false, reach),
                same = measure(reference.moment[k], moments[k], true, reach);
-    cells = static_cast<int>(moments[k].size());
+    cells = static_cast<int>(moments[k].cells.size());
     if (shells.cells == 0 || spheres.cells == 0) continue;
     if (!(same.pressure > kLowest && same.pressure < kHighest)) continue;
     reached = same.pressure;
@@ -167,7 +147,7 @@ BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipp
           cells,
           {{"share_of_deformable_cells", static_cast<double>(summary.dcm) / cells},
            {"moments", n},
-           {"up_to_pressure_Pa", 1e3 * reached},
+           {"up_to_pressure_Pa", reached},
            {"pressure_jump", pressure / count},
            {"worst_pressure_jump", worst},
            {"contact_force_jump", force / count},

@@ -1,0 +1,27 @@
+#pragma once
+/// The cells of one frame of a run, read back from its file.
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/io/run_reader.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::runs {
+
+struct CellRecord {
+  Vec3 center = Vec3::Zero();  ///< um
+  double pressure = 0;         ///< Pa, contact pressure
+  double force = 0;            ///< nN, sum of the sizes of its contact forces
+  double contacts = 0;         ///< cells it touches
+  bool deformable = false;
+};
+
+using CellRecords = std::map<std::int64_t, CellRecord>;  ///< by lineage
+
+/// @param folder  of the run, for messages
+/// @throws Error where an older version of the program wrote the file
+CellRecords read_cells(const io::RunReader& reader, int frame, const std::string& folder);
+
+}  // namespace acinus::runs
