@@ -71,6 +71,10 @@ ClumpSample measure_as_spheres(const Moment& moment, const cbm::Params& sphere, 
     cells.push_back({static_cast<std::int64_t>(k), 0, moment.center[k], moment.radius[k],
                      sphere.young, Vec3::Zero()});
   world.state.cbm = cbm::make_state(cells);
+  contact::Capsule capsule;
+  capsule.center = point;
+  capsule.radius = moment.capsule;
+  world.params.around.capsules = {capsule};
   coupling::Workspace work;
   coupling::size_workspace(world, work);
   const std::vector<coupling::CellMeasure> measured = observe_cells(world, work);

@@ -2,6 +2,7 @@
 /// What calibration looks at in a clump of cells: how far the central cell and its neighbours are
 /// pressed into each other, and how hard.
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Moment {
   std::vector<Vec3> center;    ///< um
   std::vector<double> radius;  ///< um, reference radii
   double force = 0;            ///< nN, as ClumpSample::force
+  /// um, of the capsule round the middle: outer cells feel how full their room is by it as well
+  double capsule = std::numeric_limits<double>::infinity();
 };
 
 /// Index of the cell nearest to a point. @pre there is a cell

@@ -117,11 +117,22 @@ struct Reference {
   double cpu = 0;
 };
 
+/// Position, in frames, at which a pressure that has begun to rise reaches a value. NaN: nowhere.
+double find_frame(const std::vector<double>& pressure, double value) {
+  for (std::size_t k = pressure.size(); k-- > 1;)
+    if (pressure[k - 1] <= value && value < pressure[k])
+      return static_cast<double>(k) - (pressure[k] - value) / (pressure[k] - pressure[k - 1]);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipped,
                  const Reference& reference) {
   const std::vector<Moment> moments = read_moments(folder);
-  double pressure = 0, force = 0, density = 0, error = 0, worst = 0, reached = 0;
+  double pressure = 0, force = 0, density = 0, error = 0, shift = 0, worst = 0, reached = 0;
   int n = 0, cells = 0;
+  std::vector<double> alone;  // pressure of the deformable ball at every frame
+  for (const Moment& m : reference.moment)
+    alone.push_back(measure(m, m, true, kInner * shipped.capsule.min_radius).pressure);
   for (std::size_t k = 0; k < std::min(moments.size(), reference.moment.size()); ++k) {
     const double time = static_cast<double>(k) * shipped.output.every;
     const double reach = kInner * std::max(shipped.capsule.min_radius,
@@ -139,6 +150,8 @@ BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipp
     force += jump(shells.force, spheres.force);
     density += jump(shells.density, spheres.density);
     error += std::abs(shells.pressure / same.pressure - 1);
+    shift += (find_frame(alone, shells.pressure) - static_cast<double>(k)) * shipped.output.every *
+             shipped.capsule.speed;
     ++n;
   }
   const double nan = std::numeric_limits<double>::quiet_NaN(), count = n > 0 ? n : nan;
@@ -153,6 +166,7 @@ BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipp
            {"contact_force_jump", force / count},
            {"density_jump", density / count},
            {"deformable_part_against_all_deformable", error / count},
+           {"radius_shift_for_same_pressure_um", shift / count},
            {"cost", summary.cpu_s / reference.cpu}}};
 }
 

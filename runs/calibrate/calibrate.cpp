@@ -74,10 +74,12 @@ class Stages {
 /// The cells of every frame of a squeeze, and what its central cell felt.
 std::vector<calibration::Moment> read_moments(const RunSummary& squeeze) {
   const io::RunReader reader(squeeze.folder + "/run.vtkhdf");
-  const std::vector<double>& force = series(squeeze, "normal_force_nN");
+  const std::vector<double>&force = series(squeeze, "normal_force_nN"),
+        &capsule = series(squeeze, "capsule_radius_um");
   std::vector<calibration::Moment> moments(force.size());
   for (std::size_t k = 0; k < force.size(); ++k) {
     moments[k].force = force[k];
+    moments[k].capsule = capsule[k];
     const io::Table cells = reader.cells(static_cast<int>(k));
     for (const io::Column& c : cells.columns) {
       if (c.name == "radius") moments[k].radius = c.value;
