@@ -181,7 +181,7 @@ void run(const Variant& v, const std::string& folder, int threads) {
 }  // namespace
 
 BenchTable bench_patch(const BenchOptions& options) {
-  const std::string root = options.folder.empty() ? "patch" : options.folder;
+  const std::string root = options.folder.empty() ? "patch" : options.folder + "/patch";
   Scene shipped = read_scene(scene_folder() + "/patch_capsule.json");
   const int stop = resolve_corrections(shipped, options.threads, false);
   check(stop == 0, "bench patch: the calibration was stopped", Exit::kCannotContinue);

@@ -9,7 +9,7 @@ namespace acinus::runs {
 
 /// The shipped patch_capsule with the zoom region moved and with plain spheres. Pressures are
 /// looked at whenever the deformable ball bears between 5 Pa and 250 Pa; figures are means over
-/// those moments. Runs stand in options.folder ("patch") and are not made again.
+/// those moments. Runs stand in the folder "patch" of options.folder and are not made again.
 BenchTable bench_patch(const BenchOptions& options);
 
 }  // namespace acinus::runs

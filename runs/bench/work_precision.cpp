@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
 #include "coupling/integrators.hpp"
+#include "runs/bench/patch.hpp"
 #include "runs/bench/work_precision_report.hpp"
 #include "runs/bench/work_precision_scenes.hpp"
 
@@ -193,7 +194,8 @@ BenchTable bench_clump(const BenchOptions& options) {
 
 BenchTable bench_work_precision(const BenchOptions& options) {
   BenchTable table;
-  for (const auto bench : {bench_stretch, bench_clump, bench_capsule, bench_growth, bench_cbm}) {
+  for (const auto bench :
+       {bench_stretch, bench_clump, bench_capsule, bench_growth, bench_cbm, bench_patch}) {
     const BenchTable rows = bench(options);
     table.insert(table.end(), rows.begin(), rows.end());
   }
