@@ -6,7 +6,7 @@
 
 namespace acinus::calibration {
 
-/// Sum of the normal forces on the central cell over its mean relative overlap d.
+/// Sum of the normal forces on the central cell over its relative overlap d.
 struct Curve {
   std::vector<double> overlap;  ///< strictly ascending
   std::vector<double> force;    ///< nN

@@ -68,6 +68,7 @@ std::vector<TableEntry> make_table(std::vector<Demand> demands) {
     rising.push_back(b);
   }
   std::vector<TableEntry> table;
+  if (rising.empty()) return table;
   for (const Bin& b : rising) table.push_back({b.overlap / b.weight, b.modulus / b.weight});
   if (demands.back().overlap > table.back().overlap)
     table.push_back({demands.back().overlap, table.back().modulus});
@@ -88,6 +89,7 @@ Law tabulate_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere, 
                  const Law& known) {
   Law law = known;
   law.table = make_table(find_demands(squeeze, sphere, point, known.overlap_range[1]));
+  if (law.table.size() < 2) return known;  // the squeeze ends where it presses least
   law.a0 = law.table.front().modulus;
   law.overlap_range = {law.table.front().overlap, law.table.back().overlap};
   return law;

@@ -17,6 +17,7 @@ double force_with(const Law& law, const Moment& moment, const cbm::Params& spher
 /// least after the first tenth of the squeeze. a0 is the modulus at which spheres rest where the
 /// deformable cells do. Moduli never fall with d.
 /// @param known  what the law has besides: a1, range and what it was found for
+/// @return `known` itself where the squeeze says too little for a table
 Law tabulate_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere, const Vec3& point,
                  const Law& known);
 

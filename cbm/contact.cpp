@@ -34,7 +34,7 @@ bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int ce
 }
 
 void count_overlap(ContactWorkspace& work, int cell, double relative, double share) {
-  work.overlap_sum[static_cast<std::size_t>(cell)] += share * std::max(relative, 0.0);
+  work.overlap_sum[static_cast<std::size_t>(cell)] += share * relative;
 }
 
 struct MeshGap {
@@ -230,12 +230,12 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
   };
 
   // As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
-  auto couple = [&](std::size_t i, const contact::SphereForce& law, double reach) {
+  auto couple = [&](std::size_t i, const contact::SphereForce& law) {
     if (work.coupling.empty()) return;
     const double poisson = params[static_cast<std::size_t>(s.type[i])].poisson;
     work.coupling[i] =
         std::max(work.coupling[i], std::max(law.force_by_modulus, 0.0) / (1 - poisson * poisson) *
-                                       work.modulus[i].slope / reach);
+                                       work.modulus[i].slope / radius[i]);
   };
   auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
                   double overlap, const Vec3& normal) {
@@ -248,7 +248,7 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         weaken(contact::jkr_force(pair, overlap, before), cells.strength_of(i));
     if (!law.touching) return;
     work.touching.emplace_back(static_cast<int>(i), key);
-    couple(i, law, radius[i]);
+    couple(i, law);
     work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
     work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
   };
@@ -267,7 +267,7 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         work.obstacle.push_back({static_cast<int>(i), SurroundingKind::kPlane, static_cast<int>(k),
                                  g.normal, radius[i] - g.gap, law});
         work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
-        couple(i, law, radius[i]);
+        couple(i, law);
       } else {
         meet(i, SurroundingKind::kPlane, static_cast<int>(k),
              contact::reduced_pair(body(i), flat(p.material, contact::kFlat),

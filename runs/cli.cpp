@@ -274,12 +274,15 @@ int do_run(Arguments& arguments) {
 int do_check(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.run.scene_file, arguments.run.set);
   Scene plain = scene;
-  for (auto& [name, type] : plain.cell_types)
-    if (type.cbm.stiffness_correction == "auto") type.cbm.stiffness_correction = "none";
-  BuiltWorld built = build_world(plain, Ranks::serial());  // throws for geometry that does not fit
-  for (const auto& [name, type] : scene.cell_types)
-    if (type.cbm.stiffness_correction == "auto")
-      built.notes.push_back(name + ": calibrated when the scene runs, if that was not done before");
+  std::vector<std::string> notes;
+  for (auto& [name, type] : plain.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    type.cbm.stiffness_correction = "none";
+    notes.push_back(name + ": calibrated when the scene runs, if that was not done before");
+  }
+  const BuiltWorld built =
+      build_world(plain, Ranks::serial());  // throws for geometry that does not fit
+  notes.insert(notes.begin(), built.notes.begin(), built.notes.end());
   if (arguments.resolved) {
     fmt::print("{}", scene.resolved_json);
   } else {
@@ -291,7 +294,7 @@ int do_check(const Arguments& arguments) {
         scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
         dcm::count_cells(state.dcm), state.cbm.n_cell(), scene.cells.source, built.vessel_length,
         scene.time.end / 3600, scene.sha);
-    for (const std::string& note : built.notes) fmt::print("{}\n", note);
+    for (const std::string& note : notes) fmt::print("{}\n", note);
   }
   return 0;
 }

@@ -59,7 +59,7 @@ double hertz_energy(const SpherePair& pair, double overlap);
 /// @param height  h in um: distance of the centre from the plane
 SphereForce mirror_wall_force(const SphereBody& cell, double height);
 
-/// The wall's contribution to the mean relative overlap of Eq. (22): 1 - h/R, the value of the
+/// The wall's contribution to the relative overlap of a sphere: 1 - h/R, the value of the
 /// image pair.
 double mirror_wall_compression(double radius, double height);
 

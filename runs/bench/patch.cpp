@@ -62,7 +62,8 @@ struct Bulk {
   int cells = 0;
 };
 
-/// @param like  the cells that count are those that are deformable here
+/// @param like        where the cells stand that count, and which of them are deformable
+/// @param deformable  which of both kinds counts
 Bulk measure(const Moment& moment, const Moment& like, bool deformable, double reach) {
   Bulk b;
   for (const auto& [id, c] : moment.cells) {

@@ -31,10 +31,7 @@ bool may_differ(const std::string& path) {
   return path.starts_with("/cell_types/") && path.find("/cbm/") != std::string::npos;
 }
 
-using Cell = CellRecord;
-using Cells = CellRecords;
-
-double mean(const Cells& cells, double Cell::*what) {
+double mean(const CellRecords& cells, double CellRecord::*what) {
   double sum = 0;
   for (const auto& [id, c] : cells) sum += c.*what;
   return cells.empty() ? 0 : sum / static_cast<double>(cells.size());
@@ -45,7 +42,7 @@ struct Middle {
   Vec3 center = Vec3::Zero();
   double radius = 0;
 };
-Middle middle_of(const Cells& cells) {
+Middle middle_of(const CellRecords& cells) {
   Middle m;
   for (const auto& [id, c] : cells) m.center += c.center / static_cast<double>(cells.size());
   std::vector<double> r;
@@ -57,9 +54,9 @@ Middle middle_of(const Cells& cells) {
   return m;
 }
 
-/// Cells per mm^3 in the ball. Cells count with a border one cell wide, so that their number does
-/// not jump when one crosses it.
-double density_in(const Cells& cells, const Middle& m) {
+/// Cells per mm^3 in the ball. Cells count with a border one cell wide, so that their
+/// number does not jump when one crosses it.
+double density_in(const CellRecords& cells, const Middle& m) {
   constexpr double kBorder = 12;  // um
   double count = 0;
   for (const auto& [id, c] : cells)
@@ -69,7 +66,7 @@ double density_in(const Cells& cells, const Middle& m) {
 
 /// rms over the cells both have, by lineage, of what the squared difference of two cells is.
 template <class Squared>
-double rms_by_lineage(const Cells& a, const Cells& b, Squared squared) {
+double rms_by_lineage(const CellRecords& a, const CellRecords& b, Squared squared) {
   double sum = 0, n = 0;
   for (const auto& [id, c] : a)
     if (const auto other = b.find(id); other != b.end()) {
@@ -235,16 +232,16 @@ Comparison compare_runs(const std::vector<std::string>& folders,
 
   Trace count{"cells", "1", {}, {}}, pressure{"pressure", "Pa", {}, {}},
       force{"contact_force", "nN", {}, {}}, contacts{"contacts", "1", {}, {}};
-  std::vector<Cells> end;
+  std::vector<CellRecords> end;
   for (const RunData& run : runs) {
     for (Trace* t : {&count, &pressure, &force, &contacts}) t->value.emplace_back();
-    Cells cells;
+    CellRecords cells;
     for (const int k : run.frame) {
       cells = read_cells(run.reader, k, run.summary.folder);
       count.value.back().push_back(static_cast<double>(cells.size()));
-      pressure.value.back().push_back(mean(cells, &Cell::pressure));
-      force.value.back().push_back(mean(cells, &Cell::force));
-      contacts.value.back().push_back(mean(cells, &Cell::contacts));
+      pressure.value.back().push_back(mean(cells, &CellRecord::pressure));
+      force.value.back().push_back(mean(cells, &CellRecord::force));
+      contacts.value.back().push_back(mean(cells, &CellRecord::contacts));
     }
     end.push_back(cells);
   }
@@ -255,29 +252,29 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   const Recorder record{tolerance, c};
   check(!end[0].empty(), fmt::format("{}: no cells in its last frame", folders[0]));
   const Middle middle = middle_of(end[0]);
-  auto rms_of = [](const Cells& cells, double Cell::*what) {
+  auto rms_of = [](const CellRecords& cells, double CellRecord::*what) {
     double sum = 0;
     for (const auto& [id, cell] : cells) sum += std::pow(cell.*what, 2);
     return std::sqrt(sum / static_cast<double>(cells.size()));
   };
   for (std::size_t r = 1; r < runs.size(); ++r) {
-    auto by_cell = [&](const char* name, const char* unit, double Cell::*what) {
+    auto by_cell = [&](const char* name, const char* unit, double CellRecord::*what) {
       const double reference = rms_of(end[0], what);
-      const double rms = rms_by_lineage(end[0], end[r], [&](const Cell& a, const Cell& b) {
-        return std::pow(a.*what - b.*what, 2);
-      });
+      const double rms = rms_by_lineage(
+          end[0], end[r],
+          [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
       record.relative(r, name, unit, reference, rms_of(end[r], what), rms / reference);
     };
     record.relative(r, "cells", "1", count.value[0].back(), count.value[r].back());
     record.absolute(r, "positions", "um",
-                    rms_by_lineage(end[0], end[r], [](const Cell& a, const Cell& b) {
+                    rms_by_lineage(end[0], end[r], [](const CellRecord& a, const CellRecord& b) {
                       return (a.center - b.center).squaredNorm();
                     }));
     record.relative(r, "density", "1/mm^3", density_in(end[0], middle), density_in(end[r], middle));
     record_trace(record, r, pressure);
-    by_cell("cell_pressure", "Pa", &Cell::pressure);
+    by_cell("cell_pressure", "Pa", &CellRecord::pressure);
     record_trace(record, r, force);
-    by_cell("cell_force", "nN", &Cell::force);
+    by_cell("cell_force", "nN", &CellRecord::force);
     record_trace(record, r, contacts);
   }
   c.trace = {count, pressure, force, contacts};

@@ -103,6 +103,16 @@ TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
   }
 }
 
+TEST(Fit, MakesNoTableOfASqueezeThatEndsWhereItPressesLeast) {
+  const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
+  for (const double end : {0.03, 0.3}) {  // let go; or so far in that it counts no more
+    std::vector<Moment> squeeze = squeeze_with(wanted, 0.1);
+    squeeze.push_back(lattice(end));
+    squeeze.back().force = -100;
+    EXPECT_EQ(fit_law(squeeze, sphere(), Vec3::Zero(), {}).size(), 1u);
+  }
+}
+
 TEST(Fit, RefusesWhatIsNoSqueezeOrNeedsNoCorrection) {
   EXPECT_THROW(fit_law({}, sphere(), Vec3::Zero(), {}), Error);
   EXPECT_THROW(fit_law(squeeze_with({}, 0.1), sphere(), Vec3::Zero(), {}), Error);
