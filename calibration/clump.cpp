@@ -63,7 +63,35 @@ void advance_to(coupling::World& world, coupling::Workspace& work, double time) 
   }
 }
 
-ClumpSample measure_as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point) {
+std::vector<std::size_t> find_inner_cells(const Moment& moment, const Vec3& point) {
+  constexpr double kAway = 1.25;
+  std::vector<std::size_t> inner;
+  const auto distance = [&](std::size_t i) { return (moment.center[i] - point).norm(); };
+  std::size_t middle = 0;
+  for (std::size_t i = 0; i < moment.center.size(); ++i) {
+    if (moment.capsule - distance(i) > kAway * moment.radius[i]) inner.push_back(i);
+    if (distance(i) < distance(middle)) middle = i;
+  }
+  if (inner.empty() && !moment.center.empty()) inner.push_back(middle);
+  return inner;
+}
+
+Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner) {
+  Bulk b;
+  const auto n = static_cast<double>(inner.size());
+  for (const std::size_t i : inner) {
+    for (std::size_t j = 0; j < moment.center.size(); ++j) {
+      const double apart = (moment.center[i] - moment.center[j]).norm();
+      if (j != i)
+        b.overlap += std::max(0.0, 1 - apart / (moment.radius[i] + moment.radius[j])) /
+                     (n * cbm::kNeighbours);
+    }
+    b.force += moment.force[i] / n;
+  }
+  return b;
+}
+
+Moment as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point) {
   coupling::World world;
   world.params.cbm = {sphere};
   std::vector<cbm::NewCell> cells;
@@ -77,8 +105,15 @@ ClumpSample measure_as_spheres(const Moment& moment, const cbm::Params& sphere, 
   world.params.around.capsules = {capsule};
   coupling::Workspace work;
   coupling::size_workspace(world, work);
-  const std::vector<coupling::CellMeasure> measured = observe_cells(world, work);
-  return measure_clump(measured, find_central_cell(measured, point));
+  Moment spheres = moment;
+  spheres.force.clear();
+  for (const coupling::CellMeasure& c : observe_cells(world, work))
+    spheres.force.push_back(c.normal_force);
+  return spheres;
+}
+
+Bulk bulk_as_spheres(const Moment& moment, const cbm::Params& sphere, const Squeeze& squeeze) {
+  return measure_bulk(as_spheres(moment, sphere, squeeze.point), squeeze.inner);
 }
 
 }  // namespace acinus::calibration

@@ -24,13 +24,30 @@ struct ClumpSample {
   double volume = 0;         ///< its volume over the reference volume
 };
 
-/// A clump at one moment of a squeeze of deformable cells.
+/// A clump at one moment of a squeeze.
 struct Moment {
   std::vector<Vec3> center;    ///< um
   std::vector<double> radius;  ///< um, reference radii
-  double force = 0;            ///< nN, as ClumpSample::force
+  std::vector<double> force;   ///< nN, as ClumpSample::force, of each cell
   /// um, of the capsule round the middle: outer cells feel how full their room is by it as well
   double capsule = std::numeric_limits<double>::infinity();
+};
+
+/// The history of a clump that is squeezed.
+struct Squeeze {
+  std::vector<Moment> moment;
+  std::vector<std::size_t> inner;  ///< cells that stand for tissue: all but those at the capsule
+  Vec3 point = Vec3::Zero();       ///< um, middle of the capsule
+};
+
+/// Share of the largest force of a squeeze from which on a moment counts.
+inline constexpr double kPresses = 0.01;
+
+/// Means over the inner cells of a squeeze. One cell says little: at one pressure d differs from
+/// cell to cell by a tenth, and by more between the middle, a lattice still, and the rest.
+struct Bulk {
+  double overlap = 0;  ///< d, as spheres have it
+  double force = 0;    ///< nN, as ClumpSample::force
 };
 
 /// Index of the cell nearest to a point. @pre there is a cell
@@ -47,8 +64,16 @@ std::vector<coupling::CellMeasure> observe_cells(const coupling::World& world,
 /// @throws Error(kCannotContinue) when a step fails
 void advance_to(coupling::World& world, coupling::Workspace& work, double time);
 
-/// Spheres in the places of the cells of a moment: what the cell nearest `point` feels by the
-/// contact law of spheres, with their own d.
-ClumpSample measure_as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point);
+/// Cells farther than 1.25 radii from the capsule; where there are none, as in a clump of 15, the
+/// one nearest its middle.
+std::vector<std::size_t> find_inner_cells(const Moment& moment, const Vec3& point);
+
+Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner);
+
+/// The forces that spheres in the places of the cells feel by their contact law, with their own d.
+Moment as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point);
+
+/// The bulk of those spheres.
+Bulk bulk_as_spheres(const Moment& moment, const cbm::Params& sphere, const Squeeze& squeeze);
 
 }  // namespace acinus::calibration

@@ -18,37 +18,40 @@ constexpr double kDifference = 1e-3;  ///< relative step of difference quotients
 constexpr double kLeastPower = 1.05;
 constexpr double kNormal95 = 1.96;
 constexpr std::size_t kLeastSamples = 8;
-constexpr double kPresses = 0.01;  ///< share of the largest force from which on a moment counts
 
 /// The moments that count, and what is known about them.
 struct Samples {
-  std::vector<Moment> moment;
+  Squeeze squeeze;
+  std::vector<double> force;      ///< nN, of each moment
   std::array<double, 2> range{};  ///< of d
   double rms = 0;                 ///< nN, of the force
   double stiffer = 0;  ///< their force over that of plain spheres at the end of the range
 };
 
-Samples choose_samples(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
-                       const Vec3& point, double highest) {
+Samples choose_samples(const Squeeze& squeeze, const cbm::Params& sphere, double highest) {
   Samples chosen;
+  chosen.squeeze = {{}, squeeze.inner, squeeze.point};
   chosen.range = {highest, 0};
   double largest = 0;
-  for (const Moment& m : squeeze) largest = std::max(largest, m.force);
-  for (const Moment& m : squeeze) {
-    const ClumpSample s = measure_as_spheres(m, sphere, point);
-    if (m.force < kPresses * largest || s.overlap > highest) continue;
-    chosen.moment.push_back(m);
-    chosen.range[0] = std::min(chosen.range[0], s.overlap);
-    if (s.overlap > chosen.range[1]) chosen.stiffer = m.force / s.force;
-    chosen.range[1] = std::max(chosen.range[1], s.overlap);
-    chosen.rms += m.force * m.force;
+  for (const Moment& m : squeeze.moment)
+    largest = std::max(largest, measure_bulk(m, squeeze.inner).force);
+  for (const Moment& m : squeeze.moment) {
+    const Bulk b = measure_bulk(m, squeeze.inner);
+    if (b.force < kPresses * largest || b.overlap > highest) continue;
+    chosen.squeeze.moment.push_back(m);
+    chosen.force.push_back(b.force);
+    chosen.range[0] = std::min(chosen.range[0], b.overlap);
+    if (b.overlap > chosen.range[1])
+      chosen.stiffer = b.force / bulk_as_spheres(m, sphere, squeeze).force;
+    chosen.range[1] = std::max(chosen.range[1], b.overlap);
+    chosen.rms += b.force * b.force;
   }
-  check(chosen.moment.size() >= kLeastSamples && chosen.range[0] < chosen.range[1],
+  check(chosen.force.size() >= kLeastSamples && chosen.range[0] < chosen.range[1],
         fmt::format("calibration: only {} samples of the squeeze press at overlaps up to {}. "
                     "Squeeze further (capsule.min_radius) or write more often (output.every).",
-                    chosen.moment.size(), highest),
+                    chosen.force.size(), highest),
         Exit::kCannotContinue);
-  chosen.rms = std::sqrt(chosen.rms / static_cast<double>(chosen.moment.size()));
+  chosen.rms = std::sqrt(chosen.rms / static_cast<double>(chosen.force.size()));
   return chosen;
 }
 
@@ -72,18 +75,18 @@ struct Residuals {
 
   const Samples& samples;
   const cbm::Params& sphere;
-  const Vec3& point;
   const LeadingTerm& term;
   int unknowns;
 
   int inputs() const { return unknowns; }
-  int values() const { return static_cast<int>(samples.moment.size()); }
+  int values() const { return static_cast<int>(samples.force.size()); }
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
     cbm::Params p = sphere;
     p.correction = {{term.at(x)}, {}, term.highest};
-    for (std::size_t k = 0; k < samples.moment.size(); ++k)
+    for (std::size_t k = 0; k < samples.force.size(); ++k)
       r[static_cast<Eigen::Index>(k)] =
-          (measure_as_spheres(samples.moment[k], p, point).force - samples.moment[k].force) /
+          (bulk_as_spheres(samples.squeeze.moment[k], p, samples.squeeze).force -
+           samples.force[k]) /
           samples.rms;
     return 0;
   }
@@ -118,16 +121,17 @@ Solution solve(Residuals& residuals) {
 }
 
 /// What the figures of a law say about its curve.
-void judge(const Samples& samples, const cbm::Params& sphere, const Vec3& point,
-           FitAttempt& attempt) {
-  const auto n = static_cast<double>(samples.moment.size());
+void judge(const Samples& samples, const cbm::Params& sphere, FitAttempt& attempt) {
+  const auto n = static_cast<double>(samples.force.size());
   double mean = 0, total = 0, misfit = 0, pointwise = 0;
-  for (const Moment& m : samples.moment) mean += m.force / n;
-  for (const Moment& m : samples.moment) {
-    const double miss = force_with(attempt.law, m, sphere, point) - m.force;
-    total += (m.force - mean) * (m.force - mean);
+  for (const double force : samples.force) mean += force / n;
+  for (std::size_t k = 0; k < samples.force.size(); ++k) {
+    const double force = samples.force[k], miss = force_with(attempt.law, samples.squeeze.moment[k],
+                                                             sphere, samples.squeeze) -
+                                                  force;
+    total += (force - mean) * (force - mean);
     misfit += miss * miss;
-    pointwise += std::pow(miss / m.force, 2) / n;
+    pointwise += std::pow(miss / force, 2) / n;
   }
   attempt.law.rms_relative = std::sqrt(misfit / n) / samples.rms;
   attempt.law.r_squared = 1 - misfit / total;
@@ -146,11 +150,11 @@ double relative_error(const Curve& target, const Curve& spheres, double highest)
   return std::sqrt(difference / size);
 }
 
-std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
-                                const Vec3& point, const FitOptions& options) {
-  const Samples samples = choose_samples(squeeze, sphere, point, options.highest);
+std::vector<FitAttempt> fit_law(const Squeeze& squeeze, const cbm::Params& sphere,
+                                const FitOptions& options) {
+  const Samples samples = choose_samples(squeeze, sphere, options.highest);
   const LeadingTerm leading{sphere.young, samples.range[1], options.power};
-  Residuals residuals{samples, sphere, point, leading, options.free_power ? 2 : 1};
+  Residuals residuals{samples, sphere, leading, options.free_power ? 2 : 1};
   const Solution best = solve(residuals);
   const cbm::StiffnessLaw::Term term = leading.at(best.x);
   check(std::isfinite(term.factor) && term.factor > 0,
@@ -168,13 +172,13 @@ std::vector<FitAttempt> fit_law(const std::vector<Moment>& squeeze, const cbm::P
   attempt.law.a1_interval = {term.factor - spread, term.factor + spread};
   attempt.law.overlap_range = samples.range;
   attempt.law.jkr_underestimation = samples.stiffer;
-  judge(samples, sphere, point, attempt);
+  judge(samples, sphere, attempt);
   std::vector<FitAttempt> attempts{attempt};
   if (attempt.law.rms_relative <= options.good_enough) return attempts;
 
-  attempt.law = tabulate_law(squeeze, sphere, point, attempt.law);
+  attempt.law = tabulate_law(squeeze, sphere, attempt.law);
   attempt.form = fmt::format("a table of {} moduli", attempt.law.table.size());
-  judge(samples, sphere, point, attempt);
+  judge(samples, sphere, attempt);
   if (attempt.law.rms_relative < attempts[0].law.rms_relative) attempts.push_back(attempt);
   return attempts;
 }

@@ -7,7 +7,7 @@
 
 namespace acinus::calibration {
 
-inline constexpr int kLawSchema = 2;
+inline constexpr int kLawSchema = 3;
 
 /// The law as JSON text. Throws Error when a number is not finite: no NaN ever reaches a file.
 std::string law_text(const Law& law);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace acinus::calibration {
 namespace {
@@ -11,31 +12,41 @@ constexpr double kSoftest = 1e-3, kStiffest = 1e3;
 /// How far apart entries of the table are at most: in d, and as a factor of moduli.
 constexpr double kStride = 0.01, kRise = 1.25;
 
+constexpr int kRounds = 4;  ///< of corrections; the error stands still after two or three
+/// What one round changes at most.
+constexpr double kLargestChange = 1.5;
+
 /// An overlap, and the modulus that it asks for.
 struct Demand {
   double overlap = 0, modulus = 0;
+  double force = 0;  ///< nN, of the cells
+  const Moment* moment = nullptr;
 };
 
 /// The modulus all spheres must have for the force of a moment, which rises with it.
-double find_modulus(const Moment& moment, cbm::Params sphere, const Vec3& point) {
+double find_modulus(const Moment& moment, double force, cbm::Params sphere,
+                    const Squeeze& squeeze) {
   const double plain = sphere.young;
   double low = kSoftest * plain, high = kStiffest * plain;
   while (high > 1.0001 * low) {
     sphere.young = std::sqrt(low * high);
-    (measure_as_spheres(moment, sphere, point).force < moment.force ? low : high) = sphere.young;
+    (bulk_as_spheres(moment, sphere, squeeze).force < force ? low : high) = sphere.young;
   }
   return std::sqrt(low * high);
 }
 
-std::vector<Demand> find_demands(const std::vector<Moment>& squeeze, const cbm::Params& sphere,
-                                 const Vec3& point, double highest) {
-  const auto first = squeeze.begin() + static_cast<std::ptrdiff_t>(squeeze.size() / 10);
-  const auto rest = std::ranges::min_element(first, squeeze.end(), {}, &Moment::force);
-  std::vector<Demand> demands;
-  for (auto m = rest; m != squeeze.end(); ++m) {
-    const double d = measure_as_spheres(*m, sphere, point).overlap;
-    if (d <= highest) demands.push_back({d, find_modulus(*m, sphere, point)});
+std::vector<Demand> find_demands(const Squeeze& squeeze, const cbm::Params& sphere,
+                                 double highest) {
+  std::vector<Demand> all;
+  for (const Moment& m : squeeze.moment) {
+    const Bulk b = measure_bulk(m, squeeze.inner);
+    all.push_back({b.overlap, 0, b.force, &m});
   }
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 10);
+  std::vector<Demand> demands;
+  for (auto d = std::ranges::min_element(first, all.end(), {}, &Demand::force); d != all.end(); ++d)
+    if (d->overlap <= highest) demands.push_back(*d);
+  for (Demand& d : demands) d.modulus = find_modulus(*d.moment, d.force, sphere, squeeze);
   return demands;
 }
 
@@ -78,21 +89,35 @@ std::vector<TableEntry> make_table(std::vector<Demand> demands) {
 }  // namespace
 
 double force_with(const Law& law, const Moment& moment, const cbm::Params& sphere,
-                  const Vec3& point) {
+                  const Squeeze& squeeze) {
   cbm::Params p = sphere;
   p.young = law.a0;
   p.correction = stiffness_law(law);
-  return measure_as_spheres(moment, p, point).force;
+  return bulk_as_spheres(moment, p, squeeze).force;
 }
 
-Law tabulate_law(const std::vector<Moment>& squeeze, const cbm::Params& sphere, const Vec3& point,
-                 const Law& known) {
-  Law law = known;
-  law.table = make_table(find_demands(squeeze, sphere, point, known.overlap_range[1]));
-  if (law.table.size() < 2) return known;  // the squeeze ends where it presses least
-  law.a0 = law.table.front().modulus;
-  law.overlap_range = {law.table.front().overlap, law.table.back().overlap};
-  return law;
+Law tabulate_law(const Squeeze& squeeze, const cbm::Params& sphere, const Law& known) {
+  std::vector<Demand> demands = find_demands(squeeze, sphere, known.overlap_range[1]);
+  Law best = known;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kRounds; ++round) {
+    Law law = known;
+    law.table = make_table(demands);
+    if (law.table.size() < 2) break;  // the squeeze ends where it presses least
+    law.a0 = law.table.front().modulus;
+    law.overlap_range = {law.table.front().overlap, law.table.back().overlap};
+    double misfit = 0;
+    for (Demand& d : demands) {
+      const double force = force_with(law, *d.moment, sphere, squeeze);
+      misfit += std::pow(force - d.force, 2);
+      // Where spheres pull there is no ratio, and little force.
+      if (force > 0 && d.force > 0)
+        d.modulus *= std::clamp(d.force / force, 1 / kLargestChange, kLargestChange);
+    }
+    if (misfit < least) best = law;
+    least = std::min(least, misfit);
+  }
+  return best;
 }
 
 }  // namespace acinus::calibration

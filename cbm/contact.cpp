@@ -229,7 +229,13 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
                       params[static_cast<std::size_t>(s.type[i])].poisson};
   };
 
-  // As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
+  // Where the cell meets a rigid wall: not at its radius if it is crowded.
+  auto reach = [&](std::size_t i) {
+    return radius[i] * (1 - wall_gap(params[static_cast<std::size_t>(s.type[i])].correction,
+                                     s.young[i], work.modulus[i].value));
+  };
+  // As RangeSearch::couple; a bound, since a partner's own softness only makes it less, and so does
+  // the reach.
   auto couple = [&](std::size_t i, const contact::SphereForce& law) {
     if (work.coupling.empty()) return;
     const double poisson = params[static_cast<std::size_t>(s.type[i])].poisson;
@@ -272,7 +278,7 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         meet(i, SurroundingKind::kPlane, static_cast<int>(k),
              contact::reduced_pair(body(i), flat(p.material, contact::kFlat),
                                    c.adhesion_factor * p.material.adhesion),
-             radius[i] - g.gap, g.normal);
+             reach(i) - g.gap, g.normal);
       }
     }
     for (std::size_t k = 0; k < around.capsules.size(); ++k) {
@@ -283,7 +289,7 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
       meet(i, SurroundingKind::kCapsule, static_cast<int>(k),
            contact::reduced_pair(body(i), flat(shell.material, -r),
                                  c.adhesion_factor * shell.material.adhesion),
-           radius[i] - g.gap, g.normal);
+           reach(i) - g.gap, g.normal);
     }
     for (std::size_t k = 0; k < around.meshes.size(); ++k) {
       const contact::StaticMesh& m = around.meshes[k];

@@ -23,6 +23,9 @@ struct StiffnessLaw {
   /// In place of terms: linear between knots of rising d, level before the first one.
   std::vector<Knot> table{};
   double range = 0.2;  ///< largest d of the fit, and of the table
+  /// How much nearer a rigid wall a crowded sphere stands, over its radius: deformable cells fill
+  /// the room at a wall, spheres leave some of it free. (docs/decisions/0022.md)
+  double wall = 0;
 
   bool corrects() const { return !term.empty() || !table.empty(); }
 };
@@ -67,6 +70,13 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
   }
   if (d >= end) m.slope = 0;
   return m;
+}
+
+/// Share of its radius by which a sphere of modulus E~ meets walls later: none while it is as soft
+/// as E, `wall` once it is much stiffer.
+inline double wall_gap(const StiffnessLaw& law, double young, double modulus) {
+  const double stiffened = std::max(0.0, 1 - young / modulus);
+  return law.wall * stiffened * stiffened;
 }
 
 }  // namespace acinus::cbm

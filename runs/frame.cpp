@@ -23,7 +23,8 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
       volume{"volume", "um^3", 1, {}}, area{"area", "um^2", 1, {}},
       pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
       stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}},
-      active{"migration_force", "nN", 1, {}}, pushing{"contact_force", "nN", 1, {}};
+      active{"migration_force", "nN", 1, {}}, pushing{"contact_force", "nN", 1, {}},
+      normal{"normal_force", "nN", 1, {}};
   for (const CellMeasure& c : cells) {
     id.value.push_back(c.id);
     parent.value.push_back(c.parent);
@@ -41,9 +42,11 @@ io::Table cell_table(const std::vector<CellMeasure>& cells) {
     touching.value.push_back(c.contact_area);
     active.value.push_back(c.migration_force);
     pushing.value.push_back(c.contact_force);
+    normal.value.push_back(c.normal_force);
   }
   t.ids = {id, parent, kind, type, leader, contacts};
-  t.columns = {center, radius, volume, area, pressure, cytosol, stress, touching, active, pushing};
+  t.columns = {center, radius,   volume, area,    pressure, cytosol,
+               stress, touching, active, pushing, normal};
   return t;
 }
 

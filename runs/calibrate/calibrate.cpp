@@ -5,12 +5,14 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "acinus_version.hpp"
 #include "calibration/clump.hpp"
 #include "calibration/law_file.hpp"
+#include "calibration/wall.hpp"
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/run_reader.hpp"
@@ -27,6 +29,18 @@ namespace fs = std::filesystem;
 
 /// Largest overlap from which on a squeeze that ended early still says how cells stiffen.
 constexpr double kWorthFitting = 0.15;
+
+/// Force over overlap, means over inner cells.
+calibration::Curve curve(const std::vector<calibration::Moment>& history,
+                         const std::vector<std::size_t>& inner) {
+  std::vector<double> overlap, force;
+  for (const calibration::Moment& m : history) {
+    const calibration::Bulk bulk = calibration::measure_bulk(m, inner);
+    overlap.push_back(bulk.overlap);
+    force.push_back(bulk.force);
+  }
+  return calibration::loading_branch(overlap, force);
+}
 
 /// Runs of one calibration.
 class Stages {
@@ -53,16 +67,38 @@ class Stages {
   /// Whether a squeeze that could not go on reached overlaps that are worth a fit.
   bool got_far(int code, const char* name) const {
     if (code != static_cast<int>(Exit::kCannotContinue)) return false;
-    const double reached = curve(name).overlap.back();
+    const std::vector<calibration::Moment> history = moments(name);
+    const double reached = curve(history, inner_cells(history)).overlap.back();
     if (reached < kWorthFitting) return false;
     say(fmt::format("the squeeze ended early, at d = {:.3f}: the law is fitted up to there",
                     reached));
     return true;
   }
 
-  calibration::Curve curve(const char* name) const {
-    const RunSummary s = read_summary(path(name));
-    return calibration::loading_branch(series(s, "overlap"), series(s, "normal_force_nN"));
+  /// The cells of every frame of a squeeze.
+  std::vector<calibration::Moment> moments(const char* name) const {
+    const RunSummary summary = read_summary(path(name));
+    const io::RunReader reader(summary.folder + "/run.vtkhdf");
+    const std::vector<double>& capsule = series(summary, "capsule_radius_um");
+    std::vector<calibration::Moment> out(capsule.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k].capsule = capsule[k];
+      for (const io::Column& c : reader.cells(static_cast<int>(k)).columns) {
+        if (c.name == "radius") out[k].radius = c.value;
+        if (c.name == "normal_force") out[k].force = c.value;
+        for (std::size_t i = 0; c.name == "center" && i < c.value.size(); i += 3)
+          out[k].center.emplace_back(c.value[i], c.value[i + 1], c.value[i + 2]);
+      }
+      check(out[k].force.size() == out[k].center.size(),
+            fmt::format("{}: an older version of acinus made this run, without normal_force of the "
+                        "cells. Calibrate with --fresh",
+                        summary.folder));
+    }
+    return out;
+  }
+
+  std::vector<std::size_t> inner_cells(const std::vector<calibration::Moment>& history) const {
+    return calibration::find_inner_cells(history.back(), squeeze_.capsule.center);
   }
 
  private:
@@ -71,25 +107,6 @@ class Stages {
   Scene squeeze_;
 };
 
-/// The cells of every frame of a squeeze, and what its central cell felt.
-std::vector<calibration::Moment> read_moments(const RunSummary& squeeze) {
-  const io::RunReader reader(squeeze.folder + "/run.vtkhdf");
-  const std::vector<double>&force = series(squeeze, "normal_force_nN"),
-        &capsule = series(squeeze, "capsule_radius_um");
-  std::vector<calibration::Moment> moments(force.size());
-  for (std::size_t k = 0; k < force.size(); ++k) {
-    moments[k].force = force[k];
-    moments[k].capsule = capsule[k];
-    const io::Table cells = reader.cells(static_cast<int>(k));
-    for (const io::Column& c : cells.columns) {
-      if (c.name == "radius") moments[k].radius = c.value;
-      for (std::size_t i = 0; c.name == "center" && i < c.value.size(); i += 3)
-        moments[k].center.emplace_back(c.value[i], c.value[i + 1], c.value[i + 2]);
-    }
-  }
-  return moments;
-}
-
 /// d of the central cell when its clump has come to rest and nothing presses it yet: where its
 /// contact pressure is smallest after the first tenth of the time.
 double overlap_at_rest(const RunSummary& squeeze) {
@@ -97,6 +114,29 @@ double overlap_at_rest(const RunSummary& squeeze) {
   const auto first = pressure.begin() + static_cast<std::ptrdiff_t>(pressure.size() / 10);
   const auto least = std::min_element(first, pressure.end());
   return series(squeeze, "overlap")[static_cast<std::size_t>(least - pressure.begin())];
+}
+
+/// Squeezes spheres with the law until they bear what the cells do in a capsule as wide: each time
+/// they meet it later by as much as theirs is too wide.
+/// @return exit code of a run that was stopped or failed, else 0
+int squeeze_corrected(const Stages& stages, const calibration::Squeeze& cells, double highest,
+                      calibration::Law& law, Calibration& found) {
+  constexpr int kRounds = 5;
+  constexpr double kClose = 0.01;  // of a radius
+  const double radius = cells.moment.front().radius.front();
+  const std::string file = stages.path("law.json");
+  for (int round = 1;; ++round) {
+    calibration::write_law(law, file);
+    // Another law may stand in the file of an earlier attempt.
+    if (const int stop =
+            stages.run(as_spheres(stages.squeeze(), file), "squeeze_corrected", true, true))
+      return stop;
+    const std::vector<calibration::Moment> spheres = stages.moments("squeeze_corrected");
+    found.corrected = curve(spheres, cells.inner);
+    found.capsule_excess = calibration::capsule_excess(cells, spheres, highest);
+    if (!(std::abs(found.capsule_excess) > kClose * radius) || round == kRounds) return 0;
+    law.wall = std::clamp(law.wall + found.capsule_excess / radius, 0.0, calibration::kWidestWall);
+  }
 }
 
 /// The squeezed deformable cells of the end of a run.
@@ -176,8 +216,11 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   stages.say("squeezing spheres without correction");
   const Scene spheres = as_spheres(squeeze, "none");
   if (const int stop = stages.run(spheres, "squeeze_cbm", true)) return stop;
-  found.dcm = stages.curve("squeeze_dcm");
-  found.plain = stages.curve("squeeze_cbm");
+  calibration::Squeeze moments{stages.moments("squeeze_dcm"), {}, squeeze.capsule.center};
+  moments.inner = stages.inner_cells(moments.moment);
+  found.inner = static_cast<int>(moments.inner.size());
+  found.dcm = curve(moments.moment, moments.inner);
+  found.plain = curve(stages.moments("squeeze_cbm"), moments.inner);
   const RunSummary history = read_summary(stages.path("squeeze_dcm"));
   found.contacts_first = series(history, "contacts").front();
   found.contacts_last = series(history, "contacts").back();
@@ -186,21 +229,16 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   stages.say("fitting the law");
   const std::string type = choose_type(scene, options.clump.type);
   const LawParameters parameters = law_parameters(scene, scene.cell_types.at(type));
-  found.attempts = calibration::fit_law(read_moments(history),
-                                        make_cbm_params(squeeze, squeeze.cell_types.at(type)),
-                                        squeeze.capsule.center, options.fit);
+  found.attempts = calibration::fit_law(
+      moments, make_cbm_params(squeeze, squeeze.cell_types.at(type)), options.fit);
   calibration::Law law = found.attempts.back().law;
   law.dcm = parameters.dcm;
   law.cbm = parameters.cbm;
   law.provenance = provenance(squeeze, found, options);
-  const std::string law_file = stages.path("law.json");
-  calibration::write_law(law, law_file);
-
   stages.say("squeezing corrected spheres");
-  // Another law may stand in the file of an earlier attempt.
-  if (const int stop = stages.run(as_spheres(squeeze, law_file), "squeeze_corrected", true, true))
+  if (const int stop = squeeze_corrected(stages, moments, options.fit.highest, law, found))
     return stop;
-  found.corrected = stages.curve("squeeze_corrected");
+  found.wall = law.wall;
   found.error_plain = calibration::relative_error(found.dcm, found.plain, options.fit.highest);
   found.error_corrected =
       calibration::relative_error(found.dcm, found.corrected, options.fit.highest);

@@ -46,8 +46,9 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
                               const std::string& law_file) {
   const calibration::FitAttempt &first = c.attempts.front(), &last = c.attempts.back();
   const CellType& type = squeeze.cell_types.begin()->second;
-  std::string t = fmt::format("{} cells of {} nodes, seed {}\n", squeeze.cells.count,
-                              type.dcm.nodes, squeeze.seed);
+  std::string t =
+      fmt::format("{} cells of {} nodes, seed {}; means over {} that are not at the capsule\n",
+                  squeeze.cells.count, type.dcm.nodes, squeeze.seed, c.inner);
   t += row("contacts of the central cell",
            fmt::format("{:.0f} at the start, {:.0f} squeezed", c.contacts_first, c.contacts_last));
   t += row("its overlap d while nothing presses", fmt::format("{:.3f}", c.overlap_at_rest));
@@ -74,6 +75,10 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
                        100 * c.error_plain));
   t += row("corrected spheres squeezed by themselves",
            fmt::format("{:.1f} %", 100 * c.error_corrected));
+  t += row(
+      "at walls they leave out",
+      fmt::format("{:.3f} of their radius; for the same force the capsule is then {:.2f} um wider",
+                  c.wall, c.capsule_excess));
   if (!c.relaxation.empty()) {
     const double t1 = c.relaxation[0].decay.time, t5 = c.relaxation[1].decay.time;
     t += row("relaxation after release",
@@ -111,7 +116,7 @@ void write_curves(const Calibration& c, const std::string& folder) {
   }
   io::write_text_file(folder + "/curves.json", j.dump(1) + "\n");
   io::write_plot(folder + "/force.svg",
-                 {"Squeezed clump, central cell",
+                 {"Squeezed clump, mean of the inner cells",
                   "relative overlap d",
                   "sum of normal forces, nN",
                   false,

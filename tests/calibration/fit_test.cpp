@@ -36,32 +36,36 @@ Moment lattice(double d) {
   return m;
 }
 
-/// A squeeze whose force is that of spheres of this law.
-std::vector<Moment> squeeze_with(const cbm::StiffnessLaw& law, double young) {
+std::size_t middle_of(const Moment& m) {
+  for (std::size_t i = 0; i < m.center.size(); ++i)
+    if (m.center[i].norm() < 1e-9) return i;
+  return m.center.size();
+}
+
+/// A squeeze whose force is that of spheres of this law, and of which the middle cell counts.
+Squeeze squeeze_with(const cbm::StiffnessLaw& law, double young) {
   cbm::Params p = sphere();
   p.young = young;
   p.correction = law;
-  std::vector<Moment> moments;
-  for (int k = 0; k <= 40; ++k) {
-    Moment m = lattice(0.03 + 0.005 * k);
-    m.force = measure_as_spheres(m, p, Vec3::Zero()).force;
-    moments.push_back(m);
-  }
-  return moments;
+  Squeeze squeeze;
+  for (int k = 0; k <= 40; ++k)
+    squeeze.moment.push_back(as_spheres(lattice(0.03 + 0.005 * k), p, Vec3::Zero()));
+  squeeze.inner = {middle_of(squeeze.moment[0])};
+  return squeeze;
 }
 
 TEST(Fit, SpheresInPlaceFeelTheLawOfTheirOwnOverlap) {
-  const ClumpSample plain = measure_as_spheres(lattice(0.1), sphere(), Vec3::Zero());
-  EXPECT_EQ(plain.contacts, 8);  // next neighbours are 0.04 diameters apart
-  EXPECT_NEAR(plain.overlap, 8 * 0.1 / 12, 1e-12);
+  Squeeze squeeze;
+  squeeze.inner = {middle_of(lattice(0.1))};
+  const Bulk plain = bulk_as_spheres(lattice(0.1), sphere(), squeeze);
+  EXPECT_NEAR(plain.overlap, 8 * 0.1 / 12, 1e-12);  // next neighbours are 0.04 diameters apart
   cbm::Params stiff = sphere();
   stiff.correction = {{{4000, 4}}, {}, 0.2};
-  EXPECT_GT(measure_as_spheres(lattice(0.1), stiff, Vec3::Zero()).force, 1.05 * plain.force);
+  EXPECT_GT(bulk_as_spheres(lattice(0.1), stiff, squeeze).force, 1.05 * plain.force);
 }
 
 TEST(Fit, FindsTheFactorOfAKnownLaw) {
-  const auto found =
-      fit_law(squeeze_with({{{4000, 4}}, {}, 0.3}, 0.45), sphere(), Vec3::Zero(), {});
+  const auto found = fit_law(squeeze_with({{{4000, 4}}, {}, 0.3}, 0.45), sphere(), {});
   ASSERT_EQ(found.size(), 1u);  // one term is enough
   EXPECT_NEAR(found[0].law.a1, 4000, 40);
   EXPECT_LT(found[0].law.rms_relative, 0.005);
@@ -75,8 +79,7 @@ TEST(Fit, FindsTheFactorOfAKnownLaw) {
 TEST(Fit, FindsThePowerWhenAsked) {
   FitOptions options;
   options.free_power = true;
-  const auto power =
-      fit_law(squeeze_with({{{1000, 3}}, {}, 0.3}, 0.45), sphere(), Vec3::Zero(), options);
+  const auto power = fit_law(squeeze_with({{{1000, 3}}, {}, 0.3}, 0.45), sphere(), options);
   EXPECT_NEAR(power[0].law.power, 3, 0.05);
   EXPECT_NEAR(power[0].law.a1, 1000, 100);
 }
@@ -84,7 +87,7 @@ TEST(Fit, FindsThePowerWhenAsked) {
 TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
   // Soft until the cells fill their room, then hard: what no power of d follows.
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
-  const auto found = fit_law(squeeze_with(wanted, 0.1), sphere(), Vec3::Zero(), {});
+  const auto found = fit_law(squeeze_with(wanted, 0.1), sphere(), {});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_GT(found[0].law.rms_relative, 0.1);
   EXPECT_LT(found[1].law.rms_relative, 0.05);
@@ -106,16 +109,16 @@ TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
 TEST(Fit, MakesNoTableOfASqueezeThatEndsWhereItPressesLeast) {
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
   for (const double end : {0.03, 0.3}) {  // let go; or so far in that it counts no more
-    std::vector<Moment> squeeze = squeeze_with(wanted, 0.1);
-    squeeze.push_back(lattice(end));
-    squeeze.back().force = -100;
-    EXPECT_EQ(fit_law(squeeze, sphere(), Vec3::Zero(), {}).size(), 1u);
+    Squeeze squeeze = squeeze_with(wanted, 0.1);
+    squeeze.moment.push_back(lattice(end));
+    squeeze.moment.back().force.assign(squeeze.moment[0].center.size(), -100);
+    EXPECT_EQ(fit_law(squeeze, sphere(), {}).size(), 1u);
   }
 }
 
 TEST(Fit, RefusesWhatIsNoSqueezeOrNeedsNoCorrection) {
-  EXPECT_THROW(fit_law({}, sphere(), Vec3::Zero(), {}), Error);
-  EXPECT_THROW(fit_law(squeeze_with({}, 0.1), sphere(), Vec3::Zero(), {}), Error);
+  EXPECT_THROW(fit_law({}, sphere(), {}), Error);
+  EXPECT_THROW(fit_law(squeeze_with({}, 0.1), sphere(), {}), Error);
 }
 
 }  // namespace
