@@ -91,18 +91,23 @@ Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner) {
   return b;
 }
 
-Moment as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point) {
-  coupling::World world;
-  world.params.cbm = {sphere};
+Moment as_spheres(const Moment& moment, const cbm::Params& sphere,
+                  const std::vector<std::size_t>& inner) {
+  const double young =
+      cbm::corrected_modulus(sphere.correction, sphere.young, measure_bulk(moment, inner).overlap)
+          .value;
   std::vector<cbm::NewCell> cells;
   for (std::size_t k = 0; k < moment.center.size(); ++k)
-    cells.push_back({static_cast<std::int64_t>(k), 0, moment.center[k], moment.radius[k],
-                     sphere.young, Vec3::Zero()});
+    cells.push_back(
+        {static_cast<std::int64_t>(k), 1, moment.center[k], moment.radius[k], young, Vec3::Zero()});
+  for (const std::size_t k : inner) {
+    cells[k].type = 0;
+    cells[k].young = sphere.young;
+  }
+  coupling::World world;
+  world.params.cbm = {sphere, sphere};
+  world.params.cbm[1].correction = {};
   world.state.cbm = cbm::make_state(cells);
-  contact::Capsule capsule;
-  capsule.center = point;
-  capsule.radius = moment.capsule;
-  world.params.around.capsules = {capsule};
   coupling::Workspace work;
   coupling::size_workspace(world, work);
   Moment spheres = moment;
@@ -113,7 +118,7 @@ Moment as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& p
 }
 
 Bulk bulk_as_spheres(const Moment& moment, const cbm::Params& sphere, const Squeeze& squeeze) {
-  return measure_bulk(as_spheres(moment, sphere, squeeze.point), squeeze.inner);
+  return measure_bulk(as_spheres(moment, sphere, squeeze.inner), squeeze.inner);
 }
 
 }  // namespace acinus::calibration

@@ -29,7 +29,7 @@ struct Moment {
   std::vector<Vec3> center;    ///< um
   std::vector<double> radius;  ///< um, reference radii
   std::vector<double> force;   ///< nN, as ClumpSample::force, of each cell
-  /// um, of the capsule round the middle: outer cells feel how full their room is by it as well
+  /// um, of the capsule round the middle
   double capsule = std::numeric_limits<double>::infinity();
 };
 
@@ -37,7 +37,6 @@ struct Moment {
 struct Squeeze {
   std::vector<Moment> moment;
   std::vector<std::size_t> inner;  ///< cells that stand for tissue: all but those at the capsule
-  Vec3 point = Vec3::Zero();       ///< um, middle of the capsule
 };
 
 /// Share of the largest force of a squeeze from which on a moment counts.
@@ -70,8 +69,10 @@ std::vector<std::size_t> find_inner_cells(const Moment& moment, const Vec3& poin
 
 Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner);
 
-/// The forces that spheres in the places of the cells feel by their contact law, with their own d.
-Moment as_spheres(const Moment& moment, const cbm::Params& sphere, const Vec3& point);
+/// The forces that spheres in the places of the cells feel by their contact law. The inner ones
+/// have the modulus of their own d, the others, whose d the capsule disturbs, that of the mean.
+Moment as_spheres(const Moment& moment, const cbm::Params& sphere,
+                  const std::vector<std::size_t>& inner);
 
 /// The bulk of those spheres.
 Bulk bulk_as_spheres(const Moment& moment, const cbm::Params& sphere, const Squeeze& squeeze);

@@ -30,7 +30,7 @@ struct Samples {
 
 Samples choose_samples(const Squeeze& squeeze, const cbm::Params& sphere, double highest) {
   Samples chosen;
-  chosen.squeeze = {{}, squeeze.inner, squeeze.point};
+  chosen.squeeze = {{}, squeeze.inner};
   chosen.range = {highest, 0};
   double largest = 0;
   for (const Moment& m : squeeze.moment)

@@ -12,6 +12,9 @@ constexpr double kSoftest = 1e-3, kStiffest = 1e3;
 /// How far apart entries of the table are at most: in d, and as a factor of moduli.
 constexpr double kStride = 0.01, kRise = 1.25;
 
+/// Share of the largest force below which pulls and pushes cancel and a ratio of forces says
+/// nothing.
+constexpr double kTells = 0.002;
 constexpr int kRounds = 4;  ///< of corrections; the error stands still after two or three
 /// What one round changes at most.
 constexpr double kLargestChange = 1.5;
@@ -99,7 +102,8 @@ double force_with(const Law& law, const Moment& moment, const cbm::Params& spher
 Law tabulate_law(const Squeeze& squeeze, const cbm::Params& sphere, const Law& known) {
   std::vector<Demand> demands = find_demands(squeeze, sphere, known.overlap_range[1]);
   Law best = known;
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const Demand& d : demands) largest = std::max(largest, d.force);
   for (int round = 0; round < kRounds; ++round) {
     Law law = known;
     law.table = make_table(demands);
@@ -110,8 +114,7 @@ Law tabulate_law(const Squeeze& squeeze, const cbm::Params& sphere, const Law& k
     for (Demand& d : demands) {
       const double force = force_with(law, *d.moment, sphere, squeeze);
       misfit += std::pow(force - d.force, 2);
-      // Where spheres pull there is no ratio, and little force.
-      if (force > 0 && d.force > 0)
+      if (force > 0 && d.force > kTells * largest)
         d.modulus *= std::clamp(d.force / force, 1 / kLargestChange, kLargestChange);
     }
     if (misfit < least) best = law;

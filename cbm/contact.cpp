@@ -229,22 +229,16 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
                       params[static_cast<std::size_t>(s.type[i])].poisson};
   };
 
-  // Where the cell meets a rigid wall: not at its radius if it is crowded.
-  auto reach = [&](std::size_t i) {
-    return radius[i] * (1 - wall_gap(params[static_cast<std::size_t>(s.type[i])].correction,
-                                     s.young[i], work.modulus[i].value));
-  };
-  // As RangeSearch::couple; a bound, since a partner's own softness only makes it less, and so does
-  // the reach.
-  auto couple = [&](std::size_t i, const contact::SphereForce& law) {
+  // As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
+  auto couple = [&](std::size_t i, const contact::SphereForce& law, double slope = 1) {
     if (work.coupling.empty()) return;
     const double poisson = params[static_cast<std::size_t>(s.type[i])].poisson;
     work.coupling[i] =
         std::max(work.coupling[i], std::max(law.force_by_modulus, 0.0) / (1 - poisson * poisson) *
-                                       work.modulus[i].slope / radius[i]);
+                                       slope * work.modulus[i].slope / radius[i]);
   };
   auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
-                  double overlap, const Vec3& normal) {
+                  double overlap, const Vec3& normal, double slope = 1) {
     const int key = surrounding_key(kind, index);
     const bool before = kind == SurroundingKind::kVessel
                             ? was_touching_vessel(s, around.vessels, static_cast<int>(i), index)
@@ -254,12 +248,24 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         weaken(contact::jkr_force(pair, overlap, before), cells.strength_of(i));
     if (!law.touching) return;
     work.touching.emplace_back(static_cast<int>(i), key);
-    couple(i, law);
+    couple(i, law, slope);
     work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
     work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
   };
   auto flat = [](const contact::Material& m, double shape) {
     return SphereBody{shape, m.young, m.poisson};
+  };
+  auto meet_wall = [&](std::size_t i, SurroundingKind kind, int index,
+                       const contact::Material& material, double shape, const contact::Gap& g) {
+    const WallFace face = wall_face(params[static_cast<std::size_t>(s.type[i])].correction,
+                                    s.young[i], work.modulus[i].value);
+    SphereBody crowded = body(i);
+    crowded.young = face.modulus;
+    // That the face is nearer the more it is crowded only makes the bound of `couple` safer.
+    meet(i, kind, index,
+         contact::reduced_pair(crowded, flat(material, shape),
+                               c.adhesion_factor * material.adhesion),
+         radius[i] * (1 - face.gap) - g.gap, g.normal, face.slope);
   };
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
     const Vec3 x = center_of(s, i);
@@ -275,21 +281,15 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
         couple(i, law);
       } else {
-        meet(i, SurroundingKind::kPlane, static_cast<int>(k),
-             contact::reduced_pair(body(i), flat(p.material, contact::kFlat),
-                                   c.adhesion_factor * p.material.adhesion),
-             reach(i) - g.gap, g.normal);
+        meet_wall(i, SurroundingKind::kPlane, static_cast<int>(k), p.material, contact::kFlat, g);
       }
     }
     for (std::size_t k = 0; k < around.capsules.size(); ++k) {
       const contact::Capsule& shell = around.capsules[k];
       const double r = shell.radius_at(time);
       if (r <= radius[i] || !std::isfinite(r)) continue;
-      const contact::Gap g = contact::gap_to_capsule(shell, x, time);
-      meet(i, SurroundingKind::kCapsule, static_cast<int>(k),
-           contact::reduced_pair(body(i), flat(shell.material, -r),
-                                 c.adhesion_factor * shell.material.adhesion),
-           reach(i) - g.gap, g.normal);
+      meet_wall(i, SurroundingKind::kCapsule, static_cast<int>(k), shell.material, -r,
+                contact::gap_to_capsule(shell, x, time));
     }
     for (std::size_t k = 0; k < around.meshes.size(); ++k) {
       const contact::StaticMesh& m = around.meshes[k];

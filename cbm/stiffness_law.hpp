@@ -72,11 +72,18 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
   return m;
 }
 
-/// Share of its radius by which a sphere of modulus E~ meets walls later: none while it is as soft
-/// as E, `wall` once it is much stiffer.
-inline double wall_gap(const StiffnessLaw& law, double young, double modulus) {
-  const double stiffened = std::max(0.0, 1 - young / modulus);
-  return law.wall * stiffened * stiffened;
+/// How a crowded sphere meets a rigid wall: with a face, so nearer and stiffer than a round cap.
+struct WallFace {
+  double gap = 0;      ///< over its radius: how much later than at its radius
+  double modulus = 0;  ///< kPa
+  double slope = 1;    ///< of this modulus by E~
+};
+
+/// Of a sphere of modulus E~ whose law starts at E: a cap while it is as soft as that.
+inline WallFace wall_face(const StiffnessLaw& law, double young, double modulus) {
+  const double stiffened = std::max(0.0, modulus - young);
+  return {law.wall * (stiffened / modulus) * (stiffened / modulus), modulus + stiffened,
+          stiffened > 0 ? 2.0 : 1.0};
 }
 
 }  // namespace acinus::cbm

@@ -128,9 +128,10 @@ int squeeze_corrected(const Stages& stages, const calibration::Squeeze& cells, d
   for (int round = 1;; ++round) {
     calibration::write_law(law, file);
     // Another law may stand in the file of an earlier attempt.
-    if (const int stop =
-            stages.run(as_spheres(stages.squeeze(), file), "squeeze_corrected", true, true))
-      return stop;
+    const int stop =
+        stages.run(as_spheres(stages.squeeze(), file), "squeeze_corrected", true, true);
+    if (stop != 0 && stop != static_cast<int>(Exit::kCannotContinue)) return stop;
+    if (stop != 0) stages.say("these spheres could not be squeezed to the end");
     const std::vector<calibration::Moment> spheres = stages.moments("squeeze_corrected");
     found.corrected = curve(spheres, cells.inner);
     found.capsule_excess = calibration::capsule_excess(cells, spheres, highest);
@@ -216,7 +217,7 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   stages.say("squeezing spheres without correction");
   const Scene spheres = as_spheres(squeeze, "none");
   if (const int stop = stages.run(spheres, "squeeze_cbm", true)) return stop;
-  calibration::Squeeze moments{stages.moments("squeeze_dcm"), {}, squeeze.capsule.center};
+  calibration::Squeeze moments{stages.moments("squeeze_dcm"), {}};
   moments.inner = stages.inner_cells(moments.moment);
   found.inner = static_cast<int>(moments.inner.size());
   found.dcm = curve(moments.moment, moments.inner);

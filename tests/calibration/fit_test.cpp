@@ -48,9 +48,9 @@ Squeeze squeeze_with(const cbm::StiffnessLaw& law, double young) {
   p.young = young;
   p.correction = law;
   Squeeze squeeze;
+  squeeze.inner = {middle_of(lattice(0))};
   for (int k = 0; k <= 40; ++k)
-    squeeze.moment.push_back(as_spheres(lattice(0.03 + 0.005 * k), p, Vec3::Zero()));
-  squeeze.inner = {middle_of(squeeze.moment[0])};
+    squeeze.moment.push_back(as_spheres(lattice(0.03 + 0.005 * k), p, squeeze.inner));
   return squeeze;
 }
 

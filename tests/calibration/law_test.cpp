@@ -20,6 +20,7 @@ Law make_law() {
   law.a1 = 4000.0 / 3;
   law.a1_interval = {1200, 1500};
   law.overlap_range = {0.03, 0.19};
+  law.wall = 0.125;
   law.r_squared = 0.998;
   law.rms_relative = 0.06;
   law.jkr_underestimation = 5.5;
@@ -69,6 +70,7 @@ TEST_F(LawFile, IsReadAsItWasWritten) {
   EXPECT_EQ(s.table[1].overlap, 0.1);
   EXPECT_EQ(s.table[1].added, 1.5 - 0.45);
   EXPECT_EQ(s.range, 0.19);
+  EXPECT_EQ(s.wall, 0.125);
   ASSERT_EQ(stiffness_law(make_law()).term.size(), 1u);
   EXPECT_EQ(stiffness_law(make_law()).term[0].factor, make_law().a1);
 }
@@ -79,7 +81,7 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
     EXPECT_NE(m.find(reason), std::string::npos) << from << " -> " << to << ": " << m;
     EXPECT_NE(m.find("law.json"), std::string::npos) << m;
   };
-  expect("\"schema_version\": 2", "\"schema_version\": 7", "another version");
+  expect("\"schema_version\": 3", "\"schema_version\": 7", "another version");
   expect("0.45", "NaN", "not JSON");
   expect("0.45", "null", "expected a number");
   expect("0.45", "-0.45", "not allowed");
@@ -87,6 +89,8 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
   expect("1200.0", "1600.0", "is above");
   expect("0.19", "0.7", "not allowed");
   expect("\"a1_kPa\"", "\"a_kPa\"", "missing");
+  expect("0.125", "0.6", "not allowed");
+  expect("0.125", "0.126", "changed by hand");
   expect("2.5", "2.6", "changed by hand");
   expect("{", "", "not JSON");
   try {
