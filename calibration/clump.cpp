@@ -15,6 +15,17 @@ namespace {
 
 constexpr std::size_t kShell = 14;
 
+/// d of the inner cells.
+double mean_overlap(const Moment& moment, const std::vector<std::size_t>& inner) {
+  double sum = 0;
+  for (const std::size_t i : inner)
+    for (std::size_t j = 0; j < moment.center.size(); ++j) {
+      const double apart = (moment.center[i] - moment.center[j]).norm();
+      if (j != i) sum += std::max(0.0, 1 - apart / (moment.radius[i] + moment.radius[j]));
+    }
+  return sum / (static_cast<double>(inner.size()) * cbm::kNeighbours);
+}
+
 }  // namespace
 
 std::size_t find_central_cell(std::span<const coupling::CellMeasure> cells, const Vec3& point) {
@@ -77,25 +88,15 @@ std::vector<std::size_t> find_inner_cells(const Moment& moment, const Vec3& poin
 }
 
 Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner) {
-  Bulk b;
-  const auto n = static_cast<double>(inner.size());
-  for (const std::size_t i : inner) {
-    for (std::size_t j = 0; j < moment.center.size(); ++j) {
-      const double apart = (moment.center[i] - moment.center[j]).norm();
-      if (j != i)
-        b.overlap += std::max(0.0, 1 - apart / (moment.radius[i] + moment.radius[j])) /
-                     (n * cbm::kNeighbours);
-    }
-    b.force += moment.force[i] / n;
-  }
+  Bulk b{mean_overlap(moment, inner), 0};
+  for (const std::size_t i : inner) b.force += moment.force[i] / static_cast<double>(inner.size());
   return b;
 }
 
 Moment as_spheres(const Moment& moment, const cbm::Params& sphere,
                   const std::vector<std::size_t>& inner) {
   const double young =
-      cbm::corrected_modulus(sphere.correction, sphere.young, measure_bulk(moment, inner).overlap)
-          .value;
+      cbm::corrected_modulus(sphere.correction, sphere.young, mean_overlap(moment, inner)).value;
   std::vector<cbm::NewCell> cells;
   for (std::size_t k = 0; k < moment.center.size(); ++k)
     cells.push_back(

@@ -277,6 +277,44 @@ TEST(Walls, MirrorActsAsTheImageCell) {
   EXPECT_EQ(wall.links().size(), 0u) << "a mirror never pulls";
 }
 
+TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
+  // d = (1 - 9/12) / 12 = 0.0208, so E~ = 0.05 + 0.5.
+  const StiffnessLaw law{{}, {{0.01, 0}, {0.02, 0.5}, {0.3, 0.5}}, 0.3, 0.2};
+  const double modulus = 0.55, late = 0.2 * std::pow(0.5 / 0.55, 2);
+  for (const bool capsule : {false, true}) {
+    Spheres s({sphere({0, 0, 9}, 12, 0.05)});
+    s.params[0].poisson = 0.47;
+    s.params[0].correction = law;
+    contact::Plane floor;
+    contact::Capsule shell;
+    shell.center = {0, 0, 50};
+    shell.radius = 50;
+    if (capsule) {
+      s.around.capsules = {shell};
+    } else {
+      s.around.planes = {floor};
+    }
+    s.find();
+    ASSERT_EQ(s.work.obstacle.size(), 1u);
+    ASSERT_NEAR(s.work.modulus[0].value, modulus, 1e-12);
+    const auto expected = contact::hertz_force(
+        contact::reduced_pair({12, 2 * modulus - 0.05, 0.47},
+                              {capsule ? -50 : contact::kFlat, contact::kRigid, 0}, 0),
+        12 * (1 - late) - 9);
+    EXPECT_NEAR(s.work.obstacle[0].law.force, expected.force, 1e-12 * expected.force);
+  }
+  Spheres mirror({sphere({0, 0, 9}, 12, 0.05)});
+  mirror.params[0].poisson = 0.47;
+  mirror.params[0].correction = law;
+  contact::Plane p;
+  p.material.mirror = true;
+  mirror.around.planes = {p};
+  mirror.find();
+  EXPECT_NEAR(mirror.work.obstacle[0].law.force,
+              contact::mirror_wall_force({12, modulus, 0.47}, 9).force, 1e-12)
+      << "an equal cell stands behind a mirror, no wall";
+}
+
 TEST(Walls, MovingPlaneAndShrinkingCapsule) {
   Spheres s({sphere({0, 0, 12.5})});
   contact::Plane p;

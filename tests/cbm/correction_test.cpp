@@ -42,6 +42,22 @@ TEST(StiffnessLaw, FollowsATable) {
   EXPECT_EQ(corrected_modulus(law, 0.1, 5).slope, 0);
 }
 
+TEST(StiffnessLaw, GivesCrowdedSpheresAFaceAtWalls) {
+  StiffnessLaw law = quartic();
+  law.wall = 0.3;
+  const WallFace cap = wall_face(law, 0.45, 0.45), half = wall_face(law, 0.45, 0.9),
+                 face = wall_face(law, 0.45, 450);
+  EXPECT_EQ(cap.gap, 0);
+  EXPECT_EQ(cap.modulus, 0.45);
+  EXPECT_EQ(cap.slope, 1);
+  EXPECT_NEAR(half.gap, 0.3 / 4, 1e-15);
+  EXPECT_NEAR(half.modulus, 1.35, 1e-15);
+  EXPECT_NEAR(face.gap, 0.3, 1e-3);
+  EXPECT_NEAR(face.modulus, 2 * 450, 0.5);
+  EXPECT_EQ(face.slope, 2);
+  EXPECT_EQ(wall_face({}, 0.45, 0.45).gap, 0);
+}
+
 TEST(StiffnessLaw, GoesOnAlongItsTangentAndEnds) {
   const double end = kLawCap * 0.2, h = 1e-7;
   for (double d : {0.2, 0.24, end - 1e-3}) {
@@ -210,19 +226,19 @@ Eigen::MatrixXd frozen_matrix(Spheres& s, double h) {
   return fixed;
 }
 
-/// What a shell that shrinks round 27 spheres shows.
+/// What a shell that shrinks round 27 spheres, down to this radius in um, shows.
 struct Squeeze {
   double lowest = 1, highest = 0;    ///< d of the central one
   double overshoot = 0, growth = 0;  ///< of steps: -1 and 1 would be neutral
   double frozen_overshoot = 0;       ///< with moduli held fixed
 };
-Squeeze squeeze(const StiffnessLaw& law, double young) {
+Squeeze squeeze(const StiffnessLaw& law, double young, double smallest) {
   Squeeze found;
   Spheres s = make_clump(0.1, 5);
   s.params[0].correction = law;
   s.params[0].young = young;
   s.state.young.assign(s.state.n_cell(), young);
-  for (double radius : {42.0, 40.0, 37.5, 36.0, 34.5, 33.0, 31.5, 31.0}) {
+  for (double radius : {42.0, 40.0, 37.5, 36.0, 34.5, 33.0, 0.5 * (33 + smallest), smallest}) {
     s.around.capsules[0].radius = radius;
     settle(s);
     forces(s);
@@ -243,7 +259,7 @@ Squeeze squeeze(const StiffnessLaw& law, double young) {
 }
 
 TEST(Correction, StepsOfAnyLengthAreStable) {
-  const Squeeze found = squeeze(quartic(), 0.45);
+  const Squeeze found = squeeze(quartic(), 0.45, 32.2);
   EXPECT_LT(found.lowest, 0.06);
   EXPECT_GT(found.highest, 0.19);
   EXPECT_GE(found.overshoot, -1);
@@ -254,20 +270,24 @@ TEST(Correction, StepsOfAnyLengthAreStable) {
 TEST(Correction, StepsDoNotOvershootWithATable) {
   // As calibrated: next to nothing until cells fill their room, then steeper than any power. Such
   // a clump can buckle, so growth says nothing about the step.
-  const StiffnessLaw law{{},
-                         {{0.068, 0},
-                          {0.0707, 0.08},
-                          {0.0722, 0.3},
-                          {0.0753, 0.6},
-                          {0.0845, 1.2},
-                          {0.0994, 2.2},
-                          {0.12, 3.5},
-                          {0.165, 5}},
-                         0.165};
-  const Squeeze found = squeeze(law, 0.042);
-  EXPECT_GT(found.highest, 0.16);
-  EXPECT_GE(found.overshoot, 0);
-  EXPECT_LT(found.frozen_overshoot, -1) << "this test must be able to fail";
+  const StiffnessLaw table{{},
+                           {{0.068, 0},
+                            {0.0707, 0.08},
+                            {0.0722, 0.3},
+                            {0.0753, 0.6},
+                            {0.0845, 1.2},
+                            {0.0994, 2.2},
+                            {0.12, 3.5},
+                            {0.165, 5}},
+                           0.165};
+  for (const double wall : {0.0, 0.3}) {
+    StiffnessLaw law = table;
+    law.wall = wall;
+    const Squeeze found = squeeze(law, 0.042, wall > 0 ? 30.5 : 31);
+    EXPECT_GT(found.highest, 0.16);
+    EXPECT_GE(found.overshoot, 0);
+    EXPECT_LT(found.frozen_overshoot, -1) << "this test must be able to fail";
+  }
 }
 
 }  // namespace

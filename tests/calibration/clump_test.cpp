@@ -1,0 +1,69 @@
+/// Which cells of a clump stand for tissue, what they mean together, and how wide capsules are.
+
+#include "calibration/clump.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "calibration/wall.hpp"
+
+namespace acinus::calibration {
+namespace {
+
+/// Cells on a line through the middle of a capsule of 50 um, with their place as force.
+Moment line() {
+  Moment m;
+  for (const double x : {-36.0, -20.0, 0.0, 21.0, 34.0}) {
+    m.center.emplace_back(x, 0, 0);
+    m.radius.push_back(12);
+    m.force.push_back(x);
+  }
+  m.capsule = 50;
+  return m;
+}
+
+TEST(Clump, InnerCellsStandAwayFromTheCapsule) {
+  const Vec3 middle = Vec3::Zero();
+  EXPECT_EQ(find_inner_cells(line(), middle), (std::vector<std::size_t>{1, 2, 3, 4}));
+  Moment tight = line();
+  tight.capsule = 37;
+  EXPECT_EQ(find_inner_cells(tight, middle), (std::vector<std::size_t>{1, 2, 3}));
+  tight.capsule = 14;
+  EXPECT_EQ(find_inner_cells(tight, middle), (std::vector<std::size_t>{2})) << "never none";
+  EXPECT_TRUE(find_inner_cells({}, middle).empty());
+}
+
+TEST(Clump, BulkIsTheMeanOfInnerCells) {
+  const Bulk b = measure_bulk(line(), {2, 3});
+  EXPECT_NEAR(b.force, 10.5, 1e-14);
+  const double middle = (1 - 20.0 / 24) + (1 - 21.0 / 24),
+               right = (1 - 21.0 / 24) + (1 - 13.0 / 24);
+  EXPECT_NEAR(b.overlap, (middle + right) / 2 / 12, 1e-14);
+}
+
+/// Capsules that shrink by 1 um from moment to moment; the force is that of a capsule wider by
+/// `excess`.
+std::vector<Moment> history(double excess) {
+  std::vector<Moment> h;
+  for (int k = 0; k <= 20; ++k) {
+    Moment m = line();
+    m.capsule = 60 - k;
+    m.force.assign(m.center.size(), 3 * std::exp(0.2 * (45 - (m.capsule - excess))));
+    h.push_back(m);
+  }
+  return h;
+}
+
+TEST(Wall, ExcessIsHowMuchWiderACapsuleBearsTheSame) {
+  const Squeeze cells{history(0), {2}};
+  EXPECT_NEAR(capsule_excess(cells, history(0), 1), 0, 1e-12);
+  // Forces between moments are linear, not exponential: an error of the second order.
+  EXPECT_NEAR(capsule_excess(cells, history(0.7), 1), 0.7, 0.03);
+  EXPECT_NEAR(capsule_excess(cells, history(-2), 1), -2, 1e-12);
+  EXPECT_TRUE(std::isnan(capsule_excess(cells, history(-100), 1))) << "never as much";
+  EXPECT_TRUE(std::isnan(capsule_excess(cells, history(0), 0.01))) << "no moment counts";
+}
+
+}  // namespace
+}  // namespace acinus::calibration
