@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/sphere.hpp"
@@ -74,9 +75,16 @@ void advance_to(coupling::World& world, coupling::Workspace& work, double time) 
   }
 }
 
-std::vector<std::size_t> find_inner_cells(const Moment& moment, const Vec3& point) {
-  constexpr double kAway = 1.25;
+std::vector<std::size_t> find_inner_cells(const std::vector<Moment>& history, const Vec3& point) {
+  constexpr double kPressing = 0.1, kAway = 1.25;
+  std::vector<double> force;
+  for (const Moment& m : history)
+    force.push_back(std::accumulate(m.force.begin(), m.force.end(), 0.0));
   std::vector<std::size_t> inner;
+  if (history.empty()) return inner;
+  const double enough = kPressing * *std::ranges::max_element(force);
+  const auto presses = std::ranges::find_if(force, [&](double f) { return f >= enough; });
+  const Moment& moment = history[static_cast<std::size_t>(presses - force.begin())];
   const auto distance = [&](std::size_t i) { return (moment.center[i] - point).norm(); };
   std::size_t middle = 0;
   for (std::size_t i = 0; i < moment.center.size(); ++i) {

@@ -63,9 +63,11 @@ std::vector<coupling::CellMeasure> observe_cells(const coupling::World& world,
 /// @throws Error(kCannotContinue) when a step fails
 void advance_to(coupling::World& world, coupling::Workspace& work, double time);
 
-/// Cells farther than 1.25 radii from the capsule; where there are none, as in a clump of 15, the
-/// one nearest its middle.
-std::vector<std::size_t> find_inner_cells(const Moment& moment, const Vec3& point);
+/// Cells farther than 1.25 radii from the capsule when the clump presses with a tenth of its
+/// largest force: later some of them come near it, too. Where there are none, as in a clump of 15,
+/// the one nearest the middle.
+/// @param point  um, middle of the capsule
+std::vector<std::size_t> find_inner_cells(const std::vector<Moment>& history, const Vec3& point);
 
 Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner);
 

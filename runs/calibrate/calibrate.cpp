@@ -98,7 +98,7 @@ class Stages {
   }
 
   std::vector<std::size_t> inner_cells(const std::vector<calibration::Moment>& history) const {
-    return calibration::find_inner_cells(history.back(), squeeze_.capsule.center);
+    return calibration::find_inner_cells(history, squeeze_.capsule.center);
   }
 
  private:

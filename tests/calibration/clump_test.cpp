@@ -23,15 +23,21 @@ Moment line() {
   return m;
 }
 
-TEST(Clump, InnerCellsStandAwayFromTheCapsule) {
-  const Vec3 middle = Vec3::Zero();
-  EXPECT_EQ(find_inner_cells(line(), middle), (std::vector<std::size_t>{1, 2, 3, 4}));
-  Moment tight = line();
-  tight.capsule = 37;
-  EXPECT_EQ(find_inner_cells(tight, middle), (std::vector<std::size_t>{1, 2, 3}));
-  tight.capsule = 14;
-  EXPECT_EQ(find_inner_cells(tight, middle), (std::vector<std::size_t>{2})) << "never none";
-  EXPECT_TRUE(find_inner_cells({}, middle).empty());
+TEST(Clump, InnerCellsStandAwayFromTheCapsuleWhenItBeginsToPress) {
+  const auto inner = [](double capsule) {
+    std::vector<Moment> history(3, line());
+    history[0].force.assign(5, 1);
+    history[1].force.assign(5, 20);
+    history[2].force.assign(5, 100);
+    history[0].capsule = 90;
+    history[1].capsule = capsule;
+    history[2].capsule = 13;
+    return find_inner_cells(history, Vec3::Zero());
+  };
+  EXPECT_EQ(inner(50), (std::vector<std::size_t>{1, 2, 3, 4}));
+  EXPECT_EQ(inner(37), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(inner(14), (std::vector<std::size_t>{2})) << "never none";
+  EXPECT_TRUE(find_inner_cells({}, Vec3::Zero()).empty());
 }
 
 TEST(Clump, BulkIsTheMeanOfInnerCells) {
