@@ -83,7 +83,8 @@ std::vector<std::size_t> find_inner_cells(const std::vector<Moment>& history, co
   std::vector<std::size_t> inner;
   if (history.empty()) return inner;
   const double enough = kPressing * *std::ranges::max_element(force);
-  const auto presses = std::ranges::find_if(force, [&](double f) { return f >= enough; });
+  auto presses = std::ranges::find_if(force, [&](double f) { return f >= enough; });
+  if (presses == force.end()) presses = std::ranges::max_element(force);  // all pull
   const Moment& moment = history[static_cast<std::size_t>(presses - force.begin())];
   const auto distance = [&](std::size_t i) { return (moment.center[i] - point).norm(); };
   std::size_t middle = 0;

@@ -35,7 +35,7 @@ cbm::StiffnessLaw stiffness_law(const Law& law) {
   if (law.table.empty()) s.term.push_back({law.a1, law.power});
   for (const TableEntry& e : law.table) s.table.push_back({e.overlap, e.modulus - law.a0});
   s.range = law.overlap_range[1];
-  s.wall = law.wall;
+  s.wall_recess = law.wall_recess;
   return s;
 }
 

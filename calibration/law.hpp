@@ -25,7 +25,7 @@ struct Law {
   std::vector<TableEntry> table;          ///< in place of that term; ascending, the first one is a0
   std::array<double, 2> a1_interval{};    ///< kPa, 95 % confidence
   std::array<double, 2> overlap_range{};  ///< of d in the fit
-  double wall = 0;                        ///< cbm::StiffnessLaw::wall
+  double wall_recess = 0;                 ///< cbm::StiffnessLaw::wall_recess
   double r_squared = 0;
   double rms_relative = 0;  ///< of the force, over the range
   double jkr_underestimation =

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "calibration/wall.hpp"
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
 
@@ -29,7 +28,7 @@ Json numbers_of(const Law& law) {
     j["table"].push_back({{"overlap", e.overlap}, {"modulus_kPa", e.modulus}});
   j["a1_interval_kPa"] = law.a1_interval;
   j["overlap_range"] = law.overlap_range;
-  j["wall"] = law.wall;
+  j["wall_recess"] = law.wall_recess;
   j["r_squared"] = law.r_squared;
   j["rms_relative"] = law.rms_relative;
   j["jkr_underestimation"] = law.jkr_underestimation;
@@ -160,7 +159,7 @@ Law read_law(const std::string& path) {
   check(law.overlap_range[1] > 0, path + "/overlap_range: the fit covers nothing");
   check(law.table.empty() || law.overlap_range[1] == law.table.back().overlap,
         path + "/overlap_range: the table ends elsewhere");
-  law.wall = r.number("wall", 0, kWidestWall);
+  law.wall_recess = r.number("wall_recess", 0, cbm::kLargestRecess);
   law.r_squared = r.number("r_squared", -Reader::kAny, 1);
   law.rms_relative = r.number("rms_relative", 0);
   law.jkr_underestimation = r.number("jkr_underestimation", 0);

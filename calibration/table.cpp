@@ -114,8 +114,9 @@ Law tabulate_law(const Squeeze& squeeze, const cbm::Params& sphere, const Law& k
     for (Demand& d : demands) {
       const double force = force_with(law, *d.moment, sphere, squeeze);
       misfit += std::pow(force - d.force, 2);
-      if (force > 0 && d.force > kTells * largest)
-        d.modulus *= std::clamp(d.force / force, 1 / kLargestChange, kLargestChange);
+      if (d.force > kTells * largest)
+        d.modulus *= force > 0 ? std::clamp(d.force / force, 1 / kLargestChange, kLargestChange)
+                               : kLargestChange;
     }
     if (misfit < least) best = law;
     least = std::min(least, misfit);

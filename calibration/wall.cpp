@@ -34,7 +34,7 @@ double capsule_excess(const Squeeze& cells, const std::vector<Moment>& spheres, 
   for (std::size_t k = 0; k < bulk.size(); ++k) {
     if (bulk[k].force < kPresses * largest || bulk[k].overlap > highest) continue;
     const double radius = capsule_at(spheres, force, bulk[k].force);
-    if (!std::isfinite(radius)) continue;
+    if (!std::isfinite(radius) || !std::isfinite(cells.moment[k].capsule)) continue;
     sum += radius - cells.moment[k].capsule;
     ++n;
   }

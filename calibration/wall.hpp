@@ -6,9 +6,6 @@
 
 namespace acinus::calibration {
 
-/// Largest share of a radius that a law may take off at walls.
-inline constexpr double kWidestWall = 0.5;
-
 /// How much wider the capsule of the spheres is than that of the cells when their inner cells bear
 /// the same force, um: mean over the moments of the cells that press, at an overlap up to
 /// `highest`.

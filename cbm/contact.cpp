@@ -237,15 +237,16 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
         std::max(work.coupling[i], std::max(law.force_by_modulus, 0.0) / (1 - poisson * poisson) *
                                        slope * work.modulus[i].slope / radius[i]);
   };
+  // recess: um by which a wall is met later than at the radius.
   auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
-                  double overlap, const Vec3& normal, double slope = 1) {
+                  double overlap, const Vec3& normal, double recess = 0, double slope = 1) {
     const int key = surrounding_key(kind, index);
     const bool before = kind == SurroundingKind::kVessel
                             ? was_touching_vessel(s, around.vessels, static_cast<int>(i), index)
                             : was_touching(s, static_cast<int>(i), key);
-    if (overlap < 0 && !before) return;
+    if (overlap < recess && !before) return;
     const contact::SphereForce law =
-        weaken(contact::jkr_force(pair, overlap, before), cells.strength_of(i));
+        weaken(contact::jkr_force(pair, overlap - recess, before), cells.strength_of(i));
     if (!law.touching) return;
     work.touching.emplace_back(static_cast<int>(i), key);
     couple(i, law, slope);
@@ -261,11 +262,12 @@ void find_obstacle_contacts(const State& s, std::span<const Params> params, cons
                                     s.young[i], work.modulus[i].value);
     SphereBody crowded = body(i);
     crowded.young = face.modulus;
-    // That the face is nearer the more it is crowded only makes the bound of `couple` safer.
+    // That the face recedes as the cell is crowded is left out of the matrix: it makes the contact
+    // softer than the bound of `couple` says, while a law is steepest even unstable.
     meet(i, kind, index,
          contact::reduced_pair(crowded, flat(material, shape),
                                c.adhesion_factor * material.adhesion),
-         radius[i] * (1 - face.gap) - g.gap, g.normal, face.slope);
+         radius[i] - g.gap, g.normal, radius[i] * face.recess, face.slope);
   };
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
     const Vec3 x = center_of(s, i);

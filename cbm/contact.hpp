@@ -35,7 +35,7 @@ struct ObstacleContact {
   contact::SurroundingKind kind = contact::SurroundingKind::kPlane;
   int index = 0;
   Vec3 normal = Vec3::Zero();  ///< unit, from the obstacle to the cell
-  double overlap = 0;          ///< um
+  double overlap = 0;          ///< um, radius minus the centre's gap, whatever the law takes
   contact::SphereForce law;    ///< weakened as the cell's strength demands
 };
 
@@ -86,14 +86,16 @@ bool refresh_pairs(const State& state, std::span<const Params> params, const Con
 /// Whether the modulus of any type depends on the overlaps.
 bool has_correction(std::span<const Params> params);
 
-/// Counts the overlaps of pairs and with mirror walls, each with its share. @pre refresh_pairs
+/// Counts the overlaps of pairs and with planes and capsules, each with its share. @pre
+/// refresh_pairs
 void find_overlaps(const State& state, const CellData& cells, const contact::Surroundings& around,
                    double time, ContactWorkspace& work);
 
 /// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
 /// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. Where a law corrects the modulus,
 /// the stiffness of a pair is max(0, dF/d overlap) + C_i + C_j,
-///   C_i = n_i / 12 max_j dF/dE^ dE^/dE~_i dE~_i/dd_i / (R_i + R_j),   n_i contacts of the cell,
+///   C_i = n_i / 12 max_j dF/dE^ dE^/dE~_i dE~_i/dd_i / (R_i + R_j),   n_i contacts of the cell
+/// (of a wall dF/dE of its face, that counts E~ twice, over R_i),
 /// a bound of what the other contacts of both do to this one: with E~ held fixed long steps are
 /// unstable above d = 0.09. All that a contact of two cells
 /// does is multiplied by the larger of their strengths, so that spheres born into each other come

@@ -23,12 +23,15 @@ struct StiffnessLaw {
   /// In place of terms: linear between knots of rising d, level before the first one.
   std::vector<Knot> table{};
   double range = 0.2;  ///< largest d of the fit, and of the table
-  /// How much nearer a rigid wall a crowded sphere stands, over its radius: deformable cells fill
-  /// the room at a wall, spheres leave some of it free. (docs/decisions/0022.md)
-  double wall = 0;
+  /// By how much less than its radius a crowded sphere reaches to a rigid wall, over its radius:
+  /// deformable cells fill the room at a wall, spheres leave some of it free, see wall_face.
+  double wall_recess = 0;
 
   bool corrects() const { return !term.empty() || !table.empty(); }
 };
+
+/// Largest recess of a law.
+inline constexpr double kLargestRecess = 0.5;
 
 /// Where a law ends to grow, over its range.
 inline constexpr double kLawCap = 1.5;
@@ -74,15 +77,16 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
 
 /// How a crowded sphere meets a rigid wall: with a face, so nearer and stiffer than a round cap.
 struct WallFace {
-  double gap = 0;      ///< over its radius: how much later than at its radius
+  double recess = 0;   ///< over its radius: how much later than at its radius
   double modulus = 0;  ///< kPa
   double slope = 1;    ///< of this modulus by E~
 };
 
-/// Of a sphere of modulus E~ whose law starts at E: a cap while it is as soft as that.
+/// Of a sphere of modulus E~ whose law starts at E: a cap while it is as soft as that. What the law
+/// adds counts twice, with any recess. (docs/decisions/0022.md)
 inline WallFace wall_face(const StiffnessLaw& law, double young, double modulus) {
   const double stiffened = std::max(0.0, modulus - young);
-  return {law.wall * (stiffened / modulus) * (stiffened / modulus), modulus + stiffened,
+  return {law.wall_recess * (stiffened / modulus) * (stiffened / modulus), modulus + stiffened,
           stiffened > 0 ? 2.0 : 1.0};
 }
 

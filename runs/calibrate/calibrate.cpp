@@ -80,6 +80,10 @@ class Stages {
     const RunSummary summary = read_summary(path(name));
     const io::RunReader reader(summary.folder + "/run.vtkhdf");
     const std::vector<double>& capsule = series(summary, "capsule_radius_um");
+    check(reader.n_frame() == static_cast<int>(capsule.size()),
+          fmt::format("{}: {} frames and {} samples do not go together. Calibrate without "
+                      "output.start_up",
+                      summary.folder, reader.n_frame(), capsule.size()));
     std::vector<calibration::Moment> out(capsule.size());
     for (std::size_t k = 0; k < out.size(); ++k) {
       out[k].capsule = capsule[k];
@@ -123,7 +127,7 @@ int squeeze_corrected(const Stages& stages, const calibration::Squeeze& cells, d
                       calibration::Law& law, Calibration& found) {
   constexpr int kRounds = 5;
   constexpr double kClose = 0.01;  // of a radius
-  const double radius = cells.moment.front().radius.front();
+  const double radius = stages.squeeze().cell_types.begin()->second.radius;
   const std::string file = stages.path("law.json");
   for (int round = 1;; ++round) {
     calibration::write_law(law, file);
@@ -135,8 +139,19 @@ int squeeze_corrected(const Stages& stages, const calibration::Squeeze& cells, d
     const std::vector<calibration::Moment> spheres = stages.moments("squeeze_corrected");
     found.corrected = curve(spheres, cells.inner);
     found.capsule_excess = calibration::capsule_excess(cells, spheres, highest);
-    if (!(std::abs(found.capsule_excess) > kClose * radius) || round == kRounds) return 0;
-    law.wall = std::clamp(law.wall + found.capsule_excess / radius, 0.0, calibration::kWidestWall);
+    check(
+        std::isfinite(found.capsule_excess),
+        "calibration: corrected spheres never bear what the deformable cells do, the law does not "
+        "hold for them. Squeeze less far (capsule.min_radius) or take another clump (--cells)",
+        Exit::kCannotContinue);
+    if (std::abs(found.capsule_excess) < kClose * radius) return 0;
+    const double recess =
+        std::clamp(law.wall_recess + found.capsule_excess / radius, 0.0, cbm::kLargestRecess);
+    if (round == kRounds || recess == law.wall_recess) {
+      stages.say("the capsule of the corrected spheres could not be made as wide");
+      return 0;
+    }
+    law.wall_recess = recess;
   }
 }
 
@@ -217,11 +232,11 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   stages.say("squeezing spheres without correction");
   const Scene spheres = as_spheres(squeeze, "none");
   if (const int stop = stages.run(spheres, "squeeze_cbm", true)) return stop;
-  calibration::Squeeze moments{stages.moments("squeeze_dcm"), {}};
-  moments.inner = stages.inner_cells(moments.moment);
-  found.inner = static_cast<int>(moments.inner.size());
-  found.dcm = curve(moments.moment, moments.inner);
-  found.plain = curve(stages.moments("squeeze_cbm"), moments.inner);
+  calibration::Squeeze cells{stages.moments("squeeze_dcm"), {}};
+  cells.inner = stages.inner_cells(cells.moment);
+  found.inner = static_cast<int>(cells.inner.size());
+  found.dcm = curve(cells.moment, cells.inner);
+  found.plain = curve(stages.moments("squeeze_cbm"), cells.inner);
   const RunSummary history = read_summary(stages.path("squeeze_dcm"));
   found.contacts_first = series(history, "contacts").front();
   found.contacts_last = series(history, "contacts").back();
@@ -231,15 +246,15 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   const std::string type = choose_type(scene, options.clump.type);
   const LawParameters parameters = law_parameters(scene, scene.cell_types.at(type));
   found.attempts = calibration::fit_law(
-      moments, make_cbm_params(squeeze, squeeze.cell_types.at(type)), options.fit);
+      cells, make_cbm_params(squeeze, squeeze.cell_types.at(type)), options.fit);
   calibration::Law law = found.attempts.back().law;
   law.dcm = parameters.dcm;
   law.cbm = parameters.cbm;
   law.provenance = provenance(squeeze, found, options);
   stages.say("squeezing corrected spheres");
-  if (const int stop = squeeze_corrected(stages, moments, options.fit.highest, law, found))
+  if (const int stop = squeeze_corrected(stages, cells, options.fit.highest, law, found))
     return stop;
-  found.wall = law.wall;
+  found.wall_recess = law.wall_recess;
   found.error_plain = calibration::relative_error(found.dcm, found.plain, options.fit.highest);
   found.error_corrected =
       calibration::relative_error(found.dcm, found.corrected, options.fit.highest);

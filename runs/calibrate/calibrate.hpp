@@ -30,7 +30,7 @@ struct Calibration {
   int inner = 0;                                  ///< cells that are not at the capsule
   calibration::Curve dcm, plain, corrected;       ///< force over overlap, means over inner cells
   double error_plain = 0, error_corrected = 0;    ///< relative, over the fitted range
-  double wall = 0;                                ///< cbm::StiffnessLaw::wall of the law
+  double wall_recess = 0;                         ///< cbm::StiffnessLaw::wall_recess of the law
   double capsule_excess = 0;  ///< um, by which the capsule of the corrected spheres is wider
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell
   double overlap_at_rest = 0;                    ///< its d when nothing presses

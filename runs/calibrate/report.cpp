@@ -78,7 +78,7 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
   t += row(
       "at walls they leave out",
       fmt::format("{:.3f} of their radius; for the same force the capsule is then {:.2f} um wider",
-                  c.wall, c.capsule_excess));
+                  c.wall_recess, c.capsule_excess));
   if (!c.relaxation.empty()) {
     const double t1 = c.relaxation[0].decay.time, t5 = c.relaxation[1].decay.time;
     t += row("relaxation after release",

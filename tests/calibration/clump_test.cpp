@@ -38,6 +38,9 @@ TEST(Clump, InnerCellsStandAwayFromTheCapsuleWhenItBeginsToPress) {
   EXPECT_EQ(inner(37), (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_EQ(inner(14), (std::vector<std::size_t>{2})) << "never none";
   EXPECT_TRUE(find_inner_cells({}, Vec3::Zero()).empty());
+  std::vector<Moment> pulls(2, line());
+  for (Moment& m : pulls) m.force.assign(5, -1);
+  EXPECT_EQ(find_inner_cells(pulls, Vec3::Zero()).size(), 4u);
 }
 
 TEST(Clump, BulkIsTheMeanOfInnerCells) {

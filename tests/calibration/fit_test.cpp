@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/contact/jkr.hpp"
 #include "core/error.hpp"
 
 namespace acinus::calibration {
@@ -62,6 +63,37 @@ TEST(Fit, SpheresInPlaceFeelTheLawOfTheirOwnOverlap) {
   cbm::Params stiff = sphere();
   stiff.correction = {{{4000, 4}}, {}, 0.2};
   EXPECT_GT(bulk_as_spheres(lattice(0.1), stiff, squeeze).force, 1.05 * plain.force);
+}
+
+TEST(Fit, InnerSpheresFollowTheirOwnOverlapOthersTheMean) {
+  Moment moment = lattice(0.1);
+  const std::size_t middle = middle_of(moment);
+  std::size_t near = middle;
+  for (std::size_t i = 0; i < moment.center.size(); ++i)
+    if (std::abs(moment.center[i].norm() - 24 * 0.9) < 1e-9) near = i;
+  moment.center[near] *= 0.97;  // both have a d of their own now
+  cbm::Params law = sphere();
+  law.correction = {{{4000, 4}}, {}, 0.3};
+  const std::vector<std::size_t> inner{middle, near};
+  const Moment spheres = as_spheres(moment, law, inner);
+  const auto modulus = [&](const std::vector<std::size_t>& cells) {
+    Moment m = moment;
+    m.force.assign(m.center.size(), 0.0);
+    return cbm::corrected_modulus(law.correction, 0.45, measure_bulk(m, cells).overlap).value;
+  };
+  double expected = 0;
+  for (std::size_t j = 0; j < moment.center.size(); ++j) {
+    const double apart = (moment.center[middle] - moment.center[j]).norm();
+    if (j == middle || apart > 24) continue;
+    expected +=
+        contact::jkr_force(
+            contact::reduced_pair({12, modulus({middle}), 0.47},
+                                  {12, modulus(j == near ? std::vector{near} : inner), 0.47}, 0.01),
+            24 - apart, true)
+            .force;
+  }
+  EXPECT_NE(modulus({near}), modulus({middle}));
+  EXPECT_NEAR(spheres.force[middle], expected, 1e-9 * expected);
 }
 
 TEST(Fit, FindsTheFactorOfAKnownLaw) {

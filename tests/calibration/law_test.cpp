@@ -20,7 +20,7 @@ Law make_law() {
   law.a1 = 4000.0 / 3;
   law.a1_interval = {1200, 1500};
   law.overlap_range = {0.03, 0.19};
-  law.wall = 0.125;
+  law.wall_recess = 0.125;
   law.r_squared = 0.998;
   law.rms_relative = 0.06;
   law.jkr_underestimation = 5.5;
@@ -70,7 +70,7 @@ TEST_F(LawFile, IsReadAsItWasWritten) {
   EXPECT_EQ(s.table[1].overlap, 0.1);
   EXPECT_EQ(s.table[1].added, 1.5 - 0.45);
   EXPECT_EQ(s.range, 0.19);
-  EXPECT_EQ(s.wall, 0.125);
+  EXPECT_EQ(s.wall_recess, 0.125);
   ASSERT_EQ(stiffness_law(make_law()).term.size(), 1u);
   EXPECT_EQ(stiffness_law(make_law()).term[0].factor, make_law().a1);
 }

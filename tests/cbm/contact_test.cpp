@@ -302,6 +302,7 @@ TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
                               {capsule ? -50 : contact::kFlat, contact::kRigid, 0}, 0),
         12 * (1 - late) - 9);
     EXPECT_NEAR(s.work.obstacle[0].law.force, expected.force, 1e-12 * expected.force);
+    EXPECT_NEAR(s.work.obstacle[0].overlap, 3, 1e-12) << "where the wall is, for the pressure";
   }
   Spheres mirror({sphere({0, 0, 9}, 12, 0.05)});
   mirror.params[0].poisson = 0.47;
@@ -313,6 +314,21 @@ TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
   EXPECT_NEAR(mirror.work.obstacle[0].law.force,
               contact::mirror_wall_force({12, modulus, 0.47}, 9).force, 1e-12)
       << "an equal cell stands behind a mirror, no wall";
+}
+
+TEST(Walls, CoupleByTheModulusOfTheFace) {
+  const StiffnessLaw law{{}, {{0.01, 0}, {0.03, 1}}, 0.3, 0.2};
+  Spheres s({sphere({0, 0, 9}, 12, 0.05)});
+  s.params[0].poisson = 0.47;
+  s.params[0].correction = law;
+  s.around.planes = {contact::Plane{}};
+  s.find();
+  ASSERT_EQ(s.work.obstacle.size(), 1u);
+  const double plane_strain = 1 - 0.47 * 0.47;
+  EXPECT_NEAR(
+      s.work.coupling[0],
+      1 / kNeighbours * 2 * s.work.obstacle[0].law.force_by_modulus / plane_strain * 50 / 12,
+      1e-12);
 }
 
 TEST(Walls, MovingPlaneAndShrinkingCapsule) {

@@ -44,18 +44,18 @@ TEST(StiffnessLaw, FollowsATable) {
 
 TEST(StiffnessLaw, GivesCrowdedSpheresAFaceAtWalls) {
   StiffnessLaw law = quartic();
-  law.wall = 0.3;
+  law.wall_recess = 0.3;
   const WallFace cap = wall_face(law, 0.45, 0.45), half = wall_face(law, 0.45, 0.9),
                  face = wall_face(law, 0.45, 450);
-  EXPECT_EQ(cap.gap, 0);
+  EXPECT_EQ(cap.recess, 0);
   EXPECT_EQ(cap.modulus, 0.45);
   EXPECT_EQ(cap.slope, 1);
-  EXPECT_NEAR(half.gap, 0.3 / 4, 1e-15);
+  EXPECT_NEAR(half.recess, 0.3 / 4, 1e-15);
   EXPECT_NEAR(half.modulus, 1.35, 1e-15);
-  EXPECT_NEAR(face.gap, 0.3, 1e-3);
+  EXPECT_NEAR(face.recess, 0.3, 1e-3);
   EXPECT_NEAR(face.modulus, 2 * 450, 0.5);
   EXPECT_EQ(face.slope, 2);
-  EXPECT_EQ(wall_face({}, 0.45, 0.45).gap, 0);
+  EXPECT_EQ(wall_face({}, 0.45, 0.45).recess, 0);
 }
 
 TEST(StiffnessLaw, GoesOnAlongItsTangentAndEnds) {
@@ -282,7 +282,7 @@ TEST(Correction, StepsDoNotOvershootWithATable) {
                            0.165};
   for (const double wall : {0.0, 0.3}) {
     StiffnessLaw law = table;
-    law.wall = wall;
+    law.wall_recess = wall;
     const Squeeze found = squeeze(law, 0.042, wall > 0 ? 30.5 : 31);
     EXPECT_GT(found.highest, 0.16);
     EXPECT_GE(found.overshoot, 0);

@@ -55,10 +55,12 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   const Words one_term{"--good-enough", "1"};
   const Outcome first = calibrate(one_term);
   ASSERT_EQ(first.code, 0) << first.text;
-  for (const char* part : {"a1", "95 % interval", "range of d", "relaxation after release"})
+  for (const char* part :
+       {"a1", "95 % interval", "range of d", "at walls they leave out", "relaxation after release"})
     EXPECT_TRUE(has(first, part)) << part << "\n" << first.text;
   const Json law = read("law.json");
   EXPECT_GT(law["a1_kPa"], 0);
+  EXPECT_GE(law["wall_recess"], 0);
   EXPECT_NEAR(law["cbm"]["young_kPa"].get<double>(), 0.45, 1e-12);
   for (const char* file : {"curves.json", "force.svg", "relaxation.svg"})
     EXPECT_TRUE(fs::exists(path(std::string("law.calibration/") + file))) << file;
