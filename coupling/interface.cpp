@@ -111,8 +111,10 @@ void find_interface(const dcm::State& dcm_state, const dcm::ContactParams& c,
                                       lanes.radius[lane]);
     }
     if (area > 0) work.area.emplace_back(sphere, area);
-    // A deformable neighbour counts in the sphere's overlap with its reference radius.
-    if (area > 0 && !cbm_work.overlap_sum.empty()) {
+    // A deformable neighbour counts in the sphere's overlap with its reference radius, by the
+    // distance of the centres alone: whether surfaces touch changes from step to step, and with it
+    // the modulus would.
+    if (!cbm_work.overlap_sum.empty()) {
       const double reach = lanes.radius[lane] + cbm_radius[i];
       const double relative =
           1 - (dcm::cell_center(dcm_state, lane) - cbm::center_of(cbm_state, i)).norm() / reach;
