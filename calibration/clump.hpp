@@ -1,6 +1,6 @@
 #pragma once
-/// What calibration looks at in a clump of cells: how far the central cell and its neighbours are
-/// pressed into each other, and how hard.
+/// What calibration looks at in a clump of cells: how far its central cell and its inner cells are
+/// pressed into their neighbours, and how hard.
 
 #include <limits>
 #include <span>

@@ -6,7 +6,7 @@
 
 namespace acinus::calibration {
 
-/// Sum of the normal forces on the central cell over its relative overlap d.
+/// Normal force over relative overlap d, means over the inner cells of a clump.
 struct Curve {
   std::vector<double> overlap;  ///< strictly ascending
   std::vector<double> force;    ///< nN

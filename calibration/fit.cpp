@@ -126,9 +126,9 @@ void judge(const Samples& samples, const cbm::Params& sphere, FitAttempt& attemp
   double mean = 0, total = 0, misfit = 0, pointwise = 0;
   for (const double force : samples.force) mean += force / n;
   for (std::size_t k = 0; k < samples.force.size(); ++k) {
-    const double force = samples.force[k], miss = force_with(attempt.law, samples.squeeze.moment[k],
-                                                             sphere, samples.squeeze) -
-                                                  force;
+    const double force = samples.force[k];
+    const double miss =
+        force_with(attempt.law, samples.squeeze.moment[k], sphere, samples.squeeze) - force;
     total += (force - mean) * (force - mean);
     misfit += miss * miss;
     pointwise += std::pow(miss / force, 2) / n;

@@ -2,8 +2,6 @@
 /// A law read off a squeeze moment by moment. Confluent deformable cells hardly push until they
 /// fill their room, then as hard as their bulk: no power of the overlap follows both.
 
-#include <vector>
-
 #include "calibration/clump.hpp"
 #include "calibration/law.hpp"
 

@@ -41,10 +41,10 @@ struct Calibration {
   calibration::FrictionFit checked;  ///< CalibrateOptions::check_friction
 };
 
-/// Squeezes the clump as deformable cells and as spheres, fits, squeezes the corrected spheres,
-/// lets the deformable ones relax. Runs stand in a folder beside the law file and are taken up
-/// again where they were left; the law file appears at the end, with curves.json and plots in that
-/// folder.
+/// Squeezes the clump as deformable cells and as spheres, fits, squeezes the corrected spheres
+/// until their capsule is as wide, lets the deformable ones relax. Runs stand in a folder beside
+/// the law file and are taken up again where they were left, those of corrected spheres made anew;
+/// the law file appears at the end, with curves.json and plots in that folder.
 /// @return exit code of a stage that was stopped or failed, else 0
 int calibrate(const Scene& scene, const CalibrateOptions& options);
 

@@ -51,7 +51,7 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
                   squeeze.cells.count, type.dcm.nodes, squeeze.seed, c.inner);
   t += row("contacts of the central cell",
            fmt::format("{:.0f} at the start, {:.0f} squeezed", c.contacts_first, c.contacts_last));
-  t += row("its overlap d while nothing presses", fmt::format("{:.3f}", c.overlap_at_rest));
+  t += row("d of the central cell while nothing presses", fmt::format("{:.3f}", c.overlap_at_rest));
   for (const calibration::FitAttempt& a : c.attempts)
     t += row(fmt::format("error of {}", a.form),
              fmt::format("{:.1f} % rms of the force, {:.0f} % point by point",
@@ -101,6 +101,9 @@ void write_curves(const Calibration& c, const std::string& folder) {
   j["error_plain"] = c.error_plain;  // JSON has null where there is no number
   j["error_corrected"] = c.error_corrected;
   j["contacts"] = {c.contacts_first, c.contacts_last};
+  j["inner_cells"] = c.inner;
+  j["wall_recess"] = c.wall_recess;
+  j["capsule_excess_um"] = c.capsule_excess;
   j["forms"] = Json::array();
   for (const calibration::FitAttempt& a : c.attempts)
     j["forms"].push_back({{"form", a.form},

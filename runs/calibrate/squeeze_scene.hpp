@@ -9,7 +9,7 @@ namespace acinus::runs {
 
 struct ClumpOptions {
   std::string type;  ///< cell type; empty = the scene's only one
-  int cells = 0;     ///< 0: as in the scene, 15 if it has no clump
+  int cells = 0;     ///< 0: as in the scene, 59 if it has no clump
   double rate = 1;   ///< factor on the speed of squeezing
 };
 
