@@ -102,6 +102,23 @@ Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner) {
   return b;
 }
 
+std::vector<Bulk> measure_bulks(const std::vector<Moment>& history,
+                                const std::vector<std::size_t>& inner) {
+  std::vector<Bulk> bulks;
+  for (const Moment& m : history) bulks.push_back(measure_bulk(m, inner));
+  return bulks;
+}
+
+std::vector<std::size_t> find_pressing(const std::vector<Bulk>& bulks, double highest) {
+  constexpr double kPressing = 0.01;
+  double largest = 0;
+  for (const Bulk& b : bulks) largest = std::max(largest, b.force);
+  std::vector<std::size_t> pressing;
+  for (std::size_t k = 0; k < bulks.size(); ++k)
+    if (bulks[k].force >= kPressing * largest && bulks[k].overlap <= highest) pressing.push_back(k);
+  return pressing;
+}
+
 Moment as_spheres(const Moment& moment, const cbm::Params& sphere,
                   const std::vector<std::size_t>& inner) {
   const double young =

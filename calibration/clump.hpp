@@ -39,9 +39,6 @@ struct Squeeze {
   std::vector<std::size_t> inner;  ///< cells that stand for tissue: all but those at the capsule
 };
 
-/// Share of the largest force of a squeeze from which on a moment counts.
-inline constexpr double kPresses = 0.01;
-
 /// Means over the inner cells of a squeeze. One cell says little: at one pressure d differs from
 /// cell to cell by a tenth, and by more between the middle, a lattice still, and the rest.
 struct Bulk {
@@ -70,6 +67,14 @@ void advance_to(coupling::World& world, coupling::Workspace& work, double time);
 std::vector<std::size_t> find_inner_cells(const std::vector<Moment>& history, const Vec3& point);
 
 Bulk measure_bulk(const Moment& moment, const std::vector<std::size_t>& inner);
+
+/// That of every moment.
+std::vector<Bulk> measure_bulks(const std::vector<Moment>& history,
+                                const std::vector<std::size_t>& inner);
+
+/// Indices of the moments that press, with a hundredth of the largest force or more, at an overlap
+/// up to `highest`.
+std::vector<std::size_t> find_pressing(const std::vector<Bulk>& bulks, double highest);
 
 /// The forces that spheres in the places of the cells feel by their contact law. The inner ones
 /// have the modulus of their own d, the others, whose d the capsule disturbs, that of the mean.

@@ -1,6 +1,7 @@
 #include "calibration/curve.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace acinus::calibration {
 
@@ -24,6 +25,13 @@ double force_at(const Curve& curve, double overlap) {
   const auto k = static_cast<std::size_t>(after - curve.overlap.begin());
   const double share = (overlap - curve.overlap[k - 1]) / (curve.overlap[k] - curve.overlap[k - 1]);
   return curve.force[k - 1] + share * (curve.force[k] - curve.force[k - 1]);
+}
+
+double find_last_rise(std::span<const double> history, double value) {
+  for (std::size_t k = history.size(); k-- > 1;)
+    if (history[k - 1] <= value && value < history[k])
+      return static_cast<double>(k) - (history[k] - value) / (history[k] - history[k - 1]);
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<double> common_overlaps(std::span<const Curve* const> curves, double highest, int n) {

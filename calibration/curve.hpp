@@ -21,6 +21,9 @@ Curve loading_branch(std::span<const double> overlap, std::span<const double> fo
 /// Force at d, linear between the points. @pre d within the curve
 double force_at(const Curve& curve, double overlap);
 
+/// Place in a history, between its entries, at which it last rises through a value. NaN: nowhere.
+double find_last_rise(std::span<const double> history, double value);
+
 /// n overlaps at equal distances over what all curves cover, at most up to `highest`. Empty if they
 /// have no overlap in common.
 std::vector<double> common_overlaps(std::span<const Curve* const> curves, double highest, int n);

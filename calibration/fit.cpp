@@ -32,12 +32,10 @@ Samples choose_samples(const Squeeze& squeeze, const cbm::Params& sphere, double
   Samples chosen;
   chosen.squeeze = {{}, squeeze.inner};
   chosen.range = {highest, 0};
-  double largest = 0;
-  for (const Moment& m : squeeze.moment)
-    largest = std::max(largest, measure_bulk(m, squeeze.inner).force);
-  for (const Moment& m : squeeze.moment) {
-    const Bulk b = measure_bulk(m, squeeze.inner);
-    if (b.force < kPresses * largest || b.overlap > highest) continue;
+  const std::vector<Bulk> bulks = measure_bulks(squeeze.moment, squeeze.inner);
+  for (const std::size_t k : find_pressing(bulks, highest)) {
+    const Moment& m = squeeze.moment[k];
+    const Bulk& b = bulks[k];
     chosen.squeeze.moment.push_back(m);
     chosen.force.push_back(b.force);
     chosen.range[0] = std::min(chosen.range[0], b.overlap);

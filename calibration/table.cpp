@@ -40,11 +40,10 @@ double find_modulus(const Moment& moment, double force, cbm::Params sphere,
 
 std::vector<Demand> find_demands(const Squeeze& squeeze, const cbm::Params& sphere,
                                  double highest) {
+  const std::vector<Bulk> bulks = measure_bulks(squeeze.moment, squeeze.inner);
   std::vector<Demand> all;
-  for (const Moment& m : squeeze.moment) {
-    const Bulk b = measure_bulk(m, squeeze.inner);
-    all.push_back({b.overlap, 0, b.force, &m});
-  }
+  for (std::size_t k = 0; k < bulks.size(); ++k)
+    all.push_back({bulks[k].overlap, 0, bulks[k].force, &squeeze.moment[k]});
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 10);
   std::vector<Demand> demands;
   for (auto d = std::ranges::min_element(first, all.end(), {}, &Demand::force); d != all.end(); ++d)

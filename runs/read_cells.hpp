@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/io/run_reader.hpp"
 #include "core/vec.hpp"
@@ -17,6 +18,11 @@ struct CellRecord {
   double contacts = 0;         ///< cells it touches
   bool deformable = false;
 };
+
+/// A column of a frame's cells by its name.
+/// @throws Error where an older version of the program, that had none, wrote the file
+const std::vector<double>& cell_column(const io::Table& cells, const std::string& name,
+                                       const std::string& folder);
 
 using CellRecords = std::map<std::int64_t, CellRecord>;  ///< by lineage
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/curve.hpp"
 #include "core/error.hpp"
 #include "runs/calibrate/calibrate.hpp"
 #include "runs/read_cells.hpp"
@@ -118,14 +119,6 @@ struct Reference {
   double cpu = 0;
 };
 
-/// Position, in frames, at which a pressure that has begun to rise reaches a value. NaN: nowhere.
-double find_frame(const std::vector<double>& pressure, double value) {
-  for (std::size_t k = pressure.size(); k-- > 1;)
-    if (pressure[k - 1] <= value && value < pressure[k])
-      return static_cast<double>(k) - (pressure[k] - value) / (pressure[k] - pressure[k - 1]);
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipped,
                  const Reference& reference) {
   const std::vector<Moment> moments = read_moments(folder);
@@ -151,8 +144,8 @@ BenchRow compare(const Variant& v, const std::string& folder, const Scene& shipp
     force += jump(shells.force, spheres.force);
     density += jump(shells.density, spheres.density);
     error += std::abs(shells.pressure / same.pressure - 1);
-    shift += (find_frame(alone, shells.pressure) - static_cast<double>(k)) * shipped.output.every *
-             shipped.capsule.speed;
+    shift += (calibration::find_last_rise(alone, shells.pressure) - static_cast<double>(k)) *
+             shipped.output.every * shipped.capsule.speed;
     ++n;
   }
   const double nan = std::numeric_limits<double>::quiet_NaN(), count = n > 0 ? n : nan;

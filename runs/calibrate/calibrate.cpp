@@ -15,9 +15,9 @@
 #include "calibration/wall.hpp"
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
-#include "core/io/run_reader.hpp"
 #include "runs/build_correction.hpp"
 #include "runs/build_world.hpp"
+#include "runs/read_cells.hpp"
 #include "runs/read_summary.hpp"
 #include "runs/stage.hpp"
 #include "runs/state_file.hpp"
@@ -34,10 +34,9 @@ constexpr double kWorthFitting = 0.15;
 calibration::Curve curve(const std::vector<calibration::Moment>& history,
                          const std::vector<std::size_t>& inner) {
   std::vector<double> overlap, force;
-  for (const calibration::Moment& m : history) {
-    const calibration::Bulk bulk = calibration::measure_bulk(m, inner);
-    overlap.push_back(bulk.overlap);
-    force.push_back(bulk.force);
+  for (const calibration::Bulk& b : calibration::measure_bulks(history, inner)) {
+    overlap.push_back(b.overlap);
+    force.push_back(b.force);
   }
   return calibration::loading_branch(overlap, force);
 }
@@ -87,16 +86,12 @@ class Stages {
     std::vector<calibration::Moment> out(capsule.size());
     for (std::size_t k = 0; k < out.size(); ++k) {
       out[k].capsule = capsule[k];
-      for (const io::Column& c : reader.cells(static_cast<int>(k)).columns) {
-        if (c.name == "radius") out[k].radius = c.value;
-        if (c.name == "normal_force") out[k].force = c.value;
-        for (std::size_t i = 0; c.name == "center" && i < c.value.size(); i += 3)
-          out[k].center.emplace_back(c.value[i], c.value[i + 1], c.value[i + 2]);
-      }
-      check(out[k].force.size() == out[k].center.size(),
-            fmt::format("{}: an older version of acinus made this run, without normal_force of the "
-                        "cells. Calibrate with --fresh",
-                        summary.folder));
+      const io::Table cells = reader.cells(static_cast<int>(k));
+      out[k].radius = cell_column(cells, "radius", summary.folder);
+      out[k].force = cell_column(cells, "normal_force", summary.folder);
+      const std::vector<double>& center = cell_column(cells, "center", summary.folder);
+      for (std::size_t i = 0; i < center.size(); i += 3)
+        out[k].center.emplace_back(center[i], center[i + 1], center[i + 2]);
     }
     return out;
   }

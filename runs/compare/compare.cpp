@@ -54,8 +54,8 @@ Middle middle_of(const CellRecords& cells) {
   return m;
 }
 
-/// Cells per mm^3 in the ball. Cells count with a border one cell wide, so that their
-/// number does not jump when one crosses it.
+/// Cells per mm^3 in the ball. Cells count with a border one cell wide, so that their number does
+/// not jump when one crosses it.
 double density_in(const CellRecords& cells, const Middle& m) {
   constexpr double kBorder = 12;  // um
   double count = 0;

@@ -43,5 +43,13 @@ TEST(Curve, RelativeErrorOfAConstantFactorIsThatFactor) {
   EXPECT_TRUE(std::isnan(relative_error(target, {{0.3, 0.4}, {1, 2}}, 0.2)));
 }
 
+TEST(Curve, LastRiseIsWhereAHistoryGoesThroughAValueForGood) {
+  const std::vector<double> history{0, 4, 1, 3, 5};
+  EXPECT_DOUBLE_EQ(find_last_rise(history, 2), 2.5);
+  EXPECT_DOUBLE_EQ(find_last_rise(history, 1), 2);
+  EXPECT_TRUE(std::isnan(find_last_rise(history, 5)));
+  EXPECT_TRUE(std::isnan(find_last_rise({}, 5)));
+}
+
 }  // namespace
 }  // namespace acinus::calibration
