@@ -360,6 +360,7 @@ double medium_friction(const Params& p, double radius, double contact_area) {
   const double surface = 4 * kPi * radius * radius;
   const double per_area =
       p.viscosity > 0 ? 6 * kPi * p.viscosity * radius / surface : p.medium_friction;
+  if (p.whole_medium_area) return per_area * surface;
   return per_area * std::max(kLeastFree * surface, surface - contact_area);
 }
 

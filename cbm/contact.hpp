@@ -119,8 +119,9 @@ std::vector<SphereContact> list_sphere_contacts(const State& state, std::span<co
                                                 const ContactParams& c, const CellData& cells,
                                                 const ContactWorkspace& work);
 
-/// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0
-/// [VanLiedekerke2020, Eq. (19)], and the force on each cell as a whole.
+/// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0, or
+/// over all of it (Params::whole_medium_area) [VanLiedekerke2020, Eq. (19)], and the force on each
+/// cell as a whole.
 /// @param cell_force [n_cell] nN
 void add_cell_loads(const State& state, std::span<const Params> params,
                     std::span<const double> radius, const ContactWorkspace& work,

@@ -36,6 +36,7 @@ enum class Purpose : std::uint32_t {
   kDeath = 8,
   kSampling = 9,
   kLifeRule = 10,
+  kProliferation = 11,
 };
 
 /// Address of one block of random words.

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "coupling/leaders.hpp"
 #include "coupling/life/cell.hpp"
 #include "coupling/population.hpp"
 

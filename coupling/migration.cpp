@@ -4,23 +4,12 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "core/time_grid.hpp"
 
 namespace acinus::coupling {
 namespace {
 
 /// Below this many cells starting threads costs more than it saves.
 constexpr std::size_t kParallelCells = 1000;
-
-/// A cell of either model as the choice of leaders sees it.
-struct Seen {
-  double distance, angle, height, radius;  ///< cylinder coordinates about the vein axis
-};
-
-Seen see(const Motility& m, const Vec3& center, double radius) {
-  const Vec3 d = center - m.axis_point;
-  return {std::hypot(d.x(), d.y()), std::atan2(d.y(), d.x()), d.z(), radius};
-}
 
 Vec3 toward_axis(const Motility& m, const Vec3& center) {
   Vec3 d = m.axis_point - center;
@@ -43,43 +32,6 @@ Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double t
                                   static_cast<std::uint64_t>(k), 0});
   }
   return sum / step;
-}
-
-bool choose_leaders(const World& world, std::span<const double> dcm_radius,
-                    std::span<const double> cbm_radius, std::vector<std::uint8_t>& leader,
-                    std::int64_t& interval) {
-  const State& s = world.state;
-  const Motility& m = world.params.motility;
-  const std::int64_t now = grid_interval(s.clock.time - s.clock.origin, m.leader_grid);
-  const std::size_t n_lane = s.dcm.n_lane(), n = n_lane + s.cbm.n_cell();
-  if (now == interval && leader.size() == n) return false;
-  interval = now;
-
-  std::vector<Seen> seen(n);
-  std::vector<std::uint8_t> exists(n, 1), before = leader;
-  before.resize(n, 0);
-  for (std::size_t l = 0; l < n_lane; ++l) {
-    exists[l] = s.dcm.active(l) ? 1 : 0;
-    if (exists[l]) seen[l] = see(m, dcm::cell_center(s.dcm, l), dcm_radius[l]);
-  }
-  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    seen[n_lane + c] = see(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
-
-  leader.assign(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!exists[i] || seen[i].distance <= m.axis_radius + seen[i].radius) continue;
-    const double diameter = 2 * seen[i].radius;
-    const double slack = before[i] ? seen[i].radius / 6 : 0;
-    bool leads = true;
-    for (std::size_t j = 0; j < n && leads; ++j) {
-      if (j == i || !exists[j] || seen[j].distance >= seen[i].distance - slack) continue;
-      const double turn = std::remainder(seen[j].angle - seen[i].angle, 2 * kPi);
-      leads = std::abs(turn) * seen[i].distance >= diameter ||
-              std::abs(seen[j].height - seen[i].height) >= diameter;
-    }
-    leader[i] = leads ? 1 : 0;
-  }
-  return true;
 }
 
 void compute_cell_forces(const World& world, const Controls& controls, double step,

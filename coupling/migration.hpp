@@ -14,14 +14,6 @@ namespace acinus::coupling {
 /// rejected steps leave no trace.
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
 
-/// Chooses the leaders if the grid interval changed: cells with no other cell of either model
-/// nearer the vein axis within one diameter in arc and height. Hysteresis: a leader stays one until
-/// another is nearer by a sixth of a radius. At the vein wall nobody leads. Returns true if the
-/// choice was renewed. Pure in time and positions: a retry chooses the same.
-bool choose_leaders(const World& world, std::span<const double> dcm_radius,
-                    std::span<const double> cbm_radius, std::vector<std::uint8_t>& leader,
-                    std::int64_t& interval);
-
 /// Forces on all cells, nN: [dcm lanes] and [cbm cells].
 struct CellForces {
   std::vector<Vec3> dcm, cbm;

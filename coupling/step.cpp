@@ -9,6 +9,7 @@
 #include "coupling/awake.hpp"
 #include "coupling/integrators.hpp"
 #include "coupling/judge.hpp"
+#include "coupling/leaders.hpp"
 #include "coupling/partitioned.hpp"
 #include "dcm/terms/medium.hpp"
 
@@ -186,14 +187,14 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   solve::clear_loads(w.system);
   gather_positions(s, w.position);
 
-  dcm::compute_free_areas(s.dcm, phase.dcm, w.lanes, w.dcm, w.free_area);
+  dcm::compute_medium_areas(s.dcm, phase.dcm, w.lanes, w.dcm, w.medium_area);
   w.dcm_medium.assign(s.dcm.n_lane(), 0.0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
     const dcm::Group& g = s.dcm.group[l / kLanes];
     double area = 0;
     for (int i = 0; i < g.topology->n_node; ++i)
-      area += w.free_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + l % kLanes];
+      area += w.medium_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + l % kLanes];
     w.dcm_medium[l] =
         area * dcm::medium_friction_per_area(world.params.dcm[static_cast<std::size_t>(g.type)],
                                              w.lanes.radius[l], g.topology->rest_area);
@@ -206,7 +207,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   compute_cell_forces(world, controls_at(s.clock, world.params.start_up), step, w.dcm_medium,
                       w.cbm_medium, w.leader, w.forces);
 
-  dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.free_area, w.forces.dcm, w.system);
+  dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);
   cbm::add_cell_loads(s.cbm, world.params.cbm, w.cbm_radius, w.cbm, w.forces.cbm, first, w.system);
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm,

@@ -38,7 +38,7 @@ struct Workspace {
   std::vector<double> cbm_radius;              ///< written by: set_references
   std::vector<double> cbm_strength;            ///< empty: all 1; written by: set_references
   std::vector<std::int64_t> cbm_mother;        ///< lineage; empty with cbm_strength; by the same
-  std::vector<double> free_area;               ///< [dcm rows][lane]; written by: assemble
+  std::vector<double> medium_area;               ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble
   CellForces forces;                           ///< written by: assemble
   std::vector<double> position;                ///< [n_row][3][lane]; written by: assemble

@@ -32,6 +32,14 @@ struct StartUp {
   double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative
 };
 
+/// Who leads; see leaders.hpp.
+enum class Leaders {
+  kForemost,  ///< cells with no other nearer the vein within one diameter in arc and height
+  kFront,     ///< cells with a clear straight way to the vein
+  kSector,    ///< the nearest cell of every sector of the circle and slice of height
+  kNearest    ///< the nearest cells of all
+};
+
 struct Motility {
   std::uint64_t seed = 1;
   bool random = false;
@@ -39,6 +47,9 @@ struct Motility {
   double grid = 60;                ///< s, time grid of the random force
   double leader_force = 0;         ///< nN toward the vein axis
   double leader_grid = 600;        ///< s
+  Leaders leaders = Leaders::kForemost;
+  int leader_count = 24;           ///< kNearest: cells; kSector: sectors of the whole circle
+  double leader_slice = 24;        ///< um, kSector: height of a slice
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through this point
   double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
 };

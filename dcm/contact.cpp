@@ -238,9 +238,9 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   find_shares(c, state.n_row(), work);
 }
 
-void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,
-                        const ContactWorkspace& work, std::vector<double>& free_area) {
-  free_area.assign(state.n_row() * kLanes, 0.0);
+void compute_medium_areas(const State& state, const ContactParams& c, const LaneData& lanes,
+                          const ContactWorkspace& work, std::vector<double>& medium_area) {
+  medium_area.assign(state.n_row() * kLanes, 0.0);
 #pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k) {
     const std::size_t lane = work.lane_of_body[k];
@@ -249,11 +249,12 @@ void compute_free_areas(const State& state, const ContactParams& c, const LaneDa
     for (std::size_t p = 0; p < work.share[k].size(); ++p) {
       const double area =
           point_area(*b.topology, c.quadrature, static_cast<int>(p), lanes.radius[lane]) *
-          (1 - std::min(1.0, work.share[k][p]));
+          (c.whole_medium_area ? 1.0 : 1 - std::min(1.0, work.share[k][p]));
       const contact::PointStencil s = contact::point_stencil(b, c.quadrature, static_cast<int>(p));
       for (int m = 0; m < s.n; ++m)
-        free_area[(first + static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) * kLanes +
-                  lane % kLanes] += s.weight[static_cast<std::size_t>(m)] * area;
+        medium_area[(first + static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) *
+                        kLanes +
+                    lane % kLanes] += s.weight[static_cast<std::size_t>(m)] * area;
     }
   }
 }

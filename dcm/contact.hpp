@@ -28,6 +28,8 @@ struct ContactParams {
   double cell_friction = 0;     ///< nN s/um^3, cell-cell
   double adhesion_factor = 1;   ///< ramps up after start-up
   double friction_factor = 1;   ///< 0 while cells grow to size
+  /// The medium is felt on the whole surface, not only where it touches nothing.
+  bool whole_medium_area = false;
 };
 
 /// Folds of one surface are kept this far apart, um.
@@ -110,8 +112,9 @@ void add_contact_loads(const State& state, std::span<const Params> params, const
                        const LaneData& lanes, const contact::Surroundings& around,
                        const ContactWorkspace& work, solve::Links& links);
 
-/// Area of each node that touches the medium, [n_row][lane] um^2. @pre all shares are known
-void compute_free_areas(const State& state, const ContactParams& c, const LaneData& lanes,
-                        const ContactWorkspace& work, std::vector<double>& free_area);
+/// Area of each node that feels the medium, [n_row][lane] um^2: what touches no neighbour, or all
+/// of it (whole_medium_area). @pre all shares are known
+void compute_medium_areas(const State& state, const ContactParams& c, const LaneData& lanes,
+                          const ContactWorkspace& work, std::vector<double>& medium_area);
 
 }  // namespace acinus::dcm

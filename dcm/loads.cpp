@@ -75,7 +75,7 @@ void size_rank_one(const State& state, std::span<const Params> params, solve::Sy
 }
 
 void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
-               std::span<const double> free_area, std::span<const Vec3> cell_force,
+               std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& s) {
   const bool volume = any_volume(params), area = any_area(params);
 #pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
@@ -88,7 +88,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
     if (p.local_area_modulus > 0) add_local_area(p, g, s);
     if (volume) add_volume(p, g, s, s.rank_one[0]);
     if (area) add_area(p, g, s, s.rank_one[volume ? 1 : 0]);
-    add_medium(p, g, free_area.data() + g.first_row * kLanes, s);
+    add_medium(p, g, medium_area.data() + g.first_row * kLanes, s);
     add_body_load(g, cell_force.subspan(k * kLanes, kLanes), s);
   }
 }

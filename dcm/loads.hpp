@@ -30,10 +30,10 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& system);
 
 /// Adds all terms within cells: cortex, bending, volume, area, medium, body load.
-/// @param free_area  [n_row][lane] um^2, area of each node that touches the medium
+/// @param medium_area  [n_row][lane] um^2, area of each node that touches the medium
 /// @param cell_force [n_lane] nN, on the cell as a whole
 void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
-               std::span<const double> free_area, std::span<const Vec3> cell_force,
+               std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& system);
 
 /// Names of the terms that no type of cell uses.

@@ -26,6 +26,8 @@ coupling::CycleParams make_cycle(const CellType& t) {
     p.inhibition = {coupling::InhibitedBy::kPressure, i.pressure_threshold, i.power};
   if (i.by == "volume")
     p.inhibition = {coupling::InhibitedBy::kVolume, i.volume_threshold, i.power};
+  if (i.by == "density")
+    p.inhibition = {coupling::InhibitedBy::kDensity, i.density_threshold, i.power};
   p.death.lysis = t.death.mode == "lysis";
   p.death.duration = t.death.duration;
   p.death.final_volume = t.death.final_volume;
@@ -48,12 +50,27 @@ coupling::LifeRule make_rule(const Scene& scene, const LifeRule& r) {
   return rule;
 }
 
+coupling::Proliferation make_proliferation(const Scene& scene, const ProliferationBlock& b) {
+  coupling::Proliferation p;
+  for (const EntryRateBlock& r : b.rates)
+    p.rate.push_back({r.first_layer, r.last_layer, r.rate, r.from,
+                      r.until.value_or(std::numeric_limits<double>::infinity())});
+  p.thickness = b.layer_thickness.value_or(2 * scene.cell_types.begin()->second.radius);
+  p.edge_at_start = b.edge == "start";
+  if (scene.lobule) p.start_edge = scene.lobule->lesion_radius;
+  p.cells = b.cells;
+  p.axis_point = scene.axis_point;
+  return p;
+}
+
 }  // namespace
 
 void build_life(const Scene& scene, coupling::Params& p, std::vector<std::string>& type_names) {
   p.life.seed = scene.seed;
   p.life.grid = scene.life.grid;
   p.life.remesh = scene.life.remesh;
+  if (scene.life.proliferation)
+    p.life.proliferation = make_proliferation(scene, *scene.life.proliferation);
   p.sleep = {scene.life.sleep, scene.life.grid, scene.life.sleep_traction};
   for (const auto& [name, type] : scene.cell_types) p.life.type.push_back(make_cycle(type));
   for (const LifeRule& r : scene.life.rules) p.life.rule.push_back(make_rule(scene, r));

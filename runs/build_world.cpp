@@ -134,6 +134,13 @@ QuadratureChoice quadrature_of(const std::string& name) {
   return {};
 }
 
+coupling::Leaders leaders_of(const std::string& name) {
+  if (name == "front") return coupling::Leaders::kFront;
+  if (name == "sector") return coupling::Leaders::kSector;
+  if (name == "nearest") return coupling::Leaders::kNearest;
+  return coupling::Leaders::kForemost;
+}
+
 }  // namespace
 
 dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
@@ -162,6 +169,7 @@ cbm::Params make_cbm_params(const Scene& scene, const CellType& type) {
   p.poisson = type.cbm.poisson;
   p.medium_friction = type.cbm.ecm_friction;
   p.viscosity = scene.friction.medium == "liquid" ? scene.friction.viscosity : 0;
+  p.whole_medium_area = scene.friction.medium_area == "whole";
   p.diffusion = type.diffusion;
   p.adhesion = type.adhesion;
   p.vessel_friction = scene.friction.cbm_vessel.value_or(type.cbm.ecm_friction);
@@ -213,6 +221,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   p.dcm_contact.repulsion = scene.contact.repulsion;
   p.dcm_contact.range_factor = scene.contact.range.value_or(range_factor);
   p.dcm_contact.friction_range = scene.friction.range;
+  p.dcm_contact.whole_medium_area = scene.friction.medium_area == "whole";
   p.dcm_contact.max_depth = scene.contact.max_depth;
   p.dcm_contact.skin = p.cbm_contact.skin = scene.contact.skin;
   p.dcm_contact.cell_friction = scene.friction.dcm_dcm;
@@ -228,6 +237,10 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   p.motility.grid = scene.motility.grid;
   p.motility.leader_force = scene.motility.leader_force;
   p.motility.leader_grid = scene.motility.leader_grid;
+  p.motility.leaders = leaders_of(scene.motility.leaders);
+  p.motility.leader_count = scene.motility.leader_count;
+  p.motility.leader_slice =
+      scene.motility.leader_slice.value_or(2 * scene.cell_types.begin()->second.radius);
   p.motility.axis_point = scene.axis_point;
   p.numerics = {scene.time.step,     scene.time.min_step,
                 scene.time.adaptive, scene.time.tolerance,

@@ -21,6 +21,7 @@
 #include "coupling/life/life.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step.hpp"
+#include "runs/advice.hpp"
 #include "runs/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/frame.hpp"
@@ -347,26 +348,20 @@ std::string Run::reason_to_stop() const {
 }
 
 int Run::fail(const coupling::StepResult& step) {
-  const std::string cause = fmt::format(
-      "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good state is "
-      "in {}. Try a larger contact.repulsion, a smaller load or adhesion, a smaller "
-      "time.min_step, for a face that turns over a local_area_modulus, which keeps meshes "
-      "regular, or for a solve that does not converge a larger solver.max_iterations.",
-      world().params.numerics.min_step, time() / 3600, step.cause,
-      step.cells.empty() ? std::string("none named")
-                         : fmt::format("{}", fmt::join(step.cells, ", ")),
-      options_.out);
-  return give_up(cause, step.cells);
+  return give_up(
+      fmt::format("a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last "
+                  "good state is in {}. {}",
+                  world().params.numerics.min_step, time() / 3600, step.cause,
+                  step.cells.empty() ? std::string("none named")
+                                     : fmt::format("{}", fmt::join(step.cells, ", ")),
+                  options_.out, advise(world(), step)),
+      step.cells);
 }
 
 int Run::fail(const Excess& excess) {
-  return give_up(
-      fmt::format(
-          "at t = {:.4g} h {}. The last frame in {} shows it. Start the cells farther apart "
-          "or small (start_up), raise contact.max_depth or contact.repulsion, take a finer "
-          "mesh, or lower load or adhesion.",
-          time() / 3600, excess.cause, options_.out),
-      excess.cells);
+  return give_up(fmt::format("at t = {:.4g} h {}. The last frame in {} shows it. {}", time() / 3600,
+                             excess.cause, options_.out, advise(world(), excess)),
+                 excess.cells);
 }
 
 int Run::give_up(const std::string& cause, const std::vector<std::int64_t>& cells) {

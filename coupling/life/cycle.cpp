@@ -24,14 +24,19 @@ Ramp growth_from(const Cycle& c, double volume_now, double time, double factor) 
   return {volume_now, to, time, time + (to - volume_now) / rate};
 }
 
-double growth_factor(const Inhibition& p, double pressure, double relative_volume) {
+double growth_factor(const Inhibition& p, const Crowding& now) {
+  const auto falls = [&](double x) {
+    return 1 / (1 + std::pow(std::max(x, 0.0) / p.threshold, p.power));
+  };
   switch (p.by) {
     case InhibitedBy::kNothing:
       return 1;
     case InhibitedBy::kPressure:
-      return 1 / (1 + std::pow(std::max(pressure, 0.0) / p.threshold, p.power));
+      return falls(now.pressure);
+    case InhibitedBy::kDensity:
+      return falls(now.density);
     case InhibitedBy::kVolume: {
-      const double x = std::pow(relative_volume / p.threshold, p.power);
+      const double x = std::pow(now.relative_volume / p.threshold, p.power);
       return x / (1 + x);
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/ramp.hpp"
@@ -12,12 +13,12 @@
 namespace acinus::coupling {
 
 enum class DivisionAxis { kRandom, kPlane, kGiven, kVessel };  // kPlane: random, horizontal
-enum class InhibitedBy { kNothing, kPressure, kVolume };
+enum class InhibitedBy { kNothing, kPressure, kVolume, kDensity };
 
 /// Contact inhibition of growth, a Hill function; see growth_factor.
 struct Inhibition {
   InhibitedBy by = InhibitedBy::kNothing;
-  double threshold = 0;  ///< kPa, or V / V0
+  double threshold = 0;  ///< kPa, V / V0, or cells per um^3
   double power = 4;
 };
 
@@ -51,15 +52,34 @@ struct LifeRule {
   double share = 1;                                                  ///< probability per cell
 };
 
+/// Cells of some layers enter the cycle at this rate during a time window.
+struct EntryRate {
+  int first_layer = 1, last_layer = 1;
+  double rate = 0;                                                   ///< 1/s
+  double from = 0, until = std::numeric_limits<double>::infinity();  ///< s since t = 0
+};
+
+/// Cells rest until they enter the cycle, and rest again after division.
+struct Proliferation {
+  std::vector<EntryRate> rate;
+  double thickness = 24;             ///< um, of a layer
+  bool edge_at_start = false;        ///< layers are counted from start_edge for ever
+  double start_edge = 0;             ///< um from the vein axis
+  int cells = 0;                     ///< wanted in the end; 0: no limit
+  Vec3 axis_point = Vec3::Zero();    ///< the vein axis is vertical through it
+};
+
 struct LifeParams {
   std::vector<CycleParams> type;  ///< [cell type]
   std::vector<LifeRule> rule;
+  std::optional<Proliferation> proliferation;  ///< empty: all cells are always in the cycle
   double grid = 600;  ///< s, how often rules and inhibition are looked at
   std::uint64_t seed = 1;
   bool remesh = true;  ///< meshes that degenerate are mended
 };
 
-enum class Fate : std::int8_t { kIdle, kGrow, kRest, kLyse };
+/// kRest: held in the cycle by a rule or by inhibition; kQuiescent: not in the cycle.
+enum class Fate : std::int8_t { kIdle, kGrow, kRest, kLyse, kQuiescent };
 
 /// What is kept of a cell's life.
 struct Cycle {
@@ -84,8 +104,15 @@ double draw_start_age(const CycleParams& p, std::uint64_t seed, std::int64_t lin
 /// @param factor  of growth_factor; 0 keeps the volume
 Ramp growth_from(const Cycle& cycle, double volume_now, double time, double factor);
 
-/// Share of the free growth rate: 1 / (1 + (p / p0)^n) by pressure, x^n / (1 + x^n) with
+/// What inhibition looks at.
+struct Crowding {
+  double pressure = 0;         ///< kPa, contact pressure
+  double relative_volume = 1;  ///< V / V0
+  double density = 0;          ///< cells per um^3 around the cell
+};
+
+/// Share of the free growth rate: 1 / (1 + (x / x0)^n) by pressure or density, x^n / (1 + x^n) with
 /// x = (V / V0) / threshold by volume.
-double growth_factor(const Inhibition& p, double pressure, double relative_volume);
+double growth_factor(const Inhibition& p, const Crowding& now);
 
 }  // namespace acinus::coupling

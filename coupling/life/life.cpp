@@ -38,7 +38,7 @@ Cycle inherit(const World& world, const Cell& mother, std::int64_t lineage) {
   Cycle c;
   c.parent = lineage_of(s, mother);
   c.founder = m.founder;
-  c.fate = Fate::kGrow;
+  c.fate = world.params.life.proliferation ? Fate::kQuiescent : Fate::kGrow;
   c.birth = s.clock.time;
   c.birth_volume = m.birth_volume;
   c.duration = draw_cycle_time(cycle_of(world.params, s, mother), world.params.life.seed, lineage);

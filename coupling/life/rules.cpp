@@ -6,6 +6,8 @@
 #include "core/random.hpp"
 #include "core/sphere.hpp"
 #include "core/time_grid.hpp"
+#include "coupling/life/density.hpp"
+#include "coupling/life/proliferation.hpp"
 #include "coupling/measure.hpp"
 
 namespace acinus::coupling {
@@ -31,20 +33,42 @@ bool applies_any(const LifeParams& p, bool die, const State& s, const Cell& c) {
 }
 
 bool is_inhibited(const CycleParams& p) { return p.inhibition.by != InhibitedBy::kNothing; }
+bool needs_loads(const CycleParams& p) {
+  return p.inhibition.by == InhibitedBy::kPressure || p.inhibition.by == InhibitedBy::kVolume;
+}
 
-/// Relative growth rates, [dcm lanes, then cbm cells]. Those of sleepers are looked at as well:
-/// they may grow when a rule ends.
-std::vector<double> growth_factors(const World& world, Workspace& work) {
+/// What inhibition looks at, [dcm lanes, then cbm cells]. That of sleepers too: they may grow when
+/// a rule ends.
+std::vector<Crowding> find_crowding(const World& world, Workspace& work) {
   const State& s = world.state;
-  std::vector<double> factor(s.cycle.size(), 1.0);
-  if (std::ranges::none_of(world.params.life.type, is_inhibited)) return factor;
+  std::vector<Crowding> now(s.cycle.size());
+  const auto asks = [&](auto question) {
+    return std::ranges::any_of(world.params.life.type, question);
+  };
+  if (asks([](const CycleParams& p) { return p.inhibition.by == InhibitedBy::kDensity; })) {
+    const std::vector<double> density = local_densities(world);
+    for (std::size_t k = 0; k < now.size(); ++k) now[k].density = density[k];
+  }
+  if (!asks(needs_loads)) return now;
   observe(world, work);
   const std::vector<CellMeasure> measured = measure_cells(world, work);
   std::size_t k = 0;
   for_each_cell(s, [&](const Cell& c) {
     const CellMeasure& m = measured[k++];
-    const double relative = m.volume / sphere_volume(m.radius);
-    factor[c.index] = growth_factor(cycle_of(world.params, s, c).inhibition, m.pressure, relative);
+    now[c.index].pressure = m.pressure;
+    now[c.index].relative_volume = m.volume / sphere_volume(m.radius);
+  });
+  return now;
+}
+
+/// Relative growth rates, [dcm lanes, then cbm cells].
+std::vector<double> growth_factors(const World& world, Workspace& work) {
+  const State& s = world.state;
+  std::vector<double> factor(s.cycle.size(), 1.0);
+  if (std::ranges::none_of(world.params.life.type, is_inhibited)) return factor;
+  const std::vector<Crowding> now = find_crowding(world, work);
+  for_each_cell(s, [&](const Cell& c) {
+    factor[c.index] = growth_factor(cycle_of(world.params, s, c).inhibition, now[c.index]);
   });
   return factor;
 }
@@ -56,6 +80,7 @@ void look_at_rules(World& world, Workspace& work, Plan& plan) {
   if (now == s.life_interval) return;
   s.life_interval = now;
   const std::vector<double> factor = growth_factors(world, work);
+  if (p.proliferation) let_proliferate(world, factor);
   for_each_cell(s, [&](const Cell& c) {
     Cycle& cycle = s.cycle[c.index];
     if (cycle.fate == Fate::kLyse) return;
@@ -63,7 +88,8 @@ void look_at_rules(World& world, Workspace& work, Plan& plan) {
       (cycle_of(world.params, s, c).death.lysis ? plan.lyse : plan.remove).push_back(c);
       return;
     }
-    if (cycle.duration > 0 && (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty()))
+    if (cycle.duration > 0 && (is_inhibited(cycle_of(world.params, s, c)) || !p.rule.empty() ||
+                               p.proliferation))
       set_growth(world.params, s, c, factor[c.index]);
   });
 }
@@ -94,9 +120,13 @@ bool has_life(const Params& p) {
 
 void set_growth(const Params& p, State& s, const Cell& c, double factor) {
   Cycle& cycle = s.cycle[c.index];
+  Ramp& volume = volume_of(s, c);
+  if (cycle.fate == Fate::kQuiescent) {
+    volume = Ramp::constant(volume.at(s.clock.time));
+    return;
+  }
   if (applies_any(p.life, false, s, c)) factor = 0;
   cycle.fate = factor > 0 ? Fate::kGrow : Fate::kRest;
-  Ramp& volume = volume_of(s, c);
   volume = growth_from(cycle, volume.at(s.clock.time), s.clock.time, factor);
 }
 
@@ -115,6 +145,7 @@ void begin_life(World& world) {
     cycle.birth_volume =
         volume_of(s, c).at(s.clock.time) / (1 + draw_start_age(type, p.seed, lineage));
     cycle.duration = draw_cycle_time(type, p.seed, lineage);
+    if (p.proliferation) cycle.fate = Fate::kQuiescent;
     set_growth(world.params, s, c, 1);
   });
 }
@@ -128,7 +159,7 @@ Plan make_plan(World& world, Workspace& work) {
 
 double time_to_life_event(const World& world) {
   const LifeParams& p = world.params.life;
-  if (p.rule.empty() && std::ranges::none_of(p.type, is_inhibited))
+  if (p.rule.empty() && !p.proliferation && std::ranges::none_of(p.type, is_inhibited))
     return std::numeric_limits<double>::infinity();
   return time_to_next_interval(time_of(world.state), p.grid);
 }

@@ -61,7 +61,7 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
 
   const double within = time_us([&] {
     solve::clear_loads(w.system);
-    dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.free_area, w.forces.dcm, w.system);
+    dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);
   });
   const double contacts_build = time_us([&] {
     w.system.links.clear();

@@ -195,6 +195,12 @@ void describe_friction(Visitor& v, FrictionBlock& b) {
           .range = kPositive,
           .symbol = "eta"},
          b.viscosity);
+  v.text({.name = "medium_area",
+          .meaning = "part of a cell's surface that feels the medium. free: what touches no other "
+                     "cell or surface, so that areas add up to the surface; whole: all of it, as "
+                     "in the paper, for a matrix that pervades the tissue",
+          .choices = "free|whole"},
+         b.medium_area);
 }
 
 void describe_motility(Visitor& v, MotilityBlock& b) {
@@ -222,6 +228,29 @@ void describe_motility(Visitor& v, MotilityBlock& b) {
           .unit = "min",
           .range = kPositive},
          b.leader_grid);
+  v.text({.name = "leaders",
+          .meaning = "which cells lead. foremost: those with no other cell nearer the vein within "
+                     "one diameter in arc and height; front: all with a clear straight way to the "
+                     "vein; sector: the nearest of every sector of the circle and slice of height; "
+                     "nearest: the leader_count nearest",
+          .choices = "foremost|front|sector|nearest"},
+         b.leaders);
+  v.when(b.leaders == "sector" || b.leaders == "nearest", "leaders = sector, nearest",
+         [&b](Visitor& w) {
+           w.integer({.name = "leader_count",
+                      .meaning = "nearest: number of leaders; sector: sectors of the whole circle",
+                      .range = {.low = 1, .high = 1e6}},
+                     b.leader_count);
+         });
+  v.when(b.leaders == "sector", "leaders = sector", [&b](Visitor& w) {
+    w.optional_real({.name = "leader_slice",
+                     .meaning = "height of a slice",
+                     .dimension = kLength,
+                     .unit = "um",
+                     .range = kPositive,
+                     .automatic = "the cell diameter"},
+                    b.leader_slice);
+  });
 }
 
 void describe_output(Visitor& v, OutputBlock& b) {

@@ -37,6 +37,64 @@ void describe_rule(Visitor& v, LifeRule& b) {
          b.share);
 }
 
+void describe_entry_rate(Visitor& v, EntryRateBlock& b) {
+  v.integer({.name = "first_layer",
+             .meaning = "first layer of cells with this rate; 1 is next to the lesion",
+             .range = {.low = 1, .high = 1e6}},
+            b.first_layer);
+  v.integer({.name = "last_layer",
+             .meaning = "last layer of cells with this rate",
+             .range = {.low = 1, .high = 1e6}},
+            b.last_layer);
+  v.real({.name = "rate",
+          .meaning = "rate at which a resting cell enters the cycle; rates of several entries for "
+                     "a layer add up",
+          .dimension = kRate,
+          .unit = "1/h",
+          .range = kNotNegative,
+          .required = true},
+         b.rate);
+  v.real({.name = "from",
+          .meaning = "time after t = 0 at which the rate begins",
+          .dimension = kTime,
+          .unit = "h",
+          .range = kNotNegative},
+         b.from);
+  v.optional_real({.name = "until",
+                   .meaning = "time after t = 0 at which the rate ends",
+                   .dimension = kTime,
+                   .unit = "h",
+                   .range = kPositive,
+                   .automatic = "never"},
+                  b.until);
+}
+
+void describe_proliferation(Visitor& v, ProliferationBlock& b) {
+  blocks(v,
+         {.name = "rates",
+          .meaning = "rates at which resting cells enter the cycle, by layer and time",
+          .item = "life.proliferation.rates"},
+         b.rates, describe_entry_rate);
+  v.text({.name = "edge",
+          .meaning = "edge of the lesion from which layers are counted: as it stands now (mean over "
+                     "slices of height of the distance from the vein to the nearest centre), or "
+                     "as it was at the start (lobule.lesion_radius)",
+          .choices = "now|start"},
+         b.edge);
+  v.optional_real({.name = "layer_thickness",
+                   .meaning = "thickness of a layer of cells",
+                   .dimension = kLength,
+                   .unit = "um",
+                   .range = kPositive,
+                   .automatic = "the cell diameter"},
+                  b.layer_thickness);
+  v.integer({.name = "cells",
+             .meaning = "no cell enters the cycle once so many cells are there or on their way; "
+                        "0 = no limit",
+             .range = {.low = 0, .high = 1e9}},
+            b.cells);
+}
+
 }  // namespace
 
 void describe_cycle(Visitor& v, CycleBlock& b) {
@@ -85,8 +143,10 @@ void describe_inhibition(Visitor& v, InhibitionBlock& b) {
   v.text({.name = "by",
           .meaning = "what slows growth down. pressure: rate times 1/(1 + (p/p0)^n), p the contact "
                      "pressure, 0 if negative; volume: rate times x^n/(1 + x^n), x = "
-                     "(V/V0)/threshold, for DCM cells only, since spheres keep their volume",
-          .choices = "none|pressure|volume"},
+                     "(V/V0)/threshold, for DCM cells only, since spheres keep their volume; "
+                     "density: rate times 1/(1 + (c/c0)^n), c the number of cells within 48 um "
+                     "over the volume of that ball, images in mirror walls counted",
+          .choices = "none|pressure|volume|density"},
          b.by);
   v.when(b.by == "pressure", "by = pressure", [&b](Visitor& w) {
     w.real({.name = "pressure_threshold",
@@ -96,6 +156,15 @@ void describe_inhibition(Visitor& v, InhibitionBlock& b) {
             .range = kPositive,
             .required = true},
            b.pressure_threshold);
+  });
+  v.when(b.by == "density", "by = density", [&b](Visitor& w) {
+    w.real({.name = "density_threshold",
+            .meaning = "number of cells per volume that halves the growth rate",
+            .dimension = kNumberDensity,
+            .unit = "1/um^3",
+            .range = kPositive,
+            .required = true},
+           b.density_threshold);
   });
   v.when(b.by == "volume", "by = volume", [&b](Visitor& w) {
     w.real({.name = "volume_threshold",
@@ -139,6 +208,12 @@ void describe_life(Visitor& v, LifeBlock& b) {
           .meaning = "who rests or dies; all rules that hold for a cell count",
           .item = "life.rules"},
          b.rules, describe_rule);
+  optional_block(v,
+                 {.name = "proliferation",
+                  .meaning = "cells rest until they enter the cycle, by their layer from the edge "
+                             "of the lesion, and rest again after division; null = cells with a "
+                             "cycle are always in it"},
+                 b.proliferation, describe_proliferation);
   v.real({.name = "grid",
           .meaning = "time between two looks at the rules, at inhibition, at sleep and at meshes",
           .dimension = kTime,

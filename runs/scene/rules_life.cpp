@@ -38,6 +38,30 @@ void check_integrator(const Scene& scene, const std::string& pointer, Report& re
                                   pointer));
 }
 
+void check_proliferation(const Scene& scene, Report& report) {
+  if (!scene.life.proliferation) return;
+  const ProliferationBlock& p = *scene.life.proliferation;
+  const std::string pointer = "/life/proliferation";
+  if (p.edge == "start" && !scene.lobule)
+    report.add_relation({pointer + "/edge", "/lobule"}, "\"start\"",
+                        "needs a lobule block, whose lesion_radius is that edge. Choose \"now\"");
+  for (std::size_t i = 0; i < p.rates.size(); ++i) {
+    const EntryRateBlock& r = p.rates[i];
+    const std::string at = fmt::format("{}/rates/{}", pointer, i);
+    if (r.last_layer < r.first_layer)
+      report.add_relation({at + "/last_layer", at + "/first_layer"}, fmt::format("{}", r.last_layer),
+                          fmt::format("must not be below {}/first_layer = {}", at, r.first_layer));
+    if (r.until && *r.until <= r.from)
+      report.add_relation({at + "/until", at + "/from"}, hours(*r.until),
+                          fmt::format("must be after {}/from = {}", at, hours(r.from)));
+  }
+  for (const auto& [name, type] : scene.cell_types)
+    if (type.cycle.time) return;
+  report.add_relation({pointer, "/cell_types"}, "",
+                      "has nobody to call: no cell type has a cycle. Give cell_types.<name>.cycle "
+                      "a time");
+}
+
 }  // namespace
 
 void check_life(const Scene& scene, Report& report) {
@@ -47,6 +71,7 @@ void check_life(const Scene& scene, Report& report) {
     check_cycle(scene, type.cycle, pointer, report);
     if (type.cycle.time && reason.empty()) reason = pointer + "/time";
   }
+  check_proliferation(scene, report);
   for (std::size_t i = 0; i < scene.life.rules.size(); ++i) {
     const LifeRule& rule = scene.life.rules[i];
     const std::string pointer = fmt::format("/life/rules/{}", i);

@@ -75,10 +75,11 @@ struct CycleBlock {
 };
 
 /// Factor on the growth rate. pressure: 1/(1 + (p/p0)^n) with p the contact pressure, 0 if cells
-/// are pulled; volume: x^n/(1 + x^n) with x = (V/V0)/threshold, for deformable cells only.
+/// are pulled; density: the same with the number of cells around; volume: x^n/(1 + x^n) with x = (V/V0)/threshold, for deformable cells only.
 struct InhibitionBlock {
-  std::string by = "none";        ///< none | pressure | volume
+  std::string by = "none";        ///< none | pressure | volume | density
   double pressure_threshold = 0;  ///< kPa, p0 where growth is halved
+  double density_threshold = 0;   ///< cells per um^3, where growth is halved
   double volume_threshold = 0;    ///< V/V0 where growth is halved
   double power = 4;               ///< n
 };
@@ -119,6 +120,7 @@ struct FrictionBlock {
   double range = 0.3;                ///< um, friction range of DCM contacts
   std::string medium = "ecm";        ///< or "liquid"
   double viscosity = 1e-6;           ///< nN s/um^2 (1e-3 Pa s), medium = liquid: Stokes drag
+  std::string medium_area = "free";  ///< free | whole: which part of the surface feels the medium
 };
 
 struct MotilityBlock {
@@ -127,6 +129,9 @@ struct MotilityBlock {
   double grid = 60;                  ///< s, time grid of the random force
   double leader_force = 0;           ///< nN, toward the vein axis
   double leader_grid = 600;          ///< s, re-evaluation of who leads
+  std::string leaders = "foremost";  ///< foremost | front | sector | nearest
+  int leader_count = 24;             ///< nearest: cells; sector: sectors of the whole circle
+  std::optional<double> leader_slice;  ///< um, sector: height of a slice; empty = cell diameter
 };
 
 /// A region of space; which members count depends on `kind`.
@@ -151,8 +156,25 @@ struct LifeRule {
   double share = 1;                 ///< probability that a cell is meant, drawn once per cell
 };
 
+/// A rate at which cells of some layers enter the cycle.
+struct EntryRateBlock {
+  int first_layer = 1, last_layer = 1;
+  double rate = 0;              ///< 1/s
+  double from = 0;              ///< s after t = 0
+  std::optional<double> until;  ///< s after t = 0; empty = the end
+};
+
+/// Cells rest until they enter the cycle, by their layer from the edge of the lesion.
+struct ProliferationBlock {
+  std::vector<EntryRateBlock> rates;
+  std::string edge = "now";               ///< now | start: which edge layers are counted from
+  std::optional<double> layer_thickness;  ///< um; empty = cell diameter
+  int cells = 0;                          ///< none enters beyond this number; 0 = no limit
+};
+
 struct LifeBlock {
   std::vector<LifeRule> rules;
+  std::optional<ProliferationBlock> proliferation;
   double grid = 600;             ///< s between two looks at rules, inhibition, sleep and meshes
   bool sleep = false;            ///< cells in balance are left out of the step until pushed
   double sleep_traction = 1e-3;  ///< kPa out of balance, below which a cell falls asleep

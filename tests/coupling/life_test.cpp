@@ -51,19 +51,19 @@ TEST(Growth, DoublesTheVolumeInTheCycleTimeAtAConstantRate) {
 }
 
 TEST(Growth, FactorHasTheLimitsOfAHillFunction) {
-  EXPECT_EQ(growth_factor({}, 1e9, 0.1), 1);
+  EXPECT_EQ(growth_factor({}, {1e9, 0.1}), 1);
   const Inhibition pressure{InhibitedBy::kPressure, 0.2, 4};
-  EXPECT_EQ(growth_factor(pressure, 0, 1), 1);
-  EXPECT_EQ(growth_factor(pressure, -5, 1), 1) << "pulled, not pressed";
-  EXPECT_EQ(growth_factor(pressure, 0.2, 1), 0.5);
-  EXPECT_NEAR(growth_factor(pressure, 0.4, 1), 1.0 / 17, kRoundOff);
-  EXPECT_LT(growth_factor(pressure, 2, 1), 1.01e-4);
+  EXPECT_EQ(growth_factor(pressure, {0}), 1);
+  EXPECT_EQ(growth_factor(pressure, {-5}), 1) << "pulled, not pressed";
+  EXPECT_EQ(growth_factor(pressure, {0.2}), 0.5);
+  EXPECT_NEAR(growth_factor(pressure, {0.4}), 1.0 / 17, kRoundOff);
+  EXPECT_LT(growth_factor(pressure, {2}), 1.01e-4);
   const Inhibition volume{InhibitedBy::kVolume, 0.8, 4};
-  EXPECT_EQ(growth_factor(volume, 5, 0.8), 0.5);
-  EXPECT_NEAR(growth_factor(volume, 5, 1.6), 16.0 / 17, kRoundOff);
-  EXPECT_LT(growth_factor(volume, 5, 0.08), 1.01e-4);
-  EXPECT_GT(growth_factor(volume, 5, 8), 1 - 1.01e-4);
-  EXPECT_EQ(growth_factor({InhibitedBy::kPressure, 0.2, 1}, 0.4, 1), 1.0 / (1 + 0.4 / 0.2));
+  EXPECT_EQ(growth_factor(volume, {5, 0.8}), 0.5);
+  EXPECT_NEAR(growth_factor(volume, {5, 1.6}), 16.0 / 17, kRoundOff);
+  EXPECT_LT(growth_factor(volume, {5, 0.08}), 1.01e-4);
+  EXPECT_GT(growth_factor(volume, {5, 8}), 1 - 1.01e-4);
+  EXPECT_EQ(growth_factor({InhibitedBy::kPressure, 0.2, 1}, {0.4}), 1.0 / (1 + 0.4 / 0.2));
 }
 
 TEST(Growth, CycleTimesAreGaussianAndCutAtThreeSigma) {

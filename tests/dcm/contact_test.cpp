@@ -274,8 +274,8 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     connect_meshes(c.around);
     c.options.quadrature = q;
     c.find();
-    std::vector<double> free_area;
-    compute_free_areas(c.state, c.options, c.lanes, c.work, free_area);
+    std::vector<double> medium_area;
+    compute_medium_areas(c.state, c.options, c.lanes, c.work, medium_area);
     std::vector<double> touching(c.work.body.size());
     double most = 0;
     for (std::size_t k = 0; k < c.work.share.size(); ++k)
@@ -298,9 +298,9 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
       double free = 0;
       for (int i = 0; i < t.n_node; ++i) {
         const double a =
-            free_area[(c.state.group[lane / kLanes].first_row + static_cast<std::size_t>(i)) *
-                          kLanes +
-                      lane % kLanes];
+            medium_area[(c.state.group[lane / kLanes].first_row + static_cast<std::size_t>(i)) *
+                            kLanes +
+                        lane % kLanes];
         EXPECT_GE(a, 0);
         free += a;
       }

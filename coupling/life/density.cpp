@@ -1,0 +1,69 @@
+#include "coupling/life/density.hpp"
+
+#include <algorithm>
+
+#include "core/sphere.hpp"
+#include "coupling/life/cell.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Something a cell adds to its neighbourhood, where it stands.
+struct Contribution {
+  Vec3 center;
+  double amount;
+};
+
+/// The cells and their images in mirror planes. Each plane mirrors what the planes before it made,
+/// so corners have the images of images.
+std::vector<Contribution> with_images(const World& world, std::vector<Contribution> all) {
+  const double time = std::max(0.0, time_since_start(world));
+  for (const contact::Plane& p : world.params.around.planes) {
+    if (!p.material.mirror) continue;
+    const Vec3 normal = p.normal.normalized(), point = p.point_at(time);
+    const std::size_t n = all.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const double depth = (all[k].center - point).dot(normal);
+      if (depth >= 0 && depth < kDensityReach)
+        all.push_back({all[k].center - 2 * depth * normal, all[k].amount});
+    }
+  }
+  return all;
+}
+
+/// Sum of what the cells in the ball around each cell contribute, per volume of the ball.
+/// @param amount  of a cell
+template <class Amount>
+std::vector<double> sum_around(const World& world, Amount amount) {
+  const State& s = world.state;
+  std::vector<double> sum(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
+  std::vector<std::size_t> index;
+  std::vector<Contribution> cells;
+  for_each_cell(s, [&](const Cell& c) {
+    index.push_back(c.index);
+    cells.push_back({center_of(s, c), amount(c)});
+  });
+  const std::vector<Contribution> all = with_images(world, cells);
+#pragma omp parallel for schedule(static) if (cells.size() > 200)
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    double here = 0;
+    for (const Contribution& other : all)
+      if ((other.center - cells[k].center).squaredNorm() <= kDensityReach * kDensityReach)
+        here += other.amount;
+    sum[index[k]] = here / sphere_volume(kDensityReach);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> local_densities(const World& world) {
+  return sum_around(world, [](const Cell&) { return 1.0; });
+}
+
+std::vector<double> local_volume_shares(const World& world) {
+  const State& s = world.state;
+  return sum_around(world, [&](const Cell& c) { return volume_of(s, c).at(s.clock.time); });
+}
+
+}  // namespace acinus::coupling

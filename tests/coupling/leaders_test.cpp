@@ -1,0 +1,115 @@
+/// Who leads the tissue toward the vein.
+
+#include "coupling/leaders.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+using Choice = std::vector<std::uint8_t>;
+
+/// A cell of 12 um at a distance, angle in degrees and height.
+PolarCell cell(double distance, double degrees, double height = 0) {
+  return {distance, degrees * kPi / 180, height, 12, true, false};
+}
+
+Motility by(Leaders rule) {
+  Motility m;
+  m.leaders = rule;
+  m.axis_radius = 10;
+  return m;
+}
+
+/// Two rows of cells around the vein, side by side, the second behind the gaps of the first.
+std::vector<PolarCell> two_rows() {
+  std::vector<PolarCell> cells;
+  for (double angle : {-20.0, -10.0, 0.0, 10.0}) cells.push_back(cell(140, angle));
+  for (double angle : {-15.0, -5.0, 5.0}) cells.push_back(cell(161, angle));
+  return cells;
+}
+
+TEST(Leaders, OfTheFrontAreAllOfTheFirstRowAndNoneOfTheSecond) {
+  EXPECT_EQ(find_leaders(by(Leaders::kFront), two_rows()), (Choice{1, 1, 1, 1, 0, 0, 0}));
+}
+
+TEST(Leaders, OfTheFrontStandAboveEachOtherToo) {
+  std::vector<PolarCell> cells{cell(140, 0, 12), cell(150, 0, 36), cell(145, 0, 60)};
+  EXPECT_EQ(find_leaders(by(Leaders::kFront), cells), (Choice{1, 1, 1}));
+  cells[1].height = 24;  // now behind the first, as the next slice begins at 24
+  EXPECT_EQ(find_leaders(by(Leaders::kFront), cells), (Choice{1, 0, 1}));
+}
+
+TEST(Leaders, OfTheFrontDoNotMindCellsBeyondTheVein) {
+  const std::vector<PolarCell> cells{cell(140, 0), cell(60, 180), cell(60, 95)};
+  EXPECT_EQ(find_leaders(by(Leaders::kFront), cells), (Choice{1, 1, 1}));
+}
+
+TEST(Leaders, ForemostCellsKeepADiameterApart) {
+  std::vector<PolarCell> cells = two_rows();
+  for (std::size_t k = 0; k < 4; ++k) cells[k].distance -= static_cast<double>(k % 2);
+  // 10 degrees at 140 um are 24.4 um of arc: just beyond a diameter.
+  EXPECT_EQ(find_leaders(by(Leaders::kForemost), cells), (Choice{1, 1, 1, 1, 0, 0, 0}));
+  for (PolarCell& c : cells) c.angle *= 0.9;
+  EXPECT_EQ(find_leaders(by(Leaders::kForemost), cells), (Choice{0, 1, 0, 1, 0, 0, 0}));
+}
+
+TEST(Leaders, OfSectorsAreOnePerSectorAndSlice) {
+  Motility m = by(Leaders::kSector);
+  m.leader_count = 12;
+  m.leader_slice = 24;
+  // Two in the sector from 0 to 30 degrees, one above them, one alone, one in the last sector.
+  const std::vector<PolarCell> cells{cell(140, 5), cell(130, 25), cell(150, 10, 30), cell(99, 70),
+                                     cell(120, -1)};
+  EXPECT_EQ(find_leaders(m, cells), (Choice{0, 1, 1, 1, 1}));
+}
+
+TEST(Leaders, NearestAreAsManyAsAskedFor) {
+  Motility m = by(Leaders::kNearest);
+  m.leader_count = 2;
+  std::vector<PolarCell> cells{cell(140, 5), cell(21, 25), cell(130, 70), cell(120, 120)};
+  EXPECT_EQ(find_leaders(m, cells), (Choice{0, 0, 1, 1})) << "the second is at the vein's wall";
+  cells[2].exists = false;
+  EXPECT_EQ(find_leaders(m, cells), (Choice{1, 0, 0, 1}));
+}
+
+TEST(Leaders, KeepTheirPlaceUntilAnotherIsNearerByASixthOfARadius) {
+  for (Leaders rule : {Leaders::kForemost, Leaders::kFront, Leaders::kSector, Leaders::kNearest}) {
+    Motility m = by(rule);
+    m.leader_count = 1;
+    m.leader_slice = 100;
+    std::vector<PolarCell> cells{cell(140, 4), cell(138.1, 8)};
+    cells[0].led = true;
+    if (rule == Leaders::kForemost) {
+      // The challenger is nearer, so it leads as well: nothing nearer bars it.
+      EXPECT_EQ(find_leaders(m, cells), (Choice{1, 1}));
+    } else if (rule == Leaders::kFront) {
+      EXPECT_EQ(find_leaders(m, cells), (Choice{1, 1}));
+    } else {
+      EXPECT_EQ(find_leaders(m, cells), (Choice{1, 0}));
+    }
+    cells[1].distance = 137.9;
+    EXPECT_EQ(find_leaders(m, cells), (Choice{0, 1}));
+  }
+}
+
+TEST(Leaders, AreChosenOncePerIntervalOfTheirGrid) {
+  World w = make_test_world({{Vec3(140, 0, 0)}, {Vec3(165, 0, 0), false}}, 60, 42);
+  w.params.motility = by(Leaders::kFront);
+  w.params.motility.leader_grid = 600;
+  Choice leader;
+  std::int64_t interval = -1;
+  const std::vector<double> one{12, 12, 12, 12, 12, 12, 12, 12};
+  EXPECT_TRUE(choose_leaders(w, one, one, leader, interval));
+  EXPECT_EQ(leader[0], 1);
+  EXPECT_EQ(leader[8], 0) << "the sphere stands behind";
+  w.state.clock.time = 599;
+  EXPECT_FALSE(choose_leaders(w, one, one, leader, interval));
+  w.state.clock.time = 600;
+  EXPECT_TRUE(choose_leaders(w, one, one, leader, interval));
+}
+
+}  // namespace
+}  // namespace acinus::coupling
