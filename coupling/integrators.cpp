@@ -6,6 +6,7 @@
 
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
+#include "coupling/closing.hpp"
 #include "coupling/judge.hpp"
 #include "coupling/life/cell.hpp"
 #include "coupling/step.hpp"
@@ -24,6 +25,8 @@ namespace {
 
 constexpr int kMaxNewton = 40;
 constexpr int kMaxHalvings = 6;
+/// Changes of the set of closed contacts within a linearly implicit step.
+constexpr int kMaxActiveSets = 3;
 /// Newton is done when its last correction was below this share of the step's error tolerance.
 constexpr double kNewtonShare = 0.1;
 /// Closest features make kinks that Newton cannot cross; below this correction, um, it may stop at
@@ -114,6 +117,12 @@ Attempt try_linearly_implicit(World& world, double step, bool extrapolate, Works
   }
   a.status = solve_step(world, step, w, a.cg_iterations);
   a.solves = 1;
+  // Without step-size control steps are as they come, for tables of their order.
+  for (int change = 0; world.params.numerics.adaptive && change < kMaxActiveSets; ++change) {
+    if (!a.status.ok || !activate_closing(w)) break;
+    a.status = solve_again(world, w, a.cg_iterations);
+    ++a.solves;
+  }
   return a;
 }
 

@@ -7,15 +7,13 @@
 #include <limits>
 
 #include "core/threads.hpp"
+#include "coupling/closing.hpp"
 
 namespace acinus::coupling {
 namespace {
 
 /// A predicted gap below minus this share of the search depth, still closing, is too deep.
 constexpr double kDeep = 2.0 / 3;
-/// The same with step-size control, um: a contact that appears within a step is only felt in the
-/// next, so a cell that snaps forward would stand this deep in a hard obstacle until then.
-constexpr double kControlledDepth = 0.2;
 constexpr double kClosing = 0.1;  ///< um a deep contact may still close in one step
 
 std::string name_lane(const State& s, std::size_t lane) {
@@ -93,12 +91,6 @@ bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>
       return true;
   }
   return false;
-}
-
-/// The part of a point's move that is not in the gaps of contacts yet.
-Vec3 rest_of_move(const Workspace& w, Address a) {
-  const Vec3 move = load_point(w.move.data(), a);
-  return w.ahead.used() ? Vec3(move - load_point(w.ahead.move.data(), a)) : move;
 }
 
 }  // namespace
@@ -217,14 +209,8 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
   auto depth_after = [&](const solve::Link& link) {  // um; 0: no danger
     const double gap = static_cast<double>(link.gap);
     if (gap > near) return 0.0;
-    const solve::Stencil stencil = solve::stencil_of(link);
-    Vec3 r = Vec3::Zero();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
-      r += stencil.weight[k] * rest_of_move(w, stencil.address[k]);
-    double opening = 0;
-    for (int k = 0; k < 3; ++k)
-      opening += static_cast<double>(link.normal[static_cast<std::size_t>(k)]) * r[k];
-    return gap + opening < deep && opening < -kClosing ? -(gap + opening) : 0.0;
+    const double end = gap_after(w, link);
+    return end < deep && end - gap < -kClosing ? -end : 0.0;
   };
   std::size_t first_deep = links.size();
 #pragma omp parallel for schedule(static) \

@@ -23,9 +23,7 @@ double turn(const PolarCell& a, const PolarCell& b) {
 }
 
 /// Distance from the vein by which cells are ranked.
-double rank_distance(const PolarCell& c) {
-  return c.distance - (c.led ? kSlack * c.radius : 0);
-}
+double rank_distance(const PolarCell& c) { return c.distance - (c.led ? kSlack * c.radius : 0); }
 
 bool at_vein(const Motility& m, const PolarCell& c) {
   return c.distance <= m.axis_radius + c.radius;

@@ -236,33 +236,50 @@ std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Worksp
                                    {w.cbm_radius, w.cbm_strength, w.cbm_mother}, w.cbm);
 }
 
-Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
-  const State& s = world.state;
+namespace {
+
+/// Solves for the whole displacement from the guess in w.move.
+Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
   for_each_number(w.rhs.size(), [&](std::size_t k) {
     w.rhs[k] = w.system.force[k] + w.system.external_force[k];
   });
+  if (!w.ahead.used()) return solve_system(world, w, cg_iterations);
+  // A (d - ahead) = F - Gamma/h ahead, solved for d: the tolerance refers to the whole way. Of
+  // what is held the way is known: its ties would drown all other forces.
+  w.way.resize(w.move.size());
+  for_each_number(w.rhs.size(), [&](std::size_t k) { w.way[k] = w.ahead.move[k]; });
+  std::swap(w.way, w.move);
+  place_held(w, {});
+  w.op.apply(w.move, w.ahead.product);
+  std::swap(w.way, w.move);
+  place_held(w, {});
+  for_each_number(w.rhs.size(),
+                  [&](std::size_t k) { w.rhs[k] += w.ahead.product[k] - w.ahead.friction[k]; });
+  const Status status = solve_system(world, w, cg_iterations);
+  for_each_number(w.rhs.size(), [&](std::size_t k) { w.rhs[k] -= w.ahead.product[k]; });
+  place_held(w, w.ahead.move);
+  return status;
+}
+
+}  // namespace
+
+Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
+  const State& s = world.state;
   if (w.ahead.used()) {
-    // A (d - ahead) = F - Gamma/h ahead, solved for d: the tolerance refers to the whole way. Of
-    // what is held the way is known: its ties would drown all other forces.
-    for_each_number(w.rhs.size(), [&](std::size_t k) { w.move[k] = w.ahead.move[k]; });
-    place_held(w, {});
-    w.op.apply(w.move, w.ahead.product);
-    for_each_number(w.rhs.size(),
-                    [&](std::size_t k) { w.rhs[k] += w.ahead.product[k] - w.ahead.friction[k]; });
-    const Status status = solve_system(world, w, cg_iterations);
-    for_each_number(w.rhs.size(), [&](std::size_t k) { w.rhs[k] -= w.ahead.product[k]; });
-    place_held(w, w.ahead.move);
-    return status;
-  }
-  // The last step's velocity is a good first guess.
-  if (has_last_move(s)) {
+    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = w.ahead.move[k]; });
+  } else if (has_last_move(s)) {  // the last step's velocity is a good first guess
     const double ratio = step / s.clock.last_step;
     for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = ratio * s.last_move[k]; });
   } else {
     std::ranges::fill(w.move, 0.0);
   }
   place_held(w, {});  // a guess their ties would make a huge force of
-  return solve_system(world, w, cg_iterations);
+  return solve_from_guess(world, w, cg_iterations);
+}
+
+Status solve_again(const World& world, Workspace& w, int& cg_iterations) {
+  place_held(w, {});
+  return solve_from_guess(world, w, cg_iterations);
 }
 
 Status solve_system(const World& world, Workspace& w, int& cg_iterations) {

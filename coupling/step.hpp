@@ -53,6 +53,9 @@ std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Worksp
 /// first guess, then solve_system.
 Status solve_step(const World& world, double step, Workspace& work, int& cg_iterations);
 
+/// The same after the system changed, with the displacement found before as first guess.
+Status solve_again(const World& world, Workspace& work, int& cg_iterations);
+
 /// Solves for work.move from the guess it holds and the right-hand side in work.rhs, then puts the
 /// rigid motion of every cluster right. Adds to cg_iterations.
 Status solve_system(const World& world, Workspace& work, int& cg_iterations);

@@ -38,7 +38,7 @@ struct Workspace {
   std::vector<double> cbm_radius;              ///< written by: set_references
   std::vector<double> cbm_strength;            ///< empty: all 1; written by: set_references
   std::vector<std::int64_t> cbm_mother;        ///< lineage; empty with cbm_strength; by the same
-  std::vector<double> medium_area;               ///< [dcm rows][lane]; written by: assemble
+  std::vector<double> medium_area;             ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble
   CellForces forces;                           ///< written by: assemble
   std::vector<double> position;                ///< [n_row][3][lane]; written by: assemble
@@ -47,6 +47,7 @@ struct Workspace {
   std::vector<std::uint8_t> held;    ///< written by: find_all_contacts
   std::vector<double> rhs;           ///< written by: solve_step
   std::vector<double> move;          ///< displacement of the step; written by: solve_step
+  std::vector<double> way;           ///< scratch of solve_step
   Ahead ahead;                       ///< written by: attempt_step
   std::vector<std::uint8_t> leader;  ///< choice for this step; written by: choose stage
   std::int64_t leader_interval = -1;

@@ -43,10 +43,10 @@ enum class Leaders {
 struct Motility {
   std::uint64_t seed = 1;
   bool random = false;
-  bool in_plane = false;           ///< the random force is horizontal: cells crawl on a substrate
-  double grid = 60;                ///< s, time grid of the random force
-  double leader_force = 0;         ///< nN toward the vein axis
-  double leader_grid = 600;        ///< s
+  bool in_plane = false;     ///< the random force is horizontal: cells crawl on a substrate
+  double grid = 60;          ///< s, time grid of the random force
+  double leader_force = 0;   ///< nN toward the vein axis
+  double leader_grid = 600;  ///< s
   Leaders leaders = Leaders::kForemost;
   int leader_count = 24;           ///< kNearest: cells; kSector: sectors of the whole circle
   double leader_slice = 24;        ///< um, kSector: height of a slice

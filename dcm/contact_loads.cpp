@@ -113,7 +113,7 @@ struct Builder {
     const double at = gap + p.depth;
     solve::set_law(p.area * contact::well_stiffness(p.well, at), p.area * p.friction, gap, normal,
                    link);
-    load = {normal, -p.area * contact::well_traction(p.well, at)};
+    load = {normal, -p.area * contact::well_traction(p.well, at), p.area * p.well.repulsion, at};
   }
 };
 

@@ -58,6 +58,10 @@ inline void set_law(double stiffness, double friction, double gap, const Vec3& n
 struct LinkLoad {
   Vec3 normal = Vec3::Zero();
   double force = 0;  ///< nN, positive pushes apart
+  /// Law once the gap is closed, force = -closed_stiffness * gap; nN/um. 0: none to switch to.
+  double closed_stiffness = 0;
+  double clearance = 0;  ///< um, how far the contact is from that branch; not positive: is on it
+  bool active = false;   ///< switched to that branch although it was open; see coupling/closing
 };
 
 /// Contacts with up to three points a side, sorted by the cell of side a.

@@ -1,0 +1,75 @@
+#include "coupling/closing.hpp"
+
+#include "core/threads.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A contact that ends less deep, um, is left to the next step: most closing contacts do, and each
+/// change of the active set costs a solve.
+constexpr double kShallow = 0.02;
+
+/// The part of a point's move that is not in the gaps of contacts yet.
+Vec3 rest_of_move(const Workspace& w, Address a) {
+  const Vec3 move = load_point(w.move.data(), a);
+  return w.ahead.used() ? Vec3(move - load_point(w.ahead.move.data(), a)) : move;
+}
+
+/// Replaces the law of a contact and adds the change of its force to the system.
+void replace_law(double stiffness, double force, solve::Link& link, solve::LinkLoad& load,
+                 solve::System& s) {
+  const Vec3 change = (force - load.force) * load.normal;
+  std::vector<double>& to = link.b.exists() ? s.force : s.external_force;
+  const solve::Stencil stencil = solve::stencil_of(link);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+    add_point(to.data(), stencil.address[k], stencil.weight[k] * change);
+  link.stiffness = static_cast<float>(stiffness);
+  load.force = force;
+}
+
+}  // namespace
+
+double gap_after(const Workspace& w, const solve::Link& link) {
+  const solve::Stencil stencil = solve::stencil_of(link);
+  Vec3 r = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+    r += stencil.weight[k] * rest_of_move(w, stencil.address[k]);
+  double gap = static_cast<double>(link.gap);
+  for (int k = 0; k < 3; ++k)
+    gap += static_cast<double>(link.normal[static_cast<std::size_t>(k)]) * r[k];
+  return gap;
+}
+
+bool activate_closing(Workspace& w) {
+  solve::Links& links = w.system.links;
+  // 1: closes, 2: is active and opens
+  std::vector<std::uint8_t> change(links.size(), 0);
+  bool deep = false;
+#pragma omp parallel for schedule(static) reduction(|| : deep) if (worth_threads(w.system.n_row))
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    const solve::LinkLoad& load = links.load[l];
+    if (!(load.closed_stiffness > 0) || load.clearance <= 0) continue;
+    const double end = gap_after(w, links.link[l]) + load.clearance - links.link[l].gap;
+    if (load.active) {
+      change[l] = end > 0 ? 2 : 0;
+    } else if (end < -kShallow) {
+      change[l] = 1;
+      deep = deep || end < -kControlledDepth;
+    }
+  }
+  if (!deep) return false;
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    if (change[l] == 0) continue;
+    solve::LinkLoad& load = links.load[l];
+    load.active = change[l] == 1;
+    if (load.active)
+      replace_law(load.closed_stiffness, -load.closed_stiffness * load.clearance, links.link[l],
+                  load, w.system);
+    else
+      replace_law(0, 0, links.link[l], load, w.system);
+  }
+  w.op.prepare(w.system);
+  return true;
+}
+
+}  // namespace acinus::coupling

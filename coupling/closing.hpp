@@ -1,0 +1,24 @@
+#pragma once
+/// Contacts that close within a step. A linearly implicit step knows of the repulsion only where
+/// surfaces touch at the point of linearisation; those that close on the way would run into each
+/// other and be pushed out by the next step only, or the step be rejected.
+
+#include "coupling/workspace.hpp"
+
+namespace acinus::coupling {
+
+/// Gap of a contact at the end of the step just solved, by its normal at the point of
+/// linearisation, um.
+double gap_after(const Workspace& work, const solve::Link& link);
+
+/// Largest depth by which a contact may be closed at the end of a step with step-size control, um.
+inline constexpr double kControlledDepth = 0.2;
+
+/// Where a contact that was open ends deeper than kControlledDepth: gives all open contacts that
+/// end closed the repulsive branch of their law, p = -k gap, exact at the end of the step, and
+/// takes it from those that end open after all; the system then is one Newton iteration on (a
+/// change of the active set). Adds the changed forces to the system and prepares the operator anew.
+/// @return whether anything changed: the step has to be solved again
+bool activate_closing(Workspace& work);
+
+}  // namespace acinus::coupling
