@@ -11,6 +11,7 @@
 #include "coupling/judge.hpp"
 #include "coupling/leaders.hpp"
 #include "coupling/partitioned.hpp"
+#include "dcm/node_friction.hpp"
 #include "dcm/terms/medium.hpp"
 
 namespace acinus::coupling {
@@ -213,6 +214,8 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   dcm::add_contact_loads(s.dcm, world.params.dcm, phase.dcm, w.lanes, world.params.around, w.dcm,
                          links);
   cbm::add_contact_loads(s.cbm, world.params.cbm, world.params.around, w.cbm, first, w.system);
+  if (phase.dcm.friction_form == dcm::FrictionForm::kNodes)
+    dcm::add_node_friction(s.dcm, phase.dcm, w.lanes, w.dcm, w.system.point_links);
   if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
   add_holds(step, w);
   w.op.add_link_forces(w.system);

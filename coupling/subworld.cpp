@@ -25,7 +25,8 @@ contact::Box box_of(const State& s, std::size_t lane) {
 /// Walls stay where they are at this moment.
 void stop_walls(contact::Surroundings& around, double time) {
   for (contact::Plane& p : around.planes) {
-    p.point = p.point_at(time);
+    p.point = p.point_at(time);  // far away if it is gone
+    p.opens = contact::Plane{}.opens;
     p.speed = 0;
   }
   for (contact::Capsule& c : around.capsules) {

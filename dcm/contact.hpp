@@ -17,6 +17,12 @@
 
 namespace acinus::dcm {
 
+/// Between which places the friction of two cells acts.
+enum class FrictionForm {
+  kSurface,  ///< a contact point and the closest place of the other surface
+  kNodes     ///< the nodes of both triangles (node_friction.hpp)
+};
+
 /// Constants of the surface contact, the same for all cells.
 struct ContactParams {
   contact::Quadrature quadrature = contact::Quadrature::kThreePoint;
@@ -26,8 +32,9 @@ struct ContactParams {
   double max_depth = 1.5;       ///< um
   double skin = 0.3;            ///< um
   double cell_friction = 0;     ///< nN s/um^3, cell-cell
-  double adhesion_factor = 1;   ///< ramps up after start-up
-  double friction_factor = 1;   ///< 0 while cells grow to size
+  FrictionForm friction_form = FrictionForm::kSurface;
+  double adhesion_factor = 1;  ///< ramps up after start-up
+  double friction_factor = 1;  ///< 0 while cells grow to size
   /// The medium is felt on the whole surface, not only where it touches nothing.
   bool whole_medium_area = false;
 };
@@ -103,11 +110,16 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
 /// Scale that keeps the touching areas of one point from adding up to more than its area.
 inline double share_scale(double total_share) { return total_share > 1 ? 1 / total_share : 1; }
 
+/// What a contact of two cells rubs with, nN s/um^3 of its point's area; the other side sees the
+/// contact as well, so that half the area counts. @pre all shares are known
+double cell_friction_at(const ContactParams& c, const ContactWorkspace& work,
+                        const contact::SurfaceContact& contact);
+
 /// A place on a cell as the solver names it.
 solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& stencil);
 
 /// Adds force, stiffness and friction of every contact found. Cell-cell contacts are seen from both
-/// sides and carry half the weight each.
+/// sides and carry half the weight each. Friction between cells only in the form between surfaces.
 void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
                        const LaneData& lanes, const contact::Surroundings& around,
                        const ContactWorkspace& work, solve::Links& links);

@@ -27,6 +27,14 @@ const contact::Material& material_of(const contact::Surroundings& around, Surrou
   return around.vessels.material;
 }
 
+/// Share of its area with which a point rubs on a partner at this gap.
+double touching_share(const ContactParams& c, const ContactWorkspace& work, int body, int point,
+                      double gap) {
+  const auto& share = work.share[static_cast<std::size_t>(body)];
+  return share_scale(share[static_cast<std::size_t>(point)]) *
+         contact::contact_share(gap, c.friction_range);
+}
+
 /// What a contact patch of this area does.
 struct Patch {
   contact::Well well;
@@ -54,11 +62,8 @@ struct Builder {
   double area(int k, int point) const {
     return point_area(*body(k).topology, c.quadrature, point, lanes.radius[lane_of(k)]);
   }
-  /// Share of its area with which a point rubs on a partner at this gap.
   double touching(int k, int point, double gap) const {
-    const auto& share = work.share[static_cast<std::size_t>(k)];
-    return share_scale(share[static_cast<std::size_t>(point)]) *
-           contact::contact_share(gap, c.friction_range);
+    return touching_share(c, work, k, point, gap);
   }
   contact::Well well(int k, double adhesion) const {
     return {c.adhesion_factor * adhesion, c.repulsion,
@@ -88,9 +93,9 @@ struct Builder {
       return;
     }
     const double adhesion = std::sqrt(a.adhesion * params_of(s.body_b).adhesion);
-    fill({well(s.body_a, adhesion), half,
-          c.friction_factor * touching(s.body_a, s.point, s.gap) * c.cell_friction},
-         s.gap, s.normal, link, load);
+    const double friction =
+        c.friction_form == FrictionForm::kSurface ? cell_friction_at(c, work, s) : 0;
+    fill({well(s.body_a, adhesion), half, friction}, s.gap, s.normal, link, load);
   }
 
   void obstacle_link(const ObstacleContact& o, solve::Link& link, solve::LinkLoad& load) const {
@@ -118,6 +123,11 @@ struct Builder {
 };
 
 }  // namespace
+
+double cell_friction_at(const ContactParams& c, const ContactWorkspace& work,
+                        const contact::SurfaceContact& s) {
+  return c.friction_factor * touching_share(c, work, s.body_a, s.point, s.gap) * c.cell_friction;
+}
 
 solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& s) {
   auto point = [&](int m) {

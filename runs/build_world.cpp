@@ -12,6 +12,7 @@
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/read_surface.hpp"
 #include "core/random.hpp"
+#include "core/sphere.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/integrators.hpp"
@@ -19,6 +20,7 @@
 #include "coupling/start_up.hpp"
 #include "runs/build_correction.hpp"
 #include "runs/build_life.hpp"
+#include "runs/cell_types.hpp"
 #include "runs/place_cells.hpp"
 
 namespace acinus::runs {
@@ -66,10 +68,10 @@ void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
                              false};
   if (lobule)
     for (const coupling::MirrorPlane& p : lobule->planes)
-      around.planes.push_back({p.name, p.point, p.normal, 0, 0, mirror()});
+      around.planes.push_back({p.name, p.point, p.normal, 0, 0, mirror(), contact::Plane{}.opens});
   for (const WallEntry& w : scene.walls)
-    around.planes.push_back(
-        {w.name, w.point, w.normal.normalized(), w.speed, w.travel, wall_material(w)});
+    around.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel,
+                             wall_material(w), w.opens.value_or(contact::Plane{}.opens)});
   if (scene.capsule.enabled)
     around.capsules.push_back({"capsule",
                                scene.capsule.center,
@@ -189,22 +191,25 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     lobule = coupling::make_lobule(
         {b.shape, b.radius, b.height, b.lesion_radius, b.central_vein_radius, b.portal_vein_radius,
          b.sinusoid_radius, b.vessel_fraction, b.branch_density, b.min_distance, b.cells,
-         scene.start_up.enabled ? scene.start_up.initial_radius
-                                : scene.cell_types.begin()->second.radius},
+         scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)},
         [&stream] { return stream.uniform(); });
     p.motility.axis_radius = b.central_vein_radius;
     if (static_cast<int>(lobule->seeds.size()) < b.cells)
       built.notes.push_back(
           fmt::format("room for {} of the {} cells asked for", lobule->seeds.size(), b.cells));
-    const double cell_volume = 4.0 / 3 * kPi * std::pow(scene.cell_types.begin()->second.radius, 3);
+    double cells = 0;
+    for (std::size_t k = 0; k < lobule->seeds.size(); ++k)
+      cells += sphere_volume(
+          scene.cell_types
+              .at(type_of_generated(scene, static_cast<std::int64_t>(k), lobule->seeds[k]))
+              .radius);
     const double lesion = b.shape == "pie" ? kPi * b.lesion_radius * b.lesion_radius / 6
                                            : kPi * b.lesion_radius * b.lesion_radius;
     built.notes.push_back(
         fmt::format("lobule {}: height {} um, {} cells at least {} um apart fill {:.2f} of the "
                     "volume outside the lesion",
                     b.shape, b.height, lobule->seeds.size(), b.min_distance,
-                    static_cast<double>(lobule->seeds.size()) * cell_volume /
-                        (lobule->volume - lesion * b.height)));
+                    cells / (lobule->volume - lesion * b.height)));
   }
   add_surroundings(scene, lobule ? &*lobule : nullptr, p.around);
   built.vessel_length = mesh::total_length(p.around.vessels.network);
@@ -225,6 +230,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   p.dcm_contact.max_depth = scene.contact.max_depth;
   p.dcm_contact.skin = p.cbm_contact.skin = scene.contact.skin;
   p.dcm_contact.cell_friction = scene.friction.dcm_dcm;
+  if (scene.friction.form == "nodes") p.dcm_contact.friction_form = dcm::FrictionForm::kNodes;
   p.cbm_contact.cell_friction = scene.friction.cbm_cbm;
   const double a = scene.friction.dcm_dcm, b = scene.friction.cbm_cbm;
   p.interface.friction = scene.friction.dcm_cbm.value_or(a + b > 0 ? 2 * a * b / (a + b) : 0);

@@ -39,6 +39,7 @@ struct Arguments {
   CalibrateOptions calibrate;
   std::vector<std::string> folders, tolerances;  ///< compare
   std::string check_friction;                    ///< calibrate
+  std::string relaxation_time;                   ///< calibrate
   std::string scene, comparison;                 ///< compare
   CompareScenes compare;
 };
@@ -123,9 +124,13 @@ void add_calibrate(CLI::App& app, Arguments& arguments) {
                     "leave out how long the clump takes to relax");
   command
       ->add_option("--check-friction", arguments.check_friction,
-                   "relaxation time with this cell-cell friction instead of the friction for 5 h, "
-                   "e.g. \"3e12 N s/m^3\"")
+                   "also the relaxation with this cell-cell friction, e.g. \"1e11 N s/m^3\"")
       ->type_name("FRICTION");
+  command
+      ->add_option("--relaxation-time", arguments.relaxation_time,
+                   "also look for the cell-cell friction with which the relaxation's exponential "
+                   "fit has this time, e.g. \"5 h\" (see docs/calibration.md first)")
+      ->type_name("TIME");
   command->add_flag("--fresh", o.fresh, "do not go on from what an earlier attempt left");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
   command->add_option("--threads", o.threads, "threads (default: all cores)")
@@ -336,6 +341,12 @@ int do_calibrate(Arguments& arguments) {
     options.check_friction =
         flag_value("--check-friction", arguments.check_friction,
                    [](const std::string& text) { return parse_quantity(text, kFrictionPerArea); });
+  if (!arguments.relaxation_time.empty())
+    options.relaxation_time =
+        flag_value("--relaxation-time", arguments.relaxation_time,
+                   [](const std::string& text) { return parse_quantity(text, kTime); });
+  check(options.relaxation_time >= 0,
+        fmt::format("--relaxation-time \"{}\": must be > 0 s", arguments.relaxation_time));
   return calibrate(read_scene(arguments.run.scene_file, arguments.run.set), options);
 }
 

@@ -12,6 +12,7 @@
 #include "core/mesh/measures.hpp"
 #include "core/random.hpp"
 #include "coupling/generate/packing.hpp"
+#include "runs/cell_types.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -75,18 +76,21 @@ double largest_start(const CellType& t) {
 }
 
 /// Darts thrown into a box, at least min_distance apart and clear of the surroundings.
-std::vector<Vec3> fill_box(const Scene& scene, double radius, const contact::Surroundings& around) {
+std::vector<Vec3> fill_box(const Scene& scene, const contact::Surroundings& around) {
   const CellsBlock& c = scene.cells;
   UniformStream random(scene.seed, Purpose::kPlacement, 0);
   std::vector<Vec3> seeds;
   constexpr int kTries = 200000;
-  const double clear = start_radius(scene, radius);
   for (int tries = 0; tries < kTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = random.uniform(c.low[k], c.high[k]);
     const bool free =
         std::ranges::all_of(seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
-    if (!free || nearest_gap(around, x, nullptr) < clear) continue;
+    if (!free) continue;
+    // The next cell's type hangs on its number: large cells are not rarer for the room they need.
+    const CellType& type =
+        scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(seeds.size()), x));
+    if (nearest_gap(around, x, nullptr) < start_radius(scene, largest_start(type))) continue;
     seeds.push_back(x);
     tries = 0;
   }
@@ -158,20 +162,17 @@ bool in_zoom(const Scene& scene, const Vec3& x) {
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
                                     const contact::Surroundings& around) {
   const CellsBlock& c = scene.cells;
-  const std::string type = scene.cell_types.begin()->first;
-  const double radius = scene.cell_types.begin()->second.radius;
-  const double diameter = 2 * radius;
+  const double diameter = 2 * largest_radius(scene);
   UniformStream stream(scene.seed, Purpose::kJitter, 0);
   const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
 
   std::vector<PlacedCell> cells;
   if (c.source == "list") {
     for (const CellEntry& e : c.list) {
-      const std::string& name = e.type.empty() ? type : e.type;
       PlacedCell p;
       p.center = e.position;
-      p.type = name;
-      p.radius = e.radius.value_or(scene.cell_types.at(name).radius);
+      p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
+      p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
       p.pull = e.pull;
       p.deformable = e.model.empty()
                          ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
@@ -190,15 +191,15 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
           {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
           uniform);
     else if (c.source == "fill")
-      centers = fill_box(scene, largest_start(scene.cell_types.begin()->second), around);
+      centers = fill_box(scene, around);
     else if (lobule)
       centers = lobule->seeds;
     cells.reserve(centers.size());
     for (const Vec3& x : centers) {
       PlacedCell p;
       p.center = x;
-      p.type = type;
-      p.radius = radius;
+      p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
+      p.radius = scene.cell_types.at(p.type).radius;
       p.oriented = false;
       p.deformable = c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, x));
       cells.push_back(p);

@@ -28,6 +28,7 @@
 #include "runs/life_totals.hpp"
 #include "runs/progress.hpp"
 #include "runs/run_folder.hpp"
+#include "runs/scene/frame_times.hpp"
 #include "runs/soundness.hpp"
 #include "runs/state_file.hpp"
 #include "runs/summary.hpp"
@@ -35,7 +36,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kSameTime = 1e-6;  ///< s: times closer than this are the same moment
+/// s, longest step after a wall or the capsule opened: what was before says nothing about it.
+constexpr double kFirstFreeStep = 0.1;
 
 volatile std::sig_atomic_t g_signal = 0;  // the only thing a signal handler may touch
 void remember_signal(int signal) { g_signal = signal; }
@@ -109,6 +111,7 @@ class Run {
   bool goes_on_without(const coupling::StepResult& step);
   bool enough_cells() const;
   int count_cells() const;
+  void start_anew();  ///< the next step is a first one
   void save();
   void close(const std::string& status, const std::string& cause);
   std::string reason_to_stop() const;
@@ -227,6 +230,7 @@ double Run::time_to_next_event() const {
     return (std::floor((t + kSameTime) / every) + 1) * every - t;
   };
   double limit = std::min(end_ - t, to_next(scene_.output.every));
+  limit = std::min({limit, next_opening(scene_, t) - t, next_frame_of_opening(scene_, t) - t});
   limit = std::min(limit, coupling::time_to_event(world()));
   if (world().params.motility.leader_force > 0)
     limit = std::min(limit, to_next(world().params.motility.leader_grid));
@@ -292,6 +296,12 @@ bool Run::goes_on_without(const coupling::StepResult& step) {
       coupling::remove_dying(world(), work_, step.cells, step.cause);
   tell(report);
   return !report.events.empty();
+}
+
+void Run::start_anew() {
+  coupling::Clock& clock = world().state.clock;
+  clock.last_step = 0;
+  clock.step = std::min(clock.step, kFirstFreeStep);
 }
 
 void Run::save() {
@@ -391,6 +401,8 @@ int Run::loop() {
       return static_cast<int>(Exit::kStopped);
     }
     first = false;
+    const double opening = next_opening(scene_, time()),
+                 extra_frame = next_frame_of_opening(scene_, time());
     const coupling::StepResult step = coupling::advance(world(), work_, time_to_next_event());
     if (!step.accepted) {
       if (goes_on_without(step)) continue;
@@ -407,10 +419,12 @@ int Run::loop() {
       }
     }
     const bool now_running = world().state.clock.phase == coupling::Phase::kRun;
+    if (running && time() > opening - kSameTime) start_anew();
     if (running) tell(coupling::live(world(), work_));
     const bool last = time() >= end_ - kSameTime || (running && enough_cells());
     const double t = time(), part = t / scene_.output.every;
-    const bool on_grid = std::abs(part - std::round(part)) * scene_.output.every < kSameTime;
+    const bool on_grid = std::abs(part - std::round(part)) * scene_.output.every < kSameTime ||
+                         (running && t > extra_frame - kSameTime);
     if ((now_running || scene_.output.start_up) && t > last_frame_ + kSameTime &&
         (on_grid || last || (now_running && !running)))
       if (const Excess excess = write_frame(); excess.depth_um > 0) return fail(excess);

@@ -21,14 +21,15 @@ struct Material {
   bool mirror = false;  ///< stands for an equal cell on the other side: no adhesion, no friction
 };
 
-/// Cells stay where (x - point).normal >= 0. It may move along its normal.
+/// Cells stay where (x - point).normal >= 0. It may move along its normal and, in the end, vanish.
 struct Plane {
   std::string name;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
   double speed = 0;   ///< um/s along the normal
   double travel = 0;  ///< um, where the motion stops
   Material material;
-  Vec3 point_at(double time) const;
+  double opens = std::numeric_limits<double>::infinity();  ///< s, after that it is gone
+  Vec3 point_at(double time) const;  ///< out of any cell's reach once it is gone
 };
 
 /// A rigid sphere seen from inside, which may shrink and, in the end, vanish.
@@ -38,7 +39,7 @@ struct Capsule {
   double radius = 0;
   double speed = 0;  ///< um/s, shrink rate
   double min_radius = 0;
-  double opens = std::numeric_limits<double>::infinity();  ///< s, from then on it is gone
+  double opens = std::numeric_limits<double>::infinity();  ///< s, after that it is gone
   Material material;
   double radius_at(double time) const;  ///< infinite once it is open
 };

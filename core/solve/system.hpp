@@ -86,7 +86,7 @@ struct System {
   std::vector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
   Links links;                         ///< contacts of surfaces
-  std::vector<PointLink> point_links;  ///< contacts of spheres
+  std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
   Halo halo;  ///< copies of unknowns owned by other ranks; nothing on one rank
 
   std::size_t n_dof() const { return n_row * kPointStride; }

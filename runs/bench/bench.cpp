@@ -15,6 +15,7 @@
 #include "core/timing.hpp"
 #include "runs/bench/assembly.hpp"
 #include "runs/bench/patch.hpp"
+#include "runs/bench/relaxation.hpp"
 #include "runs/bench/skipping.hpp"
 #include "runs/bench/sleep.hpp"
 #include "runs/bench/speed_index.hpp"
@@ -38,6 +39,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
       {"patch", bench_patch},
+      {"relaxation", bench_relaxation},
       {"skipping", bench_skipping},
       {"sleep", bench_sleep},
       {"stress", bench_stress},

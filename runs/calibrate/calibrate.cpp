@@ -173,6 +173,7 @@ void relax(const Stages& stages, const CalibrateOptions& options, Calibration& f
                          other, std::max(1.0, options.check_friction / found.friction_before))};
     return;
   }
+  if (options.relaxation_time == 0) return;
   stages.say(fmt::format("looking for the friction that makes it take {:.3g} h",
                          options.relaxation_time / 3600));
   found.friction = calibration::fit_friction(world, options.relaxation_time);

@@ -13,9 +13,9 @@ namespace acinus::runs {
 struct CalibrateOptions {
   ClumpOptions clump;
   calibration::FitOptions fit;
-  std::string out;                    ///< law file
-  bool relaxation = true;             ///< also the time the clump takes to relax
-  double relaxation_time = 5 * 3600;  ///< s, to which the cell-cell friction is fitted
+  std::string out;             ///< law file
+  bool relaxation = true;      ///< also the time the clump takes to relax
+  double relaxation_time = 0;  ///< s, to which the cell-cell friction is fitted; 0 = it is not
   double check_friction =
       0;               ///< nN s/um^3: relaxation time with this cell-cell friction too; 0 = no
   bool fresh = false;  ///< do not use what an earlier run left
@@ -35,10 +35,10 @@ struct Calibration {
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell
   double overlap_at_rest = 0;                    ///< its d when nothing presses
   std::vector<calibration::Relaxation>
-      relaxation;  ///< Table 1, all friction x 5 (empty: not asked)
-  calibration::FrictionFit friction;
-  double friction_before = 0;        ///< nN s/um^3
-  calibration::FrictionFit checked;  ///< CalibrateOptions::check_friction
+      relaxation;                     ///< Table 1, all friction x 5 (empty: not asked)
+  calibration::FrictionFit friction;  ///< 0: not asked for
+  double friction_before = 0;         ///< nN s/um^3
+  calibration::FrictionFit checked;   ///< CalibrateOptions::check_friction
 };
 
 /// Squeezes the clump as deformable cells and as spheres, fits, squeezes the corrected spheres

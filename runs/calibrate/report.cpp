@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "calibration/recovery.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/plot.hpp"
 #include "runs/calibrate/calibrate.hpp"
@@ -25,8 +26,12 @@ io::PlotLine line(const std::string& name, const std::vector<double>& x,
 Json json_of(const Curve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
 
 Json json_of(const calibration::Relaxation& r) {
+  const calibration::Recovery back = calibration::measure_recovery(r.time, r.overlap);
   return {{"time_s", r.time},
           {"overlap", r.overlap},
+          {"back_10s", back.sprung},
+          {"efold_h", back.efold / 3600},  // JSON has null where there is no number
+          {"return_h", back.time / 3600},
           {"relaxation_time_h", r.decay.time / 3600},
           {"misfit", r.decay.rms}};
 }
@@ -81,10 +86,17 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
                   c.wall_recess, c.capsule_excess));
   if (!c.relaxation.empty()) {
     const double t1 = c.relaxation[0].decay.time, t5 = c.relaxation[1].decay.time;
+    const calibration::Recovery back =
+        calibration::measure_recovery(c.relaxation[0].time, c.relaxation[0].overlap);
     t += row("relaxation after release",
+             fmt::format("{:.0f} % of the way in 10 s, e-fold of the rest {:.3g} h, within 1 % of "
+                         "the end after {:.3g} h",
+                         100 * back.sprung, back.efold / 3600, back.time / 3600));
+    t += row("one exponential for all of it",
              fmt::format("{:.3g} h (misfit {:.0f} %)", t1 / 3600, 100 * c.relaxation[0].decay.rms));
     t += row("with all friction x 5", fmt::format("{:.3f} times as long", t5 / t1));
     const calibration::FrictionFit& f = other_friction(c);
+    if (f.friction == 0) return t + fmt::format("law file: {}\n", law_file);
     t += row(fmt::format("cell-cell friction {} {:.3g} h", c.checked.friction > 0 ? "gives" : "for",
                          f.relaxation.decay.time / 3600),
              fmt::format("{:.3g} N s/m^3, {:.3g} times the scene's", 1e9 * f.friction,
@@ -114,8 +126,10 @@ void write_curves(const Calibration& c, const std::string& folder) {
     j["relaxation"] = json_of(c.relaxation[0]);
     j["relaxation_friction_x5"] = json_of(c.relaxation[1]);
     const calibration::FrictionFit& other = other_friction(c);
-    j["relaxation_other_friction"] = json_of(other.relaxation);
-    j["other_friction_N_s_per_m3"] = 1e9 * other.friction;
+    if (other.friction > 0) {
+      j["relaxation_other_friction"] = json_of(other.relaxation);
+      j["other_friction_N_s_per_m3"] = 1e9 * other.friction;
+    }
   }
   io::write_text_file(folder + "/curves.json", j.dump(1) + "\n");
   io::write_plot(folder + "/force.svg",
@@ -128,17 +142,14 @@ void write_curves(const Calibration& c, const std::string& folder) {
                    line("spheres, JKR", c.plain.overlap, c.plain.force),
                    line("spheres, corrected", c.corrected.overlap, c.corrected.force)}});
   if (c.relaxation.empty()) return;
-  io::write_plot(
-      folder + "/relaxation.svg",
-      {"Clump let go",
-       "time, h",
-       "overlap with the nearest 14",
-       true,
-       false,
-       {line("friction of the scene", c.relaxation[0].time, c.relaxation[0].overlap, 3600),
-        line("all friction x 5", c.relaxation[1].time, c.relaxation[1].overlap, 3600),
-        line("other cell-cell friction", other_friction(c).relaxation.time,
-             other_friction(c).relaxation.overlap, 3600)}});
+  std::vector<io::PlotLine> lines{
+      line("friction of the scene", c.relaxation[0].time, c.relaxation[0].overlap, 3600),
+      line("all friction x 5", c.relaxation[1].time, c.relaxation[1].overlap, 3600)};
+  if (const calibration::FrictionFit& other = other_friction(c); other.friction > 0)
+    lines.push_back(
+        line("other cell-cell friction", other.relaxation.time, other.relaxation.overlap, 3600));
+  io::write_plot(folder + "/relaxation.svg",
+                 {"Clump let go", "time, h", "overlap with the nearest 14", true, false, lines});
 }
 
 }  // namespace acinus::runs

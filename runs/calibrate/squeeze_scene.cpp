@@ -75,6 +75,7 @@ Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
   type.cbm.young_spread = 0;
   type.cbm.stiffness_correction = "none";
   s.cell_types = {{name, type}};
+  s.cells.types.clear();
   s.life = {};
   s.name = "calibration";
   s.model = s.cells.model = "dcm";

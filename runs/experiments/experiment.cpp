@@ -7,6 +7,7 @@ void sample_experiment(const Scene& scene, const coupling::World& world, const S
   if (scene.experiment == "lobule") sample_lobule(scene, world, snapshot, measures);
   if (scene.experiment == "patch") sample_patch(scene, world, snapshot, measures);
   if (scene.experiment == "capsule") sample_capsule(scene, world, snapshot, measures);
+  if (scene.experiment == "relaxation") sample_relaxation(scene, world, snapshot, measures);
   if (scene.experiment == "spheroid" || scene.experiment == "monolayer")
     sample_growth(scene, world, snapshot, measures);
 }

@@ -41,6 +41,20 @@ void sample_patch(const Scene& scene, const coupling::World& world, const Snapsh
 void sample_capsule(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                     Measures& measures);
 
+/// A clump that is squeezed, held and let go: time_s, overlap (mean relative overlap of a cell and
+/// its 14 nearest, over all cells), height_um and width_um (extent of the clump along the axis of
+/// the first wall that opens, z if none does, and across it: that of the even ellipsoid whose
+/// points spread as the cells' centres do) and for each of the three, since the release
+/// (calibration/recovery.hpp),
+///   NAME_back_10s   share of the way that is done 10 s after the release
+///   NAME_efold_h    time in which what is left then falls to 1/e
+///   NAME_return_h   time until 1 % of the way is left
+///   NAME_recovered  the way over that from the first frame to the release
+/// and relaxation_time_h, the return of the height if a wall opens, else of the overlap
+/// [VanLiedekerke2020, Appendix 1, Fig. 12c].
+void sample_relaxation(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
+                       Measures& measures);
+
 /// A growing tissue: "spheroid" in space, "monolayer" in the plane z = const. Distances r are those
 /// of the cells' centres from their mean, in a monolayer horizontally.
 /// Series: time_s, cells, mean_pressure_Pa (contact pressure),

@@ -178,6 +178,12 @@ void describe_friction(Visitor& v, FrictionBlock& b) {
                    .range = kNotNegative,
                    .automatic = "the type's cbm.ecm_friction"},
                   b.cbm_vessel);
+  v.text({.name = "form",
+          .meaning = "between what dcm_dcm acts: facing points of two surfaces, or each node of a "
+                     "triangle with each node of the one it touches, which also holds back "
+                     "surfaces that stretch together, the more the coarser the mesh",
+          .choices = "surface|nodes"},
+         b.form);
   v.real({.name = "range",
           .meaning = "gap over which friction between DCM surfaces fades out",
           .dimension = kLength,
@@ -260,6 +266,11 @@ void describe_output(Visitor& v, OutputBlock& b) {
           .unit = "min",
           .range = kPositive},
          b.every);
+  v.integer({.name = "after_opening",
+             .meaning = "further frames when a wall or the capsule opens, so many for every factor "
+                        "ten of the time since, from 1 s on; 0 = none",
+             .range = {.low = 0, .high = 1000}},
+            b.after_opening);
   v.text({.name = "compression", .meaning = "compression of the run file", .choices = "none|fast"},
          b.compression);
   v.flag({.name = "start_up", .meaning = "also write frames at t < 0"}, b.start_up);
@@ -277,7 +288,7 @@ void describe(Visitor& v, Scene& s) {
   v.seed({.name = "seed", .meaning = "seed of all random numbers"}, s.seed);
   v.text({.name = "experiment",
           .meaning = "what is measured",
-          .choices = "free|lobule|patch|capsule|spheroid|monolayer"},
+          .choices = "free|lobule|patch|capsule|relaxation|spheroid|monolayer"},
          s.experiment);
   v.text({.name = "model",
           .meaning = "replaces cells.model, whatever the scene says there; cells of cells.list "

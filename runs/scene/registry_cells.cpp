@@ -132,6 +132,18 @@ void describe_cell(Visitor& v, CellEntry& b) {
            b.pull);
 }
 
+void describe_type_share(Visitor& v, TypeShare& b) {
+  v.text({.name = "type", .meaning = "name of a cell type", .required = true}, b.type);
+  v.real({.name = "share",
+          .meaning = "how often, against the other types for the same place",
+          .range = kPositive},
+         b.share);
+  optional_block(v,
+                 {.name = "region",
+                  .meaning = "cells in it are of its types; null = cells that are in no region"},
+                 b.region, describe_region);
+}
+
 }  // namespace
 
 void describe_cell_type(Visitor& v, CellType& b) {
@@ -178,17 +190,23 @@ void describe_cells(Visitor& v, CellsBlock& b) {
          b.model);
   blocks(v, {.name = "list", .meaning = "cells one by one (source = list)", .item = "cells.list"},
          b.list, describe_cell);
+  blocks(v,
+         {.name = "types",
+          .meaning = "which cells are of which type, drawn by shares and by region, where they are "
+                     "not listed one by one; [] = all of the only type",
+          .item = "cells.types"},
+         b.types, describe_type_share);
   v.integer({.name = "count",
              .meaning = "cells of a clump (nearest to its centre first) or of a filled box",
              .range = {.low = 1, .high = 1e6}},
             b.count);
   v.text({.name = "lattice", .meaning = "packing of a clump", .choices = "fcc|bcc"}, b.lattice);
   v.real({.name = "spacing",
-          .meaning = "centre distance in a clump or box, in cell diameters",
+          .meaning = "centre distance in a clump or box, in diameters of its largest cell type",
           .range = {.low = 0, .high = 100, .low_open = true}},
          b.spacing);
   v.real({.name = "jitter",
-          .meaning = "random displacement in a clump or box, in cell diameters",
+          .meaning = "random displacement in a clump or box, in the same diameters",
           .range = kFraction},
          b.jitter);
   v.counts({.name = "grid",

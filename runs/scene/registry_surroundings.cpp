@@ -141,6 +141,13 @@ void describe_wall(Visitor& v, WallEntry& b) {
           .unit = "um",
           .range = kNotNegative},
          b.travel);
+  v.optional_real({.name = "opens",
+                   .meaning = "when the wall vanishes and lets the cells go",
+                   .dimension = kTime,
+                   .unit = "h",
+                   .range = kNotNegative,
+                   .automatic = "never"},
+                  b.opens);
   v.flag({.name = "mirror",
           .meaning = "true: stands for equal cells on the other side, no adhesion, no friction; "
                      "false: a surface of its own"},

@@ -7,6 +7,7 @@
 
 #include "core/nearest.hpp"
 #include "core/units.hpp"
+#include "runs/scene/frame_times.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -46,6 +47,16 @@ void check_time(const Scene& scene, Report& report) {
   }
 }
 
+/// Something must let go of what is measured to relax.
+void check_relaxation(const Scene& scene, Report& report) {
+  if (scene.experiment != "relaxation") return;
+  const double opens = next_opening(scene, -1);
+  if (opens < scene.time.end) return;
+  report.add_relation({"/experiment", "/walls", "/capsule", "/time/end"}, "",
+                      "needs a wall or a capsule that opens before /time/end (acinus explain "
+                      "wall.opens)");
+}
+
 /// Whether anything in the scene may touch anything else.
 bool may_touch(const Scene& scene) {
   const bool single = (scene.cells.source == "list" && scene.cells.list.size() == 1) ||
@@ -82,6 +93,17 @@ void check_start_up(const Scene& scene, Report& report) {
   }
 }
 
+void check_type_name(const Scene& scene, const std::string& type, const std::string& pointer,
+                     Report& report) {
+  const std::vector<std::string> names = type_names(scene);
+  if (type.empty() || names.empty() || scene.cell_types.contains(type)) return;
+  const std::string hint = nearest_name(type, names);
+  report.add_relation({pointer, "/cell_types"}, "",
+                      hint.empty()
+                          ? fmt::format("unknown cell type. Known: {}", fmt::join(names, ", "))
+                          : fmt::format("unknown cell type. Did you mean \"{}\"?", hint));
+}
+
 void check_list(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
   const std::vector<std::string> names = type_names(scene);
@@ -99,26 +121,47 @@ void check_list(const Scene& scene, Report& report) {
                             fmt::format("is missing: there are {} cell types: {}", names.size(),
                                         fmt::join(names, ", ")));
       }
-    } else if (!names.empty() && scene.cell_types.count(cell.type) == 0) {
-      const std::string hint = nearest_name(cell.type, names);
-      report.add_relation({pointer, "/cell_types"}, "",
-                          hint.empty()
-                              ? fmt::format("unknown cell type. Known: {}", fmt::join(names, ", "))
-                              : fmt::format("unknown cell type. Did you mean \"{}\"?", hint));
+    } else {
+      check_type_name(scene, cell.type, pointer, report);
     }
+  }
+}
+
+/// Types of cells that are not listed.
+void check_types(const Scene& scene, Report& report) {
+  const CellsBlock& cells = scene.cells;
+  if (cells.types.empty() && cells.source != "list" && scene.cell_types.size() > 1) {
+    report.add_relation(
+        {"/cells/types", "/cells/source"}, "",
+        fmt::format("is empty, but there are {} cell types: {}. Say which cells of "
+                    "source \"{}\" are of which",
+                    scene.cell_types.size(), fmt::join(type_names(scene), ", "), cells.source));
+  }
+  if (cells.types.empty()) return;
+  if (cells.source == "list") {
+    report.add_relation({"/cells/types", "/cells/source"}, "",
+                        "is for cells that are not listed: with /cells/source = \"list\" every "
+                        "cell names its type");
+    return;
+  }
+  bool anywhere = false;
+  for (std::size_t i = 0; i < cells.types.size(); ++i) {
+    const TypeShare& t = cells.types[i];
+    const std::string pointer = fmt::format("/cells/types/{}", i);
+    check_type_name(scene, t.type, pointer + "/type", report);
+    if (t.region) check_region(*t.region, pointer + "/region", report);
+    anywhere = anywhere || !t.region || t.region->kind == "all";
+  }
+  if (!anywhere) {
+    report.add_relation({"/cells/types"}, "",
+                        "needs an entry without a region, for cells that are in none");
   }
 }
 
 void check_cells(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
-  if (cells.source == "list") {
-    check_list(scene, report);
-  } else if (scene.cell_types.size() > 1) {
-    report.add_relation({"/cells/source", "/cell_types"}, "\"" + cells.source + "\"",
-                        fmt::format("makes cells of one type, but there are {} cell types. Use "
-                                    "source \"list\" to mix types",
-                                    scene.cell_types.size()));
-  }
+  if (cells.source == "list") check_list(scene, report);
+  check_types(scene, report);
   if (cells.source == "lobule" && !scene.lobule) {
     report.add_relation({"/cells/source", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
@@ -232,6 +275,7 @@ void check_region(const Region& region, const std::string& pointer, Report& repo
 
 void check_rules(const Scene& scene, Report& report) {
   check_time(scene, report);
+  check_relaxation(scene, report);
   check_integrator(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);

@@ -117,6 +117,7 @@ struct FrictionBlock {
   std::optional<double> dcm_cbm;     ///< empty = harmonic mean of the two
   std::optional<double> dcm_vessel;  ///< empty = the type's dcm ecm_friction
   std::optional<double> cbm_vessel;  ///< empty = the type's cbm ecm_friction
+  std::string form = "surface";      ///< of dcm_dcm; or "nodes": node to node
   double range = 0.3;                ///< um, friction range of DCM contacts
   std::string medium = "ecm";        ///< or "liquid"
   double viscosity = 1e-6;           ///< nN s/um^2 (1e-3 Pa s), medium = liquid: Stokes drag
@@ -189,10 +190,18 @@ struct CellEntry {
   Vec3 pull = Vec3::Zero();      ///< nN, constant force spread over the cell
 };
 
+/// A type that generated cells may be of.
+struct TypeShare {
+  std::string type;
+  double share = 1;              ///< weight against the other types for the same place
+  std::optional<Region> region;  ///< cells with their centre in it; empty = all in no region
+};
+
 struct CellsBlock {
   std::string source = "list";  ///< list | clump | box | fill | lobule
   std::string model = "zoom";   ///< dcm | cbm | zoom (zoom regions say which cells are DCM)
   std::vector<CellEntry> list;
+  std::vector<TypeShare> types;      ///< of generated cells; empty = the only type
   int count = 13;                    ///< clump: cells kept, nearest the centre first
   std::string lattice = "fcc";       ///< clump: fcc | bcc
   double spacing = 1.0;              ///< clump, box: centre distance in cell diameters
@@ -233,6 +242,7 @@ struct WallEntry {  ///< cells stay where (x - point).normal >= 0
   double travel = 0;    ///< um, where the motion stops
   bool mirror = true;   ///< stands for equal cells on the other side: no adhesion, no friction
   double adhesion = 0;  ///< nN/um between cell and wall, not mirror
+  std::optional<double> opens;  ///< s after t = 0, after which it is gone; empty = never
   std::optional<double> young;  ///< kPa, what spheres feel, not mirror; empty = rigid
   double poisson = 0;           ///< not mirror
 };
@@ -243,7 +253,7 @@ struct CapsuleEntry {  ///< rigid sphere seen from inside
   double radius = 0;
   double speed = 0;  ///< um/s, shrink rate from t = 0
   double min_radius = 0;
-  std::optional<double> opens;  ///< s after t = 0, from when on it is gone; empty = never
+  std::optional<double> opens;  ///< s after t = 0, after which it is gone; empty = never
 };
 
 struct StaticMeshEntry {
@@ -255,7 +265,10 @@ struct StaticMeshEntry {
 };
 
 struct OutputBlock {
-  double every = 1800;               ///< s
+  double every = 1800;  ///< s
+  /// Further frames when a wall or the capsule opens, so many for every factor ten of the time
+  /// since, from 1 s on; 0 = none.
+  int after_opening = 0;
   std::string compression = "fast";  ///< none | fast
   bool start_up = false;             ///< also write frames at t < 0
 };
@@ -265,7 +278,7 @@ struct Scene {
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
-  /// What is measured: free | lobule | patch | capsule | spheroid | monolayer.
+  /// What is measured: free | lobule | patch | capsule | relaxation | spheroid | monolayer.
   std::string experiment = "free";
   std::string model;  ///< dcm | cbm | zoom: replaces cells.model; "" = cells.model stays
   TimeBlock time;

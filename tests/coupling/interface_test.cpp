@@ -165,5 +165,22 @@ TEST(Step, PairForcesBalance) {
   EXPECT_LT(world.state.balance.torque, 1e-9);
 }
 
+// Friction from node to node pulls two cells apart from where they touch, but as hard on one as on
+// the other. What turns whole aggregates need not balance.
+TEST(NodeFriction, BalancesMomentum) {
+  std::vector<TestCell> cells = checkered_cube(23.5);
+  for (std::size_t k = 0; k < 6; ++k) cells[k].deformable = true;  // so that some meet each other
+  World world = make_test_world(cells);
+  world.params.dcm_contact.friction_form = dcm::FrictionForm::kNodes;
+  Workspace work;
+  size_workspace(world, work);
+  ASSERT_TRUE(run_until(world, work, 1200));
+  EXPECT_GT(work.system.point_links.size(), 500u);
+  std::printf("momentum %.3g, torque %.3g, friction torque %.3g\n", world.state.balance.momentum,
+              world.state.balance.torque, world.state.balance.friction_torque);
+  EXPECT_LT(world.state.balance.momentum, 1e-9);
+  EXPECT_LT(world.state.balance.torque, 1e-9);
+}
+
 }  // namespace
 }  // namespace acinus::coupling

@@ -279,8 +279,36 @@ TEST(SceneErrors, RulesBetweenKeys) {
       {"two types in a clump",
        changed(minimal("\"hepatocyte\": {}", R"("a": {}, "b": {})"), "\"cells\": {",
                R"("cells": {"source": "clump", )"),
-       R"(scene.json:4:23 /cells/source = "clump": makes cells of one type, but there are )"
-       R"(2 cell types. Use source "list" to mix types)"},
+       R"(scene.json:4:23 /cells/types: is empty, but there are 2 cell types: a, b. Say which )"
+       R"(cells of source "clump" are of which)"},
+      {"types of a list",
+       minimal("\"cells\": {", R"("cells": {"types": [{"type": "hepatocyte"}], )"),
+       R"(scene.json:4:22 /cells/types = [{...}]: is for cells that are not listed: with )"
+       R"(/cells/source = "list" every cell names its type)"},
+      {"unknown type of a share",
+       minimal("\"cells\": {", R"("cells": {"source": "box", "types": [{"type": "hepatozyte"}], )"),
+       R"(scene.json:4:49 /cells/types/0/type = "hepatozyte": unknown cell type. Did you mean )"
+       R"("hepatocyte"?)"},
+      {"no type for cells in no region",
+       minimal("\"cells\": {",
+               R"("cells": {"source": "box", "types": [{"type": "hepatocyte", "region": {"kind": )"
+               R"("sphere", "radius": "9 um"}}], )"),
+       R"(scene.json:4:39 /cells/types = [{...}]: needs an entry without a region, for cells )"
+       R"(that are in none)"},
+      {"region of a type",
+       minimal("\"cells\": {",
+               R"("cells": {"source": "box", "types": [{"type": "hepatocyte"}, )"
+               R"({"type": "hepatocyte", "region": {"kind": "half_space", "point": )"
+               R"(["0 um", "0 um", "0 um"], "normal": [0, 0, 0]}}], )"),
+       R"(scene.json:4:165 /cells/types/1/region/normal = [0, 0, 0]: must not be zero: it is the )"
+       R"(direction of the plane's normal)"},
+      {"share of a type",
+       minimal("\"cells\": {",
+               R"("cells": {"source": "box", "types": [{"type": "hepatocyte", "share": 0}], )"),
+       R"(scene.json:4:72 /cells/types/0/share = 0: must be > 0)"},
+      {"relaxation of what is never let go", with_block(R"("experiment": "relaxation")"),
+       R"(scene.json:1:17 /experiment = "relaxation": needs a wall or a capsule that opens )"
+       R"(before /time/end (acinus explain wall.opens))"},
       {"wall normal", wall(R"({"normal": [0, 0, 0]})"),
        R"(scene.json:1:24 /walls/0/normal = [0, 0, 0]: must not be zero: it is the )"
        R"(direction of the plane's normal)"},

@@ -226,8 +226,21 @@ TEST(Capsule, IsGoneOnceItOpens) {
   c.speed = 0.01;
   c.min_radius = 20;
   c.opens = 1000;
-  EXPECT_NEAR(gap_to_capsule(c, Vec3(0, 0, 30), 999).gap, 50 - 9.99 - 30, 1e-12);
-  EXPECT_EQ(gap_to_capsule(c, Vec3(0, 0, 30), 1000).gap, std::numeric_limits<double>::infinity());
+  // A step that ends as it opens still meets it.
+  EXPECT_NEAR(gap_to_capsule(c, Vec3(0, 0, 30), 1000).gap, 50 - 10 - 30, 1e-12);
+  EXPECT_EQ(gap_to_capsule(c, Vec3(0, 0, 30), 1000.001).gap,
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(Plane, IsGoneOnceItOpens) {
+  Plane p;
+  p.normal = Vec3(0, 0.6, 0.8);
+  p.speed = 0.01;
+  p.travel = 5;
+  p.opens = 1000;
+  EXPECT_NEAR(gap_to_plane(p, 3 * p.normal, 100).gap, 2, 1e-12);
+  EXPECT_NEAR(gap_to_plane(p, 3 * p.normal, 1000).gap, -2, 1e-12);
+  EXPECT_GT(gap_to_plane(p, 3 * p.normal, 1000.001).gap, 1e8);
 }
 
 TEST(Capsule, GapAndShrinking) {

@@ -1,0 +1,54 @@
+#include "calibration/recovery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace acinus::calibration {
+namespace {
+
+constexpr double kAtOnce = 10;    ///< s
+constexpr double kThere = 0.01;   ///< share of the way that does not count
+constexpr double kNoWay = 1e-12;  ///< relative to the values: nothing moved
+
+/// Value between two samples.
+double at(double time, std::span<const double> t, std::span<const double> y) {
+  const auto next = static_cast<std::size_t>(std::ranges::lower_bound(t, time) - t.begin());
+  if (next == 0) return y.front();
+  const double share = (time - t[next - 1]) / (t[next] - t[next - 1]);
+  return y[next - 1] + share * (y[next] - y[next - 1]);
+}
+
+/// When a falling line between samples k - 1 and k is at a level.
+double crossing(double level, std::size_t k, std::span<const double> t, std::span<const double> y) {
+  const double drop = y[k - 1] - y[k];
+  const double share = drop != 0 ? (y[k - 1] - level) / drop : 1;
+  return t[k - 1] + std::clamp(share, 0.0, 1.0) * (t[k] - t[k - 1]);
+}
+
+}  // namespace
+
+Recovery measure_recovery(std::span<const double> t, std::span<const double> y) {
+  Recovery r;
+  if (t.size() < 2 || !(t.back() > kAtOnce)) return r;
+  r.end = *std::ranges::max_element(y, {}, [&](double v) { return std::abs(v - y.front()); });
+  const double way = r.end - y.front();
+  if (!(std::abs(way) > kNoWay * std::max(std::abs(r.end), std::abs(y.front())))) return r;
+  std::vector<double> left;  // share of the way
+  for (const double v : y) left.push_back((r.end - v) / way);
+  const auto first_below = [&](double level, double after) {
+    for (std::size_t k = 1; k < t.size(); ++k)
+      if (t[k] > after && left[k] <= level) return std::max(after, crossing(level, k, t, left));
+    return t.back();
+  };
+  const double time = first_below(kThere, 0);
+  if (time > 0.5 * t.back()) return r;
+  r.time = time;
+  const double slow = at(kAtOnce, t, left);
+  r.sprung = 1 - slow;
+  // Of what is there already nothing is left to be slow.
+  if (slow > kThere) r.efold = first_below(slow / std::exp(1), kAtOnce) - kAtOnce;
+  return r;
+}
+
+}  // namespace acinus::calibration

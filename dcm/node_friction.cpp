@@ -1,0 +1,131 @@
+#include "dcm/node_friction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/threads.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+/// Contacts in a row that join the same two bodies.
+struct Run {
+  std::array<int, 2> body{};  ///< the lower one first
+  std::size_t first = 0, last = 0;
+};
+
+/// The runs between cells, sorted by pairs of bodies.
+std::vector<Run> find_runs(const ContactWorkspace& work) {
+  std::vector<Run> runs;
+  for (std::size_t k = 0, next; k < work.surface.size(); k = next) {
+    const int a = work.surface[k].body_a, b = work.surface[k].body_b;
+    for (next = k; next < work.surface.size() && work.surface[next].body_a == a &&
+                   work.surface[next].body_b == b;)
+      ++next;
+    if (a != b && static_cast<std::size_t>(b) < work.body.size())
+      runs.push_back({{std::min(a, b), std::max(a, b)}, k, next});
+  }
+  std::ranges::stable_sort(runs, {}, &Run::body);
+  return runs;
+}
+
+/// The nodes that a contact point stands for.
+std::span<const int> nodes_of(const contact::PointStencil& s) {
+  return {s.node.data(), static_cast<std::size_t>(s.n)};
+}
+
+/// Friction between the nodes of two bodies.
+class PairTable {
+ public:
+  void start(std::size_t n_a, std::size_t n_b) {
+    for (const Entry& e : entry_) slot_[slot_of(e.a, e.b)] = 0;
+    entry_.clear();
+    n_b_ = n_b;
+    if (slot_.size() < n_a * n_b) slot_.resize(n_a * n_b, 0);
+  }
+  void add(int a, int b, double friction) {
+    std::uint32_t& slot = slot_[slot_of(a, b)];
+    if (slot == 0) {
+      entry_.push_back({a, b, 0});
+      slot = static_cast<std::uint32_t>(entry_.size());
+    }
+    entry_[slot - 1].friction += friction;
+  }
+  template <class F>
+  void for_each(F f) const {
+    for (const Entry& e : entry_) f(e.a, e.b, e.friction);
+  }
+
+ private:
+  struct Entry {
+    int a, b;
+    double friction;  ///< nN s/um
+  };
+  std::size_t slot_of(int a, int b) const {
+    return static_cast<std::size_t>(a) * n_b_ + static_cast<std::size_t>(b);
+  }
+  std::size_t n_b_ = 0;
+  std::vector<std::uint32_t> slot_;  ///< [n_a][n_b] 1 + number of the entry; 0: none
+  std::vector<Entry> entry_;
+};
+
+/// Adds the contacts of a run to the pairs of its bodies' nodes.
+void add_run(const ContactParams& c, const LaneData& lanes, const ContactWorkspace& work,
+             const Run& run, PairTable& table) {
+  for (std::size_t k = run.first; k < run.last; ++k) {
+    const contact::SurfaceContact& s = work.surface[k];
+    const auto a = static_cast<std::size_t>(s.body_a), b = static_cast<std::size_t>(s.body_b);
+    const double half = 0.5 * point_area(*work.body[a].topology, c.quadrature, s.point,
+                                         lanes.radius[work.lane_of_body[a]]);
+    const double friction = half * cell_friction_at(c, work, s);
+    if (friction == 0) continue;
+    const contact::PointStencil at = contact::point_stencil(work.body[a], c.quadrature, s.point);
+    const auto own = nodes_of(at);
+    const auto& other = (*work.body[b].triangle)[static_cast<std::size_t>(s.triangle_b)];
+    const double each = friction / static_cast<double>(own.size() * other.size());
+    for (const int i : own)
+      for (const int j : other)
+        if (s.body_a < s.body_b)
+          table.add(i, j, each);
+        else
+          table.add(j, i, each);
+  }
+}
+
+}  // namespace
+
+void add_node_friction(const State& state, const ContactParams& c, const LaneData& lanes,
+                       const ContactWorkspace& work, std::vector<solve::PointLink>& links) {
+  if (c.friction_factor * c.cell_friction == 0) return;
+  const std::vector<Run> runs = find_runs(work);
+  std::vector<std::size_t> group;  // where each pair of bodies starts
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (k == 0 || runs[k].body != runs[k - 1].body) group.push_back(k);
+  group.push_back(runs.size());
+  const std::size_t n_group = group.size() - 1, n_part = count_threads(state.n_row());
+  std::vector<std::vector<solve::PointLink>> part(n_part);
+#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
+  for (std::size_t p = 0; p < n_part; ++p) {
+    PairTable table;
+    for (std::size_t g = p * n_group / n_part; g < (p + 1) * n_group / n_part; ++g) {
+      const auto [a, b] = runs[group[g]].body;
+      const auto& body_a = work.body[static_cast<std::size_t>(a)];
+      const auto& body_b = work.body[static_cast<std::size_t>(b)];
+      table.start(body_a.node.size(), body_b.node.size());
+      for (std::size_t k = group[g]; k < group[g + 1]; ++k) add_run(c, lanes, work, runs[k], table);
+      auto point = [&](int body, int node) {
+        return side_at(state, work.lane_of_body[static_cast<std::size_t>(body)],
+                       {1, {node, 0, 0}, {1, 0, 0}})
+            .point[0];
+      };
+      table.for_each([&](int i, int j, double friction) {
+        part[p].push_back({point(a, i), point(b, j), {}, 0, static_cast<float>(friction)});
+      });
+    }
+  }
+  for (const auto& found : part) links.insert(links.end(), found.begin(), found.end());
+}
+
+}  // namespace acinus::dcm

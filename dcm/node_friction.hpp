@@ -1,0 +1,29 @@
+#pragma once
+/// Friction between deformable cells from node to node, as the paper has it.
+///
+/// Of a contact with the area A the nodes of the one triangle rub on those of the other, isotropic
+/// in their relative velocity: "each node associated with this triangle acquires a contact area
+/// A/3" [VanLiedekerke2020, Eq. (1) term 2, and below Eq. (17)]. Each of the three nodes shares
+/// its third among the three opposite ones, so that all nine pairs have A/9: a sum that does not
+/// jump when another node becomes the nearest one. With the means v, w of the nodes' velocities
+///
+///     sum_ij A/9 |v_i - w_j|^2 = A (|v - w|^2 + mean |v_i - v|^2 + mean |w_j - w|^2)
+///
+/// The first part is the friction between facing places; the others hold back a triangle that
+/// stretches or turns although its partner goes along. They shrink with the square of the edges,
+/// and they are not blind to rotation (docs/decisions/draft-friction-form.md).
+
+#include <vector>
+
+#include "core/solve/links.hpp"
+#include "dcm/contact.hpp"
+
+namespace acinus::dcm {
+
+/// Appends the friction between the cells' nodes, one link for every pair of nodes. A contact point
+/// that is a node stands for itself, one in the middle of an edge for the two nodes of the edge.
+/// @pre all shares are known
+void add_node_friction(const State& state, const ContactParams& c, const LaneData& lanes,
+                       const ContactWorkspace& work, std::vector<solve::PointLink>& links);
+
+}  // namespace acinus::dcm

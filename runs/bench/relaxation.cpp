@@ -1,0 +1,129 @@
+#include "runs/bench/relaxation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "runs/calibrate/calibrate.hpp"
+#include "runs/scene/frame_times.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/scene/writer.hpp"
+#include "runs/stage.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr double kHour = 3600;
+constexpr double kHolds[] = {1 * kHour, 10 * kHour};
+
+/// What stands in one row.
+struct Variant {
+  std::string name, folder;
+  Scene scene;
+};
+
+/// Time at which squeezing stops.
+double squeezed(const Scene& scene) {
+  double t = scene.capsule.enabled
+                 ? (scene.capsule.radius - scene.capsule.min_radius) / scene.capsule.speed
+                 : 0;
+  for (const WallEntry& w : scene.walls)
+    if (w.speed != 0) t = std::max(t, w.travel / std::abs(w.speed));
+  return t;
+}
+
+/// The same squeeze, held for another time; what follows lasts as long as in the shipped scene.
+void hold(double time, Scene& scene) {
+  const double after = scene.time.end - next_opening(scene, -1), opens = squeezed(scene) + time;
+  for (WallEntry& w : scene.walls) w.opens = opens;
+  if (scene.capsule.enabled) scene.capsule.opens = opens;
+  scene.time.end = opens + after;
+}
+
+/// Deformable cells, or spheres if there are no nodes.
+Variant make_variant(const Scene& shipped, double held, int nodes, const std::string& form) {
+  Variant v{"", "", shipped};
+  hold(held, v.scene);
+  std::string what = form;
+  if (nodes > 0) {
+    v.scene.friction.form = form;
+    what = fmt::format("{} {}", form, nodes);
+  } else {
+    v.scene.model = v.scene.cells.model = "cbm";
+  }
+  for (auto& [name, type] : v.scene.cell_types) {
+    if (nodes > 0) type.dcm.nodes = nodes;
+    if (form == "plain") type.cbm.stiffness_correction = "none";
+  }
+  v.name = fmt::format("{}, held {:.3g} h, {}", shipped.capsule.enabled ? "capsule" : "plates",
+                       held / kHour, what);
+  v.folder = v.name;
+  std::ranges::replace(v.folder, ' ', '_');
+  std::erase(v.folder, ',');
+  set_canonical(v.scene);
+  return v;
+}
+
+std::vector<Variant> make_variants(const Scene& shipped) {
+  std::vector<Variant> all;
+  for (const double held : kHolds) {
+    for (const int nodes : {162, 642})
+      for (const char* form : {"surface", "nodes"})
+        all.push_back(make_variant(shipped, held, nodes, form));
+    for (const char* law : {"plain", "calibrated"})
+      all.push_back(make_variant(shipped, held, 0, law));
+  }
+  return all;
+}
+
+/// Figures of a run; those of one that ended early are of what it reached.
+BenchRow make_row(const Variant& v, const std::string& folder) {
+  const RunSummary summary = read_summary(folder);
+  BenchRow row{v.name, summary.dcm + summary.cbm, {}};
+  const double release = next_opening(v.scene, -1);
+  const std::vector<double>& time = series(summary, "time_s");
+  const auto at_release =
+      static_cast<std::size_t>(std::ranges::lower_bound(time, release - kSameTime) - time.begin());
+  for (const char* name : {"overlap", "height"}) {
+    const std::string n = name;
+    const std::vector<double>& y = series(summary, n == "overlap" ? n : n + "_um");
+    row.value.emplace_back(n + "_before", y.front());
+    if (at_release < y.size()) row.value.emplace_back(n + "_squeezed", y[at_release]);
+    for (const char* what : {"_back_10s", "_efold_h", "_return_h", "_recovered"})
+      row.value.emplace_back(n + what, series(summary, n + what).back());
+  }
+  row.value.emplace_back("followed_h", (time.back() - release) / kHour);
+  row.value.emplace_back("cpu_s", summary.cpu_s);
+  return row;
+}
+
+}  // namespace
+
+BenchTable bench_relaxation(const BenchOptions& options) {
+  const std::string root = options.folder.empty() ? "relaxation" : options.folder + "/relaxation";
+  BenchTable table;
+  for (const char* name : {"relaxation_capsule", "relaxation_plates"}) {
+    Scene shipped = read_scene(scene_folder() + "/" + name + ".json");
+    for (auto& [type_name, type] : shipped.cell_types) type.cbm.stiffness_correction = "auto";
+    const int stop = resolve_corrections(shipped, options.threads, false);
+    check(stop == 0, "bench relaxation: the calibration was stopped", Exit::kCannotContinue);
+    for (const Variant& v : make_variants(shipped)) {
+      const std::string folder = root + "/" + v.folder;
+      const int code =
+          run_stage(v.scene, {folder, options.threads, true, false, "acinus bench relaxation"});
+      check(
+          code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),
+          fmt::format("bench relaxation: the run in {} ended with exit code {}", folder, code),
+          Exit::kCannotContinue);
+      table.push_back(make_row(v, folder));
+      print_row(table.back());
+    }
+  }
+  return table;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,15 @@
+#pragma once
+/// How a squeezed clump comes back: protocols, forms of friction, meshes and models side by side.
+
+#include "runs/bench/bench.hpp"
+#include "runs/bench/table.hpp"
+
+namespace acinus::runs {
+
+/// The shipped relaxation_capsule and relaxation_plates, held for 1 h and for 10 h: deformable
+/// cells with both forms of friction and with 162 and 642 nodes, plain and calibrated spheres.
+/// Overlap and height as the experiment "relaxation" measures them. Runs stand in the folder
+/// "relaxation" of options.folder and are not made again.
+BenchTable bench_relaxation(const BenchOptions& options);
+
+}  // namespace acinus::runs

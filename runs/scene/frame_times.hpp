@@ -1,0 +1,19 @@
+#pragma once
+/// When frames are written besides the first and the last.
+
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+/// Times closer than this are the same moment, s.
+inline constexpr double kSameTime = 1e-6;
+
+/// The next moment after `time`, s after t = 0, at which a wall or the capsule opens; infinity if
+/// none does.
+double next_opening(const Scene& scene, double time);
+
+/// The next moment after `time` for which output.after_opening asks a frame: an opening, or 1 s
+/// times a power of 10^(1 / after_opening) after the last one. Infinity if there is none.
+double next_frame_of_opening(const Scene& scene, double time);
+
+}  // namespace acinus::runs
