@@ -17,7 +17,7 @@ using h5::Access;
 using h5::File;
 using h5::Format;
 
-constexpr std::int64_t kSchemaVersion[2] = {1, 0};
+constexpr std::int64_t kSchemaVersion[2] = {1, 1};
 
 std::string sidecar_of(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".xmf").string();
@@ -62,8 +62,8 @@ RunFile RunFile::create(const std::string& path,
   File file = create_skeleton(path, options.compression == "fast");
   create_index_rows(file, options.compression == "fast");
   create_event_rows(file);
-  file.create_group("/series");
-  file.write_attribute("/series", "n_row", std::span<const std::int64_t>({std::int64_t{0}}));
+  create_samples(file, kSeries);
+  create_samples(file, kObservables);
   file.create_group("/provenance");
   for (const auto& [key, value] : provenance) file.write_text("/provenance/" + key, value);
   file.close();
@@ -79,12 +79,13 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
     const File old = File::open(path, Access::kAppend);  // puts a killed session's journal in place
     check_run_schema(old);
     const RunFileCounts found = read_counts(old);
-    if (keep.frame > found.frame || keep.series > found.series || keep.event > found.event) {
-      throw Error(fmt::format("{}: holds {} frames, {} samples, {} events, but {}, {}, {} are to "
-                              "be continued. It belongs "
-                              "to another run or was cut; start again with --overwrite.",
-                              path, found.frame, found.series, found.event, keep.frame, keep.series,
-                              keep.event),
+    if (keep.frame > found.frame || keep.series > found.series || keep.event > found.event ||
+        keep.observable > found.observable) {
+      throw Error(fmt::format("{}: holds {} frames, {} samples, {} events, {} rows of observables, "
+                              "but {}, {}, {}, {} are to be continued. It belongs to another run "
+                              "or was cut; start again with --overwrite.",
+                              path, found.frame, found.series, found.event, found.observable,
+                              keep.frame, keep.series, keep.event, keep.observable),
                   Exit::kFileError);
     }
     const bool filtered = old.read_text_attribute("/", "compression") != "none";
@@ -97,14 +98,13 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
     } else {
       create_index_rows(fresh, filtered);
     }
-    copy_series(old, fresh, keep.series);
+    copy_samples(old, fresh, kSeries, keep.series);
+    copy_samples(old, fresh, kObservables, keep.observable);
     run.event_cell_written_ = copy_events(old, fresh, keep.event);
     fresh.copy_object_from(old, "/provenance");
-    run.series_name_ = read_series_names(old);
-    for (const auto& name : run.series_name_) {
-      run.series_unit_.push_back(old.read_text_attribute("/series/" + name, "unit"));
-    }
-    run.series_known_ = !run.series_name_.empty();
+    run.series_ = read_sample_names(old, kSeries);
+    run.series_known_ = !run.series_.name.empty();
+    run.observable_ = read_sample_names(old, kObservables);
     fresh.close();
   }
   run.written_ = keep;
@@ -114,8 +114,13 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
   return run;
 }
 
-void RunFile::append(const Frame& frame) {
+void RunFile::append(const Frame& frame, std::span<const SeriesValue> observables) {
   check_frame(frame);
+  RowNames observed = observable_;
+  if (!observables.empty()) {
+    if (observed.name.empty()) observed = names_of(observables, kObservables);
+    check_sample(observables, observed, kObservables);
+  }
   RunLayout layout = layout_of(frame);
   if (!frame_.empty()) {
     check_same_layout(layout_, layout);
@@ -131,13 +136,21 @@ void RunFile::append(const Frame& frame) {
                {},   {}};
   write_frame(w);
   write_index(file, static_cast<std::int64_t>(frame_.size()), w.index);
-  const RunFileCounts after{n_frame() + 1, counts().series, counts().event};
+  if (!observables.empty()) {
+    std::vector<double> row;
+    for (const SeriesValue& value : observables) row.push_back(value.value);
+    if (observable_.name.empty()) create_sample_rows(file, kObservables, observed);
+    write_samples(file, kObservables, observed, written_.observable, row);
+  }
+  const RunFileCounts after{n_frame() + 1, counts().series, counts().event,
+                            written_.observable + (observables.empty() ? 0 : 1)};
   const std::int64_t event_cell = write_rows_of_buffers(file);
   file.flush();
   write_counts(file, after);
   file.close();
 
   layout_ = std::move(layout);
+  observable_ = std::move(observed);
   frame_.push_back(std::move(w.index));
   last_hash_ = std::move(w.hash);
   keep_buffers_written(after, event_cell);
@@ -145,21 +158,10 @@ void RunFile::append(const Frame& frame) {
 }
 
 void RunFile::append_series(std::span<const SeriesValue> sample) {
-  for (const SeriesValue& value : sample)
-    check_finite(value.value, "series \"" + value.name + "\"");
-  if (series_name_.empty()) {
-    check_series_names(sample);
-    for (const SeriesValue& value : sample) {
-      series_name_.push_back(value.name);
-      series_unit_.push_back(value.unit);
-    }
-  }
-  bool same = sample.size() == series_name_.size();
-  for (std::size_t i = 0; same && i < sample.size(); ++i) {
-    same = sample[i].name == series_name_[i] && sample[i].unit == series_unit_[i];
-  }
-  check(same, "internal error: a series sample has other names, units or order than the first one",
-        Exit::kInternal);
+  RowNames first;
+  if (series_.name.empty()) first = names_of(sample, kSeries);
+  check_sample(sample, first.name.empty() ? series_ : first, kSeries);
+  if (!first.name.empty()) series_ = std::move(first);
   for (const SeriesValue& value : sample) series_buffer_.push_back(value.value);
   if (counts().series - written_.series >= options_.buffered_rows) flush();
 }
@@ -172,8 +174,8 @@ void RunFile::append_event(const Event& event) {
 
 std::int64_t RunFile::write_rows_of_buffers(File& file) {
   if (!series_buffer_.empty()) {
-    if (!series_known_) create_series_rows(file, series_name_, series_unit_);
-    write_series(file, series_name_, written_.series, series_buffer_);
+    if (!series_known_) create_sample_rows(file, kSeries, series_);
+    write_samples(file, kSeries, series_, written_.series, series_buffer_);
   }
   return write_events(file, written_.event, event_cell_written_, event_buffer_);
 }
@@ -207,9 +209,9 @@ void RunFile::set_provenance(const std::string& key, const std::string& value) {
 }
 
 RunFileCounts RunFile::counts() const {
-  const auto n_series = std::max<std::int64_t>(std::ssize(series_name_), 1);
+  const auto n_series = std::max<std::int64_t>(std::ssize(series_.name), 1);
   return {n_frame(), written_.series + std::ssize(series_buffer_) / n_series,
-          written_.event + std::ssize(event_buffer_)};
+          written_.event + std::ssize(event_buffer_), written_.observable};
 }
 
 }  // namespace acinus::io

@@ -2,12 +2,14 @@
 /// The run file: a VTKHDF time series of UnstructuredGrids with the analysis tables beside it, and
 /// the XDMF sidecar run.xmf for older readers. docs/view/README.md tells how to look at them.
 ///
-///   /VTKHDF           triangles (type 5) first, then one vertex (type 1) per sphere; one part per
-///   topology /cells            one row per biological cell and frame:  rows frame_offset[k] ..
-///   frame_offset[k + 1] /interface        one row per DCM-CBM pair in contact, ragged in the same
-///   way /series           one row per sample; attribute n_row counts the finished ones /events
-///   time, code, message, and ragged cell_id (cell_offset); attribute n_row /provenance       text,
-///   one dataset per key
+/// - /VTKHDF: triangles (type 5) first, then one vertex (type 1) per sphere; one part per topology
+/// - /cells: one row per biological cell and frame, rows frame_offset[k] .. frame_offset[k + 1]
+/// - /interface: one row per DCM-CBM pair in contact, ragged in the same way
+/// - /series: one row per sample; attribute n_row counts the finished ones
+/// - /observables: what a scene measures, one row per frame that has some; attribute n_row
+/// - /events: time, code, message, and ragged cell_id (cell_offset); attribute n_row
+/// - /provenance: text, one dataset per key
+///
 /// Every dataset has a `unit` attribute. /VTKHDF/Steps/@NSteps is written last: it counts the
 /// finished frames.
 
@@ -31,6 +33,7 @@ struct RunFileCounts {
   std::int64_t frame = 0;
   std::int64_t series = 0;
   std::int64_t event = 0;
+  std::int64_t observable = 0;
 };
 
 struct RunFileOptions {
@@ -62,7 +65,9 @@ class RunFile {
   ~RunFile();
 
   /// Writes a frame, and what is buffered, and renews the sidecar. Times must increase.
-  void append(const Frame& frame);
+  /// @param observables  one row of /observables, with the same names, units and order each time;
+  ///                     empty: this frame has none
+  void append(const Frame& frame, std::span<const SeriesValue> observables = {});
   /// One sample of the time series; all samples have the same names and units in the same order.
   void append_series(std::span<const SeriesValue> sample);
   void append_event(const Event& event);
@@ -89,9 +94,9 @@ class RunFile {
   StaticHashes last_hash_;         ///< of the last frame, to recognise what did not change
   RunFileCounts written_;          ///< rows in the file
   std::int64_t event_cell_written_ = 0;
-  std::vector<std::string> series_name_;  ///< in the order of the first sample
-  std::vector<std::string> series_unit_;
+  RowNames series_;                    ///< in the order of the first sample
   bool series_known_ = false;          ///< datasets exist in the file
+  RowNames observable_;                ///< of the first row; datasets exist if there are any
   std::vector<double> series_buffer_;  ///< [row][n_series]
   std::vector<Event> event_buffer_;
 };

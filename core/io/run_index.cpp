@@ -58,9 +58,11 @@ void check_run_schema(const File& file) {
 }
 
 RunFileCounts read_counts(const File& file) {
+  const bool observes = file.exists(kObservables);  // not before schema version 1.1
   return {file.read_attribute("/VTKHDF/Steps", "NSteps").at(0),
-          file.read_attribute("/series", "n_row").at(0),
-          file.read_attribute("/events", "n_row").at(0)};
+          file.read_attribute(kSeries, "n_row").at(0),
+          file.read_attribute("/events", "n_row").at(0),
+          observes ? file.read_attribute(kObservables, "n_row").at(0) : 0};
 }
 
 RunLayout read_layout(const File& file) {

@@ -47,6 +47,11 @@ struct FrameIndex {
   std::int64_t n_triangle() const { return (n_connectivity - n_cell) / 2; }
 };
 
+/// Names and units of the columns of /series or /observables, in the order of the first row.
+struct RowNames {
+  std::vector<std::string> name, unit;
+};
+
 /// Hashes of the last frame's topology and cell data; equal hashes mean nothing need be written
 /// again.
 struct StaticHashes {

@@ -25,6 +25,13 @@ Table read_table(const File& file, const std::string& where, const TableInfo& in
   return table;
 }
 
+std::map<std::string, std::string> read_units(const std::string& path, const std::string& group) {
+  const RowNames names = read_sample_names(File::open(path, Access::kRead), group);
+  std::map<std::string, std::string> result;
+  for (std::size_t i = 0; i < names.name.size(); ++i) result[names.name[i]] = names.unit[i];
+  return result;
+}
+
 }  // namespace
 
 RunReader::RunReader(const std::string& path) : path_(path) {
@@ -89,20 +96,19 @@ Table RunReader::cells(int k) const {
 }
 
 std::map<std::string, std::vector<double>> RunReader::series() const {
-  const File file = File::open(path_, Access::kRead);
-  std::map<std::string, std::vector<double>> result;
-  for (const auto& name : read_series_names(file)) {
-    result[name] = file.read_rows<double>("/series/" + name, 0, counts_.series);
-  }
-  return result;
+  return read_samples(File::open(path_, Access::kRead), kSeries, counts_.series);
 }
 
 std::map<std::string, std::string> RunReader::series_unit() const {
-  const File file = File::open(path_, Access::kRead);
-  std::map<std::string, std::string> result;
-  for (const auto& name : read_series_names(file))
-    result[name] = file.read_text_attribute("/series/" + name, "unit");
-  return result;
+  return read_units(path_, kSeries);
+}
+
+std::map<std::string, std::vector<double>> RunReader::observables() const {
+  return read_samples(File::open(path_, Access::kRead), kObservables, counts_.observable);
+}
+
+std::map<std::string, std::string> RunReader::observable_unit() const {
+  return read_units(path_, kObservables);
 }
 
 std::vector<Event> RunReader::events() const {

@@ -26,6 +26,9 @@ class RunReader {
   /// name -> values; see series_unit().
   std::map<std::string, std::vector<double>> series() const;
   std::map<std::string, std::string> series_unit() const;
+  /// The same of /observables; nothing where a file has none.
+  std::map<std::string, std::vector<double>> observables() const;
+  std::map<std::string, std::string> observable_unit() const;
   std::vector<Event> events() const;
   std::map<std::string, std::string> provenance() const;
 

@@ -218,8 +218,9 @@ void write_index(File& file, std::int64_t k, const FrameIndex& index) {
 }
 
 void write_counts(File& file, const RunFileCounts& counts) {
-  file.write_attribute("/series", "n_row", std::span(&counts.series, 1));
+  file.write_attribute(kSeries, "n_row", std::span(&counts.series, 1));
   file.write_attribute("/events", "n_row", std::span(&counts.event, 1));
+  file.write_attribute(kObservables, "n_row", std::span(&counts.observable, 1));
   file.write_attribute("/VTKHDF/Steps", "NSteps", std::span(&counts.frame, 1));
 }
 

@@ -3,6 +3,7 @@
 /// RunReader only.
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,8 +27,13 @@ inline constexpr int kMessageWidth = 512;
 void create_index_rows(h5::File& file, bool filtered);
 void create_field_rows(h5::File& file, const RunLayout& layout, bool filtered);
 void create_event_rows(h5::File& file);
-void create_series_rows(h5::File& file, std::span<const std::string> name,
-                        std::span<const std::string> unit);
+
+/// Groups whose rows are samples of named numbers.
+inline constexpr char kSeries[] = "/series", kObservables[] = "/observables";
+
+/// A group without columns or rows.
+void create_samples(h5::File& file, const std::string& group);
+void create_sample_rows(h5::File& file, const std::string& group, const RowNames& names);
 
 /// One frame on its way into the file.
 struct FrameWrite {
@@ -46,9 +52,9 @@ void write_frame(FrameWrite& w);
 /// Writes row `k` of /VTKHDF/Steps and of the tables' frame_offset.
 void write_index(h5::File& file, std::int64_t k, const FrameIndex& index);
 
-/// @param value  [row][n_series]
-void write_series(h5::File& file, std::span<const std::string> name, std::int64_t first_row,
-                  std::span<const double> value);
+/// @param value  [row][column]
+void write_samples(h5::File& file, const std::string& group, const RowNames& names,
+                   std::int64_t first_row, std::span<const double> value);
 /// Returns the number of rows of /events/cell_id afterwards.
 std::int64_t write_events(h5::File& file, std::int64_t first_row, std::int64_t n_cell_written,
                           std::span<const Event> event);
@@ -61,16 +67,24 @@ RunFileCounts read_counts(const h5::File& file);
 RunLayout read_layout(const h5::File& file);
 std::vector<FrameIndex> read_frame_index(const h5::File& file, const RunLayout& layout,
                                          std::int64_t n_frame);
-/// In the order of the samples.
-std::vector<std::string> read_series_names(const h5::File& file);
+/// In the order of the samples; nothing if there are none, or the group itself is missing.
+RowNames read_sample_names(const h5::File& file, const std::string& group);
+/// name -> the first n_row values.
+std::map<std::string, std::vector<double>> read_samples(const h5::File& file,
+                                                        const std::string& group,
+                                                        std::int64_t n_row);
 
 /// Copies into a file without /VTKHDF, /cells, /interface; sets NSteps.
 void copy_frames(const h5::File& from, h5::File& to, const RunLayout& layout,
                  const std::vector<FrameIndex>& frame);
-void copy_series(const h5::File& from, h5::File& to, std::int64_t n_row);
+void copy_samples(const h5::File& from, h5::File& to, const std::string& group, std::int64_t n_row);
 /// Returns the number of rows of /events/cell_id kept.
 std::int64_t copy_events(const h5::File& from, h5::File& to, std::int64_t n_row);
 
-void check_series_names(std::span<const SeriesValue> sample);
+/// The names and units of a first row. Throws Error(kInternal) on one that cannot be.
+RowNames names_of(std::span<const SeriesValue> sample, const std::string& group);
+/// Throws Error(kInternal) unless every value is finite and names, units and order are these.
+void check_sample(std::span<const SeriesValue> sample, const RowNames& names,
+                  const std::string& group);
 
 }  // namespace acinus::io

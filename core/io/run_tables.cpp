@@ -16,59 +16,89 @@ constexpr char kColumns[] = "columns";
 
 }  // namespace
 
-void check_series_names(std::span<const SeriesValue> sample) {
+RowNames names_of(std::span<const SeriesValue> sample, const std::string& group) {
+  RowNames names;
   std::set<std::string> seen;
-  check(!sample.empty(), "internal error: an empty series sample", Exit::kInternal);
+  check(!sample.empty(), "internal error: an empty sample of " + group, Exit::kInternal);
   for (const auto& value : sample) {
     const bool plain = !value.name.empty() &&
                        value.name.find_first_of("/\n") == std::string::npos && value.name != ".";
     check(plain && seen.insert(value.name).second && !value.unit.empty(),
-          fmt::format("internal error: series \"{}\" [{}] has a wrong or doubled name or no unit",
-                      value.name, value.unit),
+          fmt::format("internal error: {} \"{}\" [{}] has a wrong or doubled name or no unit",
+                      group, value.name, value.unit),
           Exit::kInternal);
+    names.name.push_back(value.name);
+    names.unit.push_back(value.unit);
   }
+  return names;
 }
 
-void create_series_rows(File& file, std::span<const std::string> name,
-                        std::span<const std::string> unit) {
+void check_sample(std::span<const SeriesValue> sample, const RowNames& names,
+                  const std::string& group) {
+  for (const SeriesValue& value : sample)
+    check_finite(value.value, group + " \"" + value.name + "\"");
+  bool same = sample.size() == names.name.size();
+  for (std::size_t i = 0; same && i < sample.size(); ++i)
+    same = sample[i].name == names.name[i] && sample[i].unit == names.unit[i];
+  check(same,
+        "internal error: a sample of " + group +
+            " has other names, units or order than the first one",
+        Exit::kInternal);
+}
+
+void create_samples(File& file, const std::string& group) {
+  file.create_group(group);
+  file.write_attribute(group, "n_row", std::span<const std::int64_t>({std::int64_t{0}}));
+}
+
+void create_sample_rows(File& file, const std::string& group, const RowNames& names) {
   std::string columns;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    file.create_rows<double>("/series/" + name[i], {.chunk_rows = kIndexChunkRows}, unit[i]);
-    columns += (i == 0 ? "" : "\n") + name[i];
+  for (std::size_t i = 0; i < names.name.size(); ++i) {
+    file.create_rows<double>(group + "/" + names.name[i], {.chunk_rows = kIndexChunkRows},
+                             names.unit[i]);
+    columns += (i == 0 ? "" : "\n") + names.name[i];
   }
-  file.write_attribute("/series", kColumns, columns);
+  file.write_attribute(group, kColumns, columns);
 }
 
-void write_series(File& file, std::span<const std::string> name, std::int64_t first_row,
-                  std::span<const double> value) {
-  const std::size_t n_row = value.size() / name.size();
+void write_samples(File& file, const std::string& group, const RowNames& names,
+                   std::int64_t first_row, std::span<const double> value) {
+  const std::size_t n_column = names.name.size(), n_row = value.size() / n_column;
   std::vector<double> column(n_row);
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    for (std::size_t row = 0; row < n_row; ++row) column[row] = value[row * name.size() + i];
-    file.write_rows<double>("/series/" + name[i], first_row, column);
+  for (std::size_t i = 0; i < n_column; ++i) {
+    for (std::size_t row = 0; row < n_row; ++row) column[row] = value[row * n_column + i];
+    file.write_rows<double>(group + "/" + names.name[i], first_row, column);
   }
 }
 
-std::vector<std::string> read_series_names(const File& file) {
-  std::vector<std::string> name;
-  if (!file.has_attribute("/series", kColumns)) return name;
-  const std::string text = file.read_text_attribute("/series", kColumns);
+RowNames read_sample_names(const File& file, const std::string& group) {
+  RowNames names;
+  if (!file.exists(group) || !file.has_attribute(group, kColumns)) return names;
+  const std::string text = file.read_text_attribute(group, kColumns);
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    name.push_back(text.substr(begin, end - begin));
+    names.name.push_back(text.substr(begin, end - begin));
+    names.unit.push_back(file.read_text_attribute(group + "/" + names.name.back(), "unit"));
     begin = end + 1;
   }
-  return name;
+  return names;
 }
 
-void copy_series(const File& from, File& to, std::int64_t n_row) {
-  to.create_group("/series");
-  for (const auto& name : read_series_names(from))
-    to.copy_rows_from(from, "/series/" + name, n_row);
-  if (from.has_attribute("/series", kColumns)) {
-    to.write_attribute("/series", kColumns, from.read_text_attribute("/series", kColumns));
-  }
-  to.write_attribute("/series", "n_row", std::span<const std::int64_t>(&n_row, 1));
+std::map<std::string, std::vector<double>> read_samples(const File& file, const std::string& group,
+                                                        std::int64_t n_row) {
+  std::map<std::string, std::vector<double>> result;
+  for (const auto& name : read_sample_names(file, group).name)
+    result[name] = file.read_rows<double>(group + "/" + name, 0, n_row);
+  return result;
+}
+
+void copy_samples(const File& from, File& to, const std::string& group, std::int64_t n_row) {
+  to.create_group(group);
+  const RowNames names = read_sample_names(from, group);
+  for (const auto& name : names.name) to.copy_rows_from(from, group + "/" + name, n_row);
+  if (!names.name.empty())
+    to.write_attribute(group, kColumns, from.read_text_attribute(group, kColumns));
+  to.write_attribute(group, "n_row", std::span<const std::int64_t>(&n_row, 1));
 }
 
 void create_event_rows(File& file) {

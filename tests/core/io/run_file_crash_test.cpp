@@ -69,7 +69,7 @@ TEST(RunFileCrash, KillAtAnyMomentLeavesEveryFinishedFrame) {
       for (int k = 0;; ++k) {
         const std::vector<SeriesValue> sample{{"time", "s", 1.0 * k}};
         run.append_series(sample);
-        run.append(changing_frame(k));
+        run.append(changing_frame(k), sample);
         report(pipe_end, k);
       }
     });
@@ -82,10 +82,11 @@ TEST(RunFileCrash, KillAtAnyMomentLeavesEveryFinishedFrame) {
       ASSERT_LE(n, finished + 2);  // killed after the write, before the report
       for (int k = 0; k < n; ++k) test::expect_same_frame(reader.frame(k), changing_frame(k));
       EXPECT_EQ(std::ssize(reader.series().at("time")), n);
+      EXPECT_EQ(std::ssize(reader.observables().at("time")), n);
       n_checked += n;
     }
     EXPECT_TRUE(read_text_file(folder / "run.xmf").ends_with("</Xdmf>\n"));
-    RunFile run = RunFile::open_for_append(path, {n, n, 0});
+    RunFile run = RunFile::open_for_append(path, {n, n, 0, n});
     run.append(changing_frame(n));
     test::expect_same_frame(RunReader(path).frame(n), changing_frame(n));
     test::expect_same_frame(RunReader(path).frame(0), changing_frame(0));

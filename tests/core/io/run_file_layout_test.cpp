@@ -101,7 +101,7 @@ void write_run(const std::string& path, int n, const char* compression) {
     const std::vector<SeriesValue> sample{{"time", "s", 1.0 * k}, {"energy", "fJ", 2.0 * k}};
     run.append_series(sample);
     run.append_event({1.0 * k, "step_rejected", {k}, "why"});
-    run.append(test::changing_frame(k));
+    run.append(test::changing_frame(k), {sample.data(), 1});
   }
 }
 
@@ -151,6 +151,7 @@ TEST(RunFileLayout, EveryDatasetHasItsTypeShapeAndUnit) {
       {"interface/gap", "f8", "um", 0, 0},
       {"series/time", "f8", "s", 0, 0},
       {"series/energy", "f8", "fJ", 0, 0},
+      {"observables/time", "f8", "s", 0, 0},
       {"events/time", "f8", "s", 0, 0},
       {"events/code", "text", "text", 0, 0},
       {"events/message", "text", "text", 0, 0},
@@ -185,7 +186,7 @@ TEST(RunFileLayout, HeadersAreWhatVtkCompares) {
   const Open file(folder / "run.vtkhdf");
   EXPECT_EQ(file.attribute("/VTKHDF", "Version"), (std::vector<std::int64_t>{2, 0}));
   EXPECT_EQ(file.attribute("/VTKHDF/Steps", "NSteps"), std::vector<std::int64_t>{3});
-  EXPECT_EQ(file.attribute("/", "schema_version"), (std::vector<std::int64_t>{1, 0}));
+  EXPECT_EQ(file.attribute("/", "schema_version"), (std::vector<std::int64_t>{1, 1}));
   const hid_t a = H5Aopen_by_name(file.id, "/VTKHDF", "Type", H5P_DEFAULT, H5P_DEFAULT),
               type = H5Aget_type(a);
   EXPECT_EQ(H5Tis_variable_str(type), 0);

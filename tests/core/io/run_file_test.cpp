@@ -130,6 +130,70 @@ TEST(RunFile, SamplesBetweenFramesSurviveARestart) {
   EXPECT_EQ(RunReader(path).series().at("time"), (std::vector<double>{0, 1, 2, 3, 4, 50}));
 }
 
+/// What is measured of frame k.
+std::vector<SeriesValue> observed(int k) {
+  return {{"time", "s", 60.0 * k}, {"cells", "1", 3.0 + k}, {"area", "um^2", 0.25 * k * k}};
+}
+
+std::vector<double> column(const RunReader& reader, const std::string& name) {
+  return reader.observables().at(name);
+}
+
+TEST(RunFile, ObservablesAreReadableBetweenFrames) {
+  const Folder folder("run_file_observed");
+  const std::string path = folder / "run.vtkhdf";
+  RunFile run = RunFile::create(path, {});
+  run.append(make_frame(0, 1, 1));  // of the start-up: nothing is measured yet
+  EXPECT_TRUE(RunReader(path).observables().empty());
+  for (int k = 1; k < 5; ++k) {
+    run.append(make_frame(k, 1, 1), observed(k));
+    const RunReader reader(path);  // a second handle, while the writer lives
+    ASSERT_EQ(reader.counts().observable, k);
+    EXPECT_EQ(column(reader, "time").back(), 60.0 * k);
+    EXPECT_EQ(column(reader, "area").back(), 0.25 * k * k);
+    EXPECT_EQ(reader.observable_unit().at("area"), "um^2");
+  }
+}
+
+TEST(RunFile, ObservablesAreCutBackAndGoOn) {
+  const Folder folder("run_file_observed_cut");
+  const std::string path = folder / "run.vtkhdf";
+  RunFileCounts at[6];
+  {
+    RunFile run = RunFile::create(path, {});
+    for (int k = 0; k < 6; ++k) {
+      run.append(make_frame(k, 1, 1),
+                 k < 2 ? std::vector<SeriesValue>{} : observed(k));  // two of the start-up
+      at[k] = run.counts();
+    }
+  }
+  for (const int keep : {6, 4, 3, 1}) {
+    RunFile run = RunFile::open_for_append(path, at[keep - 1]);
+    EXPECT_EQ(RunReader(path).counts().observable, std::max(0, keep - 2));
+    for (int k = keep; k < 6; ++k)
+      run.append(make_frame(k, 1, 1), k < 2 ? std::vector<SeriesValue>{} : observed(k));
+    run.close();
+    EXPECT_EQ(column(RunReader(path), "cells"), (std::vector<double>{5, 6, 7, 8}));
+  }
+}
+
+TEST(RunFile, RefusesObservablesThatAreNotFiniteOrChange) {
+  const Folder folder("run_file_observed_bad");
+  const std::string path = folder / "run.vtkhdf";
+  RunFile run = RunFile::create(path, {});
+  run.append(make_frame(1, 1, 1), observed(1));
+  std::vector<SeriesValue> bad = observed(2);
+  bad[1].value = std::numeric_limits<double>::infinity();
+  expect_error(Exit::kInternal, "\"cells\" is inf", [&] { run.append(make_frame(2, 1, 1), bad); });
+  bad = observed(2);
+  bad.pop_back();
+  expect_error(Exit::kInternal, "other names", [&] { run.append(make_frame(2, 1, 1), bad); });
+  run.append(make_frame(2, 1, 1), observed(2));
+  const RunReader reader(path);
+  EXPECT_EQ(reader.n_frame(), 2);
+  EXPECT_EQ(column(reader, "cells"), (std::vector<double>{4, 5}));
+}
+
 TEST(RunFile, RefusesToContinueWhatIsNotThere) {
   const Folder folder("run_file_short");
   const std::string path = folder / "run.vtkhdf";
