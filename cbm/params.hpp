@@ -12,12 +12,12 @@ struct Params {
   double young = 0.45;      ///< kPa, mean over cells
   double young_spread = 0;  ///< relative standard deviation from cell to cell
   double poisson = 0.47;
-  double medium_friction = 0;  ///< nN s/um^3, gamma_ECM; used unless viscosity > 0
-  double viscosity = 0;        ///< nN s/um^2, Stokes drag 6 pi eta R
+  double medium_friction = 0;      ///< nN s/um^3, gamma_ECM; used unless viscosity > 0
+  double viscosity = 0;            ///< nN s/um^2, Stokes drag 6 pi eta R
   bool whole_medium_area = false;  ///< the medium is felt on the whole surface, touching or not
-  double diffusion = 0;        ///< um^2/s
-  double adhesion = 0;         ///< nN/um
-  double vessel_friction = 0;  ///< nN s/um^3
+  double diffusion = 0;            ///< um^2/s
+  double adhesion = 0;             ///< nN/um
+  double vessel_friction = 0;      ///< nN s/um^3
   StiffnessLaw correction;
 };
 

@@ -62,18 +62,18 @@ struct EntryRate {
 /// Cells rest until they enter the cycle, and rest again after division.
 struct Proliferation {
   std::vector<EntryRate> rate;
-  double thickness = 24;             ///< um, of a layer
-  bool edge_at_start = false;        ///< layers are counted from start_edge for ever
-  double start_edge = 0;             ///< um from the vein axis
-  int cells = 0;                     ///< wanted in the end; 0: no limit
-  Vec3 axis_point = Vec3::Zero();    ///< the vein axis is vertical through it
+  double thickness = 24;           ///< um, of a layer
+  bool edge_at_start = false;      ///< layers are counted from start_edge for ever
+  double start_edge = 0;           ///< um from the vein axis
+  int cells = 0;                   ///< wanted in the end; 0: no limit
+  Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through it
 };
 
 struct LifeParams {
   std::vector<CycleParams> type;  ///< [cell type]
   std::vector<LifeRule> rule;
   std::optional<Proliferation> proliferation;  ///< empty: all cells are always in the cycle
-  double grid = 600;  ///< s, how often rules and inhibition are looked at
+  double grid = 600;                           ///< s, how often rules and inhibition are looked at
   std::uint64_t seed = 1;
   bool remesh = true;  ///< meshes that degenerate are mended
 };

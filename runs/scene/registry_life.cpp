@@ -75,12 +75,13 @@ void describe_proliferation(Visitor& v, ProliferationBlock& b) {
           .meaning = "rates at which resting cells enter the cycle, by layer and time",
           .item = "life.proliferation.rates"},
          b.rates, describe_entry_rate);
-  v.text({.name = "edge",
-          .meaning = "edge of the lesion from which layers are counted: as it stands now (mean over "
-                     "slices of height of the distance from the vein to the nearest centre), or "
-                     "as it was at the start (lobule.lesion_radius)",
-          .choices = "now|start"},
-         b.edge);
+  v.text(
+      {.name = "edge",
+       .meaning = "edge of the lesion from which layers are counted: as it stands now (mean over "
+                  "slices of height of the distance from the vein to the nearest centre), or "
+                  "as it was at the start (lobule.lesion_radius)",
+       .choices = "now|start"},
+      b.edge);
   v.optional_real({.name = "layer_thickness",
                    .meaning = "thickness of a layer of cells",
                    .dimension = kLength,

@@ -49,7 +49,8 @@ void check_proliferation(const Scene& scene, Report& report) {
     const EntryRateBlock& r = p.rates[i];
     const std::string at = fmt::format("{}/rates/{}", pointer, i);
     if (r.last_layer < r.first_layer)
-      report.add_relation({at + "/last_layer", at + "/first_layer"}, fmt::format("{}", r.last_layer),
+      report.add_relation({at + "/last_layer", at + "/first_layer"},
+                          fmt::format("{}", r.last_layer),
                           fmt::format("must not be below {}/first_layer = {}", at, r.first_layer));
     if (r.until && *r.until <= r.from)
       report.add_relation({at + "/until", at + "/from"}, hours(*r.until),

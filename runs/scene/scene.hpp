@@ -75,7 +75,8 @@ struct CycleBlock {
 };
 
 /// Factor on the growth rate. pressure: 1/(1 + (p/p0)^n) with p the contact pressure, 0 if cells
-/// are pulled; density: the same with the number of cells around; volume: x^n/(1 + x^n) with x = (V/V0)/threshold, for deformable cells only.
+/// are pulled; density: the same with the number of cells around; volume: x^n/(1 + x^n) with x =
+/// (V/V0)/threshold, for deformable cells only.
 struct InhibitionBlock {
   std::string by = "none";        ///< none | pressure | volume | density
   double pressure_threshold = 0;  ///< kPa, p0 where growth is halved
@@ -126,12 +127,12 @@ struct FrictionBlock {
 
 struct MotilityBlock {
   bool random = true;
-  std::string directions = "space";  ///< or "plane": the random force is horizontal
-  double grid = 60;                  ///< s, time grid of the random force
-  double leader_force = 0;           ///< nN, toward the vein axis
-  double leader_grid = 600;          ///< s, re-evaluation of who leads
-  std::string leaders = "foremost";  ///< foremost | front | sector | nearest
-  int leader_count = 24;             ///< nearest: cells; sector: sectors of the whole circle
+  std::string directions = "space";    ///< or "plane": the random force is horizontal
+  double grid = 60;                    ///< s, time grid of the random force
+  double leader_force = 0;             ///< nN, toward the vein axis
+  double leader_grid = 600;            ///< s, re-evaluation of who leads
+  std::string leaders = "foremost";    ///< foremost | front | sector | nearest
+  int leader_count = 24;               ///< nearest: cells; sector: sectors of the whole circle
   std::optional<double> leader_slice;  ///< um, sector: height of a slice; empty = cell diameter
 };
 

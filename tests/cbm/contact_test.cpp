@@ -448,6 +448,13 @@ TEST(MediumFriction, OfALoneCellInTheMatrix) {
   EXPECT_NEAR(medium_friction(p, 12, 0), 905, 1);  // nN s/um
 }
 
+TEST(MediumFriction, OnTheWholeSurfaceDoesNotMindNeighbours) {
+  Params p;
+  p.medium_friction = 0.5;
+  p.whole_medium_area = true;
+  EXPECT_EQ(medium_friction(p, 12, 1500), medium_friction(p, 12, 0));
+}
+
 TEST(Params, YoungFromBulkMatchesReference) {
   const auto rows = test::read_reference("elastic_relation.csv");
   if (rows.empty()) GTEST_SKIP() << "no reference tables";

@@ -28,9 +28,8 @@ World make_layers(int n_layer, int copies, const Proliferation& p) {
 
 int count_growing(const World& w) {
   int n = 0;
-  for_each_cell(w.state, [&](const Cell& c) {
-    n += w.state.cycle[c.index].fate == Fate::kGrow ? 1 : 0;
-  });
+  for_each_cell(w.state,
+                [&](const Cell& c) { n += w.state.cycle[c.index].fate == Fate::kGrow ? 1 : 0; });
   return n;
 }
 

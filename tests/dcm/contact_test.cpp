@@ -267,6 +267,27 @@ TEST(Contacts, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(force[0], force[2]);
 }
 
+// With the medium everywhere neighbours take nothing off: the areas make the reference surface.
+TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
+  for (const auto q : kAll) {
+    Clump c = make_surrounded_clump(92);
+    connect_meshes(c.around);
+    c.options.quadrature = q;
+    c.options.whole_medium_area = true;
+    c.find();
+    std::vector<double> medium_area;
+    compute_medium_areas(c.state, c.options, c.lanes, c.work, medium_area);
+    for (std::size_t lane : c.work.lane_of_body) {
+      const dcm::Group& g = c.state.group[lane / kLanes];
+      double sum = 0;
+      for (int i = 0; i < g.topology->n_node; ++i)
+        sum += medium_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + lane % kLanes];
+      const double surface = g.topology->rest_area * c.lanes.radius[lane] * c.lanes.radius[lane];
+      EXPECT_NEAR(sum, surface, 1e-12 * surface);
+    }
+  }
+}
+
 // A point's weight goes chi to its contacts and 1 - chi to the medium.
 TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
   for (const auto q : kAll) {

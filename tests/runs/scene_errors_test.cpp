@@ -131,6 +131,27 @@ TEST(SceneErrors, LongListsOfMistakesAreCut) {
   EXPECT_NE(message.find("... and 301 more"), std::string::npos);
 }
 
+TEST(SceneErrors, Proliferation) {
+  const auto faults = [](const std::string& rates, const std::string& more) {
+    return failure(
+        with_block(R"("life": {"proliferation": {"rates": [)" + rates + "]" + more + "}}"),
+        {R"(cell_types.hepatocyte.cycle.time="24 h")"});
+  };
+  EXPECT_EQ(faults(R"({"rate": "1 1/h"})", ""), "");
+  EXPECT_NE(faults(R"({"first_layer": 3, "last_layer": 2, "rate": "1 1/h"})", "")
+                .find("/life/proliferation/rates/0/last_layer = 2: must not be below "
+                      "/life/proliferation/rates/0/first_layer = 3"),
+            std::string::npos);
+  EXPECT_NE(faults(R"({"rate": "1 1/h", "from": "2 h", "until": "1 h"})", "")
+                .find("/life/proliferation/rates/0/until = \"1 h\": must be after"),
+            std::string::npos);
+  EXPECT_NE(faults(R"({"rate": "1 1/h"})", R"(, "edge": "start")").find("needs a lobule block"),
+            std::string::npos);
+  EXPECT_NE(
+      failure(with_block(R"("life": {"proliferation": {}})")).find("no cell type has a cycle"),
+      std::string::npos);
+}
+
 TEST(SceneErrors, RulesOfLife) {
   const auto cell = [](const std::string& body) {
     return minimal(R"({"hepatocyte": {}})", R"({"hepatocyte": {)" + body + "}}");

@@ -118,6 +118,37 @@ TEST(Scene, LifeIsRead) {
   EXPECT_EQ(die.share, 0.25);
 }
 
+TEST(Scene, ProliferationIsRead) {
+  const Scene scene = parse_scene(
+      R"({"time": {"end": "1 h"}, "cell_types": {"a": {"cycle": {"time": "24 h"},
+          "inhibition": {"by": "density", "density_threshold": "1e-4 1/um^3"}}},
+          "cells": {"source": "clump", "model": "cbm"},
+          "friction": {"medium_area": "whole"},
+          "motility": {"leaders": "sector", "leader_count": 36, "leader_slice": "20 um"},
+          "life": {"proliferation": {"cells": 138, "layer_thickness": "20 um", "rates": [
+            {"rate": "0.03 1/h", "until": "2 days"},
+            {"first_layer": 2, "last_layer": 5, "rate": "0.01 1/h", "from": "6 h"}]}}})",
+      "p.json");
+  EXPECT_EQ(scene.cell_types.at("a").inhibition.density_threshold, 1e-4);
+  EXPECT_EQ(scene.friction.medium_area, "whole");
+  EXPECT_EQ(scene.motility.leaders, "sector");
+  EXPECT_EQ(scene.motility.leader_count, 36);
+  EXPECT_EQ(scene.motility.leader_slice, 20);
+  ASSERT_TRUE(scene.life.proliferation);
+  const ProliferationBlock& p = *scene.life.proliferation;
+  EXPECT_EQ(p.cells, 138);
+  EXPECT_EQ(p.edge, "now");
+  EXPECT_EQ(p.layer_thickness, 20);
+  ASSERT_EQ(p.rates.size(), 2u);
+  EXPECT_EQ(p.rates[0].first_layer, 1);
+  EXPECT_EQ(p.rates[0].last_layer, 1);
+  EXPECT_NEAR(p.rates[0].rate, 0.03 / 3600, 1e-18);
+  EXPECT_EQ(p.rates[0].until, 2 * 86400);
+  EXPECT_EQ(p.rates[1].last_layer, 5);
+  EXPECT_EQ(p.rates[1].from, 6 * 3600);
+  EXPECT_FALSE(p.rates[1].until);
+}
+
 TEST(Scene, WithoutACycleNothingGrows) {
   const Scene scene = parse_scene(kMinimal, "scene.json");
   const CellType& type = scene.cell_types.at("hepatocyte");

@@ -1,0 +1,98 @@
+/// Contacts that close within a step are felt in that step.
+
+#include "coupling/closing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "coupling/integrators.hpp"
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A shell just above a wall, pulled down so fast that a step of a minute would carry it through.
+World falling_cell(Integrator integrator) {
+  World w = make_test_world({{Vec3(0, 0, 12.3), true, Vec3(0, 0, -3)}}, 60, 162);
+  contact::Plane floor;
+  floor.material.mirror = true;
+  w.params.around.planes = {floor};
+  w.params.numerics.adaptive = true;
+  w.params.numerics.tolerance = 10;  // the error estimate is not what is looked at
+  w.params.numerics.cg = {1e-10, 20000};
+  w.params.numerics.integrator = integrator;
+  return w;
+}
+
+double lowest(const World& w) {
+  std::vector<Vec3> node;
+  dcm::copy_nodes(w.state.dcm, 0, node);
+  double z = node.front().z();
+  for (const Vec3& x : node) z = std::min(z, x.z());
+  return z;
+}
+
+TEST(Closing, AStepStopsAtAWallItWouldHavePassed) {
+  World w = falling_cell(Integrator::kLinearlyImplicit);
+  const double free_fall = 60 * 3 / (0.1 * mesh::shared_icosphere(162).rest_area * 144);
+  ASSERT_GT(free_fall, 0.3 + kControlledDepth) << "else there is nothing to see";
+  Workspace work;
+  size_workspace(w, work);
+  const StepResult step = advance(w, work, 60);
+  ASSERT_TRUE(step.accepted);
+  std::printf("falls %.2f um freely, stands at %.4f um\n", free_fall, lowest(w));
+  EXPECT_EQ(step.rejections, 0);
+  EXPECT_EQ(step.step, 60);
+  EXPECT_GT(w.state.clock.solves, 1);
+  // What holds 3 nN in the wall: a few nodes of 11 um^2 at 5 nN/um^3.
+  EXPECT_GT(lowest(w), -3 / (5 * 9.8));
+  EXPECT_LT(lowest(w), 0.05);
+}
+
+TEST(Closing, EndsWhereBackwardEulerEnds) {
+  std::vector<double> end[2];
+  for (int k = 0; k < 2; ++k) {
+    World w = falling_cell(k == 0 ? Integrator::kLinearlyImplicit : Integrator::kNewton);
+    Workspace work;
+    size_workspace(w, work);
+    ASSERT_TRUE(advance(w, work, 60).accepted);
+    end[k] = gather_positions(w.state);
+  }
+  double largest = 0;
+  for (std::size_t k = 0; k < end[0].size(); ++k)
+    largest = std::max(largest, std::abs(end[0][k] - end[1][k]));
+  std::printf("farthest node from the solved equation: %.2g um\n", largest);
+  // The rest of the law (shape, volume) is linearised at the start: second order in the 1 um moved
+  // over the radius.
+  EXPECT_LT(largest, 0.05);
+}
+
+TEST(Closing, LeavesStepsAloneThatStayClear) {
+  World w = falling_cell(Integrator::kLinearlyImplicit);
+  w.state.dcm.pull[0] = Vec3(0, 0, -0.3);
+  Workspace work;
+  size_workspace(w, work);
+  ASSERT_TRUE(advance(w, work, 60).accepted);
+  EXPECT_EQ(w.state.clock.solves, 1);
+}
+
+TEST(Closing, BetweenCellsKeepsTheBalanceOfForces) {
+  World w = make_test_world(
+      {{Vec3(-12.6, 0, 0), true, Vec3(4, 0, 0)}, {Vec3(12.6, 0, 0), true, Vec3(-4, 0, 0)}});
+  w.params.dcm[0].adhesion = 0;
+  w.params.dcm_contact.cell_friction = 0;
+  w.params.numerics.adaptive = true;
+  w.params.numerics.tolerance = 10;
+  w.params.numerics.cg = {1e-10, 20000};
+  Workspace work;
+  size_workspace(w, work);
+  const StepResult step = advance(w, work, 60);
+  ASSERT_TRUE(step.accepted) << step.cause;
+  EXPECT_EQ(step.rejections, 0);
+  EXPECT_GT(w.state.clock.solves, 1);
+  EXPECT_LT(w.state.balance.momentum, 1e-9);
+}
+
+}  // namespace
+}  // namespace acinus::coupling
