@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "core/unit_scale.hpp"
 
 namespace acinus {
 namespace {
@@ -346,6 +347,13 @@ double parse_quantity(std::string_view text, Dimension needed) {
         fmt::format("\"{}\": has dimension {}, needed {}, e.g. \"{}\"", text,
                     described(scale.dimension), with_article(needed), dimension_example(needed)));
   return scaled(number, scale, text);
+}
+
+UnitScale scale_of_unit(std::string_view unit) {
+  if (unit.empty() || unit == "1") return {};
+  if (unit.starts_with("1/")) unit.remove_prefix(1);  // a number is no unit
+  const Scale scale = UnitParser(unit, unit).parse();
+  return {scale.dimension, scaled(scan_number("1"), scale, unit)};
 }
 
 std::string format_quantity(double value, Dimension dimension, std::string_view unit) {

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/sphere.hpp"
-#include "coupling/life/rules.hpp"
 #include "coupling/measure.hpp"
 
 namespace acinus::coupling {
@@ -117,7 +116,6 @@ std::string update_phase(World& world, Workspace& work) {
   if (!rest && !capped) return {};
   enter(c, Phase::kRun);
   c.origin = c.time;
-  begin_life(world);
   return fmt::format(
       "t = 0 after {:.2f} h of start-up: {} (fastest node {:.2g} um/min, pressures change {:.2g} "
       "%/h)",

@@ -18,7 +18,9 @@ double time_to_phase_event(const World& world);
 
 /// Moves on to the next phase when its time has come. Returns what happened, empty if nothing.
 /// The settling phase ends when nodes move slower than the speed tolerance and pressures change by
-/// less than the pressure tolerance, or at its cap, which the returned text says.
+/// less than the pressure tolerance, or at its cap, which the returned text says. Life begins with
+/// begin_life, which the caller calls in Phase::kRun: between the two stands the state that other
+/// runs may start from.
 std::string update_phase(World& world, Workspace& work);
 
 }  // namespace acinus::coupling

@@ -22,6 +22,7 @@
 #include "runs/build_life.hpp"
 #include "runs/cell_types.hpp"
 #include "runs/place_cells.hpp"
+#include "runs/start_state.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -258,6 +259,11 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   // An explicit step's length is set by stability, not by what an error estimate asks for.
   if (p.numerics.integrator == coupling::Integrator::kExplicitEuler) p.numerics.adaptive = false;
 
+  if (!scene.start_up.from.empty()) {
+    built.notes.push_back(take_start(scene, world.state));
+    coupling::begin_life(world);
+    return built;
+  }
   std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.around);
   for (PlacedCell& c : cells) {  // older cells are larger
     const auto type = static_cast<std::size_t>(

@@ -23,6 +23,10 @@
 #include "runs/scene/reader.hpp"
 #include "runs/scene/registry.hpp"
 #include "runs/scene/schema.hpp"
+#include "runs/study/library.hpp"
+#include "runs/study/registry.hpp"
+#include "runs/study/run_study.hpp"
+#include "runs/study/study_command.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -42,6 +46,8 @@ struct Arguments {
   std::string relaxation_time;                   ///< calibrate
   std::string scene, comparison;                 ///< compare
   CompareScenes compare;
+  StudyOptions study;
+  bool study_schema = false;
 };
 
 void add_set(CLI::App& command, RunOptions& run) {
@@ -200,16 +206,18 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_set(*validate, arguments.run);
   validate->add_flag("--resolved", arguments.resolved, "print the scene with every default");
 
-  add_command(app, "schema", "print the JSON Schema of scenes",
-              "acinus schema > scene.schema.json");
+  CLI::App* schema = add_command(app, "schema", "print the JSON Schema of scenes",
+                                 "acinus schema > scene.schema.json");
+  schema->add_flag("--study", arguments.study_schema, "of studies instead");
 
   CLI::App* explain =
       add_command(app, "explain", "say what a scene key means; without KEY, list all",
                   "acinus explain cell.radius");
-  CLI::Option* key = explain->add_option("KEY", arguments.key, "path or last name of a key");
+  CLI::Option* key = explain->add_option("KEY", arguments.key,
+                                         "path or last name of a key; study.KEY: of studies");
   explain->add_flag("--markdown", arguments.markdown, "all keys as a Markdown page")->excludes(key);
 
-  add_command(app, "list", "list the shipped scenes and the experiments", "acinus list");
+  add_command(app, "list", "list the shipped scenes, studies and the experiments", "acinus list");
 
   CLI::App* fresh = add_command(app, "new", "copy a shipped scene into a folder to change it",
                                 "acinus new two_cells my_cells");
@@ -218,6 +226,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
 
   add_calibrate(app, arguments);
   add_compare(app, arguments);
+  add_study_command(app, arguments.study);
 
   CLI::App* bench =
       add_command(app, "bench", "measure speed and error; without NAME, list the names",
@@ -308,7 +317,11 @@ int do_explain(const Arguments& arguments) {
   if (arguments.markdown) {
     fmt::print("{}", explain_markdown());
   } else {
-    fmt::print("{}", arguments.key.empty() ? explain_all() : explain_key(arguments.key));
+    const bool study = arguments.key == "study" || arguments.key.starts_with("study.");
+    const std::vector<Entry>& entries = study ? study_entries() : all_entries();
+    fmt::print("{}", arguments.key.empty() || arguments.key == "study"
+                         ? explain_all(entries)
+                         : explain_key(arguments.key, entries));
   }
   return 0;
 }
@@ -317,6 +330,11 @@ int do_list() {
   fmt::print("scenes in {}\n", scene_folder());
   for (const ShippedScene& scene : shipped_scenes()) {
     fmt::print("  {:20}  {}\n", scene.name, scene.description);
+  }
+  if (const std::vector<ShippedScene> studies = shipped_studies(); !studies.empty()) {
+    fmt::print("studies (acinus study NAME)\n");
+    for (const ShippedScene& study : studies)
+      fmt::print("  {:20}  {}\n", study.name, study.description);
   }
   for (const Entry& entry : all_entries()) {
     if (entry.path == "experiment")
@@ -478,7 +496,8 @@ int run_cli(int argc, const char* const* argv) {
   if (command == "bench") return do_bench(arguments);
   if (command == "calibrate") return do_calibrate(arguments);
   if (command == "compare") return do_compare(arguments);
-  fmt::print("{}", scene_schema());
+  if (command == "study") return run_study(arguments.study);
+  fmt::print("{}", arguments.study_schema ? study_schema() : scene_schema());
   return 0;
 }
 

@@ -22,6 +22,8 @@ RunSummary read_summary(const std::string& folder) {
     s.version = j.at("version");
     s.git = j.at("git");
     s.status = j.at("status");
+    s.cause = j.value("cause", "");
+    s.state_hash = j.value("state_hash", "");
     s.simulated_s = j.at("simulated_s");
     s.wall_s = j.at("wall_s");
     s.cpu_s = j.at("cpu_s");

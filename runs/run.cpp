@@ -19,6 +19,7 @@
 #include "core/io/run_file.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/life/life.hpp"
+#include "coupling/life/rules.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step.hpp"
 #include "runs/advice.hpp"
@@ -30,6 +31,7 @@
 #include "runs/run_folder.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/soundness.hpp"
+#include "runs/start_state.hpp"
 #include "runs/state_file.hpp"
 #include "runs/summary.hpp"
 
@@ -417,6 +419,10 @@ int Run::loop() {
         built_.notes.push_back(what);
         add_event("start_up", what);
       }
+      if (world().state.clock.phase == coupling::Phase::kRun) {
+        save_start(options_.out, scene_, world().state);
+        coupling::begin_life(world());
+      }
     }
     const bool now_running = world().state.clock.phase == coupling::Phase::kRun;
     if (running && time() > opening - kSameTime) start_anew();
@@ -441,7 +447,7 @@ int Run::go() {
   omp_set_num_threads(options_.threads);
   check(world().ranks.size() == 1,
         "this version runs on one rank; start it without mpirun and use --threads.");
-  prepare_folder(options_.out, options_);
+  const io::FileLock writing = prepare_folder(options_.out, options_);
   const LoggerKept keeping;
   auto log = spdlog::basic_logger_mt("run", options_.out + "/run.log", !options_.resume);
   log->flush_on(spdlog::level::info);  // few lines; someone may be following them, and a kill must

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "runs/scene_differences.hpp"
@@ -15,18 +18,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kResultFiles{"run.vtkhdf",         "run.xmf", "summary.json", "checkpoint.h5",
-                                  "checkpoint.prev.h5", "run.log"};
+constexpr std::array kResultFiles{"run.vtkhdf",         "run.xmf",  "summary.json", "checkpoint.h5",
+                                  "checkpoint.prev.h5", "start.h5", "run.log"};
+
+/// Held while a run writes in the folder. Every run has it, and it stays the same file.
+constexpr const char* kLockedFile = "run.log";
 
 /// Keys that a resumed run may change.
 bool may_change(const std::string& pointer) {
   return pointer == "/name" || pointer == "/description" || pointer == "/time/end" ||
-         pointer.starts_with("/output");
+         pointer == "/start_up/from" || pointer.starts_with("/output");
 }
 
 }  // namespace
 
-void prepare_folder(const std::string& folder, const RunOptions& options) {
+bool is_being_written(const std::string& folder) {
+  return io::is_locked(folder + "/" + kLockedFile);
+}
+
+io::FileLock prepare_folder(const std::string& folder, const RunOptions& options) {
   std::error_code failed;
   const bool exists = fs::exists(folder, failed);
   check(!exists || fs::is_directory(folder),
@@ -52,8 +62,16 @@ void prepare_folder(const std::string& folder, const RunOptions& options) {
   check(::access(folder.c_str(), W_OK) == 0,
         fmt::format("--out {}: the folder cannot be written. Choose another --out.", folder),
         Exit::kFileError);
+  std::optional<io::FileLock> lock = io::FileLock::try_take(folder + "/" + kLockedFile, 1);
+  check(lock.has_value(),
+        fmt::format("--out {}: another process is writing in this folder. Wait until it ends, or "
+                    "choose another --out.",
+                    folder),
+        Exit::kFileError);
   if (results && options.overwrite && !options.resume)
-    for (const char* f : kResultFiles) fs::remove(fs::path(folder) / f, failed);
+    for (const char* f : kResultFiles)
+      if (f != std::string_view(kLockedFile)) fs::remove(fs::path(folder) / f, failed);
+  return std::move(*lock);
 }
 
 void check_same_scene(const io::CheckpointData& checkpoint, const Scene& scene) {

@@ -4,15 +4,21 @@
 #include <string>
 
 #include "core/io/checkpoint.hpp"
+#include "core/io/file_lock.hpp"
 #include "runs/run.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
 
-/// Makes the folder, or checks that an existing one may be used.
+/// Makes the folder, or checks that an existing one may be used, and empties it if asked.
+/// @return to be kept while the run writes: no other process can prepare the folder meanwhile
 /// @throws Error(kBadInput) when it holds results and neither resume nor overwrite was asked;
-///         Error(kFileError) when it cannot be made or written
-void prepare_folder(const std::string& folder, const RunOptions& options);
+///         Error(kFileError) when it cannot be made or written, or
+///         another process writes in it
+io::FileLock prepare_folder(const std::string& folder, const RunOptions& options);
+
+/// Whether a process writes in the folder of a run.
+bool is_being_written(const std::string& folder);
 
 /// Refuses a checkpoint made from another scene: only the end time, the output and the name may
 /// differ.

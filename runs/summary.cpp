@@ -66,6 +66,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   if (!in.cause.empty()) j["cause"] = in.cause;
   j["simulated_s"] = number(std::max(0.0, coupling::time_since_start(in.world)));
   j["start_up_s"] = number(s.clock.phase == coupling::Phase::kRun ? s.clock.origin : s.clock.time);
+  if (!in.scene.start_up.from.empty())
+    j["start"] = {{"from", in.scene.start_up.from}, {"state_hash", in.scene.start_state}};
   j["wall_s"] = number(t.wall_s);
   j["cpu_s"] = number(t.cpu_s);
   j["peak_rss_bytes"] = peak_rss_bytes();

@@ -254,6 +254,16 @@ void save_checkpoint(const std::string& folder, const CheckpointData& data) {
   sync_folder(folder);
 }
 
+void save_state_file(const std::string& path, const CheckpointData& data) {
+  const std::string partial = path + ".tmp";
+  const RemoveUnlessMoved cleanup{partial};
+  write_file(partial, data);
+  sync_file(partial);
+  replace_file(partial, path);
+}
+
+CheckpointData load_state_file(const std::string& path) { return read_file(path); }
+
 LoadedCheckpoint load_checkpoint(const std::string& folder) {
   const std::string newest = folder + kNewest, previous = folder + kPrevious;
   check(has_checkpoint(folder),

@@ -68,6 +68,11 @@ struct LoadedCheckpoint {
 /// behind the user's back).
 LoadedCheckpoint load_checkpoint(const std::string& folder);
 
+/// The same data as one file of any name, which appears whole or not at all, without the one
+/// before. Errors: Error(kFileError).
+void save_state_file(const std::string& path, const CheckpointData& data);
+CheckpointData load_state_file(const std::string& path);
+
 /// Whether the folder has a checkpoint, usable or not.
 bool has_checkpoint(const std::string& folder);
 

@@ -188,6 +188,7 @@ Handle File::create_dataset(const std::string& name, hid_t type, const Storage& 
   const Handle space(H5Screate_simple(rank, extent, limit), H5Sclose);
   const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(list.id(), rank, chunk);
+  H5Pset_obj_track_times(list.id(), false);  // the same numbers make the same file
   if (storage.filtered) {
     H5Pset_shuffle(list.id());
     H5Pset_deflate(list.id(), 1);

@@ -85,68 +85,141 @@ std::string text(double x, double y, const std::string& anchor, const std::strin
                      anchor, more, escape(words));
 }
 
-}  // namespace
+/// The plane the lines are drawn on.
+struct Page {
+  Axis x, y;
+  double right = kWidth - kRight, bottom = kHeight - kBottom;
 
-std::string draw_plot(const Plot& plot) {
-  Axis x{plot.log_x}, y{plot.log_y};
-  for (const PlotLine& line : plot.line)
-    for (const auto& [px, py] : line.point)
-      if (const auto sx = x.scaled(px), sy = y.scaled(py); sx && sy) {
-        x.include(*sx);
-        y.include(*sy);
-      }
-  const double right = kWidth - kRight, bottom = kHeight - kBottom;
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
-      "{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n",
-      kWidth, kHeight);
-  out += text((kLeft + right) / 2, 24, "middle", plot.title, " font-size=\"15\"");
-  if (x.low > x.high) {
-    out += text((kLeft + right) / 2, kHeight / 2, "middle", "no points");
-    return out + "</svg>\n";
+  std::optional<std::pair<double, double>> place(double px, double py) const {
+    const auto sx = x.scaled(px), sy = y.scaled(py);
+    if (!sx || !sy) return std::nullopt;
+    return std::pair{x.place(*sx, kLeft, right), y.place(*sy, bottom, kTop)};
   }
-  x.widen();
-  y.widen();
-  for (double t : x.ticks()) {
-    const double at = x.place(t, kLeft, right);
+};
+
+/// Runs of neighbouring points that can be drawn, so that a gap is not bridged.
+std::string draw_band(const Page& page, const PlotLine& line, const char* color) {
+  std::string out, there, back;
+  const auto close = [&] {
+    if (!there.empty() && line.joined)
+      out += fmt::format("<path d=\"{}{}Z\" fill=\"{}\" fill-opacity=\"0.18\"/>\n", there, back,
+                         color);
+    there.clear();
+    back.clear();
+  };
+  for (std::size_t k = 0; k < std::min(line.band.size(), line.point.size()); ++k) {
+    const auto low = page.place(line.point[k].first, line.band[k].first),
+               high = page.place(line.point[k].first, line.band[k].second);
+    if (!low || !high) {
+      close();
+      continue;
+    }
+    if (!line.joined)
+      out += fmt::format("<path d=\"M{:.1f} {:.1f} V{:.1f}\" stroke=\"{}\"/>\n", low->first,
+                         low->second, high->second, color);
+    there += fmt::format("{}{:.1f} {:.1f} ", there.empty() ? "M" : "L", high->first, high->second);
+    back = fmt::format("L{:.1f} {:.1f} ", low->first, low->second) + back;
+  }
+  close();
+  return out;
+}
+
+std::string draw_line(const Page& page, const PlotLine& line, const char* color, const char* dash) {
+  std::string path, marks;
+  for (const auto& [px, py] : line.point) {
+    const auto at = page.place(px, py);
+    if (!at) continue;
+    path += fmt::format("{}{:.1f} {:.1f} ", path.empty() ? "M" : "L", at->first, at->second);
+    if (line.marks)
+      marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", at->first,
+                           at->second, color);
+  }
+  if (line.joined && !path.empty())
+    path = fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{}/>\n",
+                       path, color, dash);
+  else
+    path.clear();
+  return path + marks;
+}
+
+std::string draw_axes(const Page& page, const Plot& plot) {
+  std::string out;
+  const double right = page.right, bottom = page.bottom;
+  for (double t : page.x.ticks()) {
+    const double at = page.x.place(t, kLeft, right);
     out += fmt::format("<path d=\"M{0:.1f} {1} V{2}\" stroke=\"#ddd\"/>\n", at, kTop, bottom);
-    out += text(at, bottom + 18, "middle", x.label(t));
+    out += text(at, bottom + 18, "middle", page.x.label(t));
   }
-  for (double t : y.ticks()) {
-    const double at = y.place(t, bottom, kTop);
+  for (double t : page.y.ticks()) {
+    const double at = page.y.place(t, bottom, kTop);
     out += fmt::format("<path d=\"M{0} {1:.1f} H{2}\" stroke=\"#ddd\"/>\n", kLeft, at, right);
-    out += text(kLeft - 6, at + 4, "end", y.label(t));
+    out += text(kLeft - 6, at + 4, "end", page.y.label(t));
   }
   out += fmt::format(
       "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n",
       kLeft, kTop, right - kLeft, bottom - kTop);
   out += text((kLeft + right) / 2, kHeight - 16, "middle", plot.x_label);
-  out += text(20, (kTop + bottom) / 2, "middle", plot.y_label,
-              fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kTop + bottom) / 2));
+  return out + text(20, (kTop + bottom) / 2, "middle", plot.y_label,
+                    fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kTop + bottom) / 2));
+}
+
+/// Room for the longest name, in whole steps so that most plots are equally wide.
+double legend_width(const Plot& plot) {
+  std::size_t longest = 0;
+  for (const PlotLine& line : plot.line) longest = std::max(longest, line.name.size());
+  const double needed = 48 + 6.6 * static_cast<double>(longest);
+  return std::min(std::max(kRight, 60 * std::ceil(needed / 60)), 550.0);
+}
+
+}  // namespace
+
+std::string draw_plot(const Plot& plot) {
+  Page page{{plot.log_x}, {plot.log_y}};
+  Axis &x = page.x, &y = page.y;
+  const auto include = [&](double px, double py) {
+    const auto sx = x.scaled(px), sy = y.scaled(py);
+    if (!sx || !sy) return;
+    x.include(*sx);
+    y.include(*sy);
+  };
+  for (const PlotLine& line : plot.line) {
+    for (const auto& [px, py] : line.point) include(px, py);
+    for (std::size_t k = 0; k < std::min(line.band.size(), line.point.size()); ++k) {
+      include(line.point[k].first, line.band[k].first);
+      include(line.point[k].first, line.band[k].second);
+    }
+  }
+  const double middle = (kLeft + page.right) / 2;
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
+      "{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"white\"/>\n",
+      page.right + legend_width(plot),
+      std::max(kHeight, kTop + 14 + 18 * static_cast<double>(plot.line.size())));
+  out += text(middle, 24, "middle", plot.title, " font-size=\"15\"");
+  if (x.low > x.high) {
+    out += text(middle, kHeight / 2, "middle", "no points");
+    return out + "</svg>\n";
+  }
+  x.widen();
+  y.widen();
+  out += draw_axes(page, plot);
+  const auto color_of = [](std::size_t k) { return kColor[k % kColor.size()]; };
+  for (std::size_t k = 0; k < plot.line.size(); ++k)  // bands below all lines
+    out += draw_band(page, plot.line[k], color_of(k));
   for (std::size_t k = 0; k < plot.line.size(); ++k) {
-    const PlotLine& line = plot.line[k];
-    const char* color = kColor[k % kColor.size()];
     // more lines than colours: the later rounds are dashed
     const char* dash = k < kColor.size() ? "" : " stroke-dasharray=\"5 3\"";
-    std::string path, marks;
-    for (const auto& [px, py] : line.point) {
-      const auto sx = x.scaled(px), sy = y.scaled(py);
-      if (!sx || !sy) continue;
-      const double ax = x.place(*sx, kLeft, right), ay = y.place(*sy, bottom, kTop);
-      path += fmt::format("{}{:.1f} {:.1f} ", path.empty() ? "M" : "L", ax, ay);
-      if (line.marks)
-        marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", ax, ay,
-                             color);
-    }
-    if (line.joined && !path.empty())
-      out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{}/>\n",
-                         path, color, dash);
-    out += marks;
+    const PlotLine& line = plot.line[k];
+    out += draw_line(page, line, color_of(k), dash);
     const double at = kTop + 14 + 18 * static_cast<double>(k);
-    out += fmt::format("<path d=\"M{:.1f} {:.1f} h22\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
-                       right + 10, at - 4, color, dash);
-    out += text(right + 38, at, "start", line.name);
+    if (line.joined)
+      out += fmt::format("<path d=\"M{:.1f} {:.1f} h22\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
+                         page.right + 10, at - 4, color_of(k), dash);
+    else
+      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"6\" height=\"6\" fill=\"{}\"/>\n",
+                         page.right + 18, at - 7, color_of(k));
+    out += text(page.right + 38, at, "start", line.name);
   }
   return out + "</svg>\n";
 }

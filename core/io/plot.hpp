@@ -13,6 +13,9 @@ struct PlotLine {
   std::vector<std::pair<double, double>> point;
   bool marks = true;   ///< a mark at every point
   bool joined = true;  ///< a line between them
+  /// A shaded band round the line: low and high, one pair per point; empty = none. Of a line that
+  /// is not joined these are bars.
+  std::vector<std::pair<double, double>> band = {};
 };
 
 struct Plot {
@@ -21,8 +24,8 @@ struct Plot {
   std::vector<PlotLine> line;
 };
 
-/// The plot as SVG text, 720 by 480. Points that are not finite are left out; a plot without points
-/// says so.
+/// The plot as SVG text, 720 wide and 480 high, wider and higher where the legend needs it. Points
+/// that are not finite are left out; a plot without points says so.
 std::string draw_plot(const Plot& plot);
 
 /// Writes draw_plot(plot).   @throws Error(kFileError)

@@ -10,6 +10,7 @@
 #include "core/timing.hpp"
 #include "coupling/difference.hpp"
 #include "coupling/life/life.hpp"
+#include "coupling/life/rules.hpp"
 #include "coupling/measure.hpp"
 #include "coupling/start_up.hpp"
 #include "coupling/step.hpp"
@@ -49,6 +50,7 @@ coupling::World start_up(coupling::World world) {
     make_step(world, work, coupling::time_to_phase_event(world));
     coupling::update_phase(world, work);
   }
+  coupling::begin_life(world);
   return world;
 }
 

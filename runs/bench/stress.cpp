@@ -14,10 +14,10 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
-#include "runs/bench/child.hpp"
 #include "runs/bench/inspect.hpp"
 #include "runs/bench/random_scene.hpp"
 #include "runs/build_world.hpp"
+#include "runs/child.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs {
@@ -132,7 +132,8 @@ Trial::Trial(std::uint64_t seed, bool life, const fs::path& root)
   result_.cells = scene.cells;
   io::write_text_file(file("scene.json"), scene.text);
   if (!scene.network.empty()) io::write_text_file(file(kNetworkFile), scene.network);
-  child_.emplace(words("run", fmt::format("{} s", kRunTime)), file("output.txt"), kHangTime);
+  child_.emplace(words("run", fmt::format("{} s", kRunTime)),
+                 ChildOptions{file("output.txt"), "", kHangTime});
 }
 
 Json Trial::summary() const {
@@ -142,7 +143,7 @@ Json Trial::summary() const {
 
 /// Whether the checkpoint opens and the run goes on from it, be it into the same trouble.
 bool Trial::resumes() const {
-  Child again(words("resume", "0.000001 s"), file("output.txt"), kHangTime);
+  Child again(words("resume", "0.000001 s"), {file("output.txt"), "", kHangTime});
   wait_for_any({&again});
   const ChildEnd end = again.collect();
   return end.code == static_cast<int>(Exit::kDone) ||
@@ -260,7 +261,7 @@ BenchTable bench_stress(const BenchOptions& options) {
       running.emplace_back(seed++, options.life, place.path());
     std::vector<const Child*> children;
     for (const Trial& trial : running) children.push_back(&trial.child());
-    const auto done = running.begin() + static_cast<std::ptrdiff_t>(wait_for_any(children));
+    const auto done = running.begin() + static_cast<std::ptrdiff_t>(*wait_for_any(children));
     const Judgement j = done->judge();
     if (j.outcome == Outcome::kClean) done->remove();
     running.erase(done);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "acinus_version.hpp"
 #include "calibration/clump.hpp"
@@ -15,6 +16,7 @@
 #include "calibration/wall.hpp"
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
+#include "core/io/file_lock.hpp"
 #include "runs/build_correction.hpp"
 #include "runs/build_world.hpp"
 #include "runs/read_cells.hpp"
@@ -200,6 +202,17 @@ std::string cache_folder() {
   return std::string(home) + "/.cache/acinus/laws";
 }
 
+/// Two processes must not calibrate the same law: they would write in the same run folders.
+io::FileLock lock_law(const std::string& file, bool quiet) {
+  std::error_code code;
+  fs::create_directories(fs::path(file).parent_path(), code);
+  const std::string lock = file + ".lock";
+  if (auto held = io::FileLock::try_take(lock)) return std::move(*held);
+  if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
+  std::fflush(stdout);
+  return io::FileLock::take(lock);
+}
+
 /// Name of a law in the cache: the constants it depends on, to the last digit.
 std::string key_of(const LawParameters& p) {
   std::string text = fmt::format("{}\n", calibration::kLawSchema);
@@ -275,6 +288,11 @@ int resolve_corrections(Scene& scene, int threads, bool quiet) {
     const std::string file = cache_folder() + "/" + key_of(law_parameters(scene, type)) + ".json";
     std::error_code code;
     if (!fs::exists(file, code)) {
+      const io::FileLock calibrating = lock_law(file, quiet);
+      if (fs::exists(file, code)) {  // another process was faster
+        type.cbm.stiffness_correction = file;
+        continue;
+      }
       CalibrateOptions options;
       options.clump.type = name;
       options.out = file;

@@ -116,6 +116,45 @@ std::vector<std::string> split_path(std::string_view path) {
   return parts;
 }
 
+/// The value at a path; blocks on the way are made when missing.
+/// @param where  stands before what is wrong
+Node& reach(Document& document, const std::vector<std::string>& parts, Origin origin,
+            const std::string& where) {
+  Node* target = &document.root;
+  std::string pointer;
+  for (const std::string& part : parts) {
+    check(!part.empty(), where + ": the path has an empty name");
+    if (target->kind == Node::Kind::kNull) {  // "capsule": null may be opened again
+      *target = Node{};
+      target->kind = Node::Kind::kObject;
+      target->origin = origin;
+    }
+    if (target->kind == Node::Kind::kList) {
+      std::size_t index = 0;
+      const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), index);
+      check(code == std::errc() && end == part.data() + part.size() && index < target->items.size(),
+            fmt::format("{}: {} has {} elements, so \"{}\" must be a number {}", where,
+                        pointer.empty() ? "/" : pointer, target->items.size(), part,
+                        target->items.empty()
+                            ? "that does not exist; set the whole list"
+                            : fmt::format("from 0 to {}", target->items.size() - 1)));
+      target = &target->items[index];
+    } else {
+      check(target->kind == Node::Kind::kObject,
+            fmt::format("{}: {} = {} has no parts", where, pointer, shown(*target)));
+      Node* next = target->find(part);
+      if (next == nullptr) {
+        target->members.push_back({part, origin, Node{}});
+        next = &target->members.back().value;
+        next->origin = origin;
+      }
+      target = next;
+    }
+    pointer += "/" + pointer_part(part);
+  }
+  return *target;
+}
+
 }  // namespace
 
 Document read_document(const std::string& path) {
@@ -154,38 +193,6 @@ void apply_set(Document& document, const std::string& assignment) {
   document.sources.push_back({flag, fs::current_path().string(), true});
   const int source = static_cast<int>(document.sources.size()) - 1;
   const Origin origin{source, 0, 0};
-  Node* target = &document.root;
-  std::string pointer;
-  for (const std::string& part : parts) {
-    check(!part.empty(), flag + ": the path has an empty name");
-    if (target->kind == Node::Kind::kNull) {  // "capsule": null may be opened again
-      *target = Node{};
-      target->kind = Node::Kind::kObject;
-      target->origin = origin;
-    }
-    if (target->kind == Node::Kind::kList) {
-      std::size_t index = 0;
-      const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), index);
-      check(code == std::errc() && end == part.data() + part.size() && index < target->items.size(),
-            fmt::format("{}: {} has {} elements, so \"{}\" must be a number {}", flag,
-                        pointer.empty() ? "/" : pointer, target->items.size(), part,
-                        target->items.empty()
-                            ? "that does not exist; set the whole list"
-                            : fmt::format("from 0 to {}", target->items.size() - 1)));
-      target = &target->items[index];
-    } else {
-      check(target->kind == Node::Kind::kObject,
-            fmt::format("{}: {} = {} has no parts", flag, pointer, shown(*target)));
-      Node* next = target->find(part);
-      if (next == nullptr) {
-        target->members.push_back({part, origin, Node{}});
-        next = &target->members.back().value;
-        next->origin = origin;
-      }
-      target = next;
-    }
-    pointer += "/" + pointer_part(part);
-  }
   // Text that looks like JSON must be JSON; anything else is a bare string.
   const bool looks_json = !value_text.empty() && std::strchr("{[\"", value_text.front());
   Node value;
@@ -205,7 +212,15 @@ void apply_set(Document& document, const std::string& assignment) {
     }
   };
   mark(value);
-  *target = std::move(value);
+  reach(document, parts, origin, flag) = std::move(value);
+}
+
+void put_value(Document& document, const std::string& path, const Member& value,
+               const std::string& where) {
+  const std::vector<std::string> parts = split_path(path);
+  check(static_cast<int>(parts.size()) < kMaxDepth, where + ": the path is too long");
+  check(parts.front() != "extends", where + ": extends cannot be changed here");
+  reach(document, parts, value.origin, where) = value.value;
 }
 
 }  // namespace acinus::runs

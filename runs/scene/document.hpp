@@ -31,6 +31,13 @@ Document parse_document(const std::string& text, const std::string& label,
 /// @throws Error naming the flag.
 void apply_set(Document& document, const std::string& assignment);
 
+/// Puts a value at a path written as in PATH=VALUE, whatever was there. The origins of the value
+/// must belong to the document's sources.
+/// @param where  stands before what is wrong with the path
+/// @throws Error starting with `where`
+void put_value(Document& document, const std::string& path, const Member& value,
+               const std::string& where);
+
 /// The bytes of a regular file of at most `limit` bytes. @throws Error (kFileError).
 std::string read_file(const std::string& path, std::size_t limit);
 

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <utility>
 
 #include "runs/scene/registry.hpp"
 
@@ -62,7 +63,9 @@ class EntryCollector final : public Visitor {
     add(key, "true or false", value ? "true" : "false", "");
   }
   void text(const Key& key, std::string& value) override {
-    const char* type = key.is_file ? "path" : key.is_name || key.is_label ? "name" : "text";
+    const char* type = key.is_file || key.is_run     ? "path"
+                       : key.is_name || key.is_label ? "name"
+                                                     : "text";
     add(key, type, key.automatic[0] ? "\"auto\"" : "\"" + value + "\"", bounds(key));
   }
   void vector(const Key& key, Vec3& value) override {
@@ -79,6 +82,18 @@ class EntryCollector final : public Visitor {
   }
   void integers(const Key& key, std::vector<std::int64_t>& values) override {
     add(key, "whole numbers", fmt::format("[{}]", fmt::join(values, ", ")), bounds(key));
+  }
+  void texts(const Key& key, std::vector<std::string>&) override {
+    add(key, "list of texts", "[]", bounds(key));
+  }
+  void value(const Key& key, std::optional<Node>&) override {
+    add(key, "number or quantity", key.automatic[0] ? "\"auto\"" : "none", bounds(key));
+  }
+  void values(const Key& key, std::vector<Node>&) override {
+    add(key, "list of values", "[]", bounds(key));
+  }
+  void settings(const Key& key, std::vector<Member>&) override {
+    add(key, "values by scene key", "{}", bounds(key));
   }
   void object(const Key& key, const Members& members) override {
     add_block(key, "block", "");
@@ -157,18 +172,24 @@ class EntryCollector final : public Visitor {
 
 }  // namespace
 
+std::vector<Entry> collect_entries(const std::function<void(Visitor&)>& describe) {
+  EntryCollector collector;
+  describe(collector);
+  return std::move(collector.entries);
+}
+
 const std::vector<Entry>& all_entries() {
   static const std::vector<Entry> entries = [] {
-    EntryCollector collector;
     Entry extends;
     extends.path = extends.short_path = "extends";
     extends.type = "path";
     extends.initial = "none";
     extends.meaning = "scene file this one changes, relative to this file: blocks are merged";
-    collector.entries.push_back(extends);
+    std::vector<Entry> entries{extends};
     Scene scene;
-    describe(collector, scene);
-    return collector.entries;
+    for (Entry& entry : collect_entries([&](Visitor& visitor) { describe(visitor, scene); }))
+      entries.push_back(std::move(entry));
+    return entries;
   }();
   return entries;
 }

@@ -45,10 +45,11 @@ bool ends_with(const std::vector<std::string>& parts, const std::vector<std::str
 
 /// Matching entries of the strictest kind that has any: the full path, the end of a path, or a path
 /// in which the query's parts occur in this order, as in cell_types.hepatocyte.radius.
-std::vector<const Entry*> find_entries(const std::string& query) {
+std::vector<const Entry*> find_entries(const std::string& query,
+                                       const std::vector<Entry>& entries) {
   const std::vector<std::string> wanted = parts_of(query);
   std::vector<const Entry*> exact, tail;
-  for (const Entry& entry : all_entries()) {
+  for (const Entry& entry : entries) {
     const auto full = parts_of(entry.path), brief = parts_of(entry.short_path);
     if (full == wanted || brief == wanted || entry.short_path + "." == query) {
       exact.push_back(&entry);
@@ -61,8 +62,11 @@ std::vector<const Entry*> find_entries(const std::string& query) {
   if (wanted.size() > 2 && wanted[0] == "cell_types") {
     std::vector<std::string> rest = wanted;
     rest.erase(rest.begin() + 1);
-    return find_entries(joined(rest));
+    return find_entries(joined(rest), entries);
   }
+  // study.measure.kind: the end of study.expectations.<number>.measure.kind.
+  if (wanted.size() > 1 && wanted[0] == "study")
+    return find_entries(joined({wanted.begin() + 1, wanted.end()}), entries);
   return {};
 }
 
@@ -73,7 +77,7 @@ std::string type_text(const Entry& entry) {
                      name.empty() ? dimension_formula(entry.dimension) : name);
 }
 
-std::string described(const Entry& entry) {
+std::string described(const Entry& entry, const std::vector<Entry>& entries) {
   std::string text =
       fmt::format("{}\n  {}\n  type     {}\n", entry.path, entry.meaning, type_text(entry));
   if (!entry.unit.empty()) {
@@ -89,7 +93,7 @@ std::string described(const Entry& entry) {
   if (!entry.symbol.empty()) text += fmt::format("  paper    {}\n", entry.symbol);
   if (entry.is_block) {
     text += "  keys    ";
-    for (const Entry& other : all_entries()) {
+    for (const Entry& other : entries) {
       const std::string& path = other.path;
       if (!path.starts_with(entry.path + ".")) continue;
       std::string rest = path.substr(entry.path.size() + 1);
@@ -112,31 +116,33 @@ std::string code(const std::string& text) { return text.empty() ? "" : "`" + tex
 
 }  // namespace
 
-std::string explain_key(const std::string& query) {
-  const std::vector<const Entry*> found = find_entries(query);
+std::string explain_key(const std::string& query, const std::vector<Entry>& entries) {
+  const std::vector<const Entry*> found = find_entries(query, entries);
   if (found.empty()) {
     const std::string wanted = joined(parts_of(query));
     std::vector<std::string> names, last_parts;
-    for (const Entry& entry : all_entries()) {
+    for (const Entry& entry : entries) {
       names.push_back(joined(parts_of(entry.short_path)));
       last_parts.push_back(parts_of(entry.path).back());
     }
     std::string hint = nearest_name(wanted, names);
     const std::vector<std::string> parts = parts_of(query);
     if (hint.empty() && !parts.empty()) hint = nearest_name(parts.back(), last_parts);
-    throw Error(fmt::format("no scene key \"{}\". {}`acinus explain` lists all", query,
-                            hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint)));
+    const bool study = query.starts_with("study.");
+    throw Error(fmt::format(
+        "no {} key \"{}\". {}`acinus explain{}` lists all", study ? "study" : "scene", query,
+        hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint), study ? " study" : ""));
   }
   std::string text;
-  for (const Entry* entry : found) text += (text.empty() ? "" : "\n") + described(*entry);
+  for (const Entry* entry : found) text += (text.empty() ? "" : "\n") + described(*entry, entries);
   return text;
 }
 
-std::string explain_all() {
+std::string explain_all(const std::vector<Entry>& entries) {
   std::size_t width = 0;
-  for (const Entry& entry : all_entries()) width = std::max(width, entry.short_path.size());
+  for (const Entry& entry : entries) width = std::max(width, entry.short_path.size());
   std::string text;
-  for (const Entry& entry : all_entries()) {
+  for (const Entry& entry : entries) {
     std::string initial = entry.is_block          ? "(" + entry.type + ")"
                           : entry.initial.empty() ? "(required)"
                                                   : entry.initial;

@@ -77,6 +77,22 @@ std::string pointer_part(std::string_view name) {
   return part;
 }
 
+std::string json_of(const Node& node) {
+  const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
+  std::string text;
+  if (node.kind == Node::Kind::kText) return quoted(node.text);
+  if (node.kind == Node::Kind::kList) {
+    for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + json_of(item);
+    return "[" + text + "]";
+  }
+  if (node.kind == Node::Kind::kObject) {
+    for (const Member& member : node.members)
+      text += (text.empty() ? "" : ", ") + quoted(member.name) + ": " + json_of(member.value);
+    return "{" + text + "}";
+  }
+  return shown(node);
+}
+
 std::string shown(const Node& node) {
   constexpr std::size_t kLongest = 60;
   std::string text;

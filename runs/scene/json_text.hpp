@@ -66,6 +66,9 @@ void throw_complaints(const std::vector<Source>& sources, std::vector<Complaint>
 ///         kMaxDepth, sizes above kMaxBytes, kMaxValues or kMaxNames.
 Node parse_json(const std::vector<Source>& sources, int source, const std::string& text);
 
+/// A value as one line of JSON, whole.
+std::string json_of(const Node& node);
+
 /// A value as one line of JSON, cut after 60 characters.
 std::string shown(const Node& node);
 

@@ -70,9 +70,11 @@ std::string scene_folder() {
   return source.string();
 }
 
-std::vector<ShippedScene> shipped_scenes() {
+std::vector<ShippedScene> shipped_scenes() { return list_documents(scene_folder()); }
+
+std::vector<ShippedScene> list_documents(const std::string& folder) {
   std::vector<ShippedScene> scenes;
-  for (const fs::directory_entry& entry : fs::directory_iterator(scene_folder())) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
     ShippedScene scene{entry.path().stem().string(), entry.path().string(), ""};
     try {

@@ -17,6 +17,10 @@ struct ShippedScene {
 /// @throws Error (kFileError) if there is none.
 std::string scene_folder();
 
+/// All JSON files of a folder by name, with what their key "description" says. One that cannot be
+/// parsed has its error as description.
+std::vector<ShippedScene> list_documents(const std::string& folder);
+
 /// All shipped scenes by name. A scene that cannot be parsed has its error as description.
 std::vector<ShippedScene> shipped_scenes();
 

@@ -1,429 +1,17 @@
 #include "runs/scene/reader.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
-#include "core/error.hpp"
-#include "core/nearest.hpp"
-#include "runs/scene/registry.hpp"
-#include "runs/scene/report.hpp"
+#include "core/io/checkpoint.hpp"
+#include "runs/scene/key_reader.hpp"
 #include "runs/scene/rules.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {
 namespace {
 namespace fs = std::filesystem;
-using Kind = Node::Kind;
-
-constexpr const char* kNameLetters =
-    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-
-bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= 100 &&
-         text.find_first_not_of(kNameLetters) == std::string::npos;
-}
-
-/// A name that may have spaces inside.
-bool is_label(std::string text) {
-  if (text.empty() || text.front() == ' ' || text.back() == ' ') return false;
-  std::erase(text, ' ');
-  return is_name(text);
-}
-
-constexpr const char* kNameRule = "must be a name of letters, digits, _ and -";
-
-/// Copies the document's values into the scene's fields.
-class SceneReader final : public Visitor {
- public:
-  SceneReader(const Document& document, Report& report) : document_(document), report_(report) {
-    frame_.node = &document.root;
-    frame_.origin = document.root.origin;
-  }
-
-  void real(const Key& key, double& value) override {
-    if (const Node* node = take(key)) read_real(key, *node, pointer_of(key), value);
-  }
-
-  void optional_real(const Key& key, std::optional<double>& value) override {
-    const Node* node = take(key);
-    if (node == nullptr || is_auto(key, *node)) return;
-    double number = 0;
-    if (read_real(key, *node, pointer_of(key), number)) value = number;
-  }
-
-  void integer(const Key& key, int& value) override {
-    if (const Node* node = take(key)) read_integer(key, *node, pointer_of(key), value);
-  }
-
-  void seed(const Key& key, std::uint64_t& value) override {
-    const Node* node = take(key);
-    if (node == nullptr) return;
-    if (node->kind == Kind::kInteger && !node->negative) {
-      value = node->magnitude;
-    } else {
-      report_.add_value(*node, pointer_of(key), "must be a whole number from 0 to 2^64 - 1");
-    }
-  }
-
-  void flag(const Key& key, bool& value) override {
-    const Node* node = take(key);
-    if (node == nullptr) return;
-    if (node->kind == Kind::kBoolean) {
-      value = node->boolean;
-    } else {
-      report_.add_value(*node, pointer_of(key), "must be true or false, without quotes");
-    }
-  }
-
-  void text(const Key& key, std::string& value) override {
-    const Node* node = take(key);
-    if (node == nullptr || is_auto(key, *node)) return;
-    const std::string pointer = pointer_of(key);
-    if (node->kind != Kind::kText) {
-      report_.add_value(*node, pointer, "must be a text in quotes");
-    } else if (const auto choices = choices_of(key);
-               key.is_file &&
-               std::find(choices.begin(), choices.end(), node->text) == choices.end()) {
-      read_file_name(key, *node, pointer, value);
-    } else if (!choices.empty() &&
-               std::find(choices.begin(), choices.end(), node->text) == choices.end()) {
-      const std::string hint = nearest_name(node->text, choices);
-      report_.add_value(*node, pointer,
-                        hint.empty()
-                            ? fmt::format("must be one of \"{}\"{}", fmt::join(choices, "\", \""),
-                                          key.automatic[0] ? ", \"auto\"" : "")
-                            : fmt::format("unknown choice. Did you mean \"{}\"?", hint));
-    } else if (key.is_name && !is_name(node->text)) {
-      report_.add_value(*node, pointer, kNameRule);
-    } else if (key.is_label && !is_label(node->text)) {
-      report_.add_value(*node, pointer, std::string(kNameRule) + ", with spaces inside if wanted");
-    } else {
-      value = node->text;
-    }
-  }
-
-  void vector(const Key& key, Vec3& value) override {
-    if (const Node* node = take(key)) read_vector(key, *node, pointer_of(key), value);
-  }
-
-  void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) override {
-    const Node* node = take(key);
-    if (node == nullptr || node->kind == Kind::kNull) return;
-    const std::string pointer = pointer_of(key);
-    if (node->kind != Kind::kList || node->items.size() != 2) {
-      report_.add_value(*node, pointer, "must be a list of two corners, the lower one first");
-      return;
-    }
-    std::array<Vec3, 2> corners{Vec3::Zero(), Vec3::Zero()};
-    for (std::size_t i = 0; i < 2; ++i) {
-      read_vector(key, node->items[i], fmt::format("{}/{}", pointer, i), corners[i]);
-    }
-    value = corners;
-  }
-
-  void counts(const Key& key, std::array<int, 3>& value) override {
-    const Node* node = take(key);
-    const std::string pointer = pointer_of(key);
-    if (node == nullptr || !has_three(*node, pointer, key)) return;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      read_integer(key, node->items[axis], fmt::format("{}/{}", pointer, axis), value[axis]);
-    }
-  }
-
-  void integers(const Key& key, std::vector<std::int64_t>& values) override {
-    const Node* node = take(key);
-    if (node == nullptr) return;
-    const std::string pointer = pointer_of(key);
-    if (node->kind != Kind::kList) {
-      report_.add_value(*node, pointer, "must be a list of whole numbers, e.g. [0, 1]");
-      return;
-    }
-    values.clear();
-    for (std::size_t i = 0; i < node->items.size(); ++i) {
-      std::int64_t number = 0;
-      if (read_long(key, node->items[i], fmt::format("{}/{}", pointer, i), number)) {
-        values.push_back(number);
-      }
-    }
-  }
-
-  void object(const Key& key, const Members& members) override {
-    const Node* node = take(key);
-    if (node != nullptr && !is_object(*node, pointer_of(key))) return;
-    enter(key.name, short_path(key.name), node, [&] { members(*this); });
-  }
-
-  void optional_object(const Key& key, bool, const std::function<void(bool)>& set_present,
-                       const Members& members) override {
-    const Node* node = take(key);
-    const bool present = node != nullptr && node->kind != Kind::kNull;
-    if (present && !is_object(*node, pointer_of(key))) return;
-    set_present(present);
-    if (present) enter(key.name, short_path(key.name), node, [&] { members(*this); });
-  }
-
-  void list(const Key& key, const Elements& elements) override {
-    const Node* node = take(key);
-    if (node == nullptr) return;
-    if (node->kind != Kind::kList) {
-      report_.add_value(*node, pointer_of(key), "must be a list, [ ... ]");
-      return;
-    }
-    elements.resize(node->items.size());
-    for (std::size_t i = 0; i < node->items.size(); ++i) {
-      const Node& item = node->items[i];
-      const std::string part = fmt::format("{}/{}", key.name, i);
-      if (!is_object(item, frame_.pointer + "/" + part)) continue;
-      enter(part, std::string(key.item) + ".", &item, [&] { elements.visit(*this, i); });
-    }
-  }
-
-  void map(const Key& key, const Elements& elements) override {
-    const Node* node = take(key);
-    if (node == nullptr || !is_object(*node, pointer_of(key))) return;
-    for (const Member& member : node->members) {
-      if (is_name(member.name)) {
-        elements.add(member.name);
-      } else {
-        report_.add(member.origin, pointer_of(key) + "/" + pointer_part(member.name), kNameRule);
-      }
-    }
-    if (key.required && node->members.empty()) {
-      report_.add(node->origin, pointer_of(key), "is empty: " + std::string(key.meaning));
-    }
-    const std::vector<std::string> names = elements.names();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const Node* item = node->find(names[i]);
-      const std::string part = fmt::format("{}/{}", key.name, names[i]);
-      if (!is_object(*item, frame_.pointer + "/" + part)) continue;
-      enter(part, std::string(key.item) + ".", item, [&] { elements.visit(*this, i); });
-    }
-  }
-
-  void when(bool holds, const char* condition, const Members& members) override {
-    const std::string text = condition;
-    const std::string controlling = frame_.pointer + "/" + text.substr(0, text.find(' '));
-    // A bad or missing controlling key is reported once; what depends on it is left alone.
-    frame_.mode = holds ? Mode::kRead : report_.is_bad(controlling) ? Mode::kIgnore : Mode::kForbid;
-    frame_.condition = condition;
-    members(*this);
-    frame_.mode = Mode::kRead;
-  }
-
-  /// Reports the members of the innermost block that no key has asked for.
-  void finish_block() {
-    if (frame_.node == nullptr) return;
-    for (const Member& member : frame_.node->members) {
-      if (std::find(frame_.known.begin(), frame_.known.end(), member.name) != frame_.known.end()) {
-        continue;
-      }
-      const std::string hint = nearest_name(member.name, frame_.known);
-      std::string message = "unknown key. ";
-      if (!hint.empty()) {
-        message +=
-            fmt::format("Did you mean \"{0}\"? (acinus explain {1}{0})", hint, frame_.short_path);
-      } else {
-        message += fmt::format("Known here: {}", fmt::join(frame_.known, ", "));
-      }
-      report_.add(member.origin, frame_.pointer + "/" + pointer_part(member.name), message);
-    }
-  }
-
- private:
-  enum class Mode { kRead, kIgnore, kForbid };
-  struct Frame {
-    const Node* node = nullptr;  ///< the block read; nullptr = absent, all its keys at default
-    Origin origin;               ///< of the nearest block that is in the text
-    std::string pointer;         ///< "" or "/time"
-    std::string short_path;      ///< "" or "time."
-    std::vector<std::string> known;
-    Mode mode = Mode::kRead;
-    std::string condition;
-  };
-
-  std::string pointer_of(const Key& key) const { return frame_.pointer + "/" + key.name; }
-  std::string short_path(const char* name) const { return frame_.short_path + name + "."; }
-
-  /// The value of a key, nullptr if it is to stay at its default.
-  const Node* take(const Key& key) {
-    frame_.known.emplace_back(key.name);
-    const Node* node = frame_.node != nullptr ? frame_.node->find(key.name) : nullptr;
-    if (frame_.mode == Mode::kIgnore) return nullptr;
-    if (frame_.mode == Mode::kForbid) {
-      if (node != nullptr) {
-        report_.add_value(*node, pointer_of(key),
-                          fmt::format("is used only with {}. Remove it", frame_.condition));
-      }
-      return nullptr;
-    }
-    if (node == nullptr && key.required) {
-      const std::string example =
-          key.unit[0] ? fmt::format(", e.g. \"{}\"", dimension_example(key.dimension)) : "";
-      report_.add(frame_.origin, pointer_of(key),
-                  fmt::format("is missing: {}{} (acinus explain {}{})", key.meaning, example,
-                              frame_.short_path, key.name));
-    }
-    return node;
-  }
-
-  void enter(const std::string& part, const std::string& short_path, const Node* node,
-             const std::function<void()>& members) {
-    Frame inner;
-    inner.node = node;
-    inner.origin = node != nullptr ? node->origin : frame_.origin;
-    inner.pointer = frame_.pointer + "/" + part;
-    inner.short_path = short_path;
-    std::swap(frame_, inner);
-    members();
-    finish_block();
-    std::swap(frame_, inner);
-  }
-
-  bool is_object(const Node& node, const std::string& pointer) {
-    if (node.kind == Kind::kObject) return true;
-    report_.add_value(node, pointer, "must be a block, { ... }");
-    return false;
-  }
-
-  bool has_three(const Node& node, const std::string& pointer, const Key& key) {
-    if (node.kind == Kind::kList && node.items.size() == 3) return true;
-    const std::string one = key.unit[0] ? "\"" + dimension_example(key.dimension) + "\"" : "1";
-    report_.add_value(node, pointer,
-                      fmt::format("must be a list of three, e.g. [{0}, {0}, {0}]", one));
-    return false;
-  }
-
-  bool is_auto(const Key& key, const Node& node) const {
-    return key.automatic[0] && node.kind == Kind::kText && node.text == "auto";
-  }
-
-  bool read_real(const Key& key, const Node& node, const std::string& pointer, double& value) {
-    double number = 0;
-    if (key.unit[0] == '\0') {
-      if (node.kind != Kind::kInteger && node.kind != Kind::kNumber) {
-        report_.add_value(node, pointer, "must be a plain number, without unit and quotes");
-        return false;
-      }
-      number = node.number;
-    } else if (node.kind == Kind::kInteger || node.kind == Kind::kNumber) {
-      report_.add_value(
-          node, pointer,
-          fmt::format("a bare number; needed {} as a text with its unit, e.g. \"{}\"",
-                      dimension_name(key.dimension), dimension_example(key.dimension)));
-      return false;
-    } else if (node.kind != Kind::kText) {
-      report_.add_value(
-          node, pointer,
-          fmt::format("must be {} as a text with its unit, e.g. \"{}\"",
-                      dimension_name(key.dimension), dimension_example(key.dimension)));
-      return false;
-    } else {
-      try {
-        number = parse_quantity(node.text, key.dimension);
-      } catch (const Error& error) {
-        report_.add_value(node, pointer, without_prefix(error.what(), node.text));
-        return false;
-      }
-    }
-    if (!key.range.contains(number)) {
-      report_.add_value(node, pointer, "must be " + range_text(key.range, key.dimension, key.unit));
-      return false;
-    }
-    value = number;
-    return true;
-  }
-
-  void read_vector(const Key& key, const Node& node, const std::string& pointer, Vec3& value) {
-    if (!has_three(node, pointer, key)) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Node& item = node.items[static_cast<std::size_t>(axis)];
-      double number = 0;
-      if (read_real(key, item, fmt::format("{}/{}", pointer, axis), number)) value[axis] = number;
-    }
-  }
-
-  void read_integer(const Key& key, const Node& node, const std::string& pointer, int& value) {
-    constexpr double kLargest = std::numeric_limits<int>::max();
-    if ((node.kind != Kind::kInteger && node.kind != Kind::kNumber) ||
-        std::floor(node.number) != node.number || std::abs(node.number) > kLargest) {
-      report_.add_value(node, pointer, "must be a whole number, without quotes");
-      return;
-    }
-    const int number = static_cast<int>(node.number);
-    const std::vector<std::string> choices = choices_of(key);
-    if (!choices.empty() &&
-        std::find(choices.begin(), choices.end(), std::to_string(number)) == choices.end()) {
-      report_.add_value(node, pointer, fmt::format("must be one of {}", fmt::join(choices, ", ")));
-    } else if (!key.range.contains(number)) {
-      report_.add_value(node, pointer, "must be " + range_text(key.range, kDimensionless, ""));
-    } else {
-      value = number;
-    }
-  }
-
-  /// A whole number too large for an int, such as a lineage number.
-  bool read_long(const Key& key, const Node& node, const std::string& pointer,
-                 std::int64_t& value) {
-    constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (node.kind != Kind::kInteger || node.magnitude > kLargest) {
-      report_.add_value(node, pointer, "must be a whole number, without quotes");
-      return false;
-    }
-    const auto magnitude = static_cast<std::int64_t>(node.magnitude);
-    value = node.negative ? -magnitude : magnitude;
-    if (key.range.contains(static_cast<double>(value))) return true;
-    report_.add_value(node, pointer, "must be " + range_text(key.range, kDimensionless, ""));
-    return false;
-  }
-
-  void read_file_name(const Key& key, const Node& node, const std::string& pointer,
-                      std::string& value) {
-    if (node.text.empty()) {
-      if (key.required) report_.add_value(node, pointer, "must name a file");
-      return;
-    }
-    const Source& source = document_.sources.at(static_cast<std::size_t>(node.origin.source));
-    const std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
-    std::error_code code;
-    if (node.text.find('\0') != std::string::npos || !fs::is_regular_file(path, code)) {
-      report_.add_value(node, pointer, "no such file: " + pointer_path(path));
-      return;
-    }
-    value = path;
-  }
-
-  /// A path fit for a message: no control characters, not endless.
-  static std::string pointer_path(const std::string& path) {
-    std::string text = path.substr(0, 500);
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
-    return text;
-  }
-
-  /// The message of parse_quantity starts with the text, which stands before it already.
-  static std::string without_prefix(const std::string& message, const std::string& text) {
-    const std::string prefix = "\"" + text + "\": ";
-    return pointer_path(message.starts_with(prefix) ? message.substr(prefix.size()) : message);
-  }
-
-  const Document& document_;
-  Report& report_;
-  Frame frame_;
-};
-
-/// The label's stem with everything that cannot stand in a name replaced.
-std::string default_name(const std::string& label) {
-  std::string name = fs::path(label).stem().string().substr(0, 100);
-  for (char& c : name) {
-    if (!is_name(std::string(1, c))) c = '_';
-  }
-  return name.empty() ? "scene" : name;
-}
 
 void name_the_nameless(Scene& scene) {
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
@@ -440,34 +28,38 @@ void name_the_nameless(Scene& scene) {
   }
 }
 
-Scene read(Document& document, const std::string& label, const std::vector<std::string>& set) {
-  for (const std::string& assignment : set) apply_set(document, assignment);
+}  // namespace
+
+Scene read_scene(const Document& document, const std::string& label) {
   Scene scene;
   Report report(document);
-  SceneReader reader(document, report);
-  describe(reader, scene);
-  reader.finish_block();
+  read_keys(document, report, [&scene](Visitor& visitor) { describe(visitor, scene); });
   if (scene.name.empty()) scene.name = default_name(label);
   if (!scene.model.empty()) scene.cells.model = scene.model;
   name_the_nameless(scene);
   check_rules(scene, report);
   report.finish();
   scene.file = label;
+  if (!scene.start_up.from.empty()) scene.start_state = read_start_hash(scene.start_up.from);
   set_canonical(scene);
   return scene;
 }
 
-}  // namespace
+std::string read_start_hash(const std::string& run_folder) {
+  return io::load_state_file(run_folder + "/start.h5").text("state_hash");
+}
 
 Scene read_scene(const std::string& path, const std::vector<std::string>& set) {
   Document document = read_document(path);
-  return read(document, path, set);
+  for (const std::string& assignment : set) apply_set(document, assignment);
+  return read_scene(document, path);
 }
 
 Scene parse_scene(const std::string& text, const std::string& label, const std::string& folder,
                   const std::vector<std::string>& set) {
   Document document = parse_document(text, label, folder);
-  return read(document, label, set);
+  for (const std::string& assignment : set) apply_set(document, assignment);
+  return read_scene(document, label);
 }
 
 }  // namespace acinus::runs

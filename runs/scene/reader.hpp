@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runs/scene/document.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -20,5 +21,13 @@ Scene read_scene(const std::string& path, const std::vector<std::string>& set = 
 /// @param folder  where relative file names start
 Scene parse_scene(const std::string& text, const std::string& label,
                   const std::string& folder = ".", const std::vector<std::string>& set = {});
+
+/// A document that was read and changed before.
+/// @param label  the scene's file in messages; its stem is the default scene name
+Scene read_scene(const Document& document, const std::string& label);
+
+/// Hash of the state at t = 0 that a run left in its folder for others to start from.
+/// @throws Error (kFileError) if its start.h5 cannot be read
+std::string read_start_hash(const std::string& run_folder);
 
 }  // namespace acinus::runs

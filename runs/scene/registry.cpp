@@ -109,6 +109,11 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
           .unit = "1/h",
           .range = kPositive},
          b.pressure_tolerance);
+  v.text({.name = "from",
+          .meaning = "folder of a run whose cells at t = 0 this run takes instead of placing and "
+                     "settling its own; what shapes the start must be the same",
+          .is_run = true},
+         b.from);
 }
 
 void describe_contact(Visitor& v, ContactBlock& b) {

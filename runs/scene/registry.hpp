@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "runs/scene/json_text.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -42,6 +43,7 @@ struct Key {
   bool required = false;
   const char* automatic = "";  ///< what "auto" stands for; "" = "auto" is not allowed
   bool is_file = false;        ///< a text that is a path, or one of the choices
+  bool is_run = false;         ///< a text that is the path of a run folder
   bool is_name = false;        ///< a text that is a name: letters, digits, _ and -
   bool is_label = false;       ///< the same with spaces inside
   const char* item = "";       ///< lists and maps: what `explain` calls one element
@@ -79,6 +81,13 @@ class Visitor {
   virtual void counts(const Key& key, std::array<int, 3>& value) = 0;
   /// A list of whole numbers of any length.
   virtual void integers(const Key& key, std::vector<std::int64_t>& values) = 0;
+  /// A list of texts of any length.
+  virtual void texts(const Key& key, std::vector<std::string>& values) = 0;
+  /// A value whose type another key decides, with the place it was written; empty = not given.
+  virtual void value(const Key& key, std::optional<Node>& value) = 0;
+  virtual void values(const Key& key, std::vector<Node>& values) = 0;
+  /// Values by names that no registry of this visitor knows.
+  virtual void settings(const Key& key, std::vector<Member>& members) = 0;
   /// A block that is always there.
   virtual void object(const Key& key, const Members& members) = 0;
   /// A block that may be absent; `members` may be called only while it is present.
@@ -109,7 +118,10 @@ struct Entry {
   bool is_block = false;  ///< an object, list or map, not a value
 };
 
-/// Every key, in canonical order; built once.
+/// The lines of any registry, in its order.
+std::vector<Entry> collect_entries(const std::function<void(Visitor&)>& describe);
+
+/// Every key of a scene, in canonical order; built once.
 const std::vector<Entry>& all_entries();
 
 }  // namespace acinus::runs

@@ -73,7 +73,13 @@ void check_integrator(const Scene& scene, Report& report) {
 }
 
 void check_start_up(const Scene& scene, Report& report) {
-  if (!scene.start_up.enabled) return;
+  if (!scene.start_up.enabled) {
+    if (!scene.start_up.from.empty())
+      report.add_relation({"/start_up/from", "/start_up/enabled"}, "",
+                          "stands for a start-up that another run made: set /start_up/enabled to "
+                          "true, as there");
+    return;
+  }
   const double initial = scene.start_up.initial_radius;
   for (const auto& [name, type] : scene.cell_types) {
     if (initial < type.radius) continue;

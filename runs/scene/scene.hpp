@@ -40,6 +40,7 @@ struct StartUpBlock {
   double max_duration = 3 * 3600;           ///< s, cap on the settling after growth
   double speed_tolerance = 0.01 / 60;       ///< um/s
   double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative pressure change
+  std::string from;  ///< run folder whose state at t = 0 is taken; empty = none
 };
 
 struct DcmBlock {  ///< deformable cell parameters of a cell type (Table 1)
@@ -301,8 +302,9 @@ struct Scene {
   OutputBlock output;
 
   std::string
-      resolved_json;  ///< every key with its value, canonical order, as written to provenance
-  std::string sha;    ///< hash of resolved_json
+      resolved_json;        ///< every key with its value, canonical order, as written to provenance
+  std::string sha;          ///< hash of resolved_json
+  std::string start_state;  ///< hash of the state in start_up.from; "" = none
 };
 
 }  // namespace acinus::runs

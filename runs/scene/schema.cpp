@@ -78,6 +78,18 @@ class SchemaBuilder final : public Visitor {
     set_default(key, schema, values);
     put(key, std::move(schema));
   }
+  void texts(const Key& key, std::vector<std::string>& values) override {
+    Json schema{{"type", "array"}, {"items", Json{{"type", "string"}, {"minLength", 1}}}};
+    set_default(key, schema, values);
+    put(key, std::move(schema));
+  }
+  void value(const Key& key, std::optional<Node>&) override {
+    put(key, Json{{"type", Json::array({"number", "string"})}});
+  }
+  void values(const Key& key, std::vector<Node>&) override { put(key, Json{{"type", "array"}}); }
+  void settings(const Key& key, std::vector<Member>&) override {
+    put(key, Json{{"type", "object"}});
+  }
   void object(const Key& key, const Members& members) override { put(key, inner(members)); }
   void optional_object(const Key& key, bool, const std::function<void(bool)>&,
                        const Members& members) override {
@@ -189,19 +201,17 @@ class SchemaBuilder final : public Visitor {
 
 }  // namespace
 
-std::string scene_schema() {
+std::string make_schema(const char* title, const char* extends,
+                        const std::function<void(Visitor&)>& describe) {
   SchemaBuilder builder;
-  Scene scene;
-  describe(builder, scene);
+  describe(builder);
   Json root;
   root["$schema"] = "https://json-schema.org/draft/2020-12/schema";
-  root["title"] = "acinus scene";
+  root["title"] = title;
   root.update(builder.finished());
-  root["properties"]["extends"] = Json{
-      {"type", "string"},
-      {"description", "scene file this one changes, relative to this file: blocks are merged"}};
+  root["properties"]["extends"] = Json{{"type", "string"}, {"description", extends}};
   root["properties"]["$schema"] = Json{{"type", "string"}};
-  // A scene that extends another may leave the required keys to it.
+  // What extends another may leave the required keys to it.
   if (root.contains("required")) {
     Json required = std::move(root["required"]);
     root.erase("required");
@@ -209,6 +219,13 @@ std::string scene_schema() {
         {Json{{"required", std::move(required)}}, Json{{"required", Json::array({"extends"})}}});
   }
   return root.dump(2) + "\n";
+}
+
+std::string scene_schema() {
+  Scene scene;
+  return make_schema("acinus scene",
+                     "scene file this one changes, relative to this file: blocks are merged",
+                     [&scene](Visitor& visitor) { describe(visitor, scene); });
 }
 
 }  // namespace acinus::runs

@@ -1,7 +1,10 @@
 #pragma once
 /// The JSON Schema of a scene, made from the registry.
 
+#include <functional>
 #include <string>
+
+#include "runs/scene/registry.hpp"
 
 namespace acinus::runs {
 
@@ -9,5 +12,10 @@ namespace acinus::runs {
 /// units by dimension, ranges of plain numbers and choices; ranges of quantities and rules between
 /// keys stay with `acinus check`.
 std::string scene_schema();
+
+/// The same for any registry.
+/// @param extends  what the key of that name means
+std::string make_schema(const char* title, const char* extends,
+                        const std::function<void(Visitor&)>& describe);
 
 }  // namespace acinus::runs

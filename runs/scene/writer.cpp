@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "runs/scene/registry.hpp"
 
@@ -16,7 +17,9 @@ std::string in_quotes(const std::string& text) { return nlohmann::json(text).dum
 
 class JsonWriter final : public Visitor {
  public:
-  explicit JsonWriter(bool with_folders) : with_folders_(with_folders) {}
+  /// @param start_state  stands for the run a scene starts from when folders are left out
+  JsonWriter(bool with_folders, std::string start_state)
+      : with_folders_(with_folders), start_state_(std::move(start_state)) {}
 
   void real(const Key& key, double& value) override { line(key.name, number(key, value)); }
   void optional_real(const Key& key, std::optional<double>& value) override {
@@ -30,6 +33,8 @@ class JsonWriter final : public Visitor {
   void text(const Key& key, std::string& value) override {
     if (key.automatic[0] && value.empty()) {
       line(key.name, "\"auto\"");
+    } else if (key.is_run && !with_folders_) {
+      line(key.name, in_quotes(start_state_));
     } else if (key.is_file && !with_folders_) {
       line(key.name, in_quotes(std::filesystem::path(value).filename().string()));
     } else {
@@ -46,6 +51,25 @@ class JsonWriter final : public Visitor {
   }
   void integers(const Key& key, std::vector<std::int64_t>& values) override {
     line(key.name, fmt::format("[{}]", fmt::join(values, ", ")));
+  }
+  void texts(const Key& key, std::vector<std::string>& values) override {
+    std::vector<std::string> quoted;
+    for (const std::string& value : values) quoted.push_back(in_quotes(value));
+    line(key.name, fmt::format("[{}]", fmt::join(quoted, ", ")));
+  }
+  void value(const Key& key, std::optional<Node>& value) override {
+    line(key.name, value ? json_of(*value) : "null");
+  }
+  void values(const Key& key, std::vector<Node>& values) override {
+    std::vector<std::string> all;
+    for (const Node& value : values) all.push_back(json_of(value));
+    line(key.name, fmt::format("[{}]", fmt::join(all, ", ")));
+  }
+  void settings(const Key& key, std::vector<Member>& members) override {
+    Node all;
+    all.kind = Node::Kind::kObject;
+    all.members = members;
+    line(key.name, json_of(all));
   }
   void object(const Key& key, const Members& members) override {
     open(key.name, '{');
@@ -123,13 +147,14 @@ class JsonWriter final : public Visitor {
   }
 
   bool with_folders_;
+  std::string start_state_;
   std::string text_;
   std::size_t depth_ = 1;
   bool first_ = true;
 };
 
 std::string write(const Scene& scene, bool with_folders) {
-  JsonWriter writer(with_folders);
+  JsonWriter writer(with_folders, scene.start_state);
   Scene copy = scene;  // visitors take fields by reference; this one only reads
   describe(writer, copy);
   return writer.finished();

@@ -1,10 +1,10 @@
-#include "runs/bench/child.hpp"
+#include "runs/child.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -14,7 +14,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -33,6 +32,13 @@ std::vector<std::string> environment() {
   return all;
 }
 
+int open_output(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  check(descriptor >= 0, fmt::format("{}: cannot be written: {}", path, std::strerror(errno)),
+        Exit::kFileError);
+  return descriptor;
+}
+
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> all;
   for (std::string& word : words) all.push_back(word.data());
@@ -42,22 +48,30 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 }  // namespace
 
-Child::Child(const std::vector<std::string>& words, const std::string& output, double limit_s)
-    : deadline_(wall_seconds() + limit_s) {
+Child::Child(const std::vector<std::string>& words, const ChildOptions& options)
+    : deadline_(wall_seconds() + options.limit_s) {
   std::vector<std::string> arguments{"acinus"}, variables = environment();
   arguments.insert(arguments.end(), words.begin(), words.end());
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(),
-                                   O_WRONLY | O_CREAT | O_APPEND, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  const int failed = posix_spawn(&id_, "/proc/self/exe", &actions, nullptr,
-                                 pointers(arguments).data(), pointers(variables).data());
-  posix_spawn_file_actions_destroy(&actions);
+  const std::vector<char*> argv = pointers(arguments), envp = pointers(variables);
+  const int error_file = open_output(options.output);
+  const int out_file = options.progress.empty() ? error_file : open_output(options.progress);
+  const pid_t parent = getpid();
+  id_ = fork();
+  if (id_ == 0) {  // only async-signal-safe calls from here on
+    if (options.follows_parent) {
+      prctl(PR_SET_PDEATHSIG, SIGTERM);
+      if (getppid() != parent) _exit(127);  // it ended before that was known
+    }
+    dup2(out_file, STDOUT_FILENO);
+    dup2(error_file, STDERR_FILENO);
+    execve("/proc/self/exe", argv.data(), envp.data());
+    _exit(127);
+  }
+  const int failed = id_ < 0 ? errno : 0;
+  close(error_file);
+  if (out_file != error_file) close(out_file);
   check(failed == 0,
-        fmt::format("cannot start another process: {}. Is {} writable, and are there too many "
-                    "processes?",
-                    std::strerror(failed), output),
+        fmt::format("cannot start another process: {}. Are there too many?", std::strerror(failed)),
         Exit::kFileError);
   // glibc 2.36 declares pidfd_open without C linkage.
   descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, id_, 0));
@@ -68,6 +82,8 @@ Child::Child(const std::vector<std::string>& words, const std::string& output, d
   throw Error(fmt::format("cannot watch a child process: {}.", std::strerror(error)),
               Exit::kFileError);
 }
+
+void Child::send(int signal) const { kill(id_, signal); }
 
 Child::Child(Child&& other) noexcept
     : id_(std::exchange(other.id_, -1)),
@@ -107,18 +123,22 @@ ChildEnd Child::collect() {
   return end;
 }
 
-std::size_t wait_for_any(const std::vector<const Child*>& children) {
+std::optional<std::size_t> wait_for_any(const std::vector<const Child*>& children,
+                                        double patience_s) {
   std::vector<pollfd> ends;
-  double deadline = std::numeric_limits<double>::infinity();
+  const double give_up = wall_seconds() + patience_s;
+  double deadline = give_up;
   for (const Child* child : children) {
     ends.push_back({child->descriptor(), POLLIN, 0});
     deadline = std::min(deadline, child->deadline());
   }
   for (;;) {
-    const double left = deadline - wall_seconds();
-    poll(ends.data(), ends.size(), std::max(0, static_cast<int>(std::ceil(1000 * left))));
+    constexpr double kLongest = 1e6;  // s: poll counts milliseconds in an int
+    const double left = std::clamp(deadline - wall_seconds(), 0.0, kLongest);
+    const int n = poll(ends.data(), ends.size(), static_cast<int>(std::ceil(1000 * left)));
     for (std::size_t k = 0; k < ends.size(); ++k)
-      if (ends[k].revents != 0 || wall_seconds() > children[k]->deadline()) return k;
+      if ((n > 0 && ends[k].revents != 0) || wall_seconds() > children[k]->deadline()) return k;
+    if (std::isfinite(patience_s) && (n < 0 || wall_seconds() >= give_up)) return std::nullopt;
   }
 }
 

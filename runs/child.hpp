@@ -3,6 +3,9 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,18 +18,25 @@ struct ChildEnd {
   double cpu_s = 0;        ///< s, user and system
 };
 
+struct ChildOptions {
+  std::string output;         ///< file that gets stderr and, without `progress`, stdout
+  std::string progress = "";  ///< file that gets stdout
+  double limit_s = std::numeric_limits<double>::infinity();  ///< wall time, then it is killed
+  /// Asked to stop by SIGTERM when this process ends, however it ends.
+  bool follows_parent = false;
+};
+
 /// One running child. The destructor kills what still runs.
 class Child {
  public:
-  /// @param words    command line after the program's name
-  /// @param output   file that gets stdout and stderr
-  /// @param limit_s  wall time after which the child is killed
+  /// @param words  command line after the program's name
   /// @throws Error(kFileError) if it cannot be started
-  Child(const std::vector<std::string>& words, const std::string& output, double limit_s);
+  Child(const std::vector<std::string>& words, const ChildOptions& options);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;
   ~Child();
 
+  void send(int signal) const;
   double deadline() const { return deadline_; }   ///< wall_seconds()
   int descriptor() const { return descriptor_; }  ///< readable when the child has ended
   /// Kills the child if it still runs, then collects it.
@@ -38,7 +48,10 @@ class Child {
   double deadline_ = 0;
 };
 
-/// Waits until a child has ended or is beyond its limit. @return its index
-std::size_t wait_for_any(const std::vector<const Child*>& children);
+/// Waits until a child has ended or is beyond its limit, at most `patience_s`.
+/// @return its index; nothing when patience ends, or a signal came while it is not endless
+std::optional<std::size_t> wait_for_any(
+    const std::vector<const Child*>& children,
+    double patience_s = std::numeric_limits<double>::infinity());
 
 }  // namespace acinus::runs

@@ -1,0 +1,34 @@
+#pragma once
+/// A file that one process at a time holds. The system lets go of it when the process ends, however
+/// it ends, so no stale lock is ever left behind.
+
+#include <optional>
+#include <string>
+
+namespace acinus::io {
+
+/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile.
+class FileLock {
+ public:
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&& other) noexcept;
+  ~FileLock();
+
+  /// Makes the file if needed; its content is left alone.
+  /// @param patience_s  how long to try: is_locked() of others holds the lock for a moment
+  /// @return nothing while another process (or another FileLock of this one) holds it
+  /// @throws Error(kFileError) if the file cannot be opened. On file systems without locks nothing
+  ///         is held and nothing refused.
+  static std::optional<FileLock> try_take(const std::string& path, double patience_s = 0);
+  /// The same, but waits.
+  static FileLock take(const std::string& path);
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_ = -1;
+};
+
+/// Whether someone else holds the lock of a file; false if there is no such file.
+bool is_locked(const std::string& path);
+
+}  // namespace acinus::io

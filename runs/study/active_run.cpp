@@ -1,0 +1,84 @@
+#include "runs/study/active_run.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/io/disk.hpp"
+#include "runs/scene/writer.hpp"
+#include "runs/study/run_status.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kCheckpointEvery = "120 s";  // wall time that a kill may cost
+
+}  // namespace
+
+void clear_run(const std::string& folder) {
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (entry.path().filename() != "claim.lock" && entry.path().filename() != "run.log")
+      fs::remove_all(entry.path(), code);
+}
+
+ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string& root,
+                    io::FileLock claim, bool resume, int threads) {
+  const StudyRun& run = plan.runs[index];
+  const std::string folder = root + "/" + run.folder;
+  if (!resume) clear_run(folder);
+  write_record(root, plan, run);
+  Scene scene = run.scene;
+  if (run.source >= 0)
+    scene.start_up.from = root + "/" + plan.runs[static_cast<std::size_t>(run.source)].folder;
+  io::write_text_file(folder + "/scene.json", write_resolved(scene));
+  const std::vector<std::string> words{resume ? "resume" : "run",
+                                       folder + "/scene.json",
+                                       "--out",
+                                       folder,
+                                       "--threads",
+                                       std::to_string(threads),
+                                       "--progress",
+                                       "json",
+                                       "--checkpoint-every",
+                                       kCheckpointEvery};
+  std::vector<std::string> all = words;
+  if (!resume) all.emplace_back("--overwrite");  // run.log, which holds the lock, stays there
+  std::error_code ignored;
+  fs::remove(folder + "/progress.txt", ignored);
+  fs::remove(folder + "/output.txt", ignored);
+  ChildOptions child{folder + "/output.txt", folder + "/progress.txt"};
+  child.follows_parent = true;
+  return {index, std::move(claim), Child(all, child), folder};
+}
+
+RunProgress read_progress(const ActiveRun& run) {
+  constexpr std::uintmax_t kLongest = 1 << 16;  // bytes
+  const std::string file = run.folder + "/progress.txt";
+  RunProgress progress;
+  const std::string line = last_line(file);
+  const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
+  if (j.is_object()) {
+    progress.time_s = j.value("time_s", 0.0);
+    progress.end_s = j.value("end_s", 0.0);
+    progress.left_s = j.value("eta_s", 0.0);
+    progress.starting = j.value("phase", "") != "running";
+  }
+  std::error_code code;
+  const std::uintmax_t size = fs::file_size(file, code);
+  if (!code && size > kLongest) fs::resize_file(file, 0, code);  // the run appends
+  return progress;
+}
+
+std::string last_line(const std::string& file) {
+  std::error_code code;
+  if (!fs::is_regular_file(file, code)) return {};
+  std::string text = io::read_text_file(file);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const std::size_t before = text.find_last_of('\n');
+  return before == std::string::npos ? text : text.substr(before + 1);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,44 @@
+#pragma once
+/// One run of a study while its process is alive.
+
+#include <optional>
+#include <string>
+
+#include "core/io/file_lock.hpp"
+#include "runs/child.hpp"
+#include "runs/study/plan.hpp"
+
+namespace acinus::runs {
+
+/// What a running simulation last said about itself.
+struct RunProgress {
+  double time_s = 0, end_s = 0;  ///< simulated
+  double left_s = 0;             ///< wall time, by its own estimate
+  bool starting = true;          ///< not yet at t = 0, or nothing said
+};
+
+struct ActiveRun {
+  std::size_t run = 0;  ///< index into the plan's runs
+  io::FileLock claim;   ///< of the run's folder
+  Child child;
+  std::string folder;
+};
+
+/// Starts a run in its folder, anew or from its checkpoint.
+/// @param claim    held by the caller until now
+/// @param resume   go on from the checkpoint; false removes what an earlier attempt left
+/// @param threads  of the process
+/// @throws Error(kFileError)
+ActiveRun start_run(const StudyPlan& plan, std::size_t run, const std::string& root,
+                    io::FileLock claim, bool resume, int threads);
+
+/// Nothing said yet gives the default. Keeps the file that is read small.
+RunProgress read_progress(const ActiveRun& run);
+
+/// The last line that a program printed, "" if none.
+std::string last_line(const std::string& file);
+
+/// Removes everything that a run left in its folder but the claim.
+void clear_run(const std::string& folder);
+
+}  // namespace acinus::runs

@@ -1,0 +1,165 @@
+#include "runs/study/check_study.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "core/unit_scale.hpp"
+#include "runs/study/scene_value.hpp"
+
+namespace acinus::runs {
+namespace {
+
+class Checker {
+ public:
+  Checker(const StudyPlan& plan, Report& report) : plan_(plan), report_(report) {}
+
+  void check_all() {
+    const Study& study = plan_.study;
+    for (std::size_t k = 0; k < study.observables.size(); ++k)
+      check_observable(study.observables[k], fmt::format("/observables/{}", k));
+    std::set<std::string> names;
+    for (std::size_t k = 0; k < study.plots.size(); ++k) {
+      const std::string pointer = fmt::format("/plots/{}", k);
+      if (!names.insert(study.plots[k].name).second)
+        add(pointer + "/name", "another plot has this name");
+      check_plot(study.plots[k], pointer);
+    }
+    std::set<std::string> ids;
+    for (std::size_t k = 0; k < study.expectations.size(); ++k) {
+      const std::string pointer = fmt::format("/expectations/{}", k);
+      if (!ids.insert(study.expectations[k].id).second)
+        add(pointer + "/id", "another expectation has this id");
+      check_expectation(study.expectations[k], pointer);
+    }
+  }
+
+ private:
+  void add(const std::string& pointer, const std::string& message) {
+    report_.add_relation({pointer}, "", message);
+  }
+
+  bool check_observable(const std::string& name, const std::string& pointer) {
+    if (report_.is_bad(pointer) || name.empty()) return false;
+    if (plan_.units.contains(name)) return true;
+    std::vector<std::string> names;
+    for (const auto& [known, unit] : plan_.units) names.push_back(known);
+    const std::string hint = nearest_name(name, names);
+    add(pointer, fmt::format("unknown observable. {}",
+                             hint.empty() ? fmt::format("Known: {}", fmt::join(names, ", "))
+                                          : fmt::format("Did you mean \"{}\"?", hint)));
+    return false;
+  }
+
+  void check_variant(const std::string& name, const std::string& pointer, bool one) {
+    if (report_.is_bad(pointer) || name.empty()) return;
+    if (find_variants(plan_.variants, name).empty() || (one && name.ends_with("/*")))
+      add(pointer, unknown_variant(plan_.variants, name));
+  }
+
+  void check_number(const Node& value, const std::string& unit, const std::string& pointer) {
+    try {
+      number_in(value, unit);
+    } catch (const Error& error) {
+      const std::string message = error.what(), before = "\"" + value.text + "\": ";
+      add(pointer, message.starts_with(before) ? message.substr(before.size()) : message);
+    }
+  }
+
+  void check_plot(const StudyPlot& plot, const std::string& pointer) {
+    const bool known = check_observable(plot.observable, pointer + "/observable");
+    for (std::size_t k = 0; k < plot.variants.size(); ++k)
+      check_variant(plot.variants[k], fmt::format("{}/variants/{}", pointer, k), false);
+    std::string x_unit = "s";
+    if (!plot.over.empty()) {
+      const std::optional<std::string> unit = unit_of_key(plot.over);
+      if (!unit) {
+        add(pointer + "/over", "is no key of a scene with one number as value");
+        return;
+      }
+      x_unit = *unit;
+    }
+    for (std::size_t k = 0; k < plot.reference.size() && known; ++k)
+      check_reference(plot.reference[k], fmt::format("{}/reference/{}", pointer, k), x_unit,
+                      plan_.units.at(plot.observable));
+  }
+
+  void check_reference(const StudyReference& r, const std::string& pointer,
+                       const std::string& x_unit, const std::string& y_unit) {
+    const auto numbers = [&](const std::vector<Node>& values, const char* key,
+                             const std::string& unit) {
+      for (std::size_t k = 0; k < values.size(); ++k)
+        check_number(values[k], unit, fmt::format("{}/{}/{}", pointer, key, k));
+      if (values.size() != r.x.size() && !values.empty())
+        add(pointer + "/" + key, fmt::format("has {} values, x has {}", values.size(), r.x.size()));
+    };
+    numbers(r.x, "x", x_unit);
+    numbers(r.y, "y", y_unit);
+    numbers(r.low, "low", y_unit);
+    numbers(r.high, "high", y_unit);
+    if (r.y.empty() != r.x.empty()) add(pointer + "/y", "must have as many values as x");
+    if (r.low.empty() != r.high.empty())
+      add(pointer + "/low", "low and high go together: give both or none");
+  }
+
+  void check_measure(const StudyMeasure& m, const std::string& pointer) {
+    const bool known = check_observable(m.observable, pointer + "/observable");
+    check_variant(m.variant, pointer + "/variant", true);
+    check_variant(m.other, pointer + "/other", true);
+    if (known && m.level) check_number(*m.level, plan_.units.at(m.observable), pointer + "/level");
+    if (m.from && m.until && *m.from >= *m.until) add(pointer + "/from", "must be before until");
+  }
+
+  void check_expectation(const StudyExpectation& e, const std::string& pointer) {
+    check_measure(e.measure, pointer + "/measure");
+    if (e.minus) check_measure(*e.minus, pointer + "/minus");
+    if (e.over) check_measure(*e.over, pointer + "/over");
+    if (e.minus && e.over) {
+      add(pointer + "/over", "a measure has minus or over, not both");
+      return;
+    }
+    if (!e.low && !e.high) add(pointer + "/low", "is missing, and so is high: what is expected?");
+    if (!plan_.units.contains(e.measure.observable)) return;
+    std::string unit = unit_of(e.measure, plan_.units);
+    for (const auto& [second, key] : {std::pair{&e.minus, "/minus"}, {&e.over, "/over"}}) {
+      if (!*second || !plan_.units.contains((*second)->observable)) continue;
+      const std::string other = unit_of(**second, plan_.units);
+      if (scale_of_unit(other).dimension != scale_of_unit(unit).dimension)
+        add(pointer + key,
+            fmt::format("is in {}, the first measure in {}: they cannot be compared", other, unit));
+    }
+    if (e.over) unit = "1";
+    if (e.low) check_number(*e.low, unit, pointer + "/low");
+    if (e.high) check_number(*e.high, unit, pointer + "/high");
+  }
+
+  const StudyPlan& plan_;
+  Report& report_;
+};
+
+}  // namespace
+
+double number_in(const Node& value, const std::string& unit) {
+  const UnitScale scale = scale_of_unit(unit);
+  const bool is_number = value.kind == Node::Kind::kInteger || value.kind == Node::Kind::kNumber;
+  if (scale.dimension == kDimensionless) {
+    check(is_number || value.kind == Node::Kind::kText, "must be a number");
+    return is_number ? value.number / scale.in_base : parse_quantity(value.text, kDimensionless);
+  }
+  check(value.kind == Node::Kind::kText,
+        fmt::format("must be a text with a unit such as \"1 {}\"", unit));
+  return parse_quantity(value.text, scale.dimension) / scale.in_base;
+}
+
+std::string unit_of(const StudyMeasure& measure, const std::map<std::string, std::string>& units) {
+  if (measure.kind == "p_value") return "1";
+  if (measure.kind == "first_below" || measure.kind == "first_above") return "s";
+  return units.at(measure.observable);
+}
+
+void check_study(const StudyPlan& plan, Report& report) { Checker(plan, report).check_all(); }
+
+}  // namespace acinus::runs

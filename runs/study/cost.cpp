@@ -1,0 +1,42 @@
+#include "runs/study/cost.hpp"
+
+#include <algorithm>
+
+namespace acinus::runs {
+namespace {
+
+/// CPU seconds of a cell-step [docs/benchmarks.md], packed tissue.
+constexpr double kSphere = 4e-6;
+double cell_step(const Scene& scene, int nodes) {
+  const double at_162 = scene.contact.quadrature == "3-point" ? 4e-4 : 2.5e-4;
+  return at_162 * nodes / 162;
+}
+
+double count_cells(const Scene& scene) {
+  const CellsBlock& c = scene.cells;
+  if (c.source == "list") return static_cast<double>(c.list.size());
+  if (c.source == "box") return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
+  if (c.source == "lobule" && scene.lobule) return scene.lobule->cells;
+  return c.count;
+}
+
+/// Share of deformable cells; of zoomed scenes half, where they lie is not looked at.
+double share_deformable(const Scene& scene) {
+  if (scene.cells.model == "zoom") return scene.zoom.empty() ? 0 : 0.5;
+  return scene.cells.model == "dcm" ? 1 : 0;
+}
+
+}  // namespace
+
+double estimate_cost(const Scene& scene, bool shared_start) {
+  int nodes = 162;
+  for (const auto& [name, type] : scene.cell_types) nodes = type.dcm.nodes;
+  double time = scene.time.end;
+  if (scene.start_up.enabled && !shared_start)
+    time += scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_duration;
+  const double deformable = share_deformable(scene);
+  const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphere;
+  return std::max(0.1, time / scene.time.step * count_cells(scene) * one);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,29 @@
+#pragma once
+/// What the runs of a study are expected to cost: from what others of the same variant did, else
+/// roughly.
+
+#include <map>
+#include <string>
+
+#include "runs/study/plan.hpp"
+
+namespace acinus::runs {
+
+class ExpectedCosts {
+ public:
+  /// Looks at the runs that are done in the study's folder.
+  ExpectedCosts(const StudyPlan& plan, const std::string& root);
+
+  void add(const StudyRun& run, double cpu_s);  ///< one more that is done
+  bool is_measured(const StudyRun& run) const { return measured_.contains(run.variant); }
+  double cpu_s(const StudyRun& run) const;
+
+ private:
+  struct Sum {
+    double cpu_s = 0;
+    int n = 0;
+  };
+  std::map<std::size_t, Sum> measured_;  ///< by variant
+};
+
+}  // namespace acinus::runs

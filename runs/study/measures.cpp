@@ -1,0 +1,243 @@
+#include "runs/study/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "core/unit_scale.hpp"
+#include "runs/study/check_study.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// One run's curve with what is known about its end.
+struct RunCurve {
+  std::int64_t seed = 0;
+  const Curve* curve = nullptr;
+  bool complete = false;
+};
+
+/// The curves of a variant; `note` says which is missing.
+std::vector<RunCurve> find_curves(const StudyPlan& plan, const StudyData& data,
+                                  const std::string& variant, const std::string& observable,
+                                  std::string& note) {
+  std::vector<RunCurve> found;
+  const auto miss = [&](const StudyRun& run, const std::string& why) {
+    note += (note.empty() ? "" : ", ") + run.name + " " + why;
+  };
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const StudyRun& run = plan.runs[k];
+    if (plan.variant_of(run).name != variant) continue;
+    const RunData& d = data[k];
+    const auto curve = d.curve.find(observable);
+    if (d.status.state == RunState::kFailed) {
+      miss(run, "failed");
+    } else if (curve == d.curve.end() || curve->second.time.empty()) {
+      miss(run, d.status.state == RunState::kDone ? "did not measure " + observable
+                                                  : std::string("is ") + name_of(d.status.state));
+    } else {
+      found.push_back(
+          {static_cast<std::int64_t>(run.seed), &curve->second, d.status.state == RunState::kDone});
+    }
+  }
+  return found;
+}
+
+double first_time(const Curve& curve) { return std::max(0.0, curve.time.front()); }
+
+/// The time a measure looks at; the end only of runs that are done.
+std::optional<double> time_of(const RunCurve& s, const std::optional<double>& asked) {
+  if (asked) return asked;
+  if (!s.complete) return std::nullopt;
+  return s.curve->time.back();
+}
+
+std::optional<Curve> window_of(const RunCurve& s, const StudyMeasure& m) {
+  const std::optional<double> until = time_of(s, m.until);
+  if (!until) return std::nullopt;
+  Curve w = window(*s.curve, m.from.value_or(first_time(*s.curve)), *until);
+  if (w.time.empty()) return std::nullopt;
+  return w;
+}
+
+/// The number that one run gives.
+std::optional<double> of_run(const RunCurve& s, const StudyMeasure& m, double level) {
+  if (m.kind == "value") {
+    const std::optional<double> t = time_of(s, m.at);
+    return t ? value_at(*s.curve, *t) : std::nullopt;
+  }
+  if (m.kind == "first_below" || m.kind == "first_above") {
+    const double from = m.from.value_or(first_time(*s.curve));
+    const auto passed = first_passage(*s.curve, level, m.kind == "first_below", from,
+                                      m.until.value_or(s.curve->time.back()));
+    if (passed) return passed;
+    return window_of(s, m) ? std::optional(kNever) : std::nullopt;
+  }
+  const std::optional<Curve> w = window_of(s, m);
+  if (!w) return std::nullopt;
+  if (m.kind == "mean") return time_mean(*w);
+  return m.kind == "min" ? *std::ranges::min_element(w->value)
+                         : *std::ranges::max_element(w->value);
+}
+
+void summarise(Measured& out) {
+  double sum = 0, low = kNever, high = -kNever;
+  for (const auto& [seed, v] : out.by_seed) {
+    sum += v;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  out.value = sum / static_cast<double>(out.by_seed.size());
+  out.low = low;
+  out.high = high;
+}
+
+/// All windows of a variant; empty if one is missing.
+std::vector<Curve> windows(const std::vector<RunCurve>& sources, const StudyMeasure& m) {
+  std::vector<Curve> out;
+  for (const RunCurve& s : sources) {
+    const std::optional<Curve> w = window_of(s, m);
+    if (!w) return {};
+    out.push_back(*w);
+  }
+  return out;
+}
+
+std::set<double> times_of(const std::vector<Curve>& curves) {
+  std::set<double> times;
+  for (const Curve& c : curves) times.insert(c.time.begin(), c.time.end());
+  return times;
+}
+
+/// Largest spread over seeds at one time.
+std::optional<double> widest_band(const std::vector<Curve>& curves) {
+  double widest = 0;
+  for (double t : times_of(curves)) {
+    double low = kNever, high = -kNever;
+    for (const Curve& c : curves)
+      if (const auto v = value_at(c, t)) {
+        low = std::min(low, *v);
+        high = std::max(high, *v);
+      }
+    widest = std::max(widest, high - low);
+  }
+  return curves.empty() ? std::nullopt : std::optional(widest);
+}
+
+std::optional<double> mean_at(const std::vector<Curve>& curves, double t) {
+  double sum = 0;
+  for (const Curve& c : curves) {
+    const auto v = value_at(c, t);
+    if (!v) return std::nullopt;
+    sum += *v;
+  }
+  return sum / static_cast<double>(curves.size());
+}
+
+std::optional<double> largest_distance(const std::vector<Curve>& a, const std::vector<Curve>& b) {
+  if (a.empty() || b.empty()) return std::nullopt;
+  std::set<double> times = times_of(a);
+  times.merge(times_of(b));
+  std::optional<double> largest;
+  for (double t : times) {
+    const auto p = mean_at(a, t), q = mean_at(b, t);
+    if (p && q) largest = std::max(largest.value_or(0), std::abs(*p - *q));
+  }
+  return largest;
+}
+
+std::optional<double> p_value(const std::vector<RunCurve>& a, const std::vector<RunCurve>& b,
+                              const StudyMeasure& m, std::string& note) {
+  std::vector<double> values[2];
+  for (const auto& [sources, out] : {std::pair{&a, &values[0]}, {&b, &values[1]}})
+    for (const RunCurve& s : *sources) {
+      const std::optional<double> t = time_of(s, m.at), v = t ? value_at(*s.curve, *t) : t;
+      if (!v) return std::nullopt;
+      out->push_back(*v);
+    }
+  const std::optional<double> p = welch_p(values[0], values[1]);
+  if (!p) note = "a t-test needs two seeds of each and a spread";
+  return p;
+}
+
+Measured none(Measured out, const std::string& note) {
+  out.value = out.low = out.high = std::nullopt;
+  out.by_seed.clear();
+  out.note = note;
+  return out;
+}
+
+double combined(const StudyExpectation& e, double a, double b) { return e.minus ? a - b : a / b; }
+
+}  // namespace
+
+Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyMeasure& m) {
+  Measured out;
+  out.unit = unit_of(m, plan.units);
+  std::string missing;
+  const std::vector<RunCurve> a = find_curves(plan, data, m.variant, m.observable, missing);
+  std::vector<RunCurve> b;
+  const bool of_two = m.kind == "distance" || m.kind == "p_value";
+  if (of_two) b = find_curves(plan, data, m.other, m.observable, missing);
+  if (!missing.empty()) return none(out, missing);
+  if (a.empty() || (of_two && b.empty())) return none(out, "no runs");
+  std::string note = "the runs have not come so far, or ended before";
+  if (of_two || m.kind == "band") {
+    out.value = m.kind == "p_value"    ? p_value(a, b, m, note)
+                : m.kind == "distance" ? largest_distance(windows(a, m), windows(b, m))
+                                       : widest_band(windows(a, m));
+    return out.value ? out : none(out, note);
+  }
+  const double level = m.level ? number_in(*m.level, plan.units.at(m.observable)) : 0;
+  out.known_until = kNever;
+  for (const RunCurve& s : a) {
+    const std::optional<double> v = of_run(s, m, level);
+    if (!v) return none(out, note);
+    out.by_seed[s.seed] = *v;
+    out.known_until = std::min(out.known_until, m.until.value_or(s.curve->time.back()));
+  }
+  summarise(out);
+  return out;
+}
+
+Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyExpectation& e) {
+  Measured first = take_measure(plan, data, e.measure);
+  if (!e.minus && !e.over) return first;
+  const Measured second = take_measure(plan, data, e.minus ? *e.minus : *e.over);
+  Measured out;
+  out.unit = e.over ? "1" : first.unit;
+  out.known_until = std::min(first.known_until, second.known_until);
+  if (!first.value || !second.value) return none(out, first.value ? second.note : first.note);
+  const double scale =
+      scale_of_unit(second.unit).in_base / scale_of_unit(first.unit).in_base;  // into the first's
+  const auto same_seeds = [](const auto& p, const auto& q) { return p.first == q.first; };
+  if (!first.by_seed.empty() && std::ranges::equal(first.by_seed, second.by_seed, same_seeds)) {
+    for (const auto& [seed, v] : first.by_seed)
+      out.by_seed[seed] = combined(e, v, scale * second.by_seed.at(seed));
+    summarise(out);
+  } else {
+    out.value = combined(e, *first.value, scale * *second.value);
+  }
+  // never minus never, or a division by zero
+  if (std::isnan(*out.value) || (e.over && !std::isfinite(*out.value)))
+    return none(out, "the two measures have no difference or ratio");
+  return out;
+}
+
+std::string show_value(double v, const std::string& unit) {
+  if (std::isinf(v)) return v > 0 ? "never" : "before what never happens";
+  if (unit == "1") return fmt::format("{:.4g}", v);
+  if (unit != "s") return fmt::format("{:.4g} {}", v, unit);
+  const double size = std::abs(v);
+  if (size >= 86400) return fmt::format("{:.3g} d", v / 86400);
+  if (size >= 3600) return fmt::format("{:.3g} h", v / 3600);
+  return size >= 120 ? fmt::format("{:.3g} min", v / 60) : fmt::format("{:.3g} s", v);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,46 @@
+#pragma once
+/// A study ready to run: its file read, every scene resolved, everything that is named known.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runs/scene/scene.hpp"
+#include "runs/study/study.hpp"
+#include "runs/study/variants.hpp"
+
+namespace acinus::runs {
+
+/// One simulation of the study.
+struct StudyRun {
+  std::size_t variant = 0;  ///< index into the plan's variants
+  std::uint64_t seed = 0;
+  std::string name;    ///< "III/seed_2"
+  std::string folder;  ///< below the study's folder: "runs/III/seed_2"
+  Scene scene;         ///< without start_up.from
+  int source = -1;     ///< run whose state at t = 0 it takes; -1 = none
+  /// What the run depends on: hash of its scene, and of those it starts from.
+  std::string identity;
+};
+
+struct StudyPlan {
+  Study study;
+  std::vector<Variant> variants;
+  std::vector<StudyRun> runs;                ///< variant by variant, then by seed
+  std::map<std::string, std::string> units;  ///< of all observables the runs may have, by name
+  const Variant& variant_of(const StudyRun& run) const { return variants[run.variant]; }
+};
+
+/// Reads a study file, a shipped study's name among them.
+/// @throws Error: all faults of the study and of the scenes it makes, one a line with line and
+///         column; kFileError if a file cannot be read
+StudyPlan read_study(const std::string& path);
+
+/// The same for a text in memory.
+/// @param label   stands for the file name in messages; its stem is the default name
+/// @param folder  where relative file names start
+StudyPlan parse_study(const std::string& text, const std::string& label,
+                      const std::string& folder = ".");
+
+}  // namespace acinus::runs

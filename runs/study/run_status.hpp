@@ -1,0 +1,43 @@
+#pragma once
+/// How far a run of a study is, from what stands in its folder.
+
+#include <string>
+
+#include "runs/study/plan.hpp"
+
+namespace acinus::runs {
+
+enum class RunState {
+  kToDo,
+  kToResume,  ///< stopped or killed, with a checkpoint
+  kRunning,   ///< another process holds the folder
+  kDone,
+  kFailed,  ///< the simulation could not go on
+  kStale,   ///< results of another scene or version
+};
+const char* name_of(RunState state);
+
+struct RunStatus {
+  RunState state = RunState::kToDo;
+  std::string cause;                              ///< of a failure, or why the last attempt ended
+  double cpu_s = 0, wall_s = 0, simulated_s = 0;  ///< as far as the run told
+  std::string state_hash;                         ///< of the last state told
+  std::string version, git;
+};
+
+/// Looks at a run's folder.
+/// @param root  the study's folder
+/// @param held  the caller has the run's claim: nobody else can be running it
+RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held = false);
+
+/// What a run folder says about whose it is, written before its first step.
+void write_record(const std::string& root, const StudyPlan& plan, const StudyRun& run,
+                  const std::string& cause = "");
+
+/// The file whose lock says that a process takes care of a run.
+std::string claim_file(const std::string& root, const StudyRun& run);
+
+/// Whether the state at t = 0 that others start from stands in the folder of this very run.
+bool has_start(const std::string& root, const StudyRun& run);
+
+}  // namespace acinus::runs

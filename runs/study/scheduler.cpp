@@ -1,0 +1,241 @@
+#include "runs/study/scheduler.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/io/file_lock.hpp"
+#include "runs/run_folder.hpp"
+#include "runs/study/active_run.hpp"
+#include "runs/study/run_status.hpp"
+#include "runs/study/study_laws.hpp"
+#include "runs/study/study_progress.hpp"
+
+namespace acinus::runs {
+namespace {
+
+volatile std::sig_atomic_t g_stop = 0;  // the only thing a signal handler may touch
+void remember_stop(int) { g_stop = g_stop + 1; }
+
+constexpr double kLook = 1;  ///< s between looks at what others do
+
+class Scheduler {
+ public:
+  Scheduler(const StudyPlan& plan, const std::vector<ChosenRun>& chosen,
+            const ScheduleOptions& options)
+      : plan_(plan), options_(options), progress_(plan, options.root, options.jobs, options.quiet) {
+    for (const ChosenRun& c : chosen) {
+      waiting_.push_back(c);
+      if (c.own) ++n_own_;
+    }
+  }
+
+  ScheduleResult go() {
+    result_.stopped = calibrate();
+    // From here on: the runs of a calibration handle signals themselves.
+    for (int s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, remember_stop);
+    while (!result_.stopped) {
+      if (g_stop != 0) {
+        stop();
+        break;
+      }
+      start_what_can();
+      if (active_.empty() && waiting_.empty()) break;
+      wait();
+      progress_.show(counts(), active_);
+    }
+    for (int s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, SIG_DFL);
+    result_.left = n_own_ - result_.done - result_.failed;
+    progress_.finish();
+    return result_;
+  }
+
+ private:
+  /// @return whether it was stopped
+  bool calibrate() {
+    std::vector<const StudyRun*> runs;
+    for (const ChosenRun& c : waiting_) {
+      const RunState state = inspect_run(options_.root, plan_.runs[c.run]).state;
+      if (state == RunState::kToDo || state == RunState::kToResume)
+        runs.push_back(&plan_.runs[c.run]);
+    }
+    return find_laws(runs, options_.jobs * options_.threads, options_.quiet, no_law_);
+  }
+
+  StudyCounts counts() const {
+    StudyCounts c{n_own_, result_.done, result_.failed, {}};
+    for (const ChosenRun& w : waiting_) c.waiting.push_back(w.run);
+    return c;
+  }
+
+  const StudyRun& run_of(const ChosenRun& c) const { return plan_.runs[c.run]; }
+
+  void count(const ChosenRun& c, bool done) {
+    if (c.own) ++(done ? result_.done : result_.failed);
+    if (!done) failed_.insert(c.run);
+  }
+
+  void fail(const ChosenRun& c, const std::string& cause) {
+    progress_.tell(fmt::format("{} failed: {}", run_of(c).name, cause));
+    count(c, false);
+  }
+
+  void start_what_can() {
+    for (std::size_t k = 0; k < waiting_.size();) {
+      if (static_cast<int>(active_.size()) >= options_.jobs) return;
+      if (try_start(waiting_[k]))
+        waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(k));
+      else
+        ++k;
+    }
+  }
+
+  /// @return false if the run must wait
+  bool try_start(const ChosenRun& c) {
+    const StudyRun& run = run_of(c);
+    if (!c.own && (has_start(options_.root, run) || !needed(c.run))) return true;
+    if (inspect_run(options_.root, run).state == RunState::kDone) {
+      count(c, true);
+      return true;
+    }
+    if (run.source >= 0 && !has_start(options_.root, source_of(run))) {
+      const auto source = static_cast<std::size_t>(run.source);
+      if (is_pending(source) ||
+          inspect_run(options_.root, source_of(run)).state == RunState::kRunning)
+        return false;
+      fail(c, fmt::format("{}, from whose start it goes on, left none{}", source_of(run).name,
+                          failed_.contains(source) ? "" : "; remove its folder to run it again"));
+      return true;
+    }
+    const std::string folder = options_.root + "/" + run.folder;
+    std::error_code code;
+    std::filesystem::create_directories(folder, code);
+    check(!code, fmt::format("{}: cannot be made: {}", folder, code.message()), Exit::kFileError);
+    std::optional<io::FileLock> claim = io::FileLock::try_take(claim_file(options_.root, run));
+    if (!claim || is_being_written(folder)) return false;  // another process has it
+    settle(c, std::move(*claim));
+    return true;
+  }
+
+  /// A run that is in our hands: found to be done or failed, or started.
+  void settle(const ChosenRun& c, io::FileLock claim) {
+    const StudyRun& run = run_of(c);
+    const RunStatus status = inspect_run(options_.root, run, true);
+    if (status.state == RunState::kDone) return count(c, true);
+    const bool again = options_.overwrite && again_.insert(c.run).second;
+    if (status.state == RunState::kFailed && !again) return fail(c, status.cause);
+    if (const auto law = no_law_.find(run.name); law != no_law_.end()) return fail(c, law->second);
+    active_.push_back(start_run(plan_, c.run, options_.root, std::move(claim),
+                                status.state == RunState::kToResume, options_.threads));
+    chosen_[c.run] = c;
+  }
+
+  const StudyRun& source_of(const StudyRun& run) const {
+    return plan_.runs[static_cast<std::size_t>(run.source)];
+  }
+
+  bool is_pending(std::size_t run) const {
+    const auto is_it = [run](const auto& other) { return other.run == run; };
+    return std::ranges::any_of(waiting_, is_it) || std::ranges::any_of(active_, is_it);
+  }
+
+  bool needed(std::size_t source) const {
+    return std::ranges::any_of(waiting_, [&](const ChosenRun& c) {
+      return run_of(c).source == static_cast<int>(source) && c.run != source;
+    });
+  }
+
+  void wait() {
+    std::vector<const Child*> children;
+    for (const ActiveRun& a : active_) children.push_back(&a.child);
+    if (const auto ended = wait_for_any(children, kLook)) finish(*ended);
+  }
+
+  void finish(std::size_t k) {
+    ActiveRun ended = std::move(active_[k]);
+    active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(k));
+    const ChildEnd end = ended.child.collect();
+    const ChosenRun c = chosen_.at(ended.run);
+    const StudyRun& run = run_of(c);
+    std::error_code ignored;
+    std::filesystem::remove(ended.folder + "/progress.txt", ignored);
+    const RunStatus status = inspect_run(options_.root, run, true);
+    if (end.code == static_cast<int>(Exit::kDone)) {
+      progress_.add(run, status.cpu_s);
+      return count(c, true);
+    }
+    std::string cause = last_line(ended.folder + "/output.txt");
+    if (end.signal != 0) cause = fmt::format("ended by signal {}", end.signal);
+    if (end.code == static_cast<int>(Exit::kStopped)) {
+      cause = "stopped from outside, with a checkpoint";
+    } else if (end.code == static_cast<int>(Exit::kBadInput) && run.source >= 0 &&
+               !has_start(options_.root, source_of(run))) {
+      waiting_.push_back(c);  // another task began that run anew just now
+      return;
+    }
+    if (status.state == RunState::kFailed) cause = status.cause;
+    if (cause.empty()) cause = fmt::format("exit code {}", end.code);
+    if (g_stop == 0) {
+      write_record(options_.root, plan_, run, cause);
+      fail(c, cause);
+    }
+  }
+
+  /// Asks all children to stop and waits for them; a second signal kills them.
+  void stop() {
+    result_.stopped = true;
+    progress_.tell("stopping: every run writes a checkpoint");
+    for (const ActiveRun& a : active_) a.child.send(SIGTERM);
+    const int first = g_stop;
+    while (!active_.empty()) {
+      if (g_stop != first)
+        for (const ActiveRun& a : active_) a.child.send(SIGKILL);
+      wait();
+    }
+  }
+
+  const StudyPlan& plan_;
+  ScheduleOptions options_;
+  StudyProgress progress_;
+  ScheduleResult result_;
+  int n_own_ = 0;
+  std::vector<ChosenRun> waiting_;
+  std::vector<ActiveRun> active_;
+  std::map<std::size_t, ChosenRun> chosen_;  ///< of the active ones
+  std::set<std::size_t> failed_;
+  std::set<std::size_t> again_;                ///< failed before, run again
+  std::map<std::string, std::string> no_law_;  ///< run name -> why it cannot have one
+};
+
+void check_stale(const StudyPlan& plan, const std::vector<ChosenRun>& chosen,
+                 const ScheduleOptions& options) {
+  std::string list;
+  int n = 0;
+  for (const ChosenRun& c : chosen) {
+    const StudyRun& run = plan.runs[c.run];
+    if (inspect_run(options.root, run).state != RunState::kStale) continue;
+    if (++n <= 10) list += "  " + options.root + "/" + run.folder + "\n";
+  }
+  if (n > 10) list += fmt::format("  ... and {} more\n", n - 10);
+  check(n == 0 || options.overwrite,
+        fmt::format("{} run folders hold results of another scene, seed or version:\n{}They are "
+                    "never replaced unasked: run them again with --overwrite, or choose another "
+                    "--out.",
+                    n, list));
+}
+
+}  // namespace
+
+ScheduleResult run_all(const StudyPlan& plan, const std::vector<ChosenRun>& chosen,
+                       const ScheduleOptions& options) {
+  check_stale(plan, chosen, options);
+  return Scheduler(plan, chosen, options).go();
+}
+
+}  // namespace acinus::runs

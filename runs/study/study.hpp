@@ -1,0 +1,80 @@
+#pragma once
+/// A study as its file says it: plain data. A key's default is its initialiser here; registry.hpp
+/// adds unit, range and meaning.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runs/scene/json_text.hpp"
+
+namespace acinus::runs {
+
+/// A named set of changes to the scene.
+struct StudyVariant {
+  std::string title;
+  std::string extends;              ///< variant whose changes come first; "" = none
+  std::vector<Member> set;          ///< scene key -> value
+  std::vector<std::int64_t> seeds;  ///< empty = those of the study
+  std::string start;                ///< variant whose state at t = 0 is taken; "" = none
+};
+
+/// One more variant per value of a key.
+struct StudySweep {
+  std::vector<std::string> of;  ///< variants
+  std::string key;              ///< of the scene
+  std::string label;            ///< in the names; "" = the last part of the key
+  std::vector<Node> values;
+};
+
+/// Points from elsewhere to plot beside the curves.
+struct StudyReference {
+  std::string name;
+  std::vector<Node> x, y;
+  std::vector<Node> low, high;  ///< bars; empty = none
+};
+
+struct StudyPlot {
+  std::string name, title, observable;
+  std::vector<std::string> variants;  ///< empty = all
+  std::string x_label, y_label;
+  bool log_y = false;
+  std::string over;          ///< scene key on the x axis instead of time; "" = time
+  std::optional<double> at;  ///< s, with `over`: when; empty = the end
+  std::vector<StudyReference> reference;
+};
+
+struct StudyMeasure {
+  std::string kind = "value";
+  std::string observable, variant;
+  std::string other;                  ///< distance, p_value: the second variant
+  std::optional<double> at;           ///< s; empty = the end
+  std::optional<double> from, until;  ///< s, window; empty = the whole run
+  std::optional<Node> level;          ///< first_below, first_above
+};
+
+/// A claim: what is measured and what is expected of it.
+struct StudyExpectation {
+  std::string id, claim;
+  StudyMeasure measure;
+  std::optional<StudyMeasure> minus, over;
+  std::optional<Node> low, high;
+  bool every_seed = false;
+};
+
+struct Study {
+  std::string file;  ///< path it was read from
+  std::string name, description;
+  std::string scene;
+  std::vector<Member> set;
+  std::vector<std::int64_t> seeds{1};
+  std::map<std::string, StudyVariant> variants;
+  std::vector<StudySweep> sweeps;
+  std::vector<std::string> observables;  ///< empty = all
+  std::vector<StudyPlot> plots;
+  std::vector<StudyExpectation> expectations;
+};
+
+}  // namespace acinus::runs

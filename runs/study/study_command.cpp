@@ -1,0 +1,42 @@
+#include "runs/study/study_command.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace acinus::runs {
+
+void add_study_command(CLI::App& app, StudyOptions& o) {
+  CLI::App* command = app.add_subcommand(
+      "study", "run the variants and seeds of a study side by side, and judge its claims");
+  command->footer("Example: acinus study runs/studies/example.json --jobs 2");
+  command->add_option("FILE", o.file, "study file, or the name of a shipped study")->required();
+  command->add_option("--out", o.out, "folder (default: <study name>.study in this folder)")
+      ->type_name("DIR");
+  command->add_option("--jobs", o.jobs, "runs at once (default: cores over threads)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--threads", o.threads, "threads of each run (default: 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  CLI::Option* tasks =
+      command->add_option("--tasks", o.choice.tasks, "for job arrays: split the runs in N parts")
+          ->type_name("N")
+          ->check(CLI::Range(1, 100000));
+  command->add_option("--task", o.choice.task, "which part, from 1")
+      ->type_name("I")
+      ->check(CLI::Range(1, 100000))
+      ->needs(tasks);
+  command
+      ->add_option("--only", o.choice.only,
+                   "only this variant, NAME/* for what sweeps made of it; may be repeated")
+      ->type_name("VARIANT")
+      ->allow_extra_args(false);
+  CLI::Option* dry = command->add_flag("--dry-run", o.dry_run,
+                                       "list runs, their state and expected cost; run nothing");
+  command->add_flag("--report", o.report_only, "report from what is there; run nothing")
+      ->excludes(dry);
+  command->add_flag("--overwrite", o.overwrite,
+                    "run again what failed, or was made from another scene or version");
+  command->add_flag("--quiet", o.quiet, "warnings and errors only");
+}
+
+}  // namespace acinus::runs

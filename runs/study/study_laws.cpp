@@ -1,0 +1,32 @@
+#include "runs/study/study_laws.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "runs/calibrate/calibrate.hpp"
+
+namespace acinus::runs {
+
+bool find_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
+               std::map<std::string, std::string>& failed) {
+  for (const StudyRun* run : runs) {
+    const bool asks = std::ranges::any_of(run->scene.cell_types, [](const auto& type) {
+      return type.second.cbm.stiffness_correction == "auto";
+    });
+    if (!asks) continue;
+    Scene scene = run->scene;  // its law's file must not enter the run's identity
+    try {
+      const int code = resolve_corrections(scene, threads, quiet);
+      if (code == static_cast<int>(Exit::kStopped)) return true;
+      if (code != 0)
+        failed[run->name] = fmt::format("its law could not be calibrated (exit code {})", code);
+    } catch (const Error& error) {
+      failed[run->name] = fmt::format("its law could not be calibrated: {}", error.what());
+    }
+  }
+  return false;
+}
+
+}  // namespace acinus::runs

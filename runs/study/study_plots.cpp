@@ -1,0 +1,178 @@
+#include "runs/study/study_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "runs/study/check_study.hpp"
+#include "runs/study/scene_value.hpp"
+
+namespace acinus::runs {
+namespace {
+
+struct TimeAxis {
+  const char* unit = "h";
+  double seconds = 3600;
+};
+
+/// Days for long runs, minutes for short ones.
+TimeAxis time_axis(const StudyData& data) {
+  double end = 0;
+  for (const RunData& d : data) end = std::max(end, d.until);
+  if (end > 3 * 86400) return {"d", 86400};
+  if (end < 2 * 3600) return {"min", 60};
+  return {};
+}
+
+struct Spread {
+  double sum = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  int n = 0;
+  void add(double v) {
+    sum += v;
+    low = std::min(low, v);
+    high = std::max(high, v);
+    ++n;
+  }
+};
+
+void add_point(io::PlotLine& line, double x, const Spread& s) {
+  if (s.n == 0) return;
+  line.point.emplace_back(x, s.sum / s.n);
+  line.band.emplace_back(s.low, s.high);
+}
+
+/// The curves of a variant's runs.
+std::vector<const Curve*> curves_of(const StudyPlan& plan, const StudyData& data,
+                                    std::size_t variant, const std::string& observable) {
+  std::vector<const Curve*> curves;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    if (plan.runs[k].variant != variant) continue;
+    const auto found = data[k].curve.find(observable);
+    if (found != data[k].curve.end()) curves.push_back(&found->second);
+  }
+  return curves;
+}
+
+io::PlotLine line_over_time(const std::vector<const Curve*>& curves, double seconds) {
+  std::set<double> times;
+  for (const Curve* c : curves) times.insert(c->time.begin(), c->time.end());
+  io::PlotLine line;
+  line.marks = times.size() <= 12;
+  for (double t : times) {
+    Spread s;
+    for (const Curve* c : curves)
+      if (const auto v = value_at(*c, t)) s.add(*v);
+    add_point(line, t / seconds, s);
+  }
+  return line;
+}
+
+/// Variants that were made from the same one by sweeps share a line.
+void add_lines_over_key(const StudyPlan& plan, const StudyData& data, const StudyPlot& wanted,
+                        const std::vector<std::size_t>& variants, io::Plot& plot) {
+  std::map<std::string, std::vector<std::pair<double, Spread>>> lines;
+  for (std::size_t v : variants) {
+    std::optional<double> x;
+    for (const StudyRun& run : plan.runs)
+      if (run.variant == v) x = value_of_key(run.scene, wanted.over);
+    if (!x) continue;
+    Spread s;
+    for (const Curve* c : curves_of(plan, data, v, wanted.observable))
+      if (!c->time.empty())
+        if (const auto value = value_at(*c, wanted.at.value_or(c->time.back()))) s.add(*value);
+    const std::string& name = plan.variants[v].name;
+    const std::size_t sweep = name.rfind('/');
+    const auto base = find_variants(plan.variants, name.substr(0, sweep));
+    lines[base.empty() ? name : plan.variants[base.front()].title].emplace_back(*x, s);
+  }
+  for (auto& [title, points] : lines) {
+    std::ranges::stable_sort(points, {}, [](const auto& p) { return p.first; });
+    io::PlotLine line;
+    line.name = title;
+    for (const auto& [x, s] : points) add_point(line, x, s);
+    plot.line.push_back(line);
+  }
+}
+
+void add_reference(const StudyReference& r, const std::string& x_unit, double x_scale,
+                   const std::string& y_unit, io::Plot& plot) {
+  io::PlotLine line;
+  line.name = r.name;
+  line.joined = false;
+  for (std::size_t k = 0; k < r.x.size(); ++k) {
+    line.point.emplace_back(number_in(r.x[k], x_unit) / x_scale, number_in(r.y[k], y_unit));
+    if (!r.low.empty())
+      line.band.emplace_back(number_in(r.low[k], y_unit), number_in(r.high[k], y_unit));
+  }
+  plot.line.push_back(line);
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit == "1" ? name : name + ", " + unit;
+}
+
+}  // namespace
+
+io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot& wanted) {
+  std::vector<std::size_t> variants;
+  for (const std::string& name : wanted.variants)
+    for (std::size_t v : find_variants(plan.variants, name)) variants.push_back(v);
+  if (wanted.variants.empty())
+    for (std::size_t v = 0; v < plan.variants.size(); ++v) variants.push_back(v);
+  const std::string& y_unit = plan.units.at(wanted.observable);
+  io::Plot plot;
+  plot.title = wanted.title.empty() ? wanted.name : wanted.title;
+  plot.y_label = wanted.y_label.empty() ? with_unit(wanted.observable, y_unit) : wanted.y_label;
+  plot.log_y = wanted.log_y;
+  const TimeAxis axis = time_axis(data);
+  std::string x_unit = "s";
+  double x_scale = axis.seconds;
+  if (wanted.over.empty()) {
+    plot.x_label = fmt::format("time, {}", axis.unit);
+    for (std::size_t v : variants) {
+      io::PlotLine line = line_over_time(curves_of(plan, data, v, wanted.observable), axis.seconds);
+      line.name = plan.variants[v].title;
+      if (!line.point.empty()) plot.line.push_back(line);
+    }
+  } else {
+    x_unit = unit_of_key(wanted.over).value_or("1");
+    x_scale = 1;
+    plot.x_label = with_unit(wanted.over, x_unit);
+    add_lines_over_key(plan, data, wanted, variants, plot);
+  }
+  if (!wanted.x_label.empty()) plot.x_label = wanted.x_label;
+  for (const StudyReference& r : wanted.reference) add_reference(r, x_unit, x_scale, y_unit, plot);
+  return plot;
+}
+
+std::vector<std::string> write_plots(const StudyPlan& plan, const StudyData& data,
+                                     const std::string& root) {
+  std::vector<StudyPlot> wanted = plan.study.plots;
+  if (wanted.empty()) {
+    std::set<std::string> names(plan.study.observables.begin(), plan.study.observables.end());
+    if (names.empty())
+      for (const RunData& d : data)
+        for (const auto& [name, curve] : d.curve) names.insert(name);
+    for (const std::string& name : names) {
+      StudyPlot plot;
+      plot.name = plot.observable = name;
+      wanted.push_back(plot);
+    }
+  }
+  std::error_code code;
+  std::filesystem::create_directories(root + "/plots", code);
+  check(!code, fmt::format("{}/plots: cannot be made: {}", root, code.message()), Exit::kFileError);
+  std::vector<std::string> files;
+  for (const StudyPlot& plot : wanted) {
+    files.push_back(plot.name + ".svg");
+    io::write_plot(root + "/plots/" + files.back(), make_plot(plan, data, plot));
+  }
+  return files;
+}
+
+}  // namespace acinus::runs

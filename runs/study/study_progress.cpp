@@ -1,0 +1,68 @@
+#include "runs/study/study_progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/timing.hpp"
+
+namespace acinus::runs {
+
+std::string short_duration(double s) {
+  if (s < 10) return fmt::format("{:.1f} s", s);
+  if (s < 120) return fmt::format("{:.0f} s", s);
+  if (s < 7200) return fmt::format("{:.1f} min", s / 60);
+  if (s < 2 * 86400) return fmt::format("{:.1f} h", s / 3600);
+  return fmt::format("{:.1f} d", s / 86400);
+}
+
+StudyProgress::StudyProgress(const StudyPlan& plan, const std::string& root, int jobs, bool quiet)
+    : plan_(plan),
+      costs_(plan, root),
+      jobs_(jobs),
+      quiet_(quiet),
+      terminal_(isatty(STDOUT_FILENO) != 0) {}
+
+void StudyProgress::show(const StudyCounts& counts, const std::vector<ActiveRun>& active) {
+  const double now = wall_seconds();
+  if (quiet_ || now - last_ < (terminal_ ? 1 : 60)) return;
+  last_ = now;
+  double left = 0, longest = 0;
+  for (std::size_t k : counts.waiting) left += costs_.cpu_s(plan_.runs[k]);
+  std::string running;
+  for (const ActiveRun& a : active) {
+    const RunProgress p = read_progress(a);
+    const StudyRun& run = plan_.runs[a.run];
+    const double rest = p.left_s > 0 ? p.left_s : costs_.cpu_s(run);
+    left += rest;
+    longest = std::max(longest, rest);
+    running += fmt::format(
+        "  {} {}", run.name,
+        p.starting ? "starting"
+                   : fmt::format("{} of {}", short_duration(p.time_s), short_duration(p.end_s)));
+  }
+  std::string line = fmt::format("{} of {} done", counts.done, counts.all);
+  if (counts.failed > 0) line += fmt::format(", {} failed", counts.failed);
+  line += fmt::format("; about {} left;{}", short_duration(std::max(left / jobs_, longest)),
+                      active.empty() ? " waiting for other processes" : running);
+  fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line, terminal_ ? "" : "\n");
+  line_open_ = terminal_;
+  std::fflush(stdout);
+}
+
+void StudyProgress::tell(const std::string& text) {
+  if (quiet_) return;
+  finish();
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+void StudyProgress::finish() {
+  if (line_open_) fmt::print("\n");
+  line_open_ = false;
+  std::fflush(stdout);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,135 @@
+#include "runs/study/verdicts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/io/disk.hpp"
+#include "runs/study/check_study.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& v) {
+  return v && std::isfinite(*v) ? Json(*v) : Json(nullptr);
+}
+
+std::string describe_window(const StudyMeasure& m) {
+  if (!m.from && !m.until) return {};
+  if (!m.from) return fmt::format(" until {}", show_value(*m.until, "s"));
+  return fmt::format(" from {} {}", show_value(*m.from, "s"),
+                     m.until ? "to " + show_value(*m.until, "s") : "on");
+}
+
+std::string describe_measure(const StudyMeasure& m) {
+  const std::string at = m.at ? "at " + show_value(*m.at, "s") : "at the end";
+  const std::string what = fmt::format("`{}` of {}", m.observable, m.variant);
+  if (m.kind == "value") return what + " " + at;
+  if (m.kind == "p_value")
+    return fmt::format("p value of Welch's t-test, `{}` of {} and {} {}", m.observable, m.variant,
+                       m.other, at);
+  const std::string in = describe_window(m);
+  if (m.kind == "first_below" || m.kind == "first_above")
+    return fmt::format("first time {} is {} {}{}", what,
+                       m.kind == "first_below" ? "at or below" : "at or above",
+                       m.level ? shown(*m.level) : "", in);
+  if (m.kind == "distance")
+    return fmt::format("largest distance of the mean curves of {} and {}{}", what, m.other, in);
+  if (m.kind == "band") return fmt::format("widest spread of {} over seeds{}", what, in);
+  return fmt::format("{} of {}{}", m.kind, what, in);
+}
+
+std::string describe_bounds(const Verdict& v) {
+  const std::string& unit = v.measured.unit;
+  std::string text;
+  if (v.expected_low && v.expected_high) {
+    text = fmt::format("from {} to {}", show_value(*v.expected_low, unit),
+                       show_value(*v.expected_high, unit));
+  } else if (v.expected_low) {
+    text = "at least " + show_value(*v.expected_low, unit);
+  } else if (v.expected_high) {
+    text = "at most " + show_value(*v.expected_high, unit);
+  }
+  return text + (v.every_seed ? ", every seed" : "");
+}
+
+/// What never happened is later than the end of the runs; about what comes after they say nothing.
+Judgement judge(Verdict& v) {
+  Measured& m = v.measured;
+  if (!m.value) return Judgement::kNotMeasured;
+  const double low = v.every_seed ? m.low.value_or(*m.value) : *m.value;
+  const double high = v.every_seed ? m.high.value_or(*m.value) : *m.value;
+  if (std::isinf(high) && high > 0 && v.expected_low && m.unit == "s" &&
+      *v.expected_low > m.known_until) {
+    m.note = fmt::format("never before {}, which says nothing about {}",
+                         show_value(m.known_until, "s"), show_value(*v.expected_low, "s"));
+    if (!v.expected_high) return Judgement::kNotMeasured;
+  }
+  if (std::isinf(high) && high > 0 && m.note.empty())
+    m.note = fmt::format("never before {}", show_value(m.known_until, "s"));
+  const bool above = !v.expected_low || low >= *v.expected_low;
+  const bool below = !v.expected_high || high <= *v.expected_high;
+  return above && below ? Judgement::kHolds : Judgement::kDoesNotHold;
+}
+
+}  // namespace
+
+std::vector<Verdict> judge(const StudyPlan& plan, const StudyData& data) {
+  std::vector<Verdict> verdicts;
+  for (const StudyExpectation& e : plan.study.expectations) {
+    Verdict v;
+    v.id = e.id;
+    v.claim = e.claim;
+    v.every_seed = e.every_seed;
+    v.how = describe_measure(e.measure);
+    if (e.minus) v.how += ", minus " + describe_measure(*e.minus);
+    if (e.over) v.how += ", over " + describe_measure(*e.over);
+    v.measured = take_measure(plan, data, e);
+    if (e.low) v.expected_low = number_in(*e.low, v.measured.unit);
+    if (e.high) v.expected_high = number_in(*e.high, v.measured.unit);
+    v.expected = describe_bounds(v);
+    v.judgement = judge(v);
+    verdicts.push_back(v);
+  }
+  return verdicts;
+}
+
+const char* name_of(Judgement judgement) {
+  switch (judgement) {
+    case Judgement::kHolds:
+      return "holds";
+    case Judgement::kDoesNotHold:
+      return "does not hold";
+    case Judgement::kNotMeasured:
+      break;
+  }
+  return "not measured";
+}
+
+void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& root) {
+  Json all = Json::array();
+  for (const Verdict& v : verdicts) {
+    Json j;
+    j["id"] = v.id;
+    j["claim"] = v.claim;
+    j["how"] = v.how;
+    j["expected"] = v.expected;
+    j["expected_low"] = number(v.expected_low);
+    j["expected_high"] = number(v.expected_high);
+    j["measured"] = number(v.measured.value);
+    j["low"] = number(v.measured.low);
+    j["high"] = number(v.measured.high);
+    j["unit"] = v.measured.unit;
+    j["pass"] = v.judgement == Judgement::kNotMeasured ? Json(nullptr)
+                                                       : Json(v.judgement == Judgement::kHolds);
+    j["verdict"] = name_of(v.judgement);
+    if (!v.measured.note.empty()) j["note"] = v.measured.note;
+    all.push_back(j);
+  }
+  io::write_text_file(root + "/verdicts.json", all.dump(2) + "\n");
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,33 @@
+#pragma once
+/// What became of a study's claims.
+
+#include <string>
+#include <vector>
+
+#include "runs/study/measures.hpp"
+
+namespace acinus::runs {
+
+enum class Judgement { kHolds, kDoesNotHold, kNotMeasured };
+
+struct Verdict {
+  std::string id, claim;
+  std::string how;       ///< what was measured, in words
+  std::string expected;  ///< "from 0.1 to 0.3", "at most 6 d"
+  std::optional<double> expected_low, expected_high;
+  bool every_seed = false;
+  Measured measured;
+  Judgement judgement = Judgement::kNotMeasured;
+};
+
+/// Judges every expectation. What is not measured never holds.
+std::vector<Verdict> judge(const StudyPlan& plan, const StudyData& data);
+
+/// "holds", "does not hold", "not measured".
+const char* name_of(Judgement judgement);
+
+/// verdicts.json: [{id, claim, expected, measured, low, high, pass, ...}]; what has no value is
+/// null, pass too if nothing was measured.   @throws Error(kFileError)
+void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& root);
+
+}  // namespace acinus::runs

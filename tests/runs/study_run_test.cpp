@@ -1,0 +1,239 @@
+/// `acinus study` as a user calls it: on two spheres, killed, resumed, shared between processes.
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "tests/runs/program.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using program::Json;
+using program::Outcome;
+using program::Process;
+using program::Words;
+namespace fs = std::filesystem;
+
+/// Two variants with two seeds each of a pair of spheres.
+constexpr const char* kPairs = R"({
+  "name": "pairs",
+  "scene": "two_cells",
+  "set": { "cells.model": "cbm", "time.end": "20 min", "motility.random": true, "output.every": "2 min" },
+  "seeds": [1, 2],
+  "variants": {
+    "slow": { "set": { "motility.grid": "60 s" } },
+    "fast": { "set": { "motility.grid": "30 s" } }
+  },
+  "observables": ["max_move", "dt"],
+  "expectations": [
+    { "id": "moves", "claim": "cells move", "low": "0 um",
+      "measure": { "kind": "max", "observable": "max_move", "variant": "fast" } } ]
+})";
+
+/// Two cells of either model that grow, settle and are then pulled; "later" starts from "first".
+constexpr const char* kShared = R"({
+  "name": "shared",
+  "scene": "two_cells",
+  "set": { "time.end": "10 min", "time.step": "30 s", "motility.random": true, "output.every": "2 min",
+           "cell_types.hepatocyte.dcm.nodes": 42, "start_up.enabled": true, "start_up.growth_time": "5 min",
+           "start_up.adhesion_ramp": "2 min", "start_up.max_duration": "2 min" },
+  "seeds": [1, 2],
+  "variants": {
+    "first": {},
+    "same": { "start": "first" },
+    "later": { "start": "first", "set": { "motility.grid": "120 s" } }
+  },
+  "observables": ["max_move"]
+})";
+
+class StudyRun : public program::ProgramTest {
+ protected:
+  StudyRun() {
+    write("pairs.json", kPairs);
+    write("shared.json", kShared);
+  }
+  static Words words(const std::string& file, const std::string& out, const Words& more = {}) {
+    Words all{"study", file, "--out", out, "--jobs", "1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  Json json(const std::string& name) const { return Json::parse(text(name)); }
+  void expect_done(const Outcome& outcome) const { EXPECT_EQ(outcome.code, 0) << outcome.text; }
+  void expect_same_tables(const std::string& a, const std::string& b) const {
+    EXPECT_FALSE(text(a + "/table.csv").empty());
+    EXPECT_TRUE(text(a + "/table.csv") == text(b + "/table.csv")) << a << " " << b;
+    EXPECT_TRUE(text(a + "/table.h5") == text(b + "/table.h5")) << a << " " << b;
+  }
+};
+
+bool has(const Outcome& outcome, const std::string& part) {
+  return outcome.text.find(part) != std::string::npos;
+}
+
+TEST_F(StudyRun, TwoAtOnceWriteTheSameTableAsOne) {
+  expect_done(call(words("pairs.json", "one")));
+  Words two = words("pairs.json", "two");
+  std::ranges::replace(two, "1", "2");
+  expect_done(call(two));
+  expect_same_tables("one", "two");
+  // 4 runs, 2 observables, 11 frames, and the head
+  EXPECT_EQ(std::ranges::count(text("one/table.csv"), '\n'), 4 * 2 * 11 + 1);
+  EXPECT_EQ(text("one/table.csv").find("nan"), std::string::npos);
+  for (const char* file : {"report.md", "runs.csv", "verdicts.json", "plots/max_move.svg"})
+    EXPECT_TRUE(fs::exists(path("one") / file)) << file;
+  EXPECT_EQ(json("one/verdicts.json")[0]["pass"], true);
+}
+
+TEST_F(StudyRun, FinishedRunsAreNotRunAgain) {
+  expect_done(call(words("pairs.json", "s")));
+  const Json before = summary("s/runs/slow/seed_1");
+  expect_done(call(words("pairs.json", "s")));
+  EXPECT_EQ(summary("s/runs/slow/seed_1"), before) << "with the same wall time";
+  const Outcome list = call(words("pairs.json", "s", {"--dry-run"}));
+  EXPECT_TRUE(has(list, "4 runs, 0 left")) << list.text;
+  fs::remove_all(path("s/runs/fast/seed_2"));
+  EXPECT_TRUE(has(call(words("pairs.json", "s", {"--dry-run"})), "runs of this variant"));
+  expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
+  EXPECT_FALSE(fs::exists(path("s/runs/fast/seed_2")));
+}
+
+TEST_F(StudyRun, RefusesWhatIsInTheWay) {
+  write("other.json", std::string(kPairs).replace(std::string(kPairs).find("pairs"), 5, "other"));
+  expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
+  Outcome o = call(words("other.json", "s"));
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(has(o, "holds the study \"pairs\", not \"other\"")) << o.text;
+  fs::create_directories(path("else/where"));
+  o = call(words("pairs.json", "else"));
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(has(o, "holds something that is no study")) << o.text;
+  write("changed.json",
+        std::string(kPairs).replace(std::string(kPairs).find("20 min"), 6, "16 min"));
+  o = call(words("changed.json", "s"));
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(has(o, "s/runs/slow/seed_1")) << o.text;
+  EXPECT_TRUE(has(o, "--overwrite")) << o.text;
+  expect_done(call(words("changed.json", "s", {"--overwrite"})));
+  EXPECT_EQ(summary("s/runs/slow/seed_1")["simulated_s"], 960.0);
+  write("typo.json", std::string(kPairs).replace(std::string(kPairs).find("\"dt\""), 4, "\"dtt\""));
+  o = call(words("typo.json", "new"));
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(has(o, "typo.json:10:31 /observables/1 = \"dtt\": unknown observable")) << o.text;
+  EXPECT_FALSE(fs::exists(path("new"))) << "before anything runs";
+}
+
+TEST_F(StudyRun, AFailedRunIsReportedAndStopsNothing) {
+  std::string broken = kPairs;
+  // Cells that start in one another and are too stiff to part: the run cannot go on.
+  broken.replace(broken.find("\"motility.grid\": \"30 s\""), 23,
+                 R"("cells.model": "dcm", "cells.list.0.position": ["-9 um", "0 um", "0 um"],
+                    "cells.list.1.position": ["9 um", "0 um", "0 um"])");
+  write("broken.json", broken);
+  const Outcome o = call(words("broken.json", "s"));
+  EXPECT_EQ(o.code, 3) << o.text;
+  EXPECT_TRUE(has(o, "fast/seed_1 failed: ")) << o.text;
+  EXPECT_EQ(summary("s/runs/slow/seed_2")["status"], "completed");
+  EXPECT_EQ(json("s/verdicts.json")[0]["verdict"], "not measured");
+  EXPECT_NE(text("s/report.md").find("| fast/seed_2 | failed |"), std::string::npos);
+  EXPECT_NE(text("s/runs.csv").find("fast/seed_1,fast,1,failed"), std::string::npos);
+}
+
+TEST_F(StudyRun, KilledAndStartedAgainItWritesTheSameTable) {
+  expect_done(call(words("pairs.json", "whole")));
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    const std::string out = signal == SIGKILL ? "killed" : "stopped";
+    std::mt19937 random(7);
+    int left = 0;
+    for (int k = 0; k < 6; ++k) {
+      Process study(path("."), words("pairs.json", out));
+      // Runs take a fraction of a second each, so the moments fall into all of them.
+      usleep(std::uniform_int_distribution<useconds_t>(20000, 700000)(random));
+      study.send(signal);
+      const Outcome o = study.wait();
+      if (o.code != 0) ++left;
+      if (signal == SIGTERM && o.code != 0) {
+        EXPECT_TRUE(o.code == 75 || o.code == -1) << o.text;
+      }
+    }
+    EXPECT_GT(left, 0) << "none was cut short";
+    expect_done(call(words("pairs.json", out)));
+    expect_same_tables("whole", out);
+  }
+}
+
+TEST_F(StudyRun, TasksShareOneFolder) {
+  expect_done(call(words("pairs.json", "whole")));
+  {
+    Process a(path("."), words("pairs.json", "s", {"--task", "1", "--tasks", "3"}));
+    Process b(path("."), words("pairs.json", "s", {"--task", "2", "--tasks", "3"}));
+    expect_done(a.wait());
+    expect_done(b.wait());
+  }
+  expect_done(call(words("pairs.json", "s", {"--task", "3", "--tasks", "3"})));
+  EXPECT_FALSE(fs::exists(path("s/table.csv")));
+  expect_done(call(words("pairs.json", "s", {"--report"})));
+  expect_same_tables("whole", "s");
+}
+
+TEST_F(StudyRun, TwoProcessesNeverRunTheSameRun) {
+  expect_done(call(words("pairs.json", "whole")));
+  {
+    Process a(path("."), words("pairs.json", "s"));
+    Process b(path("."), words("pairs.json", "s"));
+    expect_done(a.wait());
+    expect_done(b.wait());
+  }
+  expect_same_tables("whole", "s");
+}
+
+TEST_F(StudyRun, AStudyCutShortReportsWhatIsThere) {
+  expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
+  EXPECT_NE(text("s/table.csv").find("slow/seed_2"), std::string::npos);
+  EXPECT_EQ(text("s/table.csv").find("fast/seed_1"), std::string::npos);
+  EXPECT_EQ(json("s/verdicts.json")[0]["verdict"], "not measured");
+  EXPECT_NE(text("s/report.md").find("| fast/seed_1 | to do |"), std::string::npos);
+}
+
+TEST_F(StudyRun, SharedStartsGiveTheSameStateAsStartUp) {
+  expect_done(call(words("shared.json", "s")));
+  const Json first = summary("s/runs/first/seed_1"), same = summary("s/runs/same/seed_1"),
+             later = summary("s/runs/later/seed_1");
+  EXPECT_EQ(same["state_hash"], first["state_hash"]);
+  EXPECT_NE(later["state_hash"], first["state_hash"]);
+  EXPECT_TRUE(same["start"]["from"].get<std::string>().ends_with("runs/first/seed_1"));
+  EXPECT_EQ(same["start"]["state_hash"], later["start"]["state_hash"]);
+  EXPECT_NE(same["start"]["state_hash"], summary("s/runs/same/seed_2")["start"]["state_hash"]);
+  EXPECT_NE(text("s/report.md").find("- later/seed_2: cells at t = 0 of first/seed_2"),
+            std::string::npos);
+  expect_done(call(words("shared.json", "elsewhere")));
+  expect_same_tables("s", "elsewhere");
+  EXPECT_EQ(summary("elsewhere/runs/same/seed_1")["scene_sha"], same["scene_sha"])
+      << "the hash does not depend on folders";
+}
+
+TEST_F(StudyRun, AnyRunMayStartFromAnotherIfWhatShapesTheStartIsTheSame) {
+  expect_done(call(words("shared.json", "s", {"--only", "first"})));
+  fs::copy(path("s/runs/first/seed_1/scene.json"), path("here.json"));
+  const Words from{"--set", "start_up.from=s/runs/first/seed_1"};
+  expect_done(call(program::ProgramTest::run_words("here.json", "a", from)));
+  EXPECT_EQ(summary("a")["state_hash"], summary("s/runs/first/seed_1")["state_hash"]);
+  Words other = program::ProgramTest::run_words("here.json", "b", from);
+  other.insert(other.end(),
+               {"--set", "contact.skin=0.2 um", "--set", "friction.dcm_dcm=1e10 N s/m^3"});
+  const Outcome o = call(other);
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(has(o, "/contact/skin: \"0.3 um\" -> \"0.2 um\"")) << o.text;
+  EXPECT_FALSE(has(o, "friction")) << o.text;
+  const Outcome none =
+      call(program::ProgramTest::run_words("here.json", "c", {"--set", "start_up.from=s/runs"}));
+  EXPECT_EQ(none.code, 2);
+  EXPECT_TRUE(has(none, "no start.h5")) << none.text;
+}
+
+}  // namespace
+}  // namespace acinus::runs

@@ -1,0 +1,381 @@
+/// Studies as texts: what a file says, what is wrong with it, which runs it makes, and what is
+/// measured on tables made by hand.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/unit_scale.hpp"
+#include "runs/read_observables.hpp"
+#include "runs/scene/explain.hpp"
+#include "runs/study/choose_runs.hpp"
+#include "runs/study/curves.hpp"
+#include "runs/study/plan.hpp"
+#include "runs/study/registry.hpp"
+#include "runs/study/scene_value.hpp"
+#include "runs/study/study_data.hpp"
+#include "runs/study/study_plots.hpp"
+#include "runs/study/verdicts.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// A study of two spheres; `more` stands after its variants.
+std::string text_with(const std::string& more, const std::string& variants = R"(
+    "slow": { "set": { "motility.grid": "60 s" } },
+    "fast": { "extends": "slow", "set": { "motility.grid": "30 s" }, "seeds": [7] })") {
+  return R"({
+  "scene": "two_cells",
+  "set": { "cells.model": "cbm", "time.end": "20 min" },
+  "seeds": [1, 2],
+  "variants": {)" +
+         variants + "\n  }" + (more.empty() ? "" : ",\n  " + more) + "\n}\n";
+}
+
+StudyPlan parse(const std::string& text) { return parse_study(text, "s.json"); }
+
+std::string fault_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Exit::kBadInput) << error.what();
+    return error.what();
+  }
+  return "no fault";
+}
+
+void expect_fault(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string fault = fault_of(text);
+  for (const std::string& part : parts)
+    EXPECT_NE(fault.find(part), std::string::npos) << part << "\nis not in\n" << fault;
+}
+
+TEST(Study, MakesARunOfEveryVariantAndSeed) {
+  const StudyPlan plan = parse(text_with(""));
+  EXPECT_EQ(plan.study.name, "s");
+  ASSERT_EQ(plan.runs.size(), 3u);
+  EXPECT_EQ(plan.runs[0].name, "fast/seed_7");
+  EXPECT_EQ(plan.runs[0].folder, "runs/fast/seed_7");
+  EXPECT_EQ(plan.runs[1].name, "slow/seed_1");
+  EXPECT_EQ(plan.runs[0].scene.motility.grid, 30) << "its own change comes after what it extends";
+  EXPECT_EQ(plan.runs[2].scene.motility.grid, 60);
+  EXPECT_EQ(plan.runs[2].scene.seed, 2u);
+  EXPECT_EQ(plan.runs[2].scene.time.end, 1200);
+  EXPECT_EQ(plan.runs[2].scene.cells.model, "cbm");
+  EXPECT_NE(plan.runs[1].identity, plan.runs[2].identity) << "the seed is part of the scene";
+}
+
+TEST(Study, SweepsMakeVariantsWithSafeFolders) {
+  const StudyPlan plan = parse(text_with(
+      R"("sweeps": [ { "of": ["slow"], "key": "friction.cbm_cbm", "values": ["1e9 N s/m^3", "2e9 N s/m^3"] },
+                     { "of": ["slow/*"], "key": "motility.random", "label": "on", "values": [true] } ])"));
+  std::vector<std::string> names;
+  for (const Variant& v : plan.variants) names.push_back(v.name);
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "fast", "slow", "slow/cbm_cbm=1e9 N s/m^3", "slow/cbm_cbm=2e9 N s/m^3",
+                       "slow/cbm_cbm=1e9 N s/m^3/on=true", "slow/cbm_cbm=2e9 N s/m^3/on=true"}));
+  EXPECT_EQ(plan.variants[2].folder, "slow/cbm_cbm=1e9_N_s/m_3");
+  for (const StudyRun& run : plan.runs) {
+    if (plan.variant_of(run).name != names[5]) continue;
+    EXPECT_EQ(run.scene.friction.cbm_cbm, 2);
+    EXPECT_TRUE(run.scene.motility.random);
+  }
+}
+
+TEST(Study, FaultsOfTheStudyAreToldTogetherWithTheirPlaces) {
+  expect_fault(text_with(R"("seeds_": [1],
+  "observables": ["mean_presure"],
+  "plots": [ { "name": "p", "observable": "cells", "variants": ["slwo"] } ])"),
+               {"s.json:9:3 /seeds_: unknown key. Did you mean \"seeds\"? (acinus explain "
+                "study.seeds)",
+                "s.json:10:19 /observables/0", "s.json:11:43 /plots/0/observable",
+                "s.json:11:65 /plots/0/variants/0", "Did you mean \"slow\"?"});
+}
+
+TEST(Study, RefusesASeedTwice) {
+  std::string text = text_with("");
+  text.replace(text.find("[1, 2]"), 6, "[1, 2, 1]");
+  expect_fault(text, {"s.json:4:19 /seeds/2 = 1: stands there twice"});
+  expect_fault(text_with("", R"("a": { "seeds": [3, 3] })"),
+               {"/variants/a/seeds/1 = 3: stands there twice"});
+}
+
+TEST(Study, RefusesVariantsThatExtendOrStartFromNobodyOrInACircle) {
+  expect_fault(text_with("", R"("abc": { "extends": "abd" }, "abx": {})"),
+               {"s.json:5:", "/variants/abc/extends: no variant \"abd\". Did you mean \"ab"});
+  expect_fault(text_with("", R"("a": { "extends": "b" }, "b": { "extends": "a" })"),
+               {"/variants/a/extends: variants extend each other in a circle: b, a, b"});
+  const std::string start = R"("set": { "start_up.enabled": true })";
+  expect_fault(text_with("", R"("a": { "start": "b", )" + start + R"( }, "b": { "start": "a", )" +
+                                 start + " }"),
+               {"/variants/a/start: variants start from each other in a circle"});
+  expect_fault(text_with("", R"("a": { "start": "c" })"), {"/variants/a/start: no variant \"c\""});
+  expect_fault(text_with("", R"("a": { "start": "b", "seeds": [5] }, "b": {})"),
+               {"/variants/a/start: \"b\" has no run with seed 5"});
+}
+
+TEST(Study, RefusesAStartThatCannotBeShared) {
+  expect_fault(text_with("", R"("a": { "start": "b" }, "b": {})"),
+               {"/variants/a/start", "has no start_up"});
+  expect_fault(text_with("", R"(
+    "b": { "set": { "start_up.enabled": true } },
+    "a": { "extends": "b", "start": "b",
+           "set": { "motility.random": true, "contact.skin": "0.2 um" } })"),
+               {"s.json:7:37 /variants/a/start", "/contact/skin", "must be the same"});
+  EXPECT_EQ(fault_of(text_with("", R"(
+    "b": { "set": { "start_up.enabled": true } },
+    "a": { "extends": "b", "start": "b", "set": { "motility.random": true } })")),
+            "no fault");
+}
+
+TEST(Study, FaultsOfScenesStandAtTheStudysLines) {
+  expect_fault(
+      text_with("", R"(
+    "a": { "set": { "motility.gird": "60 s", "time.step": "60" } },
+    "b": { "set": { "time.step.x": 1, "seed": 3 } })"),
+      {"s.json:6:21 /motility/gird: unknown key. Did you mean \"grid\"?",
+       "s.json:6:59 /time/step = \"60\"", "s.json:7:39 /variants/b/set/seed: cannot be set"});
+  expect_fault(text_with(R"("sweeps": [
+    { "of": ["slow"], "key": "motility.leader_froce", "values": ["0.1 nN"] },
+    { "of": ["slow"], "key": "motility.leader_force", "values": ["0.1 nN", "-1 nN", "1 um"] },
+    { "of": ["nobody"], "key": "seed", "values": [] } ])"),
+               {"s.json:10:66 /motility/leader_froce: unknown key",
+                "s.json:11:76 /motility/leader_force = \"-1 nN\": must be >= 0 nN",
+                "s.json:11:85 /motility/leader_force = \"1 um\"", "s.json:12:"});
+}
+
+TEST(Study, RefusesTheSameVariantTwice) {
+  expect_fault(text_with(R"("sweeps": [
+    { "of": ["slow"], "key": "motility.grid", "values": ["1 s", "1 s"] } ])"),
+               {"s.json:10:65 /sweeps/0/values/1 = \"1 s\": makes the variant \"slow/grid=1 s\"",
+                "a label"});
+}
+
+TEST(Study, RefusesBadClaims) {
+  expect_fault(
+      text_with(R"("expectations": [
+    { "id": "a", "claim": "x", "measure": { "observable": "cells", "variant": "slow" } },
+    { "id": "a", "claim": "x", "measure": { "kind": "first_below", "observable": "max_move",
+      "variant": "none", "level": 1 }, "low": "1 um" },
+    { "id": "b", "claim": "x", "measure": { "kind": "valeu", "observable": "cells", "variant": "slow" }, "low": 1 },
+    { "id": "c", "claim": "x", "measure": { "observable": "dt", "variant": "slow", "from": "1 h" },
+      "minus": { "observable": "max_move", "variant": "slow" }, "high": "1 s" } ])"),
+      {"/expectations/0/low: is missing", "/expectations/1/id",
+       "/expectations/1/measure/variant = \"none\": no variant",
+       "/expectations/1/measure/level = 1", "/expectations/1/low = \"1 um\"",
+       "/expectations/2/measure/kind = \"valeu\": unknown choice", "/expectations/3/measure/from",
+       "/expectations/3/minus = {...}: is in um, the first measure in s"});
+}
+
+TEST(Study, SchemaAndExplainKnowItsKeys) {
+  const nlohmann::json schema = nlohmann::json::parse(study_schema());
+  EXPECT_TRUE(schema["properties"].contains("variants"));
+  EXPECT_TRUE(schema["properties"]["expectations"]["items"]["properties"].contains("measure"));
+  for (const Entry& entry : study_entries())
+    EXPECT_NO_THROW(explain_key(entry.path, study_entries())) << entry.path;
+  EXPECT_NE(explain_key("study.measure.kind", study_entries()).find("p_value"), std::string::npos);
+  EXPECT_THROW(explain_key("study.measure.knid", study_entries()), Error);
+}
+
+TEST(Study, TasksShareTheRunsWithoutLossOrOverlap) {
+  const StudyPlan plan = parse(text_with(
+      R"("sweeps": [ { "of": ["slow"], "key": "time.end", "values": ["1 h", "2 h", "3 h", "4 h"] } ])"));
+  std::vector<int> times(plan.runs.size(), 0);
+  for (int task = 1; task <= 3; ++task)
+    for (const ChosenRun& c : choose_runs(plan, {{}, task, 3})) ++times[c.run];
+  EXPECT_EQ(times, std::vector<int>(plan.runs.size(), 1));
+  EXPECT_EQ(choose_runs(plan, {{"slow/*"}, 1, 1}).size(), 8u);
+  EXPECT_THROW(choose_runs(plan, {{"slwo"}, 1, 1}), Error);
+}
+
+TEST(Study, ARunThatOthersStartFromComesFirstAndToEveryTaskThatNeedsIt) {
+  const StudyPlan plan = parse(text_with("", R"(
+    "b": { "set": { "start_up.enabled": true } },
+    "a": { "extends": "b", "start": "b", "set": { "motility.random": true } })"));
+  const std::vector<ChosenRun> all = choose_runs(plan, {});
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(plan.runs[all[0].run].name, "b/seed_1");
+  EXPECT_EQ(plan.runs[all[1].run].name, "a/seed_1");
+  const std::vector<ChosenRun> only = choose_runs(plan, {{"a"}, 1, 1});
+  ASSERT_EQ(only.size(), 4u);
+  EXPECT_FALSE(only[0].own);
+  EXPECT_TRUE(only[1].own);
+  EXPECT_EQ(plan.runs[0].identity, plan.runs[0].scene.sha + "<" + plan.runs[2].scene.sha);
+}
+
+TEST(Curves, AreReadBetweenSamplesAndNowhereElse) {
+  const Curve c{{0, 10, 20}, {1, 3, 2}};
+  EXPECT_EQ(value_at(c, 5), 2);
+  EXPECT_EQ(value_at(c, 20), 2);
+  EXPECT_FALSE(value_at(c, 21));
+  EXPECT_EQ(first_passage(c, 2, false, 0, 20), 5);
+  EXPECT_EQ(first_passage(c, 2.5, true, 10, 20), 15);
+  EXPECT_FALSE(first_passage(c, 0, true, 0, 20));
+  EXPECT_FALSE(first_passage(c, 2, true, 12, 18)) << "the window has no sample at or below";
+  EXPECT_DOUBLE_EQ(time_mean(window(c, 0, 20)), (20 + 25) / 20.0);
+  EXPECT_DOUBLE_EQ(time_mean(window(c, 5, 15)), (2.5 * 5 + 2.75 * 5) / 10);
+  EXPECT_TRUE(window(c, 0, 30).time.empty());
+}
+
+TEST(Curves, WelchsTestAgreesWithAWorkedExample) {
+  const std::vector<double> a{1, 2, 3, 4, 5}, b{2, 4, 6, 8, 10};
+  // t^2 = 9 / (0.5 + 2) = 3.6 with 2.5^2 / (0.25 / 4 + 4 / 4) = 5.88 degrees of freedom; p by
+  // Simpson's rule over the density of t in two million steps, in another language.
+  EXPECT_NEAR(welch_p(a, b).value(), 0.10753119493, 1e-10);
+  EXPECT_NEAR(welch_p(a, a).value(), 1, 1e-12);
+  EXPECT_FALSE(welch_p({1}, b));
+  EXPECT_FALSE(welch_p({1, 1}, {2, 2}));
+  // One degree of freedom in each of two pairs of equal spread: nu = 2, where
+  // p = 1 - t / sqrt(2 + t^2) in closed form; t^2 = 16 / (1 + 1) = 8.
+  EXPECT_NEAR(welch_p({0, 2}, {4, 6}).value(), 1 - std::sqrt(8.0 / 10), 1e-12);
+}
+
+TEST(Study, UnitsOfObservablesAreUnderstood) {
+  EXPECT_DOUBLE_EQ(scale_of_unit("kPa").in_base, 1);
+  EXPECT_DOUBLE_EQ(scale_of_unit("1/mm^3").in_base, 1e-9);
+  EXPECT_EQ(scale_of_unit("1").dimension, kDimensionless);
+  EXPECT_EQ(split_unit("lesion_radius_um"),
+            (std::pair<std::string, std::string>("lesion_radius", "um")));
+  EXPECT_EQ(split_unit("cells").second, "1");
+  EXPECT_EQ(unit_of_key("motility.leader_force"), "nN");
+  EXPECT_EQ(unit_of_key("cell_types.hepatocyte.dcm.nodes"), "1");
+  EXPECT_FALSE(unit_of_key("motility.random"));
+  EXPECT_FALSE(unit_of_key("motility.leader_froce"));
+}
+
+/// Two seeds of "slow", one of "fast", with one observable each.
+class Claims : public testing::Test {
+ protected:
+  StudyPlan plan(const std::string& expectation) {
+    return parse(text_with("\"expectations\": [ " + expectation + " ]"));
+  }
+  static std::string claim(const std::string& measure, const std::string& rest) {
+    return R"({ "id": "c", "claim": "x", "measure": { "observable": "max_move", )" + measure +
+           " }, " + rest + " }";
+  }
+  static StudyData data() {
+    StudyData all(3);
+    const std::vector<double> hours{0, 3600, 7200};
+    all[0].curve["max_move"] = {hours, {4, 4, 4}};  // fast/seed_7
+    all[1].curve["max_move"] = {hours, {1, 2, 3}};  // slow/seed_1
+    all[2].curve["max_move"] = {hours, {1, 4, 5}};  // slow/seed_2
+    for (RunData& d : all) {
+      d.status.state = RunState::kDone;
+      d.until = 7200;
+    }
+    return all;
+  }
+  Verdict judged(const std::string& measure, const std::string& rest, const StudyData& d = data()) {
+    return judge(plan(claim(measure, rest)), d).at(0);
+  }
+};
+
+TEST_F(Claims, ValueIsTheMeanOfTheSeedsAndTheBandTheirRange) {
+  const Verdict v = judged(R"("variant": "slow", "at": "1 h")", R"("low": "2 um", "high": "3 um")");
+  EXPECT_EQ(v.measured.value, 3);
+  EXPECT_EQ(v.measured.low, 2);
+  EXPECT_EQ(v.measured.high, 4);
+  EXPECT_EQ(v.measured.unit, "um");
+  EXPECT_EQ(v.judgement, Judgement::kHolds);
+  EXPECT_EQ(v.expected, "from 2 um to 3 um");
+  EXPECT_EQ(judged(R"("variant": "slow")", R"("high": "3.9 um")").judgement,
+            Judgement::kDoesNotHold)
+      << "at the end the mean is 4";
+  EXPECT_EQ(judged(R"("variant": "slow", "at": "1 h")", R"("high": "3 um", "every_seed": true)")
+                .judgement,
+            Judgement::kDoesNotHold)
+      << "one seed has 4";
+}
+
+TEST_F(Claims, EveryKindOfMeasure) {
+  const std::string any = R"("low": 0)", um = R"("low": "0 um")", s = R"("low": "0 s")";
+  const auto value = [&](const std::string& kind, const std::string& more, const std::string& low) {
+    return judged("\"kind\": \"" + kind + "\", \"variant\": \"slow\"" + more, low)
+        .measured.value.value();
+  };
+  EXPECT_EQ(value("first_above", R"(, "level": "2 um")", s), (3600 + 1200) / 2.0);
+  EXPECT_EQ(value("mean", R"(, "from": "0 h", "until": "2 h")", um), (2 + 3.5) / 2);
+  EXPECT_EQ(value("min", R"(, "from": "1 h")", um), 3);
+  EXPECT_EQ(value("max", "", um), 4);
+  EXPECT_EQ(value("band", "", um), 2);
+  EXPECT_EQ(value("distance", R"(, "other": "fast")", um), 3);
+  const Verdict p = judged(R"("kind": "p_value", "variant": "slow", "other": "fast")", any);
+  EXPECT_EQ(p.judgement, Judgement::kNotMeasured) << "one seed has no spread";
+  EXPECT_FALSE(p.measured.note.empty());
+}
+
+TEST_F(Claims, DifferencesAndRatiosAreTakenSeedBySeed) {
+  const std::string second = R"({ "observable": "max_move", "variant": "slow", "at": "0 h" })";
+  Verdict v =
+      judged(R"("variant": "slow", "at": "2 h")", "\"minus\": " + second + R"(, "low": "2 um")");
+  EXPECT_EQ(v.measured.value, 3);
+  EXPECT_EQ(v.measured.low, 2);
+  EXPECT_EQ(v.measured.high, 4);
+  v = judged(R"("variant": "slow", "at": "2 h")", "\"over\": " + second + R"(, "low": 4)");
+  EXPECT_EQ(v.measured.value, 4);
+  EXPECT_EQ(v.measured.unit, "1");
+  v = judged(R"("variant": "fast", "at": "2 h")", "\"over\": " + second + R"(, "low": 4)");
+  EXPECT_EQ(v.measured.value, 4) << "other seeds: of the means";
+  EXPECT_FALSE(v.measured.low.has_value());
+}
+
+TEST_F(Claims, WhatNeverHappensIsLaterThanTheRun) {
+  const std::string never = R"("kind": "first_above", "variant": "slow", "level": "9 um")";
+  Verdict v = judged(never, R"("high": "1 h")");
+  EXPECT_EQ(v.judgement, Judgement::kDoesNotHold);
+  EXPECT_NE(v.measured.note.find("never"), std::string::npos);
+  EXPECT_EQ(judged(never, R"("low": "2 h")").judgement, Judgement::kHolds);
+  EXPECT_EQ(judged(never, R"("low": "3 h")").judgement, Judgement::kNotMeasured)
+      << "the runs say nothing about what comes after two hours";
+}
+
+TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
+  for (const RunState state : {RunState::kFailed, RunState::kToDo, RunState::kToResume}) {
+    StudyData d = data();
+    d[2].status.state = state;
+    if (state == RunState::kToDo) d[2].curve.clear();
+    EXPECT_EQ(judged(R"("variant": "slow")", R"("low": "0 um")", d).judgement,
+              Judgement::kNotMeasured);
+  }
+  StudyData d = data();
+  d[2].status.state = RunState::kToResume;
+  EXPECT_EQ(judged(R"("variant": "slow", "at": "1 h")", R"("low": "0 um")", d).judgement,
+            Judgement::kHolds)
+      << "a run that was cut short has passed one hour";
+}
+
+TEST_F(Claims, PlotsHaveMeanBandAndReferencePoints) {
+  const StudyPlan p = parse(text_with(R"("plots": [ { "name": "m", "observable": "max_move",
+    "reference": [ { "name": "paper", "x": ["1 h"], "y": ["2 um"], "low": ["1 um"], "high": ["3 um"] } ] } ])"));
+  const io::Plot plot = make_plot(p, data(), p.study.plots[0]);
+  ASSERT_EQ(plot.line.size(), 3u);
+  EXPECT_EQ(plot.line[1].point[1], (std::pair<double, double>(1, 3))) << "hours";
+  EXPECT_EQ(plot.line[1].band[1], (std::pair<double, double>(2, 4)));
+  EXPECT_FALSE(plot.line[2].joined);
+  EXPECT_EQ(plot.line[2].point[0], (std::pair<double, double>(1, 2)));
+  EXPECT_EQ(plot.y_label, "max_move, um");
+}
+
+TEST_F(Claims, VerdictsAreJsonWithoutNaN) {
+  const std::string root = testing::TempDir() + "verdicts";
+  std::filesystem::create_directories(root);
+  StudyData d = data();
+  d[1].status.state = RunState::kFailed;
+  const StudyPlan p = plan(claim(R"("variant": "slow")", R"("low": "0 um")"));
+  write_verdicts(judge(p, d), root);
+  std::ifstream file(root + "/verdicts.json");
+  const nlohmann::json j = nlohmann::json::parse(file);
+  for (const char* key : {"claim", "expected", "measured", "low", "high", "pass"})
+    EXPECT_TRUE(j[0].contains(key)) << key;
+  EXPECT_TRUE(j[0]["measured"].is_null());
+  EXPECT_TRUE(j[0]["pass"].is_null());
+  EXPECT_NE(j[0]["note"].get<std::string>().find("slow/seed_1 failed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace acinus::runs
