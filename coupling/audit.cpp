@@ -229,8 +229,34 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
   }
 }
 
+/// How far a sphere reaches beyond the surface of a closed body on the forbidden side.
+double depth_in_fixed(const AuditSphere& sphere, const AuditBody& fixed, Side forbidden) {
+  const double distance = fixed.distance(sphere.center);
+  return sphere.radius + (fixed.side(sphere.center) == forbidden ? distance : -distance);
+}
+
+void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+  for (const AuditSphere& s : frame.spheres) {
+    std::int64_t wall = 0;
+    const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s.id, wall++); };
+    for (const AuditPlane& p : frame.planes) keep(s.radius - (s.center - p.point).dot(p.normal));
+    for (const AuditCapsule& c : frame.capsules)
+      keep((s.center - c.center).norm() + s.radius - c.radius);
+    for (std::size_t f = 0; f < bodies.fixed.size(); ++f)
+      keep(depth_in_fixed(s, bodies.fixed[f],
+                          frame.statics[f].inside ? Side::kOutside : Side::kInside));
+  }
+}
+
 struct Pair {
-  enum class Kind { kCellCell, kCellSphere, kCellVessel, kCellFixed, kSphereSphere } kind;
+  enum class Kind {
+    kCellCell,
+    kCellSphere,
+    kCellVessel,
+    kCellFixed,
+    kSphereSphere,
+    kSphereVessel
+  } kind;
   std::size_t a, b;
   double depth = 0;
 };
@@ -258,6 +284,8 @@ std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
         pair.push_back({Pair::Kind::kCellFixed, a, b - fixed});
     } else if (a < cone && b < cone) {
       pair.push_back({Pair::Kind::kSphereSphere, a - sphere, b - sphere});
+    } else if (a < cone && b < fixed) {
+      pair.push_back({Pair::Kind::kSphereVessel, a - sphere, b - cone});
     }
   }
   return pair;
@@ -283,13 +311,18 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
       return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
     case Pair::Kind::kSphereSphere:
       return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
+    case Pair::Kind::kSphereVessel:
+      return frame.spheres[pair.a].radius +
+             cone_depth(bodies.cone[pair.b], frame.spheres[pair.a].center);
   }
   return 0;
 }
 
 void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
   const auto other = static_cast<std::int64_t>(pair.b);
-  const bool newborn = pair.kind != Pair::Kind::kSphereSphere && frame.meshes[pair.a].newborn;
+  const bool of_cell =
+      pair.kind != Pair::Kind::kSphereSphere && pair.kind != Pair::Kind::kSphereVessel;
+  const bool newborn = of_cell && frame.meshes[pair.a].newborn;
   switch (pair.kind) {
     case Pair::Kind::kCellCell:
       keep_penetration(result, pair.depth, newborn || frame.meshes[pair.b].newborn);
@@ -317,6 +350,8 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
     case Pair::Kind::kSphereSphere:
       return keep_worst(result.cbm_cbm, pair.depth, frame.spheres[pair.a].id,
                         frame.spheres[pair.b].id);
+    case Pair::Kind::kSphereVessel:
+      return keep_worst(result.cbm_vessel, pair.depth, frame.spheres[pair.a].id, other);
   }
 }
 
@@ -327,6 +362,7 @@ AuditResult audit(const AuditFrame& frame) {
   const Bodies bodies = prepare(frame);
   audit_shapes(frame, bodies, result);
   audit_walls(frame, bodies, result);
+  audit_spheres_at_walls(frame, bodies, result);
   std::vector<Pair> pairs = find_pairs(frame, bodies);
   const auto n = static_cast<std::ptrdiff_t>(pairs.size());
 #pragma omp parallel for schedule(dynamic, 8)

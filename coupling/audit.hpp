@@ -75,6 +75,8 @@ struct AuditResult {
   WorstPair dcm_cbm_beyond_dent;  ///< the same, less the dent the pair's force explains
   double max_overlap_cbm_um = 0;  ///< max of Ri + Rj - distance over spheres
   WorstPair cbm_cbm;              ///< sphere ids
+  WorstPair cbm_vessel;           ///< sphere id, vessel segment
+  WorstPair cbm_wall;             ///< sphere id, index as of dcm_wall
   double min_triangle_quality =
       1;  ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 flat
   std::int64_t worst_triangle_cell = -1;
@@ -95,6 +97,8 @@ struct AuditResult {
 /// - two spheres: Ri + Rj - distance. Sisters deeper in each other than to the centre count only
 /// when
 ///   their forces have full strength and they are nearer than at birth: until then they come apart.
+/// - sphere in vessel, plane, capsule or closed mesh: radius less the centre's distance from the
+/// surface. By their law spheres yield there: it is told and no penetration.
 /// - cell and sphere: radius - distance to the cell's surface, or radius + distance if the centre
 /// is inside. Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel,
 /// and the result does not depend on the number of threads. Throws Error if a coordinate is not

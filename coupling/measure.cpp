@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/sphere.hpp"
+#include "coupling/contact_forces.hpp"
 #include "coupling/step.hpp"
 #include "dcm/stress.hpp"
 #include "dcm/terms/area.hpp"
@@ -87,72 +88,24 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     cells.push_back(m);
   }
 
-  auto reference_volume = [&](std::size_t cell) { return sphere_volume(cells[cell].radius); };
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
-    add_stress(cells[cell], reference_volume(cell), force, arm);
+    add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
   /// nN, of every pair in contact, on the first; and of all surroundings on each cell
   std::map<std::pair<std::size_t, std::size_t>, Vec3> pair_force;
   std::vector<Vec3> wall_force(cells.size(), Vec3::Zero());
-  auto touch = [&](std::size_t a, std::size_t b, const Vec3& force_on_a) {
-    Vec3& sum =
-        pair_force.try_emplace({std::min(a, b), std::max(a, b)}, Vec3::Zero()).first->second;
-    sum += a < b ? force_on_a : Vec3(-force_on_a);
-  };
-  // assemble() adds links in this order: surface contacts, obstacles, interface
-  auto force_of = [&](std::size_t l) -> Vec3 {
-    const solve::LinkLoad& load = w.system.links.load[l];
-    return load.force * load.normal;
-  };
-
-  for (std::size_t k = 0; k < w.dcm.surface.size(); ++k) {
-    const contact::SurfaceContact& c = w.dcm.surface[k];
-    const auto a = static_cast<std::size_t>(c.body_a), b = static_cast<std::size_t>(c.body_b);
-    const Vec3 x = contact::point_position(
-        w.dcm.body[a],
-        contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
-    press(a, force_of(k), x - cells[a].center);
-    if (b >= n_body) {
-      wall_force[a] += force_of(k);
-      continue;
+  visit_contacts(world, w, [&](const ContactForce& c) {
+    press(c.a, c.force, c.arm_a);
+    if (c.b == kNoCell) {
+      wall_force[c.a] += c.force;
+      return;
     }
-    press(b, -force_of(k), x - c.gap * c.normal - cells[b].center);
-    if (a != b && force_of(k).squaredNorm() > 0) touch(a, b, force_of(k));
-  }
-  for (std::size_t k = 0; k < w.dcm.obstacle.size(); ++k) {
-    const dcm::ObstacleContact& c = w.dcm.obstacle[k];
-    const auto a = static_cast<std::size_t>(c.body);
-    wall_force[a] += force_of(w.dcm.surface.size() + k);
-    press(a, force_of(w.dcm.surface.size() + k),
-          contact::point_position(
-              w.dcm.body[a], dcm::obstacle_stencil(world.params.dcm_contact, w.dcm.body[a], c)) -
-              cells[a].center);
-  }
-  for (const cbm::SphereContact& c : sphere_contacts(world, w)) {
-    const std::size_t a = n_body + static_cast<std::size_t>(c.a),
-                      b = n_body + static_cast<std::size_t>(c.b);
-    const Vec3 f = c.law.force * c.normal;
-    press(a, f, -(cells[a].radius - 0.5 * c.overlap) * c.normal);
-    press(b, -f, (cells[b].radius - 0.5 * c.overlap) * c.normal);
-    touch(a, b, f);
-  }
-  for (const cbm::ObstacleContact& c : w.cbm.obstacle) {
-    const std::size_t a = n_body + static_cast<std::size_t>(c.cell);
-    wall_force[a] += c.law.force * c.normal;
-    press(a, c.law.force * c.normal, -(cells[a].radius - c.overlap) * c.normal);
-  }
-  for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
-    const InterfaceContact& c = w.interface.contact[k];
-    const auto a = static_cast<std::size_t>(c.body);
-    const std::size_t b = n_body + static_cast<std::size_t>(c.sphere);
-    const Vec3 x = contact::point_position(
-        w.dcm.body[a],
-        contact::point_stencil(w.dcm.body[a], world.params.dcm_contact.quadrature, c.point));
-    const Vec3 f = force_of(w.dcm.surface.size() + w.dcm.obstacle.size() + k);
-    press(a, f, x - cells[a].center);
-    press(b, -f, x - cells[b].center);
-    if (f.squaredNorm() > 0) touch(a, b, f);
-  }
+    press(c.b, -c.force, c.arm_b);
+    if (!c.touching) return;
+    Vec3& sum = pair_force.try_emplace({std::min(c.a, c.b), std::max(c.a, c.b)}, Vec3::Zero())
+                    .first->second;
+    sum += c.a < c.b ? c.force : Vec3(-c.force);
+  });
   for (std::size_t k = 0; k < cells.size(); ++k) cells[k].contact_force = wall_force[k].norm();
   for (const auto& [pair, force] : pair_force) {
     const double normal =

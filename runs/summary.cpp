@@ -44,6 +44,8 @@ void add_audit(RunTotals& t, const coupling::AuditResult& a) {
   t.dcm_dcm_um = std::max(t.dcm_dcm_um, a.dcm_dcm.depth_um);
   t.dcm_vessel_um = std::max(t.dcm_vessel_um, a.dcm_vessel.depth_um);
   t.dcm_wall_um = std::max(t.dcm_wall_um, a.dcm_wall.depth_um);
+  t.cbm_vessel_um = std::max(t.cbm_vessel_um, a.cbm_vessel.depth_um);
+  t.cbm_wall_um = std::max(t.cbm_wall_um, a.cbm_wall.depth_um);
   t.dcm_cbm_um = std::max(t.dcm_cbm_um, a.dcm_cbm.depth_um);
   t.dcm_cbm_beyond_um = std::max(t.dcm_cbm_beyond_um, a.dcm_cbm_beyond_dent.depth_um);
   t.max_overlap_cbm_um = std::max(t.max_overlap_cbm_um, a.max_overlap_cbm_um);

@@ -19,6 +19,7 @@ struct RunTotals {
   double wall_s = 0, cpu_s = 0;
   double max_penetration_um = 0, max_penetration_grown_um = 0;
   double dcm_dcm_um = 0, dcm_vessel_um = 0, dcm_wall_um = 0, dcm_cbm_um = 0;
+  double cbm_vessel_um = 0, cbm_wall_um = 0;
   double dcm_cbm_beyond_um = 0;  ///< deeper than the dent that the pair's force explains
   double max_overlap_cbm_um = 0;
   double min_triangle_quality = 1;

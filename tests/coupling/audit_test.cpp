@@ -258,6 +258,41 @@ TEST(Audit, SpheresAgainstCellsAndEachOther) {
   EXPECT_EQ(audit_bodies({cell}, frame).dcm_cbm.depth_um, 0);
 }
 
+TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
+  mesh::Network net;
+  net.node = {{0, 0, 0}, {0, 0, 40}, {0, 0, 80}};
+  net.segment = {{0, 1}, {1, 2}};
+  net.radius = {{4.7, 4.7}, {4.7, 4.7}};
+  AuditFrame frame;
+  frame.vessels = &net;
+  std::vector<AuditSphere> spheres{{7, {15.7, 0, 20}, 12}, {8, {0, 15.2, 60}, 12}};
+  frame.spheres = spheres;
+  auto r = audit(frame);
+  EXPECT_NEAR(r.cbm_vessel.depth_um, 1.5, 1e-13);
+  EXPECT_EQ(r.cbm_vessel.ids, (Ids{8, 1}));
+  EXPECT_EQ(r.max_penetration_um, 0);
+  const AuditPlane plane[] = {{{0, 0, 10}, {0, 0, 1}}};
+  frame.planes = plane;  // 2 um of the lower sphere lie behind it
+  const AuditCapsule capsule[] = {{{0, 0, 40}, 33}};
+  frame.capsules = capsule;  // 5.1 um of the upper one: |(15.2, 20)| + 12 - 33
+  r = audit(frame);
+  EXPECT_NEAR(r.cbm_wall.depth_um, std::hypot(15.7, 20) + 12 - 33, 1e-13);
+  EXPECT_EQ(r.cbm_wall.ids, (Ids{7, 1}));
+  frame.capsules = {};
+  r = audit(frame);
+  EXPECT_NEAR(r.cbm_wall.depth_um, 2, 1e-13);
+  EXPECT_EQ(r.cbm_wall.ids, (Ids{7, 0}));
+  const Surface block = brick({25, -20, 0}, {60, 20, 40}), room = brick({-9, -30, 0}, {60, 30, 90});
+  const std::vector<AuditStatic> statics{{block.node, block.triangle, false},
+                                         {room.node, room.triangle, true}};
+  frame.planes = {};
+  frame.statics = statics;
+  r = audit(
+      frame);  // one reaches 12 - (25 - 15.7) into the block, the other 12 - 9 out of the room
+  EXPECT_NEAR(r.cbm_wall.depth_um, 3, 1e-13);
+  EXPECT_EQ(r.cbm_wall.ids, (Ids{8, 1}));
+}
+
 /// Radius 10: sisters are born 5.2 um apart, and 4.1 um are what is left of it in radii when they
 /// have grown to twice their volume without moving.
 TEST(Audit, SistersMayBeInEachOtherUntilTheyHaveComeApart) {
