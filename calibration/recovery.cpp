@@ -9,14 +9,26 @@ namespace {
 
 constexpr double kAtOnce = 10;    ///< s
 constexpr double kThere = 0.01;   ///< share of the way that does not count
+constexpr double kMost = 0.5;     ///< share of the largest way before which nothing ends
 constexpr double kNoWay = 1e-12;  ///< relative to the values: nothing moved
 
-/// Value between two samples.
-double at(double time, std::span<const double> t, std::span<const double> y) {
-  const auto next = static_cast<std::size_t>(std::ranges::lower_bound(t, time) - t.begin());
-  if (next == 0) return y.front();
-  const double share = (time - t[next - 1]) / (t[next] - t[next - 1]);
-  return y[next - 1] + share * (y[next] - y[next - 1]);
+/// The first time at which as long again brings less than 1 % more, and the value after that; an
+/// infinite time if it was not followed so far. Before half of the way a curve that turns round
+/// once must not be taken for one that ends.
+struct End {
+  double time = std::numeric_limits<double>::infinity(), value = 0;
+};
+End find_end(std::span<const double> t, std::span<const double> y) {
+  const double farthest =
+      *std::ranges::max_element(y, {}, [&](double v) { return std::abs(v - y.front()); });
+  const double most = kMost * std::abs(farthest - y.front());
+  for (std::size_t k = 1; k < t.size() && 2 * t[k] <= t.back(); ++k) {
+    const double later = value_at(2 * t[k], t, y);
+    if (t[k] >= kAtOnce && std::abs(y[k] - y.front()) >= most &&
+        std::abs(later - y[k]) <= kThere * std::abs(later - y.front()))
+      return {t[k], later};
+  }
+  return {std::numeric_limits<double>::infinity(), farthest};
 }
 
 /// When a falling line between samples k - 1 and k is at a level.
@@ -28,12 +40,21 @@ double crossing(double level, std::size_t k, std::span<const double> t, std::spa
 
 }  // namespace
 
+double value_at(double time, std::span<const double> t, std::span<const double> y) {
+  const auto next = static_cast<std::size_t>(std::ranges::lower_bound(t, time) - t.begin());
+  if (next == 0) return y.front();
+  if (next == t.size()) return y.back();
+  const double share = (time - t[next - 1]) / (t[next] - t[next - 1]);
+  return y[next - 1] + share * (y[next] - y[next - 1]);
+}
+
 Recovery measure_recovery(std::span<const double> t, std::span<const double> y) {
   Recovery r;
   if (t.size() < 2 || !(t.back() > kAtOnce)) return r;
-  r.end = *std::ranges::max_element(y, {}, [&](double v) { return std::abs(v - y.front()); });
-  const double way = r.end - y.front();
-  if (!(std::abs(way) > kNoWay * std::max(std::abs(r.end), std::abs(y.front())))) return r;
+  const End end = find_end(t, y);
+  const double way = end.value - y.front();
+  if (!(std::abs(way) > kNoWay * std::max(std::abs(end.value), std::abs(y.front())))) return r;
+  r.end = end.value;
   std::vector<double> left;  // share of the way
   for (const double v : y) left.push_back((r.end - v) / way);
   const auto first_below = [&](double level, double after) {
@@ -41,10 +62,8 @@ Recovery measure_recovery(std::span<const double> t, std::span<const double> y) 
       if (t[k] > after && left[k] <= level) return std::max(after, crossing(level, k, t, left));
     return t.back();
   };
-  const double time = first_below(kThere, 0);
-  if (time > 0.5 * t.back()) return r;
-  r.time = time;
-  const double slow = at(kAtOnce, t, left);
+  if (std::isfinite(end.time)) r.time = first_below(kThere, 0);
+  const double slow = value_at(kAtOnce, t, left);
   r.sprung = 1 - slow;
   // Of what is there already nothing is left to be slow.
   if (slow > kThere) r.efold = first_below(slow / std::exp(1), kAtOnce) - kAtOnce;

@@ -6,21 +6,23 @@
 
 namespace acinus::calibration {
 
-/// The way is from the first value to the one farthest from it: what comes later, such as a clump
-/// that goes on to round off, is another matter. NaN: there is no way, or it was not followed long
-/// enough to tell.
+/// The way back ends where as long again brings less than a hundredth more. A clump that is let go
+/// first gets its shape back, then creeps on towards a ball, slower and slower: without an end of
+/// this kind every time would be a share of how long one looked. While there is none yet, the
+/// farthest value stands for it and the time is not known.
 struct Recovery {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  double end = kUnknown;     ///< the value at the end of the way, as far as it was followed
+  double end = kUnknown;     ///< the value at the end of the way
   double sprung = kUnknown;  ///< share of the way done 10 s after the release
   double efold = kUnknown;   ///< s in which what was left then falls to 1/e
   double time = kUnknown;    ///< s until 1 % of the way is left
 };
 
-/// All but the end is known only if 99 % of the way are done in the first half of the time: what
-/// still moves may go farther.
 /// @param t  [n] s since the release, ascending from 0
 /// @param y  [n] the quantity
 Recovery measure_recovery(std::span<const double> t, std::span<const double> y);
+
+/// The quantity at a time between samples; the last value later on.
+double value_at(double time, std::span<const double> t, std::span<const double> y);
 
 }  // namespace acinus::calibration

@@ -25,7 +25,6 @@
 #include "runs/scene/schema.hpp"
 #include "runs/study/library.hpp"
 #include "runs/study/registry.hpp"
-#include "runs/study/run_study.hpp"
 #include "runs/study/study_command.hpp"
 
 namespace acinus::runs {

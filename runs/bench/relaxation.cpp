@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "calibration/recovery.hpp"
 #include "core/error.hpp"
 #include "runs/calibrate/calibrate.hpp"
 #include "runs/scene/frame_times.hpp"
@@ -19,6 +21,9 @@ namespace {
 
 constexpr double kHour = 3600;
 constexpr double kHolds[] = {1 * kHour, 10 * kHour};
+/// When it is looked at what of the squeeze is left, s after the release.
+constexpr std::pair<const char*, double> kLooks[] = {
+    {"10s", 10}, {"10min", 600}, {"1h", kHour}, {"5h", 5 * kHour}, {"24h", 24 * kHour}};
 
 /// What stands in one row.
 struct Variant {
@@ -80,23 +85,32 @@ std::vector<Variant> make_variants(const Scene& shipped) {
   return all;
 }
 
-/// Figures of a run; those of one that ended early are of what it reached.
+/// Figures of a run: the overlap from a capsule, the height from between plates.
 BenchRow make_row(const Variant& v, const std::string& folder) {
   const RunSummary summary = read_summary(folder);
-  BenchRow row{v.name, summary.dcm + summary.cbm, {}};
+  const std::string name = v.scene.capsule.enabled ? "overlap" : "height";
+  const std::vector<double>&time = series(summary, "time_s"),
+        &y = series(summary, v.scene.capsule.enabled ? name : name + "_um");
   const double release = next_opening(v.scene, -1);
-  const std::vector<double>& time = series(summary, "time_s");
-  const auto at_release =
-      static_cast<std::size_t>(std::ranges::lower_bound(time, release - kSameTime) - time.begin());
-  for (const char* name : {"overlap", "height"}) {
-    const std::string n = name;
-    const std::vector<double>& y = series(summary, n == "overlap" ? n : n + "_um");
-    row.value.emplace_back(n + "_before", y.front());
-    if (at_release < y.size()) row.value.emplace_back(n + "_squeezed", y[at_release]);
-    for (const char* what : {"_back_10s", "_efold_h", "_return_h", "_recovered"})
-      row.value.emplace_back(n + what, series(summary, n + what).back());
+  const auto from = static_cast<std::ptrdiff_t>(
+      std::ranges::lower_bound(time, release - kSameTime) - time.begin());
+  BenchRow row{v.name, summary.dcm + summary.cbm, {}};
+  row.value.emplace_back(name + "_before", y.front());
+  if (time.begin() + from == time.end()) {  // the squeeze could not be finished
+    row.value.emplace_back("squeezed_for_h", time.back() / kHour);
+    return row;
   }
-  row.value.emplace_back("followed_h", (time.back() - release) / kHour);
+  const std::vector<double> after(y.begin() + from, y.end());
+  std::vector<double> since;
+  for (std::size_t k = static_cast<std::size_t>(from); k < time.size(); ++k)
+    since.push_back(time[k] - release);
+  row.value.emplace_back(name + "_squeezed", after.front());
+  const double squeeze = y.front() - after.front();
+  for (const auto& [label, t] : kLooks)
+    row.value.emplace_back(fmt::format("left_after_{}", label),
+                           (y.front() - calibration::value_at(t, since, after)) / squeeze);
+  for (const char* what : {"back_10s", "efold_h", "return_h"})
+    row.value.emplace_back(what, series(summary, name + "_" + what).back());
   row.value.emplace_back("cpu_s", summary.cpu_s);
   return row;
 }

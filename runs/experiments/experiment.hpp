@@ -48,7 +48,7 @@ void sample_capsule(const Scene& scene, const coupling::World& world, const Snap
 /// (calibration/recovery.hpp),
 ///   NAME_back_10s   share of the way that is done 10 s after the release
 ///   NAME_efold_h    time in which what is left then falls to 1/e
-///   NAME_return_h   time until 1 % of the way is left
+///   NAME_return_h   time until 1 % of the way is left; none while it goes on
 ///   NAME_recovered  the way over that from the first frame to the release
 /// and relaxation_time_h, the return of the height if a wall opens, else of the overlap
 /// [VanLiedekerke2020, Appendix 1, Fig. 12c].

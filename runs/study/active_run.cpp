@@ -1,5 +1,7 @@
 #include "runs/study/active_run.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -13,7 +15,6 @@ namespace acinus::runs {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kCheckpointEvery = "120 s";  // wall time that a kill may cost
 
 }  // namespace
 
@@ -25,7 +26,7 @@ void clear_run(const std::string& folder) {
 }
 
 ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string& root,
-                    io::FileLock claim, bool resume, int threads) {
+                    io::FileLock claim, bool resume, const ChildRunOptions& options) {
   const StudyRun& run = plan.runs[index];
   const std::string folder = root + "/" + run.folder;
   if (!resume) clear_run(folder);
@@ -39,11 +40,11 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
                                        "--out",
                                        folder,
                                        "--threads",
-                                       std::to_string(threads),
+                                       std::to_string(options.threads),
                                        "--progress",
                                        "json",
                                        "--checkpoint-every",
-                                       kCheckpointEvery};
+                                       fmt::format("{} s", options.checkpoint_every_s)};
   std::vector<std::string> all = words;
   if (!resume) all.emplace_back("--overwrite");  // run.log, which holds the lock, stays there
   std::error_code ignored;

@@ -17,6 +17,12 @@ struct RunProgress {
   bool starting = true;          ///< not yet at t = 0, or nothing said
 };
 
+/// What every process of a study is told.
+struct ChildRunOptions {
+  int threads = 1;
+  double checkpoint_every_s = 120;  ///< wall time that a kill may cost
+};
+
 struct ActiveRun {
   std::size_t run = 0;  ///< index into the plan's runs
   io::FileLock claim;   ///< of the run's folder
@@ -25,12 +31,11 @@ struct ActiveRun {
 };
 
 /// Starts a run in its folder, anew or from its checkpoint.
-/// @param claim    held by the caller until now
-/// @param resume   go on from the checkpoint; false removes what an earlier attempt left
-/// @param threads  of the process
+/// @param claim   held by the caller until now
+/// @param resume  go on from the checkpoint; false removes what an earlier attempt left
 /// @throws Error(kFileError)
 ActiveRun start_run(const StudyPlan& plan, std::size_t run, const std::string& root,
-                    io::FileLock claim, bool resume, int threads);
+                    io::FileLock claim, bool resume, const ChildRunOptions& options);
 
 /// Nothing said yet gives the default. Keeps the file that is read small.
 RunProgress read_progress(const ActiveRun& run);

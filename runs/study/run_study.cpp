@@ -70,7 +70,7 @@ int run_study(StudyOptions options) {
   const StudyPlan plan = read_study(find_study(options.file));
   if (options.out.empty()) options.out = plan.study.name + ".study";
   options.out = fs::absolute(options.out).lexically_normal().string();
-  if (options.jobs <= 0) options.jobs = std::max(1, omp_get_num_procs() / options.threads);
+  if (options.jobs <= 0) options.jobs = std::max(1, omp_get_num_procs() / options.child.threads);
   const std::vector<ChosenRun> chosen = choose_runs(plan, choice);
   check_study_folder(options.out, plan);
   if (options.dry_run) {
@@ -80,9 +80,8 @@ int run_study(StudyOptions options) {
   make_study_folder(options.out, plan);
   ScheduleResult result;
   if (!options.report_only)
-    result =
-        run_all(plan, chosen,
-                {options.out, options.jobs, options.threads, options.overwrite, options.quiet});
+    result = run_all(plan, chosen,
+                     {options.out, options.jobs, options.child, options.overwrite, options.quiet});
   if (choice.tasks == 1) {
     const ReportCounts n = write_study_report(plan, options.out);
     if (!options.quiet) print_counts(n, options.out);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "runs/study/active_run.hpp"
 #include "runs/study/choose_runs.hpp"
 
 namespace acinus::runs {
@@ -11,7 +12,7 @@ struct StudyOptions {
   std::string file;  ///< study file, or the name of a shipped study
   std::string out;   ///< "" = <study name>.study in this folder
   int jobs = 0;      ///< processes at once; 0 = cores over threads
-  int threads = 1;   ///< of each
+  ChildRunOptions child;
   RunChoice choice;
   bool dry_run = false;      ///< list runs and their expected cost, run nothing
   bool report_only = false;  ///< report from what is there, run nothing

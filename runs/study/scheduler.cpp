@@ -47,8 +47,8 @@ class Scheduler {
       }
       start_what_can();
       if (active_.empty() && waiting_.empty()) break;
-      wait();
       progress_.show(counts(), active_);
+      wait();
     }
     for (int s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, SIG_DFL);
     result_.left = n_own_ - result_.done - result_.failed;
@@ -65,7 +65,7 @@ class Scheduler {
       if (state == RunState::kToDo || state == RunState::kToResume)
         runs.push_back(&plan_.runs[c.run]);
     }
-    return find_laws(runs, options_.jobs * options_.threads, options_.quiet, no_law_);
+    return find_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
   }
 
   StudyCounts counts() const {
@@ -132,7 +132,7 @@ class Scheduler {
     if (status.state == RunState::kFailed && !again) return fail(c, status.cause);
     if (const auto law = no_law_.find(run.name); law != no_law_.end()) return fail(c, law->second);
     active_.push_back(start_run(plan_, c.run, options_.root, std::move(claim),
-                                status.state == RunState::kToResume, options_.threads));
+                                status.state == RunState::kToResume, options_.child));
     chosen_[c.run] = c;
   }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runs/study/active_run.hpp"
 #include "runs/study/choose_runs.hpp"
 #include "runs/study/plan.hpp"
 
@@ -13,7 +14,7 @@ namespace acinus::runs {
 struct ScheduleOptions {
   std::string root;  ///< the study's folder
   int jobs = 1;      ///< processes at once
-  int threads = 1;   ///< of each
+  ChildRunOptions child;
   bool overwrite =
       false;  ///< run again what failed and what was made from another scene or version
   bool quiet = false;

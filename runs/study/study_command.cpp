@@ -1,6 +1,9 @@
 #include "runs/study/study_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <string>
+
+#include "runs/cli.hpp"
 
 namespace acinus::runs {
 
@@ -14,7 +17,7 @@ void add_study_command(CLI::App& app, StudyOptions& o) {
   command->add_option("--jobs", o.jobs, "runs at once (default: cores over threads)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--threads", o.threads, "threads of each run (default: 1)")
+  command->add_option("--threads", o.child.threads, "threads of each run (default: 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
   CLI::Option* tasks =
@@ -30,6 +33,12 @@ void add_study_command(CLI::App& app, StudyOptions& o) {
                    "only this variant, NAME/* for what sweeps made of it; may be repeated")
       ->type_name("VARIANT")
       ->allow_extra_args(false);
+  command
+      ->add_option_function<std::string>(
+          "--checkpoint-every",
+          [&o](const std::string& text) { o.child.checkpoint_every_s = parse_wall_time(text); },
+          "wall time between checkpoints of a run (default: 2min)")
+      ->type_name("WALL");
   CLI::Option* dry = command->add_flag("--dry-run", o.dry_run,
                                        "list runs, their state and expected cost; run nothing");
   command->add_flag("--report", o.report_only, "report from what is there; run nothing")

@@ -37,10 +37,14 @@ TEST(Recovery, TellsTheJumpFromTheRest) {
   }
 }
 
-TEST(Recovery, NothingIsKnownOfWhatStillMoves) {
-  const Course c = make_course(0.4, 700, 3000);
-  EXPECT_TRUE(std::isnan(measure_recovery(c.t, c.y).time));
-  EXPECT_TRUE(std::isnan(measure_recovery(c.t, c.y).efold));
+// 0.4 is gone at once, of the rest 0.6 exp(-t / 700): twice as long brings 1 % more until 2870 s.
+TEST(Recovery, HasNoTimeWhileItMoves) {
+  const Course c = make_course(0.4, 700, 5000);
+  const Recovery r = measure_recovery(c.t, c.y);
+  EXPECT_TRUE(std::isnan(r.time));
+  EXPECT_NEAR(r.efold, 700, 10) << "of the way so far";
+  EXPECT_FALSE(std::isnan(
+      measure_recovery(make_course(0.4, 700, 6000).t, make_course(0.4, 700, 6000).y).time));
   const std::vector<double> t{0, 1, 20, 4000}, still{2, 2, 2, 2};
   EXPECT_TRUE(std::isnan(measure_recovery(t, still).time));
   EXPECT_TRUE(std::isnan(measure_recovery({}, {}).time));
@@ -54,16 +58,27 @@ TEST(Recovery, WhatSpringsBackWhollyHasNoSlowPart) {
   EXPECT_NEAR(r.time, std::log(100), 0.02);
 }
 
-TEST(Recovery, EndsWhereItTurnsRound) {
-  // slow creep the other way, a twentieth of the way in the end
-  Course c = make_course(0.4, 700, 40000);
-  for (std::size_t k = 0; k < c.t.size(); ++k) c.y[k] += 0.05 * c.t[k] / c.t.back();
+// Slow creep on, or back, of a twentieth of the way in 11 h: in the 1.3 h that the rest takes it
+// does less than 1 %.
+TEST(Recovery, EndsWhereOnlyCreepIsLeft) {
+  for (const double creep : {-0.05, 0.05}) {
+    Course c = make_course(0.4, 700, 40000);
+    for (std::size_t k = 0; k < c.t.size(); ++k) c.y[k] += creep * c.t[k] / c.t.back();
+    const Recovery r = measure_recovery(c.t, c.y);
+    EXPECT_NEAR(r.end, 3, 0.01);
+    EXPECT_NEAR(r.efold, 700, 30);
+    EXPECT_NEAR(r.time, 700 * std::log(60), 700);  // the level moves by as much as 1 %
+  }
+}
+
+// A curve that turns round at the beginning has not come to its end there.
+TEST(Recovery, IsNotOverAtAnEarlyTurn) {
+  Course c = make_course(0, 700, 20000);
+  for (std::size_t k = 0; k < c.t.size(); ++k)
+    c.y[k] += 0.03 * std::sin(std::min(c.t[k], 30.0) / 4);
   const Recovery r = measure_recovery(c.t, c.y);
-  // 0.6 exp(-t / 700) + 1.25e-6 t is least at t = 700 ln(0.6 / 700 / 1.25e-6) = 4571 s
-  EXPECT_NEAR(r.end, 3 + 0.6 * std::exp(-4571.0 / 700) + 1.25e-6 * 4571, 1e-4);
-  EXPECT_NEAR(r.efold, 700, 15);  // the end is not the one it would have gone to
-  // of the way of 0.9934 a hundredth is left where the sum is 0.01652
-  EXPECT_NEAR(r.time, 2672, 10);
+  EXPECT_NEAR(r.efold, 700, 30);
+  EXPECT_GT(r.time, 2000);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
   write("pair.json", program::kGrowing);
   const Json s = finish({"run", "pair.json", "--out", "a"}, "a");
   EXPECT_EQ(names_in("a"), (std::vector<std::string>{"checkpoint.h5", "run.log", "run.vtkhdf",
-                                                     "run.xmf", "summary.json"}));
+                                                     "run.xmf", "start.h5", "summary.json"}));
   for (const char* key : {"scene",
                           "scene_sha",
                           "version",
