@@ -8,6 +8,8 @@ namespace {
 /// A contact that ends less deep, um, is left to the next step: most closing contacts do, and each
 /// change of the active set costs a solve.
 constexpr double kShallow = 0.02;
+/// A switched contact that ends more than this open, um, pulls: with 10 nN/um, 0.02 nN.
+constexpr double kOpen = 0.002;
 
 /// The part of a point's move that is not in the gaps of contacts yet.
 Vec3 rest_of_move(const Workspace& w, Address a) {
@@ -44,20 +46,21 @@ bool activate_closing(Workspace& w) {
   solve::Links& links = w.system.links;
   // 1: closes, 2: is active and opens
   std::vector<std::uint8_t> change(links.size(), 0);
-  bool deep = false;
-#pragma omp parallel for schedule(static) reduction(|| : deep) if (worth_threads(w.system.n_row))
+  bool wrong = false;
+#pragma omp parallel for schedule(static) reduction(|| : wrong) if (worth_threads(w.system.n_row))
   for (std::size_t l = 0; l < links.size(); ++l) {
     const solve::LinkLoad& load = links.load[l];
     if (!(load.closed_stiffness > 0) || load.clearance <= 0) continue;
     const double end = gap_after(w, links.link[l]) + load.clearance - links.link[l].gap;
     if (load.active) {
       change[l] = end > 0 ? 2 : 0;
+      wrong = wrong || end > kOpen;
     } else if (end < -kShallow) {
       change[l] = 1;
-      deep = deep || end < -kControlledDepth;
+      wrong = wrong || end < -kControlledDepth;
     }
   }
-  if (!deep) return false;
+  if (!wrong) return false;
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (change[l] == 0) continue;
     solve::LinkLoad& load = links.load[l];

@@ -26,7 +26,7 @@ namespace {
 constexpr int kMaxNewton = 40;
 constexpr int kMaxHalvings = 6;
 /// Changes of the set of closed contacts within a linearly implicit step.
-constexpr int kMaxActiveSets = 3;
+constexpr int kMaxActiveSets = 6;
 /// Newton is done when its last correction was below this share of the step's error tolerance.
 constexpr double kNewtonShare = 0.1;
 /// Closest features make kinks that Newton cannot cross; below this correction, um, it may stop at
