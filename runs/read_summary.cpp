@@ -24,6 +24,7 @@ RunSummary read_summary(const std::string& folder) {
     s.status = j.at("status");
     s.cause = j.value("cause", "");
     s.state_hash = j.value("state_hash", "");
+    if (j.contains("start")) s.start_hash = j.at("start").at("state_hash");
     s.simulated_s = j.at("simulated_s");
     s.wall_s = j.at("wall_s");
     s.cpu_s = j.at("cpu_s");

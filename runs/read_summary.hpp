@@ -13,6 +13,7 @@ struct RunSummary {
   std::string scene, sha, version, git, status;
   std::string cause;       ///< of a failure or stop; "" = none
   std::string state_hash;  ///< of the final state
+  std::string start_hash;  ///< of the state at t = 0 that another run left; "" = its own
   double simulated_s = 0, wall_s = 0, cpu_s = 0;
   int dcm = 0, cbm = 0;  ///< cells at the end
   Measures measures;     ///< NaN where there was no value

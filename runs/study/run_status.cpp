@@ -48,6 +48,7 @@ void take_summary(const std::string& folder, RunStatus& status) {
     status.wall_s = s.wall_s;
     status.simulated_s = s.simulated_s;
     status.state_hash = s.state_hash;
+    status.start_hash = s.start_hash;
     status.version = s.version;
     status.git = s.git;
     if (s.status == "completed") status.state = RunState::kDone;

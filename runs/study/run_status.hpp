@@ -22,6 +22,7 @@ struct RunStatus {
   std::string cause;                              ///< of a failure, or why the last attempt ended
   double cpu_s = 0, wall_s = 0, simulated_s = 0;  ///< as far as the run told
   std::string state_hash;                         ///< of the last state told
+  std::string start_hash;  ///< of the state it took from another run; "" = its own, or not told
   std::string version, git;
 };
 

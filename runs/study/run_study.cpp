@@ -67,6 +67,7 @@ int run_study(StudyOptions options) {
   const RunChoice& choice = options.choice;
   check(choice.task <= choice.tasks,
         fmt::format("--task {}: there are {} tasks, numbered from 1", choice.task, choice.tasks));
+  check(options.child.checkpoint_every_s > 0, "--checkpoint-every: must be > 0");
   const StudyPlan plan = read_study(find_study(options.file));
   if (options.out.empty()) options.out = plan.study.name + ".study";
   options.out = fs::absolute(options.out).lexically_normal().string();

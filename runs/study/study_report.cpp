@@ -96,19 +96,20 @@ std::string unfinished(const StudyPlan& plan, const StudyData& data) {
          "\nA failed run is tried again with `--overwrite`, or once its folder is removed.\n\n";
 }
 
-/// Where shared starts come from, run by run, with the hash of the source's last state.
-std::string start_list(const StudyPlan& plan) {
-  std::set<std::string> lines;
-  for (const StudyRun& run : plan.runs)
-    if (run.source >= 0)
-      lines.insert(fmt::format("- {}: cells at t = 0 of {}\n", run.name,
-                               plan.runs[static_cast<std::size_t>(run.source)].name));
+/// Where shared starts come from, run by run.
+std::string start_list(const StudyPlan& plan, const StudyData& data) {
+  std::string lines;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const StudyRun& run = plan.runs[k];
+    if (run.source < 0) continue;
+    const std::string& hash = data[k].status.start_hash;
+    lines += fmt::format("- {}: cells at t = 0 of {}{}\n", run.name,
+                         plan.runs[static_cast<std::size_t>(run.source)].name,
+                         hash.empty() ? "" : " (state " + hash + ")");
+  }
   if (lines.empty()) return {};
-  std::string text =
-      "## Shared starts\n\nThese runs did not place and settle cells of their own; summary.json of "
-      "each has the hash of the state it began with.\n\n";
-  for (const std::string& line : lines) text += line;
-  return text + "\n";
+  return "## Shared starts\n\nThese runs did not place and settle cells of their own.\n\n" + lines +
+         "\n";
 }
 
 std::string head(const StudyPlan& plan, const StudyData& data, const ReportCounts& n) {
@@ -158,7 +159,7 @@ ReportCounts write_study_report(const StudyPlan& plan, const std::string& root) 
   const std::vector<std::string> plots = write_plots(plan, data, root);
   io::write_text_file(root + "/report.md", head(plan, data, n) + verdict_table(verdicts) +
                                                unfinished(plan, data) + plot_list(plots) +
-                                               variant_table(plan, data) + start_list(plan));
+                                               variant_table(plan, data) + start_list(plan, data));
   return n;
 }
 
