@@ -32,7 +32,7 @@ void describe_variant(Visitor& v, StudyVariant& b) {
 }
 
 void describe_sweep(Visitor& v, StudySweep& b) {
-  v.texts({.name = "of", .meaning = "variants; NAME/* = all made from NAME by sweeps before"},
+  v.texts({.name = "of", .meaning = "variants; NAME/* = all made from NAME by sweeps before; any name may end in * so"},
           b.of);
   v.text({.name = "key", .meaning = "scene key that is changed", .required = true}, b.key);
   v.text({.name = "label",

@@ -173,7 +173,7 @@ class Maker {
       if (v.start.empty() || v.pointer.starts_with("/sweeps")) continue;
       const Origin origin = place_of(report_, v.pointer, "start");
       const std::vector<std::size_t> found = find_variants(variants_, v.start);
-      if (found.size() != 1 || v.start.ends_with("/*")) {
+      if (found.size() != 1 || v.start.ends_with("*")) {
         report_.add(origin, v.pointer + "/start", unknown_variant(variants_, v.start));
         continue;
       }
@@ -215,7 +215,7 @@ std::vector<Variant> make_variants(const Study& study, Report& report) {
 std::vector<std::size_t> find_variants(const std::vector<Variant>& variants,
                                        const std::string& name) {
   std::vector<std::size_t> found;
-  const bool all = name.ends_with("/*");
+  const bool all = name.ends_with("*");
   for (std::size_t k = 0; k < variants.size(); ++k)
     if (all ? variants[k].name.starts_with(name.substr(0, name.size() - 1))
             : variants[k].name == name)

@@ -30,7 +30,7 @@ struct Variant {
 /// Unknown names, circles, doubled names and seeds go into the report.
 std::vector<Variant> make_variants(const Study& study, Report& report);
 
-/// The variants a name stands for: itself, or with /* at its end all whose name begins so.
+/// The variants a name stands for: itself, or with * at its end all whose name begins so.
 /// @return indices into `variants`; none if there is no such variant
 std::vector<std::size_t> find_variants(const std::vector<Variant>& variants,
                                        const std::string& name);
