@@ -41,6 +41,12 @@ struct Reaction {
   Vec3 net = Vec3::Zero();  ///< nN, sum of the forces on the surroundings
   double normal = 0;  ///< nN, sum of their sizes along the normals, positive where cells press
   double area = 0;    ///< um^2 in touch
+  Reaction& operator+=(const Reaction& other) {
+    net += other.net;
+    normal += other.normal;
+    area += other.area;
+    return *this;
+  }
 };
 
 /// Of each plane, capsule and mesh in the order of Surroundings, and of each vessel segment.

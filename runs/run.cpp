@@ -24,7 +24,7 @@
 #include "coupling/step.hpp"
 #include "runs/advice.hpp"
 #include "runs/build_world.hpp"
-#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/observer.hpp"
 #include "runs/frame.hpp"
 #include "runs/life_totals.hpp"
 #include "runs/progress.hpp"
@@ -131,7 +131,7 @@ class Run {
   std::optional<io::RunFile> file_;
   RunTotals totals_;
   LifeTotals life_;
-  Measures measures_;
+  Observer observer_;
   double end_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues
@@ -205,22 +205,22 @@ void Run::start_or_resume() {
   check_same_scene(loaded.data, scene_);
   get_state(loaded.data, world().state);
   const std::vector<double>& t = loaded.data.numbers("totals");
-  check(t.size() == 14, loaded.data.source() + ": the run's totals are damaged.", Exit::kFileError);
+  check(t.size() == 16, loaded.data.source() + ": the run's totals are damaged.", Exit::kFileError);
   wall_before_ = t[0];
   cpu_before_ = t[1];
-  totals_ = {t[0],  t[1], t[2], t[13], t[3],  t[4], t[5], t[6],
-             t[12], t[7], t[8], t[9],  t[10], 0,    0,    0};
+  totals_ = {t[0],  t[1],  t[2], t[13], t[3], t[4],  t[5], t[6], t[14],
+             t[15], t[12], t[7], t[8],  t[9], t[10], 0,    0,    0};
   last_frame_ = t[11];
   life_ = get_totals(loaded.data);
   excess_ = {loaded.data.contains("file/excess") ? loaded.data.number("file/excess") : 0,
              "some cells overlap beyond what contact mends",
              {}};
   const std::vector<std::int64_t>& counts = loaded.data.integers("file/counts");
-  check(counts.size() == 3, loaded.data.source() + ": the run file's counts are damaged.",
+  check(counts.size() == 4, loaded.data.source() + ": the run file's counts are damaged.",
         Exit::kFileError);
-  for (const auto& [name, value] : loaded.data.all())
-    if (name.starts_with("measures/")) measures_[name.substr(9)] = loaded.data.numbers(name);
-  file_ = io::RunFile::open_for_append(path, {counts[0], counts[1], counts[2]}, file_options);
+  observer_ = get_observer(loaded.data);
+  file_ = io::RunFile::open_for_append(path, {counts[0], counts[1], counts[2], counts[3]},
+                                       file_options);
   progress_.note(fmt::format("resumed at {:.4g} h from {}", time() / 3600, loaded.file));
 }
 
@@ -244,9 +244,11 @@ Excess Run::write_frame() {
   const Snapshot snapshot = take_snapshot(world(), work_);
   const coupling::AuditResult audit = audit_world(world(), work_, snapshot);
   add_audit(totals_, audit);
+  std::vector<io::SeriesValue> observables;
   if (world().state.clock.phase == coupling::Phase::kRun)
-    sample_experiment(scene_, world(), snapshot, measures_);
-  if (world().ranks.is_root()) file_->append(make_frame(world(), work_, snapshot, vessel_surface_));
+    observables = observe_frame({scene_, world(), work_, snapshot, audit}, observer_);
+  if (world().ranks.is_root())
+    file_->append(make_frame(world(), work_, snapshot, vessel_surface_), observables);
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
@@ -290,6 +292,7 @@ bool Run::enough_cells() const {
 
 void Run::tell(const coupling::LifeReport& report) {
   add_life(life_, report, count_cells(), wall_before_ + wall_seconds() - started_);
+  observe_births(scene_, world(), report, observer_);
   for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
 }
 
@@ -315,16 +318,16 @@ void Run::save() {
   const double wall = wall_before_ + wall_seconds() - started_,
                cpu = cpu_before_ + cpu_seconds() - started_cpu_;
   const RunTotals& t = totals_;
-  data.put("totals",
-           std::vector<double>{wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um,
-                               t.dcm_wall_um, t.dcm_cbm_um, t.max_overlap_cbm_um,
-                               t.min_triangle_quality, t.self_intersecting, t.inverted, last_frame_,
-                               t.dcm_cbm_beyond_um, t.max_penetration_grown_um});
+  data.put("totals", std::vector<double>{
+                         wall, cpu, t.max_penetration_um, t.dcm_dcm_um, t.dcm_vessel_um,
+                         t.dcm_wall_um, t.dcm_cbm_um, t.max_overlap_cbm_um, t.min_triangle_quality,
+                         t.self_intersecting, t.inverted, last_frame_, t.dcm_cbm_beyond_um,
+                         t.max_penetration_grown_um, t.cbm_vessel_um, t.cbm_wall_um});
   put_totals(life_, data);
-  for (const auto& [name, values] : measures_) data.put("measures/" + name, values);
+  put_observer(observer_, data);
   const io::RunFileCounts c = file_->counts();
   data.put_number("file/excess", excess_.depth_um);
-  data.put("file/counts", std::vector<std::int64_t>{c.frame, c.series, c.event});
+  data.put("file/counts", std::vector<std::int64_t>{c.frame, c.series, c.event, c.observable});
   io::save_checkpoint(options_.out, data);
   last_save_ = wall_seconds();
 }
@@ -346,8 +349,8 @@ void Run::close(const std::string& status, const std::string& cause) {
   const std::vector<std::string> unneeded = work_skipped();
   skip.insert(skip.end(), unneeded.begin(), unneeded.end());
   if (!unneeded.empty()) progress_.note(fmt::format("also skipped: {}", fmt::join(unneeded, ", ")));
-  write_summary(options_.out, {scene_, options_, world(), totals_, life_, measures_, work_.timings,
-                               skip, built_.notes, status, cause, options_.threads});
+  write_summary(options_.out, {scene_, options_, world(), totals_, life_, observer_.measures,
+                               work_.timings, skip, built_.notes, status, cause, options_.threads});
   progress_.finish();
 }
 

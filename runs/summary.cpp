@@ -9,6 +9,7 @@
 #include "acinus_version.hpp"
 #include "core/io/disk.hpp"
 #include "runs/build_world.hpp"
+#include "runs/experiments/lobule.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -34,6 +35,20 @@ Json division_figures(const LifeTotals& t) {
 Json mesh_figures(const LifeTotals& t) {
   return {{"mended", static_cast<int>(t.remeshed)},
           {"left_degenerate", static_cast<int>(t.degenerate)}};
+}
+
+/// When the lesion closed, by every measure of its area; null if it did not.
+void add_closing_times(const Measures& m, Json& measures) {
+  const auto time = m.find("time_d");
+  Json by_area = Json::object();
+  for (const std::string& name : closing_areas()) {
+    const auto area = m.find(name);
+    if (area == m.end() || time == m.end()) continue;
+    const std::optional<double> closed = closing_time(time->second, area->second);
+    by_area[name] = closed ? number(*closed) : Json(nullptr);
+  }
+  measures["closed_d"] = by_area.value(closing_areas().front(), Json(nullptr));
+  measures["closed_d_by_area"] = by_area;
 }
 
 }  // namespace
@@ -100,6 +115,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
                          {"dcm_vessel", number(t.dcm_vessel_um)},
                          {"dcm_wall", number(t.dcm_wall_um)},
                          {"dcm_cbm_beyond_dent", number(t.dcm_cbm_beyond_um)}};
+  j["overlap_of_spheres_um"] = {{"cbm_vessel", number(t.cbm_vessel_um)},
+                                {"cbm_wall", number(t.cbm_wall_um)}};
   j["max_overlap_dcm_cbm_um"] = number(t.dcm_cbm_um);
   j["max_overlap_cbm_um"] = number(t.max_overlap_cbm_um);
   j["min_triangle_quality"] = number(t.min_triangle_quality);
@@ -117,8 +134,9 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   }
   for (const auto& [cells, wall] : wall_times(in.life))
     measures["wall_s_at_cells"][cells] = number(wall);
-  if (in.scene.experiment == "lobule")
-    measures["max_overlap_with_vessels_um"] = number(t.dcm_vessel_um);
+  if (!in.world.params.around.vessels.network.segment.empty())
+    measures["max_overlap_with_vessels_um"] = number(std::max(t.dcm_vessel_um, t.cbm_vessel_um));
+  if (in.scene.experiment == "lobule") add_closing_times(in.measures, measures);
   j["measures"] = measures;
 
   io::write_text_file(folder + "/summary.json", j.dump(2) + "\n");

@@ -18,7 +18,6 @@ void sample_capsule(const Scene&, const coupling::World& world, const Snapshot& 
   }
   const calibration::ClumpSample c =
       calibration::measure_clump(s.cells, calibration::find_central_cell(s.cells, center));
-  m["time_s"].push_back(s.time);
   m["capsule_radius_um"].push_back(radius);
   m["overlap"].push_back(c.overlap);
   m["shell_overlap"].push_back(c.shell_overlap);

@@ -4,7 +4,8 @@ namespace acinus::runs {
 
 void sample_experiment(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                        Measures& measures) {
-  if (scene.experiment == "lobule") sample_lobule(scene, world, snapshot, measures);
+  measures["time_s"].push_back(snapshot.time);
+  measures["cells"].push_back(static_cast<double>(snapshot.cells.size()));
   if (scene.experiment == "patch") sample_patch(scene, world, snapshot, measures);
   if (scene.experiment == "capsule") sample_capsule(scene, world, snapshot, measures);
   if (scene.experiment == "relaxation") sample_relaxation(scene, world, snapshot, measures);

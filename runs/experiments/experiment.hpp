@@ -15,25 +15,23 @@ namespace acinus::runs {
 /// Kept in checkpoints. What has no value at a moment is NaN, in files null.
 using Measures = std::map<std::string, std::vector<double>>;
 
-/// Adds the numbers of one moment. Does nothing for experiment "free".
+/// Shells (rings) of a profile of growing tissue.
+inline constexpr int kShells = 10;
+
+/// Adds the numbers of one moment that follow from it alone: time_s and cells of any experiment and
+/// the series of the scene's own. What needs the frames before, or more than the snapshot, is added
+/// by observe_frame (observer.hpp).
 void sample_experiment(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                        Measures& measures);
 
-/// Closing of a central lesion: time_d, cells, lesion_radius_um, lesion_area_relative.
-/// The lesion radius is the mean over z layers one cell diameter high of the distance from the vein
-/// axis to the closest cell centre [VanLiedekerke2020, footnote 11]; the relative area is
-/// ((r - floor) / (r0 - floor))^2 with floor = vein radius + cell radius.
-void sample_lobule(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
-                   Measures& measures);
-
-/// A box cut in two halves across x, one of each model: time_s, pressure and density of each half.
+/// A box cut in two halves across x, one of each model: pressure and density of each half.
 /// Pressure is the mean contact pressure of the half's cells; density is their number per volume
 /// between the walls on their side of the plane midway between the innermost layers of the two
 /// models.
 void sample_patch(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                   Measures& measures);
 
-/// A clump in a capsule that shrinks and may open: time_s, capsule_radius_um, and of the cell
+/// A clump in a capsule that shrinks and may open: capsule_radius_um, and of the cell
 /// nearest its centre overlap (d, cbm::relative_overlap), shell_overlap (mean over the 14
 /// nearest cells), contact_force_nN (sum of sizes), normal_force_nN (sum of normal forces, positive
 /// pressing), contacts, pressure_Pa (contact) and volume_relative (to the reference volume).
@@ -41,7 +39,7 @@ void sample_patch(const Scene& scene, const coupling::World& world, const Snapsh
 void sample_capsule(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                     Measures& measures);
 
-/// A clump that is squeezed, held and let go: time_s, overlap (mean relative overlap of a cell and
+/// A clump that is squeezed, held and let go: overlap (mean relative overlap of a cell and
 /// its 14 nearest, over all cells), height_um and width_um (extent of the clump along the axis of
 /// the first wall that opens, z if none does, and across it: that of the even ellipsoid whose
 /// points spread as the cells' centres do) and for each of the three, since the release
@@ -57,19 +55,22 @@ void sample_relaxation(const Scene& scene, const coupling::World& world, const S
 
 /// A growing tissue: "spheroid" in space, "monolayer" in the plane z = const. Distances r are those
 /// of the cells' centres from their mean, in a monolayer horizontally.
-/// Series: time_s, cells, mean_pressure_Pa (contact pressure),
+/// Series: mean_pressure_Pa (contact pressure), mean_cytosol_pressure_Pa (within; what the paper
+/// calls pressure; a sphere's contact pressure again),
 ///   radius_of_gyration_um    sqrt(1/N sum |x_i - x_com|^2), always in space
 ///                            [VanLiedekerke2020, Sect. 3.2]
-///   inner_*, outer_*         mean pressure_Pa (contact), cytosol_pressure_Pa (within; a sphere's
-///                            contact pressure again) and density of the cells below 1/3 and from
-///                            2/3 of the largest r on; density per mm^3, in a monolayer per mm^2
+///   inner_*, outer_*         cells, their mean pressure_Pa (contact), cytosol_pressure_Pa and
+///                            density, of those below 1/3 and from 2/3 of the largest r on; density
+///                            per mm^3, in a monolayer per mm^2
+///   shell_width_um, shell_<k>_*  cells, cytosol_pressure_Pa, contact_pressure_Pa and density of
+///                            shell (ring) k = 1 .. 10 of equal width up to the largest r
 ///   sphericity               mean of pi^(1/3) (6 V)^(2/3) / A, 1 for a sphere, 0.99 for its mesh
 ///   height_um, height_to_width  monolayer: mean extent along z, and its ratio to the mean of those
 ///                            along x and y
-/// The last three are for deformable cells only. Profiles of the last frame over 10 shells (rings)
-/// of equal width up to the largest r: profile_radius_um (middle), pressure_profile_Pa,
-/// density_profile. A shell without cells has density 0 and no pressure; while all r are 0 every
-/// shell holds all cells and there is no density.
+/// The last three are for deformable cells only. Profiles of the last frame over the same shells:
+/// profile_radius_um (middle), cytosol_pressure_profile_Pa (the paper's), pressure_profile_Pa
+/// (contact), density_profile. A shell without cells has density 0 and no pressure; while all r are
+/// 0 every shell holds all cells and there is no density.
 void sample_growth(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                    Measures& measures);
 

@@ -10,7 +10,6 @@
 namespace acinus::runs {
 namespace {
 
-constexpr int kShells = 10;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The cells' places relative to their mean.
@@ -39,7 +38,7 @@ Layout lay_out(const std::vector<coupling::CellMeasure>& cells, bool flat) {
 
 /// Mean pressures and density of the cells with low <= r < high; the last shell has its outer edge.
 struct Shell {
-  double pressure_Pa = kNone, cytosol_Pa = kNone, density = kNone;
+  double cells = 0, pressure_Pa = kNone, cytosol_Pa = kNone, density = kNone;
 };
 Shell look_at(const std::vector<coupling::CellMeasure>& cells, const Layout& layout, double low,
               double high) {
@@ -52,6 +51,7 @@ Shell look_at(const std::vector<coupling::CellMeasure>& cells, const Layout& lay
     ++count;
   }
   Shell shell;
+  shell.cells = count;
   if (count > 0) {
     shell.pressure_Pa = 1e3 * pressure / count;
     shell.cytosol_Pa = 1e3 * cytosol / count;
@@ -64,17 +64,25 @@ Shell look_at(const std::vector<coupling::CellMeasure>& cells, const Layout& lay
 
 void add_profiles(const std::vector<coupling::CellMeasure>& cells, const Layout& layout,
                   Measures& m) {
-  std::vector<double> radius, pressure, density;
+  std::vector<double> radius, pressure, cytosol, density;
   for (int k = 0; k < kShells; ++k) {
     const double low = layout.largest * k / kShells;
     const double high = k + 1 < kShells ? layout.largest * (k + 1) / kShells : layout.largest;
     const Shell shell = look_at(cells, layout, low, high);
     radius.push_back(0.5 * (low + high));
     pressure.push_back(shell.pressure_Pa);
+    cytosol.push_back(shell.cytosol_Pa);
     density.push_back(shell.density);
+    const std::string name = "shell_" + std::to_string(k + 1);
+    m[name + "_cells"].push_back(shell.cells);
+    m[name + "_cytosol_pressure_Pa"].push_back(shell.cytosol_Pa);
+    m[name + "_contact_pressure_Pa"].push_back(shell.pressure_Pa);
+    m[name + "_density"].push_back(shell.density);
   }
+  m["shell_width_um"].push_back(layout.largest / kShells);
   m["profile_radius_um"] = radius;
   m["pressure_profile_Pa"] = pressure;
+  m["cytosol_pressure_profile_Pa"] = cytosol;
   m["density_profile"] = density;
 }
 
@@ -110,22 +118,27 @@ void add_shapes(const coupling::World& world, const Snapshot& s, bool flat, Meas
 
 void sample_growth(const Scene& scene, const coupling::World& world, const Snapshot& s,
                    Measures& m) {
-  m["time_s"].push_back(s.time);
-  m["cells"].push_back(static_cast<double>(s.cells.size()));
   const bool flat = scene.experiment == "monolayer";
   Layout layout;
   Shell inner, outer;
-  double pressure = kNone;
+  double pressure = kNone, cytosol = kNone;
   if (!s.cells.empty()) {
     layout = lay_out(s.cells, flat);
     inner = look_at(s.cells, layout, 0, layout.largest / 3);
     outer = look_at(s.cells, layout, layout.largest * 2 / 3, layout.largest);
-    pressure = 0;
-    for (const coupling::CellMeasure& c : s.cells) pressure += c.pressure;
+    pressure = cytosol = 0;
+    for (const coupling::CellMeasure& c : s.cells) {
+      pressure += c.pressure;
+      cytosol += c.cytosol_pressure;
+    }
     pressure *= 1e3 / static_cast<double>(s.cells.size());
+    cytosol *= 1e3 / static_cast<double>(s.cells.size());
   }
   m["radius_of_gyration_um"].push_back(s.cells.empty() ? kNone : layout.gyration);
   m["mean_pressure_Pa"].push_back(pressure);
+  m["mean_cytosol_pressure_Pa"].push_back(cytosol);
+  m["inner_cells"].push_back(inner.cells);
+  m["outer_cells"].push_back(outer.cells);
   m["inner_pressure_Pa"].push_back(inner.pressure_Pa);
   m["outer_pressure_Pa"].push_back(outer.pressure_Pa);
   m["inner_cytosol_pressure_Pa"].push_back(inner.cytosol_Pa);

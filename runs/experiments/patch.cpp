@@ -55,7 +55,6 @@ void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s,
   if (count[0] == 0 && count[1] == 0) return;
   const WallBox box = wall_box(world.params.around, std::max(0.0, s.time));
   const double area = (box.high.y() - box.low.y()) * (box.high.z() - box.low.z());
-  m["time_s"].push_back(s.time);
   m["box_length_um"].push_back(box.high.x() - box.low.x());
   double middle = 0.5 * (box.low.x() + box.high.x());
   const bool both = count[0] > 0 && count[1] > 0;

@@ -71,7 +71,6 @@ void sample_relaxation(const Scene& scene, const coupling::World&, const Snapsho
   for (std::size_t k = 0; k < s.cells.size(); ++k)
     overlap += calibration::measure_clump(s.cells, k).shell_overlap;
   const Extent extent = extent_of(s.cells, axis_of(scene));
-  m["time_s"].push_back(s.time);
   m["overlap"].push_back(overlap / static_cast<double>(s.cells.size()));
   m["height_um"].push_back(extent.height);
   m["width_um"].push_back(extent.width);

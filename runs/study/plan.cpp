@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
-#include "runs/experiments/known_observables.hpp"
+#include "runs/experiments/observables.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
@@ -168,8 +168,11 @@ class Planner {
   }
 
   void add_units(const Scene& scene) {
-    const std::map<std::string, std::string> units = known_observables(scene.experiment);
-    plan_.units.insert(units.begin(), units.end());
+    const auto add = [&](const std::vector<Observable>& list) {
+      for (const Observable& o : list) plan_.units.insert({o.name, o.unit});
+    };
+    add(known_observables(scene.experiment));
+    for (const WallEntry& wall : scene.walls) add(wall_observables(wall.name));
   }
 
   /// Which run starts from which; that it can.

@@ -1,0 +1,26 @@
+#pragma once
+/// How many cells deep a cell lies behind the edge of a lesion round a vertical axis.
+
+#include <span>
+#include <vector>
+
+#include "core/vec.hpp"
+
+namespace acinus::coupling {
+
+struct LayerCell {
+  Vec3 center = Vec3::Zero();  ///< um
+  double radius = 0;           ///< um
+};
+
+/// Layer of a cell, from 1: its distance from the axis less that of the edge before it, in
+/// diameters of the cell, rounded, plus 1. The edge before it is the smallest distance among cells,
+/// itself included, less than one diameter away in arc (at the cell's own distance) and in height.
+/// Cells in front of each other at centre distances of half a diameter and less share a layer.
+/// @param axis_point  the axis is vertical through it
+int layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point);
+
+/// That of every cell. Cost: all pairs.
+std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point);
+
+}  // namespace acinus::coupling

@@ -1,0 +1,21 @@
+#pragma once
+/// Closing of a central lesion: its size by several readings, births, who moves how fast, plates.
+
+#include "runs/experiments/observer.hpp"
+
+namespace acinus::runs {
+
+/// Adds one number to each series of the experiment "lobule". Areas are relative to the first frame
+/// the observer saw.   @pre sample_experiment
+void sample_lobule(const Moment& moment, Observer& observer);
+
+/// The series by which a lesion counts as closed, the one of `closed_d` first.
+std::vector<std::string> closing_areas();
+
+/// Days until a relative area is first below 0.05, between frames by the straight line; nothing if
+/// it never is.
+/// @param time_d  of the values
+std::optional<double> closing_time(const std::vector<double>& time_d,
+                                   const std::vector<double>& area);
+
+}  // namespace acinus::runs

@@ -1,0 +1,27 @@
+#pragma once
+/// What runs measure at every written frame, by name: the columns of /observables in the run file.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace acinus::runs {
+
+struct Observable {
+  std::string name;     ///< ends in its unit where there is one
+  std::string unit;     ///< of the values, "1" if there is none
+  std::string meaning;  ///< one line
+};
+
+/// Everything a scene with this `experiment` measures besides the walls it has, in the order of the
+/// columns. `time` (s since t = 0), which every run file has, is not among them.
+/// @throws Error(kInternal) for an experiment that does not exist
+std::vector<Observable> known_observables(const std::string& experiment);
+
+/// What is measured of a wall, capsule or closed mesh of this name.
+std::vector<Observable> wall_observables(const std::string& wall);
+
+/// The observable of this name, also of a wall of any name; nothing if there is none.
+std::optional<Observable> find_observable(const std::string& experiment, const std::string& name);
+
+}  // namespace acinus::runs

@@ -1,0 +1,132 @@
+#include "runs/experiments/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "coupling/lesion_layers.hpp"
+#include "runs/experiments/lobule.hpp"
+#include "runs/experiments/observables.hpp"
+#include "runs/experiments/tissue.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Sizes = std::map<std::string, std::size_t>;
+
+Sizes sizes_of(const Measures& m) {
+  Sizes sizes;
+  for (const auto& [name, values] : m) sizes[name] = values.size();
+  return sizes;
+}
+
+/// The number a series got since then, if it is one.
+double latest(const Measures& m, const Sizes& before, const std::string& name) {
+  const auto found = m.find(name);
+  if (found == m.end() || found->second.empty()) return 0;
+  const auto had = before.find(name);
+  if (had != before.end() && had->second == found->second.size()) return 0;
+  return std::isfinite(found->second.back()) ? found->second.back() : 0;
+}
+
+std::vector<coupling::LayerCell> layer_cells(const coupling::World& world) {
+  const coupling::State& s = world.state;
+  const double time = s.clock.time;
+  std::vector<coupling::LayerCell> cells;
+  const auto radius = [&](const Ramp& volume) {
+    return std::cbrt(volume.at(time) * 3 / (4 * kPi));
+  };
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (s.dcm.active(l)) cells.push_back({dcm::cell_center(s.dcm, l), radius(s.dcm.volume[l])});
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+    cells.push_back({cbm::center_of(s.cbm, c), radius(s.cbm.volume[c])});
+  return cells;
+}
+
+/// Centre of a living cell, um.
+std::optional<Vec3> find_center(const coupling::State& s, std::int64_t id) {
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (s.dcm.active(l) && s.dcm.lineage[l] == id) return dcm::cell_center(s.dcm, l);
+  const auto at = std::ranges::find(s.cbm.lineage, id);
+  if (at == s.cbm.lineage.end()) return {};
+  return cbm::center_of(s.cbm, static_cast<std::size_t>(at - s.cbm.lineage.begin()));
+}
+
+}  // namespace
+
+std::vector<io::SeriesValue> observe_frame(const Moment& moment, Observer& observer) {
+  Measures& m = observer.measures;
+  const Sizes before = sizes_of(m);
+  sample_experiment(moment.scene, moment.world, moment.snapshot, m);
+  sample_tissue(moment, m);
+  if (moment.scene.experiment == "lobule") sample_lobule(moment, observer);
+  observer.last_time = moment.snapshot.time;
+  observer.track.clear();
+  for (const coupling::CellMeasure& c : moment.snapshot.cells)
+    observer.track[c.id] = {c.center, c.leader};
+
+  std::vector<io::SeriesValue> row{{"time", "s", moment.snapshot.time}};
+  std::vector<Observable> columns = known_observables(moment.scene.experiment);
+  for (const std::string& wall : wall_names(moment.world.params.around)) {
+    const std::vector<Observable> of_wall = wall_observables(wall);
+    columns.insert(columns.end(), of_wall.begin(), of_wall.end());
+  }
+  for (const Observable& o : columns) row.push_back({o.name, o.unit, latest(m, before, o.name)});
+  return row;
+}
+
+void observe_births(const Scene& scene, const coupling::World& world,
+                    const coupling::LifeReport& report, Observer& observer) {
+  if (scene.experiment != "lobule") return;
+  std::vector<coupling::LayerCell> cells;
+  for (const coupling::LifeEvent& e : report.events) {
+    if (e.code != "division" || e.cells.size() != 3) continue;
+    if (cells.empty()) cells = layer_cells(world);
+    const std::optional<Vec3> a = find_center(world.state, e.cells[1]),
+                              b = find_center(world.state, e.cells[2]);
+    if (!a || !b) continue;  // a daughter that is gone already
+    const double radius = scene.cell_types.begin()->second.radius;
+    const int layer = coupling::layer_of({0.5 * (*a + *b), radius}, cells, scene.axis_point);
+    observer.births[static_cast<std::size_t>(std::min(layer, kLayers + 1) - 1)] += 1;
+  }
+}
+
+void put_observer(const Observer& o, io::CheckpointData& data) {
+  for (const auto& [name, values] : o.measures) data.put("measures/" + name, values);
+  for (const auto& [name, value] : o.start) data.put_number("observer/start/" + name, value);
+  data.put_number("observer/last_time", o.last_time);
+  data.put("observer/births", std::vector<double>(o.births.begin(), o.births.end()));
+  std::vector<std::int64_t> ids;
+  std::vector<double> centers;
+  for (const auto& [id, track] : o.track) {
+    ids.insert(ids.end(), {id, track.leader ? 1 : 0});
+    for (const double x : track.center) centers.push_back(x);
+  }
+  data.put("observer/cells", ids);
+  data.put("observer/centers", centers);
+}
+
+Observer get_observer(const io::CheckpointData& data) {
+  Observer o;
+  constexpr std::string_view kMeasures = "measures/", kStart = "observer/start/";
+  for (const auto& [name, value] : data.all()) {
+    if (name.starts_with(kMeasures)) o.measures[name.substr(kMeasures.size())] = data.numbers(name);
+    if (name.starts_with(kStart)) o.start[name.substr(kStart.size())] = data.number(name);
+  }
+  o.last_time = data.number("observer/last_time");
+  const std::vector<double>&births = data.numbers("observer/births"),
+        &centers = data.numbers("observer/centers");
+  const std::vector<std::int64_t>& ids = data.integers("observer/cells");
+  check(births.size() == o.births.size() && 2 * centers.size() == 3 * ids.size(),
+        data.source() +
+            ": what the run remembers of its last frame is damaged. Resume from the "
+            "previous checkpoint or start anew.",
+        Exit::kFileError);
+  std::ranges::copy(births, o.births.begin());
+  for (std::size_t k = 0; 2 * k < ids.size(); ++k)
+    o.track[ids[2 * k]] = {Vec3(centers[3 * k], centers[3 * k + 1], centers[3 * k + 2]),
+                           ids[2 * k + 1] != 0};
+  return o;
+}
+
+}  // namespace acinus::runs

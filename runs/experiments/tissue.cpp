@@ -1,0 +1,124 @@
+#include "runs/experiments/tissue.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "coupling/contact_forces.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using coupling::CellMeasure;
+using coupling::Reaction;
+
+std::string plain(std::string name) {
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
+  return name;
+}
+
+void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
+  m[name + "_force_nN"].push_back(r.normal);
+  for (int k = 0; k < 3; ++k)
+    m[name + "_net_" + std::string("xyz").substr(static_cast<std::size_t>(k), 1) + "_nN"].push_back(
+        r.net[k]);
+}
+
+/// Reactions of everything with a name, those of one name together.
+void sample_reactions(const Moment& moment, Measures& m) {
+  const contact::Surroundings& around = moment.world.params.around;
+  const coupling::Reactions r = coupling::find_reactions(moment.world, moment.work);
+  std::map<std::string, Reaction> wall;
+  for (std::size_t k = 0; k < around.planes.size(); ++k)
+    wall[plain(around.planes[k].name)] += r.plane[k];
+  for (std::size_t k = 0; k < around.capsules.size(); ++k)
+    wall[plain(around.capsules[k].name)] += r.capsule[k];
+  for (std::size_t k = 0; k < around.meshes.size(); ++k)
+    wall[plain(around.meshes[k].name)] += r.mesh[k];
+  for (const auto& [name, reaction] : wall) add_reaction("wall_" + name, reaction, m);
+  Reaction vessels;
+  for (const Reaction& segment : r.segment) vessels += segment;
+  add_reaction("vessels", vessels, m);
+}
+
+void sample_pressures(const std::vector<CellMeasure>& cells, Measures& m) {
+  for (const bool deformable : {true, false}) {
+    double n = 0, sum[2] = {0, 0}, most[2] = {0, 0};
+    for (const CellMeasure& c : cells) {
+      if (c.deformable != deformable) continue;
+      const double p[2] = {1e3 * c.pressure, 1e3 * c.cytosol_pressure};
+      for (int k = 0; k < 2; ++k) {
+        sum[k] += p[k];
+        most[k] = n > 0 ? std::max(most[k], p[k]) : p[k];
+      }
+      ++n;
+    }
+    const std::string model = deformable ? "dcm" : "cbm";
+    for (int k = 0; k < 2; ++k) {
+      const std::string kind = k == 0 ? "contact_pressure_" : "cytosol_pressure_";
+      m[kind + "mean_" + model + "_Pa"].push_back(n > 0 ? sum[k] / n : 0);
+      m[kind + "max_" + model + "_Pa"].push_back(most[k]);
+    }
+    m["cells_" + model].push_back(n);
+  }
+}
+
+void sample_overlaps(const coupling::AuditResult& a, Measures& m) {
+  m["overlap_dcm_dcm_um"].push_back(a.dcm_dcm.depth_um);
+  m["overlap_dcm_cbm_um"].push_back(a.dcm_cbm.depth_um);
+  m["overlap_dcm_cbm_beyond_um"].push_back(a.dcm_cbm_beyond_dent.depth_um);
+  m["overlap_cbm_cbm_um"].push_back(a.cbm_cbm.depth_um);
+  m["overlap_dcm_vessels_um"].push_back(a.dcm_vessel.depth_um);
+  m["overlap_cbm_vessels_um"].push_back(a.cbm_vessel.depth_um);
+  m["overlap_vessels_um"].push_back(std::max(a.dcm_vessel.depth_um, a.cbm_vessel.depth_um));
+  m["overlap_dcm_walls_um"].push_back(a.dcm_wall.depth_um);
+  m["overlap_cbm_walls_um"].push_back(a.cbm_wall.depth_um);
+}
+
+void sample_clusters(const Moment& moment, Measures& m) {
+  const std::vector<int> size = coupling::cluster_sizes(
+      moment.snapshot.cells.size(), coupling::find_touching(moment.world, moment.work));
+  double clusters = 0;
+  for (const int n : size) clusters += 1.0 / n;
+  m["cells_detached"].push_back(static_cast<double>(std::ranges::count(size, 1)));
+  m["cells_in_small_clusters"].push_back(
+      static_cast<double>(std::ranges::count_if(size, [](int n) { return n < 3; })));
+  m["clusters"].push_back(std::round(clusters));
+}
+
+void sample_interface(const Moment& moment, Measures& m) {
+  double pairs = 0, force = 0;
+  for (const coupling::InterfaceForce& f : moment.snapshot.interface) {
+    pairs += f.force.squaredNorm() > 0 ? 1 : 0;
+    force += f.force.norm();
+  }
+  m["interface_pairs"].push_back(pairs);
+  m["interface_force_nN"].push_back(force);
+  m["interface_residual"].push_back(coupling::interface_residual(moment.work));
+}
+
+}  // namespace
+
+void sample_tissue(const Moment& moment, Measures& m) {
+  m["divisions"].push_back(static_cast<double>(moment.world.state.divisions));
+  m["deaths"].push_back(static_cast<double>(moment.world.state.deaths));
+  sample_pressures(moment.snapshot.cells, m);
+  sample_overlaps(moment.audit, m);
+  sample_clusters(moment, m);
+  sample_interface(moment, m);
+  sample_reactions(moment, m);
+}
+
+std::vector<std::string> wall_names(const contact::Surroundings& around) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::ranges::find(names, plain(name)) == names.end()) names.push_back(plain(name));
+  };
+  for (const contact::Plane& p : around.planes) add(p.name);
+  for (const contact::Capsule& c : around.capsules) add(c.name);
+  for (const contact::StaticMesh& b : around.meshes) add(b.name);
+  return names;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,20 @@
+#pragma once
+/// What is measured of every scene: numbers of cells, pressures, overlaps, clusters, forces on
+/// walls and vessels.
+
+#include <string>
+#include <vector>
+
+#include "core/contact/surroundings.hpp"
+#include "runs/experiments/observer.hpp"
+
+namespace acinus::runs {
+
+/// Adds one number to each series of the tissue, and of each wall.
+void sample_tissue(const Moment& moment, Measures& measures);
+
+/// Planes, capsules and closed meshes by the names their observables have: without characters that
+/// cannot be in a name, and each once. A mesh file with several bodies is one.
+std::vector<std::string> wall_names(const contact::Surroundings& around);
+
+}  // namespace acinus::runs
