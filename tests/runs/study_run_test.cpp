@@ -25,10 +25,10 @@ constexpr const char* kPairs = R"({
     "slow": { "set": { "motility.grid": "60 s" } },
     "fast": { "set": { "motility.grid": "30 s" } }
   },
-  "observables": ["max_move", "dt"],
+  "observables": ["overlap_cbm_cbm_um", "divisions"],
   "expectations": [
     { "id": "moves", "claim": "cells move", "low": "0 um",
-      "measure": { "kind": "max", "observable": "max_move", "variant": "fast" } } ]
+      "measure": { "kind": "max", "observable": "overlap_cbm_cbm_um", "variant": "fast" } } ]
 })";
 
 /// Two cells of either model that grow, settle and are then pulled; "later" starts from "first".
@@ -44,7 +44,7 @@ constexpr const char* kShared = R"({
     "same": { "start": "first" },
     "later": { "start": "first", "set": { "motility.grid": "120 s" } }
   },
-  "observables": ["max_move"]
+  "observables": ["overlap_cbm_cbm_um"]
 })";
 
 class StudyRun : public program::ProgramTest {
@@ -84,7 +84,8 @@ TEST_F(StudyRun, TwoAtOnceWriteTheSameTableAsOne) {
   // 4 runs, 2 observables, 11 frames, and the head
   EXPECT_EQ(std::ranges::count(text("one/table.csv"), '\n'), 4 * 2 * 11 + 1);
   EXPECT_EQ(text("one/table.csv").find("nan"), std::string::npos);
-  for (const char* file : {"report.md", "runs.csv", "verdicts.json", "plots/max_move.svg"})
+  for (const char* file :
+       {"report.md", "runs.csv", "verdicts.json", "plots/overlap_cbm_cbm_um.svg"})
     EXPECT_TRUE(fs::exists(path("one") / file)) << file;
   EXPECT_EQ(json("one/verdicts.json")[0]["pass"], true);
 }

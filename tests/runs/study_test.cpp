@@ -160,16 +160,16 @@ TEST(Study, RefusesBadClaims) {
   expect_fault(
       text_with(R"("expectations": [
     { "id": "a", "claim": "x", "measure": { "observable": "cells", "variant": "slow" } },
-    { "id": "a", "claim": "x", "measure": { "kind": "first_below", "observable": "max_move",
+    { "id": "a", "claim": "x", "measure": { "kind": "first_below", "observable": "overlap_cbm_cbm_um",
       "variant": "none", "level": 1 }, "low": "1 um" },
     { "id": "b", "claim": "x", "measure": { "kind": "valeu", "observable": "cells", "variant": "slow" }, "low": 1 },
-    { "id": "c", "claim": "x", "measure": { "observable": "dt", "variant": "slow", "from": "1 h" },
-      "minus": { "observable": "max_move", "variant": "slow" }, "high": "1 s" } ])"),
+    { "id": "c", "claim": "x", "measure": { "observable": "vessels_force_nN", "variant": "slow", "from": "1 h" },
+      "minus": { "observable": "overlap_cbm_cbm_um", "variant": "slow" }, "high": "1 s" } ])"),
       {"/expectations/0/low: is missing", "/expectations/1/id",
        "/expectations/1/measure/variant = \"none\": no variant",
        "/expectations/1/measure/level = 1", "/expectations/1/low = \"1 um\"",
        "/expectations/2/measure/kind = \"valeu\": unknown choice", "/expectations/3/measure/from",
-       "/expectations/3/minus = {...}: is in um, the first measure in s"});
+       "/expectations/3/minus = {...}: is in um, the first measure in nN"});
 }
 
 TEST(Study, SchemaAndExplainKnowItsKeys) {
@@ -255,15 +255,15 @@ class Claims : public testing::Test {
     return parse(text_with("\"expectations\": [ " + expectation + " ]"));
   }
   static std::string claim(const std::string& measure, const std::string& rest) {
-    return R"({ "id": "c", "claim": "x", "measure": { "observable": "max_move", )" + measure +
-           " }, " + rest + " }";
+    return R"({ "id": "c", "claim": "x", "measure": { "observable": "overlap_cbm_cbm_um", )" +
+           measure + " }, " + rest + " }";
   }
   static StudyData data() {
     StudyData all(3);
     const std::vector<double> hours{0, 3600, 7200};
-    all[0].curve["max_move"] = {hours, {4, 4, 4}};  // fast/seed_7
-    all[1].curve["max_move"] = {hours, {1, 2, 3}};  // slow/seed_1
-    all[2].curve["max_move"] = {hours, {1, 4, 5}};  // slow/seed_2
+    all[0].curve["overlap_cbm_cbm_um"] = {hours, {4, 4, 4}};  // fast/seed_7
+    all[1].curve["overlap_cbm_cbm_um"] = {hours, {1, 2, 3}};  // slow/seed_1
+    all[2].curve["overlap_cbm_cbm_um"] = {hours, {1, 4, 5}};  // slow/seed_2
     for (RunData& d : all) {
       d.status.state = RunState::kDone;
       d.until = 7200;
@@ -310,7 +310,8 @@ TEST_F(Claims, EveryKindOfMeasure) {
 }
 
 TEST_F(Claims, DifferencesAndRatiosAreTakenSeedBySeed) {
-  const std::string second = R"({ "observable": "max_move", "variant": "slow", "at": "0 h" })";
+  const std::string second =
+      R"({ "observable": "overlap_cbm_cbm_um", "variant": "slow", "at": "0 h" })";
   Verdict v =
       judged(R"("variant": "slow", "at": "2 h")", "\"minus\": " + second + R"(, "low": "2 um")");
   EXPECT_EQ(v.measured.value, 3);
@@ -350,7 +351,8 @@ TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
 }
 
 TEST_F(Claims, PlotsHaveMeanBandAndReferencePoints) {
-  const StudyPlan p = parse(text_with(R"("plots": [ { "name": "m", "observable": "max_move",
+  const StudyPlan p =
+      parse(text_with(R"("plots": [ { "name": "m", "observable": "overlap_cbm_cbm_um",
     "reference": [ { "name": "paper", "x": ["1 h"], "y": ["2 um"], "low": ["1 um"], "high": ["3 um"] } ] } ])"));
   const io::Plot plot = make_plot(p, data(), p.study.plots[0]);
   ASSERT_EQ(plot.line.size(), 3u);
@@ -358,7 +360,7 @@ TEST_F(Claims, PlotsHaveMeanBandAndReferencePoints) {
   EXPECT_EQ(plot.line[1].band[1], (std::pair<double, double>(2, 4)));
   EXPECT_FALSE(plot.line[2].joined);
   EXPECT_EQ(plot.line[2].point[0], (std::pair<double, double>(1, 2)));
-  EXPECT_EQ(plot.y_label, "max_move, um");
+  EXPECT_EQ(plot.y_label, "overlap_cbm_cbm_um, um");
 }
 
 TEST_F(Claims, VerdictsAreJsonWithoutNaN) {
