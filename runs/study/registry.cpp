@@ -14,7 +14,8 @@ void describe_variant(Visitor& v, StudyVariant& b) {
   v.text({.name = "title", .meaning = "what plots and report call it", .automatic = "its name"},
          b.title);
   v.text({.name = "extends",
-          .meaning = "another variant whose changes come first",
+          .meaning =
+              "another variant whose changes come first; its seeds and start are not taken over",
           .automatic = "none"},
          b.extends);
   v.settings({.name = "set",
@@ -32,7 +33,9 @@ void describe_variant(Visitor& v, StudyVariant& b) {
 }
 
 void describe_sweep(Visitor& v, StudySweep& b) {
-  v.texts({.name = "of", .meaning = "variants; NAME/* = all made from NAME by sweeps before; any name may end in * so"},
+  v.texts({.name = "of",
+           .meaning =
+               "variants; NAME/* = all made from NAME by sweeps before; any name may end in * so"},
           b.of);
   v.text({.name = "key", .meaning = "scene key that is changed", .required = true}, b.key);
   v.text({.name = "label",

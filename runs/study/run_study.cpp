@@ -83,7 +83,7 @@ int run_study(StudyOptions options) {
   if (!options.report_only)
     result = run_all(plan, chosen,
                      {options.out, options.jobs, options.child, options.overwrite, options.quiet});
-  if (choice.tasks == 1) {
+  if (choice.tasks == 1 || options.report_only) {
     const ReportCounts n = write_study_report(plan, options.out);
     if (!options.quiet) print_counts(n, options.out);
   } else if (!options.quiet) {

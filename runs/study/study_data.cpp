@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/run_reader.hpp"
 #include "core/io/tidy_table.hpp"
 #include "core/unit_scale.hpp"
-#include "runs/read_observables.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -33,19 +35,24 @@ double factor(const std::string& from, const std::string& to) {
 RunData read_run(const StudyPlan& plan, const StudyRun& run, const std::string& root) {
   RunData data{inspect_run(root, run), {}, 0};
   if (data.status.state == RunState::kStale || data.status.state == RunState::kToDo) return data;
+  const std::string file = root + "/" + run.folder + "/run.vtkhdf";
+  if (!std::filesystem::exists(file)) return data;
   try {
-    const io::ObservableRows rows = read_observables(root + "/" + run.folder);
-    if (!rows.time_s.empty()) data.until = rows.time_s.back();
-    for (const auto& [name, column] : rows.column) {
+    const io::RunReader reader(file);
+    const std::map<std::string, std::string> units = reader.observable_unit();
+    std::map<std::string, std::vector<double>> column = reader.observables();
+    const std::vector<double> time = std::exchange(column["time"], {});
+    if (!time.empty()) data.until = time.back();
+    for (const auto& [name, value] : column) {
       const auto unit = plan.units.find(name);
       if (unit == plan.units.end()) continue;
-      const double scale = factor(column.unit, unit->second);
+      const double scale = factor(units.at(name), unit->second);
       if (scale == 0) continue;
       Curve& curve = data.curve[name];
-      for (std::size_t k = 0; k < std::min(rows.time_s.size(), column.value.size()); ++k) {
-        if (!std::isfinite(column.value[k])) continue;
-        curve.time.push_back(rows.time_s[k]);
-        curve.value.push_back(scale * column.value[k]);
+      for (std::size_t k = 0; k < std::min(time.size(), value.size()); ++k) {
+        if (!std::isfinite(value[k])) continue;
+        curve.time.push_back(time[k]);
+        curve.value.push_back(scale * value[k]);
       }
     }
   } catch (const Error& error) {

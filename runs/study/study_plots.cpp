@@ -112,8 +112,14 @@ void add_reference(const StudyReference& r, const std::string& x_unit, double x_
   plot.line.push_back(line);
 }
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit == "1" ? name : name + ", " + unit;
+/// "lesion_radius_um" in "um" as "lesion_radius, um".
+std::string with_unit(std::string name, const std::string& unit) {
+  if (unit == "1") return name;
+  std::string end = "_";
+  for (char c : unit.starts_with("1/") ? "per_" + unit.substr(2) : unit)
+    if (c != '^') end += c == '/' ? '_' : c;
+  if (name.ends_with(end)) name.resize(name.size() - end.size());
+  return name + ", " + unit;
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ constexpr const char* kShared = R"({
     "same": { "start": "first" },
     "later": { "start": "first", "set": { "motility.grid": "120 s" } }
   },
-  "observables": ["overlap_cbm_cbm_um"]
+  "observables": ["overlap_dcm_dcm_um"]
 })";
 
 class StudyRun : public program::ProgramTest {
@@ -121,10 +121,12 @@ TEST_F(StudyRun, RefusesWhatIsInTheWay) {
   EXPECT_TRUE(has(o, "--overwrite")) << o.text;
   expect_done(call(words("changed.json", "s", {"--overwrite"})));
   EXPECT_EQ(summary("s/runs/slow/seed_1")["simulated_s"], 960.0);
-  write("typo.json", std::string(kPairs).replace(std::string(kPairs).find("\"dt\""), 4, "\"dtt\""));
+  write("typo.json", std::string(kPairs).replace(std::string(kPairs).find("\"divisions\""), 11,
+                                                 "\"divisoins\""));
   o = call(words("typo.json", "new"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(has(o, "typo.json:10:31 /observables/1 = \"dtt\": unknown observable")) << o.text;
+  EXPECT_TRUE(has(o, "typo.json:10:41 /observables/1 = \"divisoins\": unknown observable"))
+      << o.text;
   EXPECT_FALSE(fs::exists(path("new"))) << "before anything runs";
 }
 
@@ -177,6 +179,33 @@ TEST_F(StudyRun, TasksShareOneFolder) {
   EXPECT_FALSE(fs::exists(path("s/table.csv")));
   expect_done(call(words("pairs.json", "s", {"--report"})));
   expect_same_tables("whole", "s");
+}
+
+TEST_F(StudyRun, TasksWaitForTheStartsOfOneAnother) {
+  expect_done(call(words("shared.json", "whole")));
+  {
+    Process a(path("."), words("shared.json", "s", {"--task", "1", "--tasks", "2"}));
+    Process b(path("."), words("shared.json", "s", {"--task", "2", "--tasks", "2"}));
+    expect_done(a.wait());
+    expect_done(b.wait());
+  }
+  expect_done(call(words("shared.json", "s", {"--report"})));
+  expect_same_tables("whole", "s");
+}
+
+TEST_F(StudyRun, ARunFolderIsWrittenByOneProcessOnly) {
+  write("pair.json", program::kPair);
+  Process first(path("."), {"run", "pair.json", "--out", "a", "--set", "time.end=100 days"});
+  ASSERT_TRUE(first.await("threads"));
+  for (const char* how : {"--overwrite", "--resume"}) {
+    if (!fs::exists(path("a/checkpoint.h5")) && std::string(how) == "--resume") continue;
+    const Outcome second = call({"run", "pair.json", "--out", "a", how});
+    EXPECT_EQ(second.code, 4) << second.text;
+    EXPECT_TRUE(has(second, "another process is writing in this folder")) << second.text;
+  }
+  first.send(SIGTERM);
+  EXPECT_EQ(first.wait().code, 75);
+  EXPECT_EQ(summary("a")["status"], "stopped");
 }
 
 TEST_F(StudyRun, TwoProcessesNeverRunTheSameRun) {

@@ -11,10 +11,10 @@
 
 #include "core/error.hpp"
 #include "core/unit_scale.hpp"
-#include "runs/read_observables.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/study/choose_runs.hpp"
 #include "runs/study/curves.hpp"
+#include "runs/study/library.hpp"
 #include "runs/study/plan.hpp"
 #include "runs/study/registry.hpp"
 #include "runs/study/scene_value.hpp"
@@ -90,11 +90,11 @@ TEST(Study, SweepsMakeVariantsWithSafeFolders) {
 TEST(Study, FaultsOfTheStudyAreToldTogetherWithTheirPlaces) {
   expect_fault(text_with(R"("seeds_": [1],
   "observables": ["mean_presure"],
-  "plots": [ { "name": "p", "observable": "cells", "variants": ["slwo"] } ])"),
+  "plots": [ { "name": "p", "observable": "cels", "variants": ["slwo"] } ])"),
                {"s.json:9:3 /seeds_: unknown key. Did you mean \"seeds\"? (acinus explain "
                 "study.seeds)",
                 "s.json:10:19 /observables/0", "s.json:11:43 /plots/0/observable",
-                "s.json:11:65 /plots/0/variants/0", "Did you mean \"slow\"?"});
+                "s.json:11:64 /plots/0/variants/0", "Did you mean \"slow\"?"});
 }
 
 TEST(Study, RefusesASeedTwice) {
@@ -163,13 +163,13 @@ TEST(Study, RefusesBadClaims) {
     { "id": "a", "claim": "x", "measure": { "kind": "first_below", "observable": "overlap_cbm_cbm_um",
       "variant": "none", "level": 1 }, "low": "1 um" },
     { "id": "b", "claim": "x", "measure": { "kind": "valeu", "observable": "cells", "variant": "slow" }, "low": 1 },
-    { "id": "c", "claim": "x", "measure": { "observable": "vessels_force_nN", "variant": "slow", "from": "1 h" },
+    { "id": "c", "claim": "x", "measure": { "observable": "cells", "variant": "slow", "from": "1 h" },
       "minus": { "observable": "overlap_cbm_cbm_um", "variant": "slow" }, "high": "1 s" } ])"),
       {"/expectations/0/low: is missing", "/expectations/1/id",
        "/expectations/1/measure/variant = \"none\": no variant",
-       "/expectations/1/measure/level = 1", "/expectations/1/low = \"1 um\"",
+       "/expectations/1/measure/level = 1", "/expectations/1/low = \"1 um\": has dimension length",
        "/expectations/2/measure/kind = \"valeu\": unknown choice", "/expectations/3/measure/from",
-       "/expectations/3/minus = {...}: is in um, the first measure in nN"});
+       "/expectations/3/minus = {...}: is in um, the first measure in 1"});
 }
 
 TEST(Study, SchemaAndExplainKnowItsKeys) {
@@ -208,6 +208,17 @@ TEST(Study, ARunThatOthersStartFromComesFirstAndToEveryTaskThatNeedsIt) {
   EXPECT_EQ(plan.runs[0].identity, plan.runs[0].scene.sha + "<" + plan.runs[2].scene.sha);
 }
 
+TEST(Study, ShippedOnesAreSound) {
+  const std::vector<ShippedScene> shipped = shipped_studies();
+  EXPECT_FALSE(shipped.empty());
+  for (const ShippedScene& study : shipped) {
+    EXPECT_NO_THROW(EXPECT_FALSE(read_study(study.file).runs.empty())) << study.file;
+    EXPECT_FALSE(study.description.empty()) << study.name;
+    EXPECT_EQ(find_study(study.name), study.file);
+  }
+  EXPECT_THROW(find_study("exmaple"), Error);
+}
+
 TEST(Curves, AreReadBetweenSamplesAndNowhereElse) {
   const Curve c{{0, 10, 20}, {1, 3, 2}};
   EXPECT_EQ(value_at(c, 5), 2);
@@ -239,9 +250,6 @@ TEST(Study, UnitsOfObservablesAreUnderstood) {
   EXPECT_DOUBLE_EQ(scale_of_unit("kPa").in_base, 1);
   EXPECT_DOUBLE_EQ(scale_of_unit("1/mm^3").in_base, 1e-9);
   EXPECT_EQ(scale_of_unit("1").dimension, kDimensionless);
-  EXPECT_EQ(split_unit("lesion_radius_um"),
-            (std::pair<std::string, std::string>("lesion_radius", "um")));
-  EXPECT_EQ(split_unit("cells").second, "1");
   EXPECT_EQ(unit_of_key("motility.leader_force"), "nN");
   EXPECT_EQ(unit_of_key("cell_types.hepatocyte.dcm.nodes"), "1");
   EXPECT_FALSE(unit_of_key("motility.random"));
@@ -360,7 +368,7 @@ TEST_F(Claims, PlotsHaveMeanBandAndReferencePoints) {
   EXPECT_EQ(plot.line[1].band[1], (std::pair<double, double>(2, 4)));
   EXPECT_FALSE(plot.line[2].joined);
   EXPECT_EQ(plot.line[2].point[0], (std::pair<double, double>(1, 2)));
-  EXPECT_EQ(plot.y_label, "overlap_cbm_cbm_um, um");
+  EXPECT_EQ(plot.y_label, "overlap_cbm_cbm, um");
 }
 
 TEST_F(Claims, VerdictsAreJsonWithoutNaN) {
