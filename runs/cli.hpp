@@ -10,10 +10,6 @@ namespace acinus::runs {
 /// @throws Error for everything else that is the user's or the disk's fault
 int run_cli(int argc, const char* const* argv);
 
-/// Wall-clock time such as "10min", "23h30m", "600 s", "1d" in s. Here m means minutes.
-/// @throws Error naming the text
-double parse_wall_time(const std::string& text);
-
 /// Version, git hash, compiler.
 std::string version_text();
 

@@ -30,6 +30,7 @@
 #include "runs/progress.hpp"
 #include "runs/run_folder.hpp"
 #include "runs/scene/frame_times.hpp"
+#include "runs/skipped.hpp"
 #include "runs/soundness.hpp"
 #include "runs/start_state.hpp"
 #include "runs/state_file.hpp"
@@ -120,8 +121,6 @@ class Run {
   int fail(const coupling::StepResult& step);
   int fail(const Excess& excess);
   int give_up(const std::string& cause, const std::vector<std::int64_t>& cells);
-  std::vector<std::string> skipped() const;       ///< what the scene does not ask for
-  std::vector<std::string> work_skipped() const;  ///< what turned out not to be needed
 
   const Scene& scene_;
   RunOptions options_;
@@ -148,37 +147,6 @@ Run::Run(const Scene& scene, const RunOptions& options)
       built_(build_world(scene, Ranks::world())),
       end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
       progress_(scene, options_, end_) {}
-
-std::vector<std::string> Run::skipped() const {
-  const coupling::State& s = world().state;
-  std::vector<std::string> list;
-  if (s.dcm.group.empty())
-    list.emplace_back("deformable cells");
-  else
-    list = dcm::skipped_terms(world().params.dcm);
-  if (s.cbm.n_cell() == 0) list.emplace_back("centre-based cells");
-  if (s.dcm.group.empty() || s.cbm.n_cell() == 0) list.emplace_back("DCM-CBM interface");
-  if (world().params.around.empty()) list.emplace_back("surroundings");
-  if (!world().params.motility.random) list.emplace_back("random motility");
-  if (world().params.motility.leader_force <= 0) list.emplace_back("leaders");
-  return list;
-}
-
-std::vector<std::string> Run::work_skipped() const {
-  std::vector<std::string> list;
-  auto share = [&](const char* what, std::int64_t done, std::int64_t of) {
-    if (of > 0 && done < of)
-      list.push_back(fmt::format("{} in {:.0f} % of cases", what,
-                                 100 * (1 - static_cast<double>(done) / static_cast<double>(of))));
-  };
-  share("building DCM contact lists", work_.dcm.lists.made, work_.dcm.lists.checked);
-  share("searching listed contact points", work_.dcm.points_seen, work_.dcm.points_listed);
-  if (world().state.cbm.n_cell() > 0)
-    share("building CBM pair lists", work_.cbm.list_builds, work_.cbm.searches);
-  if (!world().state.dcm.group.empty() && !world().state.clock.coarse)
-    list.emplace_back("coarse space of the solver at the end");
-  return list;
-}
 
 void Run::start_or_resume() {
   const std::string path = options_.out + "/run.vtkhdf";
@@ -345,8 +313,8 @@ void Run::close(const std::string& status, const std::string& cause) {
         100 * static_cast<double>(work_.cbm.beyond) / static_cast<double>(work_.cbm.corrected)));
     progress_.note(built_.notes.back());
   }
-  std::vector<std::string> skip = skipped();
-  const std::vector<std::string> unneeded = work_skipped();
+  std::vector<std::string> skip = list_skipped(world());
+  const std::vector<std::string> unneeded = list_skipped_work(world(), work_);
   skip.insert(skip.end(), unneeded.begin(), unneeded.end());
   if (!unneeded.empty()) progress_.note(fmt::format("also skipped: {}", fmt::join(unneeded, ", ")));
   write_summary(options_.out, {scene_, options_, world(), totals_, life_, observer_.measures,
@@ -468,7 +436,7 @@ int Run::go() {
                              scene_.name, dcm::count_cells(s.dcm), s.cbm.n_cell(),
                              built_.vessel_length, options_.threads));
   for (const std::string& note : built_.notes) progress_.note(note);
-  if (const auto skip = skipped(); !skip.empty())
+  if (const auto skip = list_skipped(world()); !skip.empty())
     progress_.note(fmt::format("skipped: {}", fmt::join(skip, ", ")));
   progress_.begin(world());
   int code = 0;

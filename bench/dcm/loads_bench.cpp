@@ -16,7 +16,7 @@ void add_loads(benchmark::State& state) {
   solve::System system = w.system;
   for (auto _ : state) {
     clear_loads(system);
-    dcm::add_loads(clump.world.state.dcm, clump.world.params.dcm, w.lanes, w.free_area,
+    dcm::add_loads(clump.world.state.dcm, clump.world.params.dcm, w.lanes, w.medium_area,
                    w.forces.dcm, system);
     benchmark::ClobberMemory();
   }

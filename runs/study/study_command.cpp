@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "runs/cli.hpp"
+#include "runs/wall_time.hpp"
 
 namespace acinus::runs {
 

@@ -1,4 +1,5 @@
 #include "runs/cli.hpp"
+#include "runs/wall_time.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -100,6 +100,43 @@ TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
     EXPECT_TRUE(provenance.contains(key)) << key;
 }
 
+/// Two cells pressed together by plates that open after 10 min.
+constexpr const char* kPressed = R"({
+  "name": "pressed", "experiment": "relaxation", "time": {"end": "2 h", "step": "10 min"},
+  "cell_types": {"a": {"dcm": {"nodes": 42}}}, "motility": {"random": false},
+  "cells": {"model": "dcm", "list": [{"position": ["0 um", "0 um", "-11.5 um"]},
+                                     {"position": ["0 um", "0 um", "11.5 um"]}]},
+  "walls": [{"point": ["0 um", "0 um", "-24 um"], "normal": [0, 0, 1], "speed": "15 um/h",
+             "travel": "2 um", "opens": "10 min"},
+            {"point": ["0 um", "0 um", "24 um"], "normal": [0, 0, -1], "speed": "15 um/h",
+             "travel": "2 um", "opens": "10 min"}],
+  "output": {"every": "7 min", "after_opening": 2}
+})";
+
+TEST_F(Run, FollowsWhatWallsLetGoOnALogarithmicGrid) {
+  write("pressed.json", kPressed);
+  const Json s = finish(run_words("pressed.json", "a"), "a");
+  const Json& m = s["measures"];
+  const auto time = m["time_s"].get<std::vector<double>>(),
+             height = m["height_um"].get<std::vector<double>>();
+  for (const double t : {0.0, 420.0, 600.0, 601.0, 610.0, 700.0, 840.0, 1600.0, 7200.0})
+    EXPECT_TRUE(std::ranges::any_of(time, [t](double x) { return std::abs(x - t) < 1e-5; })) << t;
+  const auto released = std::ranges::find(time, 600.0, [](double t) { return std::round(t); });
+  const double squeezed = height[static_cast<std::size_t>(released - time.begin())];
+  EXPECT_EQ(squeezed, *std::ranges::min_element(height)) << "what presses is there to the end";
+  EXPECT_LT(squeezed, height.front() - 1);
+  EXPECT_GT(height.back(), squeezed + 1);
+  EXPECT_GT(m["height_back_10s"][0], 0);
+  EXPECT_LE(m["height_back_10s"][0], 1);
+  EXPECT_GT(m["height_return_h"][0], 0);
+  EXPECT_EQ(m["relaxation_time_h"], m["height_return_h"]);
+  // Stopped as they open, and gone on with: the same.
+  finish(run_words("pressed.json", "parts", {"--until", "10 min"}), "parts");
+  finish(run_words("pressed.json", "parts", {"--resume"}), "parts");
+  expect_same("a", "parts");
+  EXPECT_EQ(summary("parts")["measures"], m);
+}
+
 TEST_F(Run, DoesNotDependOnTheNumberOfThreads) {
   write("pair.json", program::kGrowing);
   finish(run_words("pair.json", "one", {"--threads", "1"}), "one");
