@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
@@ -12,6 +14,17 @@ namespace acinus::runs {
 namespace {
 namespace fs = std::filesystem;
 constexpr const char* kFile = "/study.json";
+
+/// Whether the folder is a study's. Another task may be making it this moment: waits a little.
+bool has_study_file(const std::string& root) {
+  constexpr int kLooks = 40;
+  for (int look = 0; look < kLooks; ++look) {
+    std::error_code code;
+    if (fs::is_regular_file(root + kFile, code)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
 }  // namespace
 
 void check_study_folder(const std::string& root, const StudyPlan& plan) {
@@ -20,7 +33,7 @@ void check_study_folder(const std::string& root, const StudyPlan& plan) {
   check(fs::is_directory(root, code),
         fmt::format("--out {}: is a file; a folder is needed.", root));
   if (fs::is_empty(root, code)) return;
-  check(fs::is_regular_file(root + kFile, code),
+  check(has_study_file(root),
         fmt::format("--out {}: holds something that is no study. Choose another --out.", root));
   const nlohmann::json j = nlohmann::json::parse(io::read_text_file(root + kFile), nullptr, false);
   const std::string name = j.is_object() ? j.value("study", "") : "";
@@ -31,14 +44,21 @@ void check_study_folder(const std::string& root, const StudyPlan& plan) {
 
 void make_study_folder(const std::string& root, const StudyPlan& plan) {
   std::error_code code;
-  fs::create_directories(root + "/runs", code);
+  fs::create_directories(root, code);
+  // First what tells whose folder it is: others may look into it already.
+  if (!code && !fs::exists(root + kFile, code)) {
+    const nlohmann::ordered_json j{{"study", plan.study.name}};
+    try {
+      io::write_text_file(root + kFile, j.dump(2) + "\n");
+    } catch (const Error&) {  // another task wrote the same at the same moment
+      if (!fs::exists(root + kFile, code)) throw;
+    }
+  }
+  if (!code) fs::create_directories(root + "/runs", code);
   check(!code,
         fmt::format("--out {}: the folder cannot be made ({}). Choose another --out.", root,
                     code.message()),
         Exit::kFileError);
-  if (fs::exists(root + kFile, code)) return;
-  const nlohmann::ordered_json j{{"study", plan.study.name}};
-  io::write_text_file(root + kFile, j.dump(2) + "\n");
 }
 
 }  // namespace acinus::runs
