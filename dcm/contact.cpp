@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/threads.hpp"
+#include "dcm/vessel_wall.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -19,19 +21,35 @@ contact::SearchOptions search_options(const ContactParams& c, const State& state
   return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
 }
 
+/// Gives contacts with vessels the stiffness that follows from the deepest of them with the same
+/// segment.
+void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
+                        std::span<ObstacleContact> found) {
+  std::map<int, double> deepest;
+  for (const ObstacleContact& o : found) {
+    double& depth = deepest.try_emplace(o.index, 0.0).first->second;
+    depth = std::max(depth, -o.gap);
+  }
+  for (ObstacleContact& o : found)
+    o.stiffness = wall_stiffness(c.repulsion, wall, o.radius, deepest[o.index]);
+}
+
 /// Contacts of one body with the vessels, one per point: the nearest segment of the network.
 void find_vessel_contacts(const contact::SurfaceBody& b, int number, const ContactParams& c,
-                          double range, const SegmentCandidates& list, const mesh::Network& network,
-                          std::vector<ObstacleContact>& out) {
+                          double range, const SegmentCandidates& list,
+                          const contact::Vessels& vessels, std::vector<ObstacleContact>& out) {
+  const mesh::Network& network = vessels.network;
+  const std::size_t first = out.size();
   const int per_site = contact::points_per_site(c.quadrature);
   auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
-    ObstacleContact best{number, p, SurroundingKind::kVessel, -1, range, {}, guard};
+    ObstacleContact best{number, p, SurroundingKind::kVessel, -1, range, {}, guard, 0, 0};
     for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
       const contact::Gap g = contact::gap_to_segment(network, list.segment[e], x);
       if (g.gap >= best.gap) continue;
       best.index = list.segment[e];
       best.gap = g.gap;
       best.normal = g.normal;
+      best.radius = g.radius;
     }
     return best;
   };
@@ -69,6 +87,7 @@ void find_vessel_contacts(const contact::SurfaceBody& b, int number, const Conta
   }
   for (const ObstacleContact& o : guard)
     if (o.guard) out.push_back(o);
+  set_wall_stiffness(c, vessels.material, std::span(out).subspan(first));
 }
 
 /// Contacts of one body with planes, capsules and vessels.
@@ -83,7 +102,9 @@ void find_obstacle_contacts(const contact::SurfaceBody& b, int number, const Con
     for (int p = 0; p < n_point; ++p) {
       const contact::Gap g =
           gap_of(contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
-      if (g.gap < range) out.push_back({number, p, kind, static_cast<int>(index), g.gap, g.normal});
+      if (g.gap < range)
+        out.push_back(
+            {number, p, kind, static_cast<int>(index), g.gap, g.normal, false, 0, c.repulsion});
     }
   };
   for (std::size_t i = 0; i < around.planes.size(); ++i)
@@ -92,8 +113,7 @@ void find_obstacle_contacts(const contact::SurfaceBody& b, int number, const Con
   for (std::size_t i = 0; i < around.capsules.size(); ++i)
     probe(SurroundingKind::kCapsule, i,
           [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, time); });
-  if (!list.site.empty())
-    find_vessel_contacts(b, number, c, range, list, around.vessels.network, out);
+  if (!list.site.empty()) find_vessel_contacts(b, number, c, range, list, around.vessels, out);
 }
 
 /// Area on the unit rest shape that a point stands for.

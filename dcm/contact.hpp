@@ -55,11 +55,14 @@ struct ObstacleContact {
   /// there only face centres guard); such points are pushed out, without adhesion or friction.
   /// Walls that are flat or hollow have no tips.
   bool guard = false;
+  double radius = 0;     ///< um, vessels: at the closest point
+  double stiffness = 0;  ///< nN/um^3 under compression, vessels: with the yielding wall
 };
 
 /// Share of its area that a guarding point pushes with, and how deep inside, um, it begins to: the
 /// quadrature points carry all that ordinary contact needs, and a point that joins in and leaves
 /// again at every step would only make noise.
+/// Where the wall yields they begin deeper by as much as it is softer.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
 /// The nodes and weights of an obstacle contact's point.

@@ -102,15 +102,19 @@ struct Builder {
     link.a = side(o.body, obstacle_stencil(c, body(o.body), o));
     link.b = solve::Side::nowhere();
     if (o.guard) {
-      fill({repulsion(), guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)]),
-            0, kGuardGap},
+      fill({{0, o.stiffness, 1},
+            guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)]),
+            0,
+            kGuardGap * (c.repulsion / o.stiffness)},
            o.gap, o.normal, link, load);
       return;
     }
     const contact::Material& m = material_of(around, o.kind, o.index);
     const double friction =
         m.mirror ? 0 : touching(o.body, o.point, o.gap) * params_of(o.body).vessel_friction;
-    fill({well(o.body, m.adhesion), area(o.body, o.point), friction}, o.gap, o.normal, link, load);
+    contact::Well law = well(o.body, m.adhesion);
+    law.repulsion = o.stiffness;
+    fill({law, area(o.body, o.point), friction}, o.gap, o.normal, link, load);
   }
 
   static void fill(const Patch& p, double gap, const Vec3& normal, solve::Link& link,

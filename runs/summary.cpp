@@ -37,8 +37,13 @@ Json mesh_figures(const LifeTotals& t) {
           {"left_degenerate", static_cast<int>(t.degenerate)}};
 }
 
-/// When the lesion closed, by every measure of its area; null if it did not.
-void add_closing_times(const Measures& m, Json& measures) {
+/// Cells and births of every layer at the end, the last: deeper; and when the lesion closed, by
+/// every measure of its area; null if it did not.
+void add_lobule_figures(const Measures& m, Json& measures) {
+  for (const char* what : {"cells", "births"})
+    for (const std::string& layer : layer_names())
+      if (const auto n = m.find(std::string(what) + "_layer_" + layer); n != m.end())
+        measures["layers"][what].push_back(number(n->second.back()));
   const auto time = m.find("time_d");
   Json by_area = Json::object();
   for (const std::string& name : closing_areas()) {
@@ -136,7 +141,7 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
     measures["wall_s_at_cells"][cells] = number(wall);
   if (!in.world.params.around.vessels.network.segment.empty())
     measures["max_overlap_with_vessels_um"] = number(std::max(t.dcm_vessel_um, t.cbm_vessel_um));
-  if (in.scene.experiment == "lobule") add_closing_times(in.measures, measures);
+  if (in.scene.experiment == "lobule") add_lobule_figures(in.measures, measures);
   j["measures"] = measures;
 
   io::write_text_file(folder + "/summary.json", j.dump(2) + "\n");

@@ -17,8 +17,6 @@ using coupling::CellMeasure;
 constexpr double kClosed = 0.05;  ///< relative area below which a lesion counts as closed
 constexpr double kHour = 3600, kDay = 86400;
 
-std::string layer_name(int layer) { return layer <= kLayers ? std::to_string(layer) : "beyond"; }
-
 /// The value of the first frame.
 double first_of(const std::string& name, double now, Observer& o) {
   return o.start.try_emplace(name, now).first->second;
@@ -54,6 +52,7 @@ void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame
   }
   m["lesion_radius_um"].push_back(m["lesion_radius_slices_centre_um"].back());
   m["lesion_area_relative"].push_back(m["lesion_area_slices_centre_floor"].back());
+  m["lesion_area_surface"].push_back(m["lesion_area_slices_surface_floor"].back());
 }
 
 void sample_layers(const std::vector<LesionCell>& cells, Observer& o) {
@@ -61,10 +60,10 @@ void sample_layers(const std::vector<LesionCell>& cells, Observer& o) {
   for (const LesionCell& c : cells)
     ++n[static_cast<std::size_t>(std::min(c.layer, kLayers + 1) - 1)];
   double births = 0;
-  for (int k = 1; k <= kLayers + 1; ++k) {
-    const auto i = static_cast<std::size_t>(k - 1);
-    o.measures["cells_layer_" + layer_name(k)].push_back(n[i]);
-    o.measures["births_layer_" + layer_name(k)].push_back(o.births[i]);
+  const std::vector<std::string> names = layer_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    o.measures["cells_layer_" + names[i]].push_back(n[i]);
+    o.measures["births_layer_" + names[i]].push_back(o.births[i]);
     births += o.births[i];
   }
   o.measures["births"].push_back(births);
@@ -158,8 +157,16 @@ void sample_lobule(const Moment& moment, Observer& o) {
                                            std::max<double>(1, static_cast<double>(cells.size())));
 }
 
+std::vector<std::string> layer_names() {
+  std::vector<std::string> names;
+  for (int k = 1; k <= kLayers; ++k) names.push_back(std::to_string(k));
+  names.emplace_back("beyond");
+  return names;
+}
+
 std::vector<std::string> closing_areas() {
-  std::vector<std::string> names{"lesion_area_relative", "lesion_area_open", "lesion_area_seen"};
+  std::vector<std::string> names{"lesion_area_relative", "lesion_area_surface", "lesion_area_open",
+                                 "lesion_area_seen"};
   for (const LesionReading& r : lesion_readings())
     for (const char* ending : {"", "_floor"}) names.push_back("lesion_area_" + r.name + ending);
   return names;

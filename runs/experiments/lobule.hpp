@@ -9,6 +9,9 @@ namespace acinus::runs {
 /// the observer saw.   @pre sample_experiment
 void sample_lobule(const Moment& moment, Observer& observer);
 
+/// "1" to "6" and "beyond": the endings of series by layer.
+std::vector<std::string> layer_names();
+
 /// The series by which a lesion counts as closed, the one of `closed_d` first.
 std::vector<std::string> closing_areas();
 

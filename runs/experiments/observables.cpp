@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/lesion.hpp"
+#include "runs/experiments/lobule.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -51,7 +52,7 @@ List tissue() {
        {"overlap_vessels_um", "um", "deepest overlap of a cell with a vessel"},
        {"overlap_dcm_walls_um", "um", "deepest overlap of a deformable cell with a wall"},
        {"overlap_cbm_walls_um", "um", "deepest overlap of a sphere with a wall"},
-       {"cells_detached", "1", "cells in contact with no other cell"},
+       {"detached_cells", "1", "cells in contact with no other cell"},
        {"cells_in_small_clusters", "1", "cells that hang together in clusters of 1 or 2"},
        {"clusters", "1", "clusters of cells in contact, single cells included"},
        {"interface_pairs", "1", "pairs of a deformable cell and a sphere that exert a force"},
@@ -119,7 +120,8 @@ List growth(bool flat) {
 
 List lesion() {
   List list{{"lesion_radius_um", "um", "as lesion_radius_slices_centre_um"},
-            {"lesion_area_relative", "1", "as lesion_area_slices_centre_floor"}};
+            {"lesion_area_relative", "1", "as lesion_area_slices_centre_floor"},
+            {"lesion_area_surface", "1", "as lesion_area_slices_surface_floor"}};
   for (const LesionReading& r : lesion_readings())
     append(list, {{fmt::format("lesion_radius_{}_um", r.name), "um", "lesion radius, " + r.meaning},
                   {"lesion_area_" + r.name, "1", "(r / r0)^2, " + r.meaning},
@@ -135,8 +137,7 @@ List lesion() {
            "one cell diameter beyond the initial lesion at most"},
           {"front_roughness_um", "um", "standard deviation of that distance"},
           {"lesion_area_seen", "1", "area up to that distance relative to the first frame"}});
-  for (int k = 1; k <= kLayers + 1; ++k) {
-    const std::string layer = k <= kLayers ? std::to_string(k) : "beyond";
+  for (const std::string& layer : layer_names()) {
     append(list, {{"cells_layer_" + layer, "1", "cells in this layer from the lesion's edge"},
                   {"births_layer_" + layer, "1",
                    "divisions so far in this layer, counted when they happened"}});

@@ -81,7 +81,7 @@ void sample_clusters(const Moment& moment, Measures& m) {
       moment.snapshot.cells.size(), coupling::find_touching(moment.world, moment.work));
   double clusters = 0;
   for (const int n : size) clusters += 1.0 / n;
-  m["cells_detached"].push_back(static_cast<double>(std::ranges::count(size, 1)));
+  m["detached_cells"].push_back(static_cast<double>(std::ranges::count(size, 1)));
   m["cells_in_small_clusters"].push_back(
       static_cast<double>(std::ranges::count_if(size, [](int n) { return n < 3; })));
   m["clusters"].push_back(std::round(clusters));

@@ -42,6 +42,7 @@ class LifeResume : public program::ProgramTest {
     const io::RunReader x = reader(a), y = reader(b);
     EXPECT_EQ(x.n_frame(), y.n_frame());
     EXPECT_EQ(x.series(), y.series());
+    EXPECT_EQ(x.observables(), y.observables());
     program::expect_first_frames(program::read_frames(x), program::read_frames(y), a + " " + b);
   }
 };
