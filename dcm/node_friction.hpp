@@ -11,7 +11,7 @@
 ///
 /// The first part is the friction between facing places; the others hold back a triangle that
 /// stretches or turns although its partner goes along. They shrink with the square of the edges,
-/// and they are not blind to rotation (docs/decisions/draft-friction-form.md).
+/// and they are not blind to rotation (docs/decisions/0026.md).
 
 #include <vector>
 
