@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/contact/hertz.hpp"
-#include "coupling/lesion_layers.hpp"
 #include "coupling/measure.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -171,17 +170,6 @@ TEST(Reactions, DoNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(of[0][k].net, of[1][k].net);
     EXPECT_EQ(of[0][k].normal, of[1][k].normal);
   }
-}
-
-TEST(LesionLayers, AreCountedFromTheEdgeBeforeACell) {
-  // A row with centres 20 um apart (cells of 24 um), and behind it a row that begins farther out.
-  std::vector<LayerCell> cells;
-  for (int k = 0; k < 4; ++k) cells.push_back({Vec3(50 + 20 * k, 0, 0), 12});
-  for (int k = 0; k < 2; ++k) cells.push_back({Vec3(0, 90 + 20 * k, 0), 12});
-  cells.push_back({Vec3(0, -55, 0), 12});
-  cells.push_back({Vec3(0, -62, 10), 12});  // beside it, a little farther out: the same layer
-  cells.push_back({Vec3(0, -75, 30), 12});  // one diameter higher: nobody is before it
-  EXPECT_EQ(find_layers(cells, Vec3::Zero()), (std::vector<int>{1, 2, 3, 4, 1, 2, 1, 1, 1}));
 }
 
 }  // namespace
