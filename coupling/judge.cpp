@@ -202,28 +202,36 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
   if (!v.good) return v;
 
   const solve::Links& links = w.system.links;
-  const double deep =
-      -(world.params.numerics.adaptive ? kControlledDepth
-                                       : kDeep * world.params.dcm_contact.max_depth);
+  // Where the repulsion is in the matrix, depth is a matter of load, not of the step: only the
+  // range of the search bounds it. Where it is not, what counts is the depth beyond the point at
+  // which the contact would have begun to push.
+  const double range = -kDeep * world.params.dcm_contact.max_depth;
+  const double unfelt = world.params.numerics.adaptive ? -kControlledDepth : range;
   const double near = 0.5 * world.params.dcm_contact.max_depth;
-  auto depth_after = [&](const solve::Link& link) {  // um; 0: no danger
+  auto depth_after = [&](std::size_t l) {  // um; 0: no danger
+    const solve::Link& link = links.link[l];
+    const solve::LinkLoad& load = links.load[l];
     const double gap = static_cast<double>(link.gap);
     if (gap > near) return 0.0;
     const double end = gap_after(w, link);
-    return end < deep && end - gap < -kClosing ? -end : 0.0;
+    if (end - gap > -kClosing) return 0.0;
+    const bool felt = load.active || load.clearance <= 0;
+    const bool deep = end < range || (!felt && end + load.clearance - gap < unfelt);
+    return deep ? -end : 0.0;
   };
   std::size_t first_deep = links.size();
 #pragma omp parallel for schedule(static) \
     reduction(min                         \
               : first_deep) if (worth_threads(w.system.n_row))
   for (std::size_t l = 0; l < links.size(); ++l)
-    if (depth_after(links.link[l]) > 0) first_deep = std::min(first_deep, l);
+    if (depth_after(l) > 0) first_deep = std::min(first_deep, l);
   if (first_deep < links.size()) {
     const solve::Link& link = links.link[first_deep];
     const bool pair = link.b.exists();
     const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
     const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
-    reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a), depth_after(link),
+    reject(fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
+                       depth_after(first_deep),
                        pair ? name_lane(s, b) : std::string("its surroundings")),
            a);
     if (pair && b != a) v.cells.push_back(lineage_of(s, b));

@@ -17,6 +17,10 @@ constexpr double kSlack = 1.0 / 6;
 /// Cells side by side are two radii apart and do not bar each other, a cell behind the gap between
 /// two is barred by both from 1.15 radii (three in a triangle) on.
 constexpr double kBar = 1.3;
+/// A cell borders on the lesion if a way this many radii long is clear, in a direction at most
+/// kAside from that to the vein; smaller holes in the tissue are not the lesion.
+constexpr double kReach = 4, kAside = kPi / 4;
+constexpr int kWays = 7;  ///< directions tried, 15 degrees apart
 
 double turn(const PolarCell& a, const PolarCell& b) {
   return std::abs(std::remainder(a.angle - b.angle, 2 * kPi));
@@ -47,6 +51,35 @@ bool faces_lesion(const PolarCell& c, std::span<const PolarCell> cells) {
     const double aside = other.distance * std::sin(angle), above = other.height - c.height;
     return std::hypot(aside, above) < kBar * other.radius;
   });
+}
+
+/// Horizontal position with respect to the vein axis, and height.
+Vec3 place_of(const PolarCell& c) {
+  return {c.distance * std::cos(c.angle), c.distance * std::sin(c.angle), c.height};
+}
+
+/// Whether some way from the cell toward the lesion is clear of other cells and of walls.
+bool borders_lesion(const Motility& m, const PolarCell& c, std::span<const PolarCell> cells,
+                    std::span<const contact::Plane> walls) {
+  const Vec3 from = place_of(c);
+  const double bar = kBar - (c.led ? kSlack : 0);
+  auto is_clear = [&](const Vec3& direction) {
+    const Vec3 end = m.axis_point + from + kReach * c.radius * direction;
+    if (std::ranges::any_of(
+            walls, [&](const contact::Plane& w) { return (end - w.point).dot(w.normal) < 0; }))
+      return false;
+    return std::ranges::none_of(cells, [&](const PolarCell& other) {
+      if (&other == &c || !other.exists) return false;
+      const Vec3 d = place_of(other) - from;
+      const double along = std::clamp(d.dot(direction), 0.0, kReach * c.radius);
+      return d.dot(direction) > 0 && (d - along * direction).norm() < bar * other.radius;
+    });
+  };
+  for (int k = 0; k < kWays; ++k) {
+    const double turned = c.angle + kPi + kAside * (2.0 * k / (kWays - 1) - 1);
+    if (is_clear({std::cos(turned), std::sin(turned), 0})) return true;
+  }
+  return false;
 }
 
 /// The nearest cell of every sector of the circle and slice of height.
@@ -83,20 +116,29 @@ PolarCell make_polar(const Motility& m, const Vec3& center, double radius) {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_leaders(const Motility& m, std::span<const PolarCell> cells) {
+std::vector<std::uint8_t> find_leaders(const Motility& m, std::span<const PolarCell> cells,
+                                       std::span<const contact::Plane> walls) {
   std::vector<std::uint8_t> leader(cells.size(), 0);
-  if (m.leaders == Leaders::kSector) {
-    lead_by_sector(m, cells, leader);
-  } else if (m.leaders == Leaders::kNearest) {
-    lead_nearest(m, cells, leader);
-  } else {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!cells[i].exists || at_vein(m, cells[i])) continue;
-      leader[i] = (m.leaders == Leaders::kFront ? faces_lesion(cells[i], cells)
-                                                : is_foremost(cells[i], cells))
-                      ? 1
-                      : 0;
-    }
+  auto lead_where = [&](auto rule) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (cells[i].exists && !at_vein(m, cells[i]) && rule(cells[i])) leader[i] = 1;
+  };
+  switch (m.leaders) {
+    case Leaders::kForemost:
+      lead_where([&](const PolarCell& c) { return is_foremost(c, cells); });
+      break;
+    case Leaders::kFront:
+      lead_where([&](const PolarCell& c) { return faces_lesion(c, cells); });
+      break;
+    case Leaders::kBorder:
+      lead_where([&](const PolarCell& c) { return borders_lesion(m, c, cells, walls); });
+      break;
+    case Leaders::kSector:
+      lead_by_sector(m, cells, leader);
+      break;
+    case Leaders::kNearest:
+      lead_nearest(m, cells, leader);
+      break;
   }
   return leader;
 }
@@ -117,7 +159,7 @@ bool choose_leaders(const World& world, std::span<const double> dcm_radius,
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
     cells[n_lane + c] = make_polar(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
   for (std::size_t i = 0; i < n; ++i) cells[i].led = leader[i] != 0;
-  leader = find_leaders(m, cells);
+  leader = find_leaders(m, cells, world.params.around.planes);
   return true;
 }
 

@@ -20,7 +20,9 @@ struct PolarCell {
 /// Which of the cells lead, by the rule of `motility`; 1 for leaders. A cell whose surface is at
 /// the wall of the vein never leads. A leader keeps its place until another cell is nearer by a
 /// sixth of a radius, so that equal cells do not take turns.
-std::vector<std::uint8_t> find_leaders(const Motility& motility, std::span<const PolarCell> cells);
+/// @param walls  behind which there is no lesion (Leaders::kBorder)
+std::vector<std::uint8_t> find_leaders(const Motility& motility, std::span<const PolarCell> cells,
+                                       std::span<const contact::Plane> walls = {});
 
 /// Chooses the leaders if the grid interval changed. Pure in time and positions: a retry chooses
 /// the same.

@@ -36,6 +36,7 @@ struct StartUp {
 enum class Leaders {
   kForemost,  ///< cells with no other nearer the vein within one diameter in arc and height
   kFront,     ///< cells with a clear straight way to the vein
+  kBorder,    ///< cells with a clear way into the lesion within 45 degrees of that to the vein
   kSector,    ///< the nearest cell of every sector of the circle and slice of height
   kNearest    ///< the nearest cells of all
 };

@@ -139,6 +139,7 @@ QuadratureChoice quadrature_of(const std::string& name) {
 
 coupling::Leaders leaders_of(const std::string& name) {
   if (name == "front") return coupling::Leaders::kFront;
+  if (name == "border") return coupling::Leaders::kBorder;
   if (name == "sector") return coupling::Leaders::kSector;
   if (name == "nearest") return coupling::Leaders::kNearest;
   return coupling::Leaders::kForemost;

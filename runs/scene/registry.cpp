@@ -242,9 +242,11 @@ void describe_motility(Visitor& v, MotilityBlock& b) {
   v.text({.name = "leaders",
           .meaning = "which cells lead. foremost: those with no other cell nearer the vein within "
                      "one diameter in arc and height; front: all with a clear straight way to the "
-                     "vein; sector: the nearest of every sector of the circle and slice of height; "
+                     "vein; border: all with a clear way into the lesion, two cell diameters long, "
+                     "within 45 degrees of that to the vein; sector: the nearest of every sector "
+                     "of the circle and slice of height; "
                      "nearest: the leader_count nearest",
-          .choices = "foremost|front|sector|nearest"},
+          .choices = "foremost|front|border|sector|nearest"},
          b.leaders);
   v.when(b.leaders == "sector" || b.leaders == "nearest", "leaders = sector, nearest",
          [&b](Visitor& w) {

@@ -79,6 +79,36 @@ TEST(Closing, EndsNearerToBackwardEulerThanAPlainStep) {
   EXPECT_LT(rms(with, truth), 0.25 * rms(without, truth));
 }
 
+TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
+  // 15 nN on a wall of 600 Pa: the surface stands deeper than kControlledDepth at rest. Points that
+  // guard against thin vessels push deeper still and are not on their branch on the way there.
+  World w = make_test_world({{Vec3(0, 0, 12 + 4.7 + 0.05), true, Vec3(0, 0, -15)}}, 60, 162);
+  mesh::Network n;
+  n.node = {{-30, 0, 0}, {30, 0, 0}};
+  n.segment = {{0, 1}};
+  n.radius = {{4.7, 4.7}};
+  contact::set_network(w.params.around.vessels, n);
+  w.params.around.vessels.material = {0, 0.6, 0.4, false};
+  w.params.numerics.adaptive = true;
+  w.params.numerics.tolerance = 10;
+  Workspace work;
+  size_workspace(w, work);
+  int rejections = 0;
+  for (int step = 0; step < 20; ++step) {
+    const StepResult result = advance(w, work, 6);
+    ASSERT_TRUE(result.accepted) << result.cause;
+    rejections += result.rejections;
+  }
+  std::vector<Vec3> node;
+  dcm::copy_nodes(w.state.dcm, 0, node);
+  double depth = 0;
+  for (const Vec3& x : node)
+    depth = std::max(depth, -contact::gap_to_segment(w.params.around.vessels.network, 0, x).gap);
+  std::printf("%.3f um deep, %d rejections\n", depth, rejections);
+  EXPECT_GT(depth, kControlledDepth) << "else there is nothing to see";
+  EXPECT_EQ(rejections, 0);
+}
+
 TEST(Closing, LeavesStepsAloneThatStayClear) {
   World w = falling_cell(Integrator::kLinearlyImplicit);
   w.state.dcm.pull[0] = Vec3(0, 0, -0.3);

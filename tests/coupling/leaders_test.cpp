@@ -47,6 +47,34 @@ TEST(Leaders, OfTheFrontDoNotMindCellsBeyondTheVein) {
   EXPECT_EQ(find_leaders(by(Leaders::kFront), cells), (Choice{1, 1, 1}));
 }
 
+TEST(Leaders, OfTheBorderAreThoseBesideACellThatRanAhead) {
+  const std::vector<PolarCell> cells{cell(140, -5), cell(140, 5), cell(117, 0)};
+  EXPECT_EQ(find_leaders(by(Leaders::kFront), cells), (Choice{0, 0, 1}));
+  EXPECT_EQ(find_leaders(by(Leaders::kBorder), cells), (Choice{1, 1, 1}));
+  EXPECT_EQ(find_leaders(by(Leaders::kBorder), two_rows()), (Choice{1, 1, 1, 1, 0, 0, 0}));
+}
+
+TEST(Leaders, OfTheBorderAreThoseOfAFrontAtAnAngleToTheVein) {
+  // A row that recedes by half a diameter a cell: each bars the straight way of the next.
+  std::vector<PolarCell> cells;
+  for (int k = 0; k < 4; ++k) cells.push_back(cell(140 + 18 * k, 5.0 * k));
+  EXPECT_EQ(find_leaders(by(Leaders::kFront), cells), (Choice{1, 0, 0, 0}));
+  EXPECT_EQ(find_leaders(by(Leaders::kBorder), cells), (Choice{1, 1, 1, 1}));
+}
+
+TEST(Leaders, OfTheBorderDoNotTakeAWallForTheLesion) {
+  // The way beside the cell ahead leads through the wall.
+  const std::vector<PolarCell> cells{cell(140, 0), cell(110, 0)};
+  contact::Plane left, right;
+  left.point = Vec3(0, 14, 0);
+  left.normal = -Vec3::UnitY();
+  right.point = Vec3(0, -14, 0);
+  right.normal = Vec3::UnitY();
+  const std::vector<contact::Plane> walls{left, right};
+  EXPECT_EQ(find_leaders(by(Leaders::kBorder), cells), (Choice{1, 1}));
+  EXPECT_EQ(find_leaders(by(Leaders::kBorder), cells, walls), (Choice{0, 1}));
+}
+
 TEST(Leaders, ForemostCellsKeepADiameterApart) {
   std::vector<PolarCell> cells = two_rows();
   for (std::size_t k = 0; k < 4; ++k) cells[k].distance -= static_cast<double>(k % 2);
