@@ -34,8 +34,10 @@ void check_parameters(const LobuleParameters& p) {
   check(p.vessel_fraction >= 0 && p.vessel_fraction < 1,
         fmt::format("/lobule/vessel_fraction = {}: must be in [0, 1)", p.vessel_fraction));
   check(p.initial_radius >= 0 && 2 * p.initial_radius < p.height,
-        fmt::format("/start_up/initial_radius = {} um: must fit in /lobule/height = {} um",
-                    p.initial_radius, p.height));
+        fmt::format("/lobule/height = {} um: must exceed the diameter of the cells as they are "
+                    "placed, {} um: twice start_up.initial_radius, or twice their radius without "
+                    "start-up",
+                    p.height, 2 * p.initial_radius));
   check(p.cells >= 0, fmt::format("/lobule/cells = {}: must not be negative", p.cells));
   const double apothem = p.radius * std::cos(radians(30));
   check(p.lesion_radius >= 0 && p.lesion_radius < p.radius,
