@@ -89,7 +89,7 @@ void visit_contacts(const World& world, const Workspace& w,
     f.arm_a =
         contact::point_position(body, dcm::obstacle_stencil(world.params.dcm_contact, body, c)) -
         center[f.a];
-    if (!c.guard) f.area = area_in_touch(world, w, f.a, c.point, c.gap);
+    if (!c.only_pushes()) f.area = area_in_touch(world, w, f.a, c.point, c.gap);
     look(f);
   }
   for (const cbm::SphereContact& c : sphere_contacts(world, w)) {

@@ -21,17 +21,32 @@ contact::SearchOptions search_options(const ContactParams& c, const State& state
   return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
 }
 
-/// Gives contacts with vessels the stiffness that follows from the deepest of them with the same
-/// segment.
-void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
-                        std::span<ObstacleContact> found) {
+/// Gives the contacts of a body with vessels, from `first` on, the stiffness that follows from the
+/// deepest of them with the same segment, and adds those that push where the wall yields no more.
+void set_wall_stiffness(const ContactParams& c, const contact::Material& wall, std::size_t first,
+                        std::vector<ObstacleContact>& out) {
   std::map<int, double> deepest;
-  for (const ObstacleContact& o : found) {
+  for (const ObstacleContact& o : std::span(out).subspan(first)) {
     double& depth = deepest.try_emplace(o.index, 0.0).first->second;
     depth = std::max(depth, -o.gap);
   }
-  for (ObstacleContact& o : found)
-    o.stiffness = wall_stiffness(c.repulsion, wall, o.radius, deepest[o.index]);
+  for (std::size_t k = first, n = out.size(); k < n; ++k) {
+    ObstacleContact& o = out[k];
+    const double limit = yield_limit(wall, o.radius);
+    const double k_bed = wall_stiffness(c.repulsion, wall, o.radius, deepest[o.index]);
+    if (o.guard) {
+      o.stiffness = c.repulsion;
+      o.onset = kGuardGap + (1 - k_bed / c.repulsion) * limit;
+      continue;
+    }
+    o.stiffness = k_bed;
+    // There before it pushes, as it may come to within a step.
+    if (limit == 0 || -o.gap < limit / 2) continue;
+    ObstacleContact stop = o;
+    stop.stiffness = c.repulsion - o.stiffness;
+    stop.onset = limit;
+    out.push_back(stop);
+  }
 }
 
 /// Contacts of one body with the vessels, one per point: the nearest segment of the network.
@@ -42,7 +57,7 @@ void find_vessel_contacts(const contact::SurfaceBody& b, int number, const Conta
   const std::size_t first = out.size();
   const int per_site = contact::points_per_site(c.quadrature);
   auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
-    ObstacleContact best{number, p, SurroundingKind::kVessel, -1, range, {}, guard, 0, 0};
+    ObstacleContact best{number, p, SurroundingKind::kVessel, -1, range, {}, guard};
     for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
       const contact::Gap g = contact::gap_to_segment(network, list.segment[e], x);
       if (g.gap >= best.gap) continue;
@@ -87,7 +102,7 @@ void find_vessel_contacts(const contact::SurfaceBody& b, int number, const Conta
   }
   for (const ObstacleContact& o : guard)
     if (o.guard) out.push_back(o);
-  set_wall_stiffness(c, vessels.material, std::span(out).subspan(first));
+  set_wall_stiffness(c, vessels.material, first, out);
 }
 
 /// Contacts of one body with planes, capsules and vessels.
@@ -104,7 +119,7 @@ void find_obstacle_contacts(const contact::SurfaceBody& b, int number, const Con
           gap_of(contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
       if (g.gap < range)
         out.push_back(
-            {number, p, kind, static_cast<int>(index), g.gap, g.normal, false, 0, c.repulsion});
+            {number, p, kind, static_cast<int>(index), g.gap, g.normal, false, 0, c.repulsion, 0});
     }
   };
   for (std::size_t i = 0; i < around.planes.size(); ++i)
@@ -156,7 +171,7 @@ void find_shares(const ContactParams& c, std::size_t n_row, ContactWorkspace& wo
         share[static_cast<std::size_t>(s.point)] += contact::contact_share(s.gap, c.friction_range);
     for (const ObstacleContact& o :
          std::ranges::equal_range(work.obstacle, number, {}, &ObstacleContact::body))
-      if (!o.guard)
+      if (!o.only_pushes())
         share[static_cast<std::size_t>(o.point)] += contact::contact_share(o.gap, c.friction_range);
   }
 }

@@ -57,12 +57,16 @@ struct ObstacleContact {
   bool guard = false;
   double radius = 0;     ///< um, vessels: at the closest point
   double stiffness = 0;  ///< nN/um^3 under compression, vessels: with the yielding wall
+  /// um, how deep inside it begins to push. Above zero for guards, and for points at which a vessel
+  /// yields no more: those have a second contact with what is missing to the full stiffness.
+  double onset = 0;
+  bool only_pushes() const { return guard || onset > 0; }
 };
 
 /// Share of its area that a guarding point pushes with, and how deep inside, um, it begins to: the
 /// quadrature points carry all that ordinary contact needs, and a point that joins in and leaves
-/// again at every step would only make noise.
-/// Where the wall yields they begin deeper by as much as it is softer.
+/// again at every step would only make noise. In a wall that yields they begin where it yields no
+/// more, as far as it is what yields.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
 /// The nodes and weights of an obstacle contact's point.

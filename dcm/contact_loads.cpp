@@ -101,12 +101,11 @@ struct Builder {
   void obstacle_link(const ObstacleContact& o, solve::Link& link, solve::LinkLoad& load) const {
     link.a = side(o.body, obstacle_stencil(c, body(o.body), o));
     link.b = solve::Side::nowhere();
-    if (o.guard) {
-      fill({{0, o.stiffness, 1},
-            guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)]),
-            0,
-            kGuardGap * (c.repulsion / o.stiffness)},
-           o.gap, o.normal, link, load);
+    if (o.only_pushes()) {
+      const double pushing =
+          o.guard ? guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)])
+                  : area(o.body, o.point);
+      fill({{0, o.stiffness, 1}, pushing, 0, o.onset}, o.gap, o.normal, link, load);
       return;
     }
     const contact::Material& m = material_of(around, o.kind, o.index);

@@ -14,4 +14,8 @@ double wall_stiffness(double repulsion, const contact::Material& wall, double ra
   return 1 / (1 / repulsion + 1 / winkler);
 }
 
+double yield_limit(const contact::Material& wall, double radius) {
+  return std::isfinite(wall.young) ? kMostIndentation * radius : 0;
+}
+
 }  // namespace acinus::dcm

@@ -14,8 +14,10 @@ namespace acinus::dcm {
 /// Smallest indentation, in radii, that enters the stiffness: a Hertz contact begins with none.
 inline constexpr double kLeastIndentation = 0.01;
 
-/// Largest that does. Under a uniform pressure p the balance of a bed that softened on would lie at
-/// (3 pi p / 4 E*)^2 r, which runs away.
+/// Largest that does, and the deepest a wall yields: what is linear in small indentations says
+/// nothing beyond. A bed that went on softening would give way without end under a uniform pressure
+/// p, whose balance lies at (3 pi p / 4 E*)^2 r; one that went on yielding lets a cell close over
+/// a thin vessel.
 inline constexpr double kMostIndentation = 0.15;
 
 /// The series stiffness k, nN/um^3. The pressure rises with the indentation by k / 2 to k, so the
@@ -25,5 +27,8 @@ inline constexpr double kMostIndentation = 0.15;
 /// @param indentation  um, deepest point of the cell in the vessel
 double wall_stiffness(double repulsion, const contact::Material& wall, double radius,
                       double indentation);
+
+/// Depth, um, to which a wall yields; beyond it the surfaces push with k_rep. 0 if it is rigid.
+double yield_limit(const contact::Material& wall, double radius);
 
 }  // namespace acinus::dcm

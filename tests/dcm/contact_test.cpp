@@ -311,7 +311,7 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     for (const auto& s : c.work.surface)
       if (s.body_a != s.body_b) count(s.body_a, s.point, s.gap);
     for (const auto& o : c.work.obstacle)
-      if (!o.guard) count(o.body, o.point, o.gap);
+      if (!o.only_pushes()) count(o.body, o.point, o.gap);
     double worst = 0;
     for (std::size_t k = 0; k < touching.size(); ++k) {
       const std::size_t lane = c.work.lane_of_body[k];

@@ -79,8 +79,9 @@ TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
   for (std::size_t l = 0; l < c.links.size(); ++l) {
     const ObstacleContact& o = c.work.obstacle[l];
     const double k = wall_stiffness(5, wall(0.6), 4.7, deepest[static_cast<std::size_t>(o.index)]);
+    if (o.only_pushes()) continue;
     EXPECT_EQ(o.stiffness, k);
-    if (o.guard || o.gap >= 0) continue;
+    if (o.gap >= 0) continue;
     const double area = point_area(mesh::shared_icosphere(162), c.options.quadrature, o.point, 12);
     EXPECT_NEAR(c.links.load[l].force, -area * k * o.gap, 1e-13 * area * k);
     EXPECT_NEAR(c.links.link[l].stiffness, area * k, 1e-6 * area * k);  // kept in floats
@@ -90,8 +91,8 @@ TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
 }
 
 // At the stiffness of the start of the step, with adhesion: -F . dx = E(x + dx) - E(x - dx).
-TEST(VesselWall, ForceIsMinusEnergyGradientAtFrozenStiffness) {
-  Clump c = cell_on_vessel(0.6, 0.3, 0.01);
+void expect_energy_gradient(double deepest) {
+  Clump c = cell_on_vessel(0.6, deepest, 0.01);
   const std::vector<ObstacleContact> start = c.work.obstacle;
   const solve::Links links = c.links;
   const mesh::Topology& t = mesh::shared_icosphere(162);
@@ -100,9 +101,11 @@ TEST(VesselWall, ForceIsMinusEnergyGradientAtFrozenStiffness) {
     const Vec3 x =
         contact::point_position(c.work.body[0], obstacle_stencil(c.options, c.work.body[0], o));
     const double gap = contact::gap_to_segment(c.around.vessels.network, o.index, x).gap;
-    if (o.guard) {
-      const double depth = std::max(0.0, -gap - kGuardGap * 5 / o.stiffness);
-      return guard_area(t, o.point, 12) * 0.5 * o.stiffness * depth * depth;
+    if (o.only_pushes()) {
+      const double depth = std::max(0.0, -gap - o.onset);
+      const double area =
+          o.guard ? guard_area(t, o.point, 12) : point_area(t, c.options.quadrature, o.point, 12);
+      return area * 0.5 * o.stiffness * depth * depth;
     }
     return point_area(t, c.options.quadrature, o.point, 12) *
            contact::well_energy({0.01, o.stiffness, 0.3 * t.mean_rest_length * 12}, gap);
@@ -131,6 +134,34 @@ TEST(VesselWall, ForceIsMinusEnergyGradientAtFrozenStiffness) {
   EXPECT_GT(scale, 0.1);
   // h^2 times the third derivative, some 1/um^2, and kEps E / h; weights are floats.
   EXPECT_LT(worst, 1e-6 * scale);
+}
+
+TEST(VesselWall, ForceIsMinusEnergyGradientAtFrozenStiffness) {
+  expect_energy_gradient(0.3);
+  expect_energy_gradient(1.2);  // deeper than the wall yields
+}
+
+TEST(VesselWall, YieldsBy15PercentOfItsRadiusAndNoMore) {
+  const double limit = 0.15 * 4.7;
+  EXPECT_EQ(yield_limit(wall(0.6), 4.7), limit);
+  EXPECT_EQ(yield_limit(wall(kInfinite), 4.7), 0);
+  const Clump c = cell_on_vessel(0.6, 1.2);
+  int stops = 0;
+  for (std::size_t l = 0; l < c.links.size(); ++l) {
+    const ObstacleContact& o = c.work.obstacle[l];
+    if (o.guard || o.onset == 0) continue;
+    ++stops;
+    const double area = point_area(mesh::shared_icosphere(162), c.options.quadrature, o.point, 12);
+    const double beyond = std::max(0.0, -o.gap - limit);
+    EXPECT_NEAR(o.stiffness + wall_stiffness(5, wall(0.6), 4.7, 1.2), 5, 1e-12);
+    EXPECT_NEAR(c.links.load[l].force, area * o.stiffness * beyond, 1e-12 * area * 5);
+    EXPECT_EQ(c.links.link[l].friction, 0);
+  }
+  EXPECT_GT(stops, 0);
+  // Half a micrometre more beyond the limit takes what k_rep gives, up to it what the bed gives.
+  const double soft = lift(cell_on_vessel(0.6, 0.6)) - lift(cell_on_vessel(0.6, 0.5)),
+               hard = lift(cell_on_vessel(0.6, 1.3)) - lift(cell_on_vessel(0.6, 1.2));
+  EXPECT_GT(hard, 5 * soft);
 }
 
 TEST(VesselWall, ARigidOneIsTheLawWithoutAWall) {
