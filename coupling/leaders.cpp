@@ -17,8 +17,8 @@ constexpr double kSlack = 1.0 / 6;
 /// Cells side by side are two radii apart and do not bar each other, a cell behind the gap between
 /// two is barred by both from 1.15 radii (three in a triangle) on.
 constexpr double kBar = 1.3;
-/// A cell borders on the lesion if a way this many radii long is clear, in a direction at most
-/// kAside from that to the vein; smaller holes in the tissue are not the lesion.
+/// A cell borders on the lesion if a way this many radii long, or to the vein, is clear, in a
+/// direction at most kAside from that to the vein; smaller holes in the tissue are not the lesion.
 constexpr double kReach = 4, kAside = kPi / 4;
 constexpr int kWays = 7;  ///< directions tried, 15 degrees apart
 
@@ -63,15 +63,16 @@ bool borders_lesion(const Motility& m, const PolarCell& c, std::span<const Polar
                     std::span<const contact::Plane> walls) {
   const Vec3 from = place_of(c);
   const double bar = kBar - (c.led ? kSlack : 0);
+  const double reach = std::min(kReach * c.radius, c.distance - m.axis_radius);  // to the vein
   auto is_clear = [&](const Vec3& direction) {
-    const Vec3 end = m.axis_point + from + kReach * c.radius * direction;
+    const Vec3 end = m.axis_point + from + reach * direction;
     if (std::ranges::any_of(
             walls, [&](const contact::Plane& w) { return (end - w.point).dot(w.normal) < 0; }))
       return false;
     return std::ranges::none_of(cells, [&](const PolarCell& other) {
       if (&other == &c || !other.exists) return false;
       const Vec3 d = place_of(other) - from;
-      const double along = std::clamp(d.dot(direction), 0.0, kReach * c.radius);
+      const double along = std::min(d.dot(direction), reach);
       return d.dot(direction) > 0 && (d - along * direction).norm() < bar * other.radius;
     });
   };

@@ -23,6 +23,14 @@ Motility by(Leaders rule) {
   return m;
 }
 
+/// Sides of a pie of 60 degrees with its tip at the vein axis.
+std::vector<contact::Plane> pie_walls() {
+  contact::Plane low, high;
+  low.normal = Vec3(0.5, std::sqrt(0.75), 0);
+  high.normal = Vec3(0.5, -std::sqrt(0.75), 0);
+  return {low, high};
+}
+
 /// Two rows of cells around the vein, side by side, the second behind the gaps of the first.
 std::vector<PolarCell> two_rows() {
   std::vector<PolarCell> cells;
@@ -73,6 +81,8 @@ TEST(Leaders, OfTheBorderDoNotTakeAWallForTheLesion) {
   const std::vector<contact::Plane> walls{left, right};
   EXPECT_EQ(find_leaders(by(Leaders::kBorder), cells), (Choice{1, 1}));
   EXPECT_EQ(find_leaders(by(Leaders::kBorder), cells, walls), (Choice{0, 1}));
+  // Where walls meet behind the vein the way ends at the vein.
+  EXPECT_EQ(find_leaders(by(Leaders::kBorder), std::vector{cell(40, 0)}, pie_walls()), (Choice{1}));
 }
 
 TEST(Leaders, ForemostCellsKeepADiameterApart) {
