@@ -7,7 +7,6 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <csignal>
 #include <ctime>
 #include <filesystem>
 #include <limits>
@@ -34,6 +33,7 @@
 #include "runs/soundness.hpp"
 #include "runs/start_state.hpp"
 #include "runs/state_file.hpp"
+#include "runs/stop_signals.hpp"
 #include "runs/summary.hpp"
 
 namespace acinus::runs {
@@ -41,20 +41,6 @@ namespace {
 
 /// s, longest step after a wall or the capsule opened: what was before says nothing about it.
 constexpr double kFirstFreeStep = 0.1;
-
-volatile std::sig_atomic_t g_signal = 0;  // the only thing a signal handler may touch
-void remember_signal(int signal) { g_signal = signal; }
-
-/// Signals ask for a checkpoint and a stop while one of these lives.
-struct SignalsRemembered {
-  SignalsRemembered() { set(remember_signal); }
-  ~SignalsRemembered() { set(SIG_DFL); }
-  SignalsRemembered(const SignalsRemembered&) = delete;
-  SignalsRemembered& operator=(const SignalsRemembered&) = delete;
-  static void set(void (*handler)(int)) {
-    for (int s : {SIGTERM, SIGUSR1, SIGINT}) std::signal(s, handler);
-  }
-};
 
 /// The logger of a run goes with it: a process may run several scenes.
 struct LoggerKept {
@@ -323,7 +309,7 @@ void Run::close(const std::string& status, const std::string& cause) {
 }
 
 std::string Run::reason_to_stop() const {
-  if (g_signal != 0) return fmt::format("signal {}", static_cast<int>(g_signal));
+  if (const int signal = stop_signal(); signal != 0) return fmt::format("signal {}", signal);
   if (options_.max_walltime_s && wall_seconds() - started_ > *options_.max_walltime_s)
     return "the wall-time limit";
   if (std::filesystem::exists(options_.out + "/STOP")) return "the file STOP";
@@ -425,7 +411,7 @@ int Run::go() {
                                        // not lose them
   spdlog::set_default_logger(log);
   spdlog::info("acinus {} {}: {}", ACINUS_VERSION, ACINUS_GIT, options_.command_line);
-  const SignalsRemembered remembering;
+  const StopSignals signals;
 
   vessel_surface_ = coupling::make_vessel_surface(world().params.around.vessels.network);
   start_or_resume();

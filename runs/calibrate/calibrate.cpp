@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "acinus_version.hpp"
@@ -23,6 +24,7 @@
 #include "runs/read_summary.hpp"
 #include "runs/stage.hpp"
 #include "runs/state_file.hpp"
+#include "runs/stop_signals.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -203,14 +205,19 @@ std::string cache_folder() {
 }
 
 /// Two processes must not calibrate the same law: they would write in the same run folders.
-io::FileLock lock_law(const std::string& file, bool quiet) {
+/// Nothing if it was asked to stop meanwhile.
+std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   std::error_code code;
   fs::create_directories(fs::path(file).parent_path(), code);
   const std::string lock = file + ".lock";
-  if (auto held = io::FileLock::try_take(lock)) return std::move(*held);
+  if (auto held = io::FileLock::try_take(lock)) return held;
   if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
   std::fflush(stdout);
-  return io::FileLock::take(lock);
+  constexpr double kLook = 0.2;  // s between looks at signals
+  const StopSignals signals;
+  while (stop_signal() == 0)
+    if (auto held = io::FileLock::try_take(lock, kLook)) return held;
+  return {};
 }
 
 /// Name of a law in the cache: the constants it depends on, to the last digit.
@@ -288,7 +295,8 @@ int resolve_corrections(Scene& scene, int threads, bool quiet) {
     const std::string file = cache_folder() + "/" + key_of(law_parameters(scene, type)) + ".json";
     std::error_code code;
     if (!fs::exists(file, code)) {
-      const io::FileLock calibrating = lock_law(file, quiet);
+      const std::optional<io::FileLock> calibrating = lock_law(file, quiet);
+      if (!calibrating) return static_cast<int>(Exit::kStopped);
       if (fs::exists(file, code)) {  // another process was faster
         type.cbm.stiffness_correction = file;
         continue;

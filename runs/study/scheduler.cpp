@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/io/file_lock.hpp"
 #include "runs/run_folder.hpp"
+#include "runs/stop_signals.hpp"
 #include "runs/study/active_run.hpp"
 #include "runs/study/run_status.hpp"
 #include "runs/study/study_laws.hpp"
@@ -19,9 +20,6 @@
 
 namespace acinus::runs {
 namespace {
-
-volatile std::sig_atomic_t g_stop = 0;  // the only thing a signal handler may touch
-void remember_stop(int) { g_stop = g_stop + 1; }
 
 constexpr double kLook = 1;  ///< s between looks at what others do
 
@@ -37,11 +35,10 @@ class Scheduler {
   }
 
   ScheduleResult go() {
+    const StopSignals signals;
     result_.stopped = calibrate();
-    // From here on: the runs of a calibration handle signals themselves.
-    for (int s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, remember_stop);
     while (!result_.stopped) {
-      if (g_stop != 0) {
+      if (count_stop_signals() != 0) {
         stop();
         break;
       }
@@ -50,7 +47,6 @@ class Scheduler {
       progress_.show(counts(), active_);
       wait();
     }
-    for (int s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, SIG_DFL);
     result_.left = n_own_ - result_.done - result_.failed;
     progress_.finish();
     return result_;
@@ -181,7 +177,7 @@ class Scheduler {
     }
     if (status.state == RunState::kFailed) cause = status.cause;
     if (cause.empty()) cause = fmt::format("exit code {}", end.code);
-    if (g_stop == 0) {
+    if (count_stop_signals() == 0) {
       write_record(options_.root, plan_, run, cause);
       fail(c, cause);
     }
@@ -192,9 +188,9 @@ class Scheduler {
     result_.stopped = true;
     progress_.tell("stopping: every run writes a checkpoint");
     for (const ActiveRun& a : active_) a.child.send(SIGTERM);
-    const int first = g_stop;
+    const int first = count_stop_signals();
     while (!active_.empty()) {
-      if (g_stop != first)
+      if (count_stop_signals() != first)
         for (const ActiveRun& a : active_) a.child.send(SIGKILL);
       wait();
     }

@@ -167,6 +167,24 @@ TEST_F(StudyRun, KilledAndStartedAgainItWritesTheSameTable) {
   }
 }
 
+TEST_F(StudyRun, StoppedWhileAnotherProcessCalibratesItStillReports) {
+  setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+  write("auto.json", R"({ "name": "auto", "scene": "two_cells",
+    "set": { "cells.model": "cbm", "cell_types.hepatocyte.cbm.stiffness_correction": "auto" },
+    "seeds": [1], "variants": { "only": {} }, "observables": ["cells"] })");
+  Process first(path("."), words("auto.json", "a"));
+  ASSERT_TRUE(first.await("squeezing"));
+  Process study(path("."), words("auto.json", "s"));
+  ASSERT_TRUE(study.await("waiting for another process"));
+  study.send(SIGTERM);
+  const Outcome stopped = study.wait();
+  EXPECT_EQ(stopped.code, 75) << stopped.text;
+  EXPECT_NE(text("s/report.md").find("| only/seed_1 | to do |"), std::string::npos);
+  first.send(SIGTERM);
+  EXPECT_EQ(first.wait().code, 75);
+  unsetenv("XDG_CACHE_HOME");
+}
+
 TEST_F(StudyRun, TasksShareOneFolder) {
   expect_done(call(words("pairs.json", "whole")));
   {
