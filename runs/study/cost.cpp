@@ -7,13 +7,17 @@ namespace {
 
 /// CPU seconds of a cell-step [docs/benchmarks.md], packed tissue.
 constexpr double kSphere = 4e-6;
+/// Contacts that close within a step with size control ask for some solves.
+constexpr double kSolves = 3;
 double cell_step(const Scene& scene, int nodes) {
   const double at_162 = scene.contact.quadrature == "3-point" ? 4e-4 : 2.5e-4;
-  return at_162 * nodes / 162;
+  return at_162 * nodes / 162 * (scene.time.adaptive ? kSolves : 1);
 }
 
 double count_cells(const Scene& scene) {
   const CellsBlock& c = scene.cells;
+  if (scene.life.proliferation && scene.life.proliferation->cells > 0)
+    return scene.life.proliferation->cells;
   if (c.source == "list") return static_cast<double>(c.list.size());
   if (c.source == "box") return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
   if (c.source == "lobule" && scene.lobule) return scene.lobule->cells;

@@ -12,16 +12,22 @@ ExpectedCosts::ExpectedCosts(const StudyPlan& plan, const std::string& root) {
   }
 }
 
+void ExpectedCosts::Sum::add(double v) {
+  value += v;
+  ++n;
+}
+
 void ExpectedCosts::add(const StudyRun& run, double cpu_s) {
-  Sum& sum = measured_[run.variant];
-  sum.cpu_s += cpu_s;
-  ++sum.n;
+  measured_[run.variant].add(cpu_s);
+  ratio_[run.scene.cells.model].add(cpu_s / estimate_cost(run.scene, run.source >= 0));
 }
 
 double ExpectedCosts::cpu_s(const StudyRun& run) const {
   const auto found = measured_.find(run.variant);
-  if (found != measured_.end()) return found->second.cpu_s / found->second.n;
-  return estimate_cost(run.scene, run.source >= 0);
+  if (found != measured_.end()) return found->second.mean();
+  const auto ratio = ratio_.find(run.scene.cells.model);
+  return estimate_cost(run.scene, run.source >= 0) *
+         (ratio == ratio_.end() ? 1 : ratio->second.mean());
 }
 
 }  // namespace acinus::runs

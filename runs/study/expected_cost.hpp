@@ -1,6 +1,6 @@
 #pragma once
-/// What the runs of a study are expected to cost: from what others of the same variant did, else
-/// roughly.
+/// What the runs of a study are expected to cost: what others of the same variant did; else the
+/// rough estimate times what the others with cells of the same model took of theirs.
 
 #include <map>
 #include <string>
@@ -20,10 +20,13 @@ class ExpectedCosts {
 
  private:
   struct Sum {
-    double cpu_s = 0;
+    double value = 0;
     int n = 0;
+    void add(double v);
+    double mean() const { return value / n; }
   };
   std::map<std::size_t, Sum> measured_;  ///< by variant
+  std::map<std::string, Sum> ratio_;     ///< measured over estimated, by model
 };
 
 }  // namespace acinus::runs
