@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/contact/jkr_lanes.hpp"
@@ -56,14 +57,30 @@ void weaken(const double (&share)[kLanes], Batch& p) {
 struct TypeTable {
   std::vector<double> softness;  ///< 1 - nu^2
   std::vector<double> root;      ///< sqrt(W)
+  std::vector<const StiffnessLaw*> law;
 };
 TypeTable make_table(std::span<const Params> params, double adhesion_factor) {
   TypeTable t;
   for (const Params& p : params) {
     t.softness.push_back(1 - p.poisson * p.poisson);
     t.root.push_back(std::sqrt(adhesion_factor * p.adhesion));
+    t.law.push_back(&p.correction);
   }
   return t;
+}
+
+/// What one side of a pair does, by its own overlap or its crowd.
+struct Face {
+  Modulus modulus;
+  bool own = false;  ///< by its own overlap
+};
+Face face_toward(const State& s, const TypeTable& table, const ContactWorkspace& work,
+                 std::size_t cell, double overlap) {
+  const Modulus& crowd = work.modulus[cell];
+  if (work.coupling.empty()) return {crowd};  // no type has a law
+  const StiffnessLaw& law = *table.law[static_cast<std::size_t>(s.type[cell])];
+  const Modulus m = modulus_toward(law, s.young[cell], crowd, overlap);
+  return {m, m.value > crowd.value};
 }
 
 /// One thread's cells [first, last): all pairs that have a side among them.
@@ -129,11 +146,24 @@ class RangeSearch {
     batch_.radius_b[n_] = cells_.radius[j];
     if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
     const auto ta = static_cast<std::size_t>(s_.type[i]), tb = static_cast<std::size_t>(s_.type[j]);
-    batch_.compliance[n_] =
-        table_.softness[ta] / work_.modulus[i].value + table_.softness[tb] / work_.modulus[j].value;
+    const double overlap = work_.coupling.empty() ? 0 : overlap_now();
+    face_[n_] = {face_toward(s_, table_, work_, i, overlap),
+                 face_toward(s_, table_, work_, j, overlap)};
+    batch_.compliance[n_] = table_.softness[ta] / face_[n_][0].modulus.value +
+                            table_.softness[tb] / face_[n_][1].modulus.value;
     batch_.adhesion[n_] = table_.root[ta] * table_.root[tb];
     batch_.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     if (++n_ == kLanes) flush();
+  }
+
+  /// Of the pair being pushed, over the sum of its radii.
+  double overlap_now() const {
+    double squared = 0;
+    for (std::size_t m = 0; m < 3; ++m) {
+      const double d = batch_.xa[m][n_] - batch_.xb[m][n_];
+      squared += d * d;
+    }
+    return 1 - std::sqrt(squared) / (batch_.radius_a[n_] + batch_.radius_b[n_]);
   }
 
   /// Pairs come in the order of the touching set, so that a finger moves along both.
@@ -160,6 +190,8 @@ class RangeSearch {
     }
     evaluate(batch_);
     if (!cells_.strength.empty()) weaken(share_, batch_);
+    if (!work_.coupling.empty())
+      for (std::size_t l = 0; l < n_; ++l) stiffen(l);
     for (std::size_t l = 0; l < n_; ++l) spread(index_[l], l);
     n_ = 0;
   }
@@ -178,20 +210,30 @@ class RangeSearch {
       for (std::size_t m = 0; m < 3; ++m)
         work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
       work_.contact_area[i] += batch_.area[l];
-      if (!work_.coupling.empty()) couple(i, l);
+      const Face& face = face_[l][sign > 0 ? 0 : 1];
+      if (!work_.coupling.empty() && !face.own)
+        work_.coupling[i] = std::max(work_.coupling[i], by_modulus(i, face.modulus, l));
     };
     add(a, 1);
     add(b, -1);
   }
 
-  /// dF/dE^ is (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
-  void couple(std::size_t cell, std::size_t l) {
-    const Modulus& m = work_.modulus[cell];
+  /// How much stiffer a contact is because the modulus of a side grows with its overlap. dF/dE^ is
+  /// (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
+  double by_modulus(std::size_t cell, const Modulus& m, std::size_t l) const {
     const double softness = table_.softness[static_cast<std::size_t>(s_.type[cell])];
     const double by_own = 2.0 / 3 * std::max(batch_.overlap[l], 0.0) * batch_.stiffness[l] *
                           softness / (batch_.compliance[l] * m.value * m.value);
-    work_.coupling[cell] = std::max(work_.coupling[cell],
-                                    by_own * m.slope / (batch_.radius_a[l] + batch_.radius_b[l]));
+    return by_own * m.slope / (batch_.radius_a[l] + batch_.radius_b[l]);
+  }
+
+  /// Adds that to a contact whose own overlap decides.
+  void stiffen(std::size_t l) {
+    const auto [a, b] = work_.pair[index_[l]];
+    double more = 0;
+    if (face_[l][0].own) more += by_modulus(static_cast<std::size_t>(a), face_[l][0].modulus, l);
+    if (face_[l][1].own) more += by_modulus(static_cast<std::size_t>(b), face_[l][1].modulus, l);
+    batch_.stiffness[l] += more;
   }
 
   void write_link(std::size_t k, std::size_t l) {
@@ -214,7 +256,8 @@ class RangeSearch {
   std::vector<solve::PointLink>& link_;
   std::vector<std::pair<int, int>>& touching_;
   Batch batch_{};
-  double share_[kLanes] = {};  ///< used only when not all strengths are 1
+  std::array<std::array<Face, 2>, kLanes> face_{};  ///< of both sides
+  double share_[kLanes] = {};                       ///< used only when not all strengths are 1
   std::size_t index_[kLanes] = {};
   std::size_t n_ = 0, finger_ = kUnset;
 };
@@ -257,9 +300,12 @@ std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const 
     const auto ta = static_cast<std::size_t>(s.type[i]), tb = static_cast<std::size_t>(s.type[j]);
     const Vec3 d = center_of(s, i) - center_of(s, j);
     const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
-    const contact::SpherePair pair{radius[i] * radius[j] / (radius[i] + radius[j]),
-                                   1 / (table.softness[ta] / work.modulus[i].value +
-                                        table.softness[tb] / work.modulus[j].value),
+    const double sum = radius[i] + radius[j];
+    auto softness = [&](std::size_t cell, std::size_t type) {
+      return table.softness[type] / face_toward(s, table, work, cell, overlap / sum).modulus.value;
+    };
+    const contact::SpherePair pair{radius[i] * radius[j] / sum,
+                                   1 / (softness(i, ta) + softness(j, tb)),
                                    table.root[ta] * table.root[tb]};
     list.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap,
                     weaken(contact::jkr_force(pair, overlap, true), cells.pair_share(i, j))});

@@ -75,6 +75,24 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
   return m;
 }
 
+/// Relative overlap, over the range of the law, that a single neighbour may have before its own
+/// overlap counts: in the clump a law was found in none had more when all had that on average.
+inline constexpr double kOwnOverlap = 1;
+
+/// E~ of a cell toward one neighbour. d is a mean over twelve and says little where one neighbour
+/// is pressed in much deeper than all others, as daughters in dense tissue are: there the cell is
+/// as stiff as if all overlapped as much, less the range of the law.
+/// @param crowd    E~(d) and its slope
+/// @param overlap  of this pair, over the sum of the radii
+/// @return with the slope by `overlap` if that counts, else `crowd`
+inline Modulus modulus_toward(const StiffnessLaw& law, double young, const Modulus& crowd,
+                              double overlap) {
+  const double beyond = overlap - kOwnOverlap * law.range;
+  if (!law.corrects() || beyond <= 0) return crowd;
+  const Modulus own = corrected_modulus(law, young, beyond);
+  return own.value > crowd.value ? own : crowd;
+}
+
 /// How a crowded sphere meets a rigid wall: with a face, so nearer and stiffer than a round cap.
 struct WallFace {
   double recess = 0;   ///< over its radius: how much later than at its radius

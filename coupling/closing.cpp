@@ -65,14 +65,26 @@ bool activate_closing(Workspace& w) {
     if (change[l] == 0) continue;
     solve::LinkLoad& load = links.load[l];
     load.active = change[l] == 1;
-    if (load.active)
+    if (load.active) {
+      load.open_force = load.force;
+      load.open_stiffness = static_cast<double>(links.link[l].stiffness);
       replace_law(load.closed_stiffness, -load.closed_stiffness * load.clearance, links.link[l],
                   load, w.system);
-    else
-      replace_law(0, 0, links.link[l], load, w.system);
+    } else {
+      replace_law(load.open_stiffness, load.open_force, links.link[l], load, w.system);
+    }
   }
   w.op.prepare(w.system);
   return true;
+}
+
+bool pulls_open(const Workspace& w) {
+  const solve::Links& links = w.system.links;
+  for (std::size_t l = 0; l < links.size(); ++l)
+    if (links.load[l].active &&
+        gap_after(w, links.link[l]) + links.load[l].clearance - links.link[l].gap > kOpen)
+      return true;
+  return false;
 }
 
 }  // namespace acinus::coupling

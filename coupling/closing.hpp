@@ -16,9 +16,14 @@ inline constexpr double kControlledDepth = 0.2;
 
 /// Where a contact that was open ends deeper than kControlledDepth: gives all open contacts that
 /// end closed the repulsive branch of their law, p = -k gap, exact at the end of the step, and
-/// takes it from those that end open after all; the system then is one Newton iteration on (a
-/// change of the active set). Adds the changed forces to the system and prepares the operator anew.
+/// gives those that end open after all their own law back; the system then is one Newton iteration
+/// on (a change of the active set). Adds the changed forces to the system and prepares the operator
+/// anew.
 /// @return whether anything changed: the step has to be solved again
 bool activate_closing(Workspace& work);
+
+/// Whether a contact that was given its repulsive branch ends open and pulls. @pre the step was
+/// solved
+bool pulls_open(const Workspace& work);
 
 }  // namespace acinus::coupling

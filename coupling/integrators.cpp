@@ -118,11 +118,15 @@ Attempt try_linearly_implicit(World& world, double step, bool extrapolate, Works
   a.status = solve_step(world, step, w, a.cg_iterations);
   a.solves = 1;
   // Without step-size control steps are as they come, for tables of their order.
-  for (int change = 0; world.params.numerics.adaptive && change < kMaxActiveSets; ++change) {
-    if (!a.status.ok || !activate_closing(w)) break;
+  if (!world.params.numerics.adaptive) return a;
+  int change = 0;
+  while (a.status.ok && change < kMaxActiveSets && activate_closing(w)) {
     a.status = solve_again(world, w, a.cg_iterations);
     ++a.solves;
+    ++change;
   }
+  if (a.status.ok && change == kMaxActiveSets && pulls_open(w))
+    a.status = Status::failed("which contacts close within the step does not settle");
   return a;
 }
 

@@ -141,9 +141,10 @@ void add_interface_loads(const InterfaceView& v, std::size_t cbm_first_row, solv
     link.a = dcm::side_at(v.dcm_state, v.dcm_work.lane_of_body[body], s);
     link.b = solve::Side::at(cbm::cell_point(cbm_first_row, static_cast<std::size_t>(k.sphere)));
     solve::set_law(p.area * (contact::well_stiffness(p.well, k.gap) + p.hardening),
-                   v.params.friction_factor * v.params.friction * p.area * p.touching,
-                   std::numeric_limits<double>::infinity(), k.normal, link);
-    links.load[at++] = {k.normal, -p.area * contact::well_traction(p.well, k.gap)};
+                   v.params.friction_factor * v.params.friction * p.area * p.touching, k.gap,
+                   k.normal, link);
+    links.load[at++] = {k.normal, -p.area * contact::well_traction(p.well, k.gap),
+                        p.area * p.well.repulsion, k.gap};
   }
 }
 

@@ -62,6 +62,7 @@ struct LinkLoad {
   double closed_stiffness = 0;
   double clearance = 0;  ///< um, how far the contact is from that branch; not positive: is on it
   bool active = false;   ///< switched to that branch although it was open; see coupling/closing
+  double open_force = 0, open_stiffness = 0;  ///< what it had before it was switched
 };
 
 /// Contacts with up to three points a side, sorted by the cell of side a.
