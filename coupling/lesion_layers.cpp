@@ -5,7 +5,8 @@
 
 namespace acinus::coupling {
 
-int layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point) {
+int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells,
+                   const Vec3& axis_point) {
   const Vec3 own = cell.center - axis_point;
   const double distance = std::hypot(own.x(), own.y()), diameter = 2 * cell.radius;
   const double angle = std::atan2(own.y(), own.x());
@@ -22,7 +23,7 @@ int layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3
 
 std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point) {
   std::vector<int> layer;
-  for (const LayerCell& c : cells) layer.push_back(layer_of(c, cells, axis_point));
+  for (const LayerCell& c : cells) layer.push_back(local_layer_of(c, cells, axis_point));
   return layer;
 }
 

@@ -18,7 +18,7 @@ struct LayerCell {
 /// itself included, less than one diameter away in arc (at the cell's own distance) and in height.
 /// Cells in front of each other at centre distances of half a diameter and less share a layer.
 /// @param axis_point  the axis is vertical through it
-int layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point);
+int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells, const Vec3& axis_point);
 
 /// That of every cell. Cost: all pairs.
 std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point);

@@ -32,7 +32,8 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall, s
   }
   for (std::size_t k = first, n = out.size(); k < n; ++k) {
     ObstacleContact& o = out[k];
-    const double limit = yield_limit(wall, o.radius);
+    // No deeper than contacts are looked for, with room for what pushes behind it.
+    const double limit = std::min(yield_limit(wall, o.radius), c.max_depth / 2);
     const double k_bed = wall_stiffness(c.repulsion, wall, o.radius, deepest[o.index]);
     if (o.guard) {
       o.stiffness = c.repulsion;

@@ -220,9 +220,24 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   return {};
 }
 
-/// Name of a law in the cache: the constants it depends on, to the last digit.
-std::string key_of(const LawParameters& p) {
-  std::string text = fmt::format("{}\n", calibration::kLawSchema);
+/// The scene by which "auto" calibrates: what a law stands for, and nothing that only says how a
+/// scene is computed, so that it does not matter which scene asks first.
+Scene made_for_law(const Scene& scene) {
+  Scene s;
+  s.file = scene.file;
+  s.cell_types = scene.cell_types;
+  s.contact.quadrature = scene.contact.quadrature;
+  s.contact.repulsion = scene.contact.repulsion;
+  s.contact.range = scene.contact.range;
+  s.contact.max_depth = scene.contact.max_depth;
+  return s;
+}
+
+/// Name of a law in the cache: all it depends on, to the last digit.
+std::string key_of(const Scene& scene, const LawParameters& p) {
+  std::string text =
+      fmt::format("{}\n{} {:a} {:a}\n", calibration::kLawSchema, scene.contact.quadrature,
+                  scene.contact.range.value_or(-1), scene.contact.max_depth);
   for (const auto* model : {&p.dcm, &p.cbm})
     for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
@@ -292,7 +307,8 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
 int resolve_corrections(Scene& scene, int threads, bool quiet) {
   for (auto& [name, type] : scene.cell_types) {
     if (type.cbm.stiffness_correction != "auto") continue;
-    const std::string file = cache_folder() + "/" + key_of(law_parameters(scene, type)) + ".json";
+    const std::string file =
+        cache_folder() + "/" + key_of(scene, law_parameters(scene, type)) + ".json";
     std::error_code code;
     if (!fs::exists(file, code)) {
       const std::optional<io::FileLock> calibrating = lock_law(file, quiet);
@@ -308,7 +324,7 @@ int resolve_corrections(Scene& scene, int threads, bool quiet) {
       options.threads = threads;
       options.quiet = quiet;
       options.command_line = "stiffness_correction auto";
-      if (const int stop = calibrate(scene, options)) return stop;
+      if (const int stop = calibrate(made_for_law(scene), options)) return stop;
     }
     type.cbm.stiffness_correction = file;
   }

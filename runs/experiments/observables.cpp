@@ -138,9 +138,11 @@ List lesion() {
           {"front_roughness_um", "um", "standard deviation of that distance"},
           {"lesion_area_seen", "1", "area up to that distance relative to the first frame"}});
   for (const std::string& layer : layer_names()) {
-    append(list, {{"cells_layer_" + layer, "1", "cells in this layer from the lesion's edge"},
-                  {"births_layer_" + layer, "1",
-                   "divisions so far in this layer, counted when they happened"}});
+    append(list,
+           {{"cells_layer_" + layer, "1", "cells in this layer from the lesion's edge"},
+            {"births_layer_" + layer, "1",
+             "divisions so far in this layer when they happened, counted as life.proliferation "
+             "counts layers if the scene has it"}});
   }
   append(list,
          {{"births", "1", "divisions so far in all layers"},

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "coupling/lesion_layers.hpp"
+#include "coupling/life/proliferation.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/experiments/tissue.hpp"
@@ -85,8 +86,14 @@ void observe_births(const Scene& scene, const coupling::World& world,
     const std::optional<Vec3> a = find_center(world.state, e.cells[1]),
                               b = find_center(world.state, e.cells[2]);
     if (!a || !b) continue;  // a daughter that is gone already
-    const double radius = scene.cell_types.begin()->second.radius;
-    const int layer = coupling::layer_of({0.5 * (*a + *b), radius}, cells, scene.axis_point);
+    const Vec3 middle = 0.5 * (*a + *b);
+    // Where a rule says in which layers cells divide, they are counted as it counts them.
+    const auto& rule = world.params.life.proliferation;
+    const double distance = (middle - scene.axis_point).head<2>().norm();
+    const int layer =
+        rule ? coupling::layer_of(distance, coupling::lesion_edge(world), rule->thickness)
+             : coupling::local_layer_of({middle, scene.cell_types.begin()->second.radius}, cells,
+                                        scene.axis_point);
     observer.births[static_cast<std::size_t>(std::min(layer, kLayers + 1) - 1)] += 1;
   }
 }
