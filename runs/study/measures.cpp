@@ -86,16 +86,27 @@ std::optional<double> of_run(const RunCurve& s, const StudyMeasure& m, double le
                          : *std::ranges::max_element(w->value);
 }
 
+/// The mean over the seeds, or the median if something never happened in some of them: one seed
+/// must not decide for all. @pre no value is NaN
 void summarise(Measured& out) {
-  double sum = 0, low = kNever, high = -kNever;
-  for (const auto& [seed, v] : out.by_seed) {
-    sum += v;
-    low = std::min(low, v);
-    high = std::max(high, v);
+  std::vector<double> sorted;
+  for (const auto& [seed, v] : out.by_seed) sorted.push_back(v);
+  std::ranges::sort(sorted);
+  out.low = sorted.front();
+  out.high = sorted.back();
+  const auto n = sorted.size();
+  const auto n_never = static_cast<std::size_t>(
+      std::ranges::count_if(sorted, [](double v) { return std::isinf(v); }));
+  if (n_never == 0 || n_never == n) {
+    double sum = 0;
+    for (double v : sorted) sum += v;
+    out.value = n_never == n ? sorted[n / 2] : sum / static_cast<double>(n);
+    return;
   }
-  out.value = sum / static_cast<double>(out.by_seed.size());
-  out.low = low;
-  out.high = high;
+  const double below = sorted[(n - 1) / 2], above = sorted[n / 2];
+  out.value =
+      std::isinf(below) || std::isinf(above) ? (n % 2 == 1 ? below : above) : 0.5 * (below + above);
+  out.note = fmt::format("the median: {} of {} seeds never", n_never, n);
 }
 
 /// All windows of a variant; empty if one is missing.
@@ -173,7 +184,11 @@ Measured none(Measured out, const std::string& note) {
   return out;
 }
 
-double combined(const StudyExpectation& e, double a, double b) { return e.minus ? a - b : a / b; }
+/// NaN where there is none: never minus never, a ratio with what never happens.
+double combined(const StudyExpectation& e, double a, double b) {
+  if (e.minus) return a - b;
+  return std::isinf(b) ? std::numeric_limits<double>::quiet_NaN() : a / b;
+}
 
 }  // namespace
 
@@ -212,14 +227,21 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyE
   const Measured second = take_measure(plan, data, e.minus ? *e.minus : *e.over);
   Measured out;
   out.unit = e.over ? "1" : first.unit;
-  out.known_until = std::min(first.known_until, second.known_until);
+  out.known_until = kNever;
   if (!first.value || !second.value) return none(out, first.value ? second.note : first.note);
   const double scale =
       scale_of_unit(second.unit).in_base / scale_of_unit(first.unit).in_base;  // into the first's
   const auto same_seeds = [](const auto& p, const auto& q) { return p.first == q.first; };
   if (!first.by_seed.empty() && std::ranges::equal(first.by_seed, second.by_seed, same_seeds)) {
-    for (const auto& [seed, v] : first.by_seed)
-      out.by_seed[seed] = combined(e, v, scale * second.by_seed.at(seed));
+    for (const auto& [seed, v] : first.by_seed) {
+      const double other = scale * second.by_seed.at(seed), c = combined(e, v, other);
+      if (std::isnan(c)) return none(out, fmt::format("seed {} has no difference or ratio", seed));
+      out.by_seed[seed] = c;
+      // Of what never happened the difference is known as far as the runs went.
+      if (std::isinf(c))
+        out.known_until = std::min(out.known_until, std::isinf(v) ? first.known_until - other
+                                                                  : scale * second.known_until - v);
+    }
     summarise(out);
   } else {
     out.value = combined(e, *first.value, scale * *second.value);

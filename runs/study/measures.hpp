@@ -12,11 +12,12 @@ namespace acinus::runs {
 
 /// A number, or why there is none.
 struct Measured {
-  std::optional<double> value;      ///< mean over seeds; infinite = never
+  std::optional<double> value;      ///< mean over seeds, the median if some never; infinite = never
   std::optional<double> low, high;  ///< over seeds; empty for what has no value per seed
   std::string unit;
-  std::string note;                        ///< why it is not measured
-  double known_until = 0;                  ///< s, of "never": it did not happen before
+  std::string note;  ///< why it is not measured, or what is to be known about it
+  /// s, of "never": it did not happen before; of a difference with it: its size is at least this
+  double known_until = 0;
   std::map<std::int64_t, double> by_seed;  ///< empty for what has no value per seed
 };
 

@@ -68,6 +68,10 @@ Judgement judge(Verdict& v) {
                          show_value(m.known_until, "s"), show_value(*v.expected_low, "s"));
     if (!v.expected_high) return Judgement::kNotMeasured;
   }
+  if (std::isinf(low) && low < 0 && v.expected_high && -*v.expected_high > m.known_until) {
+    m.note = fmt::format("known only to be below {}", show_value(-m.known_until, "s"));
+    return Judgement::kNotMeasured;
+  }
   if (std::isinf(high) && high > 0 && m.note.empty())
     m.note = fmt::format("never before {}", show_value(m.known_until, "s"));
   const bool above = !v.expected_low || low >= *v.expected_low;

@@ -343,6 +343,27 @@ TEST_F(Claims, WhatNeverHappensIsLaterThanTheRun) {
       << "the runs say nothing about what comes after two hours";
 }
 
+TEST_F(Claims, OneSeedInWhichSomethingNeverHappensDoesNotDecideForAll) {
+  // Seed 1 ends at 3 um, seed 2 at 4 um.
+  Verdict v = judged(R"("kind": "first_above", "variant": "slow", "level": "3.5 um")",
+                     R"("low": "30 min", "every_seed": true)");
+  EXPECT_TRUE(std::isinf(v.measured.high.value()));
+  EXPECT_NE(v.measured.note.find("1 of 2 seeds never"), std::string::npos) << v.measured.note;
+  // A ratio with what never happens is no ratio; zero it is not.
+  const std::string never =
+      R"({ "kind": "first_above", "observable": "overlap_cbm_cbm_um", "variant": "slow", "level": "9 um" })";
+  v = judged(R"("kind": "first_above", "variant": "slow", "level": "2 um")",
+             "\"over\": " + never + R"(, "low": 0, "high": 1)");
+  EXPECT_EQ(v.judgement, Judgement::kNotMeasured);
+  // Two hours were looked at and 2 um come after 40 min on average, so it is sooner by 1 h at
+  // least.
+  const std::string sooner = R"("kind": "first_above", "variant": "slow", "level": "2 um")";
+  EXPECT_EQ(judged(sooner, "\"minus\": " + never + R"(, "high": "-30 min")").judgement,
+            Judgement::kHolds);
+  EXPECT_EQ(judged(sooner, "\"minus\": " + never + R"(, "high": "-3 h")").judgement,
+            Judgement::kNotMeasured);
+}
+
 TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
   for (const RunState state : {RunState::kFailed, RunState::kToDo, RunState::kToResume}) {
     StudyData d = data();
