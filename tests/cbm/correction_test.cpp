@@ -71,6 +71,45 @@ TEST(StiffnessLaw, GoesOnAlongItsTangentAndEnds) {
   EXPECT_EQ(corrected_modulus(quartic(), 0.45, 5).slope, 0);
 }
 
+TEST(StiffnessLaw, StiffensTowardOneNeighbourBeyondItsRange) {
+  const StiffnessLaw law = quartic();
+  const Modulus crowd = corrected_modulus(law, 0.45, 0.05);
+  for (double overlap : {0.0, 0.1, 0.2, 0.24})
+    EXPECT_EQ(modulus_toward(law, 0.45, crowd, overlap).value, crowd.value) << overlap;
+  for (double overlap : {0.26, 0.35, 0.5})
+    EXPECT_EQ(modulus_toward(law, 0.45, crowd, overlap).value,
+              corrected_modulus(law, 0.45, overlap - 0.2).value);
+  const Modulus dense = corrected_modulus(law, 0.45, 0.2);
+  EXPECT_EQ(modulus_toward(law, 0.45, dense, 0.39).value, dense.value) << "the crowd decides";
+  EXPECT_EQ(modulus_toward({}, 0.45, {0.45, 0}, 0.6).value, 0.45) << "no law";
+}
+
+/// Two spheres alone with this relative overlap.
+Spheres deep_pair(double overlap) {
+  const double apart = 24 * (1 - overlap);
+  Spheres s({{0, 0, Vec3(0, 0, 0), 12, 0.45, Vec3::Zero()},
+             {1, 0, Vec3(apart, 0, 0), 12, 0.45, Vec3::Zero()}});
+  s.params[0].correction = quartic();
+  s.find();
+  return s;
+}
+
+TEST(Correction, ADeepPairIsHeldApartAndItsStiffnessIsTheSlopeOfItsForce) {
+  // Where E~(d) is that of d = 0.5 / 12 the pair would stand 29 nN, as without a law.
+  EXPECT_GT(deep_pair(0.5).force(1).x(), 1000);
+  const double h = 1e-6;
+  for (double overlap : {0.3, 0.4, 0.49, 0.55}) {
+    const double slope =
+        (deep_pair(overlap + h).force(1).x() - deep_pair(overlap - h).force(1).x()) / (48 * h);
+    const Spheres s = deep_pair(overlap);
+    ASSERT_EQ(s.links().size(), 1u);
+    // Links are kept in floats; what d adds for all contacts together is a bound on top.
+    EXPECT_NEAR(s.links()[0].stiffness / slope, 1, 1e-5) << overlap;
+    EXPECT_NEAR(s.sphere[0].law.force, s.force(1).x(), 1e-12 * s.force(1).x());
+    EXPECT_EQ(s.force(0), Vec3(-s.force(1)));
+  }
+}
+
 /// The 27 places of a body-centred cubic lattice next to one of them, nearest neighbours with this
 /// relative overlap, shaken a little, in a shell that presses on the outermost as much.
 Spheres make_clump(double overlap, std::uint64_t seed) {
