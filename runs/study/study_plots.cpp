@@ -46,18 +46,34 @@ void add_point(io::PlotLine& line, double x, const Spread& s) {
   line.band.emplace_back(s.low, s.high);
 }
 
-/// The curves of a variant's runs.
-std::vector<const Curve*> curves_of(const StudyPlan& plan, const StudyData& data,
-                                    std::size_t variant, const std::string& observable) {
-  std::vector<const Curve*> curves;
+/// What is there of a variant.
+struct CurvesOfVariant {
+  std::vector<const Curve*> curve;
+  std::size_t n_run = 0;  ///< that there are to be
+  /// " (3 of 5 seeds)" if some are missing.
+  std::string missing() const {
+    if (curve.size() == n_run) return {};
+    return fmt::format(" ({} of {} seeds)", curve.size(), n_run);
+  }
+};
+
+/// Runs that failed are left out: what they would have come to nobody knows.
+CurvesOfVariant curves_of(const StudyPlan& plan, const StudyData& data, std::size_t variant,
+                          const std::string& observable, bool to_the_end) {
+  CurvesOfVariant out;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     if (plan.runs[k].variant != variant) continue;
+    ++out.n_run;
+    const RunState state = data[k].status.state;
+    if (state == RunState::kFailed || (to_the_end && state != RunState::kDone)) continue;
     const auto found = data[k].curve.find(observable);
-    if (found != data[k].curve.end()) curves.push_back(&found->second);
+    if (found != data[k].curve.end() && !found->second.time.empty())
+      out.curve.push_back(&found->second);
   }
-  return curves;
+  return out;
 }
 
+/// As far as all curves go: a mean over fewer would jump.
 io::PlotLine line_over_time(const std::vector<const Curve*>& curves, double seconds) {
   std::set<double> times;
   for (const Curve* c : curves) times.insert(c->time.begin(), c->time.end());
@@ -67,7 +83,7 @@ io::PlotLine line_over_time(const std::vector<const Curve*>& curves, double seco
     Spread s;
     for (const Curve* c : curves)
       if (const auto v = value_at(*c, t)) s.add(*v);
-    add_point(line, t / seconds, s);
+    if (s.n == static_cast<int>(curves.size())) add_point(line, t / seconds, s);
   }
   return line;
 }
@@ -82,9 +98,8 @@ void add_lines_over_key(const StudyPlan& plan, const StudyData& data, const Stud
       if (run.variant == v) x = value_of_key(run.scene, wanted.over);
     if (!x) continue;
     Spread s;
-    for (const Curve* c : curves_of(plan, data, v, wanted.observable))
-      if (!c->time.empty())
-        if (const auto value = value_at(*c, wanted.at.value_or(c->time.back()))) s.add(*value);
+    for (const Curve* c : curves_of(plan, data, v, wanted.observable, !wanted.at).curve)
+      if (const auto value = value_at(*c, wanted.at.value_or(c->time.back()))) s.add(*value);
     const std::string& name = plan.variants[v].name;
     const std::size_t sweep = name.rfind('/');
     const auto base = find_variants(plan.variants, name.substr(0, sweep));
@@ -141,8 +156,9 @@ io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot
   if (wanted.over.empty()) {
     plot.x_label = fmt::format("time, {}", axis.unit);
     for (std::size_t v : variants) {
-      io::PlotLine line = line_over_time(curves_of(plan, data, v, wanted.observable), axis.seconds);
-      line.name = plan.variants[v].title;
+      const CurvesOfVariant found = curves_of(plan, data, v, wanted.observable, false);
+      io::PlotLine line = line_over_time(found.curve, axis.seconds);
+      line.name = plan.variants[v].title + found.missing();
       if (!line.point.empty()) plot.line.push_back(line);
     }
   } else {

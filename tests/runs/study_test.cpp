@@ -392,6 +392,17 @@ TEST_F(Claims, PlotsHaveMeanBandAndReferencePoints) {
   EXPECT_EQ(plot.y_label, "overlap_cbm_cbm, um");
 }
 
+TEST_F(Claims, PlotsLeaveOutRunsThatFailedAndSaySo) {
+  const StudyPlan p =
+      parse(text_with(R"("plots": [ { "name": "m", "observable": "overlap_cbm_cbm_um" } ])"));
+  StudyData d = data();
+  d[2].status.state = RunState::kFailed;
+  const io::Plot plot = make_plot(p, d, p.study.plots[0]);
+  ASSERT_EQ(plot.line.size(), 2u);
+  EXPECT_TRUE(plot.line[1].name.ends_with(" (1 of 2 seeds)")) << plot.line[1].name;
+  EXPECT_EQ(plot.line[1].band[1].first, plot.line[1].band[1].second);
+}
+
 TEST_F(Claims, VerdictsAreJsonWithoutNaN) {
   const std::string root = testing::TempDir() + "verdicts";
   std::filesystem::create_directories(root);
