@@ -146,11 +146,15 @@ class RangeSearch {
     batch_.radius_b[n_] = cells_.radius[j];
     if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
     const auto ta = static_cast<std::size_t>(s_.type[i]), tb = static_cast<std::size_t>(s_.type[j]);
-    const double overlap = work_.coupling.empty() ? 0 : overlap_now();
-    face_[n_] = {face_toward(s_, table_, work_, i, overlap),
-                 face_toward(s_, table_, work_, j, overlap)};
-    batch_.compliance[n_] = table_.softness[ta] / face_[n_][0].modulus.value +
-                            table_.softness[tb] / face_[n_][1].modulus.value;
+    const Modulus *of_a = &work_.modulus[i], *of_b = &work_.modulus[j];
+    if (!work_.coupling.empty()) {  // a law corrects
+      const double overlap = overlap_now();
+      face_[n_] = {face_toward(s_, table_, work_, i, overlap),
+                   face_toward(s_, table_, work_, j, overlap)};
+      of_a = &face_[n_][0].modulus;
+      of_b = &face_[n_][1].modulus;
+    }
+    batch_.compliance[n_] = table_.softness[ta] / of_a->value + table_.softness[tb] / of_b->value;
     batch_.adhesion[n_] = table_.root[ta] * table_.root[tb];
     batch_.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     if (++n_ == kLanes) flush();
@@ -210,8 +214,9 @@ class RangeSearch {
       for (std::size_t m = 0; m < 3; ++m)
         work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
       work_.contact_area[i] += batch_.area[l];
+      if (work_.coupling.empty()) return;
       const Face& face = face_[l][sign > 0 ? 0 : 1];
-      if (!work_.coupling.empty() && !face.own)
+      if (!face.own)
         work_.coupling[i] = std::max(work_.coupling[i], by_modulus(i, face.modulus, l));
     };
     add(a, 1);

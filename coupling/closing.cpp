@@ -51,7 +51,7 @@ bool activate_closing(Workspace& w) {
   for (std::size_t l = 0; l < links.size(); ++l) {
     const solve::LinkLoad& load = links.load[l];
     if (!(load.closed_stiffness > 0) || load.clearance <= 0) continue;
-    const double end = gap_after(w, links.link[l]) + load.clearance - links.link[l].gap;
+    const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], load);
     if (load.active) {
       change[l] = end > 0 ? 2 : 0;
       wrong = wrong || end > kOpen;
@@ -82,7 +82,7 @@ bool pulls_open(const Workspace& w) {
   const solve::Links& links = w.system.links;
   for (std::size_t l = 0; l < links.size(); ++l)
     if (links.load[l].active &&
-        gap_after(w, links.link[l]) + links.load[l].clearance - links.link[l].gap > kOpen)
+        clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kOpen)
       return true;
   return false;
 }

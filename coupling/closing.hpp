@@ -11,6 +11,11 @@ namespace acinus::coupling {
 /// linearisation, um.
 double gap_after(const Workspace& work, const solve::Link& link);
 
+/// How far a contact whose gap ends at `end` is from its repulsive branch then, um.
+inline double clearance_at(double end, const solve::Link& link, const solve::LinkLoad& load) {
+  return end + load.clearance - static_cast<double>(link.gap);
+}
+
 /// Largest depth by which a contact may be closed at the end of a step with step-size control, um.
 inline constexpr double kControlledDepth = 0.2;
 

@@ -216,7 +216,7 @@ Verdict judge_step(const World& world, double step, Workspace& w) {
     const double end = gap_after(w, link);
     if (end - gap > -kClosing) return 0.0;
     const bool felt = load.active || load.clearance <= 0;
-    const bool deep = end < range || (!felt && end + load.clearance - gap < unfelt);
+    const bool deep = end < range || (!felt && clearance_at(end, link, load) < unfelt);
     return deep ? -end : 0.0;
   };
   std::size_t first_deep = links.size();

@@ -58,10 +58,12 @@ Vec3 place_of(const PolarCell& c) {
   return {c.distance * std::cos(c.angle), c.distance * std::sin(c.angle), c.height};
 }
 
-/// Whether some way from the cell toward the lesion is clear of other cells and of walls.
-bool borders_lesion(const Motility& m, const PolarCell& c, std::span<const PolarCell> cells,
-                    std::span<const contact::Plane> walls) {
-  const Vec3 from = place_of(c);
+/// Whether some way from a cell toward the lesion is clear of other cells and of walls.
+/// @param place  place_of every cell
+bool borders_lesion(const Motility& m, std::size_t own, std::span<const PolarCell> cells,
+                    std::span<const Vec3> place, std::span<const contact::Plane> walls) {
+  const PolarCell& c = cells[own];
+  const Vec3 from = place[own];
   const double bar = kBar - (c.led ? kSlack : 0);
   const double reach = std::min(kReach * c.radius, c.distance - m.axis_radius);  // to the vein
   auto is_clear = [&](const Vec3& direction) {
@@ -69,18 +71,29 @@ bool borders_lesion(const Motility& m, const PolarCell& c, std::span<const Polar
     if (std::ranges::any_of(
             walls, [&](const contact::Plane& w) { return (end - w.point).dot(w.normal) < 0; }))
       return false;
-    return std::ranges::none_of(cells, [&](const PolarCell& other) {
-      if (&other == &c || !other.exists) return false;
-      const Vec3 d = place_of(other) - from;
-      const double along = std::min(d.dot(direction), reach);
-      return d.dot(direction) > 0 && (d - along * direction).norm() < bar * other.radius;
-    });
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (k == own || !cells[k].exists) continue;
+      const Vec3 d = place[k] - from;
+      const double along = d.dot(direction);
+      if (along > 0 && (d - std::min(along, reach) * direction).norm() < bar * cells[k].radius)
+        return false;
+    }
+    return true;
   };
   for (int k = 0; k < kWays; ++k) {
     const double turned = c.angle + kPi + kAside * (2.0 * k / (kWays - 1) - 1);
     if (is_clear({std::cos(turned), std::sin(turned), 0})) return true;
   }
   return false;
+}
+
+void lead_at_border(const Motility& m, std::span<const PolarCell> cells,
+                    std::span<const contact::Plane> walls, std::vector<std::uint8_t>& leader) {
+  std::vector<Vec3> place;
+  for (const PolarCell& c : cells) place.push_back(place_of(c));
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (cells[i].exists && !at_vein(m, cells[i]) && borders_lesion(m, i, cells, place, walls))
+      leader[i] = 1;
 }
 
 /// The nearest cell of every sector of the circle and slice of height.
@@ -132,7 +145,7 @@ std::vector<std::uint8_t> find_leaders(const Motility& m, std::span<const PolarC
       lead_where([&](const PolarCell& c) { return faces_lesion(c, cells); });
       break;
     case Leaders::kBorder:
-      lead_where([&](const PolarCell& c) { return borders_lesion(m, c, cells, walls); });
+      lead_at_border(m, cells, walls, leader);
       break;
     case Leaders::kSector:
       lead_by_sector(m, cells, leader);

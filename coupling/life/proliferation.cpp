@@ -31,6 +31,10 @@ int layer_of(double distance, double edge, double thickness) {
   return 1 + std::max(0, static_cast<int>(std::floor((distance - edge) / thickness)));
 }
 
+int layer_of(const Proliferation& rule, double edge, const Vec3& place) {
+  return layer_of(axis_distance(rule, place), edge, rule.thickness);
+}
+
 double lesion_edge(const World& world) {
   const Proliferation& p = *world.params.life.proliferation;
   if (p.edge_at_start) return p.start_edge;
@@ -64,7 +68,7 @@ void let_proliferate(World& world, std::span<const double> factor) {
   const auto interval = static_cast<std::uint64_t>(grid_interval(time, life.grid));
   for (const Cell& c : resting) {
     if (free <= 0) return;
-    const int layer = layer_of(axis_distance(p, center_of(s, c)), edge, p.thickness);
+    const int layer = layer_of(p, edge, center_of(s, c));
     const double rate = factor[c.index] * entry_rate(p, layer, time);
     if (rate <= 0) continue;
     const double drawn = uniform({life.seed, Purpose::kProliferation,

@@ -14,6 +14,9 @@ namespace acinus::coupling {
 /// @param edge      of the innermost centres, um
 int layer_of(double distance, double edge, double thickness);
 
+/// That of a place by the rule's axis and thickness.
+int layer_of(const Proliferation& rule, double edge, const Vec3& place);
+
 /// Distance of the lesion's edge from the vein axis, um: as it was made (edge_at_start) or the mean
 /// over slices of height one layer high of the distance to the nearest centre.
 double lesion_edge(const World& world);

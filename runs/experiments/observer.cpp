@@ -79,21 +79,25 @@ std::vector<io::SeriesValue> observe_frame(const Moment& moment, Observer& obser
 void observe_births(const Scene& scene, const coupling::World& world,
                     const coupling::LifeReport& report, Observer& observer) {
   if (scene.experiment != "lobule") return;
+  // Where a rule says in which layers cells divide, they are counted as it counts them.
+  const auto& rule = world.params.life.proliferation;
+  std::optional<double> edge;
   std::vector<coupling::LayerCell> cells;
+  const auto layer_at = [&](const Vec3& place) {
+    if (rule) {
+      if (!edge) edge = coupling::lesion_edge(world);
+      return coupling::layer_of(*rule, *edge, place);
+    }
+    if (cells.empty()) cells = layer_cells(world);
+    return coupling::local_layer_of({place, scene.cell_types.begin()->second.radius}, cells,
+                                    scene.axis_point);
+  };
   for (const coupling::LifeEvent& e : report.events) {
     if (e.code != "division" || e.cells.size() != 3) continue;
-    if (cells.empty()) cells = layer_cells(world);
     const std::optional<Vec3> a = find_center(world.state, e.cells[1]),
                               b = find_center(world.state, e.cells[2]);
     if (!a || !b) continue;  // a daughter that is gone already
-    const Vec3 middle = 0.5 * (*a + *b);
-    // Where a rule says in which layers cells divide, they are counted as it counts them.
-    const auto& rule = world.params.life.proliferation;
-    const double distance = (middle - scene.axis_point).head<2>().norm();
-    const int layer =
-        rule ? coupling::layer_of(distance, coupling::lesion_edge(world), rule->thickness)
-             : coupling::local_layer_of({middle, scene.cell_types.begin()->second.radius}, cells,
-                                        scene.axis_point);
+    const int layer = layer_at(0.5 * (*a + *b));
     observer.births[static_cast<std::size_t>(std::min(layer, kLayers + 1) - 1)] += 1;
   }
 }

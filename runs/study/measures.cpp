@@ -190,6 +190,12 @@ double combined(const StudyExpectation& e, double a, double b) {
   return std::isinf(b) ? std::numeric_limits<double>::quiet_NaN() : a / b;
 }
 
+/// How large a difference with what never happened is at least: known as far as the runs went.
+double known_difference(double a, double a_until, double b, double b_until) {
+  if (std::isinf(a)) return a_until - b;
+  return std::isinf(b) ? b_until - a : kNever;
+}
+
 }  // namespace
 
 Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyMeasure& m) {
@@ -231,20 +237,23 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyE
   if (!first.value || !second.value) return none(out, first.value ? second.note : first.note);
   const double scale =
       scale_of_unit(second.unit).in_base / scale_of_unit(first.unit).in_base;  // into the first's
+  const auto know = [&](double a, double b) {
+    if (e.minus)
+      out.known_until = std::min(
+          out.known_until, known_difference(a, first.known_until, b, scale * second.known_until));
+  };
   const auto same_seeds = [](const auto& p, const auto& q) { return p.first == q.first; };
   if (!first.by_seed.empty() && std::ranges::equal(first.by_seed, second.by_seed, same_seeds)) {
     for (const auto& [seed, v] : first.by_seed) {
       const double other = scale * second.by_seed.at(seed), c = combined(e, v, other);
       if (std::isnan(c)) return none(out, fmt::format("seed {} has no difference or ratio", seed));
       out.by_seed[seed] = c;
-      // Of what never happened the difference is known as far as the runs went.
-      if (std::isinf(c))
-        out.known_until = std::min(out.known_until, std::isinf(v) ? first.known_until - other
-                                                                  : scale * second.known_until - v);
+      know(v, other);
     }
     summarise(out);
   } else {
     out.value = combined(e, *first.value, scale * *second.value);
+    know(*first.value, scale * *second.value);
   }
   // never minus never, or a division by zero
   if (std::isnan(*out.value) || (e.over && !std::isfinite(*out.value)))

@@ -13,35 +13,19 @@
 #include "core/error.hpp"
 #include "core/mesh/surface.hpp"
 #include "core/mesh/topology.hpp"
+#include "tests/reference/brick.hpp"
 
 namespace acinus::coupling {
 namespace {
 
 using mesh::Surface;
+using reference::brick;
 
 Surface ball(const Vec3& center, double radius, int n_node = 162) {
   const mesh::Topology& topology = mesh::shared_icosphere(n_node);
   Surface out;
   out.triangle = topology.triangle;
   for (const Vec3& x : topology.rest) out.node.push_back(center + radius * x);
-  return out;
-}
-
-/// Box with corners low and high, 12 triangles.
-Surface brick(const Vec3& low, const Vec3& high) {
-  Surface out;
-  for (int i = 0; i < 8; ++i)
-    out.node.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
-                          (i & 4 ? high : low).z());
-  for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1},
-                                   {4, 5, 7, 6},
-                                   {0, 1, 5, 4},
-                                   {2, 6, 7, 3},
-                                   {0, 4, 6, 2},
-                                   {1, 3, 7, 5}}) {
-    out.triangle.push_back({a, b, c});
-    out.triangle.push_back({a, c, d});
-  }
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "core/mesh/topology.hpp"
 #include "runs/experiments/open_area.hpp"
 #include "runs/experiments/plates.hpp"
+#include "tests/reference/brick.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -20,22 +21,11 @@ constexpr double kRoundOff = 1e-11;
 
 /// A closed box, 12 triangles.
 struct Brick {
-  std::vector<std::array<int, 3>> triangle;
+  mesh::Surface surface;
   contact::SurfaceBody body;
-  Brick(const Vec3& low, const Vec3& high) {
-    for (int i = 0; i < 8; ++i)
-      body.node.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
-                             (i & 4 ? high : low).z());
-    for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1},
-                                     {4, 5, 7, 6},
-                                     {0, 1, 5, 4},
-                                     {2, 6, 7, 3},
-                                     {0, 4, 6, 2},
-                                     {1, 3, 7, 5}}) {
-      triangle.push_back({a, b, c});
-      triangle.push_back({a, c, d});
-    }
-    body.triangle = &triangle;
+  Brick(const Vec3& low, const Vec3& high) : surface(reference::brick(low, high)) {
+    body.node = surface.node;
+    body.triangle = &surface.triangle;
     contact::refresh_body(body);
   }
   Brick(const Brick&) = delete;

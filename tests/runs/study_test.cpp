@@ -362,6 +362,13 @@ TEST_F(Claims, OneSeedInWhichSomethingNeverHappensDoesNotDecideForAll) {
             Judgement::kHolds);
   EXPECT_EQ(judged(sooner, "\"minus\": " + never + R"(, "high": "-3 h")").judgement,
             Judgement::kNotMeasured);
+  // Other seeds, so of the means: later by 80 min at least, and nobody knows about 3 h.
+  const std::string later = R"("kind": "first_above", "variant": "fast", "level": "9 um")";
+  const std::string slow =
+      R"({ "kind": "first_above", "observable": "overlap_cbm_cbm_um", "variant": "slow", "level": "2 um" })";
+  EXPECT_EQ(judged(later, "\"minus\": " + slow + R"(, "low": "1 h")").judgement, Judgement::kHolds);
+  EXPECT_EQ(judged(later, "\"minus\": " + slow + R"(, "low": "3 h")").judgement,
+            Judgement::kNotMeasured);
 }
 
 TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
