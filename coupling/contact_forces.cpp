@@ -171,19 +171,34 @@ std::vector<int> cluster_sizes(std::size_t n_cell,
   return size;
 }
 
-double interface_residual(const Workspace& w) {
-  Vec3 sum = Vec3::Zero();
-  double size = 0;
+double interface_residual(const World& world, const Workspace& w) {
+  struct Load {
+    Vec3 place, force;
+  };
+  std::vector<Load> loads;
+  const auto& position = world.state.dcm.position;
   const std::size_t first = w.dcm.surface.size() + w.dcm.obstacle.size();
   for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
     const solve::Stencil stencil = solve::stencil_of(w.system.links.link[first + k]);
     for (std::size_t m = 0; m < static_cast<std::size_t>(stencil.n); ++m) {
-      const Vec3 force = stencil.weight[m] * link_force(w, first + k);
-      sum += force;
-      size += force.norm();
+      const Address a = stencil.address[m];
+      const bool node = a < position.size();
+      loads.push_back({node ? load_point(position.data(), a)
+                            : load_point(world.state.cbm.position.data(), a - position.size()),
+                       stencil.weight[m] * link_force(w, first + k)});
     }
   }
-  return size > 0 ? sum.norm() / size : 0;
+  if (loads.empty()) return 0;
+  Vec3 middle = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
+  for (const Load& l : loads) middle += l.place / static_cast<double>(loads.size());
+  double size = 0, moment = 0;
+  for (const Load& l : loads) {
+    force += l.force;
+    size += l.force.norm();
+    torque += (l.place - middle).cross(l.force);
+    moment += (l.place - middle).norm() * l.force.norm();
+  }
+  return size > 0 ? std::max(force.norm() / size, torque.norm() / moment) : 0;
 }
 
 }  // namespace acinus::coupling

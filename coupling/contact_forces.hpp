@@ -63,8 +63,9 @@ std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& worl
 std::vector<int> cluster_sizes(std::size_t n_cell,
                                const std::vector<std::pair<std::size_t, std::size_t>>& touching);
 
-/// |sum| / sum |.| of the forces the DCM-CBM contacts exert on all nodes and spheres: 0 when action
-/// equals reaction, also where there are none.   @pre observe
-double interface_residual(const Workspace& work);
+/// How far the forces of the DCM-CBM contacts, spread over nodes and spheres as the solver spreads
+/// them, are from action and reaction: the larger of |sum f| / sum |f| and, about their centroid,
+/// |sum x f| / sum |x||f|. 0 where there are none.   @pre observe
+double interface_residual(const World& world, const Workspace& work);
 
 }  // namespace acinus::coupling

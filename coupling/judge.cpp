@@ -59,7 +59,11 @@ Part sum_over_cells(const Workspace& w, bool moving_only, F f) {
   return total;
 }
 
-/// Whether a move turns a face over or folds two faces of an edge through each other.
+/// Share of its area a face must keep in a step, seen along its normal: one that shrinks faster is
+/// resolved by shorter steps before it has no direction left.
+constexpr double kLeastArea = 0.25;
+
+/// Whether a move turns a face over, or nearly, or folds two faces of an edge through each other.
 bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
   const mesh::Topology& t = *s.group[lane / kLanes].topology;
   struct Normals {
@@ -76,7 +80,8 @@ bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>
     }
     normal.push_back({(before[1] - before[0]).cross(before[2] - before[0]),
                       (after[1] - after[0]).cross(after[2] - after[0])});
-    if (!(normal.back().before.dot(normal.back().after) > 0)) return true;
+    const auto& [was, is] = normal.back();
+    if (!(was.dot(is) > kLeastArea * was.squaredNorm())) return true;
   }
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
     const Normals &f = normal[static_cast<std::size_t>(t.edge_triangle[e][0])],

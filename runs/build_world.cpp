@@ -45,6 +45,8 @@ Mat3 random_rotation(std::uint64_t seed, std::int64_t lineage) {
   return q.normalized().toRotationMatrix();
 }
 
+constexpr const char* kCapsuleName = "capsule";
+
 contact::Material mirror() {
   contact::Material m;
   m.mirror = true;
@@ -55,6 +57,22 @@ contact::Material wall_material(const WallEntry& w) {
   contact::Material m = mirror();
   if (!w.mirror) m = {w.adhesion, w.young.value_or(contact::Material{}.young), w.poisson, false};
   return m;
+}
+
+coupling::LobuleParameters lobule_parameters(const Scene& scene) {
+  const LobuleBlock& b = *scene.lobule;
+  return {b.shape,
+          b.radius,
+          b.height,
+          b.lesion_radius,
+          b.central_vein_radius,
+          b.portal_vein_radius,
+          b.sinusoid_radius,
+          b.vessel_fraction,
+          b.branch_density,
+          b.min_distance,
+          b.cells,
+          scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
 }
 
 void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
@@ -74,7 +92,7 @@ void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
     around.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel,
                              wall_material(w), w.opens.value_or(contact::Plane{}.opens)});
   if (scene.capsule.enabled)
-    around.capsules.push_back({"capsule",
+    around.capsules.push_back({kCapsuleName,
                                scene.capsule.center,
                                scene.capsule.radius,
                                scene.capsule.speed,
@@ -180,6 +198,17 @@ cbm::Params make_cbm_params(const Scene& scene, const CellType& type) {
   return p;
 }
 
+std::vector<std::string> boundary_names(const Scene& scene) {
+  std::vector<std::string> names;
+  if (scene.lobule)
+    for (const coupling::MirrorPlane& p : coupling::make_domain(lobule_parameters(scene)).plane)
+      names.push_back(p.name);
+  for (const WallEntry& w : scene.walls) names.push_back(w.name);
+  if (scene.capsule.enabled) names.emplace_back(kCapsuleName);
+  for (const StaticMeshEntry& m : scene.static_meshes) names.push_back(m.name);
+  return names;
+}
+
 BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   BuiltWorld built;
   coupling::World& world = built.world;
@@ -190,11 +219,8 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   if (scene.lobule) {
     const LobuleBlock& b = *scene.lobule;
     UniformStream stream(scene.seed, Purpose::kNetwork, 0);
-    lobule = coupling::make_lobule(
-        {b.shape, b.radius, b.height, b.lesion_radius, b.central_vein_radius, b.portal_vein_radius,
-         b.sinusoid_radius, b.vessel_fraction, b.branch_density, b.min_distance, b.cells,
-         scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)},
-        [&stream] { return stream.uniform(); });
+    lobule =
+        coupling::make_lobule(lobule_parameters(scene), [&stream] { return stream.uniform(); });
     p.motility.axis_radius = b.central_vein_radius;
     if (static_cast<int>(lobule->seeds.size()) < b.cells)
       built.notes.push_back(

@@ -8,14 +8,52 @@ namespace {
 
 /// cos theta at which an edge begins to be a fold: 60 degrees between its faces.
 constexpr double kFoldCos = -0.5;
-/// 1 + cos theta below which the fold's energy bends off, so that all numbers stay finite: 11
-/// degrees.
+/// 1 + cos theta below which the fold goes on as a straight line, so that all numbers stay finite:
+/// 11 degrees.
 constexpr double kFoldFloor = 0.02;
 
+/// Share of its reference area below which a face resists collapse.
+constexpr double kLeastArea = 0.1;
+
+/// What a face is to its hinges: k_b squeeze^2 / 3 in each of the three.
+struct Collapse {
+  Lane squeeze;  ///< kLeastArea a0 / a - 1
+  Lane slope;    ///< -d squeeze / d a, 1/um^2
+};
+ACINUS_INLINE Collapse find_collapse(Lane least, Lane area) {
+  const Lane inverse = 1.0 / area;
+  const Lane squeeze = lane_max0(least * inverse - 1.0);
+  return {squeeze, squeeze > 0.0 ? least * inverse * inverse : lane_of(0)};
+}
+
+/// Adds the share of one hinge in the resistance of a face. Corners a, b, c about its normal, b and
+/// c on the edge.
+ACINUS_INLINE void add_collapse(Lane k, const Collapse& c, double stiffness_scale,
+                                const Lane3 (&x)[3], const Lane3& normal, double* const (&force)[3],
+                                float* spring) {
+  const Lane3 half_normal = (0.5 / lane_sqrt(dot(normal, normal))) * normal;
+  const Lane push = (2.0 / 3.0) * k * c.squeeze * c.slope;
+  add3(force[0], push * cross(half_normal, x[2] - x[1]));
+  add3(force[1], push * cross(half_normal, x[0] - x[2]));
+  add3(force[2], push * cross(half_normal, x[1] - x[0]));
+  // (sum_i g_i x_i)^2 <= 1/3 sum over edges of |g_i - g_j|^2 |x_i - x_j|^2, as the g_i add up to 0:
+  // a spring along every edge that is at least as stiff in all directions.
+  const Lane3 median = x[0] - lane_of(0.5) * (x[1] + x[2]);
+  const Lane stiffness = (2.0 / 3.0) * k * c.slope * c.slope * dot(median, median);
+  float* const across = spring + 4 * kLanes;
+  store(across, load(across) + stiffness_scale * stiffness);
+}
+
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
-                                  double* force, float* element) {
+                                  double* force, float* element, float* spring) {
   const mesh::Topology& t = *g.topology;
   const Lane k = p.bending_stiffness * load(g.active);
+  const Lane radius = load(g.radius);
+  const auto least_area = [&](int triangle) {
+    const auto f = static_cast<std::size_t>(triangle);
+    const Lane a0 = (kLeastArea * t.rest_triangle_area[f]) * radius * radius;
+    return g.triangle ? a0 * load(g.triangle + f * kLanes) : a0;
+  };
   for (int e = 0; e < t.n_edge; ++e) {
     const auto& h = t.hinge[static_cast<std::size_t>(e)];
     const Lane3 x1 = load3(g.position + h[0] * kPointStride);
@@ -31,12 +69,14 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane sin_theta = -dot(cross(n1, n2), edge) * inverse_length * inverse_norms;
     const double c0 = t.rest_angle_cos[static_cast<std::size_t>(e)];
     const double s0 = t.rest_angle_sin[static_cast<std::size_t>(e)];
+    // Below the floor, fold goes on along its tangent.
+    const Lane below = lane_max0(kFoldFloor - (1.0 + cos_theta));
     const Lane open = kFoldFloor + lane_max0(1.0 + cos_theta - kFoldFloor);
     const Lane inverse_open = 1.0 / open;
-    const Lane fold = lane_max0(kFoldCos - cos_theta) * inverse_open;
-    // d fold / d theta
-    const Lane bends_off = 1.0 + cos_theta < kFoldFloor ? lane_of(0) : fold;
-    const Lane slope = fold > 0.0 ? sin_theta * inverse_open * (1.0 + bends_off) : lane_of(0);
+    const Lane at_open = lane_max0(kFoldCos - cos_theta - below) * inverse_open;
+    const Lane growth = inverse_open * (1.0 + at_open);  // -d fold / d cos theta
+    const Lane fold = at_open + growth * below;
+    const Lane slope = fold > 0.0 ? sin_theta * growth : lane_of(0);  // d fold / d theta
     const Lane moment = k * (sin_theta * c0 - cos_theta * s0 + 2.0 * fold * slope);
     const Lane stiffness =
         stiffness_scale * k * (lane_max0(cos_theta * c0 + sin_theta * s0) + 2.0 * slope * slope);
@@ -56,6 +96,17 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     store3(element + 3 * kLanes, root * grad2);
     store3(element + 6 * kLanes, root * grad3);
     element += solve::kHingeStride;
+
+    const auto& face = t.edge_triangle[static_cast<std::size_t>(e)];
+    const Collapse c1 = find_collapse(least_area(face[0]), 0.5 * lane_sqrt(s1)),
+                   c2 = find_collapse(least_area(face[1]), 0.5 * lane_sqrt(s2));
+    if (sum_lanes<double>(c1.squeeze + c2.squeeze) > 0) {
+      double* const at[4] = {force + h[0] * kPointStride, force + h[1] * kPointStride,
+                             force + h[2] * kPointStride, force + h[3] * kPointStride};
+      add_collapse(k, c1, stiffness_scale, {x1, x3, x4}, n1, {at[0], at[2], at[3]}, spring);
+      add_collapse(k, c2, stiffness_scale, {x2, x4, x3}, n2, {at[1], at[3], at[2]}, spring);
+    }
+    spring += solve::kSpringStride;
   }
 }
 
@@ -63,7 +114,8 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
 
 void add_bending(const Params& p, const GroupView& g, solve::System& s) {
   bending_kernel(p, g, s.stiffness_scale, s.force.data() + g.first_row * kPointStride,
-                 s.hinge.data() + g.first_hinge * solve::kHingeStride);
+                 s.hinge.data() + g.first_hinge * solve::kHingeStride,
+                 s.spring.data() + g.first_spring * solve::kSpringStride);
 }
 
 double bending_energy(const Params& p, const GroupView& g, int lane) {
@@ -77,9 +129,19 @@ double bending_energy(const Params& p, const GroupView& g, int lane) {
     const Vec3 n1 = (x[0] - x[2]).cross(x[0] - x[3]), n2 = (x[1] - x[3]).cross(x[1] - x[2]);
     const double theta = -std::atan2(n1.cross(n2).dot(edge) / edge.norm(), n1.dot(n2));
     const double rest = std::atan2(g.topology->rest_angle_sin[e], g.topology->rest_angle_cos[e]);
-    const double open = std::max(1 + std::cos(theta), kFoldFloor);
-    const double fold = std::max(kFoldCos - std::cos(theta), 0.0) / open;
+    const double u = 1 + std::cos(theta), open = std::max(u, kFoldFloor);
+    const double at_open = std::max(1 + kFoldCos - open, 0.0) / open;
+    const double fold = at_open + (1 + at_open) / open * (open - u);
     energy += p.bending_stiffness * (1 - std::cos(theta - rest) + fold * fold);
+  }
+  for (std::size_t f = 0; f < g.topology->triangle.size(); ++f) {
+    Vec3 x[3];
+    for (std::size_t m = 0; m < 3; ++m)
+      x[m] = load_point(g.position,
+                        make_address(static_cast<std::size_t>(g.topology->triangle[f][m]), lane));
+    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    const double squeeze = std::max(kLeastArea * rest_triangle_area(g, f, lane) / area - 1, 0.0);
+    energy += p.bending_stiffness * squeeze * squeeze;
   }
   return g.active[lane] * energy;
 }

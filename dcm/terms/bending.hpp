@@ -1,5 +1,5 @@
 #pragma once
-/// Cortex: bending resistance of the hinge at every edge.
+/// Cortex: bending resistance of the hinge at every edge, and of faces to collapse.
 
 #include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
@@ -14,6 +14,11 @@ namespace acinus::dcm {
 /// adhesion zips up the sharp rim of two cells, or of two daughters, faces were folded into each
 /// other. Stiffness: k_b (max(0, cos(theta - theta0)) + 2 fold'^2) grad theta grad theta^T
 /// (Gauss-Newton).
+///
+/// Faces get E = k_b max(0, a0 / (10 a) - 1)^2, which the paper lacks too: nothing in its cortex
+/// keeps the corner of a face from passing through the opposite edge, and the direction of a hinge
+/// is lost there. Stiffness: springs along the three edges that are at least as stiff as
+/// 2 k_b squeeze'^2 grad a grad a^T.
 void add_bending(const Params& p, const GroupView& g, solve::System& system);
 
 /// Bending energy of one lane, fJ.

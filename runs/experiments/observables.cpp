@@ -57,7 +57,9 @@ List tissue() {
        {"clusters", "1", "clusters of cells in contact, single cells included"},
        {"interface_pairs", "1", "pairs of a deformable cell and a sphere that exert a force"},
        {"interface_force_nN", "nN", "sum over those pairs of the size of their force"},
-       {"interface_residual", "1", "|sum| / sum |.| of their forces on all nodes and spheres"},
+       {"interface_residual", "1",
+        "what their forces and torques, spread over nodes and spheres, leave, over the sum of "
+        "their sizes"},
        {"vessels_force_nN", "nN", "normal force of the cells on the vessels, pressing positive"},
        {"vessels_net_x_nN", "nN", "net normal force on the vessels along x"},
        {"vessels_net_y_nN", "nN", "net normal force on the vessels along y"},
@@ -188,8 +190,14 @@ std::vector<Observable> known_observables(const std::string& experiment) {
   return list;
 }
 
+std::string name_in_columns(std::string name) {
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
+  return name;
+}
+
 std::vector<Observable> wall_observables(const std::string& wall) {
-  const std::string name = "wall_" + wall;
+  const std::string name = "wall_" + name_in_columns(wall);
   List list{
       {name + "_force_nN", "nN", "normal force of the cells on this wall, pressing positive"}};
   for (const char axis : {'x', 'y', 'z'})

@@ -18,6 +18,9 @@ struct Observable {
 /// @throws Error(kInternal) for an experiment that does not exist
 std::vector<Observable> known_observables(const std::string& experiment);
 
+/// A name of a scene as columns bear it: letters, digits, '-', '.' and '_'.
+std::string name_in_columns(std::string name);
+
 /// What is measured of a wall, capsule or closed mesh of this name.
 std::vector<Observable> wall_observables(const std::string& wall);
 

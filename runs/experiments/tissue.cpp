@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "coupling/contact_forces.hpp"
+#include "runs/experiments/observables.hpp"
 
 namespace acinus::runs {
 namespace {
 
 using coupling::CellMeasure;
 using coupling::Reaction;
-
-std::string plain(std::string name) {
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
-  return name;
-}
 
 void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
   m[name + "_force_nN"].push_back(r.normal);
@@ -31,11 +26,11 @@ void sample_reactions(const Moment& moment, Measures& m) {
   const coupling::Reactions r = coupling::find_reactions(moment.world, moment.work);
   std::map<std::string, Reaction> wall;
   for (std::size_t k = 0; k < around.planes.size(); ++k)
-    wall[plain(around.planes[k].name)] += r.plane[k];
+    wall[name_in_columns(around.planes[k].name)] += r.plane[k];
   for (std::size_t k = 0; k < around.capsules.size(); ++k)
-    wall[plain(around.capsules[k].name)] += r.capsule[k];
+    wall[name_in_columns(around.capsules[k].name)] += r.capsule[k];
   for (std::size_t k = 0; k < around.meshes.size(); ++k)
-    wall[plain(around.meshes[k].name)] += r.mesh[k];
+    wall[name_in_columns(around.meshes[k].name)] += r.mesh[k];
   for (const auto& [name, reaction] : wall) add_reaction("wall_" + name, reaction, m);
   Reaction vessels;
   for (const Reaction& segment : r.segment) vessels += segment;
@@ -95,7 +90,7 @@ void sample_interface(const Moment& moment, Measures& m) {
   }
   m["interface_pairs"].push_back(pairs);
   m["interface_force_nN"].push_back(force);
-  m["interface_residual"].push_back(coupling::interface_residual(moment.work));
+  m["interface_residual"].push_back(coupling::interface_residual(moment.world, moment.work));
 }
 
 }  // namespace
@@ -113,7 +108,8 @@ void sample_tissue(const Moment& moment, Measures& m) {
 std::vector<std::string> wall_names(const contact::Surroundings& around) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (std::ranges::find(names, plain(name)) == names.end()) names.push_back(plain(name));
+    if (std::ranges::find(names, name_in_columns(name)) == names.end())
+      names.push_back(name_in_columns(name));
   };
   for (const contact::Plane& p : around.planes) add(p.name);
   for (const contact::Capsule& c : around.capsules) add(c.name);

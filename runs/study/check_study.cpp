@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "core/unit_scale.hpp"
+#include "runs/study/measures.hpp"
 #include "runs/study/scene_value.hpp"
 
 namespace acinus::runs {
@@ -105,10 +106,25 @@ class Checker {
       add(pointer + "/low", "low and high go together: give both or none");
   }
 
+  /// Runs do not go on after their end: no time looked at may be later.
+  void check_within_runs(double time, const StudyMeasure& m, const std::string& pointer) {
+    for (const StudyRun& run : plan_.runs) {
+      const std::string& name = plan_.variant_of(run).name;
+      if (name != m.variant && name != m.other && name != m.another) continue;
+      if (time <= run.scene.time.end) continue;
+      add(pointer, fmt::format("{} is after the end of {} at {}", show_value(time, "s"), name,
+                               show_value(run.scene.time.end, "s")));
+      return;
+    }
+  }
+
   void check_measure(const StudyMeasure& m, const std::string& pointer) {
     const bool known = check_observable(m.observable, pointer + "/observable");
     check_variant(m.variant, pointer + "/variant", true);
     check_variant(m.other, pointer + "/other", true);
+    check_variant(m.another, pointer + "/another", true);
+    for (const auto& [time, key] : {std::pair{m.at, "/at"}, {m.from, "/from"}, {m.until, "/until"}})
+      if (time) check_within_runs(*time, m, pointer + key);
     if (known && m.level) check_number(*m.level, plan_.units.at(m.observable), pointer + "/level");
     if (m.from && m.until && *m.from >= *m.until) add(pointer + "/from", "must be before until");
   }

@@ -51,6 +51,11 @@ Moments moments(const std::vector<double>& v) {
   return m;
 }
 
+/// How often |t| of Student's distribution is larger by chance.
+double two_sided(double t2, double freedom) {
+  return incomplete_beta(freedom / 2, 0.5, freedom / (freedom + t2));
+}
+
 }  // namespace
 
 std::optional<double> value_at(const Curve& c, double time) {
@@ -117,7 +122,16 @@ std::optional<double> welch_p(const std::vector<double>& a, const std::vector<do
       variance * variance /
       (p.variance_of_mean * p.variance_of_mean / (static_cast<double>(a.size()) - 1) +
        q.variance_of_mean * q.variance_of_mean / (static_cast<double>(b.size()) - 1));
-  return incomplete_beta(freedom / 2, 0.5, freedom / (freedom + t2));
+  return two_sided(t2, freedom);
+}
+
+std::optional<double> paired_p(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() < 2) return std::nullopt;
+  std::vector<double> difference;
+  for (std::size_t k = 0; k < a.size(); ++k) difference.push_back(a[k] - b[k]);
+  const Moments m = moments(difference);
+  if (!(m.variance_of_mean > 0)) return std::nullopt;
+  return two_sided(m.mean * m.mean / m.variance_of_mean, static_cast<double>(a.size()) - 1);
 }
 
 }  // namespace acinus::runs

@@ -31,4 +31,8 @@ double time_mean(const Curve& curve);
 /// samples of fewer than two, or without any spread.   [Welch 1947]
 std::optional<double> welch_p(const std::vector<double>& a, const std::vector<double>& b);
 
+/// The same for samples that belong together two by two: Student's t-test of the differences.
+/// @pre as many of each
+std::optional<double> paired_p(const std::vector<double>& a, const std::vector<double>& b);
+
 }  // namespace acinus::runs

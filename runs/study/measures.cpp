@@ -163,16 +163,35 @@ std::optional<double> largest_distance(const std::vector<Curve>& a, const std::v
   return largest;
 }
 
+/// Largest distance of one mean curve from the space between two others.
+std::optional<double> largest_excess(const std::vector<Curve>& a, const std::vector<Curve>& b,
+                                     const std::vector<Curve>& c) {
+  if (a.empty() || b.empty() || c.empty()) return std::nullopt;
+  std::set<double> times = times_of(a);
+  times.merge(times_of(b));
+  times.merge(times_of(c));
+  std::optional<double> largest;
+  for (double t : times) {
+    const auto p = mean_at(a, t), q = mean_at(b, t), r = mean_at(c, t);
+    if (!p || !q || !r) continue;
+    const auto [low, high] = std::minmax(*q, *r);
+    largest = std::max({largest.value_or(0), *p - high, low - *p});
+  }
+  return largest;
+}
+
 std::optional<double> p_value(const std::vector<RunCurve>& a, const std::vector<RunCurve>& b,
                               const StudyMeasure& m, std::string& note) {
   std::vector<double> values[2];
+  const bool paired = std::ranges::equal(a, b, {}, &RunCurve::seed, &RunCurve::seed);
   for (const auto& [sources, out] : {std::pair{&a, &values[0]}, {&b, &values[1]}})
     for (const RunCurve& s : *sources) {
       const std::optional<double> t = time_of(s, m.at), v = t ? value_at(*s.curve, *t) : t;
       if (!v) return std::nullopt;
       out->push_back(*v);
     }
-  const std::optional<double> p = welch_p(values[0], values[1]);
+  const std::optional<double> p =
+      paired ? paired_p(values[0], values[1]) : welch_p(values[0], values[1]);
   if (!p) note = "a t-test needs two seeds of each and a spread";
   return p;
 }
@@ -203,14 +222,15 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyM
   out.unit = unit_of(m, plan.units);
   std::string missing;
   const std::vector<RunCurve> a = find_curves(plan, data, m.variant, m.observable, missing);
-  std::vector<RunCurve> b;
-  const bool of_two = m.kind == "distance" || m.kind == "p_value";
-  if (of_two) b = find_curves(plan, data, m.other, m.observable, missing);
+  std::vector<RunCurve> b, c;
+  if (needs_other(m)) b = find_curves(plan, data, m.other, m.observable, missing);
+  if (m.kind == "outside") c = find_curves(plan, data, m.another, m.observable, missing);
   if (!missing.empty()) return none(out, missing);
-  if (a.empty() || (of_two && b.empty())) return none(out, "no runs");
+  if (a.empty() || (needs_other(m) && b.empty())) return none(out, "no runs");
   std::string note = "the runs have not come so far, or ended before";
-  if (of_two || m.kind == "band") {
+  if (needs_other(m) || m.kind == "band") {
     out.value = m.kind == "p_value"    ? p_value(a, b, m, note)
+                : m.kind == "outside"  ? largest_excess(windows(a, m), windows(b, m), windows(c, m))
                 : m.kind == "distance" ? largest_distance(windows(a, m), windows(b, m))
                                        : widest_band(windows(a, m));
     return out.value ? out : none(out, note);

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "runs/build_world.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/library.hpp"
@@ -172,7 +173,7 @@ class Planner {
       for (const Observable& o : list) plan_.units.insert({o.name, o.unit});
     };
     add(known_observables(scene.experiment));
-    for (const WallEntry& wall : scene.walls) add(wall_observables(wall.name));
+    for (const std::string& name : boundary_names(scene)) add(wall_observables(name));
   }
 
   /// Which run starts from which; that it can.

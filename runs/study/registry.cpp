@@ -91,15 +91,19 @@ void describe_measure(Visitor& v, StudyMeasure& b) {
           .meaning =
               "value at a time; first_below, first_above: when the level is first passed; mean, "
               "min, max over a window; distance: largest between the mean curves of two variants; "
-              "band: widest spread over seeds; p_value: of Welch's t-test between two variants",
-          .choices = "value|first_below|first_above|mean|min|max|distance|band|p_value"},
+              "outside: largest distance of the mean curve from the space between those of two "
+              "others; band: widest spread over seeds; p_value: of the t-test between two "
+              "variants, paired where both have the same seeds",
+          .choices = "value|first_below|first_above|mean|min|max|distance|outside|band|p_value"},
          b.kind);
   v.text({.name = "observable", .meaning = "what is looked at", .required = true}, b.observable);
   v.text({.name = "variant", .meaning = "whose runs", .required = true}, b.variant);
-  v.when(b.kind == "distance" || b.kind == "p_value", "kind = distance or p_value",
-         [&b](Visitor& w) {
-           w.text({.name = "other", .meaning = "the second variant", .required = true}, b.other);
-         });
+  v.when(needs_other(b), "kind = distance, outside or p_value", [&b](Visitor& w) {
+    w.text({.name = "other", .meaning = "the second variant", .required = true}, b.other);
+  });
+  v.when(b.kind == "outside", "kind = outside", [&b](Visitor& w) {
+    w.text({.name = "another", .meaning = "the third variant", .required = true}, b.another);
+  });
   v.when(b.kind == "first_below" || b.kind == "first_above", "kind = first_below or first_above",
          [&b](Visitor& w) {
            w.value({.name = "level",

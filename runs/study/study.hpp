@@ -49,11 +49,16 @@ struct StudyPlot {
 struct StudyMeasure {
   std::string kind = "value";
   std::string observable, variant;
-  std::string other;                  ///< distance, p_value: the second variant
+  std::string other;                  ///< distance, outside, p_value: the second variant
+  std::string another;                ///< outside: the third
   std::optional<double> at;           ///< s; empty = the end
   std::optional<double> from, until;  ///< s, window; empty = the whole run
   std::optional<Node> level;          ///< first_below, first_above
 };
+
+inline bool needs_other(const StudyMeasure& m) {
+  return m.kind == "distance" || m.kind == "outside" || m.kind == "p_value";
+}
 
 /// A claim: what is measured and what is expected of it.
 struct StudyExpectation {

@@ -29,7 +29,7 @@ std::string describe_measure(const StudyMeasure& m) {
   const std::string what = fmt::format("`{}` of {}", m.observable, m.variant);
   if (m.kind == "value") return what + " " + at;
   if (m.kind == "p_value")
-    return fmt::format("p value of Welch's t-test, `{}` of {} and {} {}", m.observable, m.variant,
+    return fmt::format("p value of the t-test, `{}` of {} and {} {}", m.observable, m.variant,
                        m.other, at);
   const std::string in = describe_window(m);
   if (m.kind == "first_below" || m.kind == "first_above")
@@ -38,6 +38,10 @@ std::string describe_measure(const StudyMeasure& m) {
                        m.level ? shown(*m.level) : "", in);
   if (m.kind == "distance")
     return fmt::format("largest distance of the mean curves of {} and {}{}", what, m.other, in);
+  if (m.kind == "outside")
+    return fmt::format(
+        "largest distance of the mean curve of {} from the space between {} and {}{}", what,
+        m.other, m.another, in);
   if (m.kind == "band") return fmt::format("widest spread of {} over seeds{}", what, in);
   return fmt::format("{} of {}{}", m.kind, what, in);
 }

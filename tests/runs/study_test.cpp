@@ -31,7 +31,7 @@ std::string text_with(const std::string& more, const std::string& variants = R"(
     "fast": { "extends": "slow", "set": { "motility.grid": "30 s" }, "seeds": [7] })") {
   return R"({
   "scene": "two_cells",
-  "set": { "cells.model": "cbm", "time.end": "20 min" },
+  "set": { "cells.model": "cbm", "time.end": "2 h" },
   "seeds": [1, 2],
   "variants": {)" +
          variants + "\n  }" + (more.empty() ? "" : ",\n  " + more) + "\n}\n";
@@ -65,7 +65,7 @@ TEST(Study, MakesARunOfEveryVariantAndSeed) {
   EXPECT_EQ(plan.runs[0].scene.motility.grid, 30) << "its own change comes after what it extends";
   EXPECT_EQ(plan.runs[2].scene.motility.grid, 60);
   EXPECT_EQ(plan.runs[2].scene.seed, 2u);
-  EXPECT_EQ(plan.runs[2].scene.time.end, 1200);
+  EXPECT_EQ(plan.runs[2].scene.time.end, 7200);
   EXPECT_EQ(plan.runs[2].scene.cells.model, "cbm");
   EXPECT_NE(plan.runs[1].identity, plan.runs[2].identity) << "the seed is part of the scene";
 }
@@ -95,6 +95,21 @@ TEST(Study, FaultsOfTheStudyAreToldTogetherWithTheirPlaces) {
                 "study.seeds)",
                 "s.json:10:19 /observables/0", "s.json:11:43 /plots/0/observable",
                 "s.json:11:64 /plots/0/variants/0", "Did you mean \"slow\"?"});
+}
+
+TEST(Study, RefusesTimesAfterTheEndOfTheRuns) {
+  expect_fault(text_with(R"("expectations": [ { "id": "a", "claim": "c", "low": 1,
+    "measure": { "observable": "cells", "variant": "slow", "at": "3 h" } } ])"),
+               {"s.json:10:66 /expectations/0/measure/at", "after the end of slow at 2 h"});
+}
+
+TEST(Study, KnowsTheWallsThatScenesMake) {
+  const auto fault = [](const std::string& observable) {
+    return fault_of(R"x({ "scene": "regeneration", "variants": { "a": {} }, "observables": [")x" +
+                    observable + "\"] }");
+  };
+  EXPECT_EQ(fault("wall_radial_low_force_nN"), "no fault");
+  EXPECT_NE(fault("wall_left_force_nN").find("/observables/0"), std::string::npos);
 }
 
 TEST(Study, RefusesASeedTwice) {
@@ -246,6 +261,13 @@ TEST(Curves, WelchsTestAgreesWithAWorkedExample) {
   EXPECT_NEAR(welch_p({0, 2}, {4, 6}).value(), 1 - std::sqrt(8.0 / 10), 1e-12);
 }
 
+TEST(Curves, PairedTestLooksAtDifferences) {
+  // Differences -1 -2 -1: t^2 = (16 / 9) / (1 / 9) with two degrees of freedom.
+  EXPECT_NEAR(paired_p({1, 2, 4}, {2, 4, 5}).value(), 1 - 4 / std::sqrt(18.0), 1e-12);
+  EXPECT_FALSE(paired_p({1}, {2}));
+  EXPECT_FALSE(paired_p({1, 2}, {2, 3}));
+}
+
 TEST(Study, UnitsOfObservablesAreUnderstood) {
   EXPECT_DOUBLE_EQ(scale_of_unit("kPa").in_base, 1);
   EXPECT_DOUBLE_EQ(scale_of_unit("1/mm^3").in_base, 1e-9);
@@ -312,6 +334,8 @@ TEST_F(Claims, EveryKindOfMeasure) {
   EXPECT_EQ(value("max", "", um), 4);
   EXPECT_EQ(value("band", "", um), 2);
   EXPECT_EQ(value("distance", R"(, "other": "fast")", um), 3);
+  EXPECT_EQ(value("outside", R"(, "other": "fast", "another": "fast")", um), 3);
+  EXPECT_EQ(value("outside", R"(, "other": "fast", "another": "slow")", um), 0);
   const Verdict p = judged(R"("kind": "p_value", "variant": "slow", "other": "fast")", any);
   EXPECT_EQ(p.judgement, Judgement::kNotMeasured) << "one seed has no spread";
   EXPECT_FALSE(p.measured.note.empty());
