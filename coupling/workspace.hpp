@@ -34,9 +34,9 @@ struct Workspace {
   dcm::ContactWorkspace dcm;
   cbm::ContactWorkspace cbm;
   InterfaceWorkspace interface;
-  dcm::LaneData lanes;                         ///< written by: set_references
-  std::vector<double> cbm_radius;              ///< written by: set_references
-  std::vector<double> cbm_strength;            ///< empty: all 1; written by: set_references
+  dcm::LaneData lanes;                         ///< written by: find_all_contacts
+  std::vector<double> cbm_radius;              ///< written by: find_all_contacts
+  std::vector<double> cbm_strength;            ///< empty: all 1; written by: find_all_contacts
   std::vector<std::int64_t> cbm_mother;        ///< lineage; empty with cbm_strength; by the same
   std::vector<double> medium_area;             ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble

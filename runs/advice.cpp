@@ -55,6 +55,12 @@ std::string advise(const coupling::World& world, const coupling::StepResult& ste
 
 std::string advise(const coupling::World& world, const Excess& excess) {
   if (std::string full = advise_if_full(world, excess.cells); !full.empty()) return full;
+  const bool corrected = std::ranges::any_of(
+      world.params.cbm, [](const cbm::Params& p) { return p.correction.corrects(); });
+  if (!has_shells(world) && corrected)
+    return "Calibrated spheres are stiff where they are crowded and cannot pass where deformable "
+           "cells can: take fewer cells, fewer vessels, spheres without cbm.stiffness_correction, "
+           "or deformable cells there (zoom).";
   if (!has_shells(world))
     return "Start the cells farther apart or small (start_up), make them stiffer (cbm.young, "
            "cbm.stiffness_correction), or lower load or adhesion.";

@@ -185,11 +185,11 @@ const std::vector<Entry>& all_entries() {
     extends.type = "path";
     extends.initial = "none";
     extends.meaning = "scene file this one changes, relative to this file: blocks are merged";
-    std::vector<Entry> entries{extends};
+    std::vector<Entry> all{extends};
     Scene scene;
     for (Entry& entry : collect_entries([&](Visitor& visitor) { describe(visitor, scene); }))
-      entries.push_back(std::move(entry));
-    return entries;
+      all.push_back(std::move(entry));
+    return all;
   }();
   return entries;
 }

@@ -132,7 +132,7 @@ struct MotilityBlock {
   double grid = 60;                    ///< s, time grid of the random force
   double leader_force = 0;             ///< nN, toward the vein axis
   double leader_grid = 600;            ///< s, re-evaluation of who leads
-  std::string leaders = "foremost";    ///< foremost | front | sector | nearest
+  std::string leaders = "foremost";    ///< foremost | front | border | sector | nearest
   int leader_count = 24;               ///< nearest: cells; sector: sectors of the whole circle
   std::optional<double> leader_slice;  ///< um, sector: height of a slice; empty = cell diameter
 };

@@ -28,7 +28,7 @@ Curve window(const Curve& curve, double from, double until);
 double time_mean(const Curve& curve);
 
 /// Two-sided p value of Welch's t-test: how often means would differ so much by chance. Nothing for
-/// samples of fewer than two, or without any spread.   [Welch 1947]
+/// samples of fewer than two, or without any spread.   [Welch1947]
 std::optional<double> welch_p(const std::vector<double>& a, const std::vector<double>& b);
 
 /// The same for samples that belong together two by two: Student's t-test of the differences.
