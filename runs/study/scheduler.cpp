@@ -37,6 +37,7 @@ class Scheduler {
   ScheduleResult go() {
     const StopSignals signals;
     result_.stopped = calibrate();
+    count_done();
     while (!result_.stopped) {
       if (count_stop_signals() != 0) {
         stop();
@@ -62,6 +63,15 @@ class Scheduler {
         runs.push_back(&plan_.runs[c.run]);
     }
     return find_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
+  }
+
+  /// What an earlier start of the study did, so that the time left is told right from the start.
+  void count_done() {
+    std::erase_if(waiting_, [&](const ChosenRun& c) {
+      if (!c.own || inspect_run(options_.root, run_of(c)).state != RunState::kDone) return false;
+      count(c, true);
+      return true;
+    });
   }
 
   StudyCounts counts() const {
