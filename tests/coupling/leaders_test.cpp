@@ -133,6 +133,30 @@ TEST(Leaders, KeepTheirPlaceUntilAnotherIsNearerByASixthOfARadius) {
   }
 }
 
+// Cells stand in every way from the first one but the straight one, which they leave this narrow.
+std::vector<PolarCell> behind_a_gate(double half_width, bool led) {
+  std::vector<PolarCell> cells{cell(140, 0)};
+  cells[0].led = led;
+  const double r = cells[0].radius;
+  for (const double side : {-1.0, 1.0})
+    for (const auto& [along, aside] : {std::pair{3.0, half_width}, {2.12, 2.12}}) {
+      PolarCell other = cells[0];
+      other.led = false;
+      other.distance = std::hypot(140 - along * r, aside * r);
+      other.angle = side * std::atan2(aside * r, 140 - along * r);
+      cells.push_back(other);
+    }
+  return cells;
+}
+
+TEST(Leaders, AtTheBorderKeepTheirPlaceInANarrowerWay) {
+  const Motility m = by(Leaders::kBorder);
+  EXPECT_EQ(find_leaders(m, behind_a_gate(1.35, false))[0], 1);
+  EXPECT_EQ(find_leaders(m, behind_a_gate(1.25, false))[0], 0);
+  EXPECT_EQ(find_leaders(m, behind_a_gate(1.25, true))[0], 1);
+  EXPECT_EQ(find_leaders(m, behind_a_gate(1.05, true))[0], 0);
+}
+
 TEST(Leaders, AreChosenOncePerIntervalOfTheirGrid) {
   World w = make_test_world({{Vec3(140, 0, 0)}, {Vec3(165, 0, 0), false}}, 60, 42);
   w.params.motility = by(Leaders::kFront);
