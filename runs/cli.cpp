@@ -60,7 +60,8 @@ void add_set(CLI::App& command, RunOptions& run) {
 
 void add_run_options(CLI::App& command, Arguments& arguments) {
   RunOptions& run = arguments.run;
-  command.add_option("SCENE", run.scene_file, "scene file")->required();
+  command.add_option("SCENE", run.scene_file, "scene file, or the name of a shipped scene")
+      ->required();
   command.add_option("--out", run.out, "run folder (default: <scene name>.run in this folder)")
       ->type_name("DIR");
   add_set(command, run);
@@ -99,7 +100,7 @@ void add_calibrate(CLI::App& app, Arguments& arguments) {
       add_command(app, "calibrate", "find the law that makes spheres push as deformable cells do",
                   "acinus calibrate runs/scenes/lobule_hybrid.json --out law.json");
   command->add_option("SCENE", arguments.run.scene_file,
-                      "scene with the cell type (default: the shipped scene calibration)");
+                      "scene file or name, with the cell type (default: calibration)");
   command->add_option("--out", o.out, "law file; runs, curves and plots stand beside it")
       ->type_name("LAW.json")
       ->required();
@@ -202,7 +203,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* validate =
       add_command(app, "check", "validate a scene and its geometry without running it",
                   "acinus check runs/scenes/two_cells.json --resolved");
-  validate->add_option("SCENE", arguments.run.scene_file, "scene file")->required();
+  validate
+      ->add_option("SCENE", arguments.run.scene_file, "scene file, or the name of a shipped scene")
+      ->required();
   add_set(*validate, arguments.run);
   validate->add_flag("--resolved", arguments.resolved, "print the scene with every default");
 
@@ -279,14 +282,14 @@ int do_run(Arguments& arguments) {
     run.max_walltime_s = flag_value("--max-walltime", arguments.max_walltime, parse_wall_time);
   }
   run.progress_json = arguments.progress == "json";
-  Scene scene = read_scene(run.scene_file, run.set);
+  Scene scene = read_scene(find_scene_file(run.scene_file), run.set);
   if (run.out.empty()) run.out = scene.name + ".run";
   if (const int stop = resolve_corrections(scene, run.threads, run.quiet)) return stop;
   return run_scene(scene, run);
 }
 
 int do_check(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.run.scene_file, arguments.run.set);
+  const Scene scene = read_scene(find_scene_file(arguments.run.scene_file), arguments.run.set);
   Scene plain = scene;
   std::vector<std::string> notes;
   for (auto& [name, type] : plain.cell_types) {
@@ -352,8 +355,7 @@ int do_new(const Arguments& arguments) {
 
 int do_calibrate(Arguments& arguments) {
   CalibrateOptions& options = arguments.calibrate;
-  if (arguments.run.scene_file.empty())
-    arguments.run.scene_file = scene_folder() + "/calibration.json";
+  if (arguments.run.scene_file.empty()) arguments.run.scene_file = "calibration";
   options.command_line = arguments.run.command_line;
   if (!arguments.check_friction.empty())
     options.check_friction =
@@ -365,7 +367,8 @@ int do_calibrate(Arguments& arguments) {
                    [](const std::string& text) { return parse_quantity(text, kTime); });
   check(options.relaxation_time >= 0,
         fmt::format("--relaxation-time \"{}\": must be > 0 s", arguments.relaxation_time));
-  return calibrate(read_scene(arguments.run.scene_file, arguments.run.set), options);
+  return calibrate(read_scene(find_scene_file(arguments.run.scene_file), arguments.run.set),
+                   options);
 }
 
 /// "pressure=0.2" and so on.
@@ -390,7 +393,7 @@ int do_compare(Arguments& arguments) {
   if (!arguments.scene.empty()) {
     check(folders.empty(), "compare takes run folders or --scene, not both");
     CompareScenes& options = arguments.compare;
-    const Scene scene = read_scene(arguments.scene, arguments.run.set);
+    const Scene scene = read_scene(find_scene_file(arguments.scene), arguments.run.set);
     if (options.folder.empty()) options.folder = scene.name + ".compare";
     options.command_line = arguments.run.command_line;
     if (const int stop = run_models(scene, options, folders)) return stop;

@@ -72,6 +72,23 @@ std::string scene_folder() {
 
 std::vector<ShippedScene> shipped_scenes() { return list_documents(scene_folder()); }
 
+std::string find_document(const std::string& name, const std::string& kind,
+                          std::vector<ShippedScene> (*shipped)()) {
+  std::error_code code;
+  if (fs::exists(name, code)) return name;
+  std::vector<std::string> names;
+  for (const ShippedScene& document : shipped()) {
+    if (document.name == name) return document.file;
+    names.push_back(document.name);
+  }
+  const std::string hint = nearest_name(name, names);
+  throw Error(
+      fmt::format("{}: no such file, and no shipped {} of that name. {}`acinus list` names "
+                  "them",
+                  name, kind, hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint)),
+      Exit::kFileError);
+}
+
 std::vector<ShippedScene> list_documents(const std::string& folder) {
   std::vector<ShippedScene> scenes;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -24,6 +24,15 @@ std::vector<ShippedScene> list_documents(const std::string& folder);
 /// All shipped scenes by name. A scene that cannot be parsed has its error as description.
 std::vector<ShippedScene> shipped_scenes();
 
+/// A file, or that of the shipped document of this name.
+/// @param kind  "scene" or "study", for the message
+/// @throws Error (kFileError) with a hint if there is neither
+std::string find_document(const std::string& name, const std::string& kind,
+                          std::vector<ShippedScene> (*shipped)());
+inline std::string find_scene_file(const std::string& name) {
+  return find_document(name, "scene", shipped_scenes);
+}
+
 /// Copies a shipped scene, the scenes it extends and the files they name into a new or existing
 /// folder, which then works by itself.
 /// @return paths written, the scene first

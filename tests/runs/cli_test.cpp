@@ -73,6 +73,9 @@ TEST(Cli, UsageErrorsExitWithTwo) {
 TEST(Cli, MissingFilesExitWithFour) {
   EXPECT_EQ(call("check /no/such/scene.json").code, 4);
   EXPECT_EQ(call("run /no/such/scene.json").code, 4);
+  const Outcome misspelt = call("run twocells");
+  EXPECT_EQ(misspelt.code, 4);
+  EXPECT_NE(misspelt.text.find("Did you mean \"two_cells\"?"), std::string::npos) << misspelt.text;
 }
 
 TEST(Cli, ReadersExitWithZero) {
@@ -80,7 +83,7 @@ TEST(Cli, ReadersExitWithZero) {
            "check " + kScene, "check " + kScene + " --resolved", "schema", "explain",
            "explain cell.radius", "list", "--version", "bench",
            "check " + kScene + " --set time.end=3h --set 'cells.list.0.radius=11 um'",
-           "check --set time.end=3h " + kScene}) {
+           "check --set time.end=3h " + kScene, "check two_cells"}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.code, 0) << arguments << "\n" << outcome.text;
     EXPECT_NE(outcome.text, "") << arguments;
