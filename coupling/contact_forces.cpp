@@ -171,20 +171,16 @@ std::vector<int> cluster_sizes(std::size_t n_cell,
   return size;
 }
 
-double interface_residual(const World& world, const Workspace& w) {
+double interface_residual(const Workspace& w) {
   struct Load {
     Vec3 place, force;
   };
   std::vector<Load> loads;
-  const auto& position = world.state.dcm.position;
   const std::size_t first = w.dcm.surface.size() + w.dcm.obstacle.size();
   for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
     const solve::Stencil stencil = solve::stencil_of(w.system.links.link[first + k]);
     for (std::size_t m = 0; m < static_cast<std::size_t>(stencil.n); ++m) {
-      const Address a = stencil.address[m];
-      const bool node = a < position.size();
-      loads.push_back({node ? load_point(position.data(), a)
-                            : load_point(world.state.cbm.position.data(), a - position.size()),
+      loads.push_back({load_point(w.position.data(), stencil.address[m]),
                        stencil.weight[m] * link_force(w, first + k)});
     }
   }

@@ -66,6 +66,6 @@ std::vector<int> cluster_sizes(std::size_t n_cell,
 /// How far the forces of the DCM-CBM contacts, spread over nodes and spheres as the solver spreads
 /// them, are from action and reaction: the larger of |sum f| / sum |f| and, about their centroid,
 /// |sum x f| / sum |x||f|. 0 where there are none.   @pre observe
-double interface_residual(const World& world, const Workspace& work);
+double interface_residual(const Workspace& work);
 
 }  // namespace acinus::coupling

@@ -33,4 +33,13 @@ inline double rest_triangle_area(const GroupView& g, std::size_t triangle, int l
   return g.topology->rest_triangle_area[triangle] * g.radius[lane] * g.radius[lane] * ratio;
 }
 
+/// Present area of a triangle, um^2.
+inline double triangle_area(const GroupView& g, std::size_t triangle, int lane) {
+  const auto node = [&](int corner) {
+    return load_point(g.position, make_address(static_cast<std::size_t>(corner), lane));
+  };
+  const auto& [a, b, c] = g.topology->triangle[triangle];
+  return 0.5 * (node(b) - node(a)).cross(node(c) - node(a)).norm();
+}
+
 }  // namespace acinus::dcm

@@ -355,7 +355,8 @@ int do_new(const Arguments& arguments) {
 
 int do_calibrate(Arguments& arguments) {
   CalibrateOptions& options = arguments.calibrate;
-  if (arguments.run.scene_file.empty()) arguments.run.scene_file = "calibration";
+  if (arguments.run.scene_file.empty())
+    arguments.run.scene_file = scene_folder() + "/calibration.json";
   options.command_line = arguments.run.command_line;
   if (!arguments.check_friction.empty())
     options.check_friction =

@@ -98,9 +98,12 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     element += solve::kHingeStride;
 
     const auto& face = t.edge_triangle[static_cast<std::size_t>(e)];
-    const Collapse c1 = find_collapse(least_area(face[0]), 0.5 * lane_sqrt(s1)),
-                   c2 = find_collapse(least_area(face[1]), 0.5 * lane_sqrt(s2));
-    if (sum_lanes<double>(c1.squeeze + c2.squeeze) > 0) {
+    const Lane least1 = least_area(face[0]), least2 = least_area(face[1]);
+    const Lane missing =
+        lane_max0(4.0 * least1 * least1 - s1) + lane_max0(4.0 * least2 * least2 - s2);
+    if (sum_lanes<double>(missing) > 0) {  // hardly ever
+      const Collapse c1 = find_collapse(least1, 0.5 * lane_sqrt(s1)),
+                     c2 = find_collapse(least2, 0.5 * lane_sqrt(s2));
       double* const at[4] = {force + h[0] * kPointStride, force + h[1] * kPointStride,
                              force + h[2] * kPointStride, force + h[3] * kPointStride};
       add_collapse(k, c1, stiffness_scale, {x1, x3, x4}, n1, {at[0], at[2], at[3]}, spring);
@@ -135,12 +138,8 @@ double bending_energy(const Params& p, const GroupView& g, int lane) {
     energy += p.bending_stiffness * (1 - std::cos(theta - rest) + fold * fold);
   }
   for (std::size_t f = 0; f < g.topology->triangle.size(); ++f) {
-    Vec3 x[3];
-    for (std::size_t m = 0; m < 3; ++m)
-      x[m] = load_point(g.position,
-                        make_address(static_cast<std::size_t>(g.topology->triangle[f][m]), lane));
-    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-    const double squeeze = std::max(kLeastArea * rest_triangle_area(g, f, lane) / area - 1, 0.0);
+    const double least = kLeastArea * rest_triangle_area(g, f, lane);
+    const double squeeze = std::max(least / triangle_area(g, f, lane) - 1, 0.0);
     energy += p.bending_stiffness * squeeze * squeeze;
   }
   return g.active[lane] * energy;

@@ -38,12 +38,8 @@ void add_local_area(const Params& p, const GroupView& g, solve::System& s) {
 double local_area_energy(const Params& p, const GroupView& g, int lane) {
   double energy = 0;
   for (std::size_t f = 0; f < g.topology->triangle.size(); ++f) {
-    Vec3 x[3];
-    for (std::size_t m = 0; m < 3; ++m)
-      x[m] = load_point(g.position,
-                        make_address(static_cast<std::size_t>(g.topology->triangle[f][m]), lane));
     const double a0 = rest_triangle_area(g, f, lane);
-    const double stretch = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm() - a0;
+    const double stretch = triangle_area(g, f, lane) - a0;
     energy += p.local_area_modulus * stretch * stretch / (2 * a0);
   }
   return g.active[lane] * energy;

@@ -75,12 +75,14 @@ std::vector<ShippedScene> shipped_scenes() { return list_documents(scene_folder(
 std::string find_document(const std::string& name, const std::string& kind,
                           std::vector<ShippedScene> (*shipped)()) {
   std::error_code code;
-  if (fs::exists(name, code)) return name;
+  const fs::file_status given = fs::status(name, code);
+  if (fs::exists(given) && !fs::is_directory(given)) return name;
   std::vector<std::string> names;
   for (const ShippedScene& document : shipped()) {
     if (document.name == name) return document.file;
     names.push_back(document.name);
   }
+  if (fs::exists(given)) return name;  // a folder: who reads it says so
   const std::string hint = nearest_name(name, names);
   throw Error(
       fmt::format("{}: no such file, and no shipped {} of that name. {}`acinus list` names "

@@ -70,6 +70,10 @@ TEST(Cli, UsageErrorsExitWithTwo) {
   }
 }
 
+TEST(Cli, AFolderOfThatNameDoesNotHideAShippedScene) {
+  EXPECT_EQ(call("check calibration").code, 0) << "the source tree has a folder calibration";
+}
+
 TEST(Cli, MissingFilesExitWithFour) {
   EXPECT_EQ(call("check /no/such/scene.json").code, 4);
   EXPECT_EQ(call("run /no/such/scene.json").code, 4);
