@@ -9,7 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/sphere.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::calibration {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "calibration/clump.hpp"
 #include "core/error.hpp"
-#include "coupling/step.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::calibration {
 namespace {

@@ -6,6 +6,9 @@
 
 namespace acinus {
 
+/// Two times this near are the same, s: sums of steps that end at one time differ by rounding.
+inline constexpr double kSameTime = 1e-6;
+
 /// Share of an interval by which a sum of steps may fall short of its end.
 inline constexpr double kGridSlack = 1e-9;
 

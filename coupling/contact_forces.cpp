@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "coupling/step.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
 namespace {

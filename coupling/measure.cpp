@@ -7,7 +7,7 @@
 
 #include "core/sphere.hpp"
 #include "coupling/contact_forces.hpp"
-#include "coupling/step.hpp"
+#include "coupling/step/stages.hpp"
 #include "dcm/stress.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/volume.hpp"

@@ -1,18 +1,18 @@
 #include "coupling/subworld.hpp"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "core/contact/box.hpp"
 #include "coupling/population.hpp"
+#include "coupling/step/loop.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
 namespace {
 
-/// First step in a small world, s: contacts just made are felt before anything has moved far.
+/// First step in a subworld at rest, s: contacts just made are felt before anything has moved far.
 constexpr double kFirstStep = 1;
-
-constexpr double kSameTime = 1e-9;  // s
 
 contact::Box box_of(const State& s, std::size_t lane) {
   contact::Box box;
@@ -37,34 +37,42 @@ void stop_walls(contact::Surroundings& around, double time) {
 
 Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
 
-/// Index of every lineage that moves.
-std::map<std::int64_t, std::size_t> index_moving(const std::vector<std::int64_t>& lineage,
-                                                 std::span<const std::uint8_t> held) {
-  std::map<std::int64_t, std::size_t> index;
-  for (std::size_t k = 0; k < lineage.size(); ++k)
-    if (lineage[k] != dcm::kEmptyLane && (held.empty() || held[k] == 0)) index[lineage[k]] = k;
-  return index;
+/// Whether a workspace made for one of two states serves the other.
+bool have_same_cells(const State& a, const State& b) {
+  return a.dcm.lineage == b.dcm.lineage && a.cbm.lineage == b.cbm.lineage &&
+         std::ranges::equal(a.dcm.group, b.dcm.group, [](const dcm::Group& g, const dcm::Group& h) {
+           return g.topology == h.topology && g.type == h.type;
+         });
 }
 
-/// The sphere contacts of `from` replace those that `to` has between the same cells.
-void write_touching(const cbm::State& from, const std::map<std::int64_t, std::size_t>& moving,
-                    cbm::State& to) {
-  std::map<std::int64_t, std::size_t> all;
-  for (std::size_t c = 0; c < to.n_cell(); ++c) all[to.lineage[c]] = c;
-  std::vector<std::uint8_t> inside(to.n_cell(), 0), moves(to.n_cell(), 0);
-  for (std::int64_t id : from.lineage) inside[all.at(id)] = 1;
-  for (const auto& [id, c] : moving) moves[all.at(id)] = 1;
+/// Calls f with where each point that moves stands in the subworld and in the whole.
+template <class F>
+void for_each_moving_point(const Subworld& sub, const State& to, F f) {
+  const State& from = sub.world.state;
+  for (std::size_t k = 0; k < sub.moving.dcm.size(); ++k) {
+    const std::size_t lane = sub.moving.dcm[k];
+    const int n = to.dcm.group[lane / kLanes].topology->n_node;
+    for (int i = 0; i < n; ++i)
+      f(dcm::node_address(from.dcm, sub.lane[k], i), dcm::node_address(to.dcm, lane, i));
+  }
+  for (std::size_t k = 0; k < sub.moving.cbm.size(); ++k)
+    f(cbm::cell_address(from.dcm.n_row(), k), cbm::cell_address(to.dcm.n_row(), sub.moving.cbm[k]));
+}
+
+/// Contacts of spheres that moved replace those they had.
+void write_touching(const Subworld& sub, cbm::State& to) {
+  std::vector<std::uint8_t> moves(to.n_cell(), 0);
+  for (std::size_t c : sub.moving.cbm) moves[c] = 1;
   const auto is_replaced = [&](const std::pair<int, int>& pair) {
-    const auto a = static_cast<std::size_t>(pair.first);
-    if (pair.second < 0) return moves[a] != 0;
-    const auto b = static_cast<std::size_t>(pair.second);
-    return inside[a] != 0 && inside[b] != 0 && (moves[a] != 0 || moves[b] != 0);
+    return moves[static_cast<std::size_t>(pair.first)] != 0 ||
+           (pair.second >= 0 && moves[static_cast<std::size_t>(pair.second)] != 0);
+  };
+  const auto index = [&](int sphere) {
+    const auto k = static_cast<std::size_t>(sphere), n = sub.moving.cbm.size();
+    return static_cast<int>(k < n ? sub.moving.cbm[k] : sub.constrained.cbm[k - n]);
   };
   std::erase_if(to.touching, is_replaced);
-  for (const auto& [a, b] : from.touching) {
-    const auto index = [&](int cell) {
-      return static_cast<int>(all.at(from.lineage[static_cast<std::size_t>(cell)]));
-    };
+  for (const auto& [a, b] : sub.world.state.cbm.touching) {
     const int i = index(a), j = b < 0 ? b : index(b);
     const std::pair<int, int> pair{b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j)};
     if (is_replaced(pair)) to.touching.push_back(pair);
@@ -74,7 +82,7 @@ void write_touching(const cbm::State& from, const std::map<std::int64_t, std::si
 
 }  // namespace
 
-Selected find_neighbours(const World& world, const Selected& cells, double reach) {
+CellSet find_neighbours(const World& world, const CellSet& cells, double reach) {
   const State& s = world.state;
   const std::vector<double> radius = cbm::radii_at(s.cbm, s.clock.time);
   const auto sphere = [&](std::size_t c) {
@@ -83,7 +91,7 @@ Selected find_neighbours(const World& world, const Selected& cells, double reach
   std::vector<contact::Box> inner, outer;
   for (std::size_t l : cells.dcm) inner.push_back(box_of(s, l));
   for (std::size_t c : cells.cbm) inner.push_back(sphere(c));
-  Selected others;
+  CellSet others;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l) && !std::ranges::binary_search(cells.dcm, l)) others.dcm.push_back(l);
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
@@ -94,7 +102,7 @@ Selected find_neighbours(const World& world, const Selected& cells, double reach
   for (const auto& pair : contact::find_pairs_between(inner, outer, reach))
     near[static_cast<std::size_t>(pair.second)] = 1;
   const std::size_t n_shell = others.dcm.size();
-  Selected found;
+  CellSet found;
   for (std::size_t k = 0; k < near.size(); ++k) {
     if (near[k] == 0) continue;
     if (k < n_shell)
@@ -105,94 +113,81 @@ Selected find_neighbours(const World& world, const Selected& cells, double reach
   return found;
 }
 
-Subworld extract(const World& world, const Selected& moving, const Selected& held) {
-  const State& s = world.state;
-  Subworld sub;
-  sub.time = s.clock.time;
-  sub.world.params = world.params;
-  stop_walls(sub.world.params.around, time_since_start(world));
-  sub.world.params.motility.random = false;
-  sub.world.params.motility.leader_force = 0;
-  sub.world.params.numerics.adaptive = true;
+void take_cells(const State& state, CellSet moving, CellSet constrained, Subworld& sub) {
   std::vector<Member> shells, spheres;
-  for (const Selected* part : {&moving, &held}) {
-    for (std::size_t l : part->dcm) shells.push_back({&s, l});
-    for (std::size_t c : part->cbm) spheres.push_back({&s, c});
+  for (const CellSet* cells : {&moving, &constrained}) {
+    for (std::size_t l : cells->dcm) shells.push_back({&state, l});
+    for (std::size_t c : cells->cbm) spheres.push_back({&state, c});
   }
-  State& small = sub.world.state;
-  small = compose(shells, spheres, s);
-  for (Ramp& v : small.dcm.volume) v = frozen(v, s.clock.time);
-  for (dcm::BirthShape& b : small.dcm.birth) b.weight = frozen(b.weight, s.clock.time);
-  for (Ramp& v : small.cbm.volume) v = frozen(v, s.clock.time);
-  for (Ramp& v : small.cbm.strength) v = frozen(v, s.clock.time);
-  small.asleep.assign(small.dcm.n_lane() + small.cbm.n_cell(), 0);
-  std::vector<std::int64_t> still;
-  for (std::size_t l : held.dcm) still.push_back(s.dcm.lineage[l]);
-  for (std::size_t c : held.cbm) still.push_back(s.cbm.lineage[c]);
-  std::ranges::sort(still);
-  for (std::size_t l = 0; l < small.dcm.n_lane(); ++l)
-    small.asleep[l] = std::ranges::binary_search(still, small.dcm.lineage[l]) ? 1 : 0;
-  for (std::size_t c = 0; c < small.cbm.n_cell(); ++c)
-    small.asleep[cell_index(small, c)] =
-        std::ranges::binary_search(still, small.cbm.lineage[c]) ? 1 : 0;
-  small.balance = {};
-  small.clock.step = kFirstStep;
-  small.clock.last_step = 0;
-  small.clock.accepted = small.clock.rejected = small.clock.cg_iterations = small.clock.solves = 0;
-  small.clock.coarse = false;
-  sub.work.holds = true;
+  std::vector<std::size_t> lane;
+  State small = compose(shells, spheres, state, &lane);
+  small.asleep.clear();
+  std::vector<std::uint8_t> is_constrained(small.dcm.n_lane() + small.cbm.n_cell(), 0);
+  for (std::size_t k = moving.dcm.size(); k < lane.size(); ++k) is_constrained[lane[k]] = 1;
+  for (std::size_t k = moving.cbm.size(); k < spheres.size(); ++k)
+    is_constrained[cell_index(small, k)] = 1;
+  lane.resize(moving.dcm.size());
+  const bool same =
+      have_same_cells(small, sub.world.state) && is_constrained == sub.work.constraint.cell;
+  sub.world.state = std::move(small);
+  sub.moving = std::move(moving);
+  sub.constrained = std::move(constrained);
+  sub.lane = std::move(lane);
+  if (same) return;
+  sub.work.constraint.cell = std::move(is_constrained);
   size_workspace(sub.world, sub.work);
+}
+
+Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained) {
+  Subworld sub;
+  Params& params = sub.world.params;
+  params = world.params;
+  stop_walls(params.around, time_since_start(world));
+  params.motility.random = false;
+  params.motility.leader_force = 0;
+  params.numerics.adaptive = true;
+  take_cells(world.state, std::move(moving), std::move(constrained), sub);
+  State& s = sub.world.state;
+  const double now = s.clock.time;
+  for (Ramp& v : s.dcm.volume) v = frozen(v, now);
+  for (dcm::BirthShape& b : s.dcm.birth) b.weight = frozen(b.weight, now);
+  for (Ramp& v : s.cbm.volume) v = frozen(v, now);
+  for (Ramp& v : s.cbm.strength) v = frozen(v, now);
+  s.balance = {};
+  s.clock.step = kFirstStep;
+  s.clock.last_step = 0;
+  s.clock.accepted = s.clock.rejected = s.clock.cg_iterations = s.clock.solves = 0;
+  s.clock.coarse = false;
   return sub;
 }
 
 Settling relax(Subworld& sub, double duration) {
-  Settling settling;
-  Clock& clock = sub.world.state.clock;
-  const double end = sub.time + duration;
-  while (clock.time < end - kSameTime) {
-    const StepResult result = advance(sub.world, sub.work, end - clock.time);
-    if (!result.accepted) {
-      settling.ok = false;
-      settling.cause = result.cause;
-      return settling;
-    }
-    ++settling.steps;
-  }
-  return settling;
+  const Clock& clock = sub.world.state.clock;
+  const LoopResult result =
+      run_loop(clock, clock.time + duration,
+               {.advance = [&](double limit) { return take_step(sub.world, sub.work, limit); }});
+  return {result.ok, result.ok ? "" : result.last.cause, result.steps};
 }
 
-void write_back(const Subworld& sub, World& world) {
+void write_positions(const Subworld& sub, State& to) {
   const State& from = sub.world.state;
-  State& to = world.state;
-  const std::span<const std::uint8_t> held(from.asleep);
-  const auto shells =
-      index_moving(from.dcm.lineage, held.empty() ? held : held.first(from.dcm.n_lane()));
-  const auto spheres =
-      index_moving(from.cbm.lineage, held.empty() ? held : held.subspan(from.dcm.n_lane()));
-  const bool move = has_last_move(from) && has_last_move(to);
-  const double ratio = move ? to.clock.last_step / from.clock.last_step : 0;
-  for (std::size_t l = 0; l < to.dcm.n_lane(); ++l) {
-    const auto it = to.dcm.active(l) ? shells.find(to.dcm.lineage[l]) : shells.end();
-    if (it == shells.end()) continue;
-    const int n_node = to.dcm.group[l / kLanes].topology->n_node;
-    for (int i = 0; i < n_node; ++i) {
-      const Address a = dcm::node_address(from.dcm, it->second, i),
-                    b = dcm::node_address(to.dcm, l, i);
-      store_point(to.dcm.position.data(), b, load_point(from.dcm.position.data(), a));
-      if (move) store_point(to.last_move.data(), b, ratio * load_point(from.last_move.data(), a));
-    }
-  }
-  for (std::size_t c = 0; c < to.cbm.n_cell(); ++c) {
-    const auto it = spheres.find(to.cbm.lineage[c]);
-    if (it == spheres.end()) continue;
-    store_point(to.cbm.position.data(), cbm::cell_address(0, c),
-                cbm::center_of(from.cbm, it->second));
-    if (move)
-      store_point(to.last_move.data(), cbm::cell_address(to.dcm.n_row(), c),
-                  ratio * load_point(from.last_move.data(),
-                                     cbm::cell_address(from.dcm.n_row(), it->second)));
-  }
-  if (!from.cbm.lineage.empty()) write_touching(from.cbm, spheres, to.cbm);
+  for_each_moving_point(sub, to, [&](Address a, Address b) {
+    store_point(position_of(to, b), 0, load_point(position_of(from, a), 0));
+  });
+  if (!sub.moving.cbm.empty()) write_touching(sub, to.cbm);
+}
+
+void write_last_moves(const Subworld& sub, double ratio, State& to) {
+  for_each_moving_point(sub, to, [&](Address a, Address b) {
+    store_point(to.last_move.data(), b, ratio * load_point(sub.world.state.last_move.data(), a));
+  });
+}
+
+void write_moved(const Subworld& sub, State& to) {
+  write_positions(sub, to);
+  const State& from = sub.world.state;
+  if (has_last_move(from) && has_last_move(to))
+    write_last_moves(sub, to.clock.last_step / from.clock.last_step, to);
 }
 
 }  // namespace acinus::coupling

@@ -63,6 +63,15 @@ void gather_positions(const State& s, std::vector<double>& out) {
   for_each_number(cbm.size(), [&](std::size_t k) { out[dcm.size() + k] = cbm[k]; });
 }
 
+const double* position_of(const State& s, Address point) {
+  const std::size_t n = s.dcm.position.size();
+  return point < n ? s.dcm.position.data() + point : s.cbm.position.data() + (point - n);
+}
+
+double* position_of(State& s, Address point) {
+  return const_cast<double*>(position_of(std::as_const(s), point));
+}
+
 void move_points(State& s, std::span<const double> d) {
   auto &dcm = s.dcm.position, &cbm = s.cbm.position;
   for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });

@@ -168,6 +168,10 @@ std::vector<std::uint8_t> active_lanes(const State& state);
 std::vector<double> gather_positions(const State& state);
 void gather_positions(const State& state, std::vector<double>& out);
 
+/// Where the coordinates of a point among all unknowns are kept, kLanes apart.
+double* position_of(State& state, Address point);
+const double* position_of(const State& state, Address point);
+
 /// Moves all unknowns.
 /// @param by  [n_row][3][lane] um
 void move_points(State& state, std::span<const double> by);

@@ -226,12 +226,12 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
 void refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
                    const contact::Surroundings& around, ContactWorkspace& work) {
   std::vector<std::int64_t> lineage;
-  std::vector<std::uint8_t> held;
+  std::vector<std::uint8_t> constrained;
   for (std::size_t lane : work.lane_of_body) {
     lineage.push_back(state.lineage[lane]);
-    if (!work.held.empty()) held.push_back(work.held[lane]);
+    if (!work.constrained.empty()) constrained.push_back(work.constrained[lane]);
   }
-  refresh_lists({work.body, work.fixed, lineage, held, around.vessels.network,
+  refresh_lists({work.body, work.fixed, lineage, constrained, around.vessels.network,
                  search_options(c, state, lanes)},
                 work.lists);
 }
@@ -266,7 +266,7 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
 #pragma omp parallel for schedule(dynamic, 2) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k)
-    if (work.held.empty() || work.held[work.lane_of_body[k]] == 0)
+    if (work.constrained.empty() || work.constrained[work.lane_of_body[k]] == 0)
       find_obstacle_contacts(work.body[k], static_cast<int>(k), c, options.range, around, time,
                              work.lists.segment[k], obstacle[k]);
   work.obstacle.clear();

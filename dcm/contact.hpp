@@ -82,7 +82,7 @@ double guard_area(const mesh::Topology& t, int point, double radius);
 /// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
 struct ContactWorkspace {
   std::vector<std::uint8_t>
-      held;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
+      constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
   std::vector<std::size_t> lane_of_body;                    ///< written by: refresh_bodies
   std::vector<contact::SurfaceBody> body;                   ///< written by: refresh_bodies
   std::vector<contact::SurfaceBody> fixed;                  ///< static meshes

@@ -15,8 +15,8 @@ namespace {
 /// pairs are looked for again.
 constexpr double kReserve = 2;
 
-bool is_held(const ListInput& in, std::size_t body) {
-  return body >= in.body.size() || (!in.held.empty() && in.held[body] != 0);
+bool is_constrained(const ListInput& in, std::size_t body) {
+  return body >= in.body.size() || (!in.constrained.empty() && in.constrained[body] != 0);
 }
 
 /// Whether lists made then say anything about now.
@@ -33,7 +33,8 @@ bool pairs_hold(const ListInput& in, const ContactLists& lists) {
   const double room = 0.5 * (kReserve - wider);
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     const ListedBody& b = lists.body[k];
-    if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology || b.held != is_held(in, k))
+    if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology ||
+        b.constrained != is_constrained(in, k))
       return false;
     const contact::Box within = b.box.grown(room);
     if (!within.contains(in.body[k].box.low) || !within.contains(in.body[k].box.high)) return false;
@@ -97,13 +98,13 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
     }
     b.lineage = in.lineage[k];
     b.topology = in.body[k].topology;
-    b.held = is_held(in, k);
+    b.constrained = is_constrained(in, k);
     b.box = in.body[k].box;
   }
   next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);
   std::erase_if(next.pair, [&](const contact::Candidates& c) {
-    return is_held(in, static_cast<std::size_t>(c.body_a)) &&
-           is_held(in, static_cast<std::size_t>(c.body_b));
+    return is_constrained(in, static_cast<std::size_t>(c.body_a)) &&
+           is_constrained(in, static_cast<std::size_t>(c.body_b));
   });
   next.age.resize(next.pair.size());
   const auto number_before = [&](int body) {
@@ -214,7 +215,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   std::vector<std::size_t> segments_expired;
   if (!in.network.segment.empty())
     for (std::size_t k = 0; k < n_body; ++k) {
-      if (is_held(in, k)) continue;
+      if (is_constrained(in, k)) continue;
       const ListAge& age = lists.segment_age[k];
       const Snapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
       if (s == nullptr || s->spread + s->mean.norm() + range - age.range > skin)

@@ -33,7 +33,7 @@ struct Snapshot {
 struct ListedBody {
   std::int64_t lineage = -1;
   const mesh::Topology* topology = nullptr;
-  bool held = false;
+  bool constrained = false;
   contact::Box box;  ///< when pairs were looked for
   std::vector<Snapshot> snapshot;
 };
@@ -59,13 +59,14 @@ struct ContactLists {
 /// The bodies of this moment. The spans outlive the call.
 struct ListInput {
   std::span<const contact::SurfaceBody> body, fixed;
-  std::span<const std::int64_t> lineage;  ///< [body]
-  std::span<const std::uint8_t> held;     ///< [body] 1: does not move; empty: all move
+  std::span<const std::int64_t> lineage;      ///< [body]
+  std::span<const std::uint8_t> constrained;  ///< [body] 1: does not move; empty: all move
   const mesh::Network& network;
   contact::SearchOptions options;
 };
 
-/// Makes those lists again that no longer hold. Nothing is listed between bodies that are held.
+/// Makes those lists again that no longer hold. Nothing is listed between bodies that are
+/// constrained.
 void refresh_lists(const ListInput& in, ContactLists& lists);
 
 /// How far the bodies of a pair moved relative to each other since its list was made, um.

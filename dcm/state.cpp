@@ -112,14 +112,14 @@ void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
 }
 
 std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> params,
-                                      std::span<const std::uint8_t> held) {
+                                      std::span<const std::uint8_t> constrained) {
   std::vector<solve::Block> blocks;
   for (std::size_t k = 0; k < s.group.size(); ++k) {
     const Group& g = s.group[k];
     solve::Block block;
-    block.still = !held.empty();
+    block.still = !constrained.empty();
     for (std::size_t l = k * kLanes; l < (k + 1) * kLanes && block.still; ++l)
-      block.still = !s.active(l) || held[l] != 0;
+      block.still = !s.active(l) || constrained[l] != 0;
     const Params& p = params[static_cast<std::size_t>(g.type)];
     block.pattern = block.still ? &shared_point_pattern(g.topology->n_node)
                                 : &shared_mesh_pattern(*g.topology, p);

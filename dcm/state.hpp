@@ -84,9 +84,10 @@ Vec3 cell_center(const State& state, std::size_t lane);
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
 
 /// The blocks of unknowns these cells contribute, in order.
-/// @param held  [n_lane] 1: does not move; empty: all move. Groups without a moving cell have no
+/// @param constrained  [n_lane] 1: does not move; empty: all move. Groups without a moving cell
+/// have no
 ///              terms within.
 std::vector<solve::Block> make_blocks(const State& state, std::span<const Params> params,
-                                      std::span<const std::uint8_t> held = {});
+                                      std::span<const std::uint8_t> constrained = {});
 
 }  // namespace acinus::dcm

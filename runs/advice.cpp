@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "coupling/life/density.hpp"
 
 namespace acinus::runs {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "coupling/step.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/world.hpp"
 #include "runs/soundness.hpp"
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/contact/jkr.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::runs {
 namespace {

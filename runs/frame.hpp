@@ -7,7 +7,6 @@
 #include "coupling/audit.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/measure.hpp"
-#include "coupling/step.hpp"
 #include "coupling/workspace.hpp"
 #include "coupling/world.hpp"
 

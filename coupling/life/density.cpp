@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/sphere.hpp"
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
-#include "coupling/step.hpp"
+#include "coupling/step/loop.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -71,15 +73,20 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   Filling filling;
   Workspace work;
   size_workspace(small, work);
-  for (filling.steps = 0; filling.steps < kMostSteps;) {
-    const StepResult step = advance(small, work, small.params.numerics.max_step);
-    if (!step.accepted) {
-      filling.ok = false;
-      filling.cause = "the daughter cannot unfold: " + step.cause;
-      return filling;
-    }
-    ++filling.steps;
-    if (s.clock.time > kGrowth && step.step >= kRestStep && step.max_move < kRestMove) break;
+  const LoopResult result =
+      run_loop(s.clock, std::numeric_limits<double>::infinity(),
+               {.advance = [&](double limit) { return take_step(small, work, limit); },
+                .after =
+                    [&](const StepResult& step) {
+                      const bool rests = s.clock.time > kGrowth && step.step >= kRestStep &&
+                                         step.max_move < kRestMove;
+                      return !rests && s.clock.accepted < kMostSteps;
+                    }});
+  filling.steps = result.steps;
+  if (!result.ok) {
+    filling.ok = false;
+    filling.cause = "the daughter cannot unfold: " + result.last.cause;
+    return filling;
   }
   dcm::copy_nodes(s.dcm, 0, filling.node);
   return filling;

@@ -11,9 +11,9 @@
 #include "core/sphere.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
-#include "coupling/life/sleep.hpp"
 #include "coupling/population.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/sleep.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
 namespace {

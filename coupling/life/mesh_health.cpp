@@ -9,9 +9,9 @@
 #include "core/sphere.hpp"
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "coupling/life/mesh_remedy.hpp"
-#include "coupling/step.hpp"
+#include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
 namespace {

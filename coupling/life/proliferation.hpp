@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "coupling/world.hpp"
 
 namespace acinus::coupling {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "coupling/workspace.hpp"
 #include "coupling/world.hpp"
 

@@ -25,17 +25,17 @@ double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>
 
 Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughters) {
   const State& s = world.state;
-  Selected born;
+  CellSet born;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (std::ranges::find(daughters, s.dcm.lineage[l]) != daughters.end()) born.dcm.push_back(l);
-  Subworld sub = extract(world, born, find_neighbours(world, born, kReach));
+  Subworld sub = extract_at_rest(world, born, find_neighbours(world, born, kReach));
   const Settling settling = relax(sub, kSteps * world.params.numerics.max_step);
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;
 
   std::vector<std::vector<Vec3>> before(born.dcm.size());
   for (std::size_t k = 0; k < born.dcm.size(); ++k) dcm::copy_nodes(s.dcm, born.dcm[k], before[k]);
-  write_back(sub, world);
+  write_moved(sub, world.state);
   std::vector<Vec3> node;
   for (std::size_t k = 0; k < born.dcm.size(); ++k) {
     const std::size_t lane = born.dcm[k];

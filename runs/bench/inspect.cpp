@@ -11,7 +11,7 @@
 #include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
 #include "coupling/audit.hpp"
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 
 namespace acinus::runs {
 namespace {

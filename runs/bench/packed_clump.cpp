@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/build_world.hpp"
 #include "runs/scene/reader.hpp"
 

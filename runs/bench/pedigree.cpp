@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/sphere.hpp"
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/bench/packed_clump.hpp"
 #include "runs/build_world.hpp"
 #include "runs/scene/reader.hpp"

@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
-#include "coupling/integrators.hpp"
 #include "runs/bench/patch.hpp"
 #include "runs/bench/work_precision_report.hpp"
 #include "runs/bench/work_precision_scenes.hpp"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <set>
 
-#include "coupling/integrators.hpp"
+#include "coupling/step/attempt.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -10,7 +10,8 @@
 #include "coupling/difference.hpp"
 #include "coupling/life/life.hpp"
 #include "coupling/measure.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/build_world.hpp"
 #include "runs/scene/reader.hpp"
 

@@ -1,6 +1,7 @@
-/// Steps of a world in which somebody sleeps.
+/// Steps of a world in which cells sleep.
 
-#include "coupling/awake.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,13 +40,13 @@ void put_to_sleep(State& s) {
     s.asleep[c.index] = id % 6 >= 2 ? 1 : 0;
   });
 }
-const Selected kAwake{{0, 1}, {0, 1}};
+const CellSet kAwake{{0, 1}, {0, 1}};
 
-TEST(AwakePart, HoldsWhatMayTouchThoseAwakeAndWhatTouchesTheSpheresAmongThem) {
+TEST(AwakePart, ContainsWhatMayTouchThoseAwakeAndWhatTouchesTheSpheresAmongThem) {
   World w = make_rows();
   put_to_sleep(w.state);
   // Shell 2 and sphere 2 may touch; sphere 2 has contacts with sphere 3 and shells 2 and 3.
-  const Selected ring = find_ring(w, kAwake);
+  const CellSet ring = find_ring(w, kAwake);
   EXPECT_EQ(ring.dcm, (std::vector<std::size_t>{2, 3}));
   EXPECT_EQ(ring.cbm, (std::vector<std::size_t>{2, 3}));
   World shells = w;
@@ -53,12 +54,13 @@ TEST(AwakePart, HoldsWhatMayTouchThoseAwakeAndWhatTouchesTheSpheresAmongThem) {
   EXPECT_EQ(find_ring(shells, {{0, 1}, {}}).dcm, (std::vector<std::size_t>{2}));
 }
 
-TEST(AwakePart, StepsAsTheWholeWorldDoesWithItsSleepersHeld) {
+TEST(AwakePart, StepsAsTheWholeWorldDoesWithItsSleepersConstrained) {
   World part = make_rows();
   put_to_sleep(part.state);
   World whole = part;
   Workspace work, whole_work;
-  whole_work.holds = whole_work.glides = true;
+  whole_work.constraint = {whole.state.asleep, true};
+  whole.state.asleep.clear();
   size_workspace(part, work);
   size_workspace(whole, whole_work);
   run_steps(part, work, 5);
@@ -126,7 +128,7 @@ World make_pulled_pair() {
   return w;
 }
 
-TEST(AwakePart, SleepersGlideAlongWithThoseAwake) {
+TEST(AwakePart, SleepersMoveAlongWithThoseAwake) {
   World awake = make_pulled_pair();
   World tired = awake;
   tired.state.asleep = {0, 1, 0, 0, 0, 0, 0, 0};
@@ -135,7 +137,7 @@ TEST(AwakePart, SleepersGlideAlongWithThoseAwake) {
   size_workspace(tired, tired_work);
   const Vec3 start[] = {dcm::cell_center(awake.state.dcm, 0), dcm::cell_center(awake.state.dcm, 1)};
   run_steps(awake, work, 30);
-  ASSERT_TRUE(set_sleepers_pace(tired, tired_work, 1800));
+  ASSERT_TRUE(set_sleepers_velocity(tired, tired_work, 1800));
   run_steps(tired, tired_work, 30);
   for (std::size_t lane : {0, 1}) {
     const Vec3 way = dcm::cell_center(awake.state.dcm, lane) - start[lane];

@@ -1,12 +1,13 @@
 /// Contacts that close within a step are felt in that step.
 
-#include "coupling/closing.hpp"
+#include "coupling/step/closing.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "coupling/integrators.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

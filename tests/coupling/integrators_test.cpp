@@ -1,6 +1,8 @@
 /// The four ways to take a step, on one stretched cell that relaxes in a liquid.
 
-#include "coupling/integrators.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/attempt.hpp"
+#include "coupling/step/stages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,8 @@
 
 #include "core/mesh/measures.hpp"
 #include "coupling/measure.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "coupling/life/life.hpp"
 #include "coupling/life/rules.hpp"
 #include "tests/coupling/worlds.hpp"

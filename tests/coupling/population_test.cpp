@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "tests/coupling/worlds.hpp"
 #include "tests/reference/sample.hpp"
 

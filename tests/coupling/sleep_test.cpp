@@ -1,6 +1,6 @@
 /// Cells that rest are left out until something pushes them.
 
-#include "coupling/life/sleep.hpp"
+#include "coupling/sleep/sleep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -34,7 +34,7 @@ World make_stepped_block() {
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(advance(w, work, 1).accepted);
   return w;
 }
-const Selected kMiddle{{2}, {2}};
+const CellSet kMiddle{{2}, {2}};
 
 std::vector<Vec3> nodes_of(const State& s, std::int64_t lineage) {
   std::vector<Vec3> node;
@@ -52,15 +52,15 @@ TEST(Subworld, NeighboursAreThoseWithinReach) {
   const World w = make_block();
   // Shells of 12 um, 23.9 um apart, nodes up to 5 % beyond the radius; the next but one is 24 um
   // off.
-  const Selected near = find_neighbours(w, kMiddle, 2);
+  const CellSet near = find_neighbours(w, kMiddle, 2);
   EXPECT_EQ(near.dcm, (std::vector<std::size_t>{1, 3}));
   EXPECT_EQ(near.cbm, (std::vector<std::size_t>{1, 3}));
-  const Selected far = find_neighbours(w, kMiddle, 30);
+  const CellSet far = find_neighbours(w, kMiddle, 30);
   EXPECT_EQ(far.dcm, (std::vector<std::size_t>{0, 1, 3, 4}));
   EXPECT_EQ(far.cbm, (std::vector<std::size_t>{0, 1, 3, 4}));
   World apart =
       make_test_world({{Vec3::Zero()}, {Vec3(40, 0, 0)}, {Vec3(0, 40, 0), false}}, 60, 42);
-  const Selected none = find_neighbours(apart, {{0}, {}}, 2);
+  const CellSet none = find_neighbours(apart, {{0}, {}}, 2);
   EXPECT_TRUE(none.dcm.empty() && none.cbm.empty());
 }
 
@@ -72,9 +72,8 @@ TEST(Subworld, NothingMovesByItselfThere) {
   w.state.dcm.volume[2] = {7000, 14000, 0, 1000};
   w.state.cbm.volume[2] = {7000, 14000, 0, 1000};
   w.state.cbm.strength[3] = {0, 1, 0, 1000};
-  const Subworld sub = extract(w, kMiddle, {{1, 3}, {1, 3}});
+  const Subworld sub = extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}});
   const State& s = sub.world.state;
-  EXPECT_EQ(sub.time, 500);
   EXPECT_EQ(s.clock.time, 500);
   ASSERT_EQ(dcm::count_cells(s.dcm), 3);
   ASSERT_EQ(s.cbm.n_cell(), 3u);
@@ -89,19 +88,20 @@ TEST(Subworld, NothingMovesByItselfThere) {
   EXPECT_EQ(sub.world.params.motility.leader_force, 0);
 }
 
-TEST(Subworld, HeldCellsDoNotMove) {
+TEST(Subworld, ConstrainedCellsDoNotMove) {
   const World w = make_stepped_block();
-  Subworld sub = extract(w, kMiddle, {{1, 3}, {1, 3}});
+  Subworld sub = extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}});
+  const double start = sub.world.state.clock.time;
   const Settling settling = relax(sub, 60);
   ASSERT_TRUE(settling.ok) << settling.cause;
   EXPECT_GT(settling.steps, 5) << "starts with short steps";
-  EXPECT_NEAR(sub.world.state.clock.time, sub.time + 60, 1e-6);
+  EXPECT_NEAR(sub.world.state.clock.time, start + 60, 1e-6);
   for (std::int64_t id : {1, 3, 6, 8})
     EXPECT_EQ(nodes_of(sub.world.state, id), nodes_of(w.state, id)) << id;
   for (std::int64_t id : {2, 7})
     EXPECT_GT((nodes_of(sub.world.state, id)[0] - nodes_of(w.state, id)[0]).norm(), 1e-3) << id;
-  // Pair forces are equal and opposite, also between moving and held cells; the solver leaves
-  // 1e-12.
+  // Pair forces are equal and opposite, also between moving and constrained cells; the solver
+  // leaves 1e-12.
   std::printf("momentum %.1e, torque %.1e\n", sub.world.state.balance.momentum,
               sub.world.state.balance.torque);
   EXPECT_GT(sub.world.state.balance.momentum, 0);
@@ -128,9 +128,9 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
     Workspace whole_work;
     size_workspace(whole, whole_work);
     ASSERT_TRUE(advance(whole, whole_work, step).accepted);
-    Subworld sub = extract(w, kMiddle, find_neighbours(w, kMiddle, 3));
+    Subworld sub = extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3));
     sub.world.params.numerics.adaptive = false;
-    ASSERT_TRUE(advance(sub.world, sub.work, step).accepted);
+    ASSERT_TRUE(take_step(sub.world, sub.work, step).accepted);
     double largest = 0, difference = 0;
     for (std::int64_t id : {2, 7}) {
       const std::vector<Vec3> a = nodes_of(whole.state, id), b = nodes_of(sub.world.state, id),
@@ -151,9 +151,9 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
 TEST(Subworld, WriteBackChangesTheMovingCellsOnly) {
   World w = make_stepped_block();
   const State before = w.state;
-  Subworld sub = extract(w, kMiddle, find_neighbours(w, kMiddle, 3));
+  Subworld sub = extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3));
   ASSERT_TRUE(relax(sub, 60).ok);
-  write_back(sub, w);
+  write_moved(sub, w.state);
   for (std::int64_t id = 0; id < 10; ++id) {
     const bool moved = id == 2 || id == 7;
     EXPECT_EQ(nodes_of(w.state, id), nodes_of(moved ? sub.world.state : before, id)) << id;
@@ -169,7 +169,7 @@ TEST(Subworld, WriteBackChangesTheMovingCellsOnly) {
   });
   EXPECT_EQ(w.state.clock.time, before.clock.time);
   EXPECT_EQ(w.state.clock.accepted, before.clock.accepted);
-  EXPECT_EQ(w.state.cbm.touching, before.cbm.touching) << "nobody let go";
+  EXPECT_EQ(w.state.cbm.touching, before.cbm.touching) << "no contact was lost";
   EXPECT_FALSE(before.cbm.touching.empty());
   Workspace work;
   size_workspace(w, work);
@@ -182,12 +182,12 @@ TEST(Subworld, WriteBackTakesOverContactsMadeAndLost) {
                              {Vec3(46, 0, 0), false},
                              {Vec3(69, 0, 0), false}});
   w.state.cbm.touching = {{0, 1}, {1, 2}, {2, 3}};
-  Subworld sub = extract(w, {{}, {1}}, {{}, {0, 2}});
+  Subworld sub = extract_at_rest(w, {{}, {1}}, {{}, {0, 2}});
   ASSERT_EQ(sub.world.state.cbm.lineage, (std::vector<std::int64_t>{1, 0, 2}));
   sub.world.state.cbm.touching = {{0, ~4}, {0, 2}, {1, 2}};  // 1 lost 0, met a wall; 0 meets 2
-  write_back(sub, w);
+  write_moved(sub, w.state);
   EXPECT_EQ(w.state.cbm.touching, (std::vector<std::pair<int, int>>{{1, ~4}, {1, 2}, {2, 3}}))
-      << "contacts between held cells are not looked at";
+      << "contacts between constrained cells are not looked at";
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/mesh/topology.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "coupling/world.hpp"
 
 namespace acinus::coupling {

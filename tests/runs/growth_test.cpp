@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/contact/jkr.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"

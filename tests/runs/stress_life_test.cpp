@@ -7,7 +7,9 @@
 #include <set>
 
 #include "coupling/life/life.hpp"
-#include "coupling/step.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/attempt.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/bench/inspect.hpp"
 #include "runs/build_world.hpp"
 #include "runs/frame.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "coupling/step.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/bench/inspect.hpp"
 #include "runs/bench/random_scene.hpp"
 #include "runs/build_world.hpp"

@@ -1,4 +1,4 @@
-#include "coupling/closing.hpp"
+#include "coupling/step/closing.hpp"
 
 #include "core/threads.hpp"
 
@@ -14,7 +14,8 @@ constexpr double kOpen = 0.002;
 /// The part of a point's move that is not in the gaps of contacts yet.
 Vec3 rest_of_move(const Workspace& w, Address a) {
   const Vec3 move = load_point(w.move.data(), a);
-  return w.ahead.used() ? Vec3(move - load_point(w.ahead.move.data(), a)) : move;
+  return w.linearisation.is_ahead() ? Vec3(move - load_point(w.linearisation.move.data(), a))
+                                    : move;
 }
 
 /// Replaces the law of a contact and adds the change of its force to the system.

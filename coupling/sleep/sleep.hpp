@@ -3,8 +3,8 @@
 ///
 /// A cell falls asleep when it does not grow and the force on it is out of balance by less than a
 /// traction, and wakes when it is out of balance by twice that. Balance is looked at on a time
-/// grid, with all loads of all cells as if nobody slept; from there to the next look a sleeper
-/// glides at the pace of one long step (awake.hpp) and is a surrounding of those awake.
+/// grid, with all loads of all cells as if none slept; from there to the next look a sleeper
+/// goes on with the velocity of one long step (partial_step.hpp), a constraint for cells awake.
 /// (docs/decisions/0015.md)
 
 #include "coupling/workspace.hpp"

@@ -1,4 +1,4 @@
-#include "coupling/life/sleep.hpp"
+#include "coupling/sleep/sleep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/time_grid.hpp"
-#include "coupling/awake.hpp"
-#include "coupling/life/cell.hpp"
+#include "coupling/cell.hpp"
 #include "coupling/measure.hpp"
+#include "coupling/sleep/partial_step.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -22,7 +22,7 @@ bool may_sleep(const State& s, const Cell& c) {
   return c.deformable ? s.dcm.birth[c.at].is_forgotten(t) : t >= s.cbm.strength[c.at].end;
 }
 
-/// Loads of everybody, without what only trembles: sleepers have no random motility.
+/// Loads of all cells, without what only trembles: sleepers have no random motility.
 void observe_rest(World& world, Workspace& work) {
   bool& random = world.params.motility.random;
   const bool trembles = std::exchange(random, false);
@@ -81,7 +81,7 @@ bool update_sleep(World& world, Workspace& work) {
   const bool slept = count_asleep(s) > 0;
   const bool changed = slept ? asleep != s.asleep : std::ranges::count(asleep, 1) > 0;
   s.asleep = std::move(asleep);
-  if (count_asleep(s) > 0 && !set_sleepers_pace(world, work, time_to_sleep_event(world)))
+  if (count_asleep(s) > 0 && !set_sleepers_velocity(world, work, time_to_sleep_event(world)))
     std::ranges::fill(s.asleep, std::uint8_t{0});
   if (count_asleep(s) == 0) s.asleep.clear();
   return changed;

@@ -1,4 +1,4 @@
-#include "coupling/partitioned.hpp"
+#include "tests/coupling/partitioned.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,213 @@
+#include "coupling/sleep/partial_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include "coupling/cell.hpp"
+#include "coupling/leaders.hpp"
+#include "coupling/step/loop.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// How far cells may be thought to go on with their present velocity, um.
+constexpr double kLongestWay = 0.25;
+
+CellSet find_cells(const State& s, bool asleep) {
+  CellSet cells;
+  for_each_cell(s, [&](const Cell& c) {
+    if ((s.asleep[c.index] != 0) == asleep) (c.deformable ? cells.dcm : cells.cbm).push_back(c.at);
+  });
+  return cells;
+}
+
+/// Gap, um, beyond which no two cells act on each other, with room for the growth of a step.
+double find_reach(const World& world) {
+  const State& s = world.state;
+  const Params& p = world.params;
+  const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
+                            sphere = cbm::radii_at(s.cbm, s.clock.time);
+  double reach = cbm::largest_separation(s.cbm, p.cbm, sphere, p.around) + p.cbm_contact.skin;
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (s.dcm.active(l))
+      reach = std::max(reach, p.dcm_contact.skin +
+                                  dcm::contact_range(p.dcm_contact,
+                                                     *s.dcm.group[l / kLanes].topology, shell[l]));
+  return reach;
+}
+
+/// Members of both, each ascending.
+CellSet unite(const CellSet& a, const CellSet& b) {
+  CellSet all;
+  std::ranges::set_union(a.dcm, b.dcm, std::back_inserter(all.dcm));
+  std::ranges::set_union(a.cbm, b.cbm, std::back_inserter(all.cbm));
+  return all;
+}
+
+CellSet subtract(const CellSet& a, const CellSet& b) {
+  CellSet rest;
+  std::ranges::set_difference(a.dcm, b.dcm, std::back_inserter(rest.dcm));
+  std::ranges::set_difference(a.cbm, b.cbm, std::back_inserter(rest.cbm));
+  return rest;
+}
+
+/// Leaders are chosen among all cells: a sleeper may stand before one awake.
+void choose_leaders_of_all(World& world) {
+  State& s = world.state;
+  if (!(world.params.motility.leader_force > 0) || s.clock.phase != Phase::kRun) return;
+  choose_leaders(world, dcm::reference_radii(s.dcm, s.clock.time),
+                 cbm::radii_at(s.cbm, s.clock.time), s.leader, s.leader_interval);
+}
+
+/// Whether sleepers go on with their velocity: only linearly implicit steps know of it.
+bool sleepers_move(const World& world) {
+  return world.params.numerics.integrator == Integrator::kLinearlyImplicit;
+}
+
+/// The cells as they are now in a subworld that lives on between steps.
+Subworld& take_part(const World& world, CellSet moving, CellSet constrained,
+                    std::shared_ptr<Subworld>& part) {
+  if (!part) {
+    part = std::make_shared<Subworld>();
+    part->world.params = world.params;
+  }
+  take_cells(world.state, std::move(moving), std::move(constrained), *part);
+  part->work.constraint.prescribed_velocity = sleepers_move(world);
+  return *part;
+}
+
+void start_last_moves(State& s) {
+  if (!has_last_move(s)) s.last_move.assign(s.dcm.position.size() + s.cbm.position.size(), 0.0);
+}
+
+/// What a run tells about work done and left out counts wherever it happened.
+void move_counts(Workspace& from, Workspace& to) {
+  to.dcm.lists.checked += std::exchange(from.dcm.lists.checked, 0);
+  to.dcm.lists.made += std::exchange(from.dcm.lists.made, 0);
+  to.dcm.searches += std::exchange(from.dcm.searches, 0);
+  to.dcm.points_listed += std::exchange(from.dcm.points_listed, 0);
+  to.dcm.points_seen += std::exchange(from.dcm.points_seen, 0);
+  to.cbm.list_builds += std::exchange(from.cbm.list_builds, 0);
+  to.cbm.searches += std::exchange(from.cbm.searches, 0);
+  to.cbm.corrected += std::exchange(from.cbm.corrected, 0);
+  to.cbm.beyond += std::exchange(from.cbm.beyond, 0);
+}
+
+/// Sleepers go on with their velocity.
+void move_sleepers(State& s, double step) {
+  if (!has_last_move(s)) return;
+  const double ratio = step / s.clock.last_step;
+  for_each_cell(s, [&](const Cell& c) {
+    if (s.asleep[c.index] == 0) return;
+    for_each_point(s, c, [&](Address a) {
+      const Vec3 move = ratio * load_point(s.last_move.data(), a);
+      store_point(s.last_move.data(), a, move);
+      double* at = position_of(s, a);
+      store_point(at, 0, load_point(at, 0) + move);
+    });
+  });
+}
+
+/// Time passes: no cell is awake.
+StepResult pass_time(World& world, double limit) {
+  Clock& clock = world.state.clock;
+  StepResult result;
+  result.accepted = true;
+  result.step = std::min(world.params.numerics.max_step, limit);
+  if (sleepers_move(world)) move_sleepers(world.state, result.step);
+  clock.time += result.step;
+  clock.last_step = result.step;
+  ++clock.accepted;
+  return result;
+}
+
+/// Slows cells down that would go too far in so long a time.
+void limit_velocity(State& s, double duration) {
+  for_each_cell(s, [&](const Cell& c) {
+    double farthest2 = 0;
+    for_each_point(s, c, [&](Address a) {
+      farthest2 = std::max(farthest2, load_point(s.last_move.data(), a).squaredNorm());
+    });
+    const double way = duration / s.clock.last_step * std::sqrt(farthest2);
+    if (!(way > kLongestWay)) return;
+    for_each_point(s, c, [&](Address a) {
+      store_point(s.last_move.data(), a, kLongestWay / way * load_point(s.last_move.data(), a));
+    });
+  });
+}
+
+StepResult step_awake(World& world, Workspace& w, CellSet awake, double limit) {
+  choose_leaders_of_all(world);
+  Subworld& part = [&]() -> Subworld& {
+    const auto scope = w.timings.scope("awake part");
+    CellSet ring = find_ring(world, awake);
+    return take_part(world, std::move(awake), std::move(ring), w.awake);
+  }();
+  std::swap(part.work.timings, w.timings);
+  StepResult result = take_step(part.world, part.work, limit);
+  std::swap(part.work.timings, w.timings);
+  move_counts(part.work, w);
+  if (!result.accepted) return result;
+  const auto scope = w.timings.scope("awake part");
+  State& s = world.state;
+  if (sleepers_move(world)) move_sleepers(s, result.step);
+  start_last_moves(s);
+  write_last_moves(part, 1, s);
+  write_positions(part, s);
+  s.clock = part.world.state.clock;
+  s.balance = part.world.state.balance;
+  return result;
+}
+
+}  // namespace
+
+CellSet find_ring(const World& world, const CellSet& cells) {
+  const double reach = find_reach(world);
+  const CellSet near = find_neighbours(world, cells, reach);
+  if (near.cbm.empty()) return near;
+  const CellSet next = find_neighbours(world, {{}, near.cbm}, reach);
+  return subtract(unite(near, next), cells);
+}
+
+StepResult advance(World& world, Workspace& w, double limit) {
+  if (count_asleep(world.state) == 0) return take_step(world, w, limit);
+  CellSet awake = find_cells(world.state, false);
+  if (awake.empty()) return pass_time(world, limit);
+  return step_awake(world, w, std::move(awake), limit);
+}
+
+bool set_sleepers_velocity(World& world, Workspace& w, double duration) {
+  State& s = world.state;
+  if (!sleepers_move(world) || !(s.clock.last_step > 0)) return true;
+  const auto scope = w.timings.scope("sleepers");
+  CellSet sleepers = find_cells(s, true);
+  CellSet ring = find_ring(world, sleepers);
+  Subworld& part = take_part(world, std::move(sleepers), std::move(ring), w.sleepers);
+  State& small = part.world.state;
+  limit_velocity(small, duration);
+  Params& params = part.world.params;
+  params.motility.random = false;
+  params.motility.leader_force = 0;
+  params.numerics.extrapolate = false;
+  params.numerics.max_step = duration;
+  Clock& clock = small.clock;
+  const double ratio = clock.last_step / duration;
+  clock.step = duration;
+  const std::vector<double> start = gather_positions(small);
+  const LoopResult done =
+      run_loop(clock, clock.time + duration,
+               {.advance = [&](double limit) { return take_step(part.world, part.work, limit); }});
+  if (!done.ok) return false;
+  move_counts(part.work, w);
+  small.last_move = gather_positions(small);
+  for (std::size_t k = 0; k < start.size(); ++k)
+    small.last_move[k] = ratio * (small.last_move[k] - start[k]);
+  start_last_moves(s);
+  write_last_moves(part, 1, s);
+  return true;
+}
+
+}  // namespace acinus::coupling

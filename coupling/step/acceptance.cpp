@@ -1,0 +1,203 @@
+#include "coupling/step/acceptance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/threads.hpp"
+#include "coupling/step/cell_sums.hpp"
+#include "coupling/step/closing.hpp"
+#include "coupling/step/error_estimate.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A predicted gap below minus this share of the search depth, still closing, is too deep.
+constexpr double kDeep = 2.0 / 3;
+constexpr double kClosing = 0.1;  ///< um a deep contact may still close in one step
+
+std::string name_lane(const State& s, std::size_t lane) {
+  return lane < s.dcm.n_lane() ? name_dcm(s, lane) : name_cbm(s, lane - s.dcm.n_lane());
+}
+std::int64_t lineage_of(const State& s, std::size_t lane) {
+  return lane < s.dcm.n_lane() ? s.dcm.lineage[lane] : s.cbm.lineage[lane - s.dcm.n_lane()];
+}
+
+/// Lane index (dcm lanes, then cbm cells) of an address.
+std::size_t lane_of(const Workspace& w, Address a) {
+  const auto& blocks = w.system.block;
+  const std::size_t row = a / kPointStride;
+  const auto it =
+      std::ranges::upper_bound(blocks, row, {}, [](const solve::Block& b) { return b.first_row; });
+  return static_cast<std::size_t>(it - blocks.begin() - 1) * kLanes + a % kLanes;
+}
+
+/// Share of its area a face must keep in a step, seen along its normal: one that shrinks faster is
+/// resolved by shorter steps before it has no direction left.
+constexpr double kLeastArea = 0.25;
+
+/// Whether a move turns a face over, or nearly, or folds two faces of an edge through each other.
+bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
+  const mesh::Topology& t = *s.group[lane / kLanes].topology;
+  struct Normals {
+    Vec3 before, after;
+  };
+  thread_local std::vector<Normals> normal;
+  normal.clear();
+  for (const auto& corner : t.triangle) {
+    Vec3 before[3], after[3];
+    for (std::size_t m = 0; m < 3; ++m) {
+      const Address a = dcm::node_address(s, lane, corner[m]);
+      before[m] = load_point(s.position.data(), a);
+      after[m] = before[m] + load_point(move.data(), a);
+    }
+    normal.push_back({(before[1] - before[0]).cross(before[2] - before[0]),
+                      (after[1] - after[0]).cross(after[2] - after[0])});
+    const auto& [was, is] = normal.back();
+    if (!(was.dot(is) > kLeastArea * was.squaredNorm())) return true;
+  }
+  for (std::size_t e = 0; e < t.edge.size(); ++e) {
+    const Normals &f = normal[static_cast<std::size_t>(t.edge_triangle[e][0])],
+                  &g = normal[static_cast<std::size_t>(t.edge_triangle[e][1])];
+    if (f.before.dot(g.before) > 0 || f.after.dot(g.after) > 0) continue;
+    // Faces beyond a right angle on both sides of the step: the edge must bend the same way still.
+    const Address a = dcm::node_address(s, lane, t.edge[e][0]),
+                  b = dcm::node_address(s, lane, t.edge[e][1]);
+    const Vec3 along = load_point(s.position.data(), b) - load_point(s.position.data(), a);
+    const Vec3 moved = load_point(move.data(), b) - load_point(move.data(), a);
+    if (f.before.cross(g.before).dot(along) * f.after.cross(g.after).dot(along + moved) < 0)
+      return true;
+  }
+  return false;
+}
+
+/// What the moves of cells come to.
+struct Moves {
+  static constexpr auto kNone = static_cast<std::size_t>(-1);
+  double largest = 0, excess = 1;
+  std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes
+  double distance = 0;                                            ///< um, of the lane too far
+
+  void add(const Moves& o) {
+    largest = std::max(largest, o.largest);
+    if (infinite == kNone) infinite = o.infinite;
+    if (turned == kNone) turned = o.turned;
+    if (o.excess > excess) {  // of all cells that move too far, the one that does so most
+      excess = o.excess;
+      too_far = o.too_far;
+      distance = o.distance;
+    }
+  }
+};
+
+Moves find_moves(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  return sum_over_cells<Moves>(
+      w, true, [&](std::size_t lane, Address first, int n_point, Moves& part) {
+        double largest2 = 0;
+        bool finite = true;
+        for (int i = 0; i < n_point; ++i) {
+          const Vec3 m = load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
+          finite = finite && m.allFinite();
+          largest2 = std::max(largest2, m.squaredNorm());
+        }
+        const double largest = std::sqrt(largest2);
+        const bool deformable = lane < s.dcm.n_lane();
+        const double edge = deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length *
+                                             w.lanes.radius[lane]
+                                       : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
+        Moves own;
+        own.largest = largest;
+        if (!finite) own.infinite = lane;
+        own.excess = largest / move_limit(world.params.numerics.max_move, edge);
+        own.too_far = lane;
+        own.distance = largest;
+        if (finite && deformable && turns_over(s.dcm, lane, w.move)) own.turned = lane;
+        part.add(own);
+      });
+}
+
+/// How deep a contact is driven by a step, um; 0: no danger. Where the repulsion is in the matrix,
+/// depth is a matter of load, not of the step: only the range of the search bounds it. Where it is
+/// not, what counts is the depth beyond the point at which the contact would have begun to push.
+double depth_after(const World& world, const Workspace& w, std::size_t l) {
+  const double max_depth = world.params.dcm_contact.max_depth, range = -kDeep * max_depth;
+  const double unfelt = world.params.numerics.adaptive ? -kControlledDepth : range;
+  const solve::Link& link = w.system.links.link[l];
+  const solve::LinkLoad& load = w.system.links.load[l];
+  const double gap = static_cast<double>(link.gap);
+  if (gap > 0.5 * max_depth) return 0;
+  const double end = gap_after(w, link);
+  if (end - gap > -kClosing) return 0;
+  const bool felt = load.active || load.clearance <= 0;
+  const bool deep = end < range || (!felt && clearance_at(end, link, load) < unfelt);
+  return deep ? -end : 0;
+}
+
+/// The first contact that is driven deep; the number of contacts if none is.
+std::size_t find_deep_contact(const World& world, const Workspace& w) {
+  const std::size_t n = w.system.links.size();
+  std::size_t first = n;
+#pragma omp parallel for schedule(static) reduction(min : first) if (worth_threads(w.system.n_row))
+  for (std::size_t l = 0; l < n; ++l)
+    if (depth_after(world, w, l) > 0) first = std::min(first, l);
+  return first;
+}
+
+Assessment reject(const State& s, std::string cause, std::size_t lane) {
+  return {false, std::move(cause), {lineage_of(s, lane)}, 0, 0};
+}
+
+Assessment assess_moves(const World& world, double step, const Workspace& w) {
+  const State& s = world.state;
+  const Moves m = find_moves(world, w);
+  Assessment a;
+  if (m.infinite != Moves::kNone)
+    a = reject(s, name_lane(s, m.infinite) + ": its displacement is not finite", m.infinite);
+  else if (m.too_far != Moves::kNone)
+    a = reject(s,
+               fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, m.too_far),
+                           m.distance, step),
+               m.too_far);
+  else if (m.turned != Moves::kNone)
+    a = reject(s, name_lane(s, m.turned) + ": a face would turn over", m.turned);
+  a.max_move = m.largest;
+  return a;
+}
+
+Assessment assess_contacts(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  const std::size_t deep = find_deep_contact(world, w);
+  if (deep == w.system.links.size()) return {};
+  const solve::Link& link = w.system.links.link[deep];
+  const bool pair = link.b.exists();
+  const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
+  const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
+  Assessment result = reject(s,
+                             fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
+                                         depth_after(world, w, deep),
+                                         pair ? name_lane(s, b) : std::string("its surroundings")),
+                             a);
+  if (pair && b != a) result.cells.push_back(lineage_of(s, b));
+  return result;
+}
+
+}  // namespace
+
+double move_limit(double max_move, double mean_edge) {
+  return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
+}
+
+Assessment assess_step(const World& world, double step, Workspace& w) {
+  Assessment a = assess_moves(world, step, w);
+  if (!a.accepted) return a;
+  Assessment contacts = assess_contacts(world, w);
+  contacts.max_move = a.max_move;
+  if (contacts.accepted) contacts.error = estimate_error(world, step, w);
+  return contacts;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,12 @@
+#pragma once
+/// How well the forces of a step balance.
+
+#include "coupling/workspace.hpp"
+#include "coupling/world.hpp"
+
+namespace acinus::coupling {
+
+/// Force balance of the step just solved.   @pre work.rhs, work.move, work.cg.residual
+Balance measure_balance(const World& world, Workspace& work);
+
+}  // namespace acinus::coupling

@@ -1,0 +1,120 @@
+#include "coupling/step/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "core/threads.hpp"
+#include "coupling/step/acceptance.hpp"
+#include "coupling/step/attempt.hpp"
+#include "coupling/step/balance.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Iterations per solve above which the coarse space is switched on, and below which it is switched
+/// off again.
+constexpr int kCoarseOn = 60, kCoarseOff = 15;
+
+/// Whether the next step is worth a coarse space. It is of use where cells with many nodes hang
+/// together; spheres alone are as well served by their diagonal blocks.
+bool want_coarse(const State& s, int iterations_per_solve) {
+  if (s.dcm.group.empty()) return false;
+  return iterations_per_solve > (s.clock.coarse ? kCoarseOff : kCoarseOn);
+}
+
+/// Attempts at one step so far.
+struct Effort {
+  int cg_iterations = 0, solves = 0;
+};
+
+/// Length of the next step from the error of this one. A quarter more or less is not worth a
+/// change.
+double next_step(const Numerics& n, double step, double error) {
+  if (!n.adaptive) return n.max_step;
+  const double factor =
+      error > 0 ? std::clamp(0.9 * std::sqrt(n.tolerance / error), 0.5, 1.5) : 1.5;
+  return std::clamp(step * factor, n.min_step, n.max_step);
+}
+
+Assessment attempt_and_assess(World& world, double step, bool first_try, Workspace& w,
+                              Effort& effort) {
+  const Numerics& n = world.params.numerics;
+  const Attempt attempt = attempt_step(world, step, first_try, w);  // stages 1 to 6
+  effort.cg_iterations += attempt.cg_iterations;
+  effort.solves += attempt.solves;
+  Assessment a;
+  if (!attempt.status.ok) {
+    a.accepted = false;
+    a.cause = attempt.status.cause;
+    return a;
+  }
+  const auto scope = w.timings.scope("acceptance");
+  a = assess_step(world, step, w);  // stage 7
+  if (attempt.error >= 0) a.error = attempt.error;
+  if (a.accepted && n.adaptive && a.error > 4 * n.tolerance && step > n.min_step) {
+    a.accepted = false;
+    a.cause = "the estimated error is too large";
+  }
+  return a;
+}
+
+void record_balance(const World& world, Workspace& w, Balance& largest) {
+  const Balance b = measure_balance(world, w);
+  largest.momentum = std::max(largest.momentum, b.momentum);
+  largest.torque = std::max(largest.torque, b.torque);
+  largest.friction_torque = std::max(largest.friction_torque, b.friction_torque);
+}
+
+void commit(double step, const Effort& effort, World& world, Workspace& w) {
+  State& s = world.state;
+  const bool moves = w.constraint.prescribed_velocity;
+  place_constrained(
+      moves ? std::span<const double>(w.linearisation.move) : std::span<const double>{}, w);
+  move_points(s, w.move);
+  std::swap(s.cbm.touching, w.cbm.touching);
+  s.leader = w.leader;
+  s.leader_interval = w.leader_interval;
+  s.last_move.resize(w.move.size());
+  for_each_number(w.move.size(), [&](std::size_t k) { s.last_move[k] = w.move[k]; });
+  s.clock.time += step;
+  s.clock.last_step = step;
+  s.clock.accepted += 1;
+  s.clock.cg_iterations += effort.cg_iterations;
+  s.clock.solves += effort.solves;
+  s.clock.coarse = want_coarse(s, effort.cg_iterations / std::max(effort.solves, 1));
+}
+
+}  // namespace
+
+StepResult take_step(World& world, Workspace& w, double limit) {
+  State& s = world.state;
+  const Numerics& n = world.params.numerics;
+  StepResult result;
+  Effort effort;
+  double wanted = s.clock.step > 0 ? std::min(s.clock.step, n.max_step) : n.max_step;
+  for (;;) {
+    const double step = std::min(wanted, limit);
+    const Assessment a = attempt_and_assess(world, step, result.rejections == 0, w, effort);
+    if (a.accepted) {
+      record_balance(world, w, s.balance);
+      commit(step, effort, world, w);
+      s.clock.rejected += result.rejections;
+      // A step cut short by an event says little about the next one's length.
+      s.clock.step = step < wanted ? wanted : next_step(n, step, a.error);
+      result.accepted = true;
+      result.step = step;
+      result.error = a.error;
+      result.max_move = a.max_move;
+      return result;
+    }
+    ++result.rejections;
+    result.cause = a.cause;
+    result.cells = a.cells;
+    if (step <= n.min_step) return result;
+    wanted = std::max(0.5 * step, n.min_step);
+  }
+}
+
+}  // namespace acinus::coupling

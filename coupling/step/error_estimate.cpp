@@ -1,0 +1,54 @@
+#include "coupling/step/error_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/step/cell_sums.hpp"
+
+namespace acinus::coupling {
+
+double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
+  const bool noise = world.params.motility.random &&
+                     controls_at(world.state.clock, world.params.start_up).motility;
+  struct Part {
+    double sum2 = 0, largest2 = 0, n = 0;
+    void add(const Part& o) {
+      sum2 += o.sum2;
+      largest2 = std::max(largest2, o.largest2);
+      n += o.n;
+    }
+  };
+  const Part p =
+      sum_over_cells<Part>(w, true, [&](std::size_t, Address first, int n_point, Part& part) {
+        auto at = [&](int i) {
+          return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
+        };
+        Vec3 mean = Vec3::Zero();
+        if (noise) {
+          for (int i = 0; i < n_point; ++i) mean += at(i);
+          mean /= n_point;
+        }
+        for (int i = 0; i < n_point; ++i) {
+          const double e2 = (at(i) - mean).squaredNorm();
+          part.sum2 += e2;
+          part.largest2 = std::max(part.largest2, e2);
+        }
+        part.n += n_point;
+      });
+  return p.n > 0 ? std::max(std::sqrt(p.sum2 / p.n), std::sqrt(p.largest2) / 5) : 0;
+}
+
+double estimate_error(const World& world, double step, Workspace& w) {
+  const State& s = world.state;
+  auto& change = w.cg.product;
+  change.resize(w.move.size());
+  for_each_number(w.move.size(), [&](std::size_t k) { change[k] = 0.5 * w.move[k]; });
+  if (has_last_move(s)) {  // else the step is compared with rest
+    const double ratio = step / s.clock.last_step;
+    for_each_number(w.move.size(),
+                    [&](std::size_t k) { change[k] -= 0.5 * ratio * s.last_move[k]; });
+  }
+  return error_norm(world, w, change);
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,55 @@
+#include "coupling/step/explicit_euler.hpp"
+
+#include <cmath>
+
+#include "coupling/step/solve.hpp"
+#include "coupling/step/stages.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Whether the shapes of the cells oscillate without dying down, as explicit Euler makes
+/// them beyond its limit: the fastest mode then turns round at every step and outweighs all others.
+bool shapes_oscillate(const World& world, double step, const Workspace& w) {
+  const State& s = world.state;
+  if (!has_last_move(s)) return false;
+  double product = 0, now2 = 0, before2 = 0;
+  for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane) {
+    if (!s.dcm.active(lane)) continue;
+    const int n = s.dcm.group[lane / kLanes].topology->n_node;
+    auto velocity = [&](const std::vector<double>& move, double h, int i) -> Vec3 {
+      return load_point(move.data(), dcm::node_address(s.dcm, lane, i)) / h;
+    };
+    Vec3 mean_now = Vec3::Zero(), mean_before = Vec3::Zero();
+    for (int i = 0; i < n; ++i) {
+      mean_now += velocity(w.move, step, i) / n;
+      mean_before += velocity(s.last_move, s.clock.last_step, i) / n;
+    }
+    for (int i = 0; i < n; ++i) {
+      const Vec3 now = velocity(w.move, step, i) - mean_now;
+      const Vec3 before = velocity(s.last_move, s.clock.last_step, i) - mean_before;
+      product += now.dot(before);
+      now2 += now.squaredNorm();
+      before2 += before.squaredNorm();
+    }
+  }
+  constexpr double kOpposite = -0.7, kNotLess = 0.9;
+  return product < kOpposite * std::sqrt(now2 * before2) && now2 > kNotLess * kNotLess * before2;
+}
+
+}  // namespace
+
+Attempt try_explicit_euler(const World& world, double step, Workspace& w) {
+  Attempt a;
+  find_all_contacts(world, 0, w);
+  assemble(world, step, w, {.stiffness_scale = 0});
+  a.status = solve_step(world, step, w, a.cg_iterations);
+  a.solves = 1;
+  if (a.status.ok && shapes_oscillate(world, step, w))
+    a.status = Status::failed(
+        "explicit Euler is unstable at this step: the cells' shapes swing back and forth. Set "
+        "time.step to half, or time.integrator to linearly-implicit");
+  return a;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,76 @@
+#include "coupling/step/solve.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/threads.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Solves for the whole displacement from the guess in w.move.
+Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
+  for_each_number(w.rhs.size(), [&](std::size_t k) {
+    w.rhs[k] = w.system.force[k] + w.system.external_force[k];
+  });
+  LinearisationPoint& point = w.linearisation;
+  if (!point.is_ahead()) return solve_system(world, w, cg_iterations);
+  // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole way. The way
+  // of constrained cells is known: what ties them would drown all other forces.
+  w.rest_of_move.resize(w.move.size());
+  for_each_number(w.rhs.size(), [&](std::size_t k) { w.rest_of_move[k] = point.move[k]; });
+  std::swap(w.rest_of_move, w.move);
+  place_constrained({}, w);
+  w.op.apply(w.move, point.product);
+  std::swap(w.rest_of_move, w.move);
+  place_constrained({}, w);
+  for_each_number(w.rhs.size(),
+                  [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
+  const Status status = solve_system(world, w, cg_iterations);
+  for_each_number(w.rhs.size(), [&](std::size_t k) { w.rhs[k] -= point.product[k]; });
+  place_constrained(point.move, w);
+  return status;
+}
+
+}  // namespace
+
+Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
+  const State& s = world.state;
+  if (w.linearisation.is_ahead()) {
+    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = w.linearisation.move[k]; });
+  } else if (has_last_move(s)) {  // the last step's velocity is a good first guess
+    const double ratio = step / s.clock.last_step;
+    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = ratio * s.last_move[k]; });
+  } else {
+    std::ranges::fill(w.move, 0.0);
+  }
+  place_constrained({}, w);  // of a guess their ties would make a huge force
+  return solve_from_guess(world, w, cg_iterations);
+}
+
+Status solve_again(const World& world, Workspace& w, int& cg_iterations) {
+  place_constrained({}, w);
+  return solve_from_guess(world, w, cg_iterations);
+}
+
+Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
+  const auto scope = w.timings.scope("solve");
+  const solve::CgOptions& options = world.params.numerics.cg;
+  const bool coarse = world.state.clock.coarse;
+  if (coarse) w.coarse.prepare(w.op, w.position, w.active);
+  const solve::CgResult result =
+      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, {}, coarse ? &w.coarse : nullptr);
+  cg_iterations += result.iterations;
+  if (!result.status.ok) return result.status;
+  // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
+  const solve::RigidResult rigid = solve::correct_rigid_modes(
+      w.op, w.cg.residual, w.move, w.position, w.active, options.tolerance, w.rigid);
+  if (rigid.corrected_groups > 0) {
+    w.op.apply(w.move, w.cg.product);
+    for_each_number(w.rhs.size(),
+                    [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
+  }
+  return Status::fine();
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,25 @@
+#pragma once
+/// States on the way of a step and what is assembled there, for methods with more than one stage.
+
+#include <span>
+#include <vector>
+
+#include "coupling/workspace.hpp"
+#include "coupling/world.hpp"
+
+namespace acinus::coupling {
+
+struct Trial {
+  World world;         ///< the step's world with other positions
+  Workspace friction;  ///< Gamma at the start of the step
+  Workspace work;      ///< at the trial positions
+  std::vector<double> first, product;
+};
+
+/// That of the workspace, made when a method first asks for it.
+Trial& make_trial(const World& world, Workspace& work);
+
+/// Everything as in `world`, all points moved by d, um.
+void move_trial(const World& world, std::span<const double> d, Trial& trial);
+
+}  // namespace acinus::coupling
