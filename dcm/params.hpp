@@ -20,6 +20,7 @@ struct Params {
   double diffusion = 0;           ///< um^2/s, random motility D
   double adhesion = 0;            ///< nN/um, W of this type with itself
   double vessel_friction = 0;     ///< nN s/um^3
+  double cortex_thickness = 0;    ///< um; rims of daughters are rounded to it
 };
 
 /// Cortex spring constant of a triangular spring net, k_s = (sqrt 3 / 2) E h.

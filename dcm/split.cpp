@@ -7,6 +7,7 @@
 
 #include "core/mesh/measures.hpp"
 #include "dcm/cast_half.hpp"
+#include "dcm/round_folds.hpp"
 
 namespace acinus::dcm {
 
@@ -81,7 +82,7 @@ bool match_volume(const mesh::Topology& topology, double target_volume,
 }
 
 Split split_cell(const mesh::Topology& topology, std::span<const Vec3> node, const Vec3& normal,
-                 double turn) {
+                 double thickness, double turn) {
   const auto plane = mesh::find_halving_plane(node, topology.triangle, normal);
   if (!plane) return {std::nullopt, SplitFailure::kNoHalving};
   const mesh::Cut cut = mesh::cut_surface(node, topology.triangle, *plane);
@@ -97,6 +98,7 @@ Split split_cell(const mesh::Topology& topology, std::span<const Vec3> node, con
     auto half = h == 0 ? cast_half(topology, cut.half[0], out.rim, turn)
                        : cast_half(topology, cut.half[1], reverse_loop(out.rim), -turn);
     if (!half) return {std::nullopt, SplitFailure::kNotStarShaped};
+    round_folds(topology, thickness, half->node);
     out.chord_loss[h] = 1 - mesh::compute_volume(half->node, topology.triangle) / target;
     const auto outset = match_volume_along(
         topology, target, make_outset(topology, half->node, out.part, normal), half->node);

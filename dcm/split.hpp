@@ -28,9 +28,9 @@ bool match_volume(const mesh::Topology& topology, double target_volume,
 /// Below (0) and above (1) the plane; both meshes have the mother's topology and volume_mother / 2.
 struct Daughters {
   mesh::CutPlane plane;
-  std::vector<Vec3> rim;                  ///< where the plane cuts the mother, in order
-  double rim_length = 0;                  ///< um
-  std::vector<Part> part;                 ///< [n_node] of both; cap and rim nodes lie in the plane
+  std::vector<Vec3> rim;   ///< where the plane cuts the mother, in order
+  double rim_length = 0;   ///< um
+  std::vector<Part> part;  ///< [n_node] of both; cap and rim nodes lie in the plane or are rounded
   std::array<std::vector<Vec3>, 2> node;  ///< um; the rims of both have the same points
   /// Part of the half's volume that chords cut off, before the nodes were moved out to regain it.
   std::array<double, 2> chord_loss{};
@@ -54,9 +54,12 @@ struct Split {
 /// mother's outline in it, shell nodes on her surface; then rim (within the plane) and shell move
 /// out by one distance so that both daughters have exactly half her volume. Pure geometry: no state
 /// is touched. Throws Error for a topology that is not an icosphere.
-/// @param node  [n_node] um, of the mother: a closed outward surface that does not cross itself
-/// @param turn  turns both meshes about the normal, part of the rim's length
+/// @param node       [n_node] um, of the mother: a closed outward surface that does not cross
+/// itself
+/// @param thickness  um, of the cortex: a rim sharper than a shell so thick can be bent is rounded,
+///                   and a little of the plane's edge is lost
+/// @param turn       turns both meshes about the normal, part of the rim's length
 Split split_cell(const mesh::Topology& topology, std::span<const Vec3> node, const Vec3& normal,
-                 double turn = 0);
+                 double thickness = 0, double turn = 0);
 
 }  // namespace acinus::dcm

@@ -168,6 +168,7 @@ coupling::Leaders leaders_of(const std::string& name) {
 dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
   const DcmBlock& d = type.dcm;
   dcm::Params p;
+  p.cortex_thickness = d.cortex_thickness;
   p.spring_stiffness = dcm::cortex_spring_stiffness(d.cortex_young, d.cortex_thickness);
   p.bending_stiffness =
       dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);

@@ -128,7 +128,8 @@ std::string blow_up(const World& world, int type, const Mother& mother, const me
 /// Both daughters on either side of a plane.   @return empty, or what is wrong with it
 std::string try_plane(const World& world, int type, const Mother& mother, const Vec3& axis,
                       Daughters& daughters) {
-  const dcm::Split split = dcm::split_cell(*mother.topology, mother.node, axis);
+  const double thickness = world.params.dcm[static_cast<std::size_t>(type)].cortex_thickness;
+  const dcm::Split split = dcm::split_cell(*mother.topology, mother.node, axis, thickness);
   std::string why;
   if (split.daughters) {
     daughters.node = split.daughters->node;

@@ -12,6 +12,7 @@
 #include "core/mesh/inner_ball.hpp"
 #include "core/mesh/measures.hpp"
 #include "dcm/cast_half.hpp"
+#include "dcm/round_folds.hpp"
 #include "tests/reference/cell_shapes.hpp"
 #include "tests/reference/sample.hpp"
 
@@ -195,7 +196,7 @@ Tally split_many(const mesh::Topology& topology, const reference::CellShape& sha
         shape, topology, kRadius, reference::random_rotation(random), Vec3(100, -50, 30));
     const Vec3 normal = random.unit_vector();
     const std::clock_t start = std::clock();
-    const Split split = split_cell(topology, mother.node, normal, random.uniform());
+    const Split split = split_cell(topology, mother.node, normal, 0, random.uniform());
     tally.cpu += 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / n_case;
     ++tally.failure[static_cast<std::size_t>(split.failure)];
     EXPECT_EQ(split.daughters.has_value(), split.failure == SplitFailure::kNone);
@@ -268,6 +269,52 @@ TEST(SplitCell, RimNodesOfBothDaughtersCoincideOnTheRim) {
         nearest = std::min(nearest, (below->node[i] - above->node[j]).norm());
     EXPECT_LT(nearest, 1e-9);
   }
+}
+
+/// Smallest radius of curvature across an edge of a daughter, um.
+double sharpest(const mesh::Topology& topology, const Split& split) {
+  double least = 1e300;
+  for (const std::vector<Vec3>& node : split.daughters.value().node)
+    for (int e = 0; e < topology.n_edge; ++e)
+      least = std::min(least, fold_radius(topology, node, e));
+  return least;
+}
+
+/// A lens halved across its edge at 35 degrees: one side of the rim is a wedge.
+std::vector<Vec3> make_lens(const mesh::Topology& topology) {
+  std::vector<Vec3> node;
+  for (const Vec3& x : topology.rest) node.push_back(kRadius * Vec3(x.x(), x.y(), 0.5 * x.z()));
+  return node;
+}
+
+TEST(SplitCell, RimsAreRoundedToTheThicknessOfTheCortex) {
+  const Vec3 normal(std::sin(0.6), 0, std::cos(0.6));
+  for (const int n_node : {642, 2562}) {
+    const mesh::Topology& topology = mesh::shared_icosphere(n_node);
+    const std::vector<Vec3> mother = make_lens(topology);
+    const double volume = mesh::compute_volume(mother, topology.triangle);
+    const Split sharp = split_cell(topology, mother, normal),
+                round = split_cell(topology, mother, normal, 0.5);
+    std::printf("%d nodes: radius of the rim %.3f um, rounded %.3f um\n", n_node,
+                sharpest(topology, sharp), sharpest(topology, round));
+    EXPECT_LT(sharpest(topology, sharp), 0.45);
+    EXPECT_GT(sharpest(topology, round), 0.45) << "regaining the volume moves nodes a little";
+    double farthest = 0;
+    for (std::size_t h = 0; h < 2; ++h) {
+      const std::vector<Vec3>& node = round.daughters->node[h];
+      EXPECT_NEAR(mesh::compute_volume(node, topology.triangle), volume / 2, 1e-9 * volume);
+      for (std::size_t i = 0; i < node.size(); ++i)
+        farthest = std::max(farthest, (node[i] - sharp.daughters->node[h][i]).norm());
+    }
+    EXPECT_LT(farthest, 1.5) << "only the rim is rounded";
+  }
+}
+
+TEST(SplitCell, CoarseMeshesHaveNoFoldSharperThanTheCortexAllows) {
+  const Vec3 normal(std::sin(0.6), 0, std::cos(0.6));
+  const std::vector<Vec3> mother = make_lens(icosphere);
+  EXPECT_EQ(split_cell(icosphere, mother, normal, 0.5).daughters->node,
+            split_cell(icosphere, mother, normal).daughters->node);
 }
 
 TEST(SplitCell, SaysWhyNot) {
