@@ -215,6 +215,10 @@ case ${1:-help} in
     prepare all
     exec ctest --test-dir "$build" --output-on-failure "${labels[@]}" "$@"
     ;;
+  bench)
+    prepare acinus acinus-bench
+    exec "$build/acinus" "$@"
+    ;;
   *)
     prepare acinus
     exec "$build/acinus" "$@"

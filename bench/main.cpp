@@ -1,23 +1,66 @@
-/// Entry point of every kernel benchmark: Google Benchmark on one thread.
+/// acinus-bench, also started by `acinus bench`.
 
-#include <benchmark/benchmark.h>
-#include <omp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
+#include <vector>
 
-#include "acinus_version.hpp"
-#include "core/timing.hpp"
+#include "bench/bench.hpp"
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "runs/program.hpp"
+
+namespace acinus::bench {
+namespace {
+
+void check_name(const std::string& name, const std::vector<std::string>& names) {
+  if (std::ranges::find(names, name) != names.end()) return;
+  const std::string hint = nearest_name(name, names);
+  throw Error(fmt::format("no benchmark \"{}\". {}Known: {}", name,
+                          hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint),
+                          fmt::join(names, ", ")));
+}
+
+int run(int argc, char** argv) {
+  std::string name;
+  BenchOptions options;
+  CLI::App app("Measures speed and error; without NAME, lists the names.", "acinus bench");
+  app.footer("Example: acinus bench dcm27 --json dcm27.json");
+  app.add_option("NAME", name, "benchmark");
+  app.add_option("--json", options.json_file, "also write the rows here")->type_name("FILE");
+  app.add_option("--threads", options.threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--seeds", options.seeds, "repetitions of random cases (default: 3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--first", options.first,
+                 "first seed of random cases (default: 1); --seeds 1 --first N repeats one")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000));
+  app.add_flag("--life", options.life,
+               "stress: the cells of the same scenes also grow, divide and die");
+  app.add_option("--out", options.folder, "folder for plots and scenes")->type_name("DIR");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(Exit::kDone) : static_cast<int>(Exit::kBadInput);
+  }
+  const std::vector<std::string> names = list_benches();
+  if (name.empty()) {
+    for (const std::string& known : names) fmt::print("{}\n", known);
+    return 0;
+  }
+  check_name(name, names);
+  return run_bench(name, options);
+}
+
+}  // namespace
+}  // namespace acinus::bench
 
 int main(int argc, char** argv) {
-  // A kernel is what one thread does; the CPU time reported is that of the calling thread alone.
-  omp_set_num_threads(1);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  const acinus::Machine machine = acinus::describe_machine();
-  benchmark::AddCustomContext("commit", ACINUS_GIT);
-  benchmark::AddCustomContext("processor", machine.cpu_model);
-  benchmark::AddCustomContext("instruction set", machine.instruction_set);
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  return acinus::runs::run_program([&] { return acinus::bench::run(argc, argv); });
 }

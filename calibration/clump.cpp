@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/sphere.hpp"
 #include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/loop.hpp"
 #include "coupling/step/stages.hpp"
 
 namespace acinus::calibration {
@@ -65,15 +66,14 @@ std::vector<coupling::CellMeasure> observe_cells(const coupling::World& world,
 }
 
 void advance_to(coupling::World& world, coupling::Workspace& work, double time) {
-  constexpr double kSameTime = 1e-6;
-  while (world.state.clock.time < time - kSameTime) {
-    const coupling::StepResult step = coupling::advance(world, work, time - world.state.clock.time);
-    check(step.accepted,
-          fmt::format("calibration: a step fails {:.4g} h after t = 0: {}. Cells concerned: {}",
-                      coupling::time_since_start(world) / 3600, step.cause,
-                      fmt::join(step.cells, ", ")),
-          Exit::kCannotContinue);
-  }
+  const coupling::LoopResult result = coupling::run_loop(
+      {.time_left = coupling::time_left_until(world.state.clock, time),
+       .advance = [&](double limit) { return coupling::advance(world, work, limit); }});
+  check(result.ok,
+        fmt::format("calibration: a step fails {:.4g} h after t = 0: {}. Cells concerned: {}",
+                    coupling::time_since_start(world) / 3600, result.last.cause,
+                    fmt::join(result.last.cells, ", ")),
+        Exit::kCannotContinue);
 }
 
 std::vector<std::size_t> find_inner_cells(const std::vector<Moment>& history, const Vec3& point) {

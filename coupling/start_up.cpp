@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/sphere.hpp"
+#include "core/time_grid.hpp"
 #include "coupling/measure.hpp"
 
 namespace acinus::coupling {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kLook = 600;            ///< s between looks at a settling tissue
 constexpr double kPressureFloor = 1e-3;  ///< kPa: changes relative to less than this mean nothing
-constexpr double kSameTime = 1e-9;       ///< s
 
 double largest_speed(const State& s) {
   if (s.clock.last_step <= 0) return std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ double time_to_phase_event(const World& world) {
     case Phase::kAdhere:
       return p.adhesion_ramp - in_phase;
     case Phase::kSettle:
-      return std::min(p.max_settle, kLook * (std::floor(in_phase / kLook + kSameTime) + 1)) -
+      return std::min(p.max_settle, kLook * (std::floor(in_phase / kLook + kGridSlack) + 1)) -
              in_phase;
     case Phase::kRun:
       break;

@@ -164,8 +164,8 @@ Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained
 Settling relax(Subworld& sub, double duration) {
   const Clock& clock = sub.world.state.clock;
   const LoopResult result =
-      run_loop(clock, clock.time + duration,
-               {.advance = [&](double limit) { return take_step(sub.world, sub.work, limit); }});
+      run_loop({.time_left = time_left_until(clock, clock.time + duration),
+                .advance = [&](double limit) { return take_step(sub.world, sub.work, limit); }});
   return {result.ok, result.ok ? "" : result.last.cause, result.steps};
 }
 

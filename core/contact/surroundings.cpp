@@ -5,17 +5,18 @@
 #include <limits>
 #include <utility>
 
+#include "core/time_grid.hpp"
+
 namespace acinus::contact {
 namespace {
 
 constexpr double kEnd = 1e-9;  ///< parameters this near 0 or 1 are the segment's end
-/// s: a step that ends in the moment a wall vanishes still meets it.
-constexpr double kSameTime = 1e-6;
 constexpr double kGone = 1e9;  ///< um behind its place
 
 }  // namespace
 
 Vec3 Plane::point_at(double time) const {
+  // A step that ends in the moment a wall vanishes still meets it.
   if (time > opens + kSameTime) return point - kGone * normal;
   const double moved = std::min(std::abs(speed) * std::max(time, 0.0), travel);
   return point + std::copysign(moved, speed) * normal;

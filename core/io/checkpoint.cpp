@@ -19,7 +19,7 @@ namespace {
 
 using h5::File;
 
-constexpr std::int64_t kSchemaVersion[2] = {1, 0};
+constexpr std::int64_t kSchemaVersion[2] = {2, 0};
 constexpr char kNewest[] = "/checkpoint.h5";
 constexpr char kPrevious[] = "/checkpoint.prev.h5";
 constexpr char kRoot[] = "/state";

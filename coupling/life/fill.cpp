@@ -74,8 +74,8 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   Workspace work;
   size_workspace(small, work);
   const LoopResult result =
-      run_loop(s.clock, std::numeric_limits<double>::infinity(),
-               {.advance = [&](double limit) { return take_step(small, work, limit); },
+      run_loop({.time_left = [] { return std::numeric_limits<double>::infinity(); },
+                .advance = [&](double limit) { return take_step(small, work, limit); },
                 .after =
                     [&](const StepResult& step) {
                       const bool rests = s.clock.time > kGrowth && step.step >= kRestStep &&

@@ -198,8 +198,8 @@ bool set_sleepers_velocity(World& world, Workspace& w, double duration) {
   clock.step = duration;
   const std::vector<double> start = gather_positions(small);
   const LoopResult done =
-      run_loop(clock, clock.time + duration,
-               {.advance = [&](double limit) { return take_step(part.world, part.work, limit); }});
+      run_loop({.time_left = time_left_until(clock, clock.time + duration),
+                .advance = [&](double limit) { return take_step(part.world, part.work, limit); }});
   if (!done.ok) return false;
   move_counts(part.work, w);
   small.last_move = gather_positions(small);

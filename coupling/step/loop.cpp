@@ -6,14 +6,16 @@
 
 namespace acinus::coupling {
 
-LoopResult run_loop(const Clock& clock, double end, const StepLoop& loop) {
+LoopResult run_loop(const StepLoop& loop) {
   LoopResult result;
-  while (clock.time < end - kSameTime) {
-    double limit = end - clock.time;
-    if (loop.time_to_event) limit = std::min(limit, loop.time_to_event());
-    result.last = loop.advance(limit);
-    result.ok = result.last.accepted;
-    if (!result.ok) break;
+  for (double left = loop.time_left(); left > kSameTime; left = loop.time_left()) {
+    const double event = loop.time_to_event ? loop.time_to_event() : left;
+    result.last = loop.advance(std::min(left, event));
+    if (!result.last.accepted) {
+      if (loop.recover && loop.recover(result.last)) continue;
+      result.ok = false;
+      break;
+    }
     ++result.steps;
     if (loop.after && !loop.after(result.last)) break;
   }

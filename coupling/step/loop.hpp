@@ -8,12 +8,17 @@
 namespace acinus::coupling {
 
 struct StepLoop {
+  /// s; the loop ends when nothing is left.
+  std::function<double()> time_left;
   /// One accepted step no longer than its argument, s.
   std::function<StepResult(double limit)> advance;
   /// Time to the next event, s: no step is longer. Empty: there are none.
-  std::function<double()> time_to_event;
+  std::function<double()> time_to_event = nullptr;
   /// Events and observers after an accepted step; false ends the loop. Empty: nothing.
-  std::function<bool(const StepResult&)> after;
+  std::function<bool(const StepResult&)> after = nullptr;
+  /// Removes the cause of a step that could not be accepted; true if it is to be tried again.
+  /// Empty: the loop ends.
+  std::function<bool(const StepResult&)> recover = nullptr;
 };
 
 /// How a loop over steps ended.
@@ -23,7 +28,11 @@ struct LoopResult {
   StepResult last;
 };
 
-/// Steps until the clock shows `end`, s, a step fails, or `after` says so.
-LoopResult run_loop(const Clock& clock, double end, const StepLoop& loop);
+LoopResult run_loop(const StepLoop& loop);
+
+/// What is left of a clock's time until it shows `end`, s.
+inline auto time_left_until(const Clock& clock, double end) {
+  return [&clock, end] { return end - clock.time; };
+}
 
 }  // namespace acinus::coupling

@@ -18,13 +18,13 @@
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/file_lock.hpp"
-#include "runs/build_correction.hpp"
-#include "runs/build_world.hpp"
-#include "runs/read_cells.hpp"
-#include "runs/read_summary.hpp"
-#include "runs/stage.hpp"
-#include "runs/state_file.hpp"
-#include "runs/stop_signals.hpp"
+#include "runs/build/build_correction.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/build/read_cells.hpp"
+#include "runs/session/read_summary.hpp"
+#include "runs/session/stage.hpp"
+#include "runs/session/state_file.hpp"
+#include "runs/session/stop_signals.hpp"
 
 namespace acinus::runs {
 namespace {

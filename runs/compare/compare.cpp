@@ -11,16 +11,16 @@
 #include "core/nearest.hpp"
 #include "core/units.hpp"
 #include "core/vec.hpp"
-#include "runs/read_cells.hpp"
-#include "runs/read_summary.hpp"
+#include "runs/build/read_cells.hpp"
+#include "runs/scene/differences.hpp"
 #include "runs/scene/writer.hpp"
-#include "runs/scene_differences.hpp"
-#include "runs/stage.hpp"
+#include "runs/session/read_summary.hpp"
+#include "runs/session/stage.hpp"
 
 namespace acinus::runs {
 namespace {
 
-constexpr double kSameTime = 1;  ///< s
+constexpr double kSameFrame = 1;  ///< s
 
 /// Keys that may differ between runs of the same scene: which cells are which model, the constants
 /// of spheres, and how the run was made.
@@ -90,7 +90,7 @@ std::vector<RunData> open_runs(const std::vector<std::string>& folders) {
   }
   auto find = [](const RunData& run, double time) {
     for (int k = 0; k < run.reader.n_frame(); ++k)
-      if (std::abs(run.reader.time_s(k) - time) <= kSameTime) return k;
+      if (std::abs(run.reader.time_s(k) - time) <= kSameFrame) return k;
     return -1;
   };
   for (int k = 0; k < runs[0].reader.n_frame(); ++k) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "coupling/world.hpp"
-#include "runs/frame.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/session/frame.hpp"
 
 namespace acinus::runs {
 

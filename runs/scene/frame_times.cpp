@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/time_grid.hpp"
+
 namespace acinus::runs {
 namespace {
 

@@ -5,9 +5,6 @@
 
 namespace acinus::runs {
 
-/// Times closer than this are the same moment, s.
-inline constexpr double kSameTime = 1e-6;
-
 /// The next moment after `time`, s after t = 0, at which a wall or the capsule opens; infinity if
 /// none does.
 double next_opening(const Scene& scene, double time);

@@ -35,24 +35,18 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
   if (run.source >= 0)
     scene.start_up.from = root + "/" + plan.runs[static_cast<std::size_t>(run.source)].folder;
   io::write_text_file(folder + "/scene.json", write_resolved(scene));
-  const std::vector<std::string> words{resume ? "resume" : "run",
-                                       folder + "/scene.json",
-                                       "--out",
-                                       folder,
-                                       "--threads",
-                                       std::to_string(options.threads),
-                                       "--progress",
-                                       "json",
-                                       "--checkpoint-every",
-                                       fmt::format("{} s", options.checkpoint_every_s)};
-  std::vector<std::string> all = words;
-  if (!resume) all.emplace_back("--overwrite");  // run.log, which holds the lock, stays there
+  const std::vector<std::string> words{
+      "run", folder + "/scene.json", "--out", folder, "--threads", std::to_string(options.threads),
+      "--progress", "json", "--checkpoint-every", fmt::format("{} s", options.checkpoint_every_s),
+      // without: run.log, which holds the lock, stays there
+      resume ? "--resume" : "--overwrite"};
   std::error_code ignored;
   fs::remove(folder + "/progress.txt", ignored);
   fs::remove(folder + "/output.txt", ignored);
-  ChildOptions child{folder + "/output.txt", folder + "/progress.txt"};
-  child.follows_parent = true;
-  return {index, std::move(claim), Child(all, child), folder};
+  const ChildOptions child{.output = folder + "/output.txt",
+                           .progress = folder + "/progress.txt",
+                           .follows_parent = true};
+  return {index, std::move(claim), Child(words, child), folder};
 }
 
 RunProgress read_progress(const ActiveRun& run) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/io/file_lock.hpp"
-#include "runs/child.hpp"
+#include "runs/session/child.hpp"
 #include "runs/study/plan.hpp"
 
 namespace acinus::runs {

@@ -7,7 +7,7 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kSameTime = 1e-3;  // s: times of frames closer than this are the same moment
+constexpr double kSameFrame = 1e-3;  // s: times of frames closer than this are the same moment
 
 /// Continued fraction of the incomplete beta function [Press et al., Numerical Recipes, 6.4], by
 /// the modified Lentz method; written for x < (a + 1) / (a + b + 2).
@@ -59,7 +59,7 @@ double two_sided(double t2, double freedom) {
 }  // namespace
 
 std::optional<double> value_at(const Curve& c, double time) {
-  if (c.time.empty() || time < c.time.front() - kSameTime || time > c.time.back() + kSameTime)
+  if (c.time.empty() || time < c.time.front() - kSameFrame || time > c.time.back() + kSameFrame)
     return std::nullopt;
   const auto after = std::upper_bound(c.time.begin(), c.time.end(), time);
   if (after == c.time.begin()) return c.value.front();
@@ -75,8 +75,8 @@ std::optional<double> first_passage(const Curve& c, double level, bool below, do
   const auto beyond = [&](double v) { return sign * v <= sign * level; };
   std::optional<std::size_t> before;
   for (std::size_t k = 0; k < c.time.size(); ++k) {
-    if (c.time[k] > until + kSameTime) break;
-    if (c.time[k] < from - kSameTime) continue;
+    if (c.time[k] > until + kSameFrame) break;
+    if (c.time[k] < from - kSameFrame) continue;
     if (beyond(c.value[k])) {
       if (!before) return c.time[k];
       const double v = c.value[*before], w = c.value[k];
@@ -92,7 +92,7 @@ Curve window(const Curve& c, double from, double until) {
   if (!first || !last) return {};
   Curve out{{from}, {*first}};
   for (std::size_t k = 0; k < c.time.size(); ++k)
-    if (c.time[k] > from + kSameTime && c.time[k] < until - kSameTime) {
+    if (c.time[k] > from + kSameFrame && c.time[k] < until - kSameFrame) {
       out.time.push_back(c.time[k]);
       out.value.push_back(c.value[k]);
     }

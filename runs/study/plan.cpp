@@ -10,14 +10,14 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
-#include "runs/build_world.hpp"
+#include "runs/build/build_world.hpp"
 #include "runs/experiments/observables.hpp"
+#include "runs/scene/differences.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/writer.hpp"
-#include "runs/scene_differences.hpp"
-#include "runs/start_state.hpp"
+#include "runs/session/start_state.hpp"
 #include "runs/study/check_study.hpp"
 #include "runs/study/registry.hpp"
 

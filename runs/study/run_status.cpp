@@ -9,8 +9,8 @@
 #include "core/io/checkpoint.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/file_lock.hpp"
-#include "runs/read_summary.hpp"
-#include "runs/run_folder.hpp"
+#include "runs/session/read_summary.hpp"
+#include "runs/session/run_folder.hpp"
 
 namespace acinus::runs {
 namespace {

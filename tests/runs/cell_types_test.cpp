@@ -1,14 +1,14 @@
 /// Generated cells of more than one type: shares, regions, room.
 
-#include "runs/cell_types.hpp"
+#include "runs/build/cell_types.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "runs/build_world.hpp"
-#include "runs/place_cells.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/build/place_cells.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs {

@@ -1,5 +1,5 @@
-#include "runs/cli.hpp"
-#include "runs/wall_time.hpp"
+#include "runs/commands/cli.hpp"
+#include "runs/commands/wall_time.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -44,8 +44,8 @@ TEST(Cli, WallTimes) {
 }
 
 TEST(Cli, HelpOfEveryCommandHasAnExample) {
-  for (const std::string& command : std::vector<std::string>{"run", "resume", "check", "schema",
-                                                             "explain", "list", "new", "bench"}) {
+  for (const std::string& command :
+       std::vector<std::string>{"run", "check", "schema", "explain", "list", "new", "bench"}) {
     const Outcome outcome = call(command + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_NE(outcome.text.find("Example: acinus " + command), std::string::npos) << outcome.text;

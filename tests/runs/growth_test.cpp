@@ -8,7 +8,7 @@
 #include "core/contact/jkr.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build_world.hpp"
+#include "runs/build/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"
 

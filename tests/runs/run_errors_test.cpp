@@ -100,7 +100,7 @@ TEST_F(RunErrors, ResumeNeedsACheckpointThatCanBeRead) {
   EXPECT_EQ(cut.code, 4) << cut.text;
   EXPECT_NE(cut.text.find("b/checkpoint.h5"), std::string::npos) << cut.text;
   fs::copy(path("a/checkpoint.h5"), path("b/checkpoint.prev.h5"));
-  const Outcome previous = call({"resume", "pair.json", "--out", "b"});
+  const Outcome previous = call({"run", "pair.json", "--resume", "--out", "b"});
   EXPECT_EQ(previous.code, 0) << previous.text;
   EXPECT_NE(previous.text.find("checkpoint.prev.h5"), std::string::npos) << previous.text;
   ASSERT_EQ(call(run_words("pair.json", "a", {"--resume"})).code, 0);

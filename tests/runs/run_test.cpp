@@ -1,4 +1,4 @@
-#include "runs/run.hpp"
+#include "runs/session/run_scene.hpp"
 
 #include <algorithm>
 #include <random>
@@ -65,9 +65,9 @@ TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
                           "timings",
                           "measures"})
     EXPECT_TRUE(s.contains(key)) << key;
-  for (const char* key : {"accepted", "rejected", "newton", "cg"})
+  for (const char* key : {"accepted", "rejected", "solves", "cg"})
     EXPECT_TRUE(s["steps"].contains(key)) << key;
-  for (const char* key : {"dcm", "cbm", "start", "end", "divisions", "deaths", "switched"})
+  for (const char* key : {"dcm", "cbm", "start", "end", "divisions", "deaths"})
     EXPECT_TRUE(s["cells"].contains(key)) << key;
   EXPECT_EQ(s["scene"], "pair");
   EXPECT_EQ(s["seed"], 3);
@@ -206,12 +206,12 @@ TEST_F(Run, StopsOnSignalsAndOnTheStopFileAndGoesOn) {
     EXPECT_EQ(summary(run)["status"], "stopped");
     EXPECT_LT(summary(run)["simulated_s"], 960);
 
-    Words again{"resume", "pair.json", "--out", run, "--threads", "1"};
+    Words again{"run", "pair.json", "--resume", "--out", run, "--threads", "1"};
     again.insert(again.end(), often.begin(), often.end());
     write(run + "/STOP", "");
     const Outcome stopped = call(again);
     EXPECT_EQ(stopped.code, 75) << stopped.text;
-    EXPECT_NE(stopped.text.find("continue with: acinus resume pair.json --out " + run +
+    EXPECT_NE(stopped.text.find("continue with: acinus run pair.json --resume --out " + run +
                                 " --set 'time.end=16 min'"),
               std::string::npos)
         << stopped.text;

@@ -1,4 +1,4 @@
-#include "runs/state_file.hpp"
+#include "runs/session/state_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,8 +86,8 @@ TEST(StateFile, KeepsLives) {
 TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
   io::CheckpointData sound;
   put_state(living(), sound);
-  for (const char* damaged : {"cbm/strength", "dcm/birth_shape", "life/integers", "life/numbers",
-                              "life/counts", "life/asleep"})
+  for (const char* damaged : {"cbm/strength", "dcm/birth_shape", "life/parent", "life/birth",
+                              "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
     for (bool missing : {true, false}) {
       io::CheckpointData data;
       for (const auto& [name, value] : sound.all())

@@ -1,0 +1,107 @@
+#include "bench/bench.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "acinus_version.hpp"
+#include "bench/speed_index.hpp"
+#include "bench/step/assembly.hpp"
+#include "bench/step/skipping.hpp"
+#include "bench/step/step_cost.hpp"
+#include "bench/stress/stress.hpp"
+#include "bench/table.hpp"
+#include "bench/tissue/patch.hpp"
+#include "bench/tissue/relaxation.hpp"
+#include "bench/tissue/sleep.hpp"
+#include "bench/work_precision/work_precision.hpp"
+#include "core/error.hpp"
+#include "core/timing.hpp"
+
+namespace acinus::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
+  static const std::map<std::string, BenchTable (*)(const BenchOptions&)> all{
+      {"assembly", bench_assembly},
+      {"cbm100k", bench_cbm100k},
+      {"cbm10k", bench_cbm10k},
+      {"cbm1m", bench_cbm1m},
+      {"dcm216", bench_dcm216},
+      {"dcm27", bench_dcm27},
+      {"jkr", bench_jkr},
+      {"patch", bench_patch},
+      {"relaxation", bench_relaxation},
+      {"skipping", bench_skipping},
+      {"sleep", bench_sleep},
+      {"stress", bench_stress},
+      {"threads", bench_threads},
+      {"work-precision", bench_work_precision},
+      {"work-precision-capsule", bench_capsule},
+      {"work-precision-cbm", bench_cbm},
+      {"work-precision-clump", bench_clump},
+      {"work-precision-growth", bench_growth},
+      {"work-precision-stretch", bench_stretch}};
+  return all;
+}
+
+}  // namespace
+
+void print_row(const BenchRow& row) {
+  fmt::print("{}  ({} cells)\n", row.name, row.cells);
+  for (const auto& [key, value] : row.value) fmt::print("    {:40s} {:12.4g}\n", key, value);
+  std::fflush(stdout);
+}
+
+std::vector<std::string> list_benches() {
+  std::vector<std::string> names;
+  for (const auto& [name, run] : benches()) names.push_back(name);
+  return names;
+}
+
+int run_bench(const std::string& name, const BenchOptions& options) {
+  const auto found = benches().find(name);
+  check(found != benches().end(), fmt::format("bench {}: no such benchmark; there are: {}", name,
+                                              fmt::join(list_benches(), ", ")));
+  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
+  omp_set_num_threads(threads);
+  const Machine machine = describe_machine();
+  fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
+             ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
+  const double index_before = measure_speed_index();
+  const BenchTable table = found->second(options);
+  const double index_after = measure_speed_index();
+  fmt::print("speed index (CPU time of a fixed loop): {:.3g} ms before, {:.3g} ms after\n",
+             index_before, index_after);
+  const bool passed = std::ranges::all_of(table, &BenchRow::passed);
+  const int code = static_cast<int>(passed ? Exit::kDone : Exit::kInternal);
+  if (options.json_file.empty()) return code;
+  Json j = {{"name", name},
+            {"commit", ACINUS_GIT},
+            {"machine", machine.cpu_model},
+            {"instruction_set", machine.instruction_set},
+            {"threads", threads},
+            {"speed_index_ms", {index_before, index_after}},
+            {"rows", Json::array()}};
+  for (const BenchRow& row : table) {
+    Json r = {{"case", row.name}, {"cells", row.cells}};
+    for (const auto& [key, value] : row.value) r[key] = value;
+    j["rows"].push_back(r);
+  }
+  std::ofstream out(options.json_file);
+  out << j.dump(2) << '\n';
+  out.close();
+  check(out.good(), options.json_file + ": cannot be written. Choose another file.",
+        Exit::kFileError);
+  return code;
+}
+
+}  // namespace acinus::bench

@@ -1,0 +1,23 @@
+/// Entry point of every kernel benchmark: Google Benchmark on one thread.
+
+#include <benchmark/benchmark.h>
+#include <omp.h>
+
+#include <string>
+
+#include "acinus_version.hpp"
+#include "core/timing.hpp"
+
+int main(int argc, char** argv) {
+  // A kernel is what one thread does; the CPU time reported is that of the calling thread alone.
+  omp_set_num_threads(1);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  const acinus::Machine machine = acinus::describe_machine();
+  benchmark::AddCustomContext("commit", ACINUS_GIT);
+  benchmark::AddCustomContext("processor", machine.cpu_model);
+  benchmark::AddCustomContext("instruction set", machine.instruction_set);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -1,0 +1,12 @@
+#pragma once
+/// Cost of the parts of a step: forces and stiffness within cells, contacts, products.
+
+#include "bench/bench.hpp"
+#include "bench/table.hpp"
+
+namespace acinus::bench {
+
+BenchTable bench_assembly(const BenchOptions& options);  ///< 27, 64 and 512 packed DCM cells
+BenchTable bench_jkr(const BenchOptions& options);       ///< sphere contacts per second
+
+}  // namespace acinus::bench

@@ -1,0 +1,12 @@
+#pragma once
+/// What it saves to leave out what a scene does not need.
+
+#include "bench/bench.hpp"
+#include "bench/table.hpp"
+
+namespace acinus::bench {
+
+/// 27 growing cells with and without each skip, timed in turns.
+BenchTable bench_skipping(const BenchOptions& options);
+
+}  // namespace acinus::bench

@@ -1,0 +1,17 @@
+#pragma once
+/// Cost of whole steps: cells grow or move for a while, then the same steps are timed repeatedly
+/// from one saved state.
+
+#include "bench/bench.hpp"
+#include "bench/table.hpp"
+
+namespace acinus::bench {
+
+BenchTable bench_dcm27(const BenchOptions& options);    ///< 27 growing DCM cells
+BenchTable bench_dcm216(const BenchOptions& options);   ///< 216 growing DCM cells
+BenchTable bench_cbm10k(const BenchOptions& options);   ///< 10,000 CBM cells
+BenchTable bench_cbm100k(const BenchOptions& options);  ///< 100,000 CBM cells
+BenchTable bench_cbm1m(const BenchOptions& options);    ///< a million CBM cells: memory
+BenchTable bench_threads(const BenchOptions& options);  ///< one thread against two
+
+}  // namespace acinus::bench

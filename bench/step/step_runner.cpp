@@ -1,0 +1,71 @@
+#include "bench/step/step_runner.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+
+#include "bench/step/packed_clump.hpp"
+#include "core/error.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/stages.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::bench {
+namespace {
+
+/// Bytes allocated and not freed. Unlike the resident size it does not depend on what earlier cases
+/// of the same process left to be used again.
+std::uint64_t heap_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+}  // namespace
+
+StepRunner::StepRunner(const StepCase& c) : case_(c) {
+  const std::uint64_t before = heap_bytes();
+  world_ = runs::build_world(runs::parse_scene(c.scene, c.name), Ranks::serial()).world;
+  if (c.grows) grow(world_);
+  coupling::size_workspace(world_, work_);
+  advance(c.warm_up);
+  const std::uint64_t after = heap_bytes();
+  bytes_ = after - std::min(before, after);
+  if (!case_.once) saved_ = world_.state;
+  first_ = world_.state.clock;
+}
+
+StepSample StepRunner::measure() {
+  if (!case_.once) world_.state = saved_;
+  work_.timings.clear();
+  const double cpu = cpu_seconds(), wall = wall_seconds();
+  advance(case_.steps);
+  return {cpu_seconds() - cpu, wall_seconds() - wall, work_.timings.stages(),
+          world_.state.clock.cg_iterations - first_.cg_iterations,
+          coupling::hash_state(world_.state)};
+}
+
+StepSample StepRunner::measure_median() {
+  std::vector<StepSample> samples;
+  for (int r = 0; r < case_.repeats; ++r) samples.push_back(measure());
+  std::ranges::sort(samples, {}, &StepSample::cpu);
+  return samples[samples.size() / 2];
+}
+
+int StepRunner::cells() const { return coupling::count_cells(world_.state); }
+
+double StepRunner::contacts_per_cell() const {
+  return static_cast<double>(work_.system.links.size() + work_.system.point_links.size()) / cells();
+}
+
+double StepRunner::bytes_per_cell() const { return static_cast<double>(bytes_) / cells(); }
+
+void StepRunner::advance(int steps) {
+  for (int k = 0; k < steps; ++k) {
+    if (case_.always_coarse) world_.state.clock.coarse = true;
+    const coupling::StepResult r = coupling::advance(world_, work_, 1e9);
+    check(r.accepted, case_.name + ": a step failed: " + r.cause, Exit::kCannotContinue);
+  }
+}
+
+}  // namespace acinus::bench

@@ -1,0 +1,200 @@
+#include "bench/tissue/patch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calibration/curve.hpp"
+#include "core/error.hpp"
+#include "runs/build/read_cells.hpp"
+#include "runs/calibrate/calibrate.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/scene/writer.hpp"
+#include "runs/session/stage.hpp"
+
+namespace acinus::bench {
+namespace {
+
+/// Pressures of the deformable ball at which the models are compared, Pa.
+constexpr double kLowest = 5, kHighest = 250;
+/// Cells this near the middle count, over the radius of the capsule: others touch it.
+constexpr double kInner = 0.65;
+/// Neighbours whose distance stands for the density about a cell.
+constexpr std::size_t kNear = 12;
+
+/// A frame: its cells, and how dense they are about each, 1/um^3 up to a factor.
+struct Moment {
+  runs::CellRecords cells;
+  std::map<std::int64_t, double> density;
+};
+
+/// From the distances of the nearest neighbours.
+double density_about(const runs::CellRecords& cells, std::int64_t id) {
+  std::vector<double> distance;
+  for (const auto& [other, c] : cells)
+    if (other != id) distance.push_back((c.center - cells.at(id).center).norm());
+  const std::size_t n = std::min(kNear, distance.size());
+  std::ranges::partial_sort(distance, distance.begin() + static_cast<std::ptrdiff_t>(n));
+  double sum = 0;
+  for (std::size_t k = 0; k < n; ++k) sum += distance[k];
+  return std::pow(static_cast<double>(n) / sum, 3);
+}
+
+std::vector<Moment> read_moments(const std::string& folder) {
+  const io::RunReader run(folder + "/run.vtkhdf");
+  std::vector<Moment> moments;
+  for (int k = 0; k < run.n_frame(); ++k) {
+    Moment m{runs::read_cells(run, k, folder), {}};
+    for (const auto& [id, unused] : m.cells) m.density[id] = density_about(m.cells, id);
+    moments.push_back(std::move(m));
+  }
+  return moments;
+}
+
+/// Means over the inner cells of one kind.
+struct Bulk {
+  double pressure = 0, force = 0, density = 0;
+  int cells = 0;
+};
+
+/// @param like        where the cells stand that count, and which of them are deformable
+/// @param deformable  which of both kinds counts
+Bulk measure(const Moment& moment, const Moment& like, bool deformable, double reach) {
+  Bulk b;
+  for (const auto& [id, c] : moment.cells) {
+    const auto there = like.cells.find(id);
+    if (there == like.cells.end() || there->second.deformable != deformable ||
+        !(there->second.center.norm() < reach))
+      continue;
+    b.pressure += c.pressure;
+    b.force += c.force;
+    b.density += moment.density.at(id);
+    ++b.cells;
+  }
+  const double n = std::max(1, b.cells);
+  b.pressure /= n;
+  b.force /= n;
+  b.density /= n;
+  return b;
+}
+
+double jump(double a, double b) { return 2 * std::abs(a - b) / (a + b); }
+
+/// A variant of the scene.
+struct Variant {
+  std::string name, folder;
+  runs::Scene scene;
+};
+
+Variant make_variant(const runs::Scene& shipped, const std::string& name, double share,
+                     const std::string& law) {
+  Variant v{name, fmt::format("{:.0f}_{}", 100 * share, law == "none" ? "plain" : "calibrated"),
+            shipped};
+  if (share >= 1) {
+    v.scene.model = v.scene.cells.model = "dcm";
+    v.scene.zoom.clear();
+    v.folder = "all_dcm";
+  }
+  for (auto& [type, cell] : v.scene.cell_types) cell.cbm.stiffness_correction = law;
+  // The ball is about as wide as the smallest capsule; a plane cuts this share of its volume off.
+  const double radius = shipped.capsule.min_radius;
+  double low = -1, high = 1;
+  for (int k = 0; k < 50; ++k) {
+    const double x = 0.5 * (low + high);
+    (0.25 * (2 + 3 * x - x * x * x) < share ? low : high) = x;
+  }
+  for (runs::Region& region : v.scene.zoom) region.point = Vec3(radius * low, 0, 0);
+  set_canonical(v.scene);
+  return v;
+}
+
+struct Reference {
+  std::vector<Moment> moment;
+  double cpu = 0;
+};
+
+BenchRow compare(const Variant& v, const std::string& folder, const runs::Scene& shipped,
+                 const Reference& reference) {
+  const std::vector<Moment> moments = read_moments(folder);
+  double pressure = 0, force = 0, density = 0, error = 0, shift = 0, worst = 0, reached = 0;
+  int n = 0, cells = 0;
+  std::vector<double> alone;  // pressure of the deformable ball at every frame
+  for (const Moment& m : reference.moment)
+    alone.push_back(measure(m, m, true, kInner * shipped.capsule.min_radius).pressure);
+  for (std::size_t k = 0; k < std::min(moments.size(), reference.moment.size()); ++k) {
+    const double time = static_cast<double>(k) * shipped.output.every;
+    const double reach = kInner * std::max(shipped.capsule.min_radius,
+                                           shipped.capsule.radius - shipped.capsule.speed * time);
+    const Bulk shells = measure(moments[k], moments[k], true, reach),
+               spheres = measure(moments[k], moments[k], false, reach),
+               same = measure(reference.moment[k], moments[k], true, reach);
+    cells = static_cast<int>(moments[k].cells.size());
+    if (shells.cells == 0 || spheres.cells == 0) continue;
+    if (!(same.pressure > kLowest && same.pressure < kHighest)) continue;
+    reached = same.pressure;
+    const double p = jump(shells.pressure, spheres.pressure);
+    pressure += p;
+    worst = std::max(worst, p);
+    force += jump(shells.force, spheres.force);
+    density += jump(shells.density, spheres.density);
+    error += std::abs(shells.pressure / same.pressure - 1);
+    shift += (calibration::find_last_rise(alone, shells.pressure) - static_cast<double>(k)) *
+             shipped.output.every * shipped.capsule.speed;
+    ++n;
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN(), count = n > 0 ? n : nan;
+  const runs::RunSummary summary = runs::read_summary(folder);
+  return {v.name,
+          cells,
+          {{"share_of_deformable_cells", static_cast<double>(summary.dcm) / cells},
+           {"moments", n},
+           {"up_to_pressure_Pa", reached},
+           {"pressure_jump", pressure / count},
+           {"worst_pressure_jump", worst},
+           {"contact_force_jump", force / count},
+           {"density_jump", density / count},
+           {"deformable_part_against_all_deformable", error / count},
+           {"radius_shift_for_same_pressure_um", shift / count},
+           {"cost", summary.cpu_s / reference.cpu}}};
+}
+
+/// A squeeze may end early where surfaces crumple: what was reached is compared.
+void run(const Variant& v, const std::string& folder, int threads) {
+  const int code = runs::run_stage(v.scene, {folder, threads, true, false, "acinus bench patch"});
+  check(code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),
+        fmt::format("bench patch: the run in {} ended with exit code {}", folder, code),
+        Exit::kCannotContinue);
+}
+
+}  // namespace
+
+BenchTable bench_patch(const BenchOptions& options) {
+  const std::string root = options.folder.empty() ? "patch" : options.folder + "/patch";
+  runs::Scene shipped = runs::read_scene(runs::scene_folder() + "/patch_capsule.json");
+  const int stop = runs::resolve_corrections(shipped, options.threads, false);
+  check(stop == 0, "bench patch: the calibration was stopped", Exit::kCannotContinue);
+  const std::string law = shipped.cell_types.begin()->second.cbm.stiffness_correction;
+  const Variant all = make_variant(shipped, "deformable cells only", 1, "none");
+  run(all, root + "/" + all.folder, options.threads);
+  const Reference reference{read_moments(root + "/" + all.folder),
+                            runs::read_summary(root + "/" + all.folder).cpu_s};
+  BenchTable table;
+  for (const Variant& v :
+       {make_variant(shipped, "plain spheres, half", 0.5, "none"),
+        make_variant(shipped, "calibrated, three quarters deformable", 0.75, law),
+        make_variant(shipped, "calibrated, half", 0.5, law),
+        make_variant(shipped, "calibrated, a quarter deformable", 0.25, law)}) {
+    run(v, root + "/" + v.folder, options.threads);
+    table.push_back(compare(v, root + "/" + v.folder, shipped, reference));
+    print_row(table.back());
+  }
+  return table;
+}
+
+}  // namespace acinus::bench

@@ -1,0 +1,204 @@
+#include "bench/work_precision/work_precision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+
+#include "bench/tissue/patch.hpp"
+#include "bench/work_precision/work_precision_report.hpp"
+#include "bench/work_precision/work_precision_scenes.hpp"
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+
+namespace acinus::bench {
+namespace {
+
+/// What a case has come to.
+struct CaseReport {
+  std::string text;  ///< markdown
+  BenchTable rows;
+  std::vector<Outcome> time, space;
+  std::vector<std::vector<Outcome>> study;  ///< of time, one by one
+};
+
+/// Adds to the text and prints.
+void say(CaseReport& report, const std::string& text) {
+  report.text += text;
+  fmt::print("{}", text);
+  std::fflush(stdout);
+}
+
+CaseReport run_case(const WorkCase& c, WarmScene& scene) {
+  CaseReport report;
+  auto run = [&](const Study& study, std::vector<Outcome>& all) {
+    say(report, table_head(c.scene, study));
+    std::vector<Outcome> outcomes = run_study(scene, study, [&](const Outcome& e) {
+      say(report, table_line(c.scene, e));
+      report.rows.push_back(bench_row(c.scene, study.title, e));
+    });
+    all.insert(all.end(), outcomes.begin(), outcomes.end());
+    return outcomes;
+  };
+  for (const Study& s : c.time) report.study.push_back(run(s, report.time));
+  for (const Study& s : c.space) run(s, report.space);
+  return report;
+}
+
+void write_case(const WorkCase& c, const CaseReport& report, const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  check(!failed,
+        fmt::format("{}: cannot be made: {}. Choose another folder.", folder, failed.message()),
+        Exit::kFileError);
+  const std::string stem = (std::filesystem::path(folder) / c.scene.name).string();
+  io::write_text_file(stem + ".md", report.text);
+  const bool strain = c.scene.axis != Vec3::Zero();
+  auto plot = [&](const std::vector<Outcome>& outcomes, const char* kind, const std::string& file) {
+    if (outcomes.empty()) return;
+    const std::string title = fmt::format("{}: {}", c.scene.title, kind);
+    io::write_plot(
+        stem + file + (strain ? "_strain.svg" : "_pressure.svg"),
+        make_plot(c.scene, title, outcomes, strain ? "strain error, %" : "pressure error, %",
+                  [](const Outcome& e) { return 100 * e.judged; }));
+    if (!strain)
+      io::write_plot(stem + file + "_force.svg",
+                     make_plot(c.scene, title, outcomes, "contact force error, %",
+                               [](const Outcome& e) { return 100 * e.error.contact_force; }));
+  };
+  plot(report.time, "time stepping", "");
+  plot(report.space, "mesh and quadrature", "_mesh");
+}
+
+BenchTable bench_case(const WorkCase& c, const BenchOptions& options) {
+  WarmScene scene(c.scene);
+  CaseReport report = run_case(c, scene);
+  say(report, "\n" + cheapest_text(c.scene, report.time));
+  write_case(c, report, options.folder);
+  return report.rows;
+}
+
+/// What the linearly implicit method saves against explicit Euler at the same error. Explicit Euler
+/// takes too long for the long window, so CPU times per simulated time are compared, each method
+/// with its cheapest setting over the window it was judged on; the two are timed in turns.
+BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
+                                 const std::vector<Outcome>& long_window,
+                                 const std::vector<Outcome>& short_window, CaseReport& report) {
+  constexpr double kError = 0.02;
+  constexpr int kTurns = 3;
+  auto of_method = [](const std::vector<Outcome>& outcomes, coupling::Integrator method) {
+    std::vector<Outcome> own;
+    std::ranges::copy_if(outcomes, std::back_inserter(own), [&](const Outcome& e) {
+      return e.setting.integrator == method && !e.setting.adaptive;
+    });
+    return own;
+  };
+  const auto explicits = of_method(short_window, coupling::Integrator::kExplicitEuler);
+  const auto implicits = of_method(long_window, coupling::Integrator::kLinearlyImplicit);
+  const auto brief = of_method(short_window, coupling::Integrator::kLinearlyImplicit);
+  const Outcome *slow = find_cheapest(explicits, kError), *fast = find_cheapest(implicits, kError);
+  if (!slow || !fast) {
+    say(report,
+        fmt::format("\nNo ratio to explicit Euler: no setting within {:g} %.\n", 100 * kError));
+    return {};
+  }
+  // The usual step is more careful than the error asks for; its ratio is what users see.
+  const Outcome& usual = *std::ranges::find_if(implicits, [](const Outcome& e) {
+    return e.setting.step == Setting{}.step && e.setting.cg_tolerance == Setting{}.cg_tolerance;
+  });
+  auto rate = [&](const Outcome& e) { return scene.run(e.setting, e.window, 1).cpu / e.window; };
+  std::vector<double> ratio, usual_ratio;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const double explicit_rate = rate(*slow);
+    ratio.push_back(explicit_rate / rate(*fast));
+    usual_ratio.push_back(explicit_rate / rate(usual));
+  }
+  std::ranges::sort(ratio);
+  std::ranges::sort(usual_ratio);
+  const double middle = ratio[kTurns / 2], usual_middle = usual_ratio[kTurns / 2];
+  say(report,
+      fmt::format("\nCPU time per simulated time, explicit Euler over linearly implicit, pressure "
+                  "within {:g} %: **{:.0f}** (from {:.0f} to {:.0f} in {} turns).\nExplicit Euler: "
+                  "dt {:g} s, {:.2g} % over {:g} s, the cheapest of its settings within the limit. "
+                  "Linearly implicit: dt {:g} s, {:.2g} % over {:g} s",
+                  100 * kError, middle, ratio.front(), ratio.back(), kTurns, slow->setting.step,
+                  100 * slow->judged, slow->window, fast->setting.step, 100 * fast->judged,
+                  fast->window));
+  BenchRow row{c.scene.title + ": explicit Euler over linearly implicit",
+               slow->cells,
+               {{"cpu_ratio", middle},
+                {"cpu_ratio_least", ratio.front()},
+                {"cpu_ratio_most", ratio.back()},
+                {"cpu_ratio_usual_step", usual_middle},
+                {"explicit_step_s", slow->setting.step},
+                {"implicit_step_s", fast->setting.step},
+                {"explicit_error", slow->judged},
+                {"implicit_error", fast->judged}}};
+  // A short window has no room for very long steps.
+  const Outcome* nearest = nullptr;
+  for (const Outcome& e : brief)
+    if (e.failure.empty() && e.setting.step <= fast->setting.step &&
+        (!nearest || e.setting.step > nearest->setting.step))
+      nearest = &e;
+  if (nearest) {
+    say(report, fmt::format("; dt {:g} s, {:.2g} % over {:g} s", nearest->setting.step,
+                            100 * nearest->judged, nearest->window));
+    row.value.emplace_back("implicit_step_short_s", nearest->setting.step);
+    row.value.emplace_back("implicit_error_short", nearest->judged);
+  }
+  say(report, fmt::format(".\nWith the usual step of {:g} s, {:.2g} % over {:g} s: {:.0f}.\n",
+                          usual.setting.step, 100 * usual.judged, usual.window, usual_middle));
+  return {row};
+}
+
+}  // namespace
+
+BenchTable bench_stretch(const BenchOptions& options) {
+  return bench_case(stretch_case(), options);
+}
+BenchTable bench_capsule(const BenchOptions& options) {
+  return bench_case(capsule_case(), options);
+}
+BenchTable bench_growth(const BenchOptions& options) {
+  BenchTable table;
+  for (const int cells : {8, 24, 64}) {
+    const BenchTable rows = bench_case(growth_case(cells), options);
+    table.insert(table.end(), rows.begin(), rows.end());
+  }
+  return table;
+}
+BenchTable bench_cbm(const BenchOptions& options) { return bench_case(cbm_case(), options); }
+
+BenchTable bench_clump(const BenchOptions& options) {
+  const WorkCase c = clump_case();
+  WarmScene scene(c.scene);
+  CaseReport report = run_case(c, scene);
+  const std::vector<Outcome> brief = report.study.back();
+  report.time.resize(report.time.size() - brief.size());  // ten minutes are no six hours
+  say(report, "\n" + cheapest_text(c.scene, report.time));
+  const BenchTable ratio = compare_with_explicit(c, scene, report.study.front(), brief, report);
+  std::ranges::copy_if(brief, std::back_inserter(report.time), [](const Outcome& e) {
+    return e.setting.integrator == coupling::Integrator::kExplicitEuler;
+  });
+  report.rows.insert(report.rows.end(), ratio.begin(), ratio.end());
+  write_case(c, report, options.folder);
+  const BenchTable packed = bench_case(packed_case(), options);
+  report.rows.insert(report.rows.end(), packed.begin(), packed.end());
+  return report.rows;
+}
+
+BenchTable bench_work_precision(const BenchOptions& options) {
+  BenchTable table;
+  for (const auto bench :
+       {bench_stretch, bench_clump, bench_capsule, bench_growth, bench_cbm, bench_patch}) {
+    const BenchTable rows = bench(options);
+    table.insert(table.end(), rows.begin(), rows.end());
+  }
+  return table;
+}
+
+}  // namespace acinus::bench

@@ -1,0 +1,31 @@
+#pragma once
+/// What the work-precision benchmark shows of its outcomes.
+
+#include <string>
+#include <vector>
+
+#include "bench/work_precision/work_precision_run.hpp"
+#include "core/io/plot.hpp"
+
+namespace acinus::bench {
+
+/// "linearly-implicit, 162 nodes, 3-point, dt 60 s, CG 0.001"; of spheres without the mesh.
+std::string describe(const Setting& setting, bool deformable);
+
+/// Head of a study's table in markdown: title, reference and column names.
+std::string table_head(const WorkScene& scene, const Study& study);
+/// One line of it.
+std::string table_line(const WorkScene& scene, const Outcome& outcome);
+
+/// The cheapest settings that reach 5, 2 and 1 %, for every mesh and quadrature among the outcomes.
+std::string cheapest_text(const WorkScene& scene, const std::vector<Outcome>& outcomes);
+
+/// Error against CPU time per simulated hour, one line per integrator, mesh and quadrature; CG
+/// tolerances other than the usual one are points of their own. Failed outcomes are left out.
+io::Plot make_plot(const WorkScene& scene, const std::string& title,
+                   const std::vector<Outcome>& outcomes, const std::string& y_label,
+                   double (*error)(const Outcome&));
+
+BenchRow bench_row(const WorkScene& scene, const std::string& study, const Outcome& outcome);
+
+}  // namespace acinus::bench

@@ -1,0 +1,97 @@
+#include "coupling/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/time_grid.hpp"
+#include "coupling/life/rules.hpp"
+#include "coupling/sleep/partial_step.hpp"
+#include "coupling/start_up.hpp"
+#include "coupling/step/stages.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+/// s, longest step after a wall or a capsule opened: what was before says nothing about it.
+constexpr double kFirstFreeStep = 0.1;
+
+/// The next moment after `time` at which a wall or a capsule opens, s; infinite if none does.
+double next_opening(const contact::Surroundings& around, double time) {
+  double next = kNever;
+  const auto look = [&](double opens) {
+    if (opens > time + kSameTime) next = std::min(next, opens);
+  };
+  for (const contact::Plane& p : around.planes) look(p.opens);
+  for (const contact::Capsule& c : around.capsules) look(c.opens);
+  return next;
+}
+
+/// The next step is a first one.
+void start_anew(Clock& clock) {
+  clock.last_step = 0;
+  clock.step = std::min(clock.step, kFirstFreeStep);
+}
+
+}  // namespace
+
+Simulation::Simulation(World world) : world_(std::move(world)) { resize(); }
+
+void Simulation::resize() { size_workspace(world_, work_); }
+
+double Simulation::time_to_event(const Observer& observer) const {
+  if (!is_running()) return time_to_phase_event(world_);
+  const double t = time();
+  double left = next_opening(world_.params.around, t) - t;
+  if (observer.next_moment) left = std::min(left, observer.next_moment(t) - t);
+  left = std::min(left, coupling::time_to_event(world_));
+  const Motility& m = world_.params.motility;
+  if (m.leader_force > 0)
+    left = std::min(left, (std::floor((t + kSameTime) / m.leader_grid) + 1) * m.leader_grid - t);
+  return left;
+}
+
+void Simulation::end_step_of_start_up(const Observer& observer) {
+  const std::string what = update_phase(world_, work_);
+  if (!what.empty() && observer.phase) observer.phase(what);
+  if (!is_running()) return;
+  if (observer.start) observer.start();
+  begin_life(world_);
+}
+
+bool Simulation::remove_dying(const StepResult& failed, const Observer& observer) {
+  const LifeReport removed = coupling::remove_dying(world_, work_, failed.cells, failed.cause);
+  if (observer.life) observer.life(removed);
+  return !removed.events.empty();
+}
+
+LoopResult Simulation::run_until(double end, const Observer& observer) {
+  bool was_running = false;
+  double opening = 0;
+  return run_loop(
+      {.time_left = [&] { return is_running() ? end - time() : kNever; },
+       .advance =
+           [&](double limit) {
+             was_running = is_running();
+             opening = next_opening(world_.params.around, time());
+             return coupling::advance(world_, work_, limit);
+           },
+       .time_to_event = [&] { return time_to_event(observer); },
+       .after =
+           [&](const StepResult& step) {
+             if (observer.step) observer.step(step);
+             if (!was_running) {
+               end_step_of_start_up(observer);
+             } else {
+               if (time() > opening - kSameTime) start_anew(world_.state.clock);
+               const LifeReport report = live(world_, work_);
+               if (observer.life) observer.life(report);
+             }
+             return !observer.events_over || observer.events_over();
+           },
+       .recover = [&](const StepResult& failed) { return remove_dying(failed, observer); }});
+}
+
+}  // namespace acinus::coupling

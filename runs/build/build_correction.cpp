@@ -1,0 +1,69 @@
+#include "runs/build/build_correction.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "runs/build/build_world.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::string describe(const calibration::Law& law) {
+  if (law.table.empty())
+    return fmt::format("E = {:.4g} kPa + {:.4g} kPa d^{:g}, fitted for d from {:.2g} to {:.2g}",
+                       law.a0, law.a1, law.power, law.overlap_range[0], law.overlap_range[1]);
+  return fmt::format("E from {:.3g} kPa at d = {:.2g} to {:.3g} kPa at d = {:.2g} by a table",
+                     law.table.front().modulus, law.table.front().overlap, law.table.back().modulus,
+                     law.table.back().overlap);
+}
+
+}  // namespace
+
+LawParameters law_parameters(const Scene& scene, const CellType& type) {
+  const DcmBlock& d = type.dcm;
+  const cbm::Params sphere = make_cbm_params(scene, type);
+  return {{{"nodes", d.nodes},
+           {"radius_um", type.radius},
+           {"adhesion_nN_per_um", type.adhesion},
+           {"cortex_young_kPa", d.cortex_young},
+           {"cortex_thickness_um", d.cortex_thickness},
+           {"cortex_poisson", d.cortex_poisson},
+           {"area_modulus_nN_per_um", d.area_modulus},
+           {"local_area_modulus_nN_per_um", d.local_area_modulus},
+           {"bulk_modulus_kPa", d.bulk_modulus},
+           {"contact_repulsion_kPa_per_um", scene.contact.repulsion}},
+          {{"young_kPa", sphere.young},
+           {"poisson", sphere.poisson},
+           {"radius_um", type.radius},
+           {"adhesion_nN_per_um", type.adhesion}}};
+}
+
+void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
+                       std::vector<std::string>& notes) {
+  std::size_t k = 0;
+  for (const auto& [name, type] : scene.cell_types) {
+    cbm::Params& p = params[k++];
+    const std::string& file = type.cbm.stiffness_correction;
+    if (file == "none") continue;
+    check(file != "auto",
+          fmt::format("/cell_types/{}/cbm/stiffness_correction: \"auto\" is for `acinus run`. "
+                      "Calibrate first and name the law file.",
+                      name));
+    const calibration::Law law = calibration::read_law(file);
+    notes.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    const LawParameters here = law_parameters(scene, type);
+    const std::vector<std::string> differences =
+        calibration::list_differences(law, here.dcm, here.cbm);
+    if (!differences.empty())
+      notes.push_back(
+          fmt::format("warning: {} is the law of other cells than {}: {}. Calibrate for "
+                      "these cells, or set stiffness_correction to \"auto\"",
+                      file, name, fmt::join(differences, "; ")));
+    p.young = law.a0;
+    p.correction = calibration::stiffness_law(law);
+  }
+}
+
+}  // namespace acinus::runs

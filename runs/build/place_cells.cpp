@@ -1,0 +1,246 @@
+#include "runs/build/place_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/contact/box.hpp"
+#include "core/error.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/random.hpp"
+#include "coupling/generate/packing.hpp"
+#include "runs/build/cell_types.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// How deep a cell may start in an obstacle, um: contact forces push it out in the first steps.
+constexpr double kStartDepth = 0.3;
+
+double start_radius(const Scene& scene, double radius) {
+  return scene.start_up.enabled ? scene.start_up.initial_radius : radius;
+}
+
+/// Sizes beyond these are slips of the unit; the run file stores single precision.
+constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthest = 1e6;  // um
+
+/// Distance to a rigid surface, negative where cells may not be; no less than `enough` is told
+/// apart.
+double gap_to_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
+  const std::vector<Vec3>& node = m.body.node;
+  if (!m.inside) {
+    Vec3 low = node.front(), high = low;
+    for (const Vec3& y : node) low = low.cwiseMin(y), high = high.cwiseMax(y);
+    const double away = (x - x.cwiseMax(low).cwiseMin(high)).norm();
+    if (away >= enough) return away;
+  }
+  double squared = std::numeric_limits<double>::infinity();
+  for (const auto& t : m.triangle) {
+    const auto corner = [&](int k) {
+      return node[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    };
+    squared = std::min(
+        squared, mesh::find_closest_point(x, corner(0), corner(1), corner(2)).squared_distance);
+  }
+  // Triangles of a surface that is lived in face inward: its winding number is -1 inside.
+  const bool within = std::abs(mesh::compute_winding_number(x, node, m.triangle)) > 0.5;
+  return within == m.inside ? std::sqrt(squared) : -std::sqrt(squared);
+}
+
+double nearest_gap(const contact::Surroundings& around, const Vec3& x, std::string* name) {
+  double nearest = std::numeric_limits<double>::infinity();
+  auto look = [&](double gap, auto label) {
+    if (gap >= nearest) return;
+    nearest = gap;
+    if (name) *name = label();
+  };
+  for (const auto& p : around.planes)
+    look(contact::gap_to_plane(p, x, 0).gap, [&] { return fmt::format("wall \"{}\"", p.name); });
+  for (const auto& c : around.capsules)
+    look(contact::gap_to_capsule(c, x, 0).gap, [&] { return std::string("the capsule"); });
+  const auto& network = around.vessels.network;
+  for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)
+    look(contact::gap_to_segment(network, s, x).gap,
+         [&] { return fmt::format("vessel segment {}", s); });
+  for (const auto& m : around.meshes)
+    look(gap_to_mesh(m, x, nearest), [&] { return fmt::format("static mesh \"{}\"", m.name); });
+  return nearest;
+}
+
+/// Cells that start anywhere in their cycle have up to twice the volume.
+double largest_start(const CellType& t) {
+  return t.radius * (t.cycle.time && t.cycle.start == "random" ? std::cbrt(2.0) : 1);
+}
+
+/// Darts thrown into a box, at least min_distance apart and clear of the surroundings.
+std::vector<Vec3> fill_box(const Scene& scene, const contact::Surroundings& around) {
+  const CellsBlock& c = scene.cells;
+  UniformStream random(scene.seed, Purpose::kPlacement, 0);
+  std::vector<Vec3> seeds;
+  constexpr int kTries = 200000;
+  for (int tries = 0; tries < kTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
+    Vec3 x;
+    for (int k = 0; k < 3; ++k) x[k] = random.uniform(c.low[k], c.high[k]);
+    const bool free =
+        std::ranges::all_of(seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
+    if (!free) continue;
+    // The next cell's type hangs on its number: large cells are not rarer for the room they need.
+    const CellType& type =
+        scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(seeds.size()), x));
+    if (nearest_gap(around, x, nullptr) < start_radius(scene, largest_start(type))) continue;
+    seeds.push_back(x);
+    tries = 0;
+  }
+  check(static_cast<int>(seeds.size()) == c.count,
+        fmt::format("{}: /cells/count: room for only {} of {} cells at least {} um apart between "
+                    "{} and {} um. "
+                    "Lower count or min_distance, or enlarge low and high.",
+                    scene.file, seeds.size(), c.count, c.min_distance,
+                    fmt::format("({}, {}, {})", c.low.x(), c.low.y(), c.low.z()),
+                    fmt::format("({}, {}, {})", c.high.x(), c.high.y(), c.high.z())));
+  return seeds;
+}
+
+/// Where a cell comes from, for messages.
+std::string name_of(const Scene& scene, const PlacedCell& cell) {
+  return fmt::format("{}{}", scene.cells.source == "list" ? "/cells/list/" : "generated cell ",
+                     cell.lineage);
+}
+
+/// Pairs of cells closer than half the larger radius, in the order of the list.
+std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
+                                              const std::vector<PlacedCell>& cells) {
+  std::vector<contact::Box> around;
+  for (const PlacedCell& c : cells)
+    around.push_back(contact::sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
+  std::vector<std::pair<int, int>> pairs = contact::find_pairs(around, 0);
+  std::erase_if(pairs, [&](const std::pair<int, int>& pair) {
+    const PlacedCell &p = cells[static_cast<std::size_t>(pair.first)],
+                     &q = cells[static_cast<std::size_t>(pair.second)];
+    return (p.center - q.center).norm() >=
+           0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius));
+  });
+  return pairs;
+}
+
+/// A wrong unit often shows as an absurd size or place; the numbers then overflow far from here.
+void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
+  for (const PlacedCell& c : cells) {
+    if (!(c.radius >= kSmallestRadius && c.radius <= kLargestRadius))
+      throw Error(fmt::format(
+          "{}: {} has the radius {:.4g} um; from {} to {} um is allowed. Check its unit.",
+          scene.file, name_of(scene, c), c.radius, kSmallestRadius, kLargestRadius));
+    if (!(c.center.cwiseAbs().maxCoeff() <= kFarthest))
+      throw Error(fmt::format(
+          "{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
+          "along each axis "
+          "is allowed. Check its unit.",
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), kFarthest));
+  }
+}
+
+}  // namespace
+
+bool in_region(const Region& r, const Vec3& axis_point, const Vec3& x) {
+  if (r.kind == "all") return true;
+  if (r.kind == "sphere") return (x - r.center).norm() <= r.radius;
+  if (r.kind == "box")
+    return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
+  if (r.kind == "half_space") return (x - r.point).dot(r.normal) <= 0;
+  const double distance = (x - axis_point).head<2>().norm();
+  return distance >= r.min_distance && distance <= r.max_distance;
+}
+
+bool in_zoom(const Scene& scene, const Vec3& x) {
+  return std::ranges::any_of(scene.zoom,
+                             [&](const Region& r) { return in_region(r, scene.axis_point, x); });
+}
+
+std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
+                                    const contact::Surroundings& around) {
+  const CellsBlock& c = scene.cells;
+  const double diameter = 2 * largest_radius(scene);
+  UniformStream stream(scene.seed, Purpose::kJitter, 0);
+  const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
+
+  std::vector<PlacedCell> cells;
+  if (c.source == "list") {
+    for (const CellEntry& e : c.list) {
+      PlacedCell p;
+      p.center = e.position;
+      p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
+      p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
+      p.pull = e.pull;
+      p.deformable = e.model.empty()
+                         ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
+                         : e.model == "dcm";
+      cells.push_back(p);
+    }
+  } else {
+    std::vector<Vec3> centers;
+    if (c.source == "clump")
+      centers = coupling::make_clump(
+          {c.lattice == "bcc" ? coupling::Lattice::kBcc : coupling::Lattice::kFcc, c.count,
+           c.spacing * diameter, c.jitter * diameter},
+          uniform);
+    else if (c.source == "box")
+      centers = coupling::make_box(
+          {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
+          uniform);
+    else if (c.source == "fill")
+      centers = fill_box(scene, around);
+    else if (lobule)
+      centers = lobule->seeds;
+    cells.reserve(centers.size());
+    for (const Vec3& x : centers) {
+      PlacedCell p;
+      p.center = x;
+      p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
+      p.radius = scene.cell_types.at(p.type).radius;
+      p.oriented = false;
+      p.deformable = c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, x));
+      cells.push_back(p);
+    }
+  }
+  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].lineage = static_cast<std::int64_t>(k);
+  return cells;
+}
+
+void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
+                  const contact::Surroundings& around) {
+  check_sizes(scene, cells);
+  std::string message;
+  int bad = 0;
+  for (const PlacedCell& c : cells) {
+    std::string name;
+    const double r = start_radius(scene, c.radius);
+    const double gap = nearest_gap(around, c.center, &name);
+    if (gap >= r - kStartDepth) continue;
+    if (++bad <= 10)
+      message += fmt::format(
+          "{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is "
+          "allowed.\n",
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), r - gap, name,
+          kStartDepth);
+  }
+  for (const auto& [i, j] : find_crowded(scene, cells)) {
+    if (++bad > 10) continue;
+    const PlacedCell &p = cells[static_cast<std::size_t>(i)],
+                     &q = cells[static_cast<std::size_t>(j)];
+    message += fmt::format(
+        "{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} "
+        "um, is needed.\n",
+        scene.file, name_of(scene, p), name_of(scene, q), (p.center - q.center).norm(),
+        0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius)));
+  }
+  if (bad > 10) message += fmt::format("... and {} more.\n", bad - 10);
+  check(bad == 0,
+        message + (scene.start_up.enabled ? "Move these cells, or lower start_up.initial_radius."
+                                          : "Move these cells, or start them small with the "
+                                            "start_up block (acinus explain start_up.enabled)."));
+}
+
+}  // namespace acinus::runs

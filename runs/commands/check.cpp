@@ -1,0 +1,60 @@
+/// acinus check
+
+#include <memory>
+
+#include "runs/build/build_world.hpp"
+#include "runs/commands/command.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+struct Arguments {
+  std::string scene_file;
+  std::vector<std::string> set;
+  bool resolved = false;  ///< print the scene with every default
+};
+
+int check_scene(const Arguments& arguments) {
+  const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
+  Scene plain = scene;
+  std::vector<std::string> notes;
+  for (auto& [name, type] : plain.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    type.cbm.stiffness_correction = "none";
+    notes.push_back(name + ": calibrated when the scene runs, if that was not done before");
+  }
+  const BuiltWorld built =
+      build_world(plain, Ranks::serial());  // throws for geometry that does not fit
+  notes.insert(notes.begin(), built.notes.begin(), built.notes.end());
+  if (arguments.resolved) {
+    fmt::print("{}", scene.resolved_json);
+    return 0;
+  }
+  const coupling::State& state = built.world.state;
+  fmt::print(
+      "{}: valid scene \"{}\", {} cell type{}, {} DCM + {} CBM cells from {}, {:.0f} um of "
+      "vessels, end {:.4g} h, hash {}\n",
+      scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
+      dcm::count_cells(state.dcm), state.cbm.n_cell(), scene.cells.source, built.vessel_length,
+      scene.time.end / 3600, scene.sha);
+  for (const std::string& note : notes) fmt::print("{}\n", note);
+  return 0;
+}
+
+}  // namespace
+
+Command add_check(CLI::App& app) {
+  CLI::App* command =
+      add_command(app, "check", "validate a scene and its geometry without running it",
+                  "acinus check two_cells --resolved");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("SCENE", arguments->scene_file, "scene file, or the name of a shipped scene")
+      ->required();
+  add_set(*command, arguments->set);
+  command->add_flag("--resolved", arguments->resolved, "print the scene with every default");
+  return {command, [arguments] { return check_scene(*arguments); }};
+}
+
+}  // namespace acinus::runs

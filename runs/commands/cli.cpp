@@ -1,0 +1,48 @@
+#include "runs/commands/cli.hpp"
+
+#include <fmt/format.h>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "runs/commands/command.hpp"
+
+namespace acinus::runs {
+
+std::string version_text() {
+  return fmt::format("acinus {} (git {}, {}, {})", ACINUS_VERSION, ACINUS_GIT, ACINUS_COMPILER,
+                     ACINUS_FLAGS);
+}
+
+int run_cli(int argc, const char* const* argv) {
+  CLI::App app("Simulator of living tissue: deformable triangulated cells (DCM) and spheres (CBM).",
+               "acinus");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Help on a command: acinus run --help\n"
+      "Exit codes: 0 done, 1 internal error, 2 bad scene or command line, 3 cannot continue,\n"
+      "4 disk or file error, 5 compared runs beyond a tolerance, 75 stopped with a checkpoint "
+      "written");
+  std::string command_line;
+  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  const Command commands[] = {add_run(app, command_line),
+                              add_check(app),
+                              add_schema(app),
+                              add_explain(app),
+                              add_list(app),
+                              add_new(app),
+                              add_calibrate(app, command_line),
+                              add_compare(app, command_line),
+                              add_study(app),
+                              add_bench(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(Exit::kDone) : static_cast<int>(Exit::kBadInput);
+  }
+  for (const Command& command : commands)
+    if (command.app->parsed()) return command.run();
+  return static_cast<int>(Exit::kBadInput);
+}
+
+}  // namespace acinus::runs

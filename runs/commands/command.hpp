@@ -1,0 +1,66 @@
+#pragma once
+/// What the files of this folder share: each adds one command to the command line.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace acinus::runs {
+
+struct Command {
+  CLI::App* app;             ///< knows whether it was asked for
+  std::function<int()> run;  ///< does it, once the command line is parsed; returns the exit code
+};
+
+inline CLI::App* add_command(CLI::App& app, const char* name, const char* meaning,
+                             const char* example) {
+  CLI::App* command = app.add_subcommand(name, meaning);
+  command->footer(std::string("Example: ") + example);
+  return command;
+}
+
+inline void add_set(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option("--set", set,
+                  "replace a value of the scene, e.g. --set time.end=\"2 h\"; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+inline void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+}
+
+/// The positive value of a flag.   @param parse  text to value
+/// @throws Error that names the flag
+template <class Parse>
+double flag_value(const char* flag, const std::string& text, Parse parse) {
+  try {
+    const double value = parse(text);
+    check(value > 0, fmt::format("\"{}\": must be > 0", text));
+    return value;
+  } catch (const Error& error) {
+    throw Error(std::string(flag) + " " + error.what(), error.code());
+  }
+}
+
+/// @param command_line  as typed, for the provenance of what is written; lives as long as the app
+Command add_bench(CLI::App& app);
+Command add_calibrate(CLI::App& app, const std::string& command_line);
+Command add_check(CLI::App& app);
+Command add_compare(CLI::App& app, const std::string& command_line);
+Command add_explain(CLI::App& app);
+Command add_list(CLI::App& app);
+Command add_new(CLI::App& app);
+Command add_run(CLI::App& app, const std::string& command_line);
+Command add_schema(CLI::App& app);
+Command add_study(CLI::App& app);
+
+}  // namespace acinus::runs

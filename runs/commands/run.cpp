@@ -1,0 +1,79 @@
+/// acinus run
+
+#include <memory>
+
+#include "core/units.hpp"
+#include "runs/calibrate/calibrate.hpp"
+#include "runs/commands/command.hpp"
+#include "runs/commands/wall_time.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/session/run_scene.hpp"
+
+namespace acinus::runs {
+namespace {
+
+struct Arguments {
+  RunOptions run;
+  std::string until, checkpoint_every, max_walltime, progress;
+};
+
+int run(Arguments& arguments) {
+  RunOptions& run = arguments.run;
+  if (!arguments.until.empty())
+    run.until_s = flag_value("--until", arguments.until,
+                             [](const std::string& text) { return parse_quantity(text, kTime); });
+  if (!arguments.checkpoint_every.empty())
+    run.checkpoint_every_s =
+        flag_value("--checkpoint-every", arguments.checkpoint_every, parse_wall_time);
+  if (!arguments.max_walltime.empty())
+    run.max_walltime_s = flag_value("--max-walltime", arguments.max_walltime, parse_wall_time);
+  run.progress_json = arguments.progress == "json";
+  Scene scene = read_scene(find_scene_file(run.scene_file), run.set);
+  if (run.out.empty()) run.out = scene.name + ".run";
+  if (const int stop = resolve_corrections(scene, run.threads, run.quiet)) return stop;
+  return run_scene(scene, run);
+}
+
+}  // namespace
+
+Command add_run(CLI::App& app, const std::string& command_line) {
+  CLI::App* command =
+      add_command(app, "run", "simulate a scene", "acinus run two_cells --set time.end=\"30 min\"");
+  const auto arguments = std::make_shared<Arguments>();
+  RunOptions& run = arguments->run;
+  command->add_option("SCENE", run.scene_file, "scene file, or the name of a shipped scene")
+      ->required();
+  command->add_option("--out", run.out, "run folder (default: <scene name>.run in this folder)")
+      ->type_name("DIR");
+  add_set(*command, run.set);
+  add_threads(*command, run.threads);
+  command->add_option("--until", arguments->until, "stop at this simulated time, e.g. \"2 h\"")
+      ->type_name("TIME");
+  command->add_option("--until-cells", run.until_cells, "stop when there are this many cells")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000));
+  command
+      ->add_option("--checkpoint-every", arguments->checkpoint_every,
+                   "wall time between checkpoints (default: 10min)")
+      ->type_name("WALL");
+  command
+      ->add_option("--max-walltime", arguments->max_walltime,
+                   "stop with a checkpoint after this wall time, e.g. 23h30m")
+      ->type_name("WALL");
+  command->add_flag("--timings", run.timings, "print the time of each stage at the end");
+  command->add_flag("--quiet", run.quiet, "warnings and errors only");
+  command->add_option("--progress", arguments->progress, "form of the progress lines")
+      ->type_name("json")
+      ->check(CLI::IsMember({"json"}));
+  CLI::Option* resume =
+      command->add_flag("--resume", run.resume, "go on from the checkpoint in the run folder");
+  command->add_flag("--overwrite", run.overwrite, "replace the results in the run folder")
+      ->excludes(resume);
+  return {command, [arguments, &command_line] {
+            arguments->run.command_line = command_line;
+            return runs::run(*arguments);
+          }};
+}
+
+}  // namespace acinus::runs

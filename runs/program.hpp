@@ -1,0 +1,34 @@
+#pragma once
+/// What the programs do around their command line.
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "core/error.hpp"
+
+namespace acinus::runs {
+
+/// Turns every exception into a message and an exit code.
+/// @param work  a function of nothing that returns the exit code
+template <class Work>
+int run_program(Work work) {
+  // A file-size limit then shows as a failed write, which is reported, instead of killing the
+  // program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return work();
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "internal error: {}\n", error.what());
+  } catch (...) {
+    fmt::print(stderr, "internal error\n");
+  }
+  return static_cast<int>(Exit::kInternal);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,152 @@
+#include "runs/session/child.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/timing.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr const char* kThreads = "OMP_NUM_THREADS";
+
+/// This process's environment with one thread for the child.
+std::vector<std::string> environment() {
+  std::vector<std::string> all{std::string(kThreads) + "=1"};
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    if (std::strncmp(*entry, kThreads, std::strlen(kThreads)) != 0) all.emplace_back(*entry);
+  return all;
+}
+
+int open_output(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  check(descriptor >= 0, fmt::format("{}: cannot be written: {}", path, std::strerror(errno)),
+        Exit::kFileError);
+  return descriptor;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (std::string& word : words) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
+}  // namespace
+
+std::string program_beside(const std::string& name) {
+  std::error_code code;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", code);
+  return (self.parent_path() / name).string();
+}
+
+Child::Child(const std::vector<std::string>& words, const ChildOptions& options)
+    : deadline_(wall_seconds() + options.limit_s) {
+  std::vector<std::string> arguments{"acinus"}, variables = environment();
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  const std::vector<char*> argv = pointers(arguments), envp = pointers(variables);
+  const int error_file = open_output(options.output);
+  const int out_file = options.progress.empty() ? error_file : open_output(options.progress);
+  const pid_t parent = getpid();
+  id_ = fork();
+  if (id_ == 0) {  // only async-signal-safe calls from here on
+    if (options.follows_parent) {
+      prctl(PR_SET_PDEATHSIG, SIGTERM);
+      if (getppid() != parent) _exit(127);  // it ended before that was known
+    }
+    dup2(out_file, STDOUT_FILENO);
+    dup2(error_file, STDERR_FILENO);
+    execve(options.program.c_str(), argv.data(), envp.data());
+    _exit(127);
+  }
+  const int failed = id_ < 0 ? errno : 0;
+  close(error_file);
+  if (out_file != error_file) close(out_file);
+  check(failed == 0,
+        fmt::format("cannot start another process: {}. Are there too many?", std::strerror(failed)),
+        Exit::kFileError);
+  // glibc 2.36 declares pidfd_open without C linkage.
+  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, id_, 0));
+  if (descriptor_ >= 0) return;
+  const int error = errno;
+  kill(id_, SIGKILL);
+  waitpid(id_, nullptr, 0);
+  throw Error(fmt::format("cannot watch a child process: {}.", std::strerror(error)),
+              Exit::kFileError);
+}
+
+void Child::send(int signal) const { kill(id_, signal); }
+
+Child::Child(Child&& other) noexcept
+    : id_(std::exchange(other.id_, -1)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      deadline_(other.deadline_) {}
+
+Child& Child::operator=(Child&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(deadline_, other.deadline_);
+  return *this;
+}
+
+Child::~Child() {
+  if (id_ < 0) return;
+  kill(id_, SIGKILL);
+  collect();
+}
+
+ChildEnd Child::collect() {
+  ChildEnd end;
+  int status = 0;
+  rusage used{};
+  siginfo_t info{};
+  waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT);
+  end.timed_out = info.si_pid == 0;
+  if (end.timed_out) kill(id_, SIGKILL);
+  wait4(id_, &status, 0, &used);
+  close(descriptor_);
+  id_ = descriptor_ = -1;
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  end.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+  if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  return end;
+}
+
+std::optional<std::size_t> wait_for_any(const std::vector<const Child*>& children,
+                                        double patience_s) {
+  std::vector<pollfd> ends;
+  const double give_up = wall_seconds() + patience_s;
+  double deadline = give_up;
+  for (const Child* child : children) {
+    ends.push_back({child->descriptor(), POLLIN, 0});
+    deadline = std::min(deadline, child->deadline());
+  }
+  for (;;) {
+    constexpr double kLongest = 1e6;  // s: poll counts milliseconds in an int
+    const double left = std::clamp(deadline - wall_seconds(), 0.0, kLongest);
+    const int n = poll(ends.data(), ends.size(), static_cast<int>(std::ceil(1000 * left)));
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      if ((n > 0 && ends[k].revents != 0) || wall_seconds() > children[k]->deadline()) return k;
+    if (std::isfinite(patience_s) && (n < 0 || wall_seconds() >= give_up)) return std::nullopt;
+  }
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,32 @@
+#pragma once
+/// Progress of a run: one line on a terminal, one line a minute otherwise, or JSON lines.
+
+#include <string>
+
+#include "coupling/world.hpp"
+#include "runs/session/run_scene.hpp"
+
+namespace acinus::runs {
+
+class Progress {
+ public:
+  Progress(const RunOptions& options, double end);
+  /// Rate and time left count from here: a resumed run has not simulated its past in this process.
+  void begin(const coupling::World& world);
+  /// Called after every step; prints when it is time to.
+  void step(const coupling::World& world);
+  /// Ends the terminal line.
+  void finish();
+  /// A message of its own line, also to the log.
+  void note(const std::string& text);
+
+ private:
+  void print(const coupling::World& world);
+
+  const RunOptions& options_;
+  double end_, started_, last_ = -1e300;
+  double first_time_ = 0;  ///< s simulated before this start of the program
+  bool terminal_, line_open_ = false;
+};
+
+}  // namespace acinus::runs

@@ -1,0 +1,174 @@
+#include "runs/session/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <ctime>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "runs/session/frame.hpp"
+#include "runs/session/run_folder.hpp"
+#include "runs/session/skipped.hpp"
+#include "runs/session/state_file.hpp"
+#include "runs/session/summary.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::string now_text() {
+  const std::time_t t = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t));
+  return text;
+}
+
+/// Calls f(name, count) for what is in a run file.
+template <class Counts, class F>
+void visit(Counts& c, F f) {
+  f("file/frames", c.frame);
+  f("file/series", c.series);
+  f("file/events", c.event);
+  f("file/observables", c.observable);
+}
+
+}  // namespace
+
+Recorder::Recorder(const Scene& scene, const RunOptions& options, coupling::Simulation& simulation)
+    : scene_(scene),
+      options_(options),
+      simulation_(simulation),
+      vessel_surface_(
+          coupling::make_vessel_surface(simulation.world().params.around.vessels.network)) {
+  life_.start_cells = coupling::count_cells(simulation.world().state);
+}
+
+io::RunFileOptions Recorder::file_options() const {
+  return {.compression = scene_.output.compression};
+}
+
+void Recorder::create() {
+  file_ = io::RunFile::create(run_file(),
+                              {{"scene", scene_.resolved_json},
+                               {"scene_sha", scene_.sha},
+                               {"command_line", options_.command_line},
+                               {"version", ACINUS_VERSION},
+                               {"git", ACINUS_GIT},
+                               {"compiler", ACINUS_COMPILER},
+                               {"flags", ACINUS_FLAGS},
+                               {"seed", std::to_string(scene_.seed)},
+                               {"ranks", std::to_string(simulation_.world().ranks.size())},
+                               {"threads", std::to_string(options_.threads)},
+                               {"units", "um, s, nN"},
+                               {"start", now_text()}},
+                              file_options());
+}
+
+std::string Recorder::resume() {
+  const io::LoadedCheckpoint loaded = io::load_checkpoint(options_.out);
+  const io::CheckpointData& data = loaded.data;
+  check_same_scene(data, scene_);
+  get_state(data, simulation_.world().state);
+  simulation_.resize();
+  get_totals(data, totals_);
+  get_totals(data, life_);
+  wall_before_ = totals_.wall_s;
+  cpu_before_ = totals_.cpu_s;
+  last_frame_ = data.number("file/last_frame");
+  excess_ = {data.number("file/excess"), "some cells overlap beyond what contact mends", {}};
+  observer_ = get_observer(data);
+  io::RunFileCounts counts;
+  visit(counts, [&](const char* name, std::int64_t& n) { n = data.count(name); });
+  file_ = io::RunFile::open_for_append(run_file(), counts, file_options());
+  return (loaded.warning.empty() ? "" : loaded.warning + "\n") +
+         fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file);
+}
+
+Excess Recorder::write_frame(bool last) {
+  const coupling::World& world = simulation_.world();
+  coupling::Workspace& work = simulation_.work();
+  const auto scope = work.timings.scope("frames and audit");
+  const Snapshot snapshot = take_snapshot(world, work);
+  const coupling::AuditResult audit = audit_world(world, work, snapshot);
+  add_audit(totals_, audit);
+  std::vector<io::SeriesValue> observables;
+  if (simulation_.is_running())
+    observables = observe_frame({scene_, world, work, snapshot, audit}, observer_);
+  if (world.ranks.is_root())
+    file_->append(make_frame(world, work, snapshot, vessel_surface_), observables);
+  last_frame_ = snapshot.time;
+  if (audit.n_self_intersecting > 0)
+    add_event("self_intersection",
+              fmt::format("{} cells cross themselves", audit.n_self_intersecting));
+  Excess excess = find_excess(audit, world, work);
+  if (excess.depth_um > 0) add_event("deep_overlap", excess.cause, excess.cells);
+  const bool shrinks = excess.depth_um < excess_.depth_um && !last;
+  excess_ = excess;
+  return shrinks ? Excess{} : excess;
+}
+
+void Recorder::write_series(const coupling::StepResult& step) {
+  const coupling::State& s = simulation_.world().state;
+  const std::array<io::SeriesValue, 11> sample{
+      {{"time", "s", simulation_.time()},
+       {"dt", "s", step.step},
+       {"dcm_cells", "1", static_cast<double>(dcm::count_cells(s.dcm))},
+       {"cbm_cells", "1", static_cast<double>(s.cbm.n_cell())},
+       {"asleep", "1", static_cast<double>(coupling::count_asleep(s))},
+       {"max_move", "um", step.max_move},
+       {"error", "um", step.error},
+       {"rejections", "1", static_cast<double>(step.rejections)},
+       {"cg_iterations", "1", static_cast<double>(s.clock.cg_iterations)},
+       {"balance_momentum", "1", s.balance.momentum},
+       {"balance_torque", "1", s.balance.torque}}};
+  file_->append_series(sample);
+}
+
+void Recorder::add_event(const std::string& code, const std::string& message,
+                         const std::vector<std::int64_t>& cells) {
+  file_->append_event({simulation_.time(), code, cells, message});
+}
+
+void Recorder::add_life(const coupling::LifeReport& report) {
+  const coupling::World& world = simulation_.world();
+  runs::add_life(life_, report, coupling::count_cells(world.state), wall_s());
+  observe_births(scene_, world, report, observer_);
+  for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
+}
+
+io::CheckpointData Recorder::make_checkpoint() {
+  io::CheckpointData data;
+  data.put("scene", scene_.resolved_json);
+  put_state(simulation_.world().state, data);
+  totals_.wall_s = wall_s();
+  totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
+  put_totals(totals_, data);
+  put_totals(life_, data);
+  put_observer(observer_, data);
+  data.put_number("file/last_frame", last_frame_);
+  data.put_number("file/excess", excess_.depth_um);
+  const io::RunFileCounts counts = file_->counts();
+  visit(counts, [&](const char* name, std::int64_t n) { data.put_count(name, n); });
+  return data;
+}
+
+void Recorder::save() {
+  const auto scope = simulation_.work().timings.scope("checkpoints");
+  file_->flush();
+  io::save_checkpoint(options_.out, make_checkpoint());
+}
+
+void Recorder::close(const std::string& status, const std::string& cause) {
+  save();
+  file_->set_provenance("end", now_text());
+  file_->set_provenance("status", status);
+  file_->close();
+  const coupling::World& world = simulation_.world();
+  const coupling::Workspace& work = simulation_.work();
+  std::vector<std::string> skipped = list_skipped(world);
+  for (const std::string& what : list_skipped_work(world, work)) skipped.push_back(what);
+  write_summary(options_.out, {scene_, options_, world, totals_, life_, observer_.measures,
+                               work.timings, skipped, notes_, status, cause, options_.threads});
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,73 @@
+#pragma once
+/// What a run leaves in its folder: frames, series and events in the run file, checkpoints, the
+/// summary. Its counters go on where a resumed run left them.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/run_file.hpp"
+#include "core/timing.hpp"
+#include "coupling/generate/vessel_surface.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/experiments/observer.hpp"
+#include "runs/session/run_scene.hpp"
+#include "runs/session/soundness.hpp"
+#include "runs/session/totals.hpp"
+
+namespace acinus::runs {
+
+class Recorder {
+ public:
+  /// @param simulation  is only read; lives as long as the recorder
+  Recorder(const Scene& scene, const RunOptions& options, coupling::Simulation& simulation);
+
+  void create();  ///< A new run file. @throws Error(kFileError)
+  /// Goes on with an older one: the world gets the state of the checkpoint.
+  /// @return what was done, for the log   @throws Error(kBadInput, kFileError)
+  std::string resume();
+
+  /// @param last  no frame is to come in which an overlap could be gone
+  /// @return why the run must not go on from this frame, with depth_um = 0 if it may: overlaps of
+  ///         the start must shrink from frame to frame
+  Excess write_frame(bool last);
+  void write_series(const coupling::StepResult& step);
+  void add_event(const std::string& code, const std::string& message,
+                 const std::vector<std::int64_t>& cells = {});
+  void add_life(const coupling::LifeReport& report);
+  void add_note(const std::string& note) { notes_.push_back(note); }  ///< for the summary
+
+  void save();  ///< Writes a checkpoint. @throws Error(kFileError)
+  /// Checkpoint, run file and summary in their last form.
+  /// @param status  completed | stopped | failed
+  void close(const std::string& status, const std::string& cause);
+
+  double last_frame() const { return last_frame_; }  ///< s since t = 0
+  /// What was wrong with the last frame.
+  const Excess& excess() const { return excess_; }
+  double wall_s() const { return wall_before_ + wall_seconds() - started_; }  ///< with resumes
+
+ private:
+  std::string run_file() const { return options_.out + "/run.vtkhdf"; }
+  io::RunFileOptions file_options() const;
+  io::CheckpointData make_checkpoint();
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  coupling::Simulation& simulation_;
+  coupling::VesselSurface vessel_surface_;
+  std::optional<io::RunFile> file_;
+  RunTotals totals_;
+  LifeTotals life_;
+  Observer observer_;
+  std::vector<std::string> notes_;
+  double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
+  double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues
+  double last_frame_ = -1e300;
+  /// The first frame may overlap: contact is given a chance.
+  Excess excess_{std::numeric_limits<double>::infinity(), {}, {}};
+};
+
+}  // namespace acinus::runs

@@ -1,0 +1,28 @@
+#pragma once
+/// The folder of one run: whether it may be used, and whether its checkpoint fits the scene.
+
+#include <string>
+
+#include "core/io/checkpoint.hpp"
+#include "core/io/file_lock.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/session/run_scene.hpp"
+
+namespace acinus::runs {
+
+/// Makes the folder, or checks that an existing one may be used, and empties it if asked.
+/// @return to be kept while the run writes: no other process can prepare the folder meanwhile
+/// @throws Error(kBadInput) when it holds results and neither resume nor overwrite was asked;
+///         Error(kFileError) when it cannot be made or written, or
+///         another process writes in it
+io::FileLock prepare_folder(const std::string& folder, const RunOptions& options);
+
+/// Whether a process writes in the folder of a run.
+bool is_being_written(const std::string& folder);
+
+/// Refuses a checkpoint made from another scene: only the end time, the output and the name may
+/// differ.
+/// @throws Error(kBadInput) listing the differing keys
+void check_same_scene(const io::CheckpointData& checkpoint, const Scene& scene);
+
+}  // namespace acinus::runs

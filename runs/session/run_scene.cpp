@@ -1,0 +1,291 @@
+#include "runs/session/run_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "core/time_grid.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/scene/frame_times.hpp"
+#include "runs/session/advice.hpp"
+#include "runs/session/progress.hpp"
+#include "runs/session/recorder.hpp"
+#include "runs/session/run_folder.hpp"
+#include "runs/session/skipped.hpp"
+#include "runs/session/start_state.hpp"
+#include "runs/session/stop_signals.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// The logger of a run goes with it: a process may run several scenes.
+struct LoggerKept {
+  std::shared_ptr<spdlog::logger> before = spdlog::default_logger();
+  LoggerKept() = default;
+  ~LoggerKept() {
+    spdlog::set_default_logger(before);
+    spdlog::drop("run");
+  }
+  LoggerKept(const LoggerKept&) = delete;
+  LoggerKept& operator=(const LoggerKept&) = delete;
+};
+
+/// What to type to go on: the same scene, changes and folder.
+std::string resume_command(const RunOptions& options) {
+  const auto quoted = [](const std::string& text) {
+    constexpr const char* kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=-+,:";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+    std::string inside;
+    for (char c : text) inside += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return "'" + inside + "'";
+  };
+  std::string command =
+      "acinus run " + quoted(options.scene_file) + " --resume --out " + quoted(options.out);
+  for (const std::string& change : options.set) command += " --set " + quoted(change);
+  return command;
+}
+
+/// One run from its first to its last step.
+class Run {
+ public:
+  Run(const Scene& scene, const RunOptions& options, BuiltWorld built);
+  int go();
+
+ private:
+  coupling::Observer observer();
+  bool events_over();
+  void end_phase(const std::string& what);
+  bool frame_is_due() const;
+  bool is_last() const;
+  int loop();
+  void close(const std::string& status, const std::string& cause);
+  void stop(const std::string& why);
+  int finish(const coupling::LoopResult& steps);
+  int give_up(const std::string& cause, const std::vector<std::int64_t>& cells);
+  std::string reason_to_stop() const;
+  const coupling::World& world() const { return simulation_.world(); }
+  double time() const { return simulation_.time(); }
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  std::vector<std::string> notes_;  ///< of the geometry
+  double vessel_length_;            ///< um
+  coupling::Simulation simulation_;
+  Recorder recorder_;
+  Progress progress_;
+  double end_;
+  double started_ = wall_seconds(), last_save_ = wall_seconds();
+  double extra_frame_ = 0;    ///< s, the next frame that an opening asks for
+  bool was_running_ = false;  ///< before this step
+  std::string stopped_by_;    ///< empty: it was not
+  Excess excess_;             ///< why a frame ended the run, if its depth is > 0
+};
+
+Run::Run(const Scene& scene, const RunOptions& options, BuiltWorld built)
+    : scene_(scene),
+      options_(options),
+      notes_(std::move(built.notes)),
+      vessel_length_(built.vessel_length),
+      simulation_(std::move(built.world)),
+      recorder_(scene, options, simulation_),
+      progress_(options, std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
+      end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))) {}
+
+std::string Run::reason_to_stop() const {
+  if (const int signal = stop_signal(); signal != 0) return fmt::format("signal {}", signal);
+  if (options_.max_walltime_s && wall_seconds() - started_ > *options_.max_walltime_s)
+    return "the wall-time limit";
+  if (std::filesystem::exists(options_.out + "/STOP")) return "the file STOP";
+  return {};
+}
+
+bool Run::is_last() const {
+  const int most = options_.until_cells.value_or(scene_.time.until_cells);
+  return time() >= end_ - kSameTime ||
+         (was_running_ && most > 0 && coupling::count_cells(world().state) >= most);
+}
+
+bool Run::frame_is_due() const {
+  const bool starts = simulation_.is_running() && !was_running_;
+  if (!(simulation_.is_running() || scene_.output.start_up)) return false;
+  if (time() <= recorder_.last_frame() + kSameTime) return false;
+  const double part = time() / scene_.output.every;
+  return starts || is_last() ||
+         std::abs(part - std::round(part)) * scene_.output.every < kSameTime ||
+         (was_running_ && time() > extra_frame_ - kSameTime);
+}
+
+void Run::end_phase(const std::string& what) {
+  progress_.note(what);
+  recorder_.add_note(what);
+  recorder_.add_event("start_up", what);
+}
+
+/// Frames, checkpoints and reasons to stop, once the events after a step are over.
+bool Run::events_over() {
+  if (frame_is_due()) excess_ = recorder_.write_frame(time() >= end_ - kSameTime);
+  if (excess_.depth_um > 0) return false;
+  if (is_last() && simulation_.is_running()) return false;
+  was_running_ = simulation_.is_running();
+  if (wall_seconds() - last_save_ > options_.checkpoint_every_s) {
+    recorder_.save();
+    last_save_ = wall_seconds();
+  }
+  stopped_by_ = reason_to_stop();
+  return stopped_by_.empty();
+}
+
+coupling::Observer Run::observer() {
+  return {.next_moment =
+              [this](double time) {
+                extra_frame_ = next_frame_of_opening(scene_, time);
+                const double every = scene_.output.every;
+                return std::min((std::floor((time + kSameTime) / every) + 1) * every, extra_frame_);
+              },
+          .step =
+              [this](const coupling::StepResult& step) {
+                recorder_.write_series(step);
+                progress_.step(world());
+              },
+          .phase = [this](const std::string& what) { end_phase(what); },
+          .start = [this] { save_start(options_.out, scene_, world().state); },
+          .life = [this](const coupling::LifeReport& report) { recorder_.add_life(report); },
+          .events_over = [this] { return events_over(); }};
+}
+
+void Run::close(const std::string& status, const std::string& cause) {
+  if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
+    const std::string note = fmt::format(
+        "the stiffness of spheres was asked beyond the range of its law in {:.2g} % of cases",
+        100 * static_cast<double>(spheres.beyond) / static_cast<double>(spheres.corrected));
+    recorder_.add_note(note);
+    progress_.note(note);
+  }
+  if (const auto skipped = list_skipped_work(world(), simulation_.work()); !skipped.empty())
+    progress_.note(fmt::format("also skipped: {}", fmt::join(skipped, ", ")));
+  recorder_.close(status, cause);
+  progress_.finish();
+}
+
+int Run::give_up(const std::string& cause, const std::vector<std::int64_t>& cells) {
+  spdlog::error(cause);
+  recorder_.add_event("cannot_continue", cause, cells);
+  if (time() > recorder_.last_frame() + kSameTime) recorder_.write_frame(true);
+  close("failed", cause);
+  fmt::print(stderr, "acinus: simulation cannot continue: {}\n", cause);
+  return static_cast<int>(Exit::kCannotContinue);
+}
+
+void Run::stop(const std::string& why) {
+  recorder_.add_event("stopped", "stopped by " + why);
+  close("stopped", "stopped by " + why);
+  progress_.note(fmt::format("stopped by {}; continue with: {}", why, resume_command(options_)));
+  // Obeyed; left there it would stop the resumed run too.
+  std::filesystem::remove(options_.out + "/STOP");
+}
+
+int Run::loop() {
+  was_running_ = simulation_.is_running();
+  if (!options_.resume && (was_running_ || scene_.output.start_up))
+    excess_ = recorder_.write_frame(false);
+  return finish(excess_.depth_um > 0 ? coupling::LoopResult{}
+                                     : simulation_.run_until(end_, observer()));
+}
+
+int Run::finish(const coupling::LoopResult& steps) {
+  if (!steps.ok) {
+    const coupling::StepResult& step = steps.last;
+    return give_up(
+        fmt::format(
+            "a step of {} s still fails at t = {:.4g} h: {}. Cells concerned: {}. The last good "
+            "state is in {}. {}",
+            world().params.numerics.min_step, time() / 3600, step.cause,
+            step.cells.empty() ? std::string("none named")
+                               : fmt::format("{}", fmt::join(step.cells, ", ")),
+            options_.out, advise(world(), step)),
+        step.cells);
+  }
+  if (!stopped_by_.empty()) {
+    stop(stopped_by_);
+    return static_cast<int>(Exit::kStopped);
+  }
+  if (excess_.depth_um == 0) excess_ = recorder_.excess();
+  if (excess_.depth_um > 0)
+    return give_up(
+        fmt::format("at t = {:.4g} h {}. The last frame in {} shows it. {}", time() / 3600,
+                    excess_.cause, options_.out, advise(world(), excess_)),
+        excess_.cells);
+  close("completed", "");
+  return static_cast<int>(Exit::kDone);
+}
+
+int Run::go() {
+  if (options_.resume) {
+    progress_.note(recorder_.resume());
+  } else {
+    recorder_.create();
+  }
+  const coupling::State& s = world().state;
+  progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {} threads",
+                             scene_.name, dcm::count_cells(s.dcm), s.cbm.n_cell(), vessel_length_,
+                             options_.threads));
+  for (const std::string& note : notes_) {
+    progress_.note(note);
+    recorder_.add_note(note);
+  }
+  if (const auto skipped = list_skipped(world()); !skipped.empty())
+    progress_.note(fmt::format("skipped: {}", fmt::join(skipped, ", ")));
+  progress_.begin(world());
+  const int code = loop();
+  if (code == 0) {
+    progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
+                               recorder_.wall_s(), options_.out));
+    progress_.note(
+        "to look at it: ParaView 5.12 or newer opens run.vtkhdf; older ones open run.xmf with "
+        "\"XDMF Reader\"");
+  }
+  if (options_.timings)
+    for (const StageTime& stage : simulation_.work().timings.stages())
+      fmt::print("{:20s} {:9.3f} s wall {:9.3f} s CPU {:8d} calls\n", stage.name, stage.wall,
+                 stage.cpu, stage.calls);
+  return code;
+}
+
+}  // namespace
+
+int run_scene(const Scene& scene, const RunOptions& asked) {
+  RunOptions options = asked;
+  if (options.threads <= 0) options.threads = omp_get_num_procs();
+  omp_set_num_threads(options.threads);
+  BuiltWorld built = build_world(scene, Ranks::world());
+  check(built.world.ranks.size() == 1,
+        "this version runs on one rank; start it without mpirun and use --threads.");
+  const io::FileLock writing = prepare_folder(options.out, options);
+  const LoggerKept keeping;
+  auto log = spdlog::basic_logger_mt("run", options.out + "/run.log", !options.resume);
+  // Few lines; someone may be following them, and a kill must not lose them.
+  log->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(log);
+  spdlog::info("acinus {} {}: {}", ACINUS_VERSION, ACINUS_GIT, options.command_line);
+  const StopSignals signals;
+  try {
+    return Run(scene, options, std::move(built)).go();
+  } catch (const std::exception& error) {
+    spdlog::error(error.what());
+    throw;
+  }
+}
+
+}  // namespace acinus::runs

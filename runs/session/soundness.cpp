@@ -1,0 +1,93 @@
+#include "runs/session/soundness.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/sphere.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// Share of a mean edge that a surface may stand deeper between contact points.
+constexpr double kBetweenPoints = 0.25;
+
+double radius_of(const coupling::State& s, std::int64_t id) {
+  const auto k =
+      static_cast<std::size_t>(std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin());
+  return sphere_radius(s.cbm.volume[k].at(s.clock.time));
+}
+
+/// The sphere whose centre is deepest inside its surroundings.
+Excess find_lost_sphere(const coupling::World& world, const coupling::Workspace& work) {
+  const cbm::State& s = world.state.cbm;
+  const contact::Surroundings& around = world.params.around;
+  const double time = std::max(0.0, coupling::time_since_start(world));
+  Excess worst;
+  const auto look = [&](std::size_t k, const contact::Gap& gap, const auto& name) {
+    if (-gap.gap <= worst.depth_um) return;
+    worst = {-gap.gap,
+             fmt::format("CBM cell {} has its centre {:.3g} um inside {}", s.lineage[k], -gap.gap,
+                         name()),
+             {s.lineage[k]}};
+  };
+  for (std::size_t k = 0; k < s.n_cell(); ++k) {
+    const Vec3 x = cbm::center_of(s, k);
+    for (const contact::Plane& p : around.planes)
+      look(k, contact::gap_to_plane(p, x, time), [&] { return "wall " + p.name; });
+    for (const contact::Capsule& c : around.capsules)
+      look(k, contact::gap_to_capsule(c, x, time), [&] { return "the wall of the " + c.name; });
+  }
+  for (const auto& [cell, segment] : work.cbm.segment) {
+    const auto k = static_cast<std::size_t>(cell);
+    look(k, contact::gap_to_segment(around.vessels.network, segment, cbm::center_of(s, k)),
+         [&, at = segment] { return fmt::format("vessel segment {}", at); });
+  }
+  return worst;
+}
+
+}  // namespace
+
+double deepest_overlap(const coupling::World& world) {
+  const dcm::State& s = world.state.dcm;
+  double edge = 0;
+  for (std::size_t l = 0; l < s.n_lane(); ++l)
+    if (s.active(l))
+      edge = std::max(edge, s.group[l / kLanes].topology->mean_rest_length *
+                                sphere_radius(s.volume[l].at(world.state.clock.time)));
+  return world.params.dcm_contact.max_depth + kBetweenPoints * edge;
+}
+
+Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,
+                   const coupling::Workspace& work) {
+  Excess worst = find_lost_sphere(world, work);
+  const auto look = [&](const coupling::WorstPair& pair, double limit, const char* what,
+                        std::size_t n_cell) {
+    if (pair.depth_um - limit <= worst.depth_um) return;
+    worst.depth_um = pair.depth_um - limit;
+    worst.cells.assign(pair.ids.begin(), pair.ids.begin() + static_cast<std::ptrdiff_t>(n_cell));
+    worst.cause = fmt::format("{} {} overlap by {:.3g} um, beyond the {:.3g} um that contact mends",
+                              what, fmt::join(pair.ids, " and "), pair.depth_um, limit);
+  };
+  const double limit = deepest_overlap(world);
+  look(audit.dcm_dcm, limit, "DCM cells", 2);
+  look(audit.dcm_wall, limit, "DCM cell and wall", 1);
+  look(audit.dcm_vessel, limit, "DCM cell and vessel segment", 1);
+  const coupling::State& s = world.state;
+  if (!audit.dcm_cbm.ids.empty())
+    look(audit.dcm_cbm, radius_of(s, audit.dcm_cbm.ids[1]), "DCM cell and CBM cell", 2);
+  if (!audit.cbm_cbm.ids.empty())
+    look(audit.cbm_cbm,
+         std::max(radius_of(s, audit.cbm_cbm.ids[0]), radius_of(s, audit.cbm_cbm.ids[1])),
+         "CBM cells", 2);
+  if (audit.n_inverted > 0)
+    worst = {std::numeric_limits<double>::infinity(),
+             fmt::format("{} cells are inside out", audit.n_inverted),
+             {}};
+  return worst;
+}
+
+}  // namespace acinus::runs

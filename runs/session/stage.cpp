@@ -1,0 +1,46 @@
+#include "runs/session/stage.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "runs/session/run_scene.hpp"
+
+namespace acinus::runs {
+
+std::optional<RunSummary> find_run(const Scene& scene, const std::string& folder) {
+  std::error_code code;
+  if (!std::filesystem::exists(folder + "/summary.json", code)) return std::nullopt;
+  RunSummary s = read_summary(folder);
+  if (s.sha != scene.sha || s.version != ACINUS_VERSION) return std::nullopt;
+  return s;
+}
+
+int run_stage(const Scene& scene, const StageOptions& options) {
+  RunOptions run;
+  run.scene_file = scene.file;
+  run.out = options.folder;
+  run.threads = options.threads;
+  run.quiet = options.quiet;
+  run.command_line = options.command_line;
+  run.checkpoint_every_s = 60;
+  if (const std::optional<RunSummary> before = find_run(scene, options.folder);
+      before && !options.fresh) {
+    if (before->status == "completed") return static_cast<int>(Exit::kDone);
+    if (before->status == "failed") {
+      if (!options.quiet)
+        fmt::print(
+            "{}: an earlier run of this scene could not go on ({}/run.log says why); remove "
+            "the folder to run it again\n",
+            options.folder, options.folder);
+      return static_cast<int>(Exit::kCannotContinue);
+    }
+    run.resume = before->status == "stopped";
+  }
+  run.overwrite = !run.resume;
+  return run_scene(scene, run);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,133 @@
+#include "runs/session/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "acinus_version.hpp"
+#include "core/io/disk.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/experiments/lobule.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Every number in a file is finite; what is not is an error of ours and is shown as null.
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+/// The worst of all divisions of deformable cells.
+Json division_figures(const LifeTotals& t) {
+  return {{"max_volume_error", number(t.volume_error)},
+          {"max_outside_um", number(t.outside_um)},
+          {"max_pressure_change_Pa", number(1e3 * t.pressure_change_kPa)},
+          {"max_settled_shift_um", number(t.settled_shift_um)},
+          {"max_settled_pressure_change_Pa", number(1e3 * t.settled_pressure_change_kPa)},
+          {"min_triangle_quality", number(t.min_quality)},
+          {"most_planes", static_cast<int>(t.planes)},
+          {"sub_steps", static_cast<int>(t.steps)},
+          {"put_off", static_cast<int>(t.waits)}};
+}
+
+Json mesh_figures(const LifeTotals& t) {
+  return {{"mended", static_cast<int>(t.remeshed)},
+          {"left_degenerate", static_cast<int>(t.degenerate)}};
+}
+
+/// Cells and births of every layer at the end, the last: deeper; and when the lesion closed, by
+/// every measure of its area; null if it did not.
+void add_lobule_figures(const Measures& m, Json& measures) {
+  for (const char* what : {"cells", "births"})
+    for (const std::string& layer : layer_names())
+      if (const auto n = m.find(std::string(what) + "_layer_" + layer); n != m.end())
+        measures["layers"][what].push_back(number(n->second.back()));
+  const auto time = m.find("time_d");
+  Json by_area = Json::object();
+  for (const std::string& name : closing_areas()) {
+    const auto area = m.find(name);
+    if (area == m.end() || time == m.end()) continue;
+    const std::optional<double> closed = closing_time(time->second, area->second);
+    by_area[name] = closed ? number(*closed) : Json(nullptr);
+  }
+  measures["closed_d"] = by_area.value(closing_areas().front(), Json(nullptr));
+  measures["closed_d_by_area"] = by_area;
+}
+
+}  // namespace
+
+void write_summary(const std::string& folder, const SummaryInput& in) {
+  const coupling::State& s = in.world.state;
+  const RunTotals& t = in.totals;
+  const int dcm_cells = dcm::count_cells(s.dcm), cbm_cells = static_cast<int>(s.cbm.n_cell());
+  Json j;
+  j["scene"] = in.scene.name;
+  j["scene_sha"] = in.scene.sha;
+  j["version"] = ACINUS_VERSION;
+  j["git"] = ACINUS_GIT;
+  j["seed"] = in.scene.seed;
+  j["status"] = in.status;
+  if (!in.cause.empty()) j["cause"] = in.cause;
+  j["simulated_s"] = number(std::max(0.0, coupling::time_since_start(in.world)));
+  j["start_up_s"] = number(s.clock.phase == coupling::Phase::kRun ? s.clock.origin : s.clock.time);
+  if (!in.scene.start_up.from.empty())
+    j["start"] = {{"from", in.scene.start_up.from}, {"state_hash", in.scene.start_state}};
+  j["wall_s"] = number(t.wall_s);
+  j["cpu_s"] = number(t.cpu_s);
+  j["peak_rss_bytes"] = peak_rss_bytes();
+  j["ranks"] = in.world.ranks.size();
+  j["threads"] = in.threads;
+  j["instruction_set"] = std::string(best_instruction_set());
+  j["steps"] = {{"accepted", s.clock.accepted},
+                {"rejected", s.clock.rejected},
+                {"solves", s.clock.solves},
+                {"cg", s.clock.cg_iterations}};
+  j["cells"] = {{"dcm", dcm_cells},
+                {"cbm", cbm_cells},
+                {"start", static_cast<int>(in.life.start_cells)},
+                {"end", dcm_cells + cbm_cells},
+                {"divisions", s.divisions},
+                {"deaths", s.deaths}};
+  if (dcm_cells > 0 && s.divisions > 0) j["division"] = division_figures(in.life);
+  if (in.life.remeshed + in.life.degenerate > 0) j["meshes"] = mesh_figures(in.life);
+  j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
+  j["balance"] = {{"momentum", number(s.balance.momentum)},
+                  {"torque", number(s.balance.torque)},
+                  {"friction_torque", number(s.balance.friction_torque)}};
+  j["state_hash"] = fmt::format("{:016x}", coupling::hash_state(s));
+  j["max_penetration_um"] = number(t.max_penetration_um);
+  if (s.divisions > 0) j["max_penetration_grown_um"] = number(t.max_penetration_grown_um);
+  j["penetration_um"] = {{"dcm_dcm", number(t.dcm_dcm_um)},
+                         {"dcm_vessel", number(t.dcm_vessel_um)},
+                         {"dcm_wall", number(t.dcm_wall_um)},
+                         {"dcm_cbm_beyond_indentation", number(t.dcm_cbm_beyond_um)}};
+  j["overlap_of_spheres_um"] = {{"cbm_vessel", number(t.cbm_vessel_um)},
+                                {"cbm_wall", number(t.cbm_wall_um)}};
+  j["max_overlap_dcm_cbm_um"] = number(t.dcm_cbm_um);
+  j["max_overlap_cbm_um"] = number(t.max_overlap_cbm_um);
+  j["min_triangle_quality"] = number(t.min_triangle_quality);
+  j["self_intersecting_cells"] = static_cast<int>(t.self_intersecting);
+  j["skipped"] = in.skipped;
+  j["notes"] = in.notes;
+  Json timings = Json::object();
+  for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
+  j["timings"] = timings;
+  Json measures = Json::object();
+  for (const auto& [name, values] : in.measures) {
+    Json list = Json::array();
+    for (double v : values) list.push_back(number(v));
+    measures[name] = list;
+  }
+  for (const auto& [cells, wall] : wall_times(in.life))
+    measures["wall_s_at_cells"][cells] = number(wall);
+  if (!in.world.params.around.vessels.network.segment.empty())
+    measures["max_overlap_with_vessels_um"] = number(std::max(t.dcm_vessel_um, t.cbm_vessel_um));
+  if (in.scene.experiment == "lobule") add_lobule_figures(in.measures, measures);
+  j["measures"] = measures;
+
+  io::write_text_file(folder + "/summary.json", j.dump(2) + "\n");
+}
+
+}  // namespace acinus::runs

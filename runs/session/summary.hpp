@@ -1,0 +1,35 @@
+#pragma once
+/// summary.json: the numbers of a run that scripts rely on.
+
+#include <string>
+#include <vector>
+
+#include "core/timing.hpp"
+#include "coupling/world.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/session/run_scene.hpp"
+#include "runs/session/totals.hpp"
+
+namespace acinus::runs {
+
+struct SummaryInput {
+  const Scene& scene;
+  const RunOptions& options;
+  const coupling::World& world;
+  const RunTotals& totals;
+  const LifeTotals& life;
+  const Measures& measures;
+  const Timings& timings;
+  const std::vector<std::string>& skipped;
+  const std::vector<std::string>& notes;
+  std::string status;  ///< completed | stopped | failed
+  std::string cause;   ///< why it stopped or failed
+  int threads = 1;
+};
+
+/// Writes folder/summary.json in place of an older one, whole or not at all.
+/// @throws Error(kFileError)
+void write_summary(const std::string& folder, const SummaryInput& input);
+
+}  // namespace acinus::runs
