@@ -11,25 +11,23 @@
 namespace acinus::cbm {
 namespace {
 
+using contact::Contact, contact::Partner;
 using contact::SphereBody;
-using contact::SurroundingKind;
 
 bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
 
 /// A key for surroundings that cannot be a cell number.
-int surrounding_key(SurroundingKind kind, int index) {
-  return ~(index * 4 + static_cast<int>(kind));
-}
+int surrounding_key(Partner kind, int index) { return ~(index * 4 + static_cast<int>(kind)); }
 
 /// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact
 /// that slides past a joint is still the same contact.
 bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int cell, int segment) {
-  if (was_touching(s, cell, surrounding_key(SurroundingKind::kVessel, segment))) return true;
+  if (was_touching(s, cell, surrounding_key(Partner::kVessel, segment))) return true;
   for (int node : vessels.network.segment[static_cast<std::size_t>(segment)])
     for (int other : vessels.segments_of_node[static_cast<std::size_t>(node)])
-      if (was_touching(s, cell, surrounding_key(SurroundingKind::kVessel, other))) return true;
+      if (was_touching(s, cell, surrounding_key(Partner::kVessel, other))) return true;
   return false;
 }
 
@@ -85,14 +83,15 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
 }
 
 /// Adds the coupling of its cells to the stiffness of every contact.
-void add_coupling(ContactWorkspace& work, std::vector<solve::PointLink>& link) {
+void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
+                  std::vector<solve::PointLink>& link) {
   std::vector<double> contacts(work.coupling.size(), 0.0);
   for (const auto& [a, b] : work.touching) {
     if (b < 0) continue;
     ++contacts[static_cast<std::size_t>(a)];
     ++contacts[static_cast<std::size_t>(b)];
   }
-  for (const ObstacleContact& o : work.obstacle) ++contacts[static_cast<std::size_t>(o.cell)];
+  for (const Contact& o : obstacle) ++contacts[static_cast<std::size_t>(o.a)];
   for (std::size_t i = 0; i < contacts.size(); ++i) work.coupling[i] *= contacts[i] / kNeighbours;
   std::size_t k = 0;
   for (const auto& touching : work.touching) {
@@ -102,9 +101,7 @@ void add_coupling(ContactWorkspace& work, std::vector<solve::PointLink>& link) {
         static_cast<float>(work.coupling[static_cast<std::size_t>(touching.first)] +
                            work.coupling[static_cast<std::size_t>(touching.second)]);
   }
-  for (ObstacleContact& o : work.obstacle)
-    o.law.stiffness =
-        std::max(o.law.stiffness, 0.0) + work.coupling[static_cast<std::size_t>(o.cell)];
+  for (Contact& o : obstacle) o.slope += work.coupling[static_cast<std::size_t>(o.a)];
 }
 
 }  // namespace
@@ -113,8 +110,9 @@ bool has_correction(std::span<const Params> params) {
   return std::ranges::any_of(params, [](const Params& p) { return p.correction.corrects(); });
 }
 
-void find_overlaps(const State& s, const CellData& cells, const contact::Surroundings& around,
-                   double time, ContactWorkspace& work) {
+void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
+  const State& s = in.state;
+  const CellData& cells = in.cells;
   const std::span<const double> radius = cells.radius;
   work.overlap_sum.assign(s.n_cell(), 0.0);
   std::vector<double> relative(work.pair.size());
@@ -137,10 +135,10 @@ void find_overlaps(const State& s, const CellData& cells, const contact::Surroun
       count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
                     cells.strength_of(i));
     };
-    for (const contact::Plane& p : around.planes)
-      count(contact::gap_to_plane(p, center_of(s, i), time).gap);
-    for (const contact::Capsule& c : around.capsules)
-      count(contact::gap_to_capsule(c, center_of(s, i), time).gap);
+    for (const contact::Plane& p : in.around.planes)
+      count(contact::gap_to_plane(p, center_of(s, i), in.time).gap);
+    for (const contact::Capsule& c : in.around.capsules)
+      count(contact::gap_to_capsule(c, center_of(s, i), in.time).gap);
   }
 }
 
@@ -175,9 +173,10 @@ contact::SphereForce weaken(contact::SphereForce law, double share) {
   return law;
 }
 
-bool refresh_pairs(const State& s, std::span<const Params> params, const ContactParams& c,
-                   std::span<const double> radius, const contact::Surroundings& around,
-                   ContactWorkspace& work) {
+bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
+  const State& s = in.state;
+  const std::span<const double> radius = in.cells.radius;
+  const double skin = in.options.skin;
   if (work.list_position.size() == s.position.size() && work.list_radius.size() == s.n_cell()) {
     double moved = 0, wider = 0;
     for (std::size_t i = 0; i < s.n_cell(); ++i) {
@@ -186,13 +185,13 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
           (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
       wider = std::max(wider, radius[i] - work.list_radius[i]);
     }
-    if (2 * (moved + wider) <= c.skin) return false;
+    if (2 * (moved + wider) <= skin) return false;
   }
-  const double margin = largest_separation(s, params, radius, around) + c.skin;
+  const double margin = largest_separation(s, in.params, radius, in.around) + skin;
   work.pair = {};  // before the new ones take memory
   work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin);
   work.segment.clear();
-  const mesh::Network& network = around.vessels.network;
+  const mesh::Network& network = in.around.vessels.network;
   if (!network.segment.empty()) {
     std::vector<contact::Box> boxes, segments;
     for (std::size_t i = 0; i < s.n_cell(); ++i)
@@ -216,140 +215,175 @@ bool refresh_pairs(const State& s, std::span<const Params> params, const Contact
 
 namespace {
 
-void find_obstacle_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
-                            const CellData& cells, const contact::Surroundings& around, double time,
-                            ContactWorkspace& work) {
-  work.obstacle.clear();
-  if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
-      work.segment.empty())
-    return;
-  const std::span<const double> radius = cells.radius;
-  auto body = [&](std::size_t i) {
-    return SphereBody{radius[i], work.modulus[i].value,
-                      params[static_cast<std::size_t>(s.type[i])].poisson};
-  };
+/// Finds and completes the contacts of spheres with surroundings.
+class ObstacleSearch {
+ public:
+  ObstacleSearch(const ContactInput& in, ContactWorkspace& work, std::vector<Contact>& out)
+      : in_(in), work_(work), out_(out) {}
 
-  // As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
-  auto couple = [&](std::size_t i, const contact::SphereForce& law, double slope = 1) {
-    if (work.coupling.empty()) return;
-    const double poisson = params[static_cast<std::size_t>(s.type[i])].poisson;
-    work.coupling[i] =
-        std::max(work.coupling[i], std::max(law.force_by_modulus, 0.0) / (1 - poisson * poisson) *
-                                       slope * work.modulus[i].slope / radius[i]);
-  };
-  // recess: um by which a wall is met later than at the radius.
-  auto meet = [&](std::size_t i, SurroundingKind kind, int index, const contact::SpherePair& pair,
-                  double overlap, const Vec3& normal, double recess = 0, double slope = 1) {
-    const int key = surrounding_key(kind, index);
-    const bool before = kind == SurroundingKind::kVessel
-                            ? was_touching_vessel(s, around.vessels, static_cast<int>(i), index)
-                            : was_touching(s, static_cast<int>(i), key);
+  void run() {
+    const contact::Surroundings& around = in_.around;
+    if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
+        work_.segment.empty())
+      return;
+    for (std::size_t i = 0; i < in_.state.n_cell(); ++i) {
+      const Vec3 x = center_of(in_.state, i);
+      for (std::size_t k = 0; k < around.planes.size(); ++k) meet_plane(i, k, x);
+      for (std::size_t k = 0; k < around.capsules.size(); ++k) meet_capsule(i, k, x);
+      for (std::size_t k = 0; k < around.meshes.size(); ++k) meet_mesh(i, k, x);
+    }
+    for (auto [cell, segment] : work_.segment) meet_vessel(static_cast<std::size_t>(cell), segment);
+    std::ranges::sort(work_.touching);
+  }
+
+ private:
+  double radius(std::size_t i) const { return in_.cells.radius[i]; }
+  const Params& params_of(std::size_t i) const {
+    return in_.params[static_cast<std::size_t>(in_.state.type[i])];
+  }
+  SphereBody body(std::size_t i) const {
+    return {radius(i), work_.modulus[i].value, params_of(i).poisson};
+  }
+  static SphereBody flat(const contact::Material& m, double shape) {
+    return {shape, m.young, m.poisson};
+  }
+
+  /// As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
+  void couple(std::size_t i, const contact::SphereForce& law, double slope) {
+    if (work_.coupling.empty()) return;
+    const double poisson = params_of(i).poisson;
+    work_.coupling[i] =
+        std::max(work_.coupling[i], std::max(law.force_by_modulus, 0.0) / (1 - poisson * poisson) *
+                                        slope * work_.modulus[i].slope / radius(i));
+  }
+
+  /// Adds a contact, complete.
+  void add(Contact k, const contact::SphereForce& law, double friction, double slope) {
+    const auto i = static_cast<std::size_t>(k.a);
+    k.area = k.touching = kPi * law.contact_radius * law.contact_radius;
+    k.force = law.force;
+    k.slope = std::max(0.0, law.stiffness);
+    k.friction = friction * k.area;
+    couple(i, law, slope);
+    out_.push_back(k);
+    work_.contact_area[i] += k.area;
+  }
+
+  /// @param recess  um, by which a wall is met later than at the radius
+  /// @param slope   of its modulus over that of the cell
+  void meet(const Contact& k, const contact::SpherePair& pair, double recess = 0,
+            double slope = 1) {
+    const auto i = static_cast<std::size_t>(k.a);
+    const int key = surrounding_key(k.partner, k.b);
+    const bool before = k.partner == Partner::kVessel
+                            ? was_touching_vessel(in_.state, in_.around.vessels, k.a, k.b)
+                            : was_touching(in_.state, k.a, key);
+    const double overlap = -k.gap;
     if (overlap < recess && !before) return;
     const contact::SphereForce law =
-        weaken(contact::jkr_force(pair, overlap - recess, before), cells.strength_of(i));
+        weaken(contact::jkr_force(pair, overlap - recess, before), in_.cells.strength_of(i));
     if (!law.touching) return;
-    work.touching.emplace_back(static_cast<int>(i), key);
-    couple(i, law, slope);
-    work.obstacle.push_back({static_cast<int>(i), kind, index, normal, overlap, law});
-    work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
-  };
-  auto flat = [](const contact::Material& m, double shape) {
-    return SphereBody{shape, m.young, m.poisson};
-  };
-  auto meet_wall = [&](std::size_t i, SurroundingKind kind, int index,
-                       const contact::Material& material, double shape, const contact::Gap& g) {
-    const WallFace face = wall_face(params[static_cast<std::size_t>(s.type[i])].correction,
-                                    s.young[i], work.modulus[i].value);
+    work_.touching.emplace_back(k.a, key);
+    add(k, law, params_of(i).vessel_friction, slope);
+  }
+
+  void meet_wall(const Contact& k, const contact::Material& material, double shape) {
+    const auto i = static_cast<std::size_t>(k.a);
+    const WallFace face =
+        wall_face(params_of(i).correction, in_.state.young[i], work_.modulus[i].value);
     SphereBody crowded = body(i);
     crowded.young = face.modulus;
     // That the face recedes as the cell is crowded is left out of the matrix: it makes the contact
     // softer than the bound of `couple` says, while a law is steepest even unstable.
-    meet(i, kind, index,
+    meet(k,
          contact::reduced_pair(crowded, flat(material, shape),
-                               c.adhesion_factor * material.adhesion),
-         radius[i] - g.gap, g.normal, radius[i] * face.recess, face.slope);
-  };
-  for (std::size_t i = 0; i < s.n_cell(); ++i) {
-    const Vec3 x = center_of(s, i);
-    for (std::size_t k = 0; k < around.planes.size(); ++k) {
-      const contact::Plane& p = around.planes[k];
-      const contact::Gap g = contact::gap_to_plane(p, x, time);
-      if (p.material.mirror) {
-        const double share = cells.strength_of(i);
-        if (g.gap >= radius[i] || share <= 0) continue;
-        const contact::SphereForce law = weaken(contact::mirror_wall_force(body(i), g.gap), share);
-        work.obstacle.push_back({static_cast<int>(i), SurroundingKind::kPlane, static_cast<int>(k),
-                                 g.normal, radius[i] - g.gap, law});
-        work.contact_area[i] += kPi * law.contact_radius * law.contact_radius;
-        couple(i, law);
-      } else {
-        meet_wall(i, SurroundingKind::kPlane, static_cast<int>(k), p.material, contact::kFlat, g);
-      }
-    }
-    for (std::size_t k = 0; k < around.capsules.size(); ++k) {
-      const contact::Capsule& shell = around.capsules[k];
-      const double r = shell.radius_at(time);
-      if (r <= radius[i] || !std::isfinite(r)) continue;
-      meet_wall(i, SurroundingKind::kCapsule, static_cast<int>(k), shell.material, -r,
-                contact::gap_to_capsule(shell, x, time));
-    }
-    for (std::size_t k = 0; k < around.meshes.size(); ++k) {
-      const contact::StaticMesh& m = around.meshes[k];
-      const double reach = 2 * radius[i];
-      if (!m.body.box.grown(reach).contains(x)) continue;
-      const MeshGap g = gap_to_mesh(m.body, x, reach);
-      meet(i, SurroundingKind::kMesh, static_cast<int>(k),
-           contact::reduced_pair(body(i), flat(m.material, contact::kFlat),
-                                 c.adhesion_factor * m.material.adhesion),
-           radius[i] - g.distance, g.normal);
-    }
+                               in_.options.adhesion_factor * material.adhesion),
+         radius(i) * face.recess, face.slope);
   }
-  for (auto [cell, segment] : work.segment) {
-    const auto i = static_cast<std::size_t>(cell);
-    const Vec3 x = center_of(s, i);
-    const contact::Gap g = contact::gap_to_segment(around.vessels.network, segment, x);
-    if (!contact::is_local_minimum(around.vessels, segment, x, g)) continue;
-    const contact::Material& m = around.vessels.material;
-    meet(i, SurroundingKind::kVessel, segment,
+
+  Contact contact_with(Partner partner, std::size_t i, int index, double gap,
+                       const Vec3& normal) const {
+    return {.a = static_cast<int>(i),
+            .b = index,
+            .partner = partner,
+            .normal = normal,
+            .gap = -(radius(i) - gap)};
+  }
+
+  void meet_plane(std::size_t i, std::size_t index, const Vec3& x) {
+    const contact::Plane& p = in_.around.planes[index];
+    const contact::Gap g = contact::gap_to_plane(p, x, in_.time);
+    const Contact k = contact_with(Partner::kPlane, i, static_cast<int>(index), g.gap, g.normal);
+    if (!p.material.mirror) {
+      meet_wall(k, p.material, contact::kFlat);
+      return;
+    }
+    const double share = in_.cells.strength_of(i);
+    if (g.gap >= radius(i) || share <= 0) return;
+    add(k, weaken(contact::mirror_wall_force(body(i), g.gap), share), 0, 1);
+  }
+
+  void meet_capsule(std::size_t i, std::size_t index, const Vec3& x) {
+    const contact::Capsule& shell = in_.around.capsules[index];
+    const double r = shell.radius_at(in_.time);
+    if (r <= radius(i) || !std::isfinite(r)) return;
+    const contact::Gap g = contact::gap_to_capsule(shell, x, in_.time);
+    meet_wall(contact_with(Partner::kCapsule, i, static_cast<int>(index), g.gap, g.normal),
+              shell.material, -r);
+  }
+
+  void meet_mesh(std::size_t i, std::size_t index, const Vec3& x) {
+    const contact::StaticMesh& m = in_.around.meshes[index];
+    const double reach = 2 * radius(i);
+    if (!m.body.box.grown(reach).contains(x)) return;
+    const MeshGap g = gap_to_mesh(m.body, x, reach);
+    meet(contact_with(Partner::kMesh, i, static_cast<int>(index), g.distance, g.normal),
+         contact::reduced_pair(body(i), flat(m.material, contact::kFlat),
+                               in_.options.adhesion_factor * m.material.adhesion));
+  }
+
+  void meet_vessel(std::size_t i, int segment) {
+    const contact::Vessels& vessels = in_.around.vessels;
+    const Vec3 x = center_of(in_.state, i);
+    const contact::Gap g = contact::gap_to_segment(vessels.network, segment, x);
+    if (!contact::is_local_minimum(vessels, segment, x, g)) return;
+    const contact::Material& m = vessels.material;
+    meet(contact_with(Partner::kVessel, i, segment, g.gap, g.normal),
          contact::vessel_pair(body(i), {g.radius, m.young, m.poisson},
-                              c.adhesion_factor * m.adhesion),
-         radius[i] - g.gap, g.normal);
+                              in_.options.adhesion_factor * m.adhesion));
   }
-  std::ranges::sort(work.touching);
-}
+
+  const ContactInput& in_;
+  ContactWorkspace& work_;
+  std::vector<Contact>& out_;
+};
 
 }  // namespace
 
-void find_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
-                   const CellData& cells, const contact::Surroundings& around, double time,
-                   std::size_t first_row, ContactWorkspace& work,
+void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
                    std::vector<solve::PointLink>& link) {
   ++work.searches;
-  find_moduli(s, params, work);
-  find_pair_contacts(s, params, c, cells, first_row, work, link);
-  find_obstacle_contacts(s, params, c, cells, around, time, work);
-  if (!work.coupling.empty()) add_coupling(work, link);
+  find_moduli(in.state, in.params, work);
+  find_pair_contacts(in, work, link);
+  ObstacleSearch(in, work, contacts.all).run();
+  contacts.sphere_obstacle_end = contacts.all.size();
+  if (!work.coupling.empty())
+    add_coupling(work, std::span(contacts.all).subspan(contacts.interface_end), link);
 }
 
-void add_contact_loads(const State& s, std::span<const Params> params,
-                       const contact::Surroundings& around, const ContactWorkspace& work,
-                       std::size_t first_row, solve::System& system) {
-  double* force = system.force.data() + first_row * kPointStride;
+void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
+                       const contact::ContactList& contacts, solve::System& system) {
+  double* force = system.force.data() + in.first_row * kPointStride;
   for (std::size_t k = 0; k < work.force.size(); ++k) force[k] += work.force[k];
   system.point_links.resize(work.pair.size());
-  for (const ObstacleContact& k : work.obstacle) {
-    const auto i = static_cast<std::size_t>(k.cell);
-    const bool mirror = k.kind == SurroundingKind::kPlane &&
-                        around.planes[static_cast<std::size_t>(k.index)].material.mirror;
-    const double friction =
-        mirror ? 0 : params[static_cast<std::size_t>(s.type[i])].vessel_friction;
-    const double area = kPi * k.law.contact_radius * k.law.contact_radius;
-    add_point(system.external_force.data(), cell_address(first_row, i), k.law.force * k.normal);
-    solve::PointLink link{cell_point(first_row, i),
+  for (const Contact& k : contacts.sphere_obstacle()) {
+    const auto i = static_cast<std::size_t>(k.a);
+    add_point(system.external_force.data(), cell_address(in.first_row, i), k.force * k.normal);
+    solve::PointLink link{cell_point(in.first_row, i),
                           solve::kNowhere,
                           {},
-                          static_cast<float>(std::max(0.0, k.law.stiffness)),
-                          static_cast<float>(friction * area)};
+                          static_cast<float>(k.slope),
+                          static_cast<float>(k.friction)};
     for (int m = 0; m < 3; ++m)
       link.normal[static_cast<std::size_t>(m)] = static_cast<float>(k.normal[m]);
     system.point_links.push_back(link);
@@ -364,14 +398,14 @@ double medium_friction(const Params& p, double radius, double contact_area) {
   return per_area * std::max(kLeastFree * surface, surface - contact_area);
 }
 
-void add_cell_loads(const State& s, std::span<const Params> params, std::span<const double> radius,
-                    const ContactWorkspace& work, std::span<const Vec3> cell_force,
-                    std::size_t first_row, solve::System& system) {
+void add_cell_loads(const ContactInput& in, const ContactWorkspace& work,
+                    std::span<const Vec3> cell_force, solve::System& system) {
+  const State& s = in.state;
   for (std::size_t i = 0; i < s.n_row() * kLanes; ++i) {
-    const Address a = cell_address(first_row, i);
+    const Address a = cell_address(in.first_row, i);
     const bool cell = i < s.n_cell();
-    const double friction = cell ? medium_friction(params[static_cast<std::size_t>(s.type[i])],
-                                                   radius[i], work.contact_area[i])
+    const double friction = cell ? medium_friction(in.params[static_cast<std::size_t>(s.type[i])],
+                                                   in.cells.radius[i], work.contact_area[i])
                                  : 1.0;
     system.medium[a / kPointStride * kLanes + a % kLanes] += friction;
     if (cell) add_point(system.external_force.data(), a, cell_force[i]);

@@ -9,6 +9,7 @@
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
 #include "core/contact/jkr.hpp"
+#include "core/contact/record.hpp"
 #include "core/contact/surroundings.hpp"
 #include "core/solve/system.hpp"
 
@@ -21,22 +22,15 @@ struct ContactParams {
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
 
-/// Two spheres in contact, for those who want to look at them one by one.
-struct SphereContact {
-  int a = 0, b = 0;
-  Vec3 normal = Vec3::Zero();  ///< unit, from b to a; force on a is +force * normal
-  double overlap = 0;          ///< um
-  contact::SphereForce law;    ///< weakened as the cells' strengths demand
-};
-
-/// A sphere in contact with a plane, capsule, vessel segment or static mesh.
-struct ObstacleContact {
-  int cell = 0;
-  contact::SurroundingKind kind = contact::SurroundingKind::kPlane;
-  int index = 0;
-  Vec3 normal = Vec3::Zero();  ///< unit, from the obstacle to the cell
-  double overlap = 0;          ///< um, radius minus the centre's gap, whatever the law takes
-  contact::SphereForce law;    ///< weakened as the cell's strength demands
+/// What the functions of this file read.
+struct ContactInput {
+  const State& state;
+  std::span<const Params> params;  ///< [type]
+  const ContactParams& options;
+  CellData cells;
+  const contact::Surroundings& around;
+  double time = 0;            ///< s, for which moving walls stand
+  std::size_t first_row = 0;  ///< where the CBM rows start in the system
 };
 
 /// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
@@ -45,8 +39,7 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> pair;     ///< near pairs, ascending; written by: refresh_pairs
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
-  std::vector<double> force;              ///< [n_row][3][lane] nN of all pairs; by: find_contacts
-  std::vector<ObstacleContact> obstacle;  ///< written by: find_contacts
+  std::vector<double> force;  ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
@@ -79,17 +72,14 @@ double largest_separation(const State& state, std::span<const Params> params,
                           std::span<const double> radius, const contact::Surroundings& around);
 
 /// Renews the near pairs if a cell moved more than half the skin. Returns whether it did.
-bool refresh_pairs(const State& state, std::span<const Params> params, const ContactParams& c,
-                   std::span<const double> radius, const contact::Surroundings& around,
-                   ContactWorkspace& work);
+bool refresh_pairs(const ContactInput& in, ContactWorkspace& work);
 
 /// Whether the modulus of any type depends on the overlaps.
 bool has_correction(std::span<const Params> params);
 
 /// Counts the overlaps of pairs and with planes and capsules, each with its share. @pre
 /// refresh_pairs
-void find_overlaps(const State& state, const CellData& cells, const contact::Surroundings& around,
-                   double time, ContactWorkspace& work);
+void find_overlaps(const ContactInput& in, ContactWorkspace& work);
 
 /// Finds all contacts and evaluates their law at the current positions: force, stiffness max(0,
 /// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. Where a law corrects the modulus,
@@ -101,31 +91,26 @@ void find_overlaps(const State& state, const CellData& cells, const contact::Sur
 /// does is multiplied by the larger of their strengths, so that spheres born into each other come
 /// apart slowly, and all that a contact with surroundings does by the cell's own.
 /// @pre find_overlaps if has_correction, and the interface's overlaps are added
-/// @param first_row  where the CBM rows start in the system
-/// @param link       one per near pair, zero where not touching
-void find_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
-                   const CellData& cells, const contact::Surroundings& around, double time,
-                   std::size_t first_row, ContactWorkspace& work,
+/// @param contacts  gets those with surroundings, complete
+/// @param link      one per near pair, zero where not touching
+void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
                    std::vector<solve::PointLink>& link);
 
 /// Adds the forces find_contacts worked out, and force and link of contacts with surroundings.
 /// @pre the point links are those of find_contacts
-void add_contact_loads(const State& state, std::span<const Params> params,
-                       const contact::Surroundings& around, const ContactWorkspace& work,
-                       std::size_t first_row, solve::System& system);
+void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
+                       const contact::ContactList& contacts, solve::System& system);
 
-/// The touching pairs of the last search one by one.
-std::vector<SphereContact> list_sphere_contacts(const State& state, std::span<const Params> params,
-                                                const ContactParams& c, const CellData& cells,
-                                                const ContactWorkspace& work);
+/// Appends the touching pairs of the last search one by one.
+void list_pairs(const ContactInput& in, const ContactWorkspace& work,
+                contact::ContactList& contacts);
 
 /// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0, or
 /// over all of it (Params::whole_medium_area) [VanLiedekerke2020, Eq. (19)], and the force on each
 /// cell as a whole.
 /// @param cell_force [n_cell] nN
-void add_cell_loads(const State& state, std::span<const Params> params,
-                    std::span<const double> radius, const ContactWorkspace& work,
-                    std::span<const Vec3> cell_force, std::size_t first_row, solve::System& system);
+void add_cell_loads(const ContactInput& in, const ContactWorkspace& work,
+                    std::span<const Vec3> cell_force, solve::System& system);
 
 /// Share of a sphere's surface that is always free: contact areas of spheres overlap and can add up
 /// to more than the surface, but a cell without any friction could move at any speed.

@@ -86,16 +86,16 @@ Face face_toward(const State& s, const TypeTable& table, const ContactWorkspace&
 /// One thread's cells [first, last): all pairs that have a side among them.
 class RangeSearch {
  public:
-  RangeSearch(const State& s, const TypeTable& table, double friction, const CellData& cells,
-              std::size_t first_row, std::size_t first, std::size_t last, ContactWorkspace& work,
+  RangeSearch(const ContactInput& in, const TypeTable& table,
+              std::pair<std::size_t, std::size_t> range, ContactWorkspace& work,
               std::vector<solve::PointLink>& link, std::vector<std::pair<int, int>>& touching)
-      : s_(s),
+      : s_(in.state),
         table_(table),
-        friction_(friction),
-        cells_(cells),
-        first_row_(first_row),
-        first_(static_cast<int>(first)),
-        last_(static_cast<int>(last)),
+        friction_(in.options.friction_factor * in.options.cell_friction),
+        cells_(in.cells),
+        first_row_(in.first_row),
+        first_(static_cast<int>(range.first)),
+        last_(static_cast<int>(range.second)),
         work_(work),
         link_(link),
         touching_(touching) {}
@@ -269,15 +269,13 @@ class RangeSearch {
 
 }  // namespace
 
-void find_pair_contacts(const State& s, std::span<const Params> params, const ContactParams& c,
-                        const CellData& cells, std::size_t first_row, ContactWorkspace& work,
+void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<solve::PointLink>& link) {
-  const std::size_t n = s.n_cell();
-  work.force.resize(s.position.size());
+  const std::size_t n = in.state.n_cell();
+  work.force.resize(in.state.position.size());
   link.resize(work.pair.size());
   work.contact_area.resize(n);
-  const TypeTable table = make_table(params, c.adhesion_factor);
-  const double friction = c.friction_factor * c.cell_friction;
+  const TypeTable table = make_table(in.params, in.options.adhesion_factor);
   const std::size_t n_part =
       n > kParallelCells ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
   std::vector<std::vector<std::pair<int, int>>> touching(n_part - 1);
@@ -286,19 +284,18 @@ void find_pair_contacts(const State& s, std::span<const Params> params, const Co
     auto boundary = [&](std::size_t part) {  // whole rows: no two threads share one
       return part == n_part ? n : part * n / n_part / kLanes * kLanes;
     };
-    RangeSearch(s, table, friction, cells, first_row, boundary(k), boundary(k + 1), work, link,
+    RangeSearch(in, table, {boundary(k), boundary(k + 1)}, work, link,
                 k == 0 ? work.touching : touching[k - 1])
         .run();
   }
   for (const auto& t : touching) work.touching.insert(work.touching.end(), t.begin(), t.end());
 }
 
-std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const Params> params,
-                                                const ContactParams& c, const CellData& cells,
-                                                const ContactWorkspace& work) {
-  const std::span<const double> radius = cells.radius;
-  const TypeTable table = make_table(params, c.adhesion_factor);
-  std::vector<SphereContact> list;
+void list_pairs(const ContactInput& in, const ContactWorkspace& work,
+                contact::ContactList& contacts) {
+  const State& s = in.state;
+  const std::span<const double> radius = in.cells.radius;
+  const TypeTable table = make_table(in.params, in.options.adhesion_factor);
   for (const auto& [a, b] : work.touching) {
     if (b < 0) continue;  // surroundings
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
@@ -312,10 +309,21 @@ std::vector<SphereContact> list_sphere_contacts(const State& s, std::span<const 
     const contact::SpherePair pair{radius[i] * radius[j] / sum,
                                    1 / (softness(i, ta) + softness(j, tb)),
                                    table.root[ta] * table.root[tb]};
-    list.push_back({a, b, distance > 0 ? Vec3(d / distance) : Vec3::UnitX(), overlap,
-                    weaken(contact::jkr_force(pair, overlap, true), cells.pair_share(i, j))});
+    const contact::SphereForce law =
+        weaken(contact::jkr_force(pair, overlap, true), in.cells.pair_share(i, j));
+    const double area = kPi * law.contact_radius * law.contact_radius;
+    contacts.all.push_back(
+        {.a = a,
+         .b = b,
+         .partner = contact::Partner::kSphere,
+         .normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitX(),
+         .gap = -overlap,
+         .area = area,
+         .touching = area,
+         .force = law.force,
+         .slope = std::max(0.0, law.stiffness),
+         .friction = in.options.friction_factor * in.options.cell_friction * area});
   }
-  return list;
 }
 
 }  // namespace acinus::cbm

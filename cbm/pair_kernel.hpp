@@ -7,8 +7,7 @@ namespace acinus::cbm {
 
 /// Evaluates every near pair: forces on the cells, contact areas and overlaps, links, and the new
 /// touching set. The first of the stages of find_contacts; clears what it writes.
-void find_pair_contacts(const State& state, std::span<const Params> params, const ContactParams& c,
-                        const CellData& cells, std::size_t first_row, ContactWorkspace& work,
+void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<solve::PointLink>& link);
 
 }  // namespace acinus::cbm

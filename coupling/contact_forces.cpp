@@ -9,40 +9,56 @@
 namespace acinus::coupling {
 namespace {
 
-/// The links of deformable cells in the order assemble() adds them.
-Vec3 link_force(const Workspace& w, std::size_t link) {
-  const solve::LinkLoad& load = w.system.links.load[link];
-  return load.force * load.normal;
-}
+/// Where cells are: surfaces first, then spheres, as measure_cells lists them.
+struct Places {
+  const World& world;
+  const Workspace& w;
+  std::vector<Vec3> center;  ///< um
 
-Vec3 place_of(const World& world, const Workspace& w, std::size_t body, int point) {
-  const contact::SurfaceBody& b = w.dcm.body[body];
-  return contact::point_position(
-      b, contact::point_stencil(b, world.params.dcm_contact.quadrature, point));
-}
+  Places(const World& of, const Workspace& work) : world(of), w(work) {
+    for (const std::size_t lane : w.dcm.lane_of_body)
+      center.push_back(dcm::cell_center(world.state.dcm, lane));
+    for (std::size_t c = 0; c < world.state.cbm.n_cell(); ++c)
+      center.push_back(cbm::center_of(world.state.cbm, c));
+  }
 
-/// Area with which a point of a deformable cell touches something at this gap, um^2.
-double area_in_touch(const World& world, const Workspace& w, std::size_t body, int point,
-                     double gap) {
-  const dcm::ContactParams& c = world.params.dcm_contact;
-  const double radius = w.lanes.radius[w.dcm.lane_of_body[body]];
-  return dcm::point_area(*w.dcm.body[body].topology, c.quadrature, point, radius) *
-         dcm::share_scale(w.dcm.share[body][static_cast<std::size_t>(point)]) *
-         contact::contact_share(gap, c.friction_range);
-}
+  Vec3 point(const contact::Contact& k) const {
+    const contact::SurfaceBody& body = w.dcm.body[static_cast<std::size_t>(k.a)];
+    return contact::point_position(body, dcm::stencil_of(world.params.dcm_contact, body, k));
+  }
+
+  /// Spheres meet in the middle of their overlap; with an obstacle it is the obstacle's surface.
+  void set_arms_of_sphere(const contact::Contact& k, ContactForce& f) const {
+    const std::vector<double>& radius = w.cbm_radius;
+    const bool pair = k.partner == contact::Partner::kSphere;
+    const double depth = pair ? -0.5 * k.gap : -k.gap;
+    f.arm_a = -(radius[static_cast<std::size_t>(k.a)] - depth) * k.normal;
+    if (pair) f.arm_b = (radius[static_cast<std::size_t>(k.b)] - depth) * k.normal;
+  }
+
+  void set_arms_of_surface(const contact::Contact& k, ContactForce& f) const {
+    const Vec3 x = point(k);
+    f.arm_a = x - center[f.a];
+    if (f.b == kNoCell) return;
+    const bool surfaces = k.partner == contact::Partner::kSurface;
+    f.arm_b = (surfaces ? Vec3(x - k.gap * k.normal) : x) - center[f.b];
+  }
+};
 
 /// The part of the surroundings a contact is with.
 template <class AnyReactions>
 auto& part_of(AnyReactions& reactions, const ContactForce& c) {
   const auto i = static_cast<std::size_t>(c.index);
   switch (c.kind) {
-    case contact::SurroundingKind::kPlane:
+    case contact::Partner::kPlane:
       return reactions.plane[i];
-    case contact::SurroundingKind::kCapsule:
+    case contact::Partner::kCapsule:
       return reactions.capsule[i];
-    case contact::SurroundingKind::kMesh:
+    case contact::Partner::kMesh:
       return reactions.mesh[i];
-    case contact::SurroundingKind::kVessel:
+    case contact::Partner::kVessel:
+    case contact::Partner::kSurface:
+    case contact::Partner::kSphere:
       break;
   }
   return reactions.segment[i];
@@ -52,80 +68,26 @@ auto& part_of(AnyReactions& reactions, const ContactForce& c) {
 
 void visit_contacts(const World& world, const Workspace& w,
                     const std::function<void(const ContactForce&)>& look) {
-  const State& s = world.state;
+  const Places places(world, w);
   const std::size_t n_body = w.dcm.body.size();
-  std::vector<Vec3> center;
-  for (const std::size_t lane : w.dcm.lane_of_body) center.push_back(dcm::cell_center(s.dcm, lane));
-  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) center.push_back(cbm::center_of(s.cbm, c));
-
-  for (std::size_t k = 0; k < w.dcm.surface.size(); ++k) {
-    const contact::SurfaceContact& c = w.dcm.surface[k];
+  for (const contact::Contact& k : w.contacts.all) {
+    const bool sphere = k.point == contact::kWhole;
     ContactForce f;
-    f.a = static_cast<std::size_t>(c.body_a);
-    f.force = link_force(w, k);
-    f.normal = c.normal;
-    const Vec3 x = place_of(world, w, f.a, c.point);
-    f.arm_a = x - center[f.a];
-    if (const auto b = static_cast<std::size_t>(c.body_b); b < n_body) {
-      f.b = b;
-      f.arm_b = x - c.gap * c.normal - center[b];
-      f.touching = f.a != b && f.force.squaredNorm() > 0;
+    f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);
+    f.force = k.force * k.normal;
+    f.normal = k.normal;
+    if (contact::is_cell(k.partner)) {
+      f.b = static_cast<std::size_t>(k.b) + (k.partner == contact::Partner::kSphere ? n_body : 0);
+      f.touching = f.a != f.b && (sphere || f.force.squaredNorm() > 0);
     } else {
-      f.kind = contact::SurroundingKind::kMesh;
-      f.index = static_cast<int>(b - n_body);
-      f.area = area_in_touch(world, w, f.a, c.point, c.gap);
+      f.kind = k.partner;
+      f.index = k.b;
+      f.area = k.touching;
     }
-    look(f);
-  }
-  for (std::size_t k = 0; k < w.dcm.obstacle.size(); ++k) {
-    const dcm::ObstacleContact& c = w.dcm.obstacle[k];
-    ContactForce f;
-    f.a = static_cast<std::size_t>(c.body);
-    f.kind = c.kind;
-    f.index = c.index;
-    f.force = link_force(w, w.dcm.surface.size() + k);
-    f.normal = c.normal;
-    const contact::SurfaceBody& body = w.dcm.body[f.a];
-    f.arm_a =
-        contact::point_position(body, dcm::obstacle_stencil(world.params.dcm_contact, body, c)) -
-        center[f.a];
-    if (!c.only_pushes()) f.area = area_in_touch(world, w, f.a, c.point, c.gap);
-    look(f);
-  }
-  for (const cbm::SphereContact& c : sphere_contacts(world, w)) {
-    ContactForce f;
-    f.a = n_body + static_cast<std::size_t>(c.a);
-    f.b = n_body + static_cast<std::size_t>(c.b);
-    f.force = c.law.force * c.normal;
-    f.normal = c.normal;
-    f.arm_a = -(w.cbm_radius[static_cast<std::size_t>(c.a)] - 0.5 * c.overlap) * c.normal;
-    f.arm_b = (w.cbm_radius[static_cast<std::size_t>(c.b)] - 0.5 * c.overlap) * c.normal;
-    f.touching = true;
-    look(f);
-  }
-  for (const cbm::ObstacleContact& c : w.cbm.obstacle) {
-    ContactForce f;
-    f.a = n_body + static_cast<std::size_t>(c.cell);
-    f.kind = c.kind;
-    f.index = c.index;
-    f.force = c.law.force * c.normal;
-    f.normal = c.normal;
-    f.arm_a = -(w.cbm_radius[static_cast<std::size_t>(c.cell)] - c.overlap) * c.normal;
-    f.area = kPi * c.law.contact_radius * c.law.contact_radius;
-    look(f);
-  }
-  const std::size_t first = w.dcm.surface.size() + w.dcm.obstacle.size();
-  for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
-    const InterfaceContact& c = w.interface.contact[k];
-    ContactForce f;
-    f.a = static_cast<std::size_t>(c.body);
-    f.b = n_body + static_cast<std::size_t>(c.sphere);
-    f.force = link_force(w, first + k);
-    f.normal = c.normal;
-    const Vec3 x = place_of(world, w, f.a, c.point);
-    f.arm_a = x - center[f.a];
-    f.arm_b = x - center[f.b];
-    f.touching = f.force.squaredNorm() > 0;
+    if (sphere)
+      places.set_arms_of_sphere(k, f);
+    else
+      places.set_arms_of_surface(k, f);
     look(f);
   }
 }
@@ -171,18 +133,16 @@ std::vector<int> cluster_sizes(std::size_t n_cell,
   return size;
 }
 
-double interface_residual(const Workspace& w) {
+double interface_residual(const World& world, const Workspace& w) {
   struct Load {
     Vec3 place, force;
   };
   std::vector<Load> loads;
-  const std::size_t first = w.dcm.surface.size() + w.dcm.obstacle.size();
-  for (std::size_t k = 0; k < w.interface.contact.size(); ++k) {
-    const solve::Stencil stencil = solve::stencil_of(w.system.links.link[first + k]);
-    for (std::size_t m = 0; m < static_cast<std::size_t>(stencil.n); ++m) {
+  for (const contact::Contact& k : w.contacts.interface()) {
+    const solve::Stencil stencil = stencil_of(world, w, k);
+    for (std::size_t m = 0; m < static_cast<std::size_t>(stencil.n); ++m)
       loads.push_back({load_point(w.position.data(), stencil.address[m]),
-                       stencil.weight[m] * link_force(w, first + k)});
-    }
+                       stencil.weight[m] * (k.force * k.normal)});
   }
   if (loads.empty()) return 0;
   Vec3 middle = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();

@@ -18,9 +18,9 @@ inline constexpr std::size_t kNoCell = std::numeric_limits<std::size_t>::max();
 /// as measure_cells lists them.
 struct ContactForce {
   std::size_t a = 0;
-  std::size_t b = kNoCell;                                           ///< kNoCell: surroundings
-  contact::SurroundingKind kind = contact::SurroundingKind::kPlane;  ///< of the surroundings
-  int index = 0;                                                     ///< within its kind
+  std::size_t b = kNoCell;                           ///< kNoCell: surroundings
+  contact::Partner kind = contact::Partner::kPlane;  ///< of the surroundings
+  int index = 0;                                     ///< within its kind
   Vec3 force = Vec3::Zero();   ///< nN, on a; what it touches gets the opposite
   Vec3 normal = Vec3::Zero();  ///< unit, toward a: force . normal > 0 where they press
   Vec3 arm_a = Vec3::Zero();   ///< um, from the centre of a to where the force acts
@@ -30,8 +30,7 @@ struct ContactForce {
   bool touching = false;
 };
 
-/// Calls `look` with every contact: surface contacts, obstacles of deformable cells, pairs of
-/// spheres, obstacles of spheres, interface.   @pre observe
+/// Calls `look` with every contact.   @pre observe
 void visit_contacts(const World& world, const Workspace& work,
                     const std::function<void(const ContactForce&)>& look);
 
@@ -66,6 +65,6 @@ std::vector<int> cluster_sizes(std::size_t n_cell,
 /// How far the forces of the DCM-CBM contacts, spread over nodes and spheres as the solver spreads
 /// them, are from action and reaction: the larger of |sum f| / sum |f| and, about their centroid,
 /// |sum x f| / sum |x||f|. 0 where there are none.   @pre observe
-double interface_residual(const Workspace& work);
+double interface_residual(const World& world, const Workspace& work);
 
 }  // namespace acinus::coupling

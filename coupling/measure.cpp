@@ -40,6 +40,7 @@ void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, cons
 void observe(const World& world, Workspace& w) {
   find_all_contacts(world, kNow, w);
   assemble(world, kNow, w);
+  list_sphere_pairs(world, w);
 }
 
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {

@@ -34,12 +34,12 @@ struct Workspace {
   solve::CoarseSpace coarse;
   dcm::ContactWorkspace dcm;
   cbm::ContactWorkspace cbm;
-  InterfaceWorkspace interface;
-  dcm::LaneData lanes;                         ///< written by: find_references
-  std::vector<double> cbm_radius;              ///< written by: find_references
-  std::vector<double> cbm_strength;            ///< empty: all 1; written by: find_references
-  std::vector<std::int64_t> cbm_mother;        ///< lineage; empty with cbm_strength; by the same
-  std::vector<double> medium_area;             ///< [dcm rows][lane]; written by: assemble
+  contact::ContactList contacts;         ///< written by: find_all_contacts, completed by: assemble
+  dcm::LaneData lanes;                   ///< written by: find_references
+  std::vector<double> cbm_radius;        ///< written by: find_references
+  std::vector<double> cbm_strength;      ///< empty: all 1; written by: find_references
+  std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
+  std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
   std::vector<double> dcm_medium, cbm_medium;  ///< nN s/um per cell; written by: assemble
   CellForces forces;                           ///< written by: assemble
   std::vector<double> position;                ///< [n_row][3][lane]; written by: assemble

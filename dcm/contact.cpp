@@ -10,31 +10,39 @@
 namespace acinus::dcm {
 namespace {
 
-using contact::SurroundingKind;
+using contact::Contact, contact::Partner;
 
-contact::SearchOptions search_options(const ContactParams& c, const State& state,
-                                      const LaneData& lanes) {
+contact::SearchOptions search_options(const ContactInput& in) {
+  const ContactParams& c = in.options;
+  const State& state = in.state;
   double range = 0;
   for (std::size_t l = 0; l < state.n_lane(); ++l)
     if (state.active(l))
-      range = std::max(range, contact_range(c, *state.group[l / kLanes].topology, lanes.radius[l]));
+      range =
+          std::max(range, contact_range(c, *state.group[l / kLanes].topology, in.lanes.radius[l]));
   return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
 }
 
-/// Gives the contacts of a body with vessels, from `first` on, the stiffness that follows from the
-/// deepest of them with the same segment, and adds those that push where the wall yields no more.
-void set_wall_stiffness(const ContactParams& c, const contact::Material& wall, std::size_t first,
-                        std::vector<ObstacleContact>& out) {
+/// A point at a vessel, while it is not yet known how the wall yields.
+struct VesselContact {
+  Contact contact;
+  double radius = 0;  ///< um, of the vessel at the closest point
+};
+
+/// Gives the contacts of a body with vessels the stiffness that follows from the deepest of them
+/// with the same segment, and adds those that push where the wall yields no more.
+void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
+                        std::vector<VesselContact>& found) {
   std::map<int, double> deepest;
-  for (const ObstacleContact& o : std::span(out).subspan(first)) {
-    double& depth = deepest.try_emplace(o.index, 0.0).first->second;
-    depth = std::max(depth, -o.gap);
+  for (const VesselContact& v : found) {
+    double& depth = deepest.try_emplace(v.contact.b, 0.0).first->second;
+    depth = std::max(depth, -v.contact.gap);
   }
-  for (std::size_t k = first, n = out.size(); k < n; ++k) {
-    ObstacleContact& o = out[k];
+  for (std::size_t k = 0, n = found.size(); k < n; ++k) {
+    Contact& o = found[k].contact;
     // No deeper than contacts are looked for, with room for what pushes behind it.
-    const double limit = std::min(yield_limit(wall, o.radius), c.max_depth / 2);
-    const double k_bed = wall_stiffness(c.repulsion, wall, o.radius, deepest[o.index]);
+    const double limit = std::min(yield_limit(wall, found[k].radius), c.max_depth / 2);
+    const double k_bed = wall_stiffness(c.repulsion, wall, found[k].radius, deepest[o.b]);
     if (o.guard) {
       o.stiffness = c.repulsion;
       o.onset = kGuardGap + (1 - k_bed / c.repulsion) * limit;
@@ -43,93 +51,137 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall, s
     o.stiffness = k_bed;
     // There before it pushes, as it may come to within a step.
     if (limit == 0 || -o.gap < limit / 2) continue;
-    ObstacleContact stop = o;
-    stop.stiffness = c.repulsion - o.stiffness;
-    stop.onset = limit;
-    out.push_back(stop);
+    VesselContact stop = found[k];
+    stop.contact.stiffness = c.repulsion - o.stiffness;
+    stop.contact.onset = limit;
+    found.push_back(stop);
   }
 }
 
-/// Contacts of one body with the vessels, one per point: the nearest segment of the network.
-void find_vessel_contacts(const contact::SurfaceBody& b, int number, const ContactParams& c,
-                          double range, const SegmentCandidates& list,
-                          const contact::Vessels& vessels, std::vector<ObstacleContact>& out) {
-  const mesh::Network& network = vessels.network;
-  const std::size_t first = out.size();
-  const int per_site = contact::points_per_site(c.quadrature);
-  auto nearest = [&](std::size_t site, int p, bool guard, const Vec3& x) {
-    ObstacleContact best{number, p, SurroundingKind::kVessel, -1, range, {}, guard};
-    for (std::uint32_t e = list.start[site]; e < list.start[site + 1]; ++e) {
-      const contact::Gap g = contact::gap_to_segment(network, list.segment[e], x);
-      if (g.gap >= best.gap) continue;
-      best.index = list.segment[e];
-      best.gap = g.gap;
-      best.normal = g.normal;
+/// Looks for the vessels near one body.
+class VesselSearch {
+ public:
+  VesselSearch(const contact::SurfaceBody& body, int number, const ContactParams& c, double range,
+               const SegmentCandidates& list, const contact::Vessels& vessels)
+      : b_(body), number_(number), c_(c), range_(range), list_(list), vessels_(vessels) {}
+
+  /// One contact per point, with the nearest segment of the network, then those of the guards.
+  std::vector<VesselContact> find() {
+    find_points();
+    guard_.assign(n_guards(b_), {});
+    if (contact::has_face_sites(c_.quadrature))
+      find_guards_of_faces();
+    else
+      find_guards_between_nodes();
+    for (const VesselContact& v : guard_)
+      if (v.contact.guard) found_.push_back(v);
+    set_wall_stiffness(c_, vessels_.material, found_);
+    return std::move(found_);
+  }
+
+ private:
+  VesselContact nearest(std::size_t site, int point, const Vec3& x) const {
+    VesselContact best{{.a = number_, .point = point, .b = -1, .partner = Partner::kVessel}, 0};
+    best.contact.gap = range_;
+    for (std::uint32_t e = list_.start[site]; e < list_.start[site + 1]; ++e) {
+      const contact::Gap g = contact::gap_to_segment(vessels_.network, list_.segment[e], x);
+      if (g.gap >= best.contact.gap) continue;
+      best.contact.b = list_.segment[e];
+      best.contact.gap = g.gap;
+      best.contact.normal = g.normal;
       best.radius = g.radius;
     }
     return best;
-  };
-  for (std::size_t s = 0; s < list.site.size(); ++s)
-    for (int q = 0; q < per_site; ++q) {
-      const int p = list.site[s] * per_site + q;
-      const ObstacleContact best = nearest(
-          s, p, false, contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
-      if (best.index >= 0) out.push_back(best);
+  }
+
+  void find_points() {
+    const int per_site = contact::points_per_site(c_.quadrature);
+    for (std::size_t s = 0; s < list_.site.size(); ++s)
+      for (int q = 0; q < per_site; ++q) {
+        const int p = list_.site[s] * per_site + q;
+        const VesselContact best = nearest(
+            s, p, contact::point_position(b_, contact::point_stencil(b_, c_.quadrature, p)));
+        if (best.contact.b >= 0) found_.push_back(best);
+      }
+  }
+
+  /// A node belongs to several faces; the deepest of what they see counts, once.
+  void look(std::size_t site, int number) {
+    const auto i = static_cast<std::size_t>(number);
+    const Vec3& x = i < b_.node.size() ? b_.node[i] : b_.center[i - b_.node.size()];
+    const VesselContact best = nearest(site, number, x);
+    if (best.contact.b < 0 || best.contact.gap >= std::min(guard_[i].contact.gap, -kGuardGap))
+      return;
+    guard_[i] = best;
+    guard_[i].contact.guard = true;
+  }
+
+  void find_guards_of_faces() {
+    const int n_node = static_cast<int>(b_.node.size());
+    for (std::size_t s = 0; s < list_.site.size(); ++s) {
+      for (int p : (*b_.triangle)[static_cast<std::size_t>(list_.site[s])]) look(s, p);
+      look(s, n_node + list_.site[s]);
     }
-  // A node belongs to several faces; the deepest of what they see counts, once. Where the nodes are
-  // points themselves only faces need a guard: a thin vessel could pass between the points.
-  std::vector<ObstacleContact> guard(n_guards(b));
-  auto look = [&](std::size_t s, int p) {
-    ObstacleContact& held = guard[static_cast<std::size_t>(p)];
-    const auto i = static_cast<std::size_t>(p);
-    const Vec3& x = i < b.node.size() ? b.node[i] : b.center[i - b.node.size()];
-    const ObstacleContact best = nearest(s, p, true, x);
-    if (best.index >= 0 && best.gap < std::min(held.gap, -kGuardGap)) held = best;
-  };
-  const int n_node = static_cast<int>(b.node.size());
-  if (contact::has_face_sites(c.quadrature)) {
-    for (std::size_t s = 0; s < list.site.size(); ++s) {
-      for (int p : (*b.triangle)[static_cast<std::size_t>(list.site[s])]) look(s, p);
-      look(s, n_node + list.site[s]);
-    }
-  } else {
-    std::vector<int> list_of_node(b.node.size(), -1);
-    for (std::size_t s = 0; s < list.site.size() && list.site[s] < n_node; ++s)
-      list_of_node[static_cast<std::size_t>(list.site[s])] = static_cast<int>(s);
-    for (std::size_t f = 0; f < b.triangle->size(); ++f)
-      for (int corner : (*b.triangle)[f])
+  }
+
+  /// Where the nodes are points themselves only faces need a guard: a thin vessel could pass
+  /// between the points.
+  void find_guards_between_nodes() {
+    const int n_node = static_cast<int>(b_.node.size());
+    std::vector<int> list_of_node(b_.node.size(), -1);
+    for (std::size_t s = 0; s < list_.site.size() && list_.site[s] < n_node; ++s)
+      list_of_node[static_cast<std::size_t>(list_.site[s])] = static_cast<int>(s);
+    for (std::size_t f = 0; f < b_.triangle->size(); ++f)
+      for (int corner : (*b_.triangle)[f])
         if (const int s = list_of_node[static_cast<std::size_t>(corner)]; s >= 0)
           look(static_cast<std::size_t>(s), n_node + static_cast<int>(f));
   }
-  for (const ObstacleContact& o : guard)
-    if (o.guard) out.push_back(o);
-  set_wall_stiffness(c, vessels.material, first, out);
-}
+
+  const contact::SurfaceBody& b_;
+  int number_;
+  const ContactParams& c_;
+  double range_;
+  const SegmentCandidates& list_;
+  const contact::Vessels& vessels_;
+  std::vector<VesselContact> found_, guard_;
+};
 
 /// Contacts of one body with planes, capsules and vessels.
-void find_obstacle_contacts(const contact::SurfaceBody& b, int number, const ContactParams& c,
-                            double range, const contact::Surroundings& around, double time,
-                            const SegmentCandidates& list, std::vector<ObstacleContact>& out) {
+std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, double range,
+                                            const ContactWorkspace& work) {
+  const contact::SurfaceBody& b = work.body[static_cast<std::size_t>(number)];
+  const SegmentCandidates& list = work.lists.segment[static_cast<std::size_t>(number)];
+  const ContactParams& c = in.options;
+  const contact::Surroundings& around = in.around;
+  std::vector<Contact> out;
   const int n_point = static_cast<int>(contact::n_points(b, c.quadrature));
   const Vec3 middle = 0.5 * (b.box.low + b.box.high);
   const double half = 0.5 * (b.box.high - b.box.low).norm();
-  auto probe = [&](SurroundingKind kind, std::size_t index, auto gap_of) {
+  auto probe = [&](Partner kind, std::size_t index, auto gap_of) {
     if (gap_of(middle).gap - half >= range) return;
     for (int p = 0; p < n_point; ++p) {
       const contact::Gap g =
           gap_of(contact::point_position(b, contact::point_stencil(b, c.quadrature, p)));
       if (g.gap < range)
-        out.push_back(
-            {number, p, kind, static_cast<int>(index), g.gap, g.normal, false, 0, c.repulsion, 0});
+        out.push_back({.a = number,
+                       .point = p,
+                       .b = static_cast<int>(index),
+                       .partner = kind,
+                       .normal = g.normal,
+                       .gap = g.gap,
+                       .stiffness = c.repulsion});
     }
   };
   for (std::size_t i = 0; i < around.planes.size(); ++i)
-    probe(SurroundingKind::kPlane, i,
-          [&](const Vec3& x) { return contact::gap_to_plane(around.planes[i], x, time); });
+    probe(Partner::kPlane, i,
+          [&](const Vec3& x) { return contact::gap_to_plane(around.planes[i], x, in.time); });
   for (std::size_t i = 0; i < around.capsules.size(); ++i)
-    probe(SurroundingKind::kCapsule, i,
-          [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, time); });
-  if (!list.site.empty()) find_vessel_contacts(b, number, c, range, list, around.vessels, out);
+    probe(Partner::kCapsule, i,
+          [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, in.time); });
+  if (list.site.empty()) return out;
+  for (const VesselContact& v : VesselSearch(b, number, c, range, list, around.vessels).find())
+    out.push_back(v.contact);
+  return out;
 }
 
 /// Area on the unit rest shape that a point stands for.
@@ -158,22 +210,21 @@ double rest_share(const mesh::Topology& t, contact::Quadrature q, int point) {
 }
 
 /// How much of each point's area touches something.
-void find_shares(const ContactParams& c, std::size_t n_row, ContactWorkspace& work) {
+void find_shares(const ContactInput& in, const contact::ContactList& contacts,
+                 ContactWorkspace& work) {
+  const double range = in.options.friction_range;
   work.share.resize(work.body.size());
-#pragma omp parallel for schedule(static) if (worth_threads(n_row))
+#pragma omp parallel for schedule(static) if (worth_threads(in.state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k) {
     std::vector<double>& share = work.share[k];
     const auto number = static_cast<int>(k);
-    share.assign(contact::n_points(work.body[k], c.quadrature), 0.0);
-    // Both kinds of contact come body by body.
-    for (const contact::SurfaceContact& s :
-         std::ranges::equal_range(work.surface, number, {}, &contact::SurfaceContact::body_a))
-      if (s.body_a != s.body_b)
-        share[static_cast<std::size_t>(s.point)] += contact::contact_share(s.gap, c.friction_range);
-    for (const ObstacleContact& o :
-         std::ranges::equal_range(work.obstacle, number, {}, &ObstacleContact::body))
+    share.assign(contact::n_points(work.body[k], in.options.quadrature), 0.0);
+    for (const Contact& s : std::ranges::equal_range(contacts.surface(), number, {}, &Contact::a))
+      if (!s.is_fold())
+        share[static_cast<std::size_t>(s.point)] += contact::contact_share(s.gap, range);
+    for (const Contact& o : std::ranges::equal_range(contacts.obstacle(), number, {}, &Contact::a))
       if (!o.only_pushes())
-        share[static_cast<std::size_t>(o.point)] += contact::contact_share(o.gap, c.friction_range);
+        share[static_cast<std::size_t>(o.point)] += contact::contact_share(o.gap, range);
   }
 }
 
@@ -187,8 +238,8 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
   return rest_share(t, q, point) * radius * radius;
 }
 
-contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,
-                                       const ObstacleContact& o) {
+contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
+                                 const Contact& o) {
   const int n_node = static_cast<int>(body.node.size());
   if (!o.guard) return contact::point_stencil(body, c.quadrature, o.point);
   if (o.point < n_node) return {1, {o.point, 0, 0}, {1, 0, 0}};
@@ -223,31 +274,29 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
   }
 }
 
-void refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
-                   const contact::Surroundings& around, ContactWorkspace& work) {
+void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
   std::vector<std::int64_t> lineage;
   std::vector<std::uint8_t> constrained;
   for (std::size_t lane : work.lane_of_body) {
-    lineage.push_back(state.lineage[lane]);
+    lineage.push_back(in.state.lineage[lane]);
     if (!work.constrained.empty()) constrained.push_back(work.constrained[lane]);
   }
-  refresh_lists({work.body, work.fixed, lineage, constrained, around.vessels.network,
-                 search_options(c, state, lanes)},
-                work.lists);
+  refresh_lists(
+      {work.body, work.fixed, lineage, constrained, in.around.vessels.network, search_options(in)},
+      work.lists);
 }
 
-void find_contacts(const State& state, const ContactParams& c, const LaneData& lanes,
-                   const contact::Surroundings& around, double time, ContactWorkspace& work) {
-  const contact::SearchOptions options = search_options(c, state, lanes);
+void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts) {
+  const contact::SearchOptions options = search_options(in);
   const std::vector<contact::Candidates>& pair = work.lists.pair;
   // Each thread takes a run of lists, the first one writes in place: order as with one thread.
-  work.surface.clear();
-  const std::size_t n_part = count_threads(state.n_row());
+  std::vector<Contact>& all = contacts.all;
+  const std::size_t n_part = count_threads(in.state.n_row());
   work.found.resize(n_part - 1);
   std::int64_t listed = 0, seen = 0;
 #pragma omp parallel for schedule(static, 1) reduction(+ : listed, seen) if (n_part > 1)
   for (std::size_t part = 0; part < n_part; ++part) {
-    auto& found = part == 0 ? work.surface : work.found[part - 1];
+    auto& found = part == 0 ? all : work.found[part - 1];
     const std::size_t before = found.size();
     found.clear();
     found.reserve(before + before / 8);  // contacts change little: doubling would waste memory
@@ -261,21 +310,23 @@ void find_contacts(const State& state, const ContactParams& c, const LaneData& l
   work.searches += 1;
   work.points_listed += listed;
   work.points_seen += seen;
-  for (const auto& f : work.found) work.surface.insert(work.surface.end(), f.begin(), f.end());
+  for (const auto& f : work.found) all.insert(all.end(), f.begin(), f.end());
+  contacts.surface_end = all.size();
 
-  std::vector<std::vector<ObstacleContact>> obstacle(work.body.size());
-#pragma omp parallel for schedule(dynamic, 2) if (worth_threads(state.n_row()))
+  std::vector<std::vector<Contact>> obstacle(work.body.size());
+#pragma omp parallel for schedule(dynamic, 2) if (worth_threads(in.state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k)
     if (work.constrained.empty() || work.constrained[work.lane_of_body[k]] == 0)
-      find_obstacle_contacts(work.body[k], static_cast<int>(k), c, options.range, around, time,
-                             work.lists.segment[k], obstacle[k]);
-  work.obstacle.clear();
-  for (const auto& o : obstacle) work.obstacle.insert(work.obstacle.end(), o.begin(), o.end());
-  find_shares(c, state.n_row(), work);
+      obstacle[k] = find_obstacle_contacts(in, static_cast<int>(k), options.range, work);
+  for (const auto& o : obstacle) all.insert(all.end(), o.begin(), o.end());
+  contacts.obstacle_end = contacts.interface_end = contacts.sphere_obstacle_end = all.size();
+  find_shares(in, contacts, work);
 }
 
-void compute_medium_areas(const State& state, const ContactParams& c, const LaneData& lanes,
-                          const ContactWorkspace& work, std::vector<double>& medium_area) {
+void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
+                          std::vector<double>& medium_area) {
+  const State& state = in.state;
+  const ContactParams& c = in.options;
   medium_area.assign(state.n_row() * kLanes, 0.0);
 #pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
   for (std::size_t k = 0; k < work.body.size(); ++k) {
@@ -284,7 +335,7 @@ void compute_medium_areas(const State& state, const ContactParams& c, const Lane
     const std::size_t first = state.group[lane / kLanes].first_row;
     for (std::size_t p = 0; p < work.share[k].size(); ++p) {
       const double area =
-          point_area(*b.topology, c.quadrature, static_cast<int>(p), lanes.radius[lane]) *
+          point_area(*b.topology, c.quadrature, static_cast<int>(p), in.lanes.radius[lane]) *
           (c.whole_medium_area ? 1.0 : 1 - std::min(1.0, work.share[k][p]));
       const contact::PointStencil s = contact::point_stencil(b, c.quadrature, static_cast<int>(p));
       for (int m = 0; m < s.n; ++m)

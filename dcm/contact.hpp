@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/record.hpp"
 #include "core/contact/surface.hpp"
 #include "core/contact/surroundings.hpp"
 #include "core/contact/well.hpp"
@@ -42,36 +43,34 @@ struct ContactParams {
 /// Folds of one surface are kept this far apart, um.
 inline constexpr double kSelfGap = 0.15;
 
-/// A surface point near a plane, a capsule or a vessel.
-struct ObstacleContact {
-  int body = 0, point = 0;
-  contact::SurroundingKind kind = contact::SurroundingKind::kPlane;
-  int index = 0;
-  double gap = 0;
-  Vec3 normal = Vec3::Zero();
-  /// The point is a node (0 .. n_node - 1) or a face centre (n_node ..) deep inside a vessel.
-  /// Three-point quadrature would not see a vessel's tip in the middle of a face, nor the tip of a
-  /// corner at a vessel, and the quadratures with nodes not a thin vessel between the points (so
-  /// there only face centres guard); such points are pushed out, without adhesion or friction.
-  /// Walls that are flat or hollow have no tips.
-  bool guard = false;
-  double radius = 0;     ///< um, vessels: at the closest point
-  double stiffness = 0;  ///< nN/um^3 under compression, vessels: with the yielding wall
-  /// um, how deep inside it begins to push. Above zero for guards, and for points at which a vessel
-  /// yields no more: those have a second contact with what is missing to the full stiffness.
-  double onset = 0;
-  bool only_pushes() const { return guard || onset > 0; }
+/// What the functions of this file read.
+struct ContactInput {
+  const State& state;
+  std::span<const Params> params;  ///< [type]
+  const ContactParams& options;
+  const LaneData& lanes;
+  const contact::Surroundings& around;
+  double time = 0;  ///< s, for which moving walls stand
 };
 
-/// Share of its area that a guarding point pushes with, and how deep inside, um, it begins to: the
+/// Guards: nodes and face centres deep inside a vessel are pushed out, without adhesion or
+/// friction. Three-point quadrature would not see a vessel's tip in the middle of a face, nor the
+/// tip of a corner at a vessel, and the quadratures with nodes not a thin vessel between the points
+/// (so there only face centres guard). Walls that are flat or hollow have no tips. The number of a
+/// guard is that of its node, or the number of nodes and that of its face.
+///
+/// Points at which a vessel yields no more have a second contact with what is missing to the full
+/// stiffness; of both its onset is above zero.
+
+/// Share of its area that a guard pushes with, and how deep inside, um, it begins to: the
 /// quadrature points carry all that ordinary contact needs, and a point that joins in and leaves
 /// again at every step would only make noise. In a wall that yields they begin where it yields no
 /// more, as far as it is what yields.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
-/// The nodes and weights of an obstacle contact's point.
-contact::PointStencil obstacle_stencil(const ContactParams& c, const contact::SurfaceBody& body,
-                                       const ObstacleContact& contact);
+/// The nodes and weights of a contact's point.
+contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
+                                 const contact::Contact& contact);
 
 /// Guarding points of a body, and the reference area each stands for, um^2.
 inline std::size_t n_guards(const contact::SurfaceBody& b) {
@@ -83,13 +82,11 @@ double guard_area(const mesh::Topology& t, int point, double radius);
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
-  std::vector<std::size_t> lane_of_body;                    ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> body;                   ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> fixed;                  ///< static meshes
-  ContactLists lists;                                       ///< written by: refresh_lists
-  std::vector<std::vector<contact::SurfaceContact>> found;  ///< [thread] scratch of one search
-  std::vector<contact::SurfaceContact> surface;             ///< written by: find_contacts
-  std::vector<ObstacleContact> obstacle;                    ///< written by: find_contacts
+  std::vector<std::size_t> lane_of_body;             ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> body;            ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;           ///< static meshes
+  ContactLists lists;                                ///< written by: refresh_lists
+  std::vector<std::vector<contact::Contact>> found;  ///< scratch of one search
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;
@@ -107,12 +104,11 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
 void refresh_bodies(const State& state, ContactWorkspace& work);
 
 /// Makes the lists again that no longer hold (contact_lists.hpp). @pre refresh_bodies
-void refresh_lists(const State& state, const ContactParams& c, const LaneData& lanes,
-                   const contact::Surroundings& around, ContactWorkspace& work);
+void refresh_lists(const ContactInput& in, ContactWorkspace& work);
 
-/// Finds all contacts between cells and with surroundings, and each point's touching share.
-void find_contacts(const State& state, const ContactParams& c, const LaneData& lanes,
-                   const contact::Surroundings& around, double time, ContactWorkspace& work);
+/// Starts the list of contacts with all those between surfaces and of surfaces with surroundings,
+/// and finds each point's touching share.
+void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts);
 
 /// Scale that keeps the touching areas of one point from adding up to more than its area.
 inline double share_scale(double total_share) { return total_share > 1 ? 1 / total_share : 1; }
@@ -120,20 +116,26 @@ inline double share_scale(double total_share) { return total_share > 1 ? 1 / tot
 /// What a contact of two cells rubs with, nN s/um^3 of its point's area; the other side sees the
 /// contact as well, so that half the area counts. @pre all shares are known
 double cell_friction_at(const ContactParams& c, const ContactWorkspace& work,
-                        const contact::SurfaceContact& contact);
+                        const contact::Contact& contact);
 
 /// A place on a cell as the solver names it.
 solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& stencil);
 
-/// Adds force, stiffness and friction of every contact found. Cell-cell contacts are seen from both
-/// sides and carry half the weight each. Friction between cells only in the form between surfaces.
-void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
-                       const LaneData& lanes, const contact::Surroundings& around,
-                       const ContactWorkspace& work, solve::Links& links);
+/// Side a of a contact of a surface, and side b of one between surfaces.
+solve::Side side_a(const ContactInput& in, const ContactWorkspace& work,
+                   const contact::Contact& contact);
+solve::Side side_b(const ContactInput& in, const ContactWorkspace& work,
+                   const contact::Contact& contact);
+
+/// Completes the contacts of surfaces with each other and with surroundings, and adds a link for
+/// each. Cell-cell contacts are seen from both sides and carry half the weight each. Friction
+/// between cells only in the form between surfaces.
+void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
+                       contact::ContactList& contacts, solve::Links& links);
 
 /// Area of each node that feels the medium, [n_row][lane] um^2: what touches no neighbour, or all
 /// of it (whole_medium_area). @pre all shares are known
-void compute_medium_areas(const State& state, const ContactParams& c, const LaneData& lanes,
-                          const ContactWorkspace& work, std::vector<double>& medium_area);
+void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
+                          std::vector<double>& medium_area);
 
 }  // namespace acinus::dcm

@@ -9,19 +9,20 @@
 namespace acinus::dcm {
 namespace {
 
-using contact::SurroundingKind;
+using contact::Contact, contact::Partner;
 
-const contact::Material& material_of(const contact::Surroundings& around, SurroundingKind kind,
-                                     int index) {
+const contact::Material& material_of(const contact::Surroundings& around, Partner kind, int index) {
   const auto i = static_cast<std::size_t>(index);
   switch (kind) {
-    case SurroundingKind::kPlane:
+    case Partner::kPlane:
       return around.planes[i].material;
-    case SurroundingKind::kCapsule:
+    case Partner::kCapsule:
       return around.capsules[i].material;
-    case SurroundingKind::kMesh:
+    case Partner::kMesh:
       return around.meshes[i].material;
-    case SurroundingKind::kVessel:
+    case Partner::kVessel:
+    case Partner::kSurface:
+    case Partner::kSphere:
       break;
   }
   return around.vessels.material;
@@ -35,101 +36,76 @@ double touching_share(const ContactParams& c, const ContactWorkspace& work, int 
          contact::contact_share(gap, c.friction_range);
 }
 
-/// What a contact patch of this area does.
-struct Patch {
+/// The law of a contact.
+struct Law {
   contact::Well well;
-  double area = 0, friction = 0;
-  double depth = 0;  ///< um, how deep inside the law begins
+  double friction = 0;   ///< nN s/um^3
+  double clearance = 0;  ///< um, how far it is from its repulsive branch
 };
 
-/// Everything that turns a contact into a link.
-struct Builder {
-  const State& state;
-  std::span<const Params> params;
-  const ContactParams& c;
-  const LaneData& lanes;
-  const contact::Surroundings& around;
+/// Everything that completes a contact.
+struct Completion {
+  const ContactInput& in;
   const ContactWorkspace& work;
 
   std::size_t lane_of(int body) const { return work.lane_of_body[static_cast<std::size_t>(body)]; }
   const contact::SurfaceBody& body(int k) const { return work.body[static_cast<std::size_t>(k)]; }
   const Params& params_of(int body) const {
-    return params[static_cast<std::size_t>(state.group[lane_of(body) / kLanes].type)];
-  }
-  solve::Side side(int body, const contact::PointStencil& s) const {
-    return side_at(state, lane_of(body), s);
+    return in.params[static_cast<std::size_t>(in.state.group[lane_of(body) / kLanes].type)];
   }
   double area(int k, int point) const {
-    return point_area(*body(k).topology, c.quadrature, point, lanes.radius[lane_of(k)]);
+    return point_area(*body(k).topology, in.options.quadrature, point, in.lanes.radius[lane_of(k)]);
   }
-  double touching(int k, int point, double gap) const {
-    return touching_share(c, work, k, point, gap);
+  contact::Well well(int k, double adhesion, double repulsion) const {
+    return {
+        in.options.adhesion_factor * adhesion, repulsion,
+        in.options.range_factor * body(k).topology->mean_rest_length * in.lanes.radius[lane_of(k)]};
   }
-  contact::Well well(int k, double adhesion) const {
-    return {c.adhesion_factor * adhesion, c.repulsion,
-            c.range_factor * body(k).topology->mean_rest_length * lanes.radius[lane_of(k)]};
-  }
-  contact::Well repulsion() const { return {0, c.repulsion, 1}; }
+  contact::Well repulsion(double stiffness) const { return {0, stiffness, 1}; }
 
-  void surface_link(const contact::SurfaceContact& s, solve::Link& link,
-                    solve::LinkLoad& load) const {
-    link.a = side(s.body_a, contact::point_stencil(body(s.body_a), c.quadrature, s.point));
-    const Params& a = params_of(s.body_a);
-    const auto b = static_cast<std::size_t>(s.body_b);
-    if (b >= work.body.size()) {  // a static mesh: probed from one side, no unknowns behind it
-      const contact::Material& m = around.meshes[b - work.body.size()].material;
-      link.b = solve::Side::nowhere();
-      const double friction = m.mirror ? 0 : touching(s.body_a, s.point, s.gap) * a.vessel_friction;
-      fill({well(s.body_a, m.adhesion), area(s.body_a, s.point), friction}, s.gap, s.normal, link,
-           load);
-      return;
-    }
-    const auto weight = s.weights();
-    link.b = side(s.body_b,
-                  {3, (*body(s.body_b).triangle)[static_cast<std::size_t>(s.triangle_b)], weight});
-    const double half = 0.5 * area(s.body_a, s.point);  // seen from both sides
-    if (s.body_a == s.body_b) {
-      fill({repulsion(), half, 0}, std::min(0.0, s.gap - kSelfGap), s.normal, link, load);
-      return;
-    }
-    const double adhesion = std::sqrt(a.adhesion * params_of(s.body_b).adhesion);
-    const double friction =
-        c.friction_form == FrictionForm::kSurface ? cell_friction_at(c, work, s) : 0;
-    fill({well(s.body_a, adhesion), half, friction}, s.gap, s.normal, link, load);
+  Law meet_surface(Contact& k) const {
+    k.area = 0.5 * area(k.a, k.point);  // seen from both sides
+    if (k.is_fold()) return {repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
+    const double share = touching_share(in.options, work, k.a, k.point, k.gap);
+    k.touching = k.area * share;
+    const double adhesion = std::sqrt(params_of(k.a).adhesion * params_of(k.b).adhesion);
+    const bool rubs = in.options.friction_form == FrictionForm::kSurface;
+    return {well(k.a, adhesion, in.options.repulsion),
+            rubs ? in.options.friction_factor * share * in.options.cell_friction : 0, k.gap};
   }
 
-  void obstacle_link(const ObstacleContact& o, solve::Link& link, solve::LinkLoad& load) const {
-    link.a = side(o.body, obstacle_stencil(c, body(o.body), o));
-    link.b = solve::Side::nowhere();
-    if (o.only_pushes()) {
-      const double pushing =
-          o.guard ? guard_area(*body(o.body).topology, o.point, lanes.radius[lane_of(o.body)])
-                  : area(o.body, o.point);
-      fill({{0, o.stiffness, 1}, pushing, 0, o.onset}, o.gap, o.normal, link, load);
-      return;
+  Law meet_obstacle(Contact& k) const {
+    if (k.only_pushes()) {
+      k.area = k.guard ? guard_area(*body(k.a).topology, k.point, in.lanes.radius[lane_of(k.a)])
+                       : area(k.a, k.point);
+      return {repulsion(k.stiffness), 0, k.gap + k.onset};
     }
-    const contact::Material& m = material_of(around, o.kind, o.index);
-    const double friction =
-        m.mirror ? 0 : touching(o.body, o.point, o.gap) * params_of(o.body).vessel_friction;
-    contact::Well law = well(o.body, m.adhesion);
-    law.repulsion = o.stiffness;
-    fill({law, area(o.body, o.point), friction}, o.gap, o.normal, link, load);
+    k.area = area(k.a, k.point);
+    const double share = touching_share(in.options, work, k.a, k.point, k.gap);
+    k.touching = k.area * share;
+    const contact::Material& m = material_of(in.around, k.partner, k.b);
+    const double stiffness = k.partner == Partner::kMesh ? in.options.repulsion : k.stiffness;
+    return {well(k.a, m.adhesion, stiffness), m.mirror ? 0 : share * params_of(k.a).vessel_friction,
+            k.gap};
   }
 
-  static void fill(const Patch& p, double gap, const Vec3& normal, solve::Link& link,
-                   solve::LinkLoad& load) {
-    const double at = gap + p.depth;
-    solve::set_law(p.area * contact::well_stiffness(p.well, at), p.area * p.friction, gap, normal,
-                   link);
-    load = {normal, -p.area * contact::well_traction(p.well, at), p.area * p.well.repulsion, at};
+  void complete(Contact& k, solve::Link& link, solve::LinkLoad& load) const {
+    const Law law = k.partner == Partner::kSurface ? meet_surface(k) : meet_obstacle(k);
+    k.force = -k.area * contact::well_traction(law.well, law.clearance);
+    k.slope = k.area * contact::well_stiffness(law.well, law.clearance);
+    k.friction = k.area * law.friction;
+    link.a = side_a(in, work, k);
+    link.b = side_b(in, work, k);
+    const double gap = k.is_fold() ? law.clearance : k.gap;
+    solve::set_law(k.slope, k.friction, gap, k.normal, link);
+    load = {k.normal, k.force, k.area * law.well.repulsion, law.clearance};
   }
 };
 
 }  // namespace
 
-double cell_friction_at(const ContactParams& c, const ContactWorkspace& work,
-                        const contact::SurfaceContact& s) {
-  return c.friction_factor * touching_share(c, work, s.body_a, s.point, s.gap) * c.cell_friction;
+double cell_friction_at(const ContactParams& c, const ContactWorkspace& work, const Contact& s) {
+  return c.friction_factor * touching_share(c, work, s.a, s.point, s.gap) * c.cell_friction;
 }
 
 solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& s) {
@@ -145,21 +121,27 @@ solve::Side side_at(const State& state, std::size_t lane, const contact::PointSt
           {static_cast<float>(s.weight[0]), static_cast<float>(s.weight[1])}};
 }
 
-void add_contact_loads(const State& state, std::span<const Params> params, const ContactParams& c,
-                       const LaneData& lanes, const contact::Surroundings& around,
-                       const ContactWorkspace& work, solve::Links& links) {
-  const Builder build{state, params, c, lanes, around, work};
-  const std::size_t first = links.size(), n = work.surface.size();
-  links.resize(first + n + work.obstacle.size());
-#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
-  for (std::size_t k = 0; k < n + work.obstacle.size(); ++k) {
-    solve::Link& link = links.link[first + k];
-    solve::LinkLoad& load = links.load[first + k];
-    if (k < n)
-      build.surface_link(work.surface[k], link, load);
-    else
-      build.obstacle_link(work.obstacle[k - n], link, load);
-  }
+solve::Side side_a(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
+  const auto body = static_cast<std::size_t>(k.a);
+  return side_at(in.state, work.lane_of_body[body], stencil_of(in.options, work.body[body], k));
+}
+
+solve::Side side_b(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
+  if (k.partner != Partner::kSurface) return solve::Side::nowhere();
+  const auto body = static_cast<std::size_t>(k.b);
+  return side_at(
+      in.state, work.lane_of_body[body],
+      {3, (*work.body[body].triangle)[static_cast<std::size_t>(k.triangle)], k.weights()});
+}
+
+void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
+                       contact::ContactList& contacts, solve::Links& links) {
+  const Completion completion{in, work};
+  const std::size_t first = links.size(), n = contacts.obstacle_end;
+  links.resize(first + n);
+#pragma omp parallel for schedule(static) if (worth_threads(in.state.n_row()))
+  for (std::size_t k = 0; k < n; ++k)
+    completion.complete(contacts.all[k], links.link[first + k], links.load[first + k]);
 }
 
 }  // namespace acinus::dcm

@@ -17,15 +17,16 @@ struct Run {
 };
 
 /// The runs between cells, sorted by pairs of bodies.
-std::vector<Run> find_runs(const ContactWorkspace& work) {
+std::vector<Run> find_runs(std::span<const contact::Contact> contacts) {
   std::vector<Run> runs;
-  for (std::size_t k = 0, next; k < work.surface.size(); k = next) {
-    const int a = work.surface[k].body_a, b = work.surface[k].body_b;
-    for (next = k; next < work.surface.size() && work.surface[next].body_a == a &&
-                   work.surface[next].body_b == b;)
-      ++next;
-    if (a != b && static_cast<std::size_t>(b) < work.body.size())
-      runs.push_back({{std::min(a, b), std::max(a, b)}, k, next});
+  for (std::size_t k = 0, next; k < contacts.size(); k = next) {
+    const contact::Contact& first = contacts[k];
+    const auto belongs = [&](const contact::Contact& other) {
+      return other.a == first.a && other.b == first.b && other.partner == first.partner;
+    };
+    for (next = k; next < contacts.size() && belongs(contacts[next]);) ++next;
+    if (first.partner == contact::Partner::kSurface && !first.is_fold())
+      runs.push_back({{std::min(first.a, first.b), std::max(first.a, first.b)}, k, next});
   }
   std::ranges::stable_sort(runs, {}, &Run::body);
   return runs;
@@ -72,22 +73,19 @@ class PairTable {
 };
 
 /// Adds the contacts of a run to the pairs of its bodies' nodes.
-void add_run(const ContactParams& c, const LaneData& lanes, const ContactWorkspace& work,
-             const Run& run, PairTable& table) {
-  for (std::size_t k = run.first; k < run.last; ++k) {
-    const contact::SurfaceContact& s = work.surface[k];
-    const auto a = static_cast<std::size_t>(s.body_a), b = static_cast<std::size_t>(s.body_b);
-    const double half = 0.5 * point_area(*work.body[a].topology, c.quadrature, s.point,
-                                         lanes.radius[work.lane_of_body[a]]);
-    const double friction = half * cell_friction_at(c, work, s);
+void add_run(const ContactParams& c, const ContactWorkspace& work,
+             std::span<const contact::Contact> run, PairTable& table) {
+  for (const contact::Contact& s : run) {
+    const auto a = static_cast<std::size_t>(s.a), b = static_cast<std::size_t>(s.b);
+    const double friction = s.area * cell_friction_at(c, work, s);
     if (friction == 0) continue;
     const contact::PointStencil at = contact::point_stencil(work.body[a], c.quadrature, s.point);
     const auto own = nodes_of(at);
-    const auto& other = (*work.body[b].triangle)[static_cast<std::size_t>(s.triangle_b)];
+    const auto& other = (*work.body[b].triangle)[static_cast<std::size_t>(s.triangle)];
     const double each = friction / static_cast<double>(own.size() * other.size());
     for (const int i : own)
       for (const int j : other)
-        if (s.body_a < s.body_b)
+        if (s.a < s.b)
           table.add(i, j, each);
         else
           table.add(j, i, each);
@@ -96,15 +94,16 @@ void add_run(const ContactParams& c, const LaneData& lanes, const ContactWorkspa
 
 }  // namespace
 
-void add_node_friction(const State& state, const ContactParams& c, const LaneData& lanes,
-                       const ContactWorkspace& work, std::vector<solve::PointLink>& links) {
+void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
+                       const contact::ContactList& contacts, std::vector<solve::PointLink>& links) {
+  const ContactParams& c = in.options;
   if (c.friction_factor * c.cell_friction == 0) return;
-  const std::vector<Run> runs = find_runs(work);
+  const std::vector<Run> runs = find_runs(contacts.surface());
   std::vector<std::size_t> group;  // where each pair of bodies starts
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (k == 0 || runs[k].body != runs[k - 1].body) group.push_back(k);
   group.push_back(runs.size());
-  const std::size_t n_group = group.size() - 1, n_part = count_threads(state.n_row());
+  const std::size_t n_group = group.size() - 1, n_part = count_threads(in.state.n_row());
   std::vector<std::vector<solve::PointLink>> part(n_part);
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
   for (std::size_t p = 0; p < n_part; ++p) {
@@ -114,9 +113,10 @@ void add_node_friction(const State& state, const ContactParams& c, const LaneDat
       const auto& body_a = work.body[static_cast<std::size_t>(a)];
       const auto& body_b = work.body[static_cast<std::size_t>(b)];
       table.start(body_a.node.size(), body_b.node.size());
-      for (std::size_t k = group[g]; k < group[g + 1]; ++k) add_run(c, lanes, work, runs[k], table);
+      for (std::size_t k = group[g]; k < group[g + 1]; ++k)
+        add_run(c, work, contacts.range(runs[k].first, runs[k].last), table);
       auto point = [&](int body, int node) {
-        return side_at(state, work.lane_of_body[static_cast<std::size_t>(body)],
+        return side_at(in.state, work.lane_of_body[static_cast<std::size_t>(body)],
                        {1, {node, 0, 0}, {1, 0, 0}})
             .point[0];
       };

@@ -57,11 +57,13 @@ BENCHMARK_CAPTURE(add_term, area, [](const Params& p, const GroupView& g, System
 void add_contact_loads(benchmark::State& state) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const coupling::Params& p = clump.world.params;
+  const dcm::ContactInput in{clump.world.state.dcm, p.dcm,    p.dcm_contact,
+                             clump.work.lanes,      p.around, 0};
+  contact::ContactList contacts = clump.work.contacts;
   solve::Links links;
   for (auto _ : state) {
     links.clear();
-    dcm::add_contact_loads(clump.world.state.dcm, p.dcm, p.dcm_contact, clump.work.lanes, p.around,
-                           clump.work.dcm, links);
+    dcm::add_contact_loads(in, clump.work.dcm, contacts, links);
     benchmark::ClobberMemory();
   }
   count(state, "contacts", links.size());

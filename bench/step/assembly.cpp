@@ -59,14 +59,15 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   std::vector<float> xf(n, 1e-3f), yf(n);
   const double cells = count;
 
+  const dcm::ContactInput in{s.dcm,   world.params.dcm,    world.params.dcm_contact,
+                             w.lanes, world.params.around, 0};
   const double within = time_us([&] {
     solve::clear_loads(w.system);
     dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);
   });
   const double contacts_build = time_us([&] {
     w.system.links.clear();
-    dcm::add_contact_loads(s.dcm, world.params.dcm, world.params.dcm_contact, w.lanes,
-                           world.params.around, w.dcm, w.system.links);
+    dcm::add_contact_loads(in, w.dcm, w.contacts, w.system.links);
   });
   const double links = static_cast<double>(w.system.links.size());
   const double prepare = time_us([&] { w.op.prepare(w.system); });
@@ -75,12 +76,10 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   const double merge = time_merge_us(w.system);
   w.op.merge_links();
   const double product_merged = time_us([&] { w.op.apply<float>(xf, yf); });
-  const double narrow = time_us([&] {
-    dcm::find_contacts(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, 0, w.dcm);
-  });
+  const double narrow = time_us([&] { dcm::find_contacts(in, w.dcm, w.contacts); });
   const double lists = time_us([&] {
     w.dcm.lists = {};
-    dcm::refresh_lists(s.dcm, world.params.dcm_contact, w.lanes, world.params.around, w.dcm);
+    dcm::refresh_lists(in, w.dcm);
   });
   double listed_points = 0, listed_triangles = 0;
   for (const contact::Candidates& c : w.dcm.lists.pair) {

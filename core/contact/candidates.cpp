@@ -415,9 +415,10 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
 
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
-                          std::vector<SurfaceContact>& out) {
+                          std::vector<Contact>& out) {
   const bool self = list.body_a == list.body_b;
   const bool is_fixed = static_cast<std::size_t>(list.body_b) >= bodies.size();
+  const int partner = is_fixed ? list.body_b - static_cast<int>(bodies.size()) : list.body_b;
   const SurfaceBody& a = body_at(bodies, fixed, list.body_a);
   const SurfaceBody& b = body_at(bodies, fixed, list.body_b);
   const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
@@ -440,13 +441,14 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
       const Vec3 facing = site_normal(a, o.quadrature, site);
       if (!are_facing(facing, Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])))
         continue;
-      out.push_back({list.body_a,
-                     point[i],
-                     list.body_b,
-                     block.triangle[i],
-                     {block.rounded[0][i], block.rounded[1][i]},
-                     Vec3(block.normal[0][i], block.normal[1][i], block.normal[2][i]),
-                     gap});
+      out.push_back({.a = list.body_a,
+                     .point = point[i],
+                     .b = partner,
+                     .triangle = block.triangle[i],
+                     .place = {block.rounded[0][i], block.rounded[1][i]},
+                     .partner = is_fixed ? Partner::kMesh : Partner::kSurface,
+                     .normal = Vec3(block.normal[0][i], block.normal[1][i], block.normal[2][i]),
+                     .gap = gap});
     }
     looked += static_cast<std::size_t>(block.n);
     block.n = 0;

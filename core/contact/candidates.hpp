@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/record.hpp"
 #include "core/contact/surface.hpp"
 
 namespace acinus::contact {
@@ -54,6 +55,6 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
 /// @return how many points were looked at
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& options,
-                          double moved, std::vector<SurfaceContact>& out);
+                          double moved, std::vector<Contact>& out);
 
 }  // namespace acinus::contact

@@ -112,21 +112,4 @@ inline Vec3 point_position(const SurfaceBody& body, const PointStencil& s) {
   return s.weight[0] * node(0) + s.weight[1] * node(1) + s.weight[2] * node(2);
 }
 
-/// A probing point of body a near a triangle of body b.
-struct SurfaceContact {
-  int body_a = 0, point = 0;  ///< site * points_per_site + local index
-  int body_b = 0, triangle_b = 0;
-  /// Barycentric weights of the closest point for the first two corners, as the solver keeps them;
-  /// gap and normal are those of the place these rounded weights name (of the exact place on a
-  /// fixed body, which has no unknowns).
-  std::array<float, 2> weight_b{};
-  Vec3 normal = Vec3::Zero();  ///< d gap / d x_a: from b towards a when apart
-  double gap = 0;              ///< um, negative: a's point is inside b
-
-  std::array<double, 3> weights() const {
-    const double w0 = static_cast<double>(weight_b[0]), w1 = static_cast<double>(weight_b[1]);
-    return {w0, w1, 1 - w0 - w1};
-  }
-};
-
 }  // namespace acinus::contact

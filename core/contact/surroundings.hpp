@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/record.hpp"
 #include "core/contact/surface.hpp"
 #include "core/mesh/network.hpp"
 #include "core/vec.hpp"
@@ -69,8 +70,6 @@ struct Surroundings {
 };
 
 void set_network(Vessels& vessels, mesh::Network network);
-
-enum class SurroundingKind : std::uint8_t { kPlane, kCapsule, kVessel, kMesh };
 
 /// Gap of a point to a surrounding surface.
 struct Gap {

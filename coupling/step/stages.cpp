@@ -24,10 +24,21 @@ PhaseParams phase_params(const World& world) {
   return p;
 }
 
-InterfaceView view_interface(const World& world, const PhaseParams& phase, const Workspace& w) {
-  return {world.state.dcm, world.params.dcm, phase.dcm,        w.lanes,
-          w.dcm,           world.state.cbm,  world.params.cbm, w.cbm_radius,
-          w.cbm.modulus,   phase.interface,  w.interface};
+/// What contact reads, in one place for all its functions.
+/// @param wall_time  s, for which moving walls stand
+InterfaceInput input_of(const World& world, const PhaseParams& phase, double wall_time,
+                        const Workspace& w) {
+  const State& s = world.state;
+  const Params& p = world.params;
+  return {{s.dcm, p.dcm, phase.dcm, w.lanes, p.around, wall_time},
+          {s.cbm,
+           p.cbm,
+           phase.cbm,
+           {w.cbm_radius, w.cbm_strength, w.cbm_mother},
+           p.around,
+           wall_time,
+           cbm_first_row(s)},
+          phase.interface};
 }
 
 /// Growth is tracked to the end of the step, so that slow motion leaves no lag.
@@ -48,35 +59,27 @@ void choose_leaders_of_step(const World& world, Workspace& w) {
     choose_leaders(world, w.lanes.radius, w.cbm_radius, w.leader, w.leader_interval);
 }
 
-void refresh_lists(const World& world, const PhaseParams& phase, Workspace& w) {
+void refresh_lists(const InterfaceInput& in, Workspace& w) {
   const auto scope = w.timings.scope("contact lists");
-  const State& s = world.state;
-  const contact::Surroundings& around = world.params.around;
-  dcm::refresh_bodies(s.dcm, w.dcm);
-  dcm::refresh_lists(s.dcm, phase.dcm, w.lanes, around, w.dcm);
-  cbm::refresh_pairs(s.cbm, world.params.cbm, phase.cbm, w.cbm_radius, around, w.cbm);
+  dcm::refresh_bodies(in.dcm.state, w.dcm);
+  dcm::refresh_lists(in.dcm, w.dcm);
+  cbm::refresh_pairs(in.cbm, w.cbm);
 }
 
-/// @param wall_time  s, for which moving walls stand
-void search_contacts(const World& world, const PhaseParams& phase, double wall_time, Workspace& w) {
+void search_contacts(const InterfaceInput& in, Workspace& w) {
   const auto scope = w.timings.scope("contacts");
-  const State& s = world.state;
-  const contact::Surroundings& around = world.params.around;
-  const cbm::CellData spheres{w.cbm_radius, w.cbm_strength, w.cbm_mother};
-  dcm::find_contacts(s.dcm, phase.dcm, w.lanes, around, wall_time, w.dcm);
+  dcm::find_contacts(in.dcm, w.dcm, w.contacts);
   w.cbm.overlap_sum.clear();
-  if (cbm::has_correction(world.params.cbm))
-    cbm::find_overlaps(s.cbm, spheres, around, wall_time, w.cbm);
-  find_interface(s.dcm, phase.dcm, w.lanes, s.cbm, w.cbm_radius, w.dcm, w.cbm, w.interface);
-  cbm::find_contacts(s.cbm, world.params.cbm, phase.cbm, spheres, around, wall_time,
-                     cbm_first_row(s), w.cbm, w.system.point_links);
-  add_interface_areas(w.interface, w.cbm);
+  if (cbm::has_correction(in.cbm.params)) cbm::find_overlaps(in.cbm, w.cbm);
+  const InterfaceAreas areas = find_interface(in, w.dcm, w.cbm, w.contacts);
+  cbm::find_contacts(in.cbm, w.cbm, w.contacts, w.system.point_links);
+  add_interface_areas(areas, w.cbm);
 }
 
 /// Friction of every cell with the medium as a whole, nN s/um.
-void sum_medium_friction(const World& world, const PhaseParams& phase, Workspace& w) {
+void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace& w) {
   const State& s = world.state;
-  dcm::compute_medium_areas(s.dcm, phase.dcm, w.lanes, w.dcm, w.medium_area);
+  dcm::compute_medium_areas(in.dcm, w.dcm, w.medium_area);
   w.dcm_medium.assign(s.dcm.n_lane(), 0.0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
@@ -127,8 +130,10 @@ void find_all_contacts(const World& world, double step, Workspace& w) {
   find_references(world.state, end, w);
   apply_constraint(w);
   choose_leaders_of_step(world, w);
-  refresh_lists(world, phase, w);
-  search_contacts(world, phase, clock.phase == Phase::kRun ? end - clock.origin : 0, w);
+  const InterfaceInput in =
+      input_of(world, phase, clock.phase == Phase::kRun ? end - clock.origin : 0, w);
+  refresh_lists(in, w);
+  search_contacts(in, w);
 }
 
 void assemble(const World& world, double step, Workspace& w, Selection selection) {
@@ -136,36 +141,51 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   const State& s = world.state;
   const Params& p = world.params;
   const PhaseParams phase = phase_params(world);
-  const std::size_t first = cbm_first_row(s);
+  const InterfaceInput in = input_of(world, phase, 0, w);
   w.system.friction_scale = selection.friction_factor / step;
   w.system.stiffness_scale = selection.stiffness_scale;
   solve::clear_loads(w.system);
   gather_positions(s, w.position);
-  sum_medium_friction(world, phase, w);
+  sum_medium_friction(world, in, w);
   compute_cell_forces(world, controls_at(s.clock, p.start_up), step, w.dcm_medium, w.cbm_medium,
                       w.leader, w.forces);
 
   dcm::add_loads(s.dcm, p.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);
-  cbm::add_cell_loads(s.cbm, p.cbm, w.cbm_radius, w.cbm, w.forces.cbm, first, w.system);
+  cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   solve::Links& links = w.system.links;
-  dcm::add_contact_loads(s.dcm, p.dcm, phase.dcm, w.lanes, p.around, w.dcm, links);
-  cbm::add_contact_loads(s.cbm, p.cbm, p.around, w.cbm, first, w.system);
+  dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);
+  cbm::add_contact_loads(in.cbm, w.cbm, w.contacts, w.system);
   if (phase.dcm.friction_form == dcm::FrictionForm::kNodes)
-    dcm::add_node_friction(s.dcm, phase.dcm, w.lanes, w.dcm, w.system.point_links);
-  if (selection.interface) add_interface_loads(view_interface(world, phase, w), first, links);
+    dcm::add_node_friction(in.dcm, w.dcm, w.contacts, w.system.point_links);
+  if (selection.interface) add_interface_loads(in, w.dcm, w.cbm.modulus, w.contacts, links);
   add_constraint(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);
 }
 
-std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {
+void list_sphere_pairs(const World& world, Workspace& w) {
   const PhaseParams phase = phase_params(world);
-  return compute_interface_forces(view_interface(world, phase, w));
+  w.contacts.all.resize(w.contacts.sphere_obstacle_end);
+  cbm::list_pairs(input_of(world, phase, 0, w).cbm, w.cbm, w.contacts);
 }
 
-std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& w) {
-  return cbm::list_sphere_contacts(world.state.cbm, world.params.cbm, phase_params(world).cbm,
-                                   {w.cbm_radius, w.cbm_strength, w.cbm_mother}, w.cbm);
+std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {
+  const PhaseParams phase = phase_params(world);
+  return compute_interface_forces(input_of(world, phase, 0, w), w.dcm, w.contacts);
+}
+
+solve::Stencil stencil_of(const World& world, const Workspace& w, const contact::Contact& k) {
+  const PhaseParams phase = phase_params(world);
+  const InterfaceInput in = input_of(world, phase, 0, w);
+  solve::Link link;
+  if (k.point == contact::kWhole) {
+    link.a = solve::Side::at(cbm::cell_point(in.cbm.first_row, static_cast<std::size_t>(k.a)));
+  } else {
+    link.a = dcm::side_a(in.dcm, w.dcm, k);
+  }
+  link.b =
+      k.partner == contact::Partner::kSphere ? sphere_side(in, k) : dcm::side_b(in.dcm, w.dcm, k);
+  return solve::stencil_of(link);
 }
 
 }  // namespace acinus::coupling

@@ -29,7 +29,12 @@ void assemble(const World& world, double step, Workspace& work, Selection select
 /// Forces between deformable cells and spheres, per pair of cells.   @pre assemble
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& work);
 
-/// Contacts between spheres one by one.   @pre find_all_contacts
-std::vector<cbm::SphereContact> sphere_contacts(const World& world, const Workspace& work);
+/// Lists the contacts between spheres, which a step does not need one by one.
+/// @pre find_all_contacts
+void list_sphere_pairs(const World& world, Workspace& work);
+
+/// The unknowns of both sides of a contact.   @pre find_all_contacts
+solve::Stencil stencil_of(const World& world, const Workspace& work,
+                          const contact::Contact& contact);
 
 }  // namespace acinus::coupling

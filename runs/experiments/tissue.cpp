@@ -90,7 +90,7 @@ void sample_interface(const Moment& moment, Measures& m) {
   }
   m["interface_pairs"].push_back(pairs);
   m["interface_force_nN"].push_back(force);
-  m["interface_residual"].push_back(coupling::interface_residual(moment.work));
+  m["interface_residual"].push_back(coupling::interface_residual(moment.world, moment.work));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(Correction, ADeepPairIsHeldApartAndItsStiffnessIsTheSlopeOfItsForce) {
     ASSERT_EQ(s.links().size(), 1u);
     // Links are kept in floats; what d adds for all contacts together is a bound on top.
     EXPECT_NEAR(s.links()[0].stiffness / slope, 1, 1e-5) << overlap;
-    EXPECT_NEAR(s.sphere[0].law.force, s.force(1).x(), 1e-12 * s.force(1).x());
+    EXPECT_NEAR(s.sphere()[0].force, s.force(1).x(), 1e-12 * s.force(1).x());
     EXPECT_EQ(s.force(0), Vec3(-s.force(1)));
   }
 }
@@ -236,13 +236,13 @@ TEST(Correction, StiffensTheCentralCell) {
   stiff.find();
   const double d = relative_overlap(stiff.work, 0);
   double sum = 0;
-  for (const SphereContact& c : stiff.sphere)
-    if (c.a == 0 || c.b == 0) sum += std::max(0.0, c.overlap / 24);
+  for (const contact::Contact& c : stiff.sphere())
+    if (c.a == 0 || c.b == 0) sum += std::max(0.0, -c.gap / 24);
   EXPECT_NEAR(d, sum / 12, 1e-13);
   EXPECT_GT(d, 0.1);
   EXPECT_NEAR(stiff.work.modulus[0].value, 0.45 + kA1 * std::pow(d, 4), 1e-12);
   EXPECT_EQ(soft.work.modulus[0].value, 0.45);
-  EXPECT_GT(stiff.sphere[0].law.force, 3 * soft.sphere[0].law.force);
+  EXPECT_GT(stiff.sphere()[0].force, 3 * soft.sphere()[0].force);
 }
 
 /// The same step with the matrix of moduli held fixed.

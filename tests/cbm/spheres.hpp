@@ -2,6 +2,7 @@
 /// Spheres in contact, made without a scene.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cbm/contact.hpp"
@@ -18,8 +19,8 @@ struct Spheres {
   double time = 0;
   ContactWorkspace work;
   solve::System system;
-  std::vector<SphereContact> sphere;  ///< of the last find()
-  std::vector<std::int64_t> mother;   ///< empty: all are sisters
+  contact::ContactList contacts;     ///< of the last find()
+  std::vector<std::int64_t> mother;  ///< empty: all are sisters
 
   explicit Spheres(const std::vector<NewCell>& cells) : state(make_state(cells)) {
     params[0].adhesion = 0.01;
@@ -30,14 +31,18 @@ struct Spheres {
   std::vector<double> radius() const { return radii_at(state, time); }
   void find() {
     const std::vector<double> r = radius(), strength = strengths_at(state, time);
-    refresh_pairs(state, params, options, r, around, work);
+    const ContactInput in{state, params, options, {r, strength, mother}, around, time, 0};
+    refresh_pairs(in, work);
     solve::set_blocks(system, make_blocks(state));
-    find_overlaps(state, {r, strength, mother}, around, time, work);
-    find_contacts(state, params, options, {r, strength, mother}, around, time, 0, work,
-                  system.point_links);
-    add_contact_loads(state, params, around, work, 0, system);
-    sphere = list_sphere_contacts(state, params, options, {r, strength, mother}, work);
+    find_overlaps(in, work);
+    contacts.all.clear();
+    contacts.interface_end = 0;
+    find_contacts(in, work, contacts, system.point_links);
+    add_contact_loads(in, work, contacts, system);
+    list_pairs(in, work, contacts);
   }
+  std::span<const contact::Contact> sphere() const { return contacts.sphere(); }
+  std::span<const contact::Contact> obstacle() const { return contacts.sphere_obstacle(); }
   /// Links of what touches; near pairs that do not have links of zeros.
   std::vector<solve::PointLink> links() const {
     std::vector<solve::PointLink> out;

@@ -87,10 +87,10 @@ std::vector<Vec3> forces_on_spheres(const World& w, const Workspace& work) {
   return f;
 }
 
-double deepest_overlap(const World& w, const Workspace& work) {
+double deepest_overlap(const World& w, Workspace& work) {
   double overlap = 0;
-  for (const cbm::SphereContact& c : sphere_contacts(w, work))
-    overlap = std::max(overlap, c.overlap);
+  list_sphere_pairs(w, work);
+  for (const contact::Contact& c : work.contacts.sphere()) overlap = std::max(overlap, -c.gap);
   return overlap;
 }
 

@@ -152,8 +152,8 @@ TEST(Touching, PairsAndClustersOfCells) {
 
 TEST(Interface, ExertsNoNetForceOnBothModelsTogether) {
   const Observed o = observed(make_test_world(checkered_cube(22.5)));
-  ASSERT_FALSE(o.work.interface.contact.empty());
-  EXPECT_LT(interface_residual(o.work), 1e-14);
+  ASSERT_FALSE(o.work.contacts.interface().empty());
+  EXPECT_LT(interface_residual(o.world, o.work), 1e-14);
 }
 
 TEST(Reactions, DoNotDependOnTheNumberOfThreads) {

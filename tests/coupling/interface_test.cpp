@@ -121,8 +121,8 @@ TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
   EXPECT_NEAR(find_compliance(5, plain, 0.48).stiffness, 5 * winkler / (5 + winkler), 1e-15);
   EXPECT_EQ(find_compliance(5, plain, 0.48).slope, 0);
   EXPECT_EQ(find_compliance(5, plain, 0).stiffness,
-            find_compliance(5, plain, 12 * kLeastDent).stiffness);
-  EXPECT_EQ(find_compliance(5, plain, 12 * kMostDent).stiffness,
+            find_compliance(5, plain, 12 * kLeastDepth).stiffness);
+  EXPECT_EQ(find_compliance(5, plain, 12 * kMostDepth).stiffness,
             find_compliance(5, plain, 12 * 0.3).stiffness);
 }
 
@@ -145,7 +145,7 @@ TEST(Interface, ACalibratedSphereHardensUnderADentDeeperThanItsOverlap) {
     const double now = find_compliance(5, sphere, 12 * d).stiffness;
     EXPECT_LT(std::abs(now - before), 0.04 * before);
     before = now;
-    if (d < kMostDent + 1e-4) continue;
+    if (d < kMostDepth + 1e-4) continue;
     EXPECT_GT(now, 1.5 * find_compliance(5, frozen, 12 * d).stiffness);
     const double step = 1e-4, above = find_compliance(5, sphere, 12 * d + step).stiffness,
                  below = find_compliance(5, sphere, 12 * d - step).stiffness;

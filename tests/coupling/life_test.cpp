@@ -402,7 +402,7 @@ TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
       EXPECT_EQ(lineages(w.state).size(), cells.size() - (dead ? 2 : 0));
     }
     EXPECT_TRUE(work.dcm.lists.pair.empty());
-    EXPECT_TRUE(work.dcm.surface.empty());
+    EXPECT_TRUE(work.contacts.surface().empty());
   }
 }
 

@@ -32,9 +32,9 @@ TEST(ContactForce, OfACellBetweenTwoIsTheSumOfBoth) {
   const Observed o = observe_cells(
       make_test_world({{Vec3(-22, 0, 0), false}, {Vec3::Zero(), false}, {Vec3(0, 23, 0), false}}));
   double left = 0, top = 0;
-  for (const cbm::SphereContact& c : sphere_contacts(o.world, o.work)) {
-    if (std::min(c.a, c.b) == 0 && std::max(c.a, c.b) == 1) left = std::abs(c.law.force);
-    if (std::min(c.a, c.b) == 1 && std::max(c.a, c.b) == 2) top = std::abs(c.law.force);
+  for (const contact::Contact& c : o.work.contacts.sphere()) {
+    if (std::min(c.a, c.b) == 0 && std::max(c.a, c.b) == 1) left = std::abs(c.force);
+    if (std::min(c.a, c.b) == 1 && std::max(c.a, c.b) == 2) top = std::abs(c.force);
   }
   EXPECT_GT(left, 0);
   EXPECT_GT(top, 0);

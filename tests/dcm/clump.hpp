@@ -1,6 +1,7 @@
 #pragma once
 /// Touching cells for the tests of contact.
 
+#include <span>
 #include <vector>
 
 #include "core/solve/system.hpp"
@@ -17,7 +18,12 @@ struct Clump {
   double time = 0;
   LaneData lanes;
   ContactWorkspace work;
+  contact::ContactList contacts;
   solve::Links links;
+
+  ContactInput input() const { return {state, params, options, lanes, around, time}; }
+  std::span<const contact::Contact> surface() const { return contacts.surface(); }
+  std::span<const contact::Contact> obstacle() const { return contacts.obstacle(); }
 
   void add_cells(const std::vector<NewCell>& cells) {
     state = make_state(cells);
@@ -30,10 +36,10 @@ struct Clump {
     work.fixed.clear();
     for (const contact::StaticMesh& m : around.meshes) work.fixed.push_back(m.body);
     refresh_bodies(state, work);
-    refresh_lists(state, options, lanes, around, work);
-    find_contacts(state, options, lanes, around, time, work);
+    refresh_lists(input(), work);
+    find_contacts(input(), work, contacts);
     links.clear();
-    add_contact_loads(state, params, options, lanes, around, work, links);
+    add_contact_loads(input(), work, contacts, links);
   }
   /// Contacts as if no list had been made before.
   void find_afresh() {

@@ -78,7 +78,7 @@ TEST(ContactLoads, FlatPatchesTakeTheWorkOfAdhesionToPart) {
     c.find();
     double pull = 0;
     for (std::size_t l = 0; l < c.links.size(); ++l)
-      if (c.work.surface[l].body_a == 0) pull += c.force(l).z();
+      if (c.surface()[l].a == 0) pull += c.force(l).z();
     // The pull is a cubic of the gap that vanishes at both ends of the range: Simpson's rule.
     const double work = 2 * range / 6 * 4 * pull;
     double touched = 0;

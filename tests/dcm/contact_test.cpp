@@ -51,14 +51,12 @@ TEST(ContactLoads, PairsBalanceForceAndTorque) {
 
 /// Energy of one contact, fJ.
 double contact_energy(const Clump& c, std::size_t link, double gap) {
-  const bool is_surface = link < c.work.surface.size();
-  const auto& surface = c.work.surface;
-  const int body = is_surface ? surface[link].body_a : c.work.obstacle[link - surface.size()].body;
-  const int point = is_surface ? surface[link].point : c.work.obstacle[link - surface.size()].point;
+  const contact::Contact& k = c.contacts.all[link];
+  const int body = k.a, point = k.point;
   const std::size_t lane = c.work.lane_of_body[static_cast<std::size_t>(body)];
   const mesh::Topology& t = *c.state.group[lane / kLanes].topology;
   const double radius = c.lanes.radius[lane];
-  if (!is_surface && c.work.obstacle[link - surface.size()].guard) {
+  if (k.guard) {
     // A node or face centre more than 0.05 um inside: a quarter of its area, repulsion alone.
     const auto n_node = static_cast<std::size_t>(t.n_node), p = static_cast<std::size_t>(point);
     const double rest = p < n_node ? t.rest_node_area[p] : t.rest_triangle_area[p - n_node];
@@ -66,19 +64,15 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
     return 0.25 * rest * radius * radius * 0.5 * c.options.repulsion * depth * depth;
   }
   double adhesion = c.params[0].adhesion, weight = 1;
-  if (is_surface && surface[link].body_b < static_cast<int>(c.work.body.size())) {
+  if (k.partner == contact::Partner::kSurface) {
     weight = 0.5;  // the other side probes as well
   } else {
-    const auto kind =
-        is_surface ? contact::SurroundingKind::kMesh : c.work.obstacle[link - surface.size()].kind;
-    const auto index =
-        is_surface ? 0 : static_cast<std::size_t>(c.work.obstacle[link - surface.size()].index);
-    if (kind == contact::SurroundingKind::kPlane)
-      adhesion = c.around.planes[index].material.adhesion;
-    if (kind == contact::SurroundingKind::kCapsule)
-      adhesion = c.around.capsules[index].material.adhesion;
-    if (kind == contact::SurroundingKind::kVessel) adhesion = c.around.vessels.material.adhesion;
-    if (kind == contact::SurroundingKind::kMesh) adhesion = c.around.meshes[0].material.adhesion;
+    const contact::Partner kind = k.partner;
+    const auto index = static_cast<std::size_t>(k.b);
+    if (kind == contact::Partner::kPlane) adhesion = c.around.planes[index].material.adhesion;
+    if (kind == contact::Partner::kCapsule) adhesion = c.around.capsules[index].material.adhesion;
+    if (kind == contact::Partner::kVessel) adhesion = c.around.vessels.material.adhesion;
+    if (kind == contact::Partner::kMesh) adhesion = c.around.meshes[0].material.adhesion;
   }
   const double area = rest_share(t, c.options.quadrature, point);
   return weight * area * radius * radius *
@@ -130,10 +124,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
           (contact_energy(c, down, more[up]) - contact_energy(c, down, less[down])) / (2 * h);
       EXPECT_EQ(links.link[l].gap, static_cast<float>(gap[l]));
       ++tried;
-      const bool mesh = before[l][2] >= static_cast<int>(c.work.body.size());
-      const std::size_t kind = before[l][2] < 0 ? static_cast<std::size_t>(-1 - before[l][2])
-                               : mesh           ? 3
-                                                : 4;
+      const auto kind = static_cast<std::size_t>(before[l][2] / kPartner);
       ++kinds[kind];
       worst[kind] = std::max(worst[kind], std::abs(work + slope) / scale);
     }
@@ -195,13 +186,9 @@ TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
         ++pairs;
         continue;
       }
-      const bool is_surface = l < c.work.surface.size();
-      const auto& body = c.work.body[static_cast<std::size_t>(
-          is_surface ? c.work.surface[l].body_a : c.work.obstacle[l - c.work.surface.size()].body)];
-      const contact::PointStencil point =
-          is_surface
-              ? contact::point_stencil(body, q, c.work.surface[l].point)
-              : obstacle_stencil(c.options, body, c.work.obstacle[l - c.work.surface.size()]);
+      const contact::Contact& k = c.contacts.all[l];
+      const auto& body = c.work.body[static_cast<std::size_t>(k.a)];
+      const contact::PointStencil point = stencil_of(c.options, body, k);
       worst = std::max(worst, (r - contact::point_position(body, point)).norm());
     }
     std::printf("sides of %zu pairs against their gaps %.1e um\n", pairs, worst);
@@ -228,7 +215,7 @@ void expect_turning(contact::Quadrature quadrature) {
   int ties = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
     const double change = (turned.force(l) - q * c.force(l)).norm();
-    if (c.work.surface[l].triangle_b != turned.work.surface[l].triangle_b) {
+    if (c.surface()[l].triangle != turned.surface()[l].triangle) {
       worst_tie = std::max(worst_tie, change);
       ++ties;
       continue;
@@ -276,7 +263,7 @@ TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
     c.options.whole_medium_area = true;
     c.find();
     std::vector<double> medium_area;
-    compute_medium_areas(c.state, c.options, c.lanes, c.work, medium_area);
+    compute_medium_areas(c.input(), c.work, medium_area);
     for (std::size_t lane : c.work.lane_of_body) {
       const dcm::Group& g = c.state.group[lane / kLanes];
       double sum = 0;
@@ -296,7 +283,7 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     c.options.quadrature = q;
     c.find();
     std::vector<double> medium_area;
-    compute_medium_areas(c.state, c.options, c.lanes, c.work, medium_area);
+    compute_medium_areas(c.input(), c.work, medium_area);
     std::vector<double> touching(c.work.body.size());
     double most = 0;
     for (std::size_t k = 0; k < c.work.share.size(); ++k)
@@ -308,10 +295,10 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
           point_area(*c.work.body[k].topology, q, point, c.lanes.radius[c.work.lane_of_body[k]]) *
           share_scale(total) * contact::contact_share(gap, c.options.friction_range);
     };
-    for (const auto& s : c.work.surface)
-      if (s.body_a != s.body_b) count(s.body_a, s.point, s.gap);
-    for (const auto& o : c.work.obstacle)
-      if (!o.only_pushes()) count(o.body, o.point, o.gap);
+    for (const auto& s : c.surface())
+      if (!s.is_fold()) count(s.a, s.point, s.gap);
+    for (const auto& o : c.obstacle())
+      if (!o.only_pushes()) count(o.a, o.point, o.gap);
     double worst = 0;
     for (std::size_t k = 0; k < touching.size(); ++k) {
       const std::size_t lane = c.work.lane_of_body[k];
@@ -345,22 +332,17 @@ TEST(ContactLoads, FrictionIsAreaTimesShare) {
   const auto gap = gaps_of(c);
   double most = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
-    const bool is_surface = l < c.work.surface.size();
-    const auto k = static_cast<std::size_t>(
-        is_surface ? c.work.surface[l].body_a : c.work.obstacle[l - c.work.surface.size()].body);
-    const int point =
-        is_surface ? c.work.surface[l].point : c.work.obstacle[l - c.work.surface.size()].point;
+    const contact::Contact& contact = c.contacts.all[l];
+    const auto k = static_cast<std::size_t>(contact.a);
+    const int point = contact.point;
     const solve::Link& link = c.links.link[l];
-    if (!is_surface && c.work.obstacle[l - c.work.surface.size()].guard) {
+    if (contact.guard) {
       EXPECT_EQ(link.friction, 0);
       EXPECT_FALSE(link.b.exists());
       continue;
     }
-    const bool pair = is_surface && c.work.surface[l].body_b < static_cast<int>(c.work.body.size());
-    const bool mirror =
-        !is_surface &&
-        c.work.obstacle[l - c.work.surface.size()].kind == contact::SurroundingKind::kPlane &&
-        c.work.obstacle[l - c.work.surface.size()].index == 1;
+    const bool pair = contact.partner == contact::Partner::kSurface;
+    const bool mirror = contact.partner == contact::Partner::kPlane && contact.b == 1;
     const double total = c.work.share[k][static_cast<std::size_t>(point)];
     const double touching = point_area(*c.work.body[k].topology, c.options.quadrature, point,
                                        c.lanes.radius[c.work.lane_of_body[k]]) *

@@ -33,7 +33,7 @@ TEST(ObstacleContacts, AVesselTipInTheMiddleOfAFaceIsPushedOut) {
     double deepest = 0;
     for (std::size_t l = 0; l < c.links.size(); ++l) {
       push += c.force(l);
-      deepest = std::min(deepest, c.work.obstacle[l].gap);
+      deepest = std::min(deepest, c.obstacle()[l].gap);
     }
     EXPECT_NEAR(deepest, -depth, 1e-12);
     EXPECT_LT(push.dot(out), -0.1) << "nN, away from the vessel";

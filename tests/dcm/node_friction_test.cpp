@@ -19,7 +19,7 @@ namespace {
 
 std::vector<solve::PointLink> node_links(const Clump& c) {
   std::vector<solve::PointLink> links;
-  add_node_friction(c.state, c.options, c.lanes, c.work, links);
+  add_node_friction(c.input(), c.work, c.contacts, links);
   return links;
 }
 

@@ -59,17 +59,19 @@ inline Clump make_surrounded_clump(std::uint64_t seed) {
 
 inline std::vector<double> gaps_of(const Clump& c) {
   std::vector<double> g;
-  for (const auto& s : c.work.surface) g.push_back(s.gap);
-  for (const auto& o : c.work.obstacle) g.push_back(o.gap);
+  for (const contact::Contact& k : c.contacts.all) g.push_back(k.gap);
   return g;
 }
 
-/// Who meets whom, to tell whether a small move kept the closest features.
+/// Distance of the numbers of partners of different kinds.
+inline constexpr int kPartner = 1000000;
+
+/// What meets what, to tell whether a small move kept the closest features.
 inline std::vector<std::array<int, 4>> features_of(const Clump& c) {
   std::vector<std::array<int, 4>> f;
-  for (const auto& s : c.work.surface) f.push_back({s.body_a, s.point, s.body_b, s.triangle_b});
-  for (const auto& o : c.work.obstacle)
-    f.push_back({o.body, o.guard ? -1 - o.point : o.point, -1 - static_cast<int>(o.kind), o.index});
+  for (const contact::Contact& k : c.contacts.all)
+    f.push_back({k.a, k.guard ? -1 - k.point : k.point,
+                 static_cast<int>(k.partner) * kPartner + k.b, k.triangle});
   return f;
 }
 

@@ -69,16 +69,16 @@ TEST(VesselWall, MatrixIsOnceToTwiceAsStiffAsTheContact) {
 
 TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
   const Clump c = cell_on_vessel(0.6, 0.4);
-  ASSERT_EQ(c.links.size(), c.work.obstacle.size());
+  ASSERT_EQ(c.links.size(), c.obstacle().size());
   std::vector<double> deepest(2, 0.0);
-  for (const ObstacleContact& o : c.work.obstacle)
-    deepest[static_cast<std::size_t>(o.index)] =
-        std::max(deepest[static_cast<std::size_t>(o.index)], -o.gap);
+  for (const contact::Contact& o : c.obstacle())
+    deepest[static_cast<std::size_t>(o.b)] =
+        std::max(deepest[static_cast<std::size_t>(o.b)], -o.gap);
   EXPECT_GT(std::max(deepest[0], deepest[1]), 0.1);
   int pressed = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
-    const ObstacleContact& o = c.work.obstacle[l];
-    const double k = wall_stiffness(5, wall(0.6), 4.7, deepest[static_cast<std::size_t>(o.index)]);
+    const contact::Contact& o = c.obstacle()[l];
+    const double k = wall_stiffness(5, wall(0.6), 4.7, deepest[static_cast<std::size_t>(o.b)]);
     if (o.only_pushes()) continue;
     EXPECT_EQ(o.stiffness, k);
     if (o.gap >= 0) continue;
@@ -93,14 +93,14 @@ TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
 // At the stiffness of the start of the step, with adhesion: -F . dx = E(x + dx) - E(x - dx).
 void expect_energy_gradient(double deepest) {
   Clump c = cell_on_vessel(0.6, deepest, 0.01);
-  const std::vector<ObstacleContact> start = c.work.obstacle;
+  const std::vector<contact::Contact> start = c.contacts.all;
   const solve::Links links = c.links;
   const mesh::Topology& t = mesh::shared_icosphere(162);
   const auto energy = [&](std::size_t l) {
-    const ObstacleContact& o = start[l];
+    const contact::Contact& o = start[l];
     const Vec3 x =
-        contact::point_position(c.work.body[0], obstacle_stencil(c.options, c.work.body[0], o));
-    const double gap = contact::gap_to_segment(c.around.vessels.network, o.index, x).gap;
+        contact::point_position(c.work.body[0], stencil_of(c.options, c.work.body[0], o));
+    const double gap = contact::gap_to_segment(c.around.vessels.network, o.b, x).gap;
     if (o.only_pushes()) {
       const double depth = std::max(0.0, -gap - o.onset);
       const double area =
@@ -148,7 +148,7 @@ TEST(VesselWall, YieldsBy15PercentOfItsRadiusAndNoMore) {
   const Clump c = cell_on_vessel(0.6, 1.2);
   int stops = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
-    const ObstacleContact& o = c.work.obstacle[l];
+    const contact::Contact& o = c.obstacle()[l];
     if (o.guard || o.onset == 0) continue;
     ++stops;
     const double area = point_area(mesh::shared_icosphere(162), c.options.quadrature, o.point, 12);
@@ -167,7 +167,7 @@ TEST(VesselWall, YieldsBy15PercentOfItsRadiusAndNoMore) {
 TEST(VesselWall, ARigidOneIsTheLawWithoutAWall) {
   const Clump rigid = cell_on_vessel(kInfinite, 0.4), stiff = cell_on_vessel(1e9, 0.4);
   for (std::size_t l = 0; l < rigid.links.size(); ++l)
-    EXPECT_EQ(rigid.work.obstacle[l].stiffness, rigid.options.repulsion);
+    EXPECT_EQ(rigid.obstacle()[l].stiffness, rigid.options.repulsion);
   EXPECT_NEAR(lift(stiff) / lift(rigid), 1, 1e-6);
 }
 

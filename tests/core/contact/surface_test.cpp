@@ -42,9 +42,9 @@ std::vector<Candidates> find_candidates(const std::vector<SurfaceBody>& bodies,
   return lists;
 }
 
-std::vector<SurfaceContact> find_all(const std::vector<SurfaceBody>& bodies, const SearchOptions& o,
-                                     const std::vector<SurfaceBody>& fixed = {}) {
-  std::vector<SurfaceContact> out;
+std::vector<Contact> find_all(const std::vector<SurfaceBody>& bodies, const SearchOptions& o,
+                              const std::vector<SurfaceBody>& fixed = {}) {
+  std::vector<Contact> out;
   for (const Candidates& c : find_candidates(bodies, fixed, o))
     find_contacts(c, bodies, fixed, o, 0, out);
   return out;
@@ -149,24 +149,24 @@ TEST(FindContacts, GapsAreThoseOfTryingEveryTriangle) {
       std::vector<std::vector<int>> seen(
           2, std::vector<int>(n_sites(bodies[0], q) * static_cast<std::size_t>(points_per_site(q)),
                               0));
-      for (const SurfaceContact& c : contacts) {
-        const SurfaceBody& a = bodies[static_cast<std::size_t>(c.body_a)];
-        const SurfaceBody& b = bodies[static_cast<std::size_t>(c.body_b)];
+      for (const Contact& c : contacts) {
+        const SurfaceBody& a = bodies[static_cast<std::size_t>(c.a)];
+        const SurfaceBody& b = bodies[static_cast<std::size_t>(c.b)];
         const Vec3 x = point_position(a, point_stencil(a, q, c.point));
         worst = std::max(
             worst, std::abs(c.gap - reference::plain_signed_distance(x, b.node, *b.triangle)));
-        const auto& corner = (*b.triangle)[static_cast<std::size_t>(c.triangle_b)];
+        const auto& corner = (*b.triangle)[static_cast<std::size_t>(c.triangle)];
         const auto weight = c.weights();
         Vec3 closest = Vec3::Zero();
         for (std::size_t m = 0; m < 3; ++m)
           closest += weight[m] * b.node[static_cast<std::size_t>(corner[m])];
-        EXPECT_EQ(weight[0], static_cast<double>(c.weight_b[0]));
-        EXPECT_EQ(weight[1], static_cast<double>(c.weight_b[1]));
+        EXPECT_EQ(weight[0], static_cast<double>(c.place[0]));
+        EXPECT_EQ(weight[1], static_cast<double>(c.place[1]));
         EXPECT_NEAR(weight[0] + weight[1] + weight[2], 1, 1e-14);
         // gap and normal are exact for the place that the rounded weights name
         EXPECT_LT((closest + c.gap * c.normal - x).norm(), 1e-12);
         EXPECT_NEAR(c.normal.norm(), 1, 1e-14);
-        ++seen[static_cast<std::size_t>(c.body_a)][static_cast<std::size_t>(c.point)];
+        ++seen[static_cast<std::size_t>(c.a)][static_cast<std::size_t>(c.point)];
         ++n_contact;
         n_inside += c.gap < 0 ? 1 : 0;
       }
@@ -257,15 +257,15 @@ TEST(FindContacts, OldListsFindWhatNewListsFind) {
       for (Vec3& x : b.node) x += random.uniform(0, 0.15) * random.unit_vector();
       refresh_body(b);
     }
-    std::vector<SurfaceContact> old;
+    std::vector<Contact> old;
     for (const Candidates& c : lists) find_contacts(c, bodies, {}, o, 0.3, old);
     const auto fresh = find_all(bodies, o);
     ASSERT_EQ(old.size(), fresh.size());
     for (std::size_t i = 0; i < old.size(); ++i) {
-      EXPECT_EQ(old[i].body_a, fresh[i].body_a);
+      EXPECT_EQ(old[i].a, fresh[i].a);
       EXPECT_EQ(old[i].point, fresh[i].point);
-      EXPECT_EQ(old[i].body_b, fresh[i].body_b);
-      EXPECT_EQ(old[i].triangle_b, fresh[i].triangle_b);
+      EXPECT_EQ(old[i].b, fresh[i].b);
+      EXPECT_EQ(old[i].triangle, fresh[i].triangle);
       EXPECT_EQ(old[i].gap, fresh[i].gap);
       EXPECT_EQ(old[i].normal, fresh[i].normal);
     }
@@ -289,9 +289,9 @@ TEST(FindContacts, FixedBodiesAreProbedButDoNotProbe) {
   const std::vector<SurfaceBody> fixed{make_body(sphere_nodes(162, 10, {0, 0, 20.1}, one), 162)};
   const auto contacts = find_all(bodies, {Quadrature::kThreePoint, 0.9, 1.5, 0.3, 0}, fixed);
   EXPECT_FALSE(contacts.empty());
-  for (const SurfaceContact& c : contacts) {
-    EXPECT_EQ(c.body_a, 0);
-    EXPECT_EQ(c.body_b, 1);
+  for (const Contact& c : contacts) {
+    EXPECT_EQ(c.a, 0);
+    EXPECT_EQ(c.b, 0);
   }
 }
 
@@ -319,14 +319,14 @@ TEST(SelfContact, HorseshoeMeetsItself) {
       const auto contacts = find_all(bodies, {q, 0.9, 1.5, 0.3, 0.3});
       std::printf("horseshoe open by %.2f um: %zu self contacts\n", opening, contacts.size());
       EXPECT_GT(contacts.size(), 10u);
-      for (const SurfaceContact& c : contacts) {
-        EXPECT_EQ(c.body_a, c.body_b);
+      for (const Contact& c : contacts) {
+        EXPECT_EQ(c.a, c.b);
         EXPECT_GT(c.gap, 0);
         EXPECT_LT(c.gap, 0.3);
         const Vec3 x = point_position(bodies[0], point_stencil(bodies[0], q, c.point));
         EXPECT_LT(x.y(), 0) << "only the ends meet";
         EXPECT_LT(facing_of(bodies[0], q, c.point)
-                      .dot(bodies[0].triangle_normal[static_cast<std::size_t>(c.triangle_b)]),
+                      .dot(bodies[0].triangle_normal[static_cast<std::size_t>(c.triangle)]),
                   0.2);
       }
     }
