@@ -35,17 +35,17 @@ Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double t
 }
 
 void compute_cell_forces(const World& world, const Controls& controls, double step,
-                         std::span<const double> dcm_medium, std::span<const double> cbm_medium,
-                         std::span<const std::uint8_t> leader, CellForces& forces) {
+                         const MediumFriction& medium, std::span<const std::uint8_t> leader,
+                         CellForces& forces) {
   const State& s = world.state;
   const Motility& m = world.params.motility;
   forces.dcm.assign(s.dcm.n_lane(), Vec3::Zero());
   forces.cbm.assign(s.cbm.n_cell(), Vec3::Zero());
   if (!controls.motility) return;
   const double time = s.clock.time - s.clock.origin;
-  auto active = [&](std::int64_t lineage, double diffusion, double medium) {
+  auto active = [&](std::int64_t lineage, double diffusion, double friction) {
     if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
-    Vec3 force = medium * std::sqrt(2 * diffusion / m.grid) *
+    Vec3 force = friction * std::sqrt(2 * diffusion / m.grid) *
                  mean_random(m.seed, lineage, m.grid, time, step);
     if (m.in_plane) force.z() = 0;
     return force;
@@ -54,14 +54,14 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
     const dcm::Params& p = world.params.dcm[static_cast<std::size_t>(s.dcm.group[l / kLanes].type)];
-    forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, dcm_medium[l]);
+    forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
     if (m.leader_force > 0 && leader[l])
       forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
   }
 #pragma omp parallel for schedule(static) if (s.cbm.n_cell() > kParallelCells)
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
     const cbm::Params& p = world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])];
-    forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, cbm_medium[c]);
+    forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
     if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
       forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
   }

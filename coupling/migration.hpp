@@ -19,12 +19,16 @@ struct CellForces {
   std::vector<Vec3> dcm, cbm;
 };
 
+/// Friction of each cell with the medium, nN s/um.
+struct MediumFriction {
+  std::vector<double> dcm, cbm;
+};
+
 /// Adds everything active. Random force of a component: Gamma_med sqrt(2 D / grid) xi, with
 /// Gamma_med the cell's present friction with the medium alone. [VanLiedekerke2020, Eq. (1) term 9
 /// and Eq. (19), with the noise of docs/decisions/0004.md]
-/// @param dcm_medium, cbm_medium  friction of each cell with the medium, nN s/um
 void compute_cell_forces(const World& world, const Controls& controls, double step,
-                         std::span<const double> dcm_medium, std::span<const double> cbm_medium,
-                         std::span<const std::uint8_t> leader, CellForces& forces);
+                         const MediumFriction& medium, std::span<const std::uint8_t> leader,
+                         CellForces& forces);
 
 }  // namespace acinus::coupling

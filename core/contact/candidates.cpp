@@ -304,7 +304,7 @@ class ListBuilder {
     constexpr double kAnywhere = 1e150;
     const double turn = 2 * o_.skin + kRounding;  // of two triangles, which is the closer
     wide_distance_.assign(n_wide_, std::numeric_limits<float>::infinity());
-    find_closest(*b_, wide_triangle_, wide_bound_, turn, kAnywhere, block_, wide_distance_);
+    find_closest(*b_, {wide_triangle_, wide_bound_}, turn, kAnywhere, block_, wide_distance_);
     find_gaps(*b_, Place::kExact, block_);
     std::size_t end = list_->triangle.size();
     list_->triangle.resize(end + n_wide_ + 1);
@@ -428,7 +428,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
   int point[PointBlock::kSize];
   std::size_t looked = 0;
   auto flush = [&] {
-    find_closest(b, list.triangle, list.bound, shift, horizon, block);
+    find_closest(b, {list.triangle, list.bound}, shift, horizon, block);
     // On a fixed body, which has no unknowns, the exact place: it may be far from its corners.
     find_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
     for (int i = 0; i < block.n; ++i) {

@@ -169,9 +169,10 @@ ACINUS_KERNEL void compute_gaps(const double* node, const double* node_normal,
 
 }  // namespace
 
-void find_closest(const SurfaceBody& b, std::span<const int> triangle, std::span<const float> bound,
-                  double shift, double horizon, PointBlock& p, std::span<float> distance) {
-  Measurer pairs(b, triangle, distance, p);
+void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, double shift,
+                  double horizon, PointBlock& p, std::span<float> distance) {
+  const std::span<const float> bound = candidates.bound;
+  Measurer pairs(b, candidates.triangle, distance, p);
   for (int i = 0; i < p.n; ++i) {
     p.squared[i] = horizon * horizon;
     p.triangle[i] = -1;

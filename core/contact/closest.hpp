@@ -31,15 +31,20 @@ struct alignas(64) PointBlock {
   double normal[3][kSize];   ///< unit, d gap / d x
 };
 
+/// Triangles that may be the closest, and a lower bound of the distance of each, um.
+struct ListedTriangles {
+  std::span<const int> triangle;
+  std::span<const float> bound;
+};
+
 /// Closest of its candidate triangles to each point of the block; of triangles at the same distance
 /// the one with the lowest number.
-/// @param triangle, bound  candidates, and a lower bound of the distance of each, um
 /// @param shift            um, how much closer than its bound a triangle may be
 /// @param horizon          um: triangles as far as this are not found
 /// @param distance         um, of each candidate, written for those closer by their bound than
 ///                         the closest and the shift; may be empty
-void find_closest(const SurfaceBody& b, std::span<const int> triangle, std::span<const float> bound,
-                  double shift, double horizon, PointBlock& block, std::span<float> distance = {});
+void find_closest(const SurfaceBody& b, const ListedTriangles& candidates, double shift,
+                  double horizon, PointBlock& block, std::span<float> distance = {});
 
 enum class Place {
   kRounded,  ///< that which the rounded weights name

@@ -22,16 +22,6 @@ constexpr int kMergeAfter = 16;
 /// Relative residual at which a solve that rounding stopped counts as solved all the same.
 constexpr double kHarmless = 1e-3;
 
-/// Clears the entries outside the range.
-template <class T>
-void restrict_to(const System& s, BlockRange range, std::vector<T>& v) {
-  const std::size_t n = s.block.size();
-  const std::size_t first = range.first < n ? s.block[range.first].first_row : s.n_row;
-  const std::size_t last = range.last < n ? s.block[range.last].first_row : s.n_row;
-  std::fill_n(v.begin(), first * kPointStride, T{0});
-  std::fill(v.begin() + static_cast<std::ptrdiff_t>(last * kPointStride), v.end(), T{0});
-}
-
 /// y = A x over all ranks; returns x . y.
 double apply_distributed(const Operator& op, std::span<double> x, std::span<double> y) {
   op.system().halo.update(x);
@@ -48,33 +38,37 @@ bool is_size(double rho) { return std::isfinite(rho) && rho >= 0; }
 
 enum class PassEnd { kReached, kBrokeDown, kOutOfIterations };
 
-/// Iterates on A e = residual / size from e = 0 until sqrt(r . z) <= goal. The scale keeps floats
-/// away from underflow.
+/// What a pass starts from and where it ends.
+struct PassPlan {
+  double size = 1;  ///< of the residual: the scale keeps floats away from underflow
+  double goal = 0;  ///< on sqrt(r . z), after scaling
+  int max_iterations = 0;
+  const CoarseSpace* coarse = nullptr;
+};
+
+/// Iterates on A e = residual / size from e = 0 until the goal.
 template <class T>
-PassEnd run_pass(Operator& op, std::span<const double> residual, double size, double goal,
-                 const CgOptions& options, bool whole, BlockRange range, const CoarseSpace* coarse,
+PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan& plan,
                  int& iterations, CgVectors<T>& v) {
   const std::size_t n = residual.size();
   for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
     a->resize(n);
   for_each_number(n, [&](std::size_t k) {
     v.correction[k] = 0;
-    v.residual[k] = static_cast<T>(residual[k] / size);
+    v.residual[k] = static_cast<T>(residual[k] / plan.size);
   });
   auto add_coarse = [&](double diagonal) {
-    return coarse ? diagonal + coarse->add(v.residual, v.preconditioned) : diagonal;
+    return plan.coarse ? diagonal + plan.coarse->add(v.residual, v.preconditioned) : diagonal;
   };
   double size2 = op.precondition<T>(v.residual, v.preconditioned);
   double rho = add_coarse(size2);
   if (!is_size(rho)) return PassEnd::kBrokeDown;
   for_each_number(n, [&](std::size_t k) { v.direction[k] = v.preconditioned[k]; });
-  while (std::sqrt(size2) > goal) {
-    if (iterations >= options.max_iterations) return PassEnd::kOutOfIterations;
+  while (std::sqrt(size2) > plan.goal) {
+    if (iterations >= plan.max_iterations) return PassEnd::kOutOfIterations;
     ++iterations;
     if (std::is_same_v<T, float> && iterations == kMergeAfter) op.merge_links();
-    // outside the range the direction is zero
     const double curvature = apply_distributed(op, v.direction, v.product);
-    if (!whole) restrict_to(op.system(), range, v.product);
     if (!(curvature > 0)) return PassEnd::kBrokeDown;
     size2 = op.descend<T>(rho / curvature, v.direction, v.product, v.correction, v.residual,
                           v.preconditioned);
@@ -93,88 +87,69 @@ void add_correction(double size, const std::vector<T>& correction, std::span<dou
                   [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
 
+/// r = b - A x; returns its squared norm.
+double find_residual(const Operator& op, std::span<const double> b, std::span<double> x,
+                     CgWorkspace& work) {
+  apply_distributed(op, x, work.product);
+  for_each_number(b.size(), [&](std::size_t k) { work.residual[k] = b[k] - work.product[k]; });
+  return op.precondition(work.residual, {});
+}
+
+/// One pass in the numbers asked for, added to x unless it broke down.
+PassEnd improve(Operator& op, bool in_float, const PassPlan& plan, CgWorkspace& work,
+                std::span<double> x, int& iterations) {
+  const auto run = [&](auto& vectors) {
+    const PassEnd end = run_pass(op, work.residual, plan, iterations, vectors);
+    if (end != PassEnd::kBrokeDown) add_correction(plan.size, vectors.correction, x);
+    return end;
+  };
+  return in_float ? run(work.single) : run(work.full);
+}
+
+CgResult fail(CgResult result, const char* why) {
+  result.status = Status::failed(why);
+  return result;
+}
+
+constexpr const char* kIndefinite = "the matrix is not positive definite";
+
 }  // namespace
 
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, BlockRange range,
-                  const CoarseSpace* coarse) {
-  const std::size_t n = b.size();
-  const bool whole = range.first == 0 && range.last >= op.system().block.size();
-  work.residual.resize(n);
-  work.product.resize(n);
-  auto& r = work.residual;
-  auto& q = work.product;
-
-  for_each_number(n, [&](std::size_t k) { r[k] = b[k]; });
-  if (!whole) {
-    // What the rest does to the range belongs to the right-hand side of this smaller system.
-    std::vector<double> inside(x.begin(), x.end()), rest(n);
-    restrict_to(op.system(), range, inside);
-    for (std::size_t k = 0; k < n; ++k) rest[k] = x[k] - inside[k];
-    apply_distributed(op, rest, q);
-    for (std::size_t k = 0; k < n; ++k) r[k] -= q[k];
-    restrict_to(op.system(), range, r);
-  }
-  const double rhs = std::sqrt(op.precondition(r, {}));
+                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse) {
+  work.residual.assign(b.begin(), b.end());
+  work.product.resize(b.size());
+  const double rhs = std::sqrt(op.precondition(work.residual, {}));
   CgResult result;
-  if (!std::isfinite(rhs)) {
-    result.status = Status::failed("the right-hand side is not finite");
-    return result;
-  }
+  if (!std::isfinite(rhs)) return fail(result, "the right-hand side is not finite");
   if (rhs == 0) {
-    if (whole) {
-      std::ranges::fill(x, 0.0);
-    } else {
-      std::vector<double> inside(x.begin(), x.end());
-      restrict_to(op.system(), range, inside);
-      for (std::size_t k = 0; k < n; ++k) x[k] -= inside[k];
-    }
+    std::ranges::fill(x, 0.0);
     return result;
   }
 
-  bool mixed = options.precision == Precision::kMixed && whole;
+  bool mixed = options.precision == Precision::kMixed;
   bool stopped = false;
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0;; ++pass) {
-    apply_distributed(op, x, q);
-    for_each_number(n, [&](std::size_t k) { r[k] = b[k] - q[k]; });
-    if (!whole) restrict_to(op.system(), range, r);
-    const double rho = op.precondition(r, {}), size = std::sqrt(rho);
-    if (!is_size(rho)) {
-      result.status = Status::failed("the matrix is not positive definite");
-      return result;
-    }
+    const double rho = find_residual(op, b, x, work), size = std::sqrt(rho);
+    if (!is_size(rho)) return fail(result, kIndefinite);
     result.residual = size / rhs;
     if (result.residual <= options.tolerance) return result;
-    if (stopped || pass >= kMaxPasses) {
-      result.status = Status::failed("the linear solve did not converge");
-      return result;
-    }
+    if (stopped || pass >= kMaxPasses) return fail(result, "the linear solve did not converge");
     if (size > kLeastGain * before) {
       if (!mixed && result.residual <= kHarmless) return result;  // as good as doubles can do
       mixed = false;
     }
     before = size;
-    double goal = kAim * options.tolerance * rhs / size;
-    if (mixed) goal = std::max(goal, kFloatGain);
-    const PassEnd end = mixed ? run_pass<float>(op, r, size, goal, options, whole, range, coarse,
-                                                result.iterations, work.single)
-                              : run_pass<double>(op, r, size, goal, options, whole, range, coarse,
-                                                 result.iterations, work.full);
-    if (end == PassEnd::kBrokeDown) {
-      if (!mixed) {
-        result.status = Status::failed("the matrix is not positive definite");
-        return result;
-      }
-      mixed = false;
-      before = std::numeric_limits<double>::infinity();
-      continue;
-    }
-    if (mixed)
-      add_correction(size, work.single.correction, x);
-    else
-      add_correction(size, work.full.correction, x);
+    const double goal = kAim * options.tolerance * rhs / size;
+    const PassPlan plan{size, mixed ? std::max(goal, kFloatGain) : goal, options.max_iterations,
+                        coarse};
+    const PassEnd end = improve(op, mixed, plan, work, x, result.iterations);
     stopped = end == PassEnd::kOutOfIterations;
+    if (end != PassEnd::kBrokeDown) continue;
+    if (!mixed) return fail(result, kIndefinite);
+    mixed = false;
+    before = std::numeric_limits<double>::infinity();
   }
 }
 

@@ -43,25 +43,16 @@ struct CgWorkspace {
   CgVectors<double> full;
 };
 
-/// Which unknowns a solve may change: blocks [first, last). Others keep x and act through A.
-struct BlockRange {
-  std::size_t first = 0;
-  std::size_t last = static_cast<std::size_t>(-1);
-};
-
 /// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
 /// side, not to the first residual, so that a good start saves iterations. Passes of iterations
 /// solve for a correction of x; each starts from the true residual in double, which also confirms
 /// the stop. A pass in float that breaks down or gains nothing is followed by one in double; when
 /// that gains nothing either, rounding has the last word: the result is ok if the residual is below
-/// 1e-3 and says what it is. With a range, only that part
-/// of x changes (the rest is a frozen partner): used by the partitioned twin. Its right-hand side
-/// is then b - A x_rest within the range.
+/// 1e-3 and says what it is.
 /// @param op  its contacts are merged when passes in float turn out long
 /// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
 ///                The stop is measured with the diagonal blocks either way.
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, BlockRange range = {},
-                  const CoarseSpace* coarse = nullptr);
+                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse = nullptr);
 
 }  // namespace acinus::solve

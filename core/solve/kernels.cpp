@@ -137,8 +137,8 @@ ACINUS_INLINE double precondition(const InverseView& b, const T* r, T* z) {
 }
 
 template <class T>
-ACINUS_INLINE double descend(const InverseView& b, double step, const T* p, const T* q, T* x, T* r,
-                             T* z) {
+ACINUS_INLINE double descend(const InverseView& b, double step, const DescentBlock<T>& v) {
+  const auto [p, q, x, r, z] = v;
   const T alpha = static_cast<T>(step);
   LaneOf<T> s = {}, along[kMaxFamilies] = {};
   for (int i = 0; i < b.n_point; ++i) {
@@ -307,13 +307,13 @@ ACINUS_KERNEL double precondition_block(const InverseView& inverse, const float*
   return precondition<float>(inverse, r, z);
 }
 
-ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha, const double* p,
-                                   const double* q, double* x, double* r, double* z) {
-  return descend<double>(inverse, alpha, p, q, x, r, z);
+ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha,
+                                   const DescentBlock<double>& v) {
+  return descend<double>(inverse, alpha, v);
 }
-ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha, const float* p,
-                                   const float* q, float* x, float* r, float* z) {
-  return descend<float>(inverse, alpha, p, q, x, r, z);
+ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha,
+                                   const DescentBlock<float>& v) {
+  return descend<float>(inverse, alpha, v);
 }
 
 ACINUS_KERNEL double dot_range(const double* a, const double* b, std::size_t n) {

@@ -68,11 +68,16 @@ void invert_blocks(int n_point, const double* diagonal, float* inverse);
 double precondition_block(const InverseView& inverse, const double* r, double* z);
 double precondition_block(const InverseView& inverse, const float* r, float* z);
 
+/// The vectors of a step of conjugate gradients, one block.
+template <class T>
+struct DescentBlock {
+  const T *p, *q;
+  T *x, *r, *z;
+};
+
 /// x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
-double descend_block(const InverseView& inverse, double alpha, const double* p, const double* q,
-                     double* x, double* r, double* z);
-double descend_block(const InverseView& inverse, double alpha, const float* p, const float* q,
-                     float* x, float* r, float* z);
+double descend_block(const InverseView& inverse, double alpha, const DescentBlock<double>& v);
+double descend_block(const InverseView& inverse, double alpha, const DescentBlock<float>& v);
 
 /// Sum of products; n is a multiple of kLanes.
 double dot_range(const double* a, const double* b, std::size_t n);

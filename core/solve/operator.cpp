@@ -309,8 +309,9 @@ double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out
   for_each_range([&](const Range& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       const std::size_t at = row * kPointStride;
-      partial_[b] = descend_block(inverse_of(b), alpha, p.data() + at, q.data() + at, x.data() + at,
-                                  r.data() + at, z.data() + at);
+      partial_[b] = descend_block(inverse_of(b), alpha,
+                                  DescentBlock<T>{p.data() + at, q.data() + at, x.data() + at,
+                                                  r.data() + at, z.data() + at});
     });
   });
   return sum_partials();

@@ -152,101 +152,139 @@ Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
   return scale.asDiagonal() * a.ldlt().solve(Vec6(scale.asDiagonal() * rhs));
 }
 
+/// The groups of one solve, from their centres to their corrections.
+class RigidModes {
+ public:
+  RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
+      : op_(op),
+        s_(op.system()),
+        position_(cells.position),
+        work_(work),
+        groups_(static_cast<std::size_t>(number_groups(s_, cells.active, work))) {
+    sum([&](Address a, const Group&, Group& part) {
+      part.sum += at(a);
+      part.n_point += 1;
+    });
+    for (Group& g : groups_) g.center = g.sum / g.n_point;
+  }
+
+  /// What ties a group to the outside: medium and surroundings. It is a lower bound of the
+  /// projected matrix, and all of it but for the rotations: no link or element within a group feels
+  /// a translation.
+  void tie_to_outside(std::span<const double> residual) {
+    sum([&](Address a, const Group& whole, Group& group) {
+      const Vec3 d = at(a) - whole.center;
+      group.squared_reach = std::max(group.squared_reach, d.squaredNorm());
+      const Vec3 r = load_point(residual.data(), a);
+      group.residual.head<3>() += r;
+      group.residual.tail<3>() += d.cross(r);
+      const double m = s_.friction_scale * s_.medium[a / kPointStride * kLanes + a % kLanes];
+      group.mass += m;
+      group.first_moment += m * d;
+      group.second_moment += m * d * d.transpose();
+    });
+    for (Group& g : groups_) g.matrix = medium_matrix(g);
+    for (const Link& l : s_.links.link)
+      if (!l.b.exists())
+        tie(stencil_of(l), l.normal, static_cast<double>(l.stiffness),
+            static_cast<double>(l.friction));
+    for (const PointLink& l : s_.point_links)
+      if (l.b == kNowhere)
+        tie({1, {address_of(l.a)}, {1}}, l.normal, static_cast<double>(l.stiffness),
+            static_cast<double>(l.friction));
+  }
+
+  /// Chooses the groups whose rigid error may be larger, um.
+  int choose(double threshold) {
+    int chosen = 0;
+    for (Group& g : groups_) {
+      g.correct = size_of(solve_spd(g.matrix, g.residual), g) > threshold;
+      chosen += g.correct ? 1 : 0;
+    }
+    return chosen;
+  }
+
+  /// Replaces the part of rotations by that of the whole operator. Groups share no link, so one
+  /// product serves the same mode of all of them.
+  void project_rotations() {
+    work_.mode.resize(position_.size());
+    work_.product.resize(position_.size());
+    for (Group& g : groups_) g.matrix.bottomRightCorner<3, 3>().setZero();
+    for (int axis = 0; axis < 3; ++axis) {
+      std::ranges::fill(work_.mode, 0.0);
+      for_each_point(s_, work_.group, [&](Address a, std::size_t g) {
+        if (groups_[g].correct)
+          store_point(work_.mode.data(), a, Vec3::Unit(axis).cross(at(a) - groups_[g].center));
+      });
+      op_.apply(work_.mode, work_.product);
+      sum([&](Address a, const Group& whole, Group& group) {
+        group.matrix.block<3, 1>(3, 3 + axis) +=
+            (at(a) - whole.center).cross(load_point(work_.product.data(), a));
+      });
+    }
+  }
+
+  /// Moves the chosen groups. @return the largest move, um
+  double correct(std::span<double> x) {
+    double largest = 0;
+    for (Group& g : groups_) {
+      if (!g.correct) continue;
+      g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
+      largest = std::max(largest, size_of(g.motion, g));
+    }
+    for_each_point(s_, work_.group, [&](Address a, std::size_t g) {
+      if (groups_[g].correct)
+        add_point(x.data(), a, unit_motions(at(a) - groups_[g].center) * groups_[g].motion);
+    });
+    return largest;
+  }
+
+ private:
+  Vec3 at(Address a) const { return load_point(position_.data(), a); }
+  static double size_of(const Vec6& motion, const Group& g) {
+    return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
+  }
+  template <class F>
+  void sum(F f) {
+    sum_over_points(s_, work_.group, groups_, f);
+  }
+  void tie(const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
+           double friction) {
+    const Address first = stencil.address[0];
+    const auto cell = static_cast<std::size_t>(work_.block_of_row[first / kPointStride] * kLanes +
+                                               static_cast<int>(first % kPointStride));
+    if (work_.group[cell] < 0) return;
+    Group& group = groups_[static_cast<std::size_t>(work_.group[cell])];
+    Vec3 place = Vec3::Zero();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+      place += stencil.weight[k] * at(stencil.address[k]);
+    const Map3x6 z = unit_motions(place - group.center);
+    const Vec3 n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+                 static_cast<double>(normal[2]));
+    const Mat3 m = s_.stiffness_scale * stiffness * n * n.transpose() +
+                   s_.friction_scale * friction * Mat3::Identity();
+    group.matrix += z.transpose() * m * z;
+  }
+
+  const Operator& op_;
+  const System& s_;
+  std::span<const double> position_;
+  RigidWorkspace& work_;
+  std::vector<Group> groups_;
+};
+
 }  // namespace
 
 RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
-                                std::span<double> x, std::span<const double> position,
-                                std::span<const std::uint8_t> active, double threshold,
+                                std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work) {
-  const System& s = op.system();
-  std::vector<Group> groups(static_cast<std::size_t>(number_groups(s, active, work)));
-
-  sum_over_points(s, work.group, groups, [&](Address a, const Group&, Group& part) {
-    part.sum += load_point(position.data(), a);
-    part.n_point += 1;
-  });
-  for (Group& g : groups) g.center = g.sum / g.n_point;
-
-  // What holds a group from outside: medium and surroundings. It is a lower bound of the projected
-  // matrix, and all of it but for the rotations: no link or element within a group feels a
-  // translation.
-  sum_over_points(s, work.group, groups, [&](Address a, const Group& whole, Group& group) {
-    const Vec3 d = load_point(position.data(), a) - whole.center;
-    group.squared_reach = std::max(group.squared_reach, d.squaredNorm());
-    const Vec3 r = load_point(residual.data(), a);
-    group.residual.head<3>() += r;
-    group.residual.tail<3>() += d.cross(r);
-    const double m = s.friction_scale * s.medium[a / kPointStride * kLanes + a % kLanes];
-    group.mass += m;
-    group.first_moment += m * d;
-    group.second_moment += m * d * d.transpose();
-  });
-  for (Group& g : groups) g.matrix = medium_matrix(g);
-  auto hold = [&](const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
-                  double friction) {
-    const Address first = stencil.address[0];
-    const auto cell = static_cast<std::size_t>(work.block_of_row[first / kPointStride] * kLanes +
-                                               static_cast<int>(first % kPointStride));
-    if (work.group[cell] < 0) return;
-    Group& group = groups[static_cast<std::size_t>(work.group[cell])];
-    Vec3 at = Vec3::Zero();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
-      at += stencil.weight[k] * load_point(position.data(), stencil.address[k]);
-    const Map3x6 z = unit_motions(at - group.center);
-    const Vec3 n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
-                 static_cast<double>(normal[2]));
-    const Mat3 m = s.stiffness_scale * stiffness * n * n.transpose() +
-                   s.friction_scale * friction * Mat3::Identity();
-    group.matrix += z.transpose() * m * z;
-  };
-  for (const Link& l : s.links.link)
-    if (!l.b.exists())
-      hold(stencil_of(l), l.normal, static_cast<double>(l.stiffness),
-           static_cast<double>(l.friction));
-  for (const PointLink& l : s.point_links)
-    if (l.b == kNowhere) {
-      Stencil stencil{1, {address_of(l.a)}, {1}};
-      hold(stencil, l.normal, static_cast<double>(l.stiffness), static_cast<double>(l.friction));
-    }
-
+  RigidModes modes(op, cells, work);
+  modes.tie_to_outside(residual);
   RigidResult result;
-  for (Group& g : groups) {
-    const Vec6 bound = solve_spd(g.matrix, g.residual);
-    g.correct =
-        bound.head<3>().norm() + bound.tail<3>().norm() * std::sqrt(g.squared_reach) > threshold;
-    result.corrected_groups += g.correct ? 1 : 0;
-  }
+  result.corrected_groups = modes.choose(threshold);
   if (result.corrected_groups == 0) return result;
-
-  // Groups share no link, so one product serves the same mode of all of them.
-  work.mode.resize(x.size());
-  work.product.resize(x.size());
-  for (Group& g : groups) g.matrix.bottomRightCorner<3, 3>().setZero();
-  for (int axis = 0; axis < 3; ++axis) {
-    std::ranges::fill(work.mode, 0.0);
-    for_each_point(s, work.group, [&](Address a, std::size_t g) {
-      if (groups[g].correct)
-        store_point(work.mode.data(), a,
-                    Vec3::Unit(axis).cross(load_point(position.data(), a) - groups[g].center));
-    });
-    op.apply(work.mode, work.product);
-    sum_over_points(s, work.group, groups, [&](Address a, const Group& whole, Group& group) {
-      const Vec3 d = load_point(position.data(), a) - whole.center;
-      group.matrix.block<3, 1>(3, 3 + axis) += d.cross(load_point(work.product.data(), a));
-    });
-  }
-  for (Group& g : groups) {
-    if (!g.correct) continue;
-    g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
-    result.largest_move =
-        std::max(result.largest_move, g.motion.head<3>().norm() +
-                                          g.motion.tail<3>().norm() * std::sqrt(g.squared_reach));
-  }
-  for_each_point(s, work.group, [&](Address a, std::size_t g) {
-    if (groups[g].correct)
-      add_point(x.data(), a,
-                unit_motions(load_point(position.data(), a) - groups[g].center) * groups[g].motion);
-  });
+  modes.project_rotations();
+  result.largest_move = modes.correct(x);
   return result;
 }
 

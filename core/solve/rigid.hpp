@@ -24,14 +24,17 @@ struct RigidResult {
   double largest_move = 0;  ///< um, the largest rigid displacement put right
 };
 
+/// Where the cells are.
+struct RigidCells {
+  std::span<const double> position;      ///< [n_row][3][lane] um
+  std::span<const std::uint8_t> active;  ///< [n_block * kLanes] 1 where the lane holds a cell
+};
+
 /// Corrects x (the displacement) for A x = b.
 /// @param residual  [n_row][3][lane] b - A x, in double
-/// @param position  [n_row][3][lane] um
-/// @param active    [n_block * kLanes] 1 where the lane holds a cell
 /// @param threshold um: groups whose rigid error is provably below it are left alone
 RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
-                                std::span<double> x, std::span<const double> position,
-                                std::span<const std::uint8_t> active, double threshold,
+                                std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work);
 
 }  // namespace acinus::solve

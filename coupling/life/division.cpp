@@ -104,25 +104,23 @@ std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& 
 }
 
 /// Fills a half that no point sees whole: a ball inside it is blown up until it fills the mother's
-/// surface, which stands still.   @return empty, or what is wrong
-std::string blow_up(const World& world, int type, const Mother& mother, const mesh::CutPlane& plane,
-                    const mesh::Surface& half, std::vector<Vec3>& node, int& steps) {
+/// surface, which stands still.
+Filling blow_up(const World& world, int type, const Mother& mother, const mesh::CutPlane& plane,
+                const mesh::Surface& half) {
   const mesh::Topology& topology = *mother.topology;
   const mesh::InnerBall ball = mesh::find_inner_ball(half);
-  if (!(ball.radius > 0)) return "a half has no inside";
+  if (!(ball.radius > 0)) return {.ok = false, .cause = "a half has no inside", .node = {}};
   std::vector<Vec3> seed;
   for (const Vec3& x : topology.rest) seed.push_back(ball.center + kSeed * ball.radius * x);
-  const Filling filling = fill(world, type, topology, seed, half);
-  steps = filling.steps;
-  if (!filling.ok) return filling.cause;
-  node = filling.node;
+  Filling filling = fill(world, type, topology, seed, half);
+  if (!filling.ok) return filling;
   const double edge = topology.mean_rest_length * sphere_radius(0.5 * mother.volume);
   std::vector<double> weight;
-  for (const Vec3& x : node)
+  for (const Vec3& x : filling.node)
     weight.push_back(std::abs(plane.normal.dot(x) - plane.offset) < kOnCut * edge ? 0 : 1);
-  if (!dcm::match_volume(topology, 0.5 * mother.volume, weight, node))
-    return "half the volume does not fit";
-  return {};
+  filling.ok = dcm::match_volume(topology, 0.5 * mother.volume, weight, filling.node);
+  if (!filling.ok) filling.cause = "half the volume does not fit";
+  return filling;
 }
 
 /// Both daughters on either side of a plane.   @return empty, or what is wrong with it
@@ -138,9 +136,10 @@ std::string try_plane(const World& world, int type, const Mother& mother, const 
     const auto plane = mesh::find_halving_plane(mother.node, mother.topology->triangle, axis);
     const mesh::Cut cut = mesh::cut_surface(mother.node, mother.topology->triangle, *plane);
     for (std::size_t k = 0; k < 2 && why.empty(); ++k) {
-      int steps = 0;
-      why = blow_up(world, type, mother, *plane, cut.half[k], daughters.node[k], steps);
-      daughters.figures.steps += steps;
+      Filling filling = blow_up(world, type, mother, *plane, cut.half[k]);
+      why = filling.cause;
+      daughters.figures.steps += filling.steps;
+      daughters.node[k] = std::move(filling.node);
     }
   } else {
     why = describe(split.failure);

@@ -7,7 +7,11 @@
 
 namespace acinus::coupling {
 
-Balance measure_balance(const World& world, Workspace& w) {
+namespace {
+
+/// Brings w.cg.residual to that of the step, and w.cg.product to what surroundings and medium
+/// exert in it.
+void find_products(const World& world, Workspace& w) {
   // Of A dx = b the residual is known; displacements made up of stages need the product.
   const Integrator method = world.params.numerics.integrator;
   if (method == Integrator::kRos2 || method == Integrator::kNewton) {
@@ -15,43 +19,56 @@ Balance measure_balance(const World& world, Workspace& w) {
     for_each_number(w.rhs.size(),
                     [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
-  if (w.linearisation.is_ahead()) {  // the matrix is that of the rest of the way
-    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] -= w.linearisation.move[k]; });
+  if (!w.linearisation.is_ahead()) {
     w.op.apply_external(w.move, w.cg.product);
-    for_each_number(w.move.size(), [&](std::size_t k) {
-      w.move[k] += w.linearisation.move[k];
-      w.cg.product[k] -= w.linearisation.pair_friction[k];
-    });
-  } else {
-    w.op.apply_external(w.move, w.cg.product);
+    return;
   }
-  struct Middle {
-    Vec3 sum = Vec3::Zero();
-    double n = 0;
-    void add(const Middle& o) {
-      sum += o.sum;
-      n += o.n;
-    }
-  };
+  // The matrix is that of the rest of the way.
+  for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] -= w.linearisation.move[k]; });
+  w.op.apply_external(w.move, w.cg.product);
+  for_each_number(w.move.size(), [&](std::size_t k) {
+    w.move[k] += w.linearisation.move[k];
+    w.cg.product[k] -= w.linearisation.pair_friction[k];
+  });
+}
+
+struct Middle {
+  Vec3 sum = Vec3::Zero();
+  double n = 0;
+  void add(const Middle& o) {
+    sum += o.sum;
+    n += o.n;
+  }
+};
+
+Vec3 find_center(const Workspace& w) {
   const Middle middle =
       sum_over_cells<Middle>(w, true, [&](std::size_t, Address first, int n_point, Middle& part) {
         for (int i = 0; i < n_point; ++i)
           part.sum += load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
         part.n += n_point;
       });
-  const Vec3 center = middle.sum / std::max(middle.n, 1.0);
-  struct Sums {
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero();
-    double force_size = 0, torque_size = 0, rest_torque_size = 0;
-    void add(const Sums& o) {
-      force += o.force;
-      torque += o.torque;
-      rest_torque += o.rest_torque;
-      force_size += o.force_size;
-      torque_size += o.torque_size;
-      rest_torque_size += o.rest_torque_size;
-    }
-  };
+  return middle.sum / std::max(middle.n, 1.0);
+}
+
+struct Sums {
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero();
+  double force_size = 0, torque_size = 0, rest_torque_size = 0;
+  void add(const Sums& o) {
+    force += o.force;
+    torque += o.torque;
+    rest_torque += o.rest_torque;
+    force_size += o.force_size;
+    torque_size += o.torque_size;
+    rest_torque_size += o.rest_torque_size;
+  }
+};
+
+}  // namespace
+
+Balance measure_balance(const World& world, Workspace& w) {
+  find_products(world, w);
+  const Vec3 center = find_center(w);
   const Sums t =
       sum_over_cells<Sums>(w, false, [&](std::size_t, Address first, int n_point, Sums& part) {
         for (int i = 0; i < n_point; ++i) {

@@ -59,12 +59,12 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
   const bool coarse = world.state.clock.coarse;
   if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
-      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, {}, coarse ? &w.coarse : nullptr);
+      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, coarse ? &w.coarse : nullptr);
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
   const solve::RigidResult rigid = solve::correct_rigid_modes(
-      w.op, w.cg.residual, w.move, w.position, w.active, options.tolerance, w.rigid);
+      w.op, w.cg.residual, w.move, {w.position, w.active}, options.tolerance, w.rigid);
   if (rigid.corrected_groups > 0) {
     w.op.apply(w.move, w.cg.product);
     for_each_number(w.rhs.size(),

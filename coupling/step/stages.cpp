@@ -80,20 +80,20 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
 void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace& w) {
   const State& s = world.state;
   dcm::compute_medium_areas(in.dcm, w.dcm, w.medium_area);
-  w.dcm_medium.assign(s.dcm.n_lane(), 0.0);
+  w.medium_friction.dcm.assign(s.dcm.n_lane(), 0.0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
     const dcm::Group& g = s.dcm.group[l / kLanes];
     double area = 0;
     for (int i = 0; i < g.topology->n_node; ++i)
       area += w.medium_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + l % kLanes];
-    w.dcm_medium[l] =
+    w.medium_friction.dcm[l] =
         area * dcm::medium_friction_per_area(world.params.dcm[static_cast<std::size_t>(g.type)],
                                              w.lanes.radius[l], g.topology->rest_area);
   }
-  w.cbm_medium.resize(s.cbm.n_cell());
+  w.medium_friction.cbm.resize(s.cbm.n_cell());
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    w.cbm_medium[c] =
+    w.medium_friction.cbm[c] =
         cbm::medium_friction(world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])],
                              w.cbm_radius[c], w.cbm.contact_area[c]);
 }
@@ -147,8 +147,8 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   solve::clear_loads(w.system);
   gather_positions(s, w.position);
   sum_medium_friction(world, in, w);
-  compute_cell_forces(world, controls_at(s.clock, p.start_up), step, w.dcm_medium, w.cbm_medium,
-                      w.leader, w.forces);
+  compute_cell_forces(world, controls_at(s.clock, p.start_up), step, w.medium_friction, w.leader,
+                      w.forces);
 
   dcm::add_loads(s.dcm, p.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);

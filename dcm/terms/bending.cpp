@@ -26,11 +26,17 @@ ACINUS_INLINE Collapse find_collapse(Lane least, Lane area) {
   return {squeeze, squeeze > 0.0 ? least * inverse * inverse : lane_of(0)};
 }
 
-/// Adds the share of one hinge in the resistance of a face. Corners a, b, c about its normal, b and
-/// c on the edge.
+/// A face of a hinge: corners about its normal, the last two on the edge.
+struct HingeFace {
+  Lane3 x[3];
+  Lane3 normal;
+  double* force[3];
+};
+
+/// Adds the share of one hinge in the resistance of a face.
 ACINUS_INLINE void add_collapse(Lane k, const Collapse& c, double stiffness_scale,
-                                const Lane3 (&x)[3], const Lane3& normal, double* const (&force)[3],
-                                float* spring) {
+                                const HingeFace& face, float* spring) {
+  const auto& [x, normal, force] = face;
   const Lane3 half_normal = (0.5 / lane_sqrt(dot(normal, normal))) * normal;
   const Lane push = (2.0 / 3.0) * k * c.squeeze * c.slope;
   add3(force[0], push * cross(half_normal, x[2] - x[1]));
@@ -42,6 +48,25 @@ ACINUS_INLINE void add_collapse(Lane k, const Collapse& c, double stiffness_scal
   const Lane stiffness = (2.0 / 3.0) * k * c.slope * c.slope * dot(median, median);
   float* const across = spring + 4 * kLanes;
   store(across, load(across) + stiffness_scale * stiffness);
+}
+
+/// Moment about an edge over the stiffness, and the positive part of its derivative.
+struct FoldLaw {
+  Lane moment, slope;
+};
+
+/// @param c0, s0  cosine and sine of the rest angle
+ACINUS_INLINE FoldLaw fold_law(Lane cos_theta, Lane sin_theta, double c0, double s0) {
+  // Below the floor, fold goes on along its tangent.
+  const Lane below = lane_max0(kFoldFloor - (1.0 + cos_theta));
+  const Lane open = kFoldFloor + lane_max0(1.0 + cos_theta - kFoldFloor);
+  const Lane inverse_open = 1.0 / open;
+  const Lane at_open = lane_max0(kFoldCos - cos_theta - below) * inverse_open;
+  const Lane growth = inverse_open * (1.0 + at_open);  // -d fold / d cos theta
+  const Lane fold = at_open + growth * below;
+  const Lane slope = fold > 0.0 ? sin_theta * growth : lane_of(0);  // d fold / d theta
+  return {sin_theta * c0 - cos_theta * s0 + 2.0 * fold * slope,
+          lane_max0(cos_theta * c0 + sin_theta * s0) + 2.0 * slope * slope};
 }
 
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
@@ -67,19 +92,10 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane inverse_norms = 1.0 / lane_sqrt(s1 * s2);
     const Lane cos_theta = dot(n1, n2) * inverse_norms;
     const Lane sin_theta = -dot(cross(n1, n2), edge) * inverse_length * inverse_norms;
-    const double c0 = t.rest_angle_cos[static_cast<std::size_t>(e)];
-    const double s0 = t.rest_angle_sin[static_cast<std::size_t>(e)];
-    // Below the floor, fold goes on along its tangent.
-    const Lane below = lane_max0(kFoldFloor - (1.0 + cos_theta));
-    const Lane open = kFoldFloor + lane_max0(1.0 + cos_theta - kFoldFloor);
-    const Lane inverse_open = 1.0 / open;
-    const Lane at_open = lane_max0(kFoldCos - cos_theta - below) * inverse_open;
-    const Lane growth = inverse_open * (1.0 + at_open);  // -d fold / d cos theta
-    const Lane fold = at_open + growth * below;
-    const Lane slope = fold > 0.0 ? sin_theta * growth : lane_of(0);  // d fold / d theta
-    const Lane moment = k * (sin_theta * c0 - cos_theta * s0 + 2.0 * fold * slope);
-    const Lane stiffness =
-        stiffness_scale * k * (lane_max0(cos_theta * c0 + sin_theta * s0) + 2.0 * slope * slope);
+    const FoldLaw law =
+        fold_law(cos_theta, sin_theta, t.rest_angle_cos[static_cast<std::size_t>(e)],
+                 t.rest_angle_sin[static_cast<std::size_t>(e)]);
+    const Lane moment = k * law.moment, stiffness = stiffness_scale * k * law.slope;
     const Lane root = lane_sqrt(stiffness);
 
     const Lane inverse_squares = inverse_norms * inverse_norms;
@@ -106,8 +122,8 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
                      c2 = find_collapse(least2, 0.5 * lane_sqrt(s2));
       double* const at[4] = {force + h[0] * kPointStride, force + h[1] * kPointStride,
                              force + h[2] * kPointStride, force + h[3] * kPointStride};
-      add_collapse(k, c1, stiffness_scale, {x1, x3, x4}, n1, {at[0], at[2], at[3]}, spring);
-      add_collapse(k, c2, stiffness_scale, {x2, x4, x3}, n2, {at[1], at[3], at[2]}, spring);
+      add_collapse(k, c1, stiffness_scale, {{x1, x3, x4}, n1, {at[0], at[2], at[3]}}, spring);
+      add_collapse(k, c2, stiffness_scale, {{x2, x4, x3}, n2, {at[1], at[3], at[2]}}, spring);
     }
     spring += solve::kSpringStride;
   }

@@ -91,7 +91,7 @@ TEST(FindClosest, IsTheFirstOfTheClosestOfAllTriangles) {
   for (const int n : {0, 1, 7, 8, 9, 63, PointBlock::kSize}) {
     Question q(b, n, random);
     constexpr double kHorizon = 1.2;
-    find_closest(b.body, q.triangle, q.bound, 0.3 + kRounding, kHorizon, q.block);
+    find_closest(b.body, {q.triangle, q.bound}, 0.3 + kRounding, kHorizon, q.block);
     for (int i = 0; i < n; ++i) {
       const Vec3 x = point_of(q.block, i);
       int best = -1;
@@ -131,7 +131,7 @@ TEST(FindClosest, WritesTheDistancesThatMayMatter) {
   Question q(b, 20, random);
   constexpr double kShift = 0.9;
   std::vector<float> distance(q.triangle.size(), -1);
-  find_closest(b.body, q.triangle, q.bound, kShift, 1e150, q.block, distance);
+  find_closest(b.body, {q.triangle, q.bound}, kShift, 1e150, q.block, distance);
   int written = 0;
   for (int i = 0; i < 20; ++i)
     for (std::uint32_t k = q.block.begin[i]; k < q.block.end[i]; ++k) {
@@ -156,7 +156,7 @@ TEST(FindGaps, PointFromThePlaceToThePoint) {
   for (const Place place : {Place::kRounded, Place::kExact})
     for (const int n : {1, 9, PointBlock::kSize}) {
       Question q(b, n, random);
-      find_closest(b.body, q.triangle, q.bound, 0.3 + kRounding, 1e150, q.block);
+      find_closest(b.body, {q.triangle, q.bound}, 0.3 + kRounding, 1e150, q.block);
       find_gaps(b.body, place, q.block);
       for (int i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(i);

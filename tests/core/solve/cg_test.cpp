@@ -21,9 +21,7 @@ struct Solved {
   Precision precision = Precision::kMixed;
   Solved() { op.prepare(system); }
   explicit Solved(Precision p) : precision(p) { op.prepare(system); }
-  void run(double tolerance, BlockRange range = {}) {
-    result = solve_cg(op, rhs, x, {tolerance, 2000, precision}, work, range);
-  }
+  void run(double tolerance) { result = solve_cg(op, rhs, x, {tolerance, 2000, precision}, work); }
   Eigen::VectorXd exact() const {
     return reference::make_dense(system).ldlt().solve(as_eigen(rhs));
   }
@@ -243,32 +241,6 @@ TEST(Cg, WarmStartSavesIterations) {
   EXPECT_LT(warm.result.iterations, cold.result.iterations);
 }
 
-TEST(Cg, RangeSolvesTheSubBlockAndLeavesTheRest) {
-  for (const BlockRange range : {BlockRange{1, 2}, BlockRange{0, 1}, BlockRange{2, 4}}) {
-    Solved s;
-    s.x = random_vector_of(s.system, 3);
-    const std::vector<double> before = s.x;
-    s.run(1e-12, range);
-    ASSERT_TRUE(s.result.status.ok) << s.result.status.cause;
-    const auto& block = s.system.block;
-    const auto from = static_cast<Eigen::Index>(block[range.first].first_row * kPointStride);
-    const auto to = static_cast<Eigen::Index>(
-        (range.last < block.size() ? block[range.last].first_row : s.system.n_row) * kPointStride);
-    const Eigen::MatrixXd a = reference::make_dense(s.system);
-    Eigen::VectorXd frozen = as_eigen(before);
-    frozen.segment(from, to - from).setZero();
-    const Eigen::VectorXd rhs = (as_eigen(s.rhs) - a * frozen).segment(from, to - from);
-    const Eigen::VectorXd exact = a.block(from, from, to - from, to - from).ldlt().solve(rhs);
-    EXPECT_LT((as_eigen(s.x).segment(from, to - from) - exact).norm(), 1e-9 * exact.norm());
-    for (std::size_t k = 0; k < before.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      if (i < from || i >= to) {
-        ASSERT_EQ(s.x[k], before[k]);
-      }
-    }
-  }
-}
-
 TEST(Cg, ZeroRightHandSideGivesZero) {
   Solved s;
   s.x = random_vector_of(s.system, 4);
@@ -276,22 +248,6 @@ TEST(Cg, ZeroRightHandSideGivesZero) {
   s.run(1e-6);
   EXPECT_TRUE(s.result.status.ok);
   for (double x : s.x) ASSERT_EQ(x, 0);
-}
-
-// A frozen partner pushes even when the range itself has no load of its own.
-TEST(Cg, ZeroLoadInTheRangeStillFeelsTheFrozenRest) {
-  Solved s;
-  s.x = random_vector_of(s.system, 5);
-  const std::size_t from = s.system.block[1].first_row * kPointStride,
-                    to = s.system.block[2].first_row * kPointStride;
-  for (std::size_t k = from; k < to; ++k) s.rhs[k] = s.x[k] = 0;
-  s.run(1e-10, {1, 2});
-  const Eigen::MatrixXd a = reference::make_dense(s.system);
-  const Eigen::VectorXd r = as_eigen(s.rhs) - a * as_eigen(s.x);
-  EXPECT_GT(s.result.iterations, 0);
-  const auto first = static_cast<Eigen::Index>(from), n = static_cast<Eigen::Index>(to - from);
-  ASSERT_TRUE(s.result.status.ok) << s.result.status.cause;
-  EXPECT_LT(r.segment(first, n).norm(), 1e-8 * as_eigen(s.x).norm());
 }
 
 TEST(Cg, SameBitsForAnyNumberOfThreads) {

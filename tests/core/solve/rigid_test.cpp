@@ -93,7 +93,7 @@ struct Clusters {
     return r;
   }
   RigidResult correct(double threshold) {
-    return correct_rigid_modes(op, residual(), x, position, active, threshold, work);
+    return correct_rigid_modes(op, residual(), x, {position, active}, threshold, work);
   }
 };
 
