@@ -2,12 +2,12 @@
 add_library(acinus_flags INTERFACE)
 add_library(acinus::flags ALIAS acinus_flags)
 target_compile_features(acinus_flags INTERFACE cxx_std_20)
-target_include_directories(acinus_flags INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(acinus_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
 # No contraction and no fast-math: the same bits on every instruction set and thread count.
 # errno and trapping are given up so that sqrt and selects vectorise; neither changes a result.
 target_compile_options(acinus_flags INTERFACE
-  -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wpedantic -Wno-psabi
-  -Wno-restrict)  # gcc 12 sees impossible overlaps in std::string concatenation
+  -ffp-contract=off -fno-math-errno -fno-trapping-math "$<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wpedantic>" -Wno-psabi
+  $<BUILD_INTERFACE:-Wno-restrict>)  # gcc 12 sees impossible overlaps in std::string concatenation
 if(ACINUS_WERROR)
   target_compile_options(acinus_flags INTERFACE -Werror)
 endif()

@@ -60,14 +60,14 @@ void collect(const fs::path& folder, const fs::path& scene, std::vector<fs::path
 std::string scene_folder() {
   std::error_code code;
   const fs::path program = fs::read_symlink("/proc/self/exe", code);
-  const fs::path beside = program.parent_path().parent_path() / "runs" / "scenes";
-  if (!code && fs::is_directory(beside, code)) return beside.string();
-  const fs::path source = ACINUS_SCENE_DIR;
-  check(fs::is_directory(source, code),
-        fmt::format("no folder of shipped scenes: neither {} nor {}", beside.string(),
-                    source.string()),
-        Exit::kFileError);
-  return source.string();
+  const fs::path above = program.parent_path().parent_path();
+  const fs::path places[] = {above / "runs" / "scenes", above / "share" / "acinus" / "scenes",
+                             ACINUS_SCENE_DIR};
+  for (const fs::path& place : places)
+    if (fs::is_directory(place, code)) return place.string();
+  throw Error(fmt::format("no folder of shipped scenes: neither {}, {} nor {}",
+                          places[0].string(), places[1].string(), places[2].string()),
+              Exit::kFileError);
 }
 
 std::vector<ShippedScene> shipped_scenes() { return list_documents(scene_folder()); }

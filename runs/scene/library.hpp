@@ -12,8 +12,8 @@ struct ShippedScene {
   std::string description;
 };
 
-/// Folder of the shipped scenes: runs/scenes beside the folder of the program, else of the source
-/// tree.
+/// Folder of the shipped scenes: runs/scenes or share/acinus/scenes beside the folder of the
+/// program, else that of the source tree.
 /// @throws Error (kFileError) if there is none.
 std::string scene_folder();
 

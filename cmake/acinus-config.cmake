@@ -1,0 +1,11 @@
+# What core to calibration need.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3)
+find_dependency(OpenMP COMPONENTS CXX)
+find_dependency(MPI COMPONENTS CXX)
+find_dependency(fmt)
+find_dependency(nlohmann_json)
+find_dependency(PkgConfig)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+include(${CMAKE_CURRENT_LIST_DIR}/acinus_targets.cmake)

@@ -1,0 +1,36 @@
+# `cmake --install`: programs, shipped scenes, and core to calibration as a CMake package
+# (find_package(acinus), targets acinus::core .. acinus::calibration). `cpack` makes a Debian package.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/acinus)
+
+install(TARGETS acinus RUNTIME)
+if(ACINUS_BENCH)
+  install(TARGETS acinus-bench RUNTIME)
+endif()
+install(DIRECTORY runs/scenes runs/studies DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
+install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+foreach(library core dcm cbm coupling calibration)
+  set_target_properties(acinus_${library} PROPERTIES EXPORT_NAME ${library})
+  install(DIRECTORY ${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/acinus FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+set_target_properties(acinus_flags PROPERTIES EXPORT_NAME flags)
+install(TARGETS acinus_core acinus_dcm acinus_cbm acinus_coupling acinus_calibration acinus_flags acinus_version
+  EXPORT acinus_targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/acinus)
+install(EXPORT acinus_targets NAMESPACE acinus:: FILE acinus_targets.cmake DESTINATION ${package_folder})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/acinus-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES cmake/acinus-config.cmake ${CMAKE_BINARY_DIR}/acinus-config-version.cmake DESTINATION ${package_folder})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The acinus developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Simulator of living tissue: deformable cells and spheres in one simulation")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# For those who build against the library:
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libfmt-dev, libhdf5-dev, libopenmpi-dev, libxxhash-dev, nlohmann-json3-dev")
+set(CPACK_STRIP_FILES ON)
+include(CPack)
