@@ -11,12 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
-#include "bench/speed_index.hpp"
+#include "bench/output/speed_index.hpp"
+#include "bench/output/table.hpp"
 #include "bench/step/assembly.hpp"
 #include "bench/step/skipping.hpp"
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress.hpp"
-#include "bench/table.hpp"
 #include "bench/tissue/patch.hpp"
 #include "bench/tissue/relaxation.hpp"
 #include "bench/tissue/sleep.hpp"
@@ -54,12 +54,6 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
 }
 
 }  // namespace
-
-void print_row(const BenchRow& row) {
-  fmt::print("{}  ({} cells)\n", row.name, row.cells);
-  for (const auto& [key, value] : row.value) fmt::print("    {:40s} {:12.4g}\n", key, value);
-  std::fflush(stdout);
-}
 
 std::vector<std::string> list_benches() {
   std::vector<std::string> names;

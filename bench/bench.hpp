@@ -4,16 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace acinus::bench {
+#include "bench/output/table.hpp"
 
-struct BenchOptions {
-  std::string json_file;  ///< rows are also written here; "" = not
-  std::string folder;     ///< for plots and scenes of benchmarks that write them; "" = not
-  int threads = 0;        ///< 0 = all cores
-  int seeds = 3;          ///< repetitions with different random numbers, for cases that have any
-  int first = 1;          ///< the first of these seeds
-  bool life = false;      ///< cells of random scenes grow, divide and die
-};
+namespace acinus::bench {
 
 /// Runs a benchmark and prints its table.
 /// @return the process exit code: 1 if a row did not pass

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "coupling/measure.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/measure/measure.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::calibration {
 

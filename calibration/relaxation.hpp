@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::calibration {
 

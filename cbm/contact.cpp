@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cbm/pair_kernel.hpp"
-#include "core/contact/box.hpp"
+#include "core/contact/box_pairs.hpp"
 #include "core/contact/neighbours.hpp"
 #include "core/mesh/measures.hpp"
 
@@ -193,11 +193,11 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
   work.segment.clear();
   const mesh::Network& network = in.around.vessels.network;
   if (!network.segment.empty()) {
-    std::vector<contact::Box> boxes, segments;
+    std::vector<Box> boxes, segments;
     for (std::size_t i = 0; i < s.n_cell(); ++i)
-      boxes.push_back(contact::sphere_box(center_of(s, i), radius[i]));
+      boxes.push_back(sphere_box(center_of(s, i), radius[i]));
     for (std::size_t k = 0; k < network.segment.size(); ++k) {
-      contact::Box box;
+      Box box;
       for (int n : network.segment[k]) box.include(network.node[static_cast<std::size_t>(n)]);
       segments.push_back(box.grown(std::max(network.radius[k][0], network.radius[k][1])));
     }

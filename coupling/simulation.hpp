@@ -6,8 +6,8 @@
 
 #include "coupling/life/life.hpp"
 #include "coupling/step/loop.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -8,7 +8,7 @@
 
 #include "core/sphere.hpp"
 #include "core/time_grid.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -36,7 +36,7 @@ bool pairs_hold(const ListInput& in, const ContactLists& lists) {
     if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology ||
         b.constrained != is_constrained(in, k))
       return false;
-    const contact::Box within = b.box.grown(room);
+    const Box within = b.box.grown(room);
     if (!within.contains(in.body[k].box.low) || !within.contains(in.body[k].box.high)) return false;
   }
   return true;
@@ -164,7 +164,7 @@ SegmentCandidates find_segments(const contact::SurfaceBody& b, const contact::Se
   const double margin = std::max(o.range, o.max_depth) + o.skin;
   std::vector<int> near;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    contact::Box box;
+    Box box;
     for (int n : network.segment[s]) box.include(network.node[static_cast<std::size_t>(n)]);
     const double r = std::max(network.radius[s][0], network.radius[s][1]);
     if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));

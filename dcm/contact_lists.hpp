@@ -34,7 +34,7 @@ struct ListedBody {
   std::int64_t lineage = -1;
   const mesh::Topology* topology = nullptr;
   bool constrained = false;
-  contact::Box box;  ///< when pairs were looked for
+  Box box;  ///< when pairs were looked for
   std::vector<Snapshot> snapshot;
 };
 

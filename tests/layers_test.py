@@ -13,6 +13,12 @@ import tempfile
 
 # A folder includes only folders on floors below its own, and itself.
 FLOORS = {"bench": 6, "runs": 5, "calibration": 4, "coupling": 3, "dcm": 2, "cbm": 2, "core": 1}
+# The rooms of a folder, lowest first; "" are the files directly in it. A room includes only those before it.
+ROOMS = {
+    "coupling": ("generate", "world", "step", "measure", "subworld", "sleep", "life", ""),
+    "runs": ("scene", "build", "experiments", "session", "calibrate", "compare", "study", "commands", ""),
+    "bench": ("output", "step", "tissue", "stress", "work_precision", "kernels", ""),
+}
 MIRRORS = ("tests",)  # may include every floor; no floor includes them
 JSON_FOLDERS = ("bench", "runs", "calibration") + MIRRORS
 MAX_LINES = 500
@@ -36,6 +42,8 @@ def check_include(path, bracket, target, beside):
         return "include paths start at the root of the repository"
     if top in MIRRORS and folder in FLOORS:
         return f"{folder}/ must not include {top}/"
+    if folder in ROOMS and top == folder:
+        return check_rooms(folder, path, target)
     if folder not in FLOORS or top not in FLOORS or top == folder:
         return None
     if FLOORS[top] == FLOORS[folder]:
@@ -43,6 +51,51 @@ def check_include(path, bracket, target, beside):
     if FLOORS[top] > FLOORS[folder]:
         return f"{folder}/ (floor {FLOORS[folder]}) must not climb to {top}/ (floor {FLOORS[top]})"
     return None
+
+
+def room_of(path):
+    """"life" of coupling/life/x.hpp, "" of coupling/x.hpp."""
+    parts = path.split("/")
+    return parts[1] if len(parts) > 2 else ""
+
+
+def check_rooms(folder, path, target):
+    """The rule that an include within a folder with rooms breaks, or None."""
+    own, other = room_of(path), room_of(target)
+    for room in (own, other):
+        if room not in ROOMS[folder]:
+            return f"{folder}/{room}/ is no room of {folder}/: add it to ROOMS in this test, where it belongs"
+    if ROOMS[folder].index(other) > ROOMS[folder].index(own):
+        return f"{folder}/{own}/ must not climb to {folder}/{other}"
+    return None
+
+
+def find_rings(includes):
+    """Headers that include each other in a ring. includes: header -> set of headers."""
+    rings, done, trail = [], set(), []
+
+    def visit(header):
+        if header in trail:
+            rings.append(trail[trail.index(header):] + [header])
+            return
+        if header in done:
+            return
+        trail.append(header)
+        for target in sorted(includes.get(header, ())):
+            visit(target)
+        trail.pop()
+        done.add(header)
+
+    for header in sorted(includes):
+        visit(header)
+    return rings
+
+
+def list_includes(root, path):
+    """What a source includes from the tree, as paths from its root."""
+    with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+        found = (INCLUDE.match(line) for line in file)
+        return {match.group(2) for match in found if match and match.group(2).split("/")[0] in FLOORS}
 
 
 def check_file(root, path):
@@ -68,7 +121,7 @@ def check_file(root, path):
 
 def check_tree(root):
     """All findings below root as "path:line: message", and the number of sources read."""
-    findings, n_source = [], 0
+    findings, n_source, includes = [], 0, {}
     for folder, folders, names in os.walk(root):
         folders[:] = sorted(name for name in folders if not SKIPPED.match(name))
         for name in sorted(names):
@@ -76,6 +129,10 @@ def check_tree(root):
             if path.endswith(COUNTED + (".md",)):
                 n_source += path.endswith(SOURCES)
                 findings += [f"{path}:{line}: {text}" for line, text in check_file(root, path)]
+            if path.endswith(".hpp"):
+                includes[path] = list_includes(root, path)
+    for ring in find_rings(includes):
+        findings.append(f"{ring[0]}:1: headers include each other: {' -> '.join(ring)}")
     return findings, n_source
 
 
@@ -85,12 +142,15 @@ def test_rules():
         "core/mesh/a.hpp": '#include "core/vec.hpp"\n#include <Eigen/Core>\n',
         "dcm/a.cpp": '#include "dcm/a.hpp"\n#include "core/vec.hpp"\n// #include "cbm/a.hpp"\n',
         "cbm/a.cpp": '#include "cbm/a.hpp"\n#include "core/vec.hpp"\n',
-        "coupling/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n',
+        "coupling/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n#include "coupling/life/a.hpp"\n',
+        "coupling/life/a.hpp": '#include "coupling/world/a.hpp"\n#include "coupling/life/b.hpp"\n',
+        "runs/commands/a.cpp": '#include "runs/scene/a.hpp"\n',
         "runs/version.cpp": '#include "acinus_version.hpp"\n',
         "calibration/a.cpp": '#include "coupling/a.hpp"\n#include <nlohmann/json.hpp>\n',
         "runs/a.cpp": '#include "calibration/a.hpp"\n  #  include <nlohmann/json.hpp>\n',
         "tests/a.cpp": '#include "runs/a.hpp"\n#include "tests/support.hpp"\n',
         "bench/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n',
+        "core/ring_b.hpp": '#include "core/ring_a.hpp"\n',
         "build/a.cpp": '#include "../runs/a.hpp"\n',
         "core/long.cpp": "\n" * MAX_LINES,
         "core/README.md": "\n" * MAX_README_LINES,
@@ -110,6 +170,11 @@ def test_rules():
         "runs/b.hpp": ('#include <nlohmann/json_fwd.hpp>\n', 1),
         "core/mesh/f.cpp": ('#include "a.hpp"\n', 1),
         "runs/c.cpp": ('#include "../core/vec.hpp"\n', 1),
+        "coupling/step/a.cpp": ('#include "coupling/life/a.hpp"\n', 1),
+        "coupling/world/b.hpp": ('#include "coupling/simulation.hpp"\n', 1),
+        "runs/scene/b.cpp": ('#include <a>\n#include "runs/session/a.hpp"\n', 2),
+        "runs/cellar/a.cpp": ('#include "runs/scene/a.hpp"\n', 1),
+        "core/ring_a.hpp": ('#include "core/ring_b.hpp"\n', 1),
         "runs/d.cpp": ('#include "bench/a.hpp"\n', 1),
         "dcm/long.cpp": ("\n" * (MAX_LINES + 1), MAX_LINES + 1),
         "dcm/README.md": ("\n" * (MAX_README_LINES + 1), MAX_README_LINES + 1),

@@ -1,8 +1,7 @@
 #pragma once
 /// Cost of the parts of a step: forces and stiffness within cells, contacts, products.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::bench {
 

@@ -1,8 +1,7 @@
 #pragma once
 /// What it saves to leave out what a scene does not need.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

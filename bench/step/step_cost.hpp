@@ -2,8 +2,7 @@
 /// Cost of whole steps: cells grow or move for a while, then the same steps are timed repeatedly
 /// from one saved state.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

@@ -11,8 +11,8 @@
 #include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
 #include "core/time_grid.hpp"
-#include "coupling/audit.hpp"
-#include "coupling/cell.hpp"
+#include "coupling/measure/audit.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include "bench/stress/pedigree.hpp"
 #include "core/io/frame.hpp"
 #include "core/io/run_reader.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::bench {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/sphere.hpp"
-#include "coupling/cell.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::bench {
 namespace {

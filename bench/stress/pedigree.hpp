@@ -10,7 +10,7 @@
 
 #include "bench/stress/finding.hpp"
 #include "core/io/frame.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::bench {
 

@@ -2,8 +2,7 @@
 /// The stress suite: random scenes, each run as a user runs it, and judged by what it leaves
 /// behind.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

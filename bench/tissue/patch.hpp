@@ -2,8 +2,7 @@
 /// How well the two models meet: a squeezed ball, part of it deformable cells and the rest spheres,
 /// against the same ball of deformable cells only.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

@@ -1,8 +1,7 @@
 #pragma once
 /// How a squeezed clump comes back: protocols, forms of friction, meshes and models side by side.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

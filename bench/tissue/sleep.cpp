@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/timing.hpp"
-#include "coupling/difference.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/difference.hpp"
+#include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/build/build_world.hpp"

@@ -1,8 +1,7 @@
 #pragma once
 /// What it saves that resting cells sleep, and what that does to the pressures.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

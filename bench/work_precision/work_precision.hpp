@@ -2,8 +2,7 @@
 /// Error against CPU time for every choice of numerics (docs/work_precision.md): tables in
 /// markdown, plots as SVG, and the cheapest setting for a wanted error.
 
-#include "bench/bench.hpp"
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 
 namespace acinus::bench {
 

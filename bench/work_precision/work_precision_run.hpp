@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/table.hpp"
+#include "bench/output/table.hpp"
 #include "core/vec.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::bench {
 

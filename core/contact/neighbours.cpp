@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/contact/box.hpp"
+#include "core/contact/box_pairs.hpp"
 #include "core/lanes.hpp"
 
 namespace acinus::contact {

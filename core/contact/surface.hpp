@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/box.hpp"
+#include "core/contact/box_pairs.hpp"
 #include "core/mesh/topology.hpp"
 #include "core/vec.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/sphere.hpp"
-#include "coupling/cell.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
 namespace {

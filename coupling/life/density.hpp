@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/audit_body.hpp"
 #include "core/mesh/inner_ball.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/random.hpp"
 #include "core/sphere.hpp"
-#include "coupling/audit_body.hpp"
 #include "coupling/life/fill.hpp"
 #include "dcm/split.hpp"
 
@@ -72,10 +72,10 @@ Mother look_at(const World& world, std::size_t lane) {
 }
 
 /// Farthest of the nodes outside a closed surface, um.
-double farthest_outside(const std::vector<Vec3>& node, const AuditBody& body) {
+double farthest_outside(const std::vector<Vec3>& node, const mesh::AuditBody& body) {
   double farthest = 0;
   for (const Vec3& x : node)
-    if (body.side(x) == Side::kOutside) farthest = std::max(farthest, body.distance(x));
+    if (body.locate(x) == mesh::Location::kOutside) farthest = std::max(farthest, body.distance(x));
   return farthest;
 }
 
@@ -99,7 +99,8 @@ const char* describe(dcm::SplitFailure failure) {
 std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& node) {
   if (mesh::compute_quality(node, topology.triangle) < kLeastQuality)
     return "a daughter's mesh is too distorted";
-  if (AuditBody(node, topology.triangle).self_intersects()) return "a daughter crosses herself";
+  if (mesh::AuditBody(node, topology.triangle).self_intersects())
+    return "a daughter crosses herself";
   return {};
 }
 
@@ -183,7 +184,7 @@ bool split_shell(const World& world, std::size_t lane, Daughters& daughters, std
   }
   if (!why.empty()) return false;
 
-  const AuditBody body(mother.node, mother.topology->triangle);
+  const mesh::AuditBody body(mother.node, mother.topology->triangle);
   const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
   const double before = dcm::cytosol_pressure(bulk, mother.volume, mother.rest_volume);
   daughters.stretch = mother.stretch;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mesh/surface.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -11,9 +11,9 @@
 #include "core/sphere.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
-#include "coupling/population.hpp"
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/world/population.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "coupling/life/division.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

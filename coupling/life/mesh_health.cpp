@@ -9,9 +9,9 @@
 #include "core/sphere.hpp"
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
-#include "coupling/cell.hpp"
-#include "coupling/life/mesh_remedy.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/world/cell.hpp"
+#include "dcm/mesh_remedy.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -59,7 +59,7 @@ void replace_mesh(State& s, std::size_t lane, const std::vector<Vec3>& node) {
   if (lane < s.asleep.size()) s.asleep[lane] = 0;
 }
 
-std::string describe(const Mended& m) {
+std::string describe(const dcm::Mended& m) {
   if (!m.ok)
     return fmt::format("quality {:.2g}, spacing {:.2g}, fold {:.2g}{}; {}", m.before.quality,
                        m.before.spacing, m.before.opposed, m.crossed ? ", crosses itself" : "",
@@ -85,7 +85,9 @@ std::vector<std::size_t> find_suspicious(const State& s) {
       if (!s.dcm.active(l)) continue;
       dcm::copy_nodes(s.dcm, l, node);
       suspicious[l] =
-          is_suspicious(measure_health(topology_of(s, l), node, reference_radius(s, l))) ? 1 : 0;
+          dcm::is_suspicious(dcm::measure_health(topology_of(s, l), node, reference_radius(s, l)))
+              ? 1
+              : 0;
     }
   }
   std::vector<std::size_t> lanes;
@@ -100,12 +102,12 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   const auto scope = work.timings.scope("mesh health");
   const std::vector<std::size_t> lanes = find_suspicious(s);
   if (lanes.empty()) return;
-  std::vector<Mended> mended(lanes.size());
+  std::vector<dcm::Mended> mended(lanes.size());
 #pragma omp parallel for schedule(dynamic, 1) if (lanes.size() > 1)
   for (std::size_t k = 0; k < lanes.size(); ++k) {
     std::vector<Vec3> node;
     dcm::copy_nodes(s.dcm, lanes[k], node);
-    mended[k] = mend_mesh(topology_of(s, lanes[k]), node, reference_radius(s, lanes[k]));
+    mended[k] = dcm::mend_mesh(topology_of(s, lanes[k]), node, reference_radius(s, lanes[k]));
   }
   std::vector<std::int64_t> changed;
   for (std::size_t k = 0; k < lanes.size(); ++k) {

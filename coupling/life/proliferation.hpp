@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "coupling/cell.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/cell.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -8,7 +8,7 @@
 #include "core/time_grid.hpp"
 #include "coupling/life/density.hpp"
 #include "coupling/life/proliferation.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 
 namespace acinus::coupling {
 namespace {

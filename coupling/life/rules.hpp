@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "coupling/cell.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/cell.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

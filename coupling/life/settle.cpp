@@ -2,7 +2,7 @@
 
 #include "core/mesh/measures.hpp"
 #include "coupling/life/division.hpp"
-#include "coupling/subworld.hpp"
+#include "coupling/subworld/subworld.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "coupling/cell.hpp"
-#include "coupling/leaders.hpp"
 #include "coupling/step/loop.hpp"
+#include "coupling/world/cell.hpp"
+#include "coupling/world/leaders.hpp"
 
 namespace acinus::coupling {
 namespace {

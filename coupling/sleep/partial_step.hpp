@@ -4,9 +4,9 @@
 /// step of theirs sets now and then. (docs/decisions/0015.md)
 
 #include "coupling/step/controller.hpp"
-#include "coupling/subworld.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/subworld/subworld.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/time_grid.hpp"
-#include "coupling/cell.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -7,8 +7,8 @@
 /// goes on with the velocity of one long step (partial_step.hpp), a constraint for cells awake.
 /// (docs/decisions/0015.md)
 
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

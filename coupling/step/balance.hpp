@@ -1,8 +1,8 @@
 #pragma once
 /// How well the forces of a step balance.
 
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/threads.hpp"
-#include "coupling/workspace.hpp"
+#include "coupling/world/workspace.hpp"
 
 namespace acinus::coupling {
 

@@ -3,7 +3,7 @@
 /// surfaces touch at the point of linearisation; those that close on the way would run into each
 /// other and be pushed out by the next step only, or the step be rejected.
 
-#include "coupling/workspace.hpp"
+#include "coupling/world/workspace.hpp"
 
 namespace acinus::coupling {
 

@@ -4,10 +4,10 @@
 
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
-#include "coupling/cell.hpp"
 #include "coupling/step/closing.hpp"
 #include "coupling/step/solve.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -2,8 +2,8 @@
 /// Stage 6: the displacement of a step from the assembled system.
 
 #include "core/error.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <utility>
 
-#include "coupling/leaders.hpp"
+#include "coupling/world/leaders.hpp"
 #include "dcm/node_friction.hpp"
 #include "dcm/terms/medium.hpp"
 

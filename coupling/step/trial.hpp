@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

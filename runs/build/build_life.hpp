@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {

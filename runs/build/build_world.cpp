@@ -22,7 +22,7 @@
 #include "runs/build/build_life.hpp"
 #include "runs/build/cell_types.hpp"
 #include "runs/build/place_cells.hpp"
-#include "runs/session/start_state.hpp"
+#include "runs/build/start_state.hpp"
 
 namespace acinus::runs {
 namespace {

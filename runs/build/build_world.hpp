@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mesh/network.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {

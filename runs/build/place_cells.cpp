@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/contact/box.hpp"
+#include "core/contact/box_pairs.hpp"
 #include "core/error.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/random.hpp"
@@ -113,9 +113,9 @@ std::string name_of(const Scene& scene, const PlacedCell& cell) {
 /// Pairs of cells closer than half the larger radius, in the order of the list.
 std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
                                               const std::vector<PlacedCell>& cells) {
-  std::vector<contact::Box> around;
+  std::vector<Box> around;
   for (const PlacedCell& c : cells)
-    around.push_back(contact::sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
+    around.push_back(sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
   std::vector<std::pair<int, int>> pairs = contact::find_pairs(around, 0);
   std::erase_if(pairs, [&](const std::pair<int, int>& pair) {
     const PlacedCell &p = cells[static_cast<std::size_t>(pair.first)],

@@ -7,7 +7,7 @@
 
 #include "core/vec.hpp"
 #include "coupling/generate/lobule.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {

@@ -21,9 +21,9 @@
 #include "runs/build/build_correction.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/build/read_cells.hpp"
+#include "runs/build/state_file.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/stage.hpp"
-#include "runs/session/state_file.hpp"
 #include "runs/session/stop_signals.hpp"
 
 namespace acinus::runs {

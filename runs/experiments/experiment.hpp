@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
+#include "runs/experiments/snapshot.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/session/frame.hpp"
 
 namespace acinus::runs {
 

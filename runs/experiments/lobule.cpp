@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/units.hpp"
-#include "coupling/contact_forces.hpp"
-#include "coupling/lesion_layers.hpp"
+#include "coupling/measure/contact_forces.hpp"
+#include "coupling/world/lesion_layers.hpp"
 #include "runs/experiments/plates.hpp"
 #include "runs/experiments/tissue.hpp"
 

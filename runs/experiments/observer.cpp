@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "coupling/lesion_layers.hpp"
 #include "coupling/life/proliferation.hpp"
+#include "coupling/world/lesion_layers.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/experiments/tissue.hpp"

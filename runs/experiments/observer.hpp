@@ -9,8 +9,8 @@
 
 #include "core/io/checkpoint.hpp"
 #include "core/io/frame.hpp"
-#include "coupling/audit.hpp"
 #include "coupling/life/life.hpp"
+#include "coupling/measure/audit.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/lobule_room.hpp"
 #include "runs/experiments/open_area.hpp"

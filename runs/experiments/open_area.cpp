@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/box.hpp"
+#include "core/contact/box_pairs.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -11,10 +11,10 @@ namespace {
 constexpr double kAngle = kPi / 180, kSlice = 4, kStep = 2;  // rad, um, um
 
 /// Boxes round the segments.
-std::vector<contact::Box> segment_boxes(const mesh::Network& n) {
-  std::vector<contact::Box> boxes;
+std::vector<Box> segment_boxes(const mesh::Network& n) {
+  std::vector<Box> boxes;
   for (std::size_t s = 0; s < n.segment.size(); ++s) {
-    contact::Box box;
+    Box box;
     for (const int i : n.segment[s]) box.include(n.node[static_cast<std::size_t>(i)]);
     boxes.push_back(box.grown(std::max(n.radius[s][0], n.radius[s][1])));
   }
@@ -22,12 +22,12 @@ std::vector<contact::Box> segment_boxes(const mesh::Network& n) {
 }
 
 void mark_vessels(const mesh::Network& network, LesionGrid& g) {
-  const std::vector<contact::Box> boxes = segment_boxes(network);
+  const std::vector<Box> boxes = segment_boxes(network);
   auto free = g.free.begin();
   for (const double z : g.height)
     for (const Vec2& ray : g.ray) {
       const Vec3 along(ray.x(), ray.y(), 0), foot(g.axis.x(), g.axis.y(), z);
-      contact::Box box;
+      Box box;
       box.include(foot);
       box.include(foot + g.to_radius * along);
       for (std::size_t s = 0; s < boxes.size(); ++s) {

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "coupling/contact_forces.hpp"
+#include "coupling/measure/contact_forces.hpp"
 #include "runs/experiments/observables.hpp"
 
 namespace acinus::runs {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "coupling/cell.hpp"
 #include "coupling/life/density.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::runs {
 namespace {

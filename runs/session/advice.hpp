@@ -7,7 +7,7 @@
 #include <string>
 
 #include "coupling/step/controller.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/session/soundness.hpp"
 
 namespace acinus::runs {

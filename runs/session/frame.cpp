@@ -9,7 +9,7 @@
 namespace acinus::runs {
 namespace {
 
-using coupling::CellMeasure;
+using coupling::CellMeasure, coupling::NodeMeasure;
 
 constexpr std::uint8_t kShell = 0, kSphere = 1, kSurroundings = 2;
 
@@ -64,86 +64,97 @@ io::Table interface_table(const std::vector<coupling::InterfaceForce>& forces) {
   return {{dcm, cbm}, {force, area, gap}};
 }
 
-}  // namespace
+/// Writes points and triangles with their data into a frame.
+class FrameBuilder {
+ public:
+  explicit FrameBuilder(const Snapshot& snapshot) : snapshot_(snapshot) {
+    frame_.time_s = snapshot.time;
+  }
 
-Snapshot take_snapshot(const coupling::World& world, coupling::Workspace& work) {
-  coupling::observe(world, work);
-  return {coupling::time_since_start(world), coupling::measure_cells(world, work),
-          coupling::measure_nodes(world, work), coupling::interface_forces(world, work)};
-}
+  void add_cell(const contact::SurfaceBody& body, const CellMeasure& cell) {
+    const NodeMeasure& nodes = snapshot_.nodes;
+    for (const Vec3& x : body.node) {
+      push_point(x, nodes.force[node_], nodes.pressure[node_], nodes.tension[node_]);
+      ++node_;
+    }
+    add_triangles(*body.triangle, body.node.size(), &cell, kShell);
+  }
+
+  void add_surface(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle) {
+    for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
+    add_triangles(triangle, node.size(), nullptr, kSurroundings);
+  }
+
+  /// Spheres come after all surfaces.
+  void add_sphere(const CellMeasure& cell) {
+    push_point(cell.center, Vec3::Zero(), 0, 0);
+    push_cell(&cell, kSphere, cell.radius);
+    ++frame_.n_sphere;
+  }
+
+  io::Frame finish() {
+    frame_.n_mesh_node = base_;
+    frame_.point_data = {std::move(force_), std::move(contact_), std::move(tension_)};
+    frame_.cell_data = {std::move(type_),    std::move(volume_), std::move(pressure_),
+                        std::move(cytosol_), std::move(radius_), std::move(leader_),
+                        std::move(strength_)};
+    frame_.cells = cell_table(snapshot_.cells);
+    frame_.interface = interface_table(snapshot_.interface);
+    return std::move(frame_);
+  }
+
+ private:
+  void push_point(const Vec3& x, const Vec3& nodal_force, double pressure, double tension) {
+    for (int k = 0; k < 3; ++k) frame_.point.push_back(static_cast<float>(x[k]));
+    for (int k = 0; k < 3; ++k) push(force_, nodal_force[k]);
+    push(contact_, pressure);
+    push(tension_, tension);
+  }
+  void push_cell(const CellMeasure* c, std::uint8_t kind, double sphere_radius) {
+    frame_.cell_id.push_back(c ? c->id : -1);
+    frame_.kind.push_back(kind);
+    push(type_, c ? c->type : -1);
+    push(volume_, c ? c->volume : 0);
+    push(pressure_, c ? c->pressure : 0);
+    push(cytosol_, c ? c->cytosol_pressure : 0);
+    push(radius_, sphere_radius);
+    push(leader_, c && c->leader ? 1 : 0);
+    push(strength_, c ? c->strength : 1);
+  }
+  void add_triangles(const std::vector<std::array<int, 3>>& triangle, std::size_t n_node,
+                     const CellMeasure* cell, std::uint8_t kind) {
+    for (const auto& t : triangle) {
+      frame_.triangle.push_back({base_ + t[0], base_ + t[1], base_ + t[2]});
+      push_cell(cell, kind, 0);
+    }
+    base_ += static_cast<std::int64_t>(n_node);
+  }
+
+  const Snapshot& snapshot_;
+  io::Frame frame_;
+  io::Field force_{"force", "nN", 3, {}}, contact_{"contact_pressure", "kPa", 1, {}},
+      tension_{"tension", "nN/um", 1, {}};
+  io::Field type_{"cell_type", "1", 1, {}}, volume_{"volume", "um^3", 1, {}},
+      pressure_{"pressure", "kPa", 1, {}}, cytosol_{"cytosol_pressure", "kPa", 1, {}},
+      radius_{"radius", "um", 1, {}}, leader_{"leader", "1", 1, {}},
+      strength_{"strength", "1", 1, {}};
+  std::int64_t base_ = 0;  ///< nodes so far
+  std::size_t node_ = 0;   ///< of those of cells
+};
+
+}  // namespace
 
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
                      const Snapshot& snapshot, const coupling::VesselSurface& vessels) {
-  io::Frame f;
-  f.time_s = snapshot.time;
-  io::Field force{"force", "nN", 3, {}}, contact{"contact_pressure", "kPa", 1, {}},
-      tension{"tension", "nN/um", 1, {}};
-  io::Field type{"cell_type", "1", 1, {}}, volume{"volume", "um^3", 1, {}},
-      pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
-      radius{"radius", "um", 1, {}}, leader{"leader", "1", 1, {}}, strength{"strength", "1", 1, {}};
-  auto push_point = [&](const Vec3& x) {
-    for (int k = 0; k < 3; ++k) f.point.push_back(static_cast<float>(x[k]));
-  };
-  auto push_node = [&](const Vec3& nodal_force, double p, double t) {
-    for (int k = 0; k < 3; ++k) push(force, nodal_force[k]);
-    push(contact, p);
-    push(tension, t);
-  };
-  auto push_cell = [&](const CellMeasure* c, std::uint8_t kind, double sphere_radius) {
-    f.cell_id.push_back(c ? c->id : -1);
-    f.kind.push_back(kind);
-    push(type, c ? c->type : -1);
-    push(volume, c ? c->volume : 0);
-    push(pressure, c ? c->pressure : 0);
-    push(cytosol, c ? c->cytosol_pressure : 0);
-    push(radius, sphere_radius);
-    push(leader, c && c->leader ? 1 : 0);
-    push(strength, c ? c->strength : 1);
-  };
-
-  std::int64_t base = 0;
-  std::size_t node = 0;
-  for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
-    for (const Vec3& x : w.dcm.body[b].node) {
-      push_point(x);
-      push_node(snapshot.nodes.force[node], snapshot.nodes.pressure[node],
-                snapshot.nodes.tension[node]);
-      ++node;
-    }
-    for (const auto& t : *w.dcm.body[b].triangle) {
-      f.triangle.push_back({base + t[0], base + t[1], base + t[2]});
-      push_cell(&snapshot.cells[b], kShell, 0);
-    }
-    base += static_cast<std::int64_t>(w.dcm.body[b].node.size());
-  }
-  auto push_surface = [&](const std::vector<Vec3>& nodes,
-                          const std::vector<std::array<int, 3>>& triangles) {
-    for (const Vec3& x : nodes) {
-      push_point(x);
-      push_node(Vec3::Zero(), 0, 0);
-    }
-    for (const auto& t : triangles) {
-      f.triangle.push_back({base + t[0], base + t[1], base + t[2]});
-      push_cell(nullptr, kSurroundings, 0);
-    }
-    base += static_cast<std::int64_t>(nodes.size());
-  };
-  push_surface(vessels.surface.node, vessels.surface.triangle);
+  FrameBuilder builder(snapshot);
+  const std::size_t n_body = w.dcm.body.size();
+  for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
+  builder.add_surface(vessels.surface.node, vessels.surface.triangle);
   for (const contact::StaticMesh& m : world.params.around.meshes)
-    push_surface(m.body.node, m.triangle);
-  f.n_mesh_node = base;
-  for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k) {
-    push_point(snapshot.cells[k].center);
-    push_node(Vec3::Zero(), 0, 0);
-    push_cell(&snapshot.cells[k], kSphere, snapshot.cells[k].radius);
-    ++f.n_sphere;
-  }
-  f.point_data = {std::move(force), std::move(contact), std::move(tension)};
-  f.cell_data = {std::move(type),   std::move(volume), std::move(pressure), std::move(cytosol),
-                 std::move(radius), std::move(leader), std::move(strength)};
-  f.cells = cell_table(snapshot.cells);
-  f.interface = interface_table(snapshot.interface);
-  return f;
+    builder.add_surface(m.body.node, m.triangle);
+  for (std::size_t k = n_body; k < snapshot.cells.size(); ++k)
+    builder.add_sphere(snapshot.cells[k]);
+  return builder.finish();
 }
 
 namespace {

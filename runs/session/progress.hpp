@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace acinus::runs {

@@ -7,10 +7,10 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "runs/build/state_file.hpp"
 #include "runs/session/frame.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"
-#include "runs/session/state_file.hpp"
 #include "runs/session/summary.hpp"
 
 namespace acinus::runs {

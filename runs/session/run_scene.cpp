@@ -17,13 +17,13 @@
 #include "core/time_grid.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/build/build_world.hpp"
+#include "runs/build/start_state.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/session/advice.hpp"
 #include "runs/session/progress.hpp"
 #include "runs/session/recorder.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"
-#include "runs/session/start_state.hpp"
 #include "runs/session/stop_signals.hpp"
 
 namespace acinus::runs {

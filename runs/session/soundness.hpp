@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/audit.hpp"
-#include "coupling/workspace.hpp"
-#include "coupling/world.hpp"
+#include "coupling/measure/audit.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::runs {
 

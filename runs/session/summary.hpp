@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/timing.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_scene.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/io/checkpoint.hpp"
-#include "coupling/audit.hpp"
 #include "coupling/life/life.hpp"
+#include "coupling/measure/audit.hpp"
 
 namespace acinus::runs {
 

@@ -1,4 +1,4 @@
-#include "coupling/audit.hpp"
+#include "coupling/measure/audit.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

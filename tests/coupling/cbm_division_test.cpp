@@ -13,7 +13,7 @@
 #include "core/contact/jkr.hpp"
 #include "core/random.hpp"
 #include "coupling/generate/packing.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

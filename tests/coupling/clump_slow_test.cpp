@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "core/random.hpp"
-#include "coupling/audit.hpp"
-#include "coupling/difference.hpp"
 #include "coupling/generate/packing.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/audit.hpp"
+#include "coupling/measure/difference.hpp"
+#include "coupling/measure/measure.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

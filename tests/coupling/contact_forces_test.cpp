@@ -1,6 +1,6 @@
 /// Contacts one by one: reactions of the surroundings, who touches whom, the interface's balance.
 
-#include "coupling/contact_forces.hpp"
+#include "coupling/measure/contact_forces.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/contact/hertz.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

@@ -1,4 +1,4 @@
-#include "coupling/difference.hpp"
+#include "coupling/measure/difference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Forces across the interface: equal and opposite, and the same from one solve or two.
 
-#include "coupling/interface.hpp"
+#include "coupling/world/interface.hpp"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,6 +1,6 @@
 /// Who leads the tissue toward the vein.
 
-#include "coupling/leaders.hpp"
+#include "coupling/world/leaders.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/mesh/audit_body.hpp"
 #include "core/mesh/measures.hpp"
-#include "coupling/audit_body.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
@@ -48,7 +48,7 @@ void expect_to_go_on(World& w, double duration) {
     if (!c.deformable) continue;
     const std::vector<Vec3> node = nodes_of(w.state, id);
     const auto& triangle = w.state.dcm.group[c.at / kLanes].topology->triangle;
-    EXPECT_FALSE(AuditBody(node, triangle).self_intersects()) << id;
+    EXPECT_FALSE(mesh::AuditBody(node, triangle).self_intersects()) << id;
     EXPECT_GT(mesh::compute_quality(node, triangle), 0.1) << id;
   }
   std::printf("went on for %.0f s: %d rejections\n", duration, rejected);
@@ -58,7 +58,7 @@ TEST(Division, OfARoundShellMakesTwoHalvesWithinHer) {
   World w = make_living_world({mother({5, -3, 2})}, 162);
   begin_with_mothers(w);
   const std::vector<Vec3> before = nodes_of(w.state, 0);
-  const AuditBody body(before, mesh::shared_icosphere(162).triangle);
+  const mesh::AuditBody body(before, mesh::shared_icosphere(162).triangle);
   const double mother_volume = body.volume;
   const LifeReport report = look(w, 60);
   ASSERT_EQ(report.divisions.size(), 1u);
@@ -95,7 +95,8 @@ TEST(Division, OfARoundShellMakesTwoHalvesWithinHer) {
     // Figures are of the moment of birth; then the daughters settle for a step.
     EXPECT_NEAR(volume_of_mesh(w.state, id), mother_volume / 2, 2e-3 * mother_volume);
     for (const Vec3& x : nodes_of(w.state, id))
-      if (body.side(x) == Side::kOutside) farthest = std::max(farthest, body.distance(x));
+      if (body.locate(x) == mesh::Location::kOutside)
+        farthest = std::max(farthest, body.distance(x));
   }
   std::printf("farthest node outside the mother once settled: %.3f um\n", farthest);
   expect_to_go_on(w, 3600);

@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "core/mesh/measures.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
 #include "tests/coupling/lives.hpp"

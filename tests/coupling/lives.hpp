@@ -6,9 +6,9 @@
 #include <map>
 #include <vector>
 
-#include "coupling/cell.hpp"
 #include "coupling/life/life.hpp"
 #include "coupling/life/rules.hpp"
+#include "coupling/world/cell.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

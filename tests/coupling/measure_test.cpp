@@ -1,6 +1,6 @@
 /// What a run reports of each cell.
 
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,14 +10,14 @@
 #include <cstdio>
 #include <string>
 
+#include "core/mesh/audit_body.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/timing.hpp"
-#include "coupling/audit.hpp"
-#include "coupling/audit_body.hpp"
 #include "coupling/generate/packing.hpp"
-#include "coupling/life/mesh_remedy.hpp"
 #include "coupling/life/rules.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/audit.hpp"
+#include "coupling/measure/measure.hpp"
+#include "dcm/mesh_remedy.hpp"
 #include "dcm/split.hpp"
 #include "tests/coupling/worlds.hpp"
 #include "tests/reference/cell_shapes.hpp"
@@ -108,11 +108,11 @@ double deepest_overlap(const World& world) {
 TEST(MeshHealth, OrdinaryShapesAreNotSuspicious) {
   const mesh::Topology& t = mesh::shared_icosphere(162);
   for (const auto& shape : reference::cell_shapes()) {
-    const MeshHealth h =
-        measure_health(t, make_spoiled(t, {shape.name.c_str(), Damage::kNone, 0, ""}), kRadius);
+    const dcm::MeshHealth h = dcm::measure_health(
+        t, make_spoiled(t, {shape.name.c_str(), Damage::kNone, 0, ""}), kRadius);
     std::printf("%-14s quality %.3f spacing %.3f fold %.2f\n", shape.name.c_str(), h.quality,
                 h.spacing, h.opposed);
-    EXPECT_FALSE(is_suspicious(h)) << shape.name;
+    EXPECT_FALSE(dcm::is_suspicious(h)) << shape.name;
   }
 }
 
@@ -123,10 +123,10 @@ TEST_P(Mending, GivesASoundMeshOnTheSameSurface) {
   const mesh::Topology& t = mesh::shared_icosphere(162);
   const std::vector<Vec3> node = make_spoiled(t, c);
   const double volume = mesh::compute_volume(node, t.triangle);
-  ASSERT_TRUE(is_suspicious(measure_health(t, node, kRadius)));
-  const Mended m = mend_mesh(t, node, kRadius);
+  ASSERT_TRUE(dcm::is_suspicious(dcm::measure_health(t, node, kRadius)));
+  const dcm::Mended m = dcm::mend_mesh(t, node, kRadius);
   ASSERT_TRUE(m.ok) << m.why;
-  const SurfaceShift shift = compare_surfaces(t, node, m.node);
+  const dcm::SurfaceShift shift = dcm::compare_surfaces(t, node, m.node);
   const double kept = mesh::compute_volume(m.node, t.triangle) / volume - 1;
   std::printf(
       "%-26s %-8s quality %.3f -> %.3f, spacing %.2f -> %.2f, fold %.2f -> %.2f; %.2f um "
@@ -134,15 +134,15 @@ TEST_P(Mending, GivesASoundMeshOnTheSameSurface) {
       c.name, m.method.c_str(), m.before.quality, m.after.quality, m.before.spacing,
       m.after.spacing, m.before.opposed, m.after.opposed, shift.outside, shift.inside, shift.lost,
       100 * m.area_change, kept);
-  EXPECT_GE(m.after.quality, kGoodQuality);
-  EXPECT_GE(m.after.spacing, kGoodSpacing);
-  EXPECT_FALSE(AuditBody(m.node, t.triangle).self_intersects());
+  EXPECT_GE(m.after.quality, dcm::kGoodQuality);
+  EXPECT_GE(m.after.spacing, dcm::kGoodSpacing);
+  EXPECT_FALSE(mesh::AuditBody(m.node, t.triangle).self_intersects());
   // match_volume ends within 1e-12; the sum of 320 terms rounds by some 1e-15 more.
   EXPECT_LT(std::abs(kept), 1.01e-12);
   EXPECT_LE(shift.outside, 0.3);
   EXPECT_LE(shift.inside, 0.6);
   EXPECT_LE(shift.lost, 1);
-  EXPECT_LE(std::abs(m.area_change), kMostAreaChange);
+  EXPECT_LE(std::abs(m.area_change), dcm::kMostAreaChange);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -233,7 +233,7 @@ void spoil_in_place(World& world, std::size_t lane, int node, double share) {
   const auto i = static_cast<std::size_t>(node);
   const auto j = static_cast<std::size_t>(t.ring[static_cast<std::size_t>(t.ring_start[i])]);
   const std::vector<Vec3> before = x;
-  x[i] = AuditBody(before, t.triangle).closest_point(x[i] + share * (x[j] - x[i]));
+  x[i] = mesh::AuditBody(before, t.triangle).closest_point(x[i] + share * (x[j] - x[i]));
   const std::vector<double> all(x.size(), 1.0);
   ASSERT_TRUE(dcm::match_volume(t, mesh::compute_volume(before, t.triangle), all, x));
   set_nodes(world, lane, x);
@@ -263,7 +263,7 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
     World still = world;
     std::vector<Vec3> node;
     dcm::copy_nodes(still.state.dcm, inner, node);
-    set_nodes(still, inner, mend_mesh(mesh::shared_icosphere(162), node, kRadius).node);
+    set_nodes(still, inner, dcm::mend_mesh(mesh::shared_icosphere(162), node, kRadius).node);
     overlap_put = deepest_overlap(still);
   }
   const LifeReport report = look(world, work);
@@ -332,7 +332,7 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
   Workspace work;
   size_workspace(world, work);
   const double start = thread_cpu_seconds();
-  MeshHealth worst;
+  dcm::MeshHealth worst;
   while (dcm::count_cells(world.state.dcm) < 8 || world.state.clock.time < 19.5 * 3600) {
     ASSERT_TRUE(advance(world, work, 600).accepted);
     for (const LifeEvent& e : live(world, work).events) {
@@ -344,8 +344,8 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
       if (!world.state.dcm.active(l)) continue;
       dcm::copy_nodes(world.state.dcm, l, node);
       const double v = world.state.dcm.volume[l].at(world.state.clock.time);
-      const MeshHealth h =
-          measure_health(mesh::shared_icosphere(162), node, std::cbrt(v / (4.0 / 3 * kPi)));
+      const dcm::MeshHealth h =
+          dcm::measure_health(mesh::shared_icosphere(162), node, std::cbrt(v / (4.0 / 3 * kPi)));
       worst.quality = std::min(worst.quality, h.quality);
       worst.spacing = std::min(worst.spacing, h.spacing);
       worst.opposed = std::min(worst.opposed, h.opposed);
@@ -358,9 +358,9 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
       "the time\n",
       dcm::count_cells(world.state.dcm), static_cast<long>(world.state.clock.accepted),
       worst.quality, worst.spacing, worst.opposed, 100 * watch / all);
-  EXPECT_GT(worst.quality, 3 * kPoorQuality);
-  EXPECT_GT(worst.spacing, 3 * kPoorSpacing);
-  EXPECT_GT(worst.opposed, kFolded);
+  EXPECT_GT(worst.quality, 3 * dcm::kPoorQuality);
+  EXPECT_GT(worst.spacing, 3 * dcm::kPoorSpacing);
+  EXPECT_GT(worst.opposed, dcm::kFolded);
   EXPECT_LT(watch, 0.02 * all);
 }
 

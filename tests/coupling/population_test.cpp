@@ -1,6 +1,6 @@
 /// New states made of cells of others: nothing that belongs to a cell gets lost or mixed up.
 
-#include "coupling/population.hpp"
+#include "coupling/world/population.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/cell.hpp"
+#include "coupling/world/cell.hpp"
 #include "tests/coupling/worlds.hpp"
 #include "tests/reference/sample.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <map>
 
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "coupling/audit_body.hpp"
+#include "core/mesh/audit_body.hpp"
 #include "dcm/split.hpp"
 #include "tests/reference/cell_shapes.hpp"
 #include "tests/reference/sample.hpp"
@@ -14,10 +14,10 @@ namespace acinus::coupling {
 namespace {
 
 /// Depth of the nodes of one daughter outside the mother, um.
-double compute_outside(const AuditBody& mother, std::span<const Vec3> node) {
+double compute_outside(const mesh::AuditBody& mother, std::span<const Vec3> node) {
   double worst = 0;
   for (const Vec3& x : node)
-    if (mother.side(x) == Side::kOutside) worst = std::max(worst, mother.distance(x));
+    if (mother.locate(x) == mesh::Location::kOutside) worst = std::max(worst, mother.distance(x));
   return worst;
 }
 
@@ -31,12 +31,12 @@ TEST(SplitAudit, DaughtersDoNotCrossThemselvesAndStayWithinTheMother) {
     for (int n = 0; n < 40; ++n) {
       const mesh::Surface mother = reference::make_cell(
           shape, topology, 15.1, reference::random_rotation(random), Vec3(100, -50, 30));
-      const AuditBody body(mother.node, mother.triangle);
+      const mesh::AuditBody body(mother.node, mother.triangle);
       ASSERT_FALSE(body.self_intersects()) << shape.name;
       const dcm::Split split = dcm::split_cell(topology, mother.node, random.unit_vector());
       ASSERT_TRUE(split.daughters) << shape.name;
       for (std::size_t h = 0; h < 2; ++h) {
-        const AuditBody daughter(split.daughters->node[h], topology.triangle);
+        const mesh::AuditBody daughter(split.daughters->node[h], topology.triangle);
         EXPECT_FALSE(daughter.self_intersects()) << shape.name;
         EXPECT_NEAR(daughter.volume, body.volume / 2, 1e-9 * body.volume);
         const double outside = compute_outside(body, split.daughters->node[h]);
@@ -58,7 +58,7 @@ TEST(SplitAudit, TheMothersUsedInTestsAreSound) {
   for (const auto& shape : reference::cell_shapes()) {
     const mesh::Surface mother = reference::make_cell(shape, mesh::shared_icosphere(162), 15.1,
                                                       Mat3::Identity(), Vec3::Zero());
-    EXPECT_FALSE(AuditBody(mother.node, mother.triangle).self_intersects()) << shape.name;
+    EXPECT_FALSE(mesh::AuditBody(mother.node, mother.triangle).self_intersects()) << shape.name;
   }
 }
 

@@ -1,6 +1,6 @@
 /// Small worlds cut out of large ones.
 
-#include "coupling/subworld.hpp"
+#include "coupling/subworld/subworld.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "coupling/cell.hpp"
+#include "coupling/world/cell.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

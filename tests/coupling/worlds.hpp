@@ -8,7 +8,7 @@
 #include "core/mesh/topology.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
-#include "coupling/world.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

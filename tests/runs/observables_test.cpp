@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "coupling/contact_forces.hpp"
+#include "coupling/measure/contact_forces.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/tissue.hpp"
+#include "runs/session/frame.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {

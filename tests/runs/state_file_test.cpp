@@ -1,4 +1,4 @@
-#include "runs/session/state_file.hpp"
+#include "runs/build/state_file.hpp"
 
 #include <gtest/gtest.h>
 

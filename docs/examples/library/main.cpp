@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "core/mesh/topology.hpp"
-#include "coupling/measure.hpp"
+#include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 
 using namespace acinus;

@@ -1,4 +1,4 @@
-#include "core/contact/box.hpp"
+#include "core/contact/box_pairs.hpp"
 
 #include <gtest/gtest.h>
 

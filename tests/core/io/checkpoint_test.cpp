@@ -140,12 +140,12 @@ TEST(Checkpoint, NewerFormatIsRefusedNotReplaced) {
   save_checkpoint(folder.path, make_data(2));
   {
     h5::File file = h5::File::open(folder / "checkpoint.h5", h5::Access::kAppend);
-    const std::int64_t version[2] = {2, 0};
+    const std::int64_t version[2] = {3, 0};
     file.write_attribute("/", "schema_version", version);
     file.close();
   }
   const std::string message = error_of([&] { load_checkpoint(folder.path); }, Exit::kFileError);
-  EXPECT_NE(message.find("2.0 is newer than this program reads (1.0)"), std::string::npos)
+  EXPECT_NE(message.find("3.0 is newer than this program reads (2.0)"), std::string::npos)
       << message;
 }
 

@@ -1,0 +1,384 @@
+#include "coupling/measure/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/error.hpp"
+#include "core/mesh/audit_body.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Where between two neighbouring crossings a passing edge is probed.
+constexpr std::array<double, 3> kProbe{0.25, 0.5, 0.75};
+
+/// Sisters are born 2 (R_m - R_d) apart (cbm::divide), here in radii of cells about to divide: as
+/// they grow where they are, they may come to no less.
+const double kSisterDistance = 2 - std::cbrt(4.0);
+
+/// Calls f(point on a-b) at probes of every piece between neighbouring crossings.
+template <class F>
+void probe_pieces(const Vec3& a, const Vec3& b, const std::vector<double>& crossing, F&& f) {
+  for (std::size_t c = 0; c + 1 < crossing.size(); ++c)
+    for (const double probe : kProbe)
+      f(Vec3(a + (crossing[c] + probe * (crossing[c + 1] - crossing[c])) * (b - a)));
+}
+
+/// Deepest point of the surface of `a` on the forbidden side of `b`, um.
+double surface_depth(const mesh::AuditBody& a, const mesh::AuditBody& b, mesh::Location forbidden) {
+  double depth = 0;
+  const auto look = [&](const Vec3& point) {
+    if (forbidden == mesh::Location::kInside && !b.box.contains(point)) return false;
+    if (b.locate(point) != forbidden) return false;
+    depth = std::max(depth, b.distance(point));
+    return true;
+  };
+  std::vector<char> bad(static_cast<std::size_t>(a.n_node));
+  for (std::size_t s = 0; s < a.sample.size(); ++s) {
+    const bool is_bad = look(a.sample[s]);
+    if (s < bad.size()) bad[s] = is_bad;
+  }
+  for (const auto& [i, j] : a.edge) {
+    if (bad[static_cast<std::size_t>(i)] || bad[static_cast<std::size_t>(j)]) continue;
+    const Vec3 &from = a.sample[static_cast<std::size_t>(i)],
+               &to = a.sample[static_cast<std::size_t>(j)];
+    probe_pieces(from, to, b.crossings(from, to), look);
+  }
+  return depth;
+}
+
+/// Depth of the volume centroid of `a` if it lies in both bodies, um.
+double common_centroid_depth(const mesh::AuditBody& a, const mesh::AuditBody& b) {
+  if (a.locate(a.centroid) != mesh::Location::kInside ||
+      b.locate(a.centroid) != mesh::Location::kInside)
+    return 0;
+  return std::min(a.distance(a.centroid), b.distance(a.centroid));
+}
+
+double body_depth(const mesh::AuditBody& a, const mesh::AuditBody& b) {
+  return std::max({surface_depth(a, b, mesh::Location::kInside),
+                   surface_depth(b, a, mesh::Location::kInside), common_centroid_depth(a, b),
+                   common_centroid_depth(b, a)});
+}
+
+struct RoundCone {
+  Vec3 a, b;
+  double radius_a, radius_b;
+  Box box() const {
+    Box hull = sphere_box(a, radius_a);
+    const Box end = sphere_box(b, radius_b);
+    return {hull.low.cwiseMin(end.low), hull.high.cwiseMax(end.high)};
+  }
+  double radius(double t) const { return radius_a + t * (radius_b - radius_a); }
+};
+
+/// Depth below the surface of the union of balls along the axis: max over t of r(t) - |p - c(t)|.
+/// The best ball is the one whose surface normal passes through p: with the slope s = (ra - rb)/L
+/// it sits s/sqrt(1 - s^2) times the distance from the axis behind the foot of p.
+double cone_depth(const RoundCone& cone, const Vec3& p) {
+  const Vec3 along = cone.b - cone.a;
+  const double length = along.norm();
+  const double drop = cone.radius_a - cone.radius_b;
+  double t = drop > 0 ? 0 : 1;  // one ball swallows the other
+  if (std::abs(drop) < length) {
+    const double slope = drop / length;
+    const double foot = (p - cone.a).dot(along) / length;
+    const double off = (p - cone.a - foot / length * along).norm();
+    t = std::clamp((foot - off * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
+  }
+  return cone.radius(t) - (p - cone.a - t * along).norm();
+}
+
+/// The point of segment p-q nearest to segment a-b. With one segment's parameter fixed the other's
+/// best is a clamped projection; the pair that minimises is found from the unclamped solution in
+/// two rounds.
+Vec3 nearest_on_segment(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+  const Vec3 u = q - p, v = b - a, w = p - a;
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
+  const double det = uu * vv - uv * uv;
+  const auto project = [](const Vec3& x, const Vec3& from, const Vec3& way, double squared) {
+    return squared > 0 ? std::clamp((x - from).dot(way) / squared, 0.0, 1.0) : 0.0;
+  };
+  double s = det > 1e-14 * uu * vv ? (uv * v.dot(w) - vv * u.dot(w)) / det : 0.5;
+  s = std::clamp(s, 0.0, 1.0);
+  const double t = project(p + s * u, a, v, vv);
+  s = project(a + t * v, p, u, uu);
+  return p + s * u;
+}
+
+double vessel_depth(const mesh::AuditBody& cell, const RoundCone& cone) {
+  const Box box = cone.box();
+  double depth = 0;
+  const auto on_surface = [&](const Vec3& x) { depth = std::max(depth, cone_depth(cone, x)); };
+  for (const Vec3& x : cell.sample)
+    if (box.contains(x)) on_surface(x);
+  for (const auto& [i, j] : cell.edge) {
+    const Vec3 &from = cell.sample[static_cast<std::size_t>(i)],
+               &to = cell.sample[static_cast<std::size_t>(j)];
+    if (box.overlaps(segment_box(from, to)))
+      on_surface(nearest_on_segment(from, to, cone.a, cone.b));
+  }
+  // A thin vessel can end in or pass through the middle of a triangle, away from every sample.
+  const std::vector<double> crossing = cell.crossings(cone.a, cone.b);
+  const auto on_axis = [&](const Vec3& x) {
+    const Vec3 near = cell.closest_point(x);
+    on_surface(near);
+    if (cell.locate(x) != mesh::Location::kInside) return;
+    const double length = (cone.b - cone.a).norm();
+    const double t = length > 0 ? (x - cone.a).norm() / length : 0.0;
+    depth = std::max(depth, cone.radius(t) + (x - near).norm());
+  };
+  on_axis(cone.a);
+  on_axis(cone.b);
+  for (const double t : crossing) on_surface(cone.a + t * (cone.b - cone.a));
+  std::vector<double> stop{0.0};
+  stop.insert(stop.end(), crossing.begin(), crossing.end());
+  stop.push_back(1.0);
+  if (!crossing.empty()) probe_pieces(cone.a, cone.b, stop, on_axis);
+  return depth;
+}
+
+double sphere_depth(const mesh::AuditBody& cell, const AuditSphere& sphere) {
+  const double distance = cell.distance(sphere.center);
+  const double sign = cell.locate(sphere.center) == mesh::Location::kInside ? 1 : -1;
+  return sphere.radius + sign * distance;
+}
+
+void keep_worst(WorstPair& worst, double depth, std::int64_t a, std::int64_t b) {
+  if (depth > worst.depth_um) worst = {depth, {a, b}};
+}
+
+/// A depth that ought not to be, of a pair with or without a newborn cell.
+void keep_penetration(AuditResult& result, double depth, bool newborn) {
+  result.max_penetration_um = std::max(result.max_penetration_um, depth);
+  if (!newborn) result.max_penetration_grown_um = std::max(result.max_penetration_grown_um, depth);
+}
+
+void check_finite(std::span<const Vec3> nodes, const std::string& what) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    check(nodes[i].allFinite(), fmt::format("audit: {}: node {} is not finite", what, i),
+          Exit::kCannotContinue);
+}
+
+/// All bodies of a frame under one numbering: cells, spheres, vessel segments, statics.
+struct Bodies {
+  std::vector<mesh::AuditBody> cell, fixed;
+  std::vector<RoundCone> cone;
+};
+
+Bodies prepare(const AuditFrame& frame) {
+  for (const AuditMesh& m : frame.meshes) check_finite(m.node, fmt::format("cell {}", m.id));
+  for (const AuditSphere& s : frame.spheres)
+    check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
+  Bodies bodies;
+  for (const AuditMesh& m : frame.meshes) bodies.cell.emplace_back(m.node, m.triangle);
+  for (std::size_t i = 0; i < frame.statics.size(); ++i) {
+    check_finite(frame.statics[i].node, fmt::format("static mesh {}", i));
+    bodies.fixed.emplace_back(frame.statics[i].node, frame.statics[i].triangle);
+    check(bodies.fixed.back().closed(), fmt::format("audit: static mesh {} is not closed", i));
+  }
+  if (!frame.vessels) return bodies;
+  const mesh::Network& net = *frame.vessels;
+  for (std::size_t s = 0; s < net.segment.size(); ++s)
+    bodies.cone.push_back({net.node[static_cast<std::size_t>(net.segment[s][0])],
+                           net.node[static_cast<std::size_t>(net.segment[s][1])], net.radius[s][0],
+                           net.radius[s][1]});
+  return bodies;
+}
+
+void audit_shapes(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+  const int n = static_cast<int>(bodies.cell.size());
+  std::vector<char> crosses(bodies.cell.size());
+#pragma omp parallel for schedule(dynamic)
+  for (int c = 0; c < n; ++c)
+    crosses[static_cast<std::size_t>(c)] =
+        bodies.cell[static_cast<std::size_t>(c)].self_intersects();
+  for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
+    const mesh::AuditBody& cell = bodies.cell[c];
+    result.n_inverted += cell.volume <= 0;
+    result.n_self_intersecting += crosses[c];
+    if (cell.quality < result.min_triangle_quality || result.worst_triangle_cell < 0) {
+      result.min_triangle_quality = cell.quality;
+      result.worst_triangle_cell = frame.meshes[c].id;
+    }
+  }
+}
+
+/// Planes, capsules and envelopes: every cell has to be on their good side, near or not.
+void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+  for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
+    const AuditMesh& cell = frame.meshes[c];
+    std::int64_t wall = 0;
+    const auto keep = [&](double depth) {
+      keep_worst(result.dcm_wall, depth, cell.id, wall);
+      keep_penetration(result, depth, cell.newborn);
+    };
+    for (const AuditPlane& plane : frame.planes) {
+      for (const Vec3& x : cell.node) keep(-(x - plane.point).dot(plane.normal));
+      ++wall;
+    }
+    for (const AuditCapsule& capsule : frame.capsules) {
+      for (const Vec3& x : cell.node) keep((x - capsule.center).norm() - capsule.radius);
+      ++wall;
+    }
+    for (std::size_t f = 0; f < bodies.fixed.size(); ++f, ++wall)
+      if (frame.statics[f].inside) {
+        const mesh::AuditBody &body = bodies.cell[c], &fixed = bodies.fixed[f];
+        keep(surface_depth(body, fixed, mesh::Location::kOutside));
+        keep(surface_depth(fixed, body, mesh::Location::kInside));
+      }
+  }
+}
+
+/// How far a sphere reaches beyond the surface of a closed body on the forbidden side.
+double depth_in_fixed(const AuditSphere& sphere, const mesh::AuditBody& fixed,
+                      mesh::Location forbidden) {
+  const double distance = fixed.distance(sphere.center);
+  return sphere.radius + (fixed.locate(sphere.center) == forbidden ? distance : -distance);
+}
+
+void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+  for (const AuditSphere& s : frame.spheres) {
+    std::int64_t wall = 0;
+    const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s.id, wall++); };
+    for (const AuditPlane& p : frame.planes) keep(s.radius - (s.center - p.point).dot(p.normal));
+    for (const AuditCapsule& c : frame.capsules)
+      keep((s.center - c.center).norm() + s.radius - c.radius);
+    for (std::size_t f = 0; f < bodies.fixed.size(); ++f)
+      keep(depth_in_fixed(
+          s, bodies.fixed[f],
+          frame.statics[f].inside ? mesh::Location::kOutside : mesh::Location::kInside));
+  }
+}
+
+struct Pair {
+  enum class Kind {
+    kCellCell,
+    kCellSphere,
+    kCellVessel,
+    kCellFixed,
+    kSphereSphere,
+    kSphereVessel
+  } kind;
+  std::size_t a, b;
+  double depth = 0;
+};
+
+std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
+  std::vector<Box> box;
+  for (const mesh::AuditBody& b : bodies.cell) box.push_back(b.box);
+  for (const AuditSphere& s : frame.spheres) box.push_back(sphere_box(s.center, s.radius));
+  for (const RoundCone& c : bodies.cone) box.push_back(c.box());
+  for (const mesh::AuditBody& b : bodies.fixed) box.push_back(b.box);
+  const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
+  const std::size_t fixed = cone + bodies.cone.size();
+  std::vector<Pair> pair;
+  for (const auto& [i, j] : mesh::meeting_boxes(box)) {  // i < j: the cell comes first
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    if (a < sphere) {
+      if (b < sphere)
+        pair.push_back({Pair::Kind::kCellCell, a, b});
+      else if (b < cone)
+        pair.push_back({Pair::Kind::kCellSphere, a, b - sphere});
+      else if (b < fixed)
+        pair.push_back({Pair::Kind::kCellVessel, a, b - cone});
+      else if (!frame.statics[b - fixed].inside)
+        pair.push_back({Pair::Kind::kCellFixed, a, b - fixed});
+    } else if (a < cone && b < cone) {
+      pair.push_back({Pair::Kind::kSphereSphere, a - sphere, b - sphere});
+    } else if (a < cone && b < fixed) {
+      pair.push_back({Pair::Kind::kSphereVessel, a - sphere, b - cone});
+    }
+  }
+  return pair;
+}
+
+double sphere_overlap(const AuditSphere& a, const AuditSphere& b) {
+  const double distance = (a.center - b.center).norm(), depth = a.radius + b.radius - distance;
+  const bool sisters = a.mother >= 0 && a.mother == b.mother;
+  if (!sisters || depth <= std::max(a.radius, b.radius)) return depth;
+  const bool weak = a.strength < 1 || b.strength < 1;
+  return weak || distance >= kSisterDistance * 0.5 * (a.radius + b.radius) ? 0 : depth;
+}
+
+double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pair) {
+  switch (pair.kind) {
+    case Pair::Kind::kCellCell:
+      return body_depth(bodies.cell[pair.a], bodies.cell[pair.b]);
+    case Pair::Kind::kCellSphere:
+      return sphere_depth(bodies.cell[pair.a], frame.spheres[pair.b]);
+    case Pair::Kind::kCellVessel:
+      return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
+    case Pair::Kind::kCellFixed:
+      return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
+    case Pair::Kind::kSphereSphere:
+      return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
+    case Pair::Kind::kSphereVessel:
+      return frame.spheres[pair.a].radius +
+             cone_depth(bodies.cone[pair.b], frame.spheres[pair.a].center);
+  }
+  return 0;
+}
+
+void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
+  const auto other = static_cast<std::int64_t>(pair.b);
+  const bool of_cell =
+      pair.kind != Pair::Kind::kSphereSphere && pair.kind != Pair::Kind::kSphereVessel;
+  const bool newborn = of_cell && frame.meshes[pair.a].newborn;
+  switch (pair.kind) {
+    case Pair::Kind::kCellCell:
+      keep_penetration(result, pair.depth, newborn || frame.meshes[pair.b].newborn);
+      return keep_worst(result.dcm_dcm, pair.depth, frame.meshes[pair.a].id,
+                        frame.meshes[pair.b].id);
+    case Pair::Kind::kCellSphere: {
+      const std::int64_t mesh = frame.meshes[pair.a].id, sphere = frame.spheres[pair.b].id;
+      const auto dent = std::ranges::find_if(frame.dents, [&](const AuditDent& d) {
+        return d.mesh_id == mesh && d.sphere_id == sphere;
+      });
+      const double explained = dent == frame.dents.end() ? 0 : std::max(0.0, dent->depth);
+      const double beyond = std::max(0.0, pair.depth - explained);
+      keep_penetration(result, beyond, newborn);
+      keep_worst(result.dcm_cbm_beyond_dent, beyond, mesh, sphere);
+      return keep_worst(result.dcm_cbm, pair.depth, mesh, sphere);
+    }
+    case Pair::Kind::kCellVessel:
+      keep_penetration(result, pair.depth, newborn);
+      return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
+    case Pair::Kind::kCellFixed: {
+      const auto before = static_cast<std::int64_t>(frame.planes.size() + frame.capsules.size());
+      keep_penetration(result, pair.depth, newborn);
+      return keep_worst(result.dcm_wall, pair.depth, frame.meshes[pair.a].id, before + other);
+    }
+    case Pair::Kind::kSphereSphere:
+      return keep_worst(result.cbm_cbm, pair.depth, frame.spheres[pair.a].id,
+                        frame.spheres[pair.b].id);
+    case Pair::Kind::kSphereVessel:
+      return keep_worst(result.cbm_vessel, pair.depth, frame.spheres[pair.a].id, other);
+  }
+}
+
+}  // namespace
+
+AuditResult audit(const AuditFrame& frame) {
+  AuditResult result;
+  const Bodies bodies = prepare(frame);
+  audit_shapes(frame, bodies, result);
+  audit_walls(frame, bodies, result);
+  audit_spheres_at_walls(frame, bodies, result);
+  std::vector<Pair> pairs = find_pairs(frame, bodies);
+  const auto n = static_cast<std::ptrdiff_t>(pairs.size());
+#pragma omp parallel for schedule(dynamic, 8)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    Pair& pair = pairs[static_cast<std::size_t>(k)];
+    pair.depth = pair_depth(frame, bodies, pair);
+  }
+  for (const Pair& pair : pairs)
+    keep_pair(frame, pair, result);  // in list order, whoever computed it
+  result.max_overlap_cbm_um = result.cbm_cbm.depth_um;
+  return result;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,160 @@
+#include "coupling/measure/contact_forces.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "coupling/step/stages.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Where cells are: surfaces first, then spheres, as measure_cells lists them.
+struct Places {
+  const World& world;
+  const Workspace& w;
+  std::vector<Vec3> center;  ///< um
+
+  Places(const World& of, const Workspace& work) : world(of), w(work) {
+    for (const std::size_t lane : w.dcm.lane_of_body)
+      center.push_back(dcm::cell_center(world.state.dcm, lane));
+    for (std::size_t c = 0; c < world.state.cbm.n_cell(); ++c)
+      center.push_back(cbm::center_of(world.state.cbm, c));
+  }
+
+  Vec3 point(const contact::Contact& k) const {
+    const contact::SurfaceBody& body = w.dcm.body[static_cast<std::size_t>(k.a)];
+    return contact::point_position(body, dcm::stencil_of(world.params.dcm_contact, body, k));
+  }
+
+  /// Spheres meet in the middle of their overlap; with an obstacle it is the obstacle's surface.
+  void set_arms_of_sphere(const contact::Contact& k, ContactForce& f) const {
+    const std::vector<double>& radius = w.cbm_radius;
+    const bool pair = k.partner == contact::Partner::kSphere;
+    const double depth = pair ? -0.5 * k.gap : -k.gap;
+    f.arm_a = -(radius[static_cast<std::size_t>(k.a)] - depth) * k.normal;
+    if (pair) f.arm_b = (radius[static_cast<std::size_t>(k.b)] - depth) * k.normal;
+  }
+
+  void set_arms_of_surface(const contact::Contact& k, ContactForce& f) const {
+    const Vec3 x = point(k);
+    f.arm_a = x - center[f.a];
+    if (f.b == kNoCell) return;
+    const bool surfaces = k.partner == contact::Partner::kSurface;
+    f.arm_b = (surfaces ? Vec3(x - k.gap * k.normal) : x) - center[f.b];
+  }
+};
+
+/// The part of the surroundings a contact is with.
+template <class AnyReactions>
+auto& part_of(AnyReactions& reactions, const ContactForce& c) {
+  const auto i = static_cast<std::size_t>(c.index);
+  switch (c.kind) {
+    case contact::Partner::kPlane:
+      return reactions.plane[i];
+    case contact::Partner::kCapsule:
+      return reactions.capsule[i];
+    case contact::Partner::kMesh:
+      return reactions.mesh[i];
+    case contact::Partner::kVessel:
+    case contact::Partner::kSurface:
+    case contact::Partner::kSphere:
+      break;
+  }
+  return reactions.segment[i];
+}
+
+}  // namespace
+
+void visit_contacts(const World& world, const Workspace& w,
+                    const std::function<void(const ContactForce&)>& look) {
+  const Places places(world, w);
+  const std::size_t n_body = w.dcm.body.size();
+  for (const contact::Contact& k : w.contacts.all) {
+    const bool sphere = k.point == contact::kWhole;
+    ContactForce f;
+    f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);
+    f.force = k.force * k.normal;
+    f.normal = k.normal;
+    if (contact::is_cell(k.partner)) {
+      f.b = static_cast<std::size_t>(k.b) + (k.partner == contact::Partner::kSphere ? n_body : 0);
+      f.touching = f.a != f.b && (sphere || f.force.squaredNorm() > 0);
+    } else {
+      f.kind = k.partner;
+      f.index = k.b;
+      f.area = k.touching;
+    }
+    if (sphere)
+      places.set_arms_of_sphere(k, f);
+    else
+      places.set_arms_of_surface(k, f);
+    look(f);
+  }
+}
+
+Reactions find_reactions(const World& world, const Workspace& w) {
+  const contact::Surroundings& around = world.params.around;
+  Reactions r;
+  r.plane.resize(around.planes.size());
+  r.capsule.resize(around.capsules.size());
+  r.mesh.resize(around.meshes.size());
+  r.segment.resize(around.vessels.network.segment.size());
+  visit_contacts(world, w, [&](const ContactForce& c) {
+    if (c.b != kNoCell) return;
+    Reaction& part = part_of(r, c);
+    part.net -= c.force;
+    part.normal += c.force.dot(c.normal);
+    part.area += c.area;
+  });
+  return r;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& world,
+                                                               const Workspace& w) {
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  visit_contacts(world, w, [&](const ContactForce& c) {
+    if (c.touching) pairs.emplace(std::min(c.a, c.b), std::max(c.a, c.b));
+  });
+  return {pairs.begin(), pairs.end()};
+}
+
+std::vector<int> cluster_sizes(std::size_t n_cell,
+                               const std::vector<std::pair<std::size_t, std::size_t>>& touching) {
+  std::vector<std::size_t> root(n_cell);
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (const auto& [a, b] : touching) root[find(b)] = find(a);
+  std::vector<int> members(n_cell, 0), size(n_cell, 0);
+  for (std::size_t i = 0; i < n_cell; ++i) ++members[find(i)];
+  for (std::size_t i = 0; i < n_cell; ++i) size[i] = members[find(i)];
+  return size;
+}
+
+double interface_residual(const World& world, const Workspace& w) {
+  struct Load {
+    Vec3 place, force;
+  };
+  std::vector<Load> loads;
+  for (const contact::Contact& k : w.contacts.interface()) {
+    const solve::Stencil stencil = stencil_of(world, w, k);
+    for (std::size_t m = 0; m < static_cast<std::size_t>(stencil.n); ++m)
+      loads.push_back({load_point(w.position.data(), stencil.address[m]),
+                       stencil.weight[m] * (k.force * k.normal)});
+  }
+  if (loads.empty()) return 0;
+  Vec3 middle = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
+  for (const Load& l : loads) middle += l.place / static_cast<double>(loads.size());
+  double size = 0, moment = 0;
+  for (const Load& l : loads) {
+    force += l.force;
+    size += l.force.norm();
+    torque += (l.place - middle).cross(l.force);
+    moment += (l.place - middle).norm() * l.force.norm();
+  }
+  return size > 0 ? std::max(force.norm() / size, torque.norm() / moment) : 0;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,158 @@
+#include "coupling/measure/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/sphere.hpp"
+#include "coupling/measure/contact_forces.hpp"
+#include "coupling/step/stages.hpp"
+#include "dcm/stress.hpp"
+#include "dcm/terms/area.hpp"
+#include "dcm/terms/volume.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Reference values a step of this length ahead are those of now, to rounding.
+constexpr double kNow = 1e-9;
+/// A cell this old has settled in its place, s.
+constexpr double kNewborn = 600;
+
+void set_origin(const State& s, const Cycle& cycle, CellMeasure& m) {
+  m.parent = cycle.parent;
+  m.newborn = cycle.parent >= 0 && s.clock.time < cycle.birth + kNewborn;
+}
+
+void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, const Vec3& arm) {
+  const double w = 1 / reference_volume;
+  m.stress[0] += w * force.x() * arm.x();
+  m.stress[1] += w * 0.5 * (force.x() * arm.y() + force.y() * arm.x());
+  m.stress[2] += w * 0.5 * (force.x() * arm.z() + force.z() * arm.x());
+  m.stress[3] += w * force.y() * arm.y();
+  m.stress[4] += w * 0.5 * (force.y() * arm.z() + force.z() * arm.y());
+  m.stress[5] += w * force.z() * arm.z();
+}
+
+}  // namespace
+
+void observe(const World& world, Workspace& w) {
+  find_all_contacts(world, kNow, w);
+  assemble(world, kNow, w);
+  list_sphere_pairs(world, w);
+}
+
+std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  std::vector<CellMeasure> cells;
+  const std::size_t n_body = w.dcm.body.size();
+  for (std::size_t k = 0; k < n_body; ++k) {
+    const std::size_t lane = w.dcm.lane_of_body[k];
+    const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
+    const int l = static_cast<int>(lane % kLanes);
+    CellMeasure m;
+    m.id = s.dcm.lineage[lane];
+    m.deformable = true;
+    m.type = s.dcm.group[lane / kLanes].type;
+    m.leader = lane < w.leader.size() && w.leader[lane];
+    if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
+    m.center = dcm::cell_center(s.dcm, lane);
+    m.radius = w.lanes.radius[lane];
+    m.volume = dcm::compute_volumes(g)[l];
+    m.area = dcm::compute_areas(g)[l];
+    const double v0 = sphere_volume(m.radius);
+    m.cytosol_pressure = dcm::cytosol_pressure(
+        world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus, m.volume, v0);
+    m.migration_force = w.forces.dcm[lane].norm();
+    for (std::size_t p = 0; p < w.dcm.share[k].size(); ++p)
+      m.contact_area +=
+          std::min(1.0, w.dcm.share[k][p]) * dcm::point_area(*w.dcm.body[k].topology,
+                                                             world.params.dcm_contact.quadrature,
+                                                             static_cast<int>(p), m.radius);
+    cells.push_back(m);
+  }
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
+    CellMeasure m;
+    m.id = s.cbm.lineage[c];
+    m.type = s.cbm.type[c];
+    const std::size_t at = s.dcm.n_lane() + c;
+    m.leader = at < w.leader.size() && w.leader[at];
+    if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
+    m.center = cbm::center_of(s.cbm, c);
+    m.radius = w.cbm_radius[c];
+    if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
+    m.volume = sphere_volume(m.radius);
+    m.area = 4 * kPi * m.radius * m.radius;
+    m.contact_area = std::min(w.cbm.contact_area[c], m.area);
+    m.migration_force = w.forces.cbm[c].norm();
+    cells.push_back(m);
+  }
+
+  auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
+    add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
+  };
+  /// nN, of every pair in contact, on the first; and of all surroundings on each cell
+  std::map<std::pair<std::size_t, std::size_t>, Vec3> pair_force;
+  std::vector<Vec3> wall_force(cells.size(), Vec3::Zero());
+  visit_contacts(world, w, [&](const ContactForce& c) {
+    press(c.a, c.force, c.arm_a);
+    if (c.b == kNoCell) {
+      wall_force[c.a] += c.force;
+      return;
+    }
+    press(c.b, -c.force, c.arm_b);
+    if (!c.touching) return;
+    Vec3& sum = pair_force.try_emplace({std::min(c.a, c.b), std::max(c.a, c.b)}, Vec3::Zero())
+                    .first->second;
+    sum += c.a < c.b ? c.force : Vec3(-c.force);
+  });
+  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].contact_force = wall_force[k].norm();
+  for (const auto& [pair, force] : pair_force) {
+    const double normal =
+        force.dot((cells[pair.first].center - cells[pair.second].center).normalized());
+    for (const std::size_t k : {pair.first, pair.second}) {
+      ++cells[k].contacts;
+      cells[k].contact_force += force.norm();
+      cells[k].normal_force += normal;
+    }
+  }
+  for (CellMeasure& m : cells) {
+    m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
+    if (!m.deformable) m.cytosol_pressure = m.pressure;
+  }
+  return cells;
+}
+
+NodeMeasure measure_nodes(const World& world, const Workspace& w) {
+  const State& s = world.state;
+  NodeMeasure n;
+  std::vector<double> contact(s.dcm.position.size(), 0.0);
+  const solve::Links& links = w.system.links;
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    const solve::Stencil stencil = solve::stencil_of(links.link[l]);
+    const Vec3 f = links.load[l].force * links.load[l].normal;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+      if (stencil.address[k] < contact.size())
+        add_point(contact.data(), stencil.address[k], stencil.weight[k] * f);
+  }
+  for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
+    const std::size_t lane = w.dcm.lane_of_body[b];
+    const dcm::Group& group = s.dcm.group[lane / kLanes];
+    const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
+    const auto tension = dcm::compute_node_tension(
+        world.params.dcm[static_cast<std::size_t>(group.type)], g, static_cast<int>(lane % kLanes));
+    const double r2 = w.lanes.radius[lane] * w.lanes.radius[lane];
+    for (int i = 0; i < group.topology->n_node; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Vec3 f = load_point(contact.data(), dcm::node_address(s.dcm, lane, i));
+      n.force.push_back(f);
+      n.pressure.push_back(-f.dot(w.dcm.body[b].node_normal[k]) /
+                           (group.topology->rest_node_area[k] * r2));
+      n.tension.push_back(tension[k]);
+    }
+  }
+  return n;
+}
+
+}  // namespace acinus::coupling

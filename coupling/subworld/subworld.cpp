@@ -1,0 +1,193 @@
+#include "coupling/subworld/subworld.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/contact/box_pairs.hpp"
+#include "coupling/step/loop.hpp"
+#include "coupling/step/stages.hpp"
+#include "coupling/world/population.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// First step in a subworld at rest, s: contacts just made are felt before anything has moved far.
+constexpr double kFirstStep = 1;
+
+Box box_of(const State& s, std::size_t lane) {
+  Box box;
+  const int n_node = s.dcm.group[lane / kLanes].topology->n_node;
+  for (int i = 0; i < n_node; ++i)
+    box.include(load_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, i)));
+  return box;
+}
+
+/// Walls stay where they are at this moment.
+void stop_walls(contact::Surroundings& around, double time) {
+  for (contact::Plane& p : around.planes) {
+    p.point = p.point_at(time);  // far away if it is gone
+    p.opens = contact::Plane{}.opens;
+    p.speed = 0;
+  }
+  for (contact::Capsule& c : around.capsules) {
+    c.radius = c.radius_at(time);
+    c.speed = 0;  // and one that is open has an infinite radius
+  }
+}
+
+Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
+
+/// Whether a workspace made for one of two states serves the other.
+bool have_same_cells(const State& a, const State& b) {
+  return a.dcm.lineage == b.dcm.lineage && a.cbm.lineage == b.cbm.lineage &&
+         std::ranges::equal(a.dcm.group, b.dcm.group, [](const dcm::Group& g, const dcm::Group& h) {
+           return g.topology == h.topology && g.type == h.type;
+         });
+}
+
+/// Calls f with where each point that moves stands in the subworld and in the whole.
+template <class F>
+void for_each_moving_point(const Subworld& sub, const State& to, F f) {
+  const State& from = sub.world.state;
+  for (std::size_t k = 0; k < sub.moving.dcm.size(); ++k) {
+    const std::size_t lane = sub.moving.dcm[k];
+    const int n = to.dcm.group[lane / kLanes].topology->n_node;
+    for (int i = 0; i < n; ++i)
+      f(dcm::node_address(from.dcm, sub.lane[k], i), dcm::node_address(to.dcm, lane, i));
+  }
+  for (std::size_t k = 0; k < sub.moving.cbm.size(); ++k)
+    f(cbm::cell_address(from.dcm.n_row(), k), cbm::cell_address(to.dcm.n_row(), sub.moving.cbm[k]));
+}
+
+/// Contacts of spheres that moved replace those they had.
+void write_touching(const Subworld& sub, cbm::State& to) {
+  std::vector<std::uint8_t> moves(to.n_cell(), 0);
+  for (std::size_t c : sub.moving.cbm) moves[c] = 1;
+  const auto is_replaced = [&](const std::pair<int, int>& pair) {
+    return moves[static_cast<std::size_t>(pair.first)] != 0 ||
+           (pair.second >= 0 && moves[static_cast<std::size_t>(pair.second)] != 0);
+  };
+  const auto index = [&](int sphere) {
+    const auto k = static_cast<std::size_t>(sphere), n = sub.moving.cbm.size();
+    return static_cast<int>(k < n ? sub.moving.cbm[k] : sub.constrained.cbm[k - n]);
+  };
+  std::erase_if(to.touching, is_replaced);
+  for (const auto& [a, b] : sub.world.state.cbm.touching) {
+    const int i = index(a), j = b < 0 ? b : index(b);
+    const std::pair<int, int> pair{b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j)};
+    if (is_replaced(pair)) to.touching.push_back(pair);
+  }
+  std::ranges::sort(to.touching);
+}
+
+}  // namespace
+
+CellSet find_neighbours(const World& world, const CellSet& cells, double reach) {
+  const State& s = world.state;
+  const std::vector<double> radius = cbm::radii_at(s.cbm, s.clock.time);
+  const auto sphere = [&](std::size_t c) {
+    return sphere_box(cbm::center_of(s.cbm, c), radius[c]);
+  };
+  std::vector<Box> inner, outer;
+  for (std::size_t l : cells.dcm) inner.push_back(box_of(s, l));
+  for (std::size_t c : cells.cbm) inner.push_back(sphere(c));
+  CellSet others;
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (s.dcm.active(l) && !std::ranges::binary_search(cells.dcm, l)) others.dcm.push_back(l);
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
+    if (!std::ranges::binary_search(cells.cbm, c)) others.cbm.push_back(c);
+  for (std::size_t l : others.dcm) outer.push_back(box_of(s, l));
+  for (std::size_t c : others.cbm) outer.push_back(sphere(c));
+  std::vector<std::uint8_t> near(outer.size(), 0);
+  for (const auto& pair : contact::find_pairs_between(inner, outer, reach))
+    near[static_cast<std::size_t>(pair.second)] = 1;
+  const std::size_t n_shell = others.dcm.size();
+  CellSet found;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    if (near[k] == 0) continue;
+    if (k < n_shell)
+      found.dcm.push_back(others.dcm[k]);
+    else
+      found.cbm.push_back(others.cbm[k - n_shell]);
+  }
+  return found;
+}
+
+void take_cells(const State& state, CellSet moving, CellSet constrained, Subworld& sub) {
+  std::vector<Member> shells, spheres;
+  for (const CellSet* cells : {&moving, &constrained}) {
+    for (std::size_t l : cells->dcm) shells.push_back({&state, l});
+    for (std::size_t c : cells->cbm) spheres.push_back({&state, c});
+  }
+  std::vector<std::size_t> lane;
+  State small = compose(shells, spheres, state, &lane);
+  small.asleep.clear();
+  std::vector<std::uint8_t> is_constrained(small.dcm.n_lane() + small.cbm.n_cell(), 0);
+  for (std::size_t k = moving.dcm.size(); k < lane.size(); ++k) is_constrained[lane[k]] = 1;
+  for (std::size_t k = moving.cbm.size(); k < spheres.size(); ++k)
+    is_constrained[cell_index(small, k)] = 1;
+  lane.resize(moving.dcm.size());
+  const bool same =
+      have_same_cells(small, sub.world.state) && is_constrained == sub.work.constraint.cell;
+  sub.world.state = std::move(small);
+  sub.moving = std::move(moving);
+  sub.constrained = std::move(constrained);
+  sub.lane = std::move(lane);
+  if (same) return;
+  sub.work.constraint.cell = std::move(is_constrained);
+  size_workspace(sub.world, sub.work);
+}
+
+Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained) {
+  Subworld sub;
+  Params& params = sub.world.params;
+  params = world.params;
+  stop_walls(params.around, time_since_start(world));
+  params.motility.random = false;
+  params.motility.leader_force = 0;
+  params.numerics.adaptive = true;
+  take_cells(world.state, std::move(moving), std::move(constrained), sub);
+  State& s = sub.world.state;
+  const double now = s.clock.time;
+  for (Ramp& v : s.dcm.volume) v = frozen(v, now);
+  for (dcm::BirthShape& b : s.dcm.birth) b.weight = frozen(b.weight, now);
+  for (Ramp& v : s.cbm.volume) v = frozen(v, now);
+  for (Ramp& v : s.cbm.strength) v = frozen(v, now);
+  s.balance = {};
+  s.clock.step = kFirstStep;
+  s.clock.last_step = 0;
+  s.clock.accepted = s.clock.rejected = s.clock.cg_iterations = s.clock.solves = 0;
+  s.clock.coarse = false;
+  return sub;
+}
+
+Settling relax(Subworld& sub, double duration) {
+  const Clock& clock = sub.world.state.clock;
+  const LoopResult result =
+      run_loop({.time_left = time_left_until(clock, clock.time + duration),
+                .advance = [&](double limit) { return take_step(sub.world, sub.work, limit); }});
+  return {result.ok, result.ok ? "" : result.last.cause, result.steps};
+}
+
+void write_positions(const Subworld& sub, State& to) {
+  const State& from = sub.world.state;
+  for_each_moving_point(sub, to, [&](Address a, Address b) {
+    store_point(position_of(to, b), 0, load_point(position_of(from, a), 0));
+  });
+  if (!sub.moving.cbm.empty()) write_touching(sub, to.cbm);
+}
+
+void write_last_moves(const Subworld& sub, double ratio, State& to) {
+  for_each_moving_point(sub, to, [&](Address a, Address b) {
+    store_point(to.last_move.data(), b, ratio * load_point(sub.world.state.last_move.data(), a));
+  });
+}
+
+void write_moved(const Subworld& sub, State& to) {
+  write_positions(sub, to);
+  const State& from = sub.world.state;
+  if (has_last_move(from) && has_last_move(to))
+    write_last_moves(sub, to.clock.last_step / from.clock.last_step, to);
+}
+
+}  // namespace acinus::coupling

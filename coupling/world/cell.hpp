@@ -1,0 +1,55 @@
+#pragma once
+/// Cells of either model alike, for what happens to whole cells.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "coupling/world/population.hpp"
+#include "coupling/world/world.hpp"
+
+namespace acinus::coupling {
+
+/// One cell of either model as the rules of life see it.
+struct Cell {
+  bool deformable;
+  std::size_t at;     ///< lane or sphere
+  std::size_t index;  ///< into arrays over [dcm lanes, then cbm cells]
+};
+
+template <class F>
+void for_each_cell(const State& s, F f) {
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (s.dcm.active(l)) f(Cell{true, l, l});
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) f(Cell{false, c, cell_index(s, c)});
+}
+inline std::int64_t lineage_of(const State& s, const Cell& c) {
+  return c.deformable ? s.dcm.lineage[c.at] : s.cbm.lineage[c.at];
+}
+inline int type_of(const State& s, const Cell& c) {
+  return c.deformable ? s.dcm.group[c.at / kLanes].type : s.cbm.type[c.at];
+}
+inline Ramp& volume_of(State& s, const Cell& c) {
+  return c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+}
+inline const Ramp& volume_of(const State& s, const Cell& c) {
+  return c.deformable ? s.dcm.volume[c.at] : s.cbm.volume[c.at];
+}
+inline Vec3 center_of(const State& s, const Cell& c) {
+  return c.deformable ? dcm::cell_center(s.dcm, c.at) : cbm::center_of(s.cbm, c.at);
+}
+inline const CycleParams& cycle_of(const Params& p, const State& s, const Cell& c) {
+  return p.life.type[static_cast<std::size_t>(type_of(s, c))];
+}
+
+/// Calls f with where each point of a cell stands among all unknowns.
+template <class F>
+void for_each_point(const State& s, const Cell& c, F f) {
+  if (!c.deformable) return f(cbm::cell_address(s.dcm.n_row(), c.at));
+  const int n = s.dcm.group[c.at / kLanes].topology->n_node;
+  for (int i = 0; i < n; ++i) f(dcm::node_address(s.dcm, c.at, i));
+}
+
+/// Time since t = 0, s.   @pre Phase::kRun
+inline double time_of(const State& s) { return s.clock.time - s.clock.origin; }
+
+}  // namespace acinus::coupling

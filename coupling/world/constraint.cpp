@@ -1,0 +1,57 @@
+#include "coupling/world/constraint.hpp"
+
+#include "coupling/world/workspace.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// What a constrained point resists with, nN/um: so much more than anything pushes with that no
+/// other point feels it move, and little enough for the solver. What it moves in the solution is
+/// left out: add_constraint makes the force that keeps it, place_constrained its place.
+constexpr double kStiffness = 1e6;
+
+/// Calls f with the row and the lane of every constrained point.
+template <class F>
+void for_each_constrained_point(const Workspace& w, F f) {
+  if (!w.constraint.applies()) return;
+  for (std::size_t lane = 0; lane < w.active.size(); ++lane) {
+    const solve::Block& b = w.system.block[lane / kLanes];
+    if (!w.constraint.holds(lane) && !b.still) continue;  // with the empty lanes beside these
+    for (int i = 0; i < b.pattern->n_point; ++i)
+      f(b.first_row + static_cast<std::size_t>(i), lane % kLanes);
+  }
+}
+
+}  // namespace
+
+void apply_constraint(Workspace& w) {
+  w.dcm.constrained.clear();
+  if (!w.constraint.applies()) return;
+  for (std::size_t lane = 0; lane < w.lanes.active.size(); ++lane) {
+    w.dcm.constrained.push_back(w.constraint.holds(lane) ? 1 : 0);
+    if (w.dcm.constrained[lane] != 0) w.lanes.active[lane] = 0;
+  }
+}
+
+void add_constraint(double step, Workspace& w) {
+  for_each_constrained_point(w, [&](std::size_t row, std::size_t lane) {
+    w.system.medium[row * kLanes + lane] += kStiffness * step;
+  });
+}
+
+void remove_constraint(const Workspace& w, std::span<const double> move,
+                       std::span<double> product) {
+  for_each_constrained_point(w, [&](std::size_t row, std::size_t lane) {
+    const Address a = make_address(row, static_cast<int>(lane));
+    add_point(product.data(), a, -kStiffness * load_point(move.data(), a));
+  });
+}
+
+void place_constrained(std::span<const double> move, Workspace& w) {
+  for_each_constrained_point(w, [&](std::size_t row, std::size_t lane) {
+    const Address a = make_address(row, static_cast<int>(lane));
+    store_point(w.move.data(), a, move.empty() ? Vec3::Zero() : load_point(move.data(), a));
+  });
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,197 @@
+#include "coupling/world/interface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/box_pairs.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+using contact::Contact;
+
+/// The surface that presses and the sphere below.
+struct PairLaw {
+  contact::Well well;
+  double hardening = 0;  ///< nN/um^3, by how much the contact stiffens as the indentation grows
+};
+
+PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+               std::span<const cbm::Modulus> modulus, const Contact& k) {
+  const auto body = static_cast<std::size_t>(k.a), sphere = static_cast<std::size_t>(k.b);
+  const std::size_t lane = dcm_work.lane_of_body[body];
+  const dcm::Params& a =
+      in.dcm.params[static_cast<std::size_t>(in.dcm.state.group[lane / kLanes].type)];
+  const cbm::Params& b = in.cbm.params[static_cast<std::size_t>(in.cbm.state.type[sphere])];
+  const Compliance under =
+      find_compliance(in.dcm.options.repulsion,
+                      {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
+                       modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
+                      k.depth);
+  return {{in.dcm.options.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), under.stiffness,
+           in.dcm.options.range_factor * dcm_work.body[body].topology->mean_rest_length *
+               in.dcm.lanes.radius[lane]},
+          k.gap < 0 ? under.slope * k.depth : 0};
+}
+
+/// Contacts of one surface with one sphere.
+std::vector<Contact> find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+                               std::pair<int, int> pair, double range) {
+  const contact::SurfaceBody& b = dcm_work.body[static_cast<std::size_t>(pair.first)];
+  const contact::Quadrature q = in.dcm.options.quadrature;
+  const auto sphere = static_cast<std::size_t>(pair.second);
+  const Vec3 center = cbm::center_of(in.cbm.state, sphere);
+  const double radius = in.cbm.cells.radius[sphere];
+  const int per_site = contact::points_per_site(q);
+  std::vector<Contact> found;
+  for (std::size_t site = 0; site < contact::n_sites(b, q); ++site) {
+    const Vec3 at = contact::site_place(b, q, site);
+    const double far = radius + range + contact::site_reach(b, q, site);
+    if ((at - center).squaredNorm() > far * far) continue;
+    const Vec3 outward = contact::site_normal(b, q, site);
+    for (int n = 0; n < per_site; ++n) {
+      const int point = static_cast<int>(site) * per_site + n;
+      const Vec3 d = contact::point_position(b, contact::point_stencil(b, q, point)) - center;
+      const double distance = d.norm(), gap = distance - radius;
+      if (gap < range && distance > 0 && contact::are_facing(outward, d / distance))
+        found.push_back({.a = pair.first,
+                         .point = point,
+                         .b = pair.second,
+                         .partner = contact::Partner::kSphere,
+                         .normal = d / distance,
+                         .gap = gap});
+    }
+  }
+  double depth = 0;
+  for (const Contact& k : found) depth = std::max(depth, -k.gap);
+  for (Contact& k : found) k.depth = depth;
+  return found;
+}
+
+/// Pairs of surfaces and spheres that may touch.
+std::vector<std::pair<int, int>> find_near(const InterfaceInput& in,
+                                           const dcm::ContactWorkspace& dcm_work, double range) {
+  std::vector<Box> bodies, spheres;
+  for (const contact::SurfaceBody& b : dcm_work.body) bodies.push_back(b.box);
+  for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i)
+    spheres.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
+  return contact::find_pairs_between(bodies, spheres, range);
+}
+
+}  // namespace
+
+Compliance find_compliance(double repulsion, const SphereSurface& sphere, double depth) {
+  const double d = depth / sphere.radius;
+  cbm::Modulus modulus{sphere.modulus.value, 0};
+  if (sphere.law) {
+    const cbm::Modulus here = cbm::corrected_modulus(*sphere.law, sphere.young, d);
+    if (here.value > modulus.value) modulus = here;
+  }
+  const double per_modulus = 4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
+                                  std::sqrt(std::clamp(d, kLeastDepth, kMostDepth)));
+  const double winkler = per_modulus * modulus.value, together = 1 / (1 / repulsion + 1 / winkler);
+  // That the contact widens at the same time softens it; the matrix may be too stiff.
+  const double yields = together / winkler;
+  return {together, yields * yields * per_modulus * modulus.slope / sphere.radius};
+}
+
+InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
+                              cbm::ContactWorkspace& cbm_work, contact::ContactList& contacts) {
+  InterfaceAreas areas;
+  if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return areas;
+  const dcm::ContactParams& c = in.dcm.options;
+  const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
+  double range = 0;
+  for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
+    range = std::max(
+        range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
+  const auto pairs = find_near(in, dcm_work, range);
+  std::vector<std::vector<Contact>> found(pairs.size());
+#pragma omp parallel for schedule(dynamic, 2)
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    found[p] = find_pair(in, dcm_work, pairs[p], range);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto [body, sphere] = pairs[p];
+    const auto k = static_cast<std::size_t>(body), i = static_cast<std::size_t>(sphere);
+    const std::size_t lane = dcm_work.lane_of_body[k];
+    double area = 0;
+    for (const Contact& m : found[p]) {
+      const double share = contact::contact_share(m.gap, c.friction_range);
+      dcm_work.share[k][static_cast<std::size_t>(m.point)] += share;
+      area +=
+          share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, radius[lane]);
+    }
+    if (area > 0) areas.emplace_back(sphere, area);
+    // A deformable neighbour counts in the sphere's overlap with its reference radius, by the
+    // distance of the centres alone: whether surfaces touch changes from step to step, and with it
+    // the modulus would.
+    if (!cbm_work.overlap_sum.empty()) {
+      const double reach = radius[lane] + sphere_radius[i];
+      const double relative =
+          1 -
+          (dcm::cell_center(in.dcm.state, lane) - cbm::center_of(in.cbm.state, i)).norm() / reach;
+      cbm_work.overlap_sum[i] += std::max(relative, 0.0);
+    }
+    contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
+  }
+  contacts.interface_end = contacts.sphere_obstacle_end = contacts.all.size();
+  return areas;
+}
+
+void add_interface_areas(const InterfaceAreas& areas, cbm::ContactWorkspace& cbm_work) {
+  for (const auto& [sphere, area] : areas)
+    cbm_work.contact_area[static_cast<std::size_t>(sphere)] += area;
+}
+
+solve::Side sphere_side(const InterfaceInput& in, const Contact& k) {
+  return solve::Side::at(cbm::cell_point(in.cbm.first_row, static_cast<std::size_t>(k.b)));
+}
+
+void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+                         std::span<const cbm::Modulus> modulus, contact::ContactList& contacts,
+                         solve::Links& links) {
+  std::size_t at = links.size();
+  links.resize(at + contacts.interface().size());
+  for (std::size_t n = contacts.obstacle_end; n < contacts.interface_end; ++n, ++at) {
+    Contact& k = contacts.all[n];
+    const auto body = static_cast<std::size_t>(k.a);
+    const PairLaw law = law_of(in, dcm_work, modulus, k);
+    k.area = dcm::point_area(*dcm_work.body[body].topology, in.dcm.options.quadrature, k.point,
+                             in.dcm.lanes.radius[dcm_work.lane_of_body[body]]);
+    const double share = dcm::share_scale(dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
+                         contact::contact_share(k.gap, in.dcm.options.friction_range);
+    k.touching = k.area * share;
+    k.force = -k.area * contact::well_traction(law.well, k.gap);
+    k.slope = k.area * (contact::well_stiffness(law.well, k.gap) + law.hardening);
+    k.friction = in.params.friction_factor * in.params.friction * k.area * share;
+    solve::Link& link = links.link[at];
+    link.a = dcm::side_a(in.dcm, dcm_work, k);
+    link.b = sphere_side(in, k);
+    solve::set_law(k.slope, k.friction, k.gap, k.normal, link);
+    links.load[at] = {k.normal, k.force, k.area * law.well.repulsion, k.gap};
+  }
+}
+
+std::vector<InterfaceForce> compute_interface_forces(const InterfaceInput& in,
+                                                     const dcm::ContactWorkspace& dcm_work,
+                                                     const contact::ContactList& contacts) {
+  std::vector<InterfaceForce> forces;
+  int body = -1, sphere = -1;
+  for (const Contact& k : contacts.interface()) {
+    if (k.a != body || k.b != sphere) {
+      body = k.a;
+      sphere = k.b;
+      forces.push_back({in.dcm.state.lineage[dcm_work.lane_of_body[static_cast<std::size_t>(body)]],
+                        in.cbm.state.lineage[static_cast<std::size_t>(sphere)], Vec3::Zero(), 0,
+                        k.gap});
+    }
+    InterfaceForce& f = forces.back();
+    f.force += k.force * k.normal;
+    f.area += k.touching;
+    f.gap = std::min(f.gap, k.gap);
+  }
+  return forces;
+}
+
+}  // namespace acinus::coupling

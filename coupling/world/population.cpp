@@ -1,0 +1,96 @@
+#include "coupling/world/population.hpp"
+
+#include "coupling/generate/packing.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A value per cell of another state, or a default where that state has none.
+template <class T>
+T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
+  return index < values.size() ? values[index] : otherwise;
+}
+
+void sort_along_curve(std::vector<Member>& members, const std::vector<Vec3>& center) {
+  std::vector<Member> sorted;
+  sorted.reserve(members.size());
+  for (int k : space_filling_order(center)) sorted.push_back(members[static_cast<std::size_t>(k)]);
+  members = std::move(sorted);
+}
+
+}  // namespace
+
+State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
+              std::vector<std::size_t>* stands) {
+  State s;
+  std::vector<dcm::CellRef> shells;
+  std::vector<cbm::CellRef> spheres;
+  for (const auto& [state, lane, type] : dcm) shells.push_back({&state->dcm, lane, type});
+  for (const auto& [state, cell, type] : cbm) spheres.push_back({&state->cbm, cell, type});
+  std::vector<std::size_t> lane;
+  s.dcm = dcm::compose(shells, lane);
+  s.cbm = cbm::compose(spheres);
+
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  s.leader.assign(n_cell, 0);
+  s.cycle.assign(n_cell, Cycle{});
+  s.last_move.assign(s.dcm.position.size() + s.cbm.position.size(), 0.0);
+  const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to) {
+    s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
+    s.cycle[to] = value_of(from.cycle, at, Cycle{});
+    if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
+    s.asleep.resize(n_cell, 0);
+    s.asleep[to] = 1;
+  };
+  for (std::size_t k = 0; k < dcm.size(); ++k) {
+    const State& from = *dcm[k].state;
+    copy_cell(from, dcm[k].index, lane[k]);
+    if (!has_last_move(from)) continue;
+    const int n_node = from.dcm.group[dcm[k].index / kLanes].topology->n_node;
+    for (int i = 0; i < n_node; ++i)
+      store_point(s.last_move.data(), dcm::node_address(s.dcm, lane[k], i),
+                  load_point(from.last_move.data(), dcm::node_address(from.dcm, dcm[k].index, i)));
+  }
+  for (std::size_t k = 0; k < cbm.size(); ++k) {
+    const State& from = *cbm[k].state;
+    copy_cell(from, cell_index(from, cbm[k].index), cell_index(s, k));
+    if (!has_last_move(from)) continue;
+    store_point(
+        s.last_move.data(), cbm::cell_address(s.dcm.n_row(), k),
+        load_point(from.last_move.data(), cbm::cell_address(from.dcm.n_row(), cbm[k].index)));
+  }
+  s.clock = like.clock;
+  s.balance = like.balance;
+  s.leader_interval = like.leader_interval;
+  s.life_interval = like.life_interval;
+  s.sleep_interval = like.sleep_interval;
+  s.next_lineage = like.next_lineage;
+  s.divisions = like.divisions;
+  s.deaths = like.deaths;
+  if (stands != nullptr) *stands = std::move(lane);
+  return s;
+}
+
+void sort_by_place(std::vector<Member>& dcm, std::vector<Member>& cbm) {
+  std::vector<Vec3> center;
+  for (const auto& [state, lane, type] : dcm) center.push_back(dcm::cell_center(state->dcm, lane));
+  sort_along_curve(dcm, center);
+  center.clear();
+  for (const auto& [state, cell, type] : cbm) center.push_back(cbm::center_of(state->cbm, cell));
+  sort_along_curve(cbm, center);
+}
+
+std::vector<Member> list_dcm(const State& s) {
+  std::vector<Member> list;
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
+    if (s.dcm.active(l)) list.push_back({&s, l});
+  return list;
+}
+
+std::vector<Member> list_cbm(const State& s) {
+  std::vector<Member> list;
+  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) list.push_back({&s, c});
+  return list;
+}
+
+}  // namespace acinus::coupling

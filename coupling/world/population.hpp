@@ -1,0 +1,41 @@
+#pragma once
+/// Changes of the set of cells: a new state made of cells of others. Division, death and the small
+/// worlds cut out of large ones (subworld.hpp) all come down to it.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "coupling/world/world.hpp"
+
+namespace acinus::coupling {
+
+/// A cell of some state: the lane of a deformable cell, or the index of a sphere.
+struct Member {
+  const State* state = nullptr;
+  std::size_t index = 0;
+  int type = -1;  ///< the cell becomes one of this type; -1: stays what it is
+};
+
+/// A state with these cells in this order and everything that belongs to each of them (position,
+/// last movement, contacts that exist, cycle). Deformable cells are grouped by type and mesh.
+/// Clock, balance and counters are those of `like`.
+/// @param lane  [dcm] where each deformable cell came to stand; null: nobody asks. Spheres keep
+///              their order
+State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
+              std::vector<std::size_t>* lane = nullptr);
+
+/// Sorts the members along a space-filling curve, so that neighbours stand near each other in
+/// memory.
+void sort_by_place(std::vector<Member>& dcm, std::vector<Member>& cbm);
+
+/// All cells of a state.
+std::vector<Member> list_dcm(const State& state);
+std::vector<Member> list_cbm(const State& state);
+
+/// Index into arrays over [dcm lanes, then cbm cells].
+inline std::size_t cell_index(const State& s, std::size_t sphere) {
+  return s.dcm.n_lane() + sphere;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,60 @@
+#pragma once
+/// Scratch of the step, sized when the set of cells changes.
+
+#include <memory>
+#include <vector>
+
+#include "core/solve/cg.hpp"
+#include "core/solve/operator.hpp"
+#include "core/solve/rigid.hpp"
+#include "core/timing.hpp"
+#include "coupling/world/constraint.hpp"
+#include "coupling/world/migration.hpp"
+#include "coupling/world/world.hpp"
+
+namespace acinus::coupling {
+
+struct Trial;
+struct Subworld;
+
+/// Where a step was linearised, as displacements from the present positions; empty: there.
+struct LinearisationPoint {
+  std::vector<double> move;           ///< [n_row][3][lane] um
+  std::vector<double> friction;       ///< Gamma/h times it, nN
+  std::vector<double> product;        ///< Gamma/h + K times it, nN
+  std::vector<double> pair_friction;  ///< of that what cells exert on each other
+  bool is_ahead() const { return !move.empty(); }
+};
+
+struct Workspace {
+  solve::System system;
+  solve::Operator op;
+  solve::CgWorkspace cg;
+  solve::RigidWorkspace rigid;
+  solve::CoarseSpace coarse;
+  dcm::ContactWorkspace dcm;
+  cbm::ContactWorkspace cbm;
+  contact::ContactList contacts;         ///< written by: find_all_contacts, completed by: assemble
+  dcm::LaneData lanes;                   ///< written by: find_references
+  std::vector<double> cbm_radius;        ///< written by: find_references
+  std::vector<double> cbm_strength;      ///< empty: all 1; written by: find_references
+  std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
+  std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
+  MediumFriction medium_friction;        ///< written by: assemble
+  CellForces forces;                     ///< written by: assemble
+  std::vector<double> position;          ///< [n_row][3][lane]; written by: assemble
+  std::vector<std::uint8_t> active;      ///< written by: size_workspace
+  Constraint constraint;                 ///< set by the owner
+  std::vector<double> rhs;               ///< written by: solve_step
+  std::vector<double> move;              ///< displacement of the step; written by: solve_step
+  std::vector<double> rest_of_move;      ///< scratch of solve_step
+  LinearisationPoint linearisation;      ///< written by: attempt_step
+  std::vector<std::uint8_t> leader;      ///< written by: choose_leaders_of_step
+  std::int64_t leader_interval = -1;
+  /// Where a world with sleepers steps; see sleep/partial_step.hpp.
+  std::shared_ptr<Subworld> awake, sleepers;
+  Timings timings;
+  std::shared_ptr<Trial> trial;  ///< of methods with more than one stage
+};
+
+}  // namespace acinus::coupling

@@ -1,0 +1,126 @@
+#include "coupling/world/world.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "core/threads.hpp"
+
+namespace acinus::coupling {
+
+int count_cells(const State& s) {
+  return dcm::count_cells(s.dcm) + static_cast<int>(s.cbm.n_cell());
+}
+
+int count_asleep(const State& s) {
+  return static_cast<int>(std::ranges::count(s.asleep, std::uint8_t{1}));
+}
+
+double time_since_start(const World& w) {
+  const Clock& c = w.state.clock;
+  if (c.phase == Phase::kRun) return c.time - c.origin;
+  const StartUp& p = w.params.start_up;
+  return c.time - (p.growth_time + p.adhesion_ramp + p.max_settle);
+}
+
+Controls controls_at(const Clock& clock, const StartUp& start_up) {
+  switch (clock.phase) {
+    case Phase::kGrow:
+      return {0, 0, false};
+    case Phase::kAdhere: {
+      const double done = start_up.adhesion_ramp > 0
+                              ? (clock.time - clock.phase_start) / start_up.adhesion_ramp
+                              : 1.0;
+      return {std::clamp(done, 0.0, 1.0), 1, false};
+    }
+    case Phase::kSettle:
+      return {1, 1, false};
+    case Phase::kRun:
+      break;
+  }
+  return {};
+}
+
+std::vector<std::uint8_t> active_lanes(const State& s) {
+  std::vector<std::uint8_t> active(s.dcm.n_lane() + s.cbm.n_row() * kLanes, 0);
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) active[l] = s.dcm.active(l) ? 1 : 0;
+  std::fill_n(active.begin() + static_cast<std::ptrdiff_t>(s.dcm.n_lane()), s.cbm.n_cell(),
+              std::uint8_t{1});
+  return active;
+}
+
+std::vector<double> gather_positions(const State& s) {
+  std::vector<double> x;
+  gather_positions(s, x);
+  return x;
+}
+void gather_positions(const State& s, std::vector<double>& out) {
+  const auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  out.resize(dcm.size() + cbm.size());
+  for_each_number(dcm.size(), [&](std::size_t k) { out[k] = dcm[k]; });
+  for_each_number(cbm.size(), [&](std::size_t k) { out[dcm.size() + k] = cbm[k]; });
+}
+
+const double* position_of(const State& s, Address point) {
+  const std::size_t n = s.dcm.position.size();
+  return point < n ? s.dcm.position.data() + point : s.cbm.position.data() + (point - n);
+}
+
+double* position_of(State& s, Address point) {
+  return const_cast<double*>(position_of(std::as_const(s), point));
+}
+
+void move_points(State& s, std::span<const double> d) {
+  auto &dcm = s.dcm.position, &cbm = s.cbm.position;
+  for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
+  for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
+}
+
+std::uint64_t hash_state(const State& s) {
+  XXH64_state_t* hash = XXH64_createState();
+  XXH64_reset(hash, 0);
+  auto add = [&](const auto& v) {
+    if (!v.empty()) XXH64_update(hash, v.data(), v.size() * sizeof(v[0]));
+  };
+  add(s.dcm.position);
+  add(s.cbm.position);
+  add(s.dcm.lineage);
+  add(s.cbm.lineage);
+  add(s.cbm.young);
+  const auto add_ramps = [&](const std::vector<Ramp>& v) {
+    for (const Ramp& r : v) add(std::array{r.from, r.to, r.start, r.end});
+  };
+  add_ramps(s.dcm.volume);
+  add_ramps(s.cbm.volume);
+  add_ramps(s.cbm.strength);
+  for (const auto& [a, b] : s.cbm.touching) add(std::array{a, b});
+  add(s.last_move);
+  add(s.leader);
+  add(s.asleep);
+  for (const Cycle& c : s.cycle)
+    add(std::array{c.birth, c.birth_volume, c.duration, c.wait_until, static_cast<double>(c.parent),
+                   static_cast<double>(c.founder), static_cast<double>(c.fate)});
+  for (const dcm::BirthShape& b : s.dcm.birth) {
+    add(b.edge);
+    add(b.triangle);
+    if (!b.edge.empty()) add(std::array{b.area, b.weight.start, b.weight.end});
+  }
+  add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
+  add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
+                 static_cast<std::int64_t>(s.clock.coarse ? 1 : 0), s.leader_interval,
+                 s.sleep_interval, s.life_interval, s.next_lineage, s.divisions, s.deaths});
+  const std::uint64_t value = XXH64_digest(hash);
+  XXH64_freeState(hash);
+  return value;
+}
+
+std::string name_dcm(const State& s, std::size_t lane) {
+  return fmt::format("DCM cell {}", s.dcm.lineage[lane]);
+}
+std::string name_cbm(const State& s, std::size_t cell) {
+  return fmt::format("CBM cell {}", s.cbm.lineage[cell]);
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,186 @@
+#pragma once
+/// The hybrid world: both models' cells, their surroundings, and the constants of a run.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cbm/contact.hpp"
+#include "cbm/params.hpp"
+#include "cbm/state.hpp"
+#include "core/contact/surroundings.hpp"
+#include "core/ranks.hpp"
+#include "core/solve/cg.hpp"
+#include "coupling/world/cycle.hpp"
+#include "coupling/world/interface.hpp"
+#include "dcm/contact.hpp"
+#include "dcm/params.hpp"
+#include "dcm/state.hpp"
+
+namespace acinus::coupling {
+
+/// Where a run stands. Start-up brings small seeds to size and rest; then comes t = 0.
+enum class Phase : std::int64_t { kGrow, kAdhere, kSettle, kRun };
+
+struct StartUp {
+  bool enabled = false;
+  double growth_time = 3600;                ///< s
+  double adhesion_ramp = 900;               ///< s
+  double max_settle = 3 * 3600;             ///< s
+  double speed_tolerance = 0.01 / 60;       ///< um/s
+  double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative
+};
+
+/// Who leads; see leaders.hpp.
+enum class Leaders {
+  kForemost,  ///< cells with no other nearer the vein within one diameter in arc and height
+  kFront,     ///< cells with a clear straight way to the vein
+  kBorder,    ///< cells with a clear way into the lesion within 45 degrees of that to the vein
+  kSector,    ///< the nearest cell of every sector of the circle and slice of height
+  kNearest    ///< the nearest cells of all
+};
+
+struct Motility {
+  std::uint64_t seed = 1;
+  bool random = false;
+  bool in_plane = false;     ///< the random force is horizontal: cells crawl on a substrate
+  double grid = 60;          ///< s, time grid of the random force
+  double leader_force = 0;   ///< nN toward the vein axis
+  double leader_grid = 600;  ///< s
+  Leaders leaders = Leaders::kForemost;
+  int leader_count = 24;           ///< kNearest: cells; kSector: sectors of the whole circle
+  double leader_slice = 24;        ///< um, kSector: height of a slice
+  Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through this point
+  double axis_radius = 0;          ///< um, radius of the vein; leaders stop at its wall
+};
+
+/// Cells in balance may be left out of the step.
+struct Sleep {
+  bool enabled = false;
+  double grid = 600;       ///< s between two looks
+  double traction = 1e-3;  ///< kPa, force out of balance per area below which a cell falls asleep
+};
+
+enum class Integrator { kLinearlyImplicit, kExplicitEuler, kRos2, kNewton };
+
+struct Numerics {
+  double max_step = 60, min_step = 1e-5;  ///< s
+  bool adaptive = true;
+  double tolerance = 0.01;  ///< um, error per step
+  double max_move = 0.3;    ///< displacement cap in mean edge lengths, 0 = none
+  solve::CgOptions cg;
+  Integrator integrator = Integrator::kLinearlyImplicit;
+  /// Linearly implicit steps linearise where the last step's velocity leads, not where cells are.
+  bool extrapolate = false;
+};
+
+/// Constants of a run.
+struct Params {
+  std::vector<dcm::Params> dcm;
+  std::vector<cbm::Params> cbm;
+  dcm::ContactParams dcm_contact;
+  cbm::ContactParams cbm_contact;
+  InterfaceParams interface;
+  StartUp start_up;
+  Motility motility;
+  LifeParams life;
+  Sleep sleep;
+  Numerics numerics;
+  contact::Surroundings around;
+};
+
+struct Clock {
+  double time = 0;    ///< s since the beginning of start-up
+  double origin = 0;  ///< s, time of t = 0; meaningful in Phase::kRun
+  Phase phase = Phase::kRun;
+  double phase_start = 0;  ///< s
+  double step = 0;         ///< s, length of the next step
+  double last_step = 0;    ///< s, length of the last accepted step; 0 = none
+  std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
+  bool coarse = false;      ///< the solver's coarse space is on: chosen from how hard steps were
+  std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
+};
+
+/// Largest |sum| / sum |.| over all steps.
+struct Balance {
+  double momentum = 0;  ///< all pair forces, friction included
+  double torque = 0;    ///< conservative pair forces
+  double friction_torque =
+      0;  ///< pair friction and the pair forces' change in a step, which need not balance
+};
+
+/// Exactly what a checkpoint holds.
+struct State {
+  dcm::State dcm;
+  cbm::State cbm;
+  Clock clock;
+  Balance balance;
+  std::vector<double> last_move;      ///< [n_row][3][lane] um, displacement of the last step
+  std::vector<std::uint8_t> leader;   ///< [dcm lanes, then cbm cells]
+  std::int64_t leader_interval = -1;  ///< grid interval the leaders were chosen in
+  std::vector<std::uint8_t> asleep;   ///< [dcm lanes, then cbm cells] does not move; empty: all do
+  std::int64_t sleep_interval = -1;   ///< grid interval sleep was looked at in
+  std::vector<Cycle> cycle;           ///< [dcm lanes, then cbm cells]; empty: nothing grows
+  std::int64_t life_interval = -1;    ///< grid interval the rules of life were looked at
+  std::int64_t next_lineage = 0;      ///< of the next cell to be born
+  std::int64_t divisions = 0, deaths = 0;
+  std::vector<double> settle_pressure;  ///< kPa per cell at the last look of the settling phase
+  double settle_time = -1;              ///< s, when that was
+};
+
+/// Number of cells of both models.
+int count_cells(const State& state);
+
+/// Number of cells asleep.
+int count_asleep(const State& state);
+
+/// Whether `last_move` is a step of the rows there are now: not before the first step.
+inline bool has_last_move(const State& s) {
+  return s.clock.last_step > 0 &&
+         s.last_move.size() == s.dcm.position.size() + s.cbm.position.size();
+}
+
+struct World {
+  Params params;
+  State state;
+  Ranks ranks = Ranks::serial();
+};
+
+/// Time since t = 0, s. During start-up, whose end is not known, the time left to its latest
+/// possible end as a negative number.
+double time_since_start(const World& world);
+
+/// Adhesion, cell-cell friction and motility of the present phase.
+struct Controls {
+  double adhesion = 1, friction = 1;
+  bool motility = true;
+};
+Controls controls_at(const Clock& clock, const StartUp& start_up);
+
+/// Where the CBM rows start.
+inline std::size_t cbm_first_row(const State& s) { return s.dcm.n_row(); }
+
+/// [dcm lanes, then cbm cells] 1 where a cell is; lanes of CBM rows included for the solver.
+std::vector<std::uint8_t> active_lanes(const State& state);
+
+/// Positions of all unknowns in one array, [n_row][3][lane].
+std::vector<double> gather_positions(const State& state);
+void gather_positions(const State& state, std::vector<double>& out);
+
+/// Where the coordinates of a point among all unknowns are kept, kLanes apart.
+double* position_of(State& state, Address point);
+const double* position_of(const State& state, Address point);
+
+/// Moves all unknowns.
+/// @param by  [n_row][3][lane] um
+void move_points(State& state, std::span<const double> by);
+
+/// Hash of the whole state in storage order: equal bits give equal hashes.
+std::uint64_t hash_state(const State& state);
+
+/// "DCM cell 12" of a lane index, "CBM cell 40" of a sphere index.
+std::string name_dcm(const State& state, std::size_t lane);
+std::string name_cbm(const State& state, std::size_t cell);
+
+}  // namespace acinus::coupling

@@ -1,0 +1,262 @@
+#include "runs/build/state_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace acinus::runs {
+namespace {
+
+template <class T>
+std::vector<std::int64_t> as_integers(const std::vector<T>& v) {
+  return {v.begin(), v.end()};
+}
+std::vector<double> flatten(const std::vector<Ramp>& ramps) {
+  std::vector<double> v;
+  for (const Ramp& r : ramps) v.insert(v.end(), {r.from, r.to, r.start, r.end});
+  return v;
+}
+std::vector<Ramp> unflatten(const std::vector<double>& v) {
+  std::vector<Ramp> ramps;
+  for (std::size_t k = 0; k + 3 < v.size(); k += 4)
+    ramps.push_back({v[k], v[k + 1], v[k + 2], v[k + 3]});
+  return ramps;
+}
+
+std::vector<double> flatten(const std::vector<Vec3>& points) {
+  std::vector<double> v;
+  for (const Vec3& p : points) v.insert(v.end(), {p.x(), p.y(), p.z()});
+  return v;
+}
+std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k + 2 < v.size(); k += 3) points.emplace_back(v[k], v[k + 1], v[k + 2]);
+  return points;
+}
+
+void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
+                std::size_t expected) {
+  check(found == expected,
+        fmt::format("{}: {} has {} entries, {} are needed. The file is damaged or was written by "
+                    "another version; resume from the previous checkpoint or start anew.",
+                    data.source(), what, found, expected),
+        Exit::kFileError);
+}
+
+/// Only shapes that are still remembered are kept: lane, then weight, area, edges and triangles.
+void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> lane;
+  std::vector<double> numbers;
+  for (std::size_t l = 0; l < s.n_lane(); ++l) {
+    const dcm::BirthShape& b = s.birth[l];
+    if (b.edge.empty()) continue;
+    lane.push_back(static_cast<std::int64_t>(l));
+    numbers.insert(numbers.end(),
+                   {b.weight.from, b.weight.to, b.weight.start, b.weight.end, b.area});
+    numbers.insert(numbers.end(), b.edge.begin(), b.edge.end());
+    numbers.insert(numbers.end(), b.triangle.begin(), b.triangle.end());
+  }
+  d.put("dcm/birth_lane", lane);
+  d.put("dcm/birth_shape", numbers);
+}
+
+void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
+  s.birth.assign(s.n_lane(), {});
+  const std::vector<double>& numbers = d.numbers("dcm/birth_shape");
+  std::size_t at = 0;
+  for (std::int64_t lane : d.integers("dcm/birth_lane")) {
+    const auto l = static_cast<std::size_t>(lane);
+    check_same(d, "dcm/birth_lane", l < s.n_lane() ? 1 : 0, 1);
+    const mesh::Topology& t = *s.group[l / kLanes].topology;
+    const std::size_t n_edge = t.edge.size(), n_triangle = t.triangle.size();
+    check_same(d, "dcm/birth_shape", numbers.size() >= at + 5 + n_edge + n_triangle ? 1 : 0, 1);
+    const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(at);
+    dcm::BirthShape& b = s.birth[l];
+    b.weight = {from[0], from[1], from[2], from[3]};
+    b.area = from[4];
+    const auto edge = from + 5, triangle = edge + static_cast<std::ptrdiff_t>(n_edge);
+    b.edge.assign(edge, triangle);
+    b.triangle.assign(triangle, triangle + static_cast<std::ptrdiff_t>(n_triangle));
+    at += 5 + n_edge + n_triangle;
+  }
+}
+
+void get_shells(const io::CheckpointData& d, dcm::State& s) {
+  s = {};
+  const std::vector<std::int64_t>& group = d.integers("dcm/group");
+  std::size_t rows = 0;
+  for (std::size_t k = 0; k + 1 < group.size(); k += 2) {
+    const mesh::Topology& topology = mesh::shared_icosphere(static_cast<int>(group[k + 1]));
+    s.group.push_back({&topology, rows, static_cast<int>(group[k])});
+    rows += static_cast<std::size_t>(topology.n_node);
+  }
+  const std::size_t n = s.group.size() * kLanes;
+  s.position = d.numbers("dcm/position");
+  s.lineage = d.integers("dcm/lineage");
+  s.volume = unflatten(d.numbers("dcm/volume"));
+  s.pull = unflatten_points(d.numbers("dcm/pull"));
+  check_same(d, "dcm/position", s.position.size(), rows * kPointStride);
+  check_same(d, "dcm/lineage", s.lineage.size(), n);
+  check_same(d, "dcm/volume", s.volume.size(), n);
+  get_birth_shapes(d, s);
+  check_same(d, "dcm/pull", s.pull.size(), n);
+}
+
+void get_spheres(const io::CheckpointData& d, cbm::State& s) {
+  s = {};
+  s.lineage = d.integers("cbm/lineage");
+  const std::size_t n = s.lineage.size();
+  s.position = d.numbers("cbm/position");
+  const std::vector<std::int64_t>& type = d.integers("cbm/type");
+  s.type.assign(type.begin(), type.end());
+  s.volume = unflatten(d.numbers("cbm/volume"));
+  s.strength = unflatten(d.numbers("cbm/strength"));
+  s.young = d.numbers("cbm/young");
+  s.pull = unflatten_points(d.numbers("cbm/pull"));
+  check_same(d, "cbm/position", s.position.size(), (n + kLanes - 1) / kLanes * kPointStride);
+  check_same(d, "cbm/type", s.type.size(), n);
+  check_same(d, "cbm/volume", s.volume.size(), n);
+  check_same(d, "cbm/strength", s.strength.size(), n);
+  check_same(d, "cbm/young", s.young.size(), n);
+  check_same(d, "cbm/pull", s.pull.size(), n);
+  const std::vector<std::int64_t>& t = d.integers("cbm/touching");
+  for (std::size_t k = 0; k + 1 < t.size(); k += 2)
+    s.touching.emplace_back(static_cast<int>(t[k]), static_cast<int>(t[k + 1]));
+}
+
+void put_life(const coupling::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> parent, founder, fate;
+  std::vector<double> birth, birth_volume, duration, wait_until;
+  for (const coupling::Cycle& c : s.cycle) {
+    parent.push_back(c.parent);
+    founder.push_back(c.founder);
+    fate.push_back(static_cast<std::int64_t>(c.fate));
+    birth.push_back(c.birth);
+    birth_volume.push_back(c.birth_volume);
+    duration.push_back(c.duration);
+    wait_until.push_back(c.wait_until);
+  }
+  d.put("life/parent", parent);
+  d.put("life/founder", founder);
+  d.put("life/fate", fate);
+  d.put("life/birth", birth);
+  d.put("life/birth_volume", birth_volume);
+  d.put("life/duration", duration);
+  d.put("life/wait_until", wait_until);
+  d.put_count("life/interval", s.life_interval);
+  d.put_count("life/next_lineage", s.next_lineage);
+  d.put_count("life/divisions", s.divisions);
+  d.put_count("life/deaths", s.deaths);
+  d.put("life/asleep", as_integers(s.asleep));
+  d.put_count("life/sleep_interval", s.sleep_interval);
+}
+
+void get_life(const io::CheckpointData& d, coupling::State& s) {
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell(), n = d.integers("life/parent").size();
+  const auto integers = [&](const char* what) -> const std::vector<std::int64_t>& {
+    check_same(d, what, d.integers(what).size(), n);
+    return d.integers(what);
+  };
+  const auto numbers = [&](const char* what) -> const std::vector<double>& {
+    check_same(d, what, d.numbers(what).size(), n);
+    return d.numbers(what);
+  };
+  const auto check_none_or_all = [&](const char* what, std::size_t found) {
+    check_same(d, what, found == 0 ? n_cell : found, n_cell);
+  };
+  check_none_or_all("life/parent", n);
+  const auto &parent = integers("life/parent"), &founder = integers("life/founder"),
+             &fate = integers("life/fate");
+  const auto &birth = numbers("life/birth"), &volume = numbers("life/birth_volume"),
+             &duration = numbers("life/duration"), &wait = numbers("life/wait_until");
+  s.cycle.clear();
+  for (std::size_t k = 0; k < n; ++k)
+    s.cycle.push_back({parent[k], founder[k], static_cast<coupling::Fate>(fate[k]), birth[k],
+                       volume[k], duration[k], wait[k]});
+  s.life_interval = d.count("life/interval");
+  s.next_lineage = d.count("life/next_lineage");
+  s.divisions = d.count("life/divisions");
+  s.deaths = d.count("life/deaths");
+  const std::vector<std::int64_t>& asleep = d.integers("life/asleep");
+  check_none_or_all("life/asleep", asleep.size());
+  s.asleep.assign(asleep.begin(), asleep.end());
+  s.sleep_interval = d.count("life/sleep_interval");
+}
+
+/// Calls f(name, value) for every number of the clock and the balance.
+template <class Clock, class Balance, class F>
+void visit_numbers(Clock& c, Balance& b, F f) {
+  f("clock/time", c.time);
+  f("clock/origin", c.origin);
+  f("clock/phase_start", c.phase_start);
+  f("clock/step", c.step);
+  f("clock/last_step", c.last_step);
+  f("balance/momentum", b.momentum);
+  f("balance/torque", b.torque);
+  f("balance/friction_torque", b.friction_torque);
+}
+
+/// The same for every count.
+template <class Clock, class F>
+void visit_counts(Clock& c, F f) {
+  f("clock/accepted", c.accepted);
+  f("clock/rejected", c.rejected);
+  f("clock/cg_iterations", c.cg_iterations);
+  f("clock/solves", c.solves);
+}
+
+}  // namespace
+
+void put_state(const coupling::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> group;
+  for (const dcm::Group& g : s.dcm.group)
+    group.insert(group.end(), {g.type, static_cast<std::int64_t>(g.topology->n_node)});
+  d.put("dcm/group", group);
+  d.put("dcm/position", s.dcm.position);
+  d.put("dcm/lineage", s.dcm.lineage);
+  d.put("dcm/volume", flatten(s.dcm.volume));
+  put_birth_shapes(s.dcm, d);
+  d.put("dcm/pull", flatten(s.dcm.pull));
+  d.put("cbm/position", s.cbm.position);
+  d.put("cbm/lineage", s.cbm.lineage);
+  d.put("cbm/type", as_integers(s.cbm.type));
+  d.put("cbm/volume", flatten(s.cbm.volume));
+  d.put("cbm/strength", flatten(s.cbm.strength));
+  d.put("cbm/young", s.cbm.young);
+  d.put("cbm/pull", flatten(s.cbm.pull));
+  std::vector<std::int64_t> touching;
+  for (const auto& [a, b] : s.cbm.touching) touching.insert(touching.end(), {a, b});
+  d.put("cbm/touching", touching);
+  put_life(s, d);
+  d.put_count("clock/phase", static_cast<std::int64_t>(s.clock.phase));
+  d.put_count("clock/coarse", s.clock.coarse ? 1 : 0);
+  visit_numbers(s.clock, s.balance,
+                [&](const char* name, double value) { d.put_number(name, value); });
+  visit_counts(s.clock, [&](const char* name, std::int64_t value) { d.put_count(name, value); });
+  d.put("solver/last_move", s.last_move);
+  d.put("leaders/cell", as_integers(s.leader));
+  d.put_count("leaders/interval", s.leader_interval);
+  d.put("settle/pressure", s.settle_pressure);
+  d.put_number("settle/time", s.settle_time);
+}
+
+void get_state(const io::CheckpointData& d, coupling::State& s) {
+  get_shells(d, s.dcm);
+  get_spheres(d, s.cbm);
+  get_life(d, s);
+  s.clock.phase = static_cast<coupling::Phase>(d.count("clock/phase"));
+  s.clock.coarse = d.count("clock/coarse") != 0;
+  visit_numbers(s.clock, s.balance,
+                [&](const char* name, double& value) { value = d.number(name); });
+  visit_counts(s.clock, [&](const char* name, auto& value) { value = d.count(name); });
+  s.last_move = d.numbers("solver/last_move");
+  const std::vector<std::int64_t>& leader = d.integers("leaders/cell");
+  s.leader.assign(leader.begin(), leader.end());
+  s.leader_interval = d.count("leaders/interval");
+  s.settle_pressure = d.numbers("settle/pressure");
+  s.settle_time = d.number("settle/time");
+}
+
+}  // namespace acinus::runs

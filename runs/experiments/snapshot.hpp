@@ -1,0 +1,20 @@
+#pragma once
+/// Everything about one moment: made once, used by the run file, the audit and the experiments.
+
+#include <vector>
+
+#include "coupling/measure/measure.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
+
+namespace acinus::runs {
+
+struct Snapshot {
+  double time = 0;  ///< s since t = 0
+  std::vector<coupling::CellMeasure> cells;
+  coupling::NodeMeasure nodes;
+  std::vector<coupling::InterfaceForce> interface;
+};
+Snapshot take_snapshot(const coupling::World& world, coupling::Workspace& work);
+
+}  // namespace acinus::runs
