@@ -49,6 +49,15 @@ double time_merge_us(const solve::System& system) {
   return time_us([&] { merger.merge(system, block_of_row, merged); });
 }
 
+/// Bytes of the matrix of one cell.
+double matrix_bytes(const solve::Block& block) {
+  return 4.0 *
+         (static_cast<double>(block.pattern->spring.size()) * solve::kSpringStride +
+          static_cast<double>(block.pattern->wing.size()) * solve::kHingeStride +
+          static_cast<double>(block.pattern->face.size()) * solve::kFaceStride) /
+         kLanes;
+}
+
 BenchRow measure_parts(int count, const std::string& quadrature) {
   AssembledClump clump({.count = count, .quadrature = quadrature});
   coupling::World& world = clump.world;
@@ -89,16 +98,10 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   w.system.links.clear();
   w.op.prepare(w.system);
   const double product_alone = time_us([&] { w.op.apply<float>(xf, yf); });
-  const solve::Block& block = w.system.block[0];
-  const double bytes = 4.0 *
-                       (static_cast<double>(block.pattern->spring.size()) * solve::kSpringStride +
-                        static_cast<double>(block.pattern->wing.size()) * solve::kHingeStride +
-                        static_cast<double>(block.pattern->face.size()) * solve::kFaceStride) /
-                       kLanes;
   BenchRow row{fmt::format("{} DCM cells, {}", count, quadrature),
                count,
                {{"us_per_cell", within / cells},
-                {"bytes_per_cell", bytes},
+                {"bytes_per_cell", matrix_bytes(w.system.block[0])},
                 {"product_us_per_cell", product / cells},
                 {"merge_contacts_us_per_cell", merge / cells},
                 {"product_merged_us_per_cell", product_merged / cells},

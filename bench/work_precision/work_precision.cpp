@@ -82,6 +82,26 @@ BenchTable bench_case(const WorkCase& c, const BenchOptions& options) {
   return report.rows;
 }
 
+/// Outcomes of one method with fixed steps.
+std::vector<Outcome> of_method(const std::vector<Outcome>& outcomes, coupling::Integrator method) {
+  std::vector<Outcome> own;
+  std::ranges::copy_if(outcomes, std::back_inserter(own), [&](const Outcome& e) {
+    return e.setting.integrator == method && !e.setting.adaptive;
+  });
+  return own;
+}
+
+/// That of the longest step up to `most`, s; null: none. A short window has no room for very long
+/// steps.
+const Outcome* find_longest_step(const std::vector<Outcome>& outcomes, double most) {
+  const Outcome* longest = nullptr;
+  for (const Outcome& e : outcomes)
+    if (e.failure.empty() && e.setting.step <= most &&
+        (!longest || e.setting.step > longest->setting.step))
+      longest = &e;
+  return longest;
+}
+
 /// What the linearly implicit method saves against explicit Euler at the same error. Explicit Euler
 /// takes too long for the long window, so CPU times per simulated time are compared, each method
 /// with its cheapest setting over the window it was judged on; the two are timed in turns.
@@ -90,13 +110,6 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                                  const std::vector<Outcome>& short_window, CaseReport& report) {
   constexpr double kError = 0.02;
   constexpr int kTurns = 3;
-  auto of_method = [](const std::vector<Outcome>& outcomes, coupling::Integrator method) {
-    std::vector<Outcome> own;
-    std::ranges::copy_if(outcomes, std::back_inserter(own), [&](const Outcome& e) {
-      return e.setting.integrator == method && !e.setting.adaptive;
-    });
-    return own;
-  };
   const auto explicits = of_method(short_window, coupling::Integrator::kExplicitEuler);
   const auto implicits = of_method(long_window, coupling::Integrator::kLinearlyImplicit);
   const auto brief = of_method(short_window, coupling::Integrator::kLinearlyImplicit);
@@ -138,13 +151,7 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                 {"implicit_step_s", fast->setting.step},
                 {"explicit_error", slow->judged},
                 {"implicit_error", fast->judged}}};
-  // A short window has no room for very long steps.
-  const Outcome* nearest = nullptr;
-  for (const Outcome& e : brief)
-    if (e.failure.empty() && e.setting.step <= fast->setting.step &&
-        (!nearest || e.setting.step > nearest->setting.step))
-      nearest = &e;
-  if (nearest) {
+  if (const Outcome* nearest = find_longest_step(brief, fast->setting.step)) {
     say(report, fmt::format("; dt {:g} s, {:.2g} % over {:g} s", nearest->setting.step,
                             100 * nearest->judged, nearest->window));
     row.value.emplace_back("implicit_step_short_s", nearest->setting.step);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/contact/closest.hpp"
+#include "core/contact/discs.hpp"
 #include "core/lanes.hpp"
 #include "core/mesh/closest_point.hpp"
 
@@ -16,12 +17,6 @@ namespace {
 
 /// Self contact starts this many rest edges away on the surface.
 constexpr double kSelfRings = 3.0;
-
-const SurfaceBody& body_at(std::span<const SurfaceBody> bodies, std::span<const SurfaceBody> fixed,
-                           int k) {
-  const auto i = static_cast<std::size_t>(k);
-  return i < bodies.size() ? bodies[i] : fixed[i - bodies.size()];
-}
 
 /// Where a triangle's centre lies on the unit rest shape.
 Vec3 rest_center(const mesh::Topology& t, std::size_t triangle) {
@@ -59,48 +54,6 @@ bool may_fold(const SurfaceBody& b) {
   }
   return false;
 }
-
-/// Triangles as discs that hold them, about an origin near them: floats then keep distances to less
-/// than kRounding. Numbers of eight discs lie side by side, [group][kNumbers][lane].
-struct Discs {
-  static constexpr std::size_t kNumbers = 7;  ///< centre, normal, reach
-  static constexpr std::size_t kStride = kNumbers * kLanes;
-  std::size_t n = 0;
-  std::vector<int> triangle;
-  std::vector<float> number;
-
-  /// Empties, and makes room for `most` discs.
-  void reset(std::size_t most) {
-    n = 0;
-    const std::size_t n_group = (most + kLanes - 1) / kLanes;
-    if (triangle.size() < n_group * kLanes) {
-      triangle.resize(n_group * kLanes);
-      number.resize(n_group * kStride);
-    }
-  }
-  std::size_t triangle_at(int k) const {
-    return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]);
-  }
-  static std::size_t place_of(std::size_t k) { return k / kLanes * kStride + k % kLanes; }
-
-  void add(const SurfaceBody& b, std::size_t t, const Vec3& origin) {
-    const Vec3 c = b.center[t] - origin;
-    const Vec3& normal = b.triangle_normal[t];
-    float* to = number.data() + place_of(n);
-    for (std::size_t m = 0; m < 3; ++m) {
-      to[m * kLanes] = static_cast<float>(c[static_cast<int>(m)]);
-      to[(3 + m) * kLanes] = static_cast<float>(normal[static_cast<int>(m)]);
-    }
-    to[6 * kLanes] = static_cast<float>(b.reach[t]);
-    triangle[n++] = static_cast<int>(t);
-  }
-  void add(const Discs& other, std::size_t k) {
-    const float* from = other.number.data() + place_of(k);
-    float* to = number.data() + place_of(n);
-    for (std::size_t m = 0; m < kNumbers; ++m) to[m * kLanes] = from[m * kLanes];
-    triangle[n++] = other.triangle[k];
-  }
-};
 
 /// Distances to discs, um, up to the end of the last eight: never more than to the triangles.
 /// @param from  um from the origin of the discs
@@ -411,62 +364,6 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
       *lists[k] = scratch;
     }
   }
-}
-
-std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
-                          std::span<const SurfaceBody> fixed, const SearchOptions& o, double moved,
-                          std::vector<Contact>& out) {
-  const bool self = list.body_a == list.body_b;
-  const bool is_fixed = static_cast<std::size_t>(list.body_b) >= bodies.size();
-  const int partner = is_fixed ? list.body_b - static_cast<int>(bodies.size()) : list.body_b;
-  const SurfaceBody& a = body_at(bodies, fixed, list.body_a);
-  const SurfaceBody& b = body_at(bodies, fixed, list.body_b);
-  const double range = self ? o.self_range : o.range, depth = self ? 0 : o.max_depth;
-  const double horizon = std::max(range, depth), shift = moved + kRounding;
-  const int per_site = points_per_site(o.quadrature);
-  PointBlock block;
-  int point[PointBlock::kSize];
-  std::size_t looked = 0;
-  auto flush = [&] {
-    find_closest(b, {list.triangle, list.bound}, shift, horizon, block);
-    // On a fixed body, which has no unknowns, the exact place: it may be far from its corners.
-    find_gaps(b, is_fixed ? Place::kExact : Place::kRounded, block);
-    for (int i = 0; i < block.n; ++i) {
-      if (block.triangle[i] < 0) continue;
-      const double gap = block.gap[i];
-      if (gap > range || gap < -depth) continue;
-      // A sheet met through the cell's own inside is not a contact.
-      if (self && gap < 0) continue;
-      const auto site = static_cast<std::size_t>(point[i] / per_site);
-      const Vec3 facing = site_normal(a, o.quadrature, site);
-      if (!are_facing(facing, Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])))
-        continue;
-      out.push_back({.a = list.body_a,
-                     .point = point[i],
-                     .b = partner,
-                     .triangle = block.triangle[i],
-                     .place = {block.rounded[0][i], block.rounded[1][i]},
-                     .partner = is_fixed ? Partner::kMesh : Partner::kSurface,
-                     .normal = Vec3(block.normal[0][i], block.normal[1][i], block.normal[2][i]),
-                     .gap = gap});
-    }
-    looked += static_cast<std::size_t>(block.n);
-    block.n = 0;
-  };
-  block.n = 0;
-  for (std::size_t p = 0; p < list.point.size(); ++p) {
-    const double before = static_cast<double>(list.gap[p]);
-    if (before - shift > range || -before - shift > depth) continue;
-    const int n = block.n++;
-    const Vec3 x = point_position(a, point_stencil(a, o.quadrature, list.point[p]));
-    for (int m = 0; m < 3; ++m) block.x[3 * n + m] = x[m];
-    block.begin[n] = list.start[p];
-    block.end[n] = list.start[p + 1];
-    point[n] = list.point[p];
-    if (block.n == PointBlock::kSize) flush();
-  }
-  flush();
-  return looked;
 }
 
 }  // namespace acinus::contact

@@ -35,6 +35,13 @@ struct Candidates {
   }
 };
 
+/// A body by its number: those that probe come first, then those that are only probed.
+inline const SurfaceBody& body_at(std::span<const SurfaceBody> bodies,
+                                  std::span<const SurfaceBody> fixed, int k) {
+  const auto i = static_cast<std::size_t>(k);
+  return i < bodies.size() ? bodies[i] : fixed[i - bodies.size()];
+}
+
 /// Empty lists, ascending, for all that may touch once boxes have come closer by `reserve`: pairs
 /// of bodies both ways, bodies with themselves if o.self_range > 0, and bodies with `fixed`, which
 /// are only probed, never probe, and are numbered after `bodies`.

@@ -35,60 +35,53 @@ void add_stress(CellMeasure& m, double reference_volume, const Vec3& force, cons
   m.stress[5] += w * force.z() * arm.z();
 }
 
-}  // namespace
-
-void observe(const World& world, Workspace& w) {
-  find_all_contacts(world, kNow, w);
-  assemble(world, kNow, w);
-  list_sphere_pairs(world, w);
+CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t body) {
+  const State& s = world.state;
+  const std::size_t lane = w.dcm.lane_of_body[body];
+  const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
+  const int l = static_cast<int>(lane % kLanes);
+  CellMeasure m;
+  m.id = s.dcm.lineage[lane];
+  m.deformable = true;
+  m.type = s.dcm.group[lane / kLanes].type;
+  m.leader = lane < w.leader.size() && w.leader[lane];
+  if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
+  m.center = dcm::cell_center(s.dcm, lane);
+  m.radius = w.lanes.radius[lane];
+  m.volume = dcm::compute_volumes(g)[l];
+  m.area = dcm::compute_areas(g)[l];
+  m.cytosol_pressure =
+      dcm::cytosol_pressure(world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus,
+                            m.volume, sphere_volume(m.radius));
+  m.migration_force = w.forces.dcm[lane].norm();
+  const std::vector<double>& share = w.dcm.share[body];
+  for (std::size_t p = 0; p < share.size(); ++p)
+    m.contact_area += std::min(1.0, share[p]) * dcm::point_area(*w.dcm.body[body].topology,
+                                                                world.params.dcm_contact.quadrature,
+                                                                static_cast<int>(p), m.radius);
+  return m;
 }
 
-std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
+CellMeasure measure_sphere(const World& world, const Workspace& w, std::size_t c) {
   const State& s = world.state;
-  std::vector<CellMeasure> cells;
-  const std::size_t n_body = w.dcm.body.size();
-  for (std::size_t k = 0; k < n_body; ++k) {
-    const std::size_t lane = w.dcm.lane_of_body[k];
-    const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
-    const int l = static_cast<int>(lane % kLanes);
-    CellMeasure m;
-    m.id = s.dcm.lineage[lane];
-    m.deformable = true;
-    m.type = s.dcm.group[lane / kLanes].type;
-    m.leader = lane < w.leader.size() && w.leader[lane];
-    if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
-    m.center = dcm::cell_center(s.dcm, lane);
-    m.radius = w.lanes.radius[lane];
-    m.volume = dcm::compute_volumes(g)[l];
-    m.area = dcm::compute_areas(g)[l];
-    const double v0 = sphere_volume(m.radius);
-    m.cytosol_pressure = dcm::cytosol_pressure(
-        world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus, m.volume, v0);
-    m.migration_force = w.forces.dcm[lane].norm();
-    for (std::size_t p = 0; p < w.dcm.share[k].size(); ++p)
-      m.contact_area +=
-          std::min(1.0, w.dcm.share[k][p]) * dcm::point_area(*w.dcm.body[k].topology,
-                                                             world.params.dcm_contact.quadrature,
-                                                             static_cast<int>(p), m.radius);
-    cells.push_back(m);
-  }
-  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
-    CellMeasure m;
-    m.id = s.cbm.lineage[c];
-    m.type = s.cbm.type[c];
-    const std::size_t at = s.dcm.n_lane() + c;
-    m.leader = at < w.leader.size() && w.leader[at];
-    if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
-    m.center = cbm::center_of(s.cbm, c);
-    m.radius = w.cbm_radius[c];
-    if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
-    m.volume = sphere_volume(m.radius);
-    m.area = 4 * kPi * m.radius * m.radius;
-    m.contact_area = std::min(w.cbm.contact_area[c], m.area);
-    m.migration_force = w.forces.cbm[c].norm();
-    cells.push_back(m);
-  }
+  CellMeasure m;
+  m.id = s.cbm.lineage[c];
+  m.type = s.cbm.type[c];
+  const std::size_t at = s.dcm.n_lane() + c;
+  m.leader = at < w.leader.size() && w.leader[at];
+  if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
+  m.center = cbm::center_of(s.cbm, c);
+  m.radius = w.cbm_radius[c];
+  if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
+  m.volume = sphere_volume(m.radius);
+  m.area = 4 * kPi * m.radius * m.radius;
+  m.contact_area = std::min(w.cbm.contact_area[c], m.area);
+  m.migration_force = w.forces.cbm[c].norm();
+  return m;
+}
 
+/// Adds what contacts exert: stress, forces, numbers of contacts.
+void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasure>& cells) {
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
@@ -117,6 +110,22 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
       cells[k].normal_force += normal;
     }
   }
+}
+
+}  // namespace
+
+void observe(const World& world, Workspace& w) {
+  find_all_contacts(world, kNow, w);
+  assemble(world, kNow, w);
+  list_sphere_pairs(world, w);
+}
+
+std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
+  std::vector<CellMeasure> cells;
+  for (std::size_t k = 0; k < w.dcm.body.size(); ++k) cells.push_back(measure_surface(world, w, k));
+  for (std::size_t c = 0; c < world.state.cbm.n_cell(); ++c)
+    cells.push_back(measure_sphere(world, w, c));
+  add_contacts(world, w, cells);
   for (CellMeasure& m : cells) {
     m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
     if (!m.deformable) m.cytosol_pressure = m.pressure;

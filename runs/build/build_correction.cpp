@@ -5,6 +5,7 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
+#include "runs/build/build_params.hpp"
 #include "runs/build/build_world.hpp"
 
 namespace acinus::runs {

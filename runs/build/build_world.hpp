@@ -22,11 +22,4 @@ struct BuiltWorld {
 /// @throws Error for files that cannot be used and cells that start in the wrong place
 BuiltWorld build_world(const Scene& scene, const Ranks& ranks);
 
-/// Names of the walls, capsule and closed meshes that a scene's cells meet, without building it.
-std::vector<std::string> boundary_names(const Scene& scene);
-
-/// Constants of one cell type in both models.
-dcm::Params make_dcm_params(const Scene& scene, const CellType& type);
-cbm::Params make_cbm_params(const Scene& scene, const CellType& type);
-
 }  // namespace acinus::runs

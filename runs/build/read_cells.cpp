@@ -30,7 +30,8 @@ CellRecords read_cells(const io::RunReader& reader, int frame, const std::string
   const io::Table t = reader.cells(frame);
   const auto &center = cell_column(t, "center", folder),
              &pressure = cell_column(t, "pressure", folder),
-             &force = cell_column(t, "contact_force", folder);
+             &force = cell_column(t, "contact_force", folder),
+             &radius = cell_column(t, "radius", folder);
   const auto &id = ids(t, "id"), &contacts = ids(t, "contacts"), &kind = ids(t, "kind");
   CellRecords cells;
   for (std::size_t k = 0; k < id.size(); ++k)
@@ -38,7 +39,8 @@ CellRecords read_cells(const io::RunReader& reader, int frame, const std::string
                     1e3 * pressure[k],
                     force[k],
                     static_cast<double>(contacts[k]),
-                    kind[k] == 0};
+                    kind[k] == 0,
+                    radius[k]};
   return cells;
 }
 

@@ -17,6 +17,7 @@ struct CellRecord {
   double force = 0;            ///< nN, sum of the sizes of its contact forces
   double contacts = 0;         ///< cells it touches
   bool deformable = false;
+  double radius = 0;  ///< um, of its reference volume
 };
 
 /// A column of a frame's cells by its name.

@@ -19,6 +19,7 @@
 #include "core/io/checkpoint.hpp"
 #include "core/io/file_lock.hpp"
 #include "runs/build/build_correction.hpp"
+#include "runs/build/build_params.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/build/read_cells.hpp"
 #include "runs/build/state_file.hpp"

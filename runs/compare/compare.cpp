@@ -41,6 +41,7 @@ double mean(const CellRecords& cells, double CellRecord::*what) {
 struct Middle {
   Vec3 center = Vec3::Zero();
   double radius = 0;
+  double border = 0;  ///< um, a cell's radius
 };
 Middle middle_of(const CellRecords& cells) {
   Middle m;
@@ -51,16 +52,16 @@ Middle middle_of(const CellRecords& cells) {
   // Midway to the next cell: a cell on the border would count in one run and not in another.
   const std::size_t half = (r.size() - 1) / 2, next = std::min(half + 1, r.size() - 1);
   m.radius = 0.5 * (r[half] + r[next]);
+  m.border = mean(cells, &CellRecord::radius);
   return m;
 }
 
-/// Cells per mm^3 in the ball. Cells count with a border one cell wide, so that their number does
-/// not jump when one crosses it.
+/// Cells per mm^3 in the ball. Cells count with a border as wide as their radius, so that their
+/// number does not jump when one crosses it.
 double density_in(const CellRecords& cells, const Middle& m) {
-  constexpr double kBorder = 12;  // um
   double count = 0;
   for (const auto& [id, c] : cells)
-    count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / kBorder, 0.0, 1.0);
+    count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / m.border, 0.0, 1.0);
   return 1e9 * count / (4.0 / 3 * kPi * std::pow(m.radius, 3));
 }
 
@@ -105,7 +106,7 @@ std::vector<RunData> open_runs(const std::vector<std::string>& folders) {
 }
 
 /// Adds rows to the table of differences.
-struct Recorder {
+struct DifferenceTable {
   const std::map<std::string, double>& tolerance;
   Comparison& out;
 
@@ -146,7 +147,7 @@ double rms_over_time(const std::vector<double>& reference, const std::vector<dou
   return size > 0 ? std::sqrt(difference / size) : 0;
 }
 
-void record_trace(const Recorder& record, std::size_t run, const Trace& t) {
+void record_trace(const DifferenceTable& record, std::size_t run, const Trace& t) {
   record.relative(run, t.name, t.unit, average(t.value[0]), average(t.value[run]),
                   rms_over_time(t.value[0], t.value[run]));
 }
@@ -163,7 +164,8 @@ std::vector<double> measured(const RunData& run, const std::string& name) {
   return out;
 }
 
-void compare_measures(const std::vector<RunData>& runs, const Recorder& record, Comparison& c) {
+void compare_measures(const std::vector<RunData>& runs, const DifferenceTable& record,
+                      Comparison& c) {
   struct Measure {
     const char *name, *series, *unit;
   };
@@ -190,6 +192,84 @@ void check_names(const std::map<std::string, double>& tolerance) {
                       fmt::join(known, ", ")));
     check(std::isfinite(value) && value >= 0,
           fmt::format("--tolerance {}={}: must be a number >= 0", name, value));
+  }
+}
+
+/// What is followed over time, and the cells of every run at its end.
+struct Traces {
+  Trace count{"cells", "1", {}, {}}, pressure{"pressure", "Pa", {}, {}},
+      force{"contact_force", "nN", {}, {}}, contacts{"contacts", "1", {}, {}};
+  std::vector<CellRecords> end;  ///< [run]
+};
+
+Traces read_traces(const std::vector<RunData>& runs) {
+  Traces t;
+  const auto all = {&t.count, &t.pressure, &t.force, &t.contacts};
+  for (const RunData& run : runs) {
+    for (Trace* trace : all) trace->value.emplace_back();
+    CellRecords cells;
+    for (const int k : run.frame) {
+      cells = read_cells(run.reader, k, run.summary.folder);
+      t.count.value.back().push_back(static_cast<double>(cells.size()));
+      t.pressure.value.back().push_back(mean(cells, &CellRecord::pressure));
+      t.force.value.back().push_back(mean(cells, &CellRecord::force));
+      t.contacts.value.back().push_back(mean(cells, &CellRecord::contacts));
+    }
+    t.end.push_back(cells);
+  }
+  for (const int k : runs[0].frame)
+    for (Trace* trace : all) trace->time.push_back(runs[0].reader.time_s(k));
+  return t;
+}
+
+double rms_of(const CellRecords& cells, double CellRecord::*what) {
+  double sum = 0;
+  for (const auto& [id, cell] : cells) sum += std::pow(cell.*what, 2);
+  return std::sqrt(sum / static_cast<double>(cells.size()));
+}
+
+/// All rows of one run that come from its cells.
+void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t) {
+  const CellRecords &reference = t.end[0], &end = t.end[r];
+  auto by_cell = [&](const char* name, const char* unit, double CellRecord::*what) {
+    const double size = rms_of(reference, what);
+    const double rms = rms_by_lineage(
+        reference, end,
+        [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
+    record.relative(r, name, unit, size, rms_of(end, what), rms / size);
+  };
+  const Middle middle = middle_of(reference);
+  record.relative(r, "cells", "1", t.count.value[0].back(), t.count.value[r].back());
+  record.absolute(r, "positions", "um",
+                  rms_by_lineage(reference, end, [](const CellRecord& a, const CellRecord& b) {
+                    return (a.center - b.center).squaredNorm();
+                  }));
+  record.relative(r, "density", "1/mm^3", density_in(reference, middle), density_in(end, middle));
+  record_trace(record, r, t.pressure);
+  by_cell("cell_pressure", "Pa", &CellRecord::pressure);
+  record_trace(record, r, t.force);
+  by_cell("cell_force", "nN", &CellRecord::force);
+  record_trace(record, r, t.contacts);
+}
+
+/// Drag of every run, and where it is not the same scene or not at its end.
+void describe_runs(const std::vector<RunData>& runs, const std::vector<CellRecords>& end,
+                   Comparison& c) {
+  const std::string reference = runs[0].reader.provenance().at("scene");
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::string scene = runs[r].reader.provenance().at("scene");
+    auto has = [&](bool deformable) {
+      return std::ranges::any_of(
+          end[r], [&](const auto& cell) { return cell.second.deformable == deformable; });
+    };
+    c.drag.push_back(drag_of(scene, has(true), has(false)));
+    if (runs[r].summary.status != "completed")
+      c.notes.push_back(fmt::format("{} is {}", c.runs[r], runs[r].summary.status));
+    if (r == 0) continue;
+    const std::vector<std::string> other = list_scene_differences(reference, scene, may_differ);
+    if (!other.empty())
+      c.notes.push_back(fmt::format("{} is not the scene of {}: {}", c.runs[r], c.runs[0],
+                                    fmt::join(other, "; ")));
   }
 }
 
@@ -229,76 +309,15 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   c.frames = static_cast<int>(runs[0].frame.size());
   c.from = runs[0].reader.time_s(runs[0].frame.front());
   c.to = runs[0].reader.time_s(runs[0].frame.back());
-
-  Trace count{"cells", "1", {}, {}}, pressure{"pressure", "Pa", {}, {}},
-      force{"contact_force", "nN", {}, {}}, contacts{"contacts", "1", {}, {}};
-  std::vector<CellRecords> end;
-  for (const RunData& run : runs) {
-    for (Trace* t : {&count, &pressure, &force, &contacts}) t->value.emplace_back();
-    CellRecords cells;
-    for (const int k : run.frame) {
-      cells = read_cells(run.reader, k, run.summary.folder);
-      count.value.back().push_back(static_cast<double>(cells.size()));
-      pressure.value.back().push_back(mean(cells, &CellRecord::pressure));
-      force.value.back().push_back(mean(cells, &CellRecord::force));
-      contacts.value.back().push_back(mean(cells, &CellRecord::contacts));
-    }
-    end.push_back(cells);
-  }
-  for (const int k : runs[0].frame)
-    for (Trace* t : {&count, &pressure, &force, &contacts})
-      t->time.push_back(runs[0].reader.time_s(k));
-
-  const Recorder record{tolerance, c};
-  check(!end[0].empty(), fmt::format("{}: no cells in its last frame", folders[0]));
-  const Middle middle = middle_of(end[0]);
-  auto rms_of = [](const CellRecords& cells, double CellRecord::*what) {
-    double sum = 0;
-    for (const auto& [id, cell] : cells) sum += std::pow(cell.*what, 2);
-    return std::sqrt(sum / static_cast<double>(cells.size()));
-  };
-  for (std::size_t r = 1; r < runs.size(); ++r) {
-    auto by_cell = [&](const char* name, const char* unit, double CellRecord::*what) {
-      const double reference = rms_of(end[0], what);
-      const double rms = rms_by_lineage(
-          end[0], end[r],
-          [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
-      record.relative(r, name, unit, reference, rms_of(end[r], what), rms / reference);
-    };
-    record.relative(r, "cells", "1", count.value[0].back(), count.value[r].back());
-    record.absolute(r, "positions", "um",
-                    rms_by_lineage(end[0], end[r], [](const CellRecord& a, const CellRecord& b) {
-                      return (a.center - b.center).squaredNorm();
-                    }));
-    record.relative(r, "density", "1/mm^3", density_in(end[0], middle), density_in(end[r], middle));
-    record_trace(record, r, pressure);
-    by_cell("cell_pressure", "Pa", &CellRecord::pressure);
-    record_trace(record, r, force);
-    by_cell("cell_force", "nN", &CellRecord::force);
-    record_trace(record, r, contacts);
-  }
-  c.trace = {count, pressure, force, contacts};
+  const Traces traces = read_traces(runs);
+  check(!traces.end[0].empty(), fmt::format("{}: no cells in its last frame", folders[0]));
+  const DifferenceTable record{tolerance, c};
+  for (std::size_t r = 1; r < runs.size(); ++r) record_cells(record, r, traces);
+  c.trace = {traces.count, traces.pressure, traces.force, traces.contacts};
   compare_measures(runs, record, c);
   for (std::size_t r = 1; r < runs.size(); ++r)
     record.relative(r, "cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s);
-
-  const std::string reference_scene = runs[0].reader.provenance().at("scene");
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const std::string scene = runs[r].reader.provenance().at("scene");
-    auto has = [&](bool deformable) {
-      return std::ranges::any_of(
-          end[r], [&](const auto& cell) { return cell.second.deformable == deformable; });
-    };
-    c.drag.push_back(drag_of(scene, has(true), has(false)));
-    if (runs[r].summary.status != "completed")
-      c.notes.push_back(fmt::format("{} is {}", folders[r], runs[r].summary.status));
-    if (r == 0) continue;
-    const std::vector<std::string> other =
-        list_scene_differences(reference_scene, scene, may_differ);
-    if (!other.empty())
-      c.notes.push_back(fmt::format("{} is not the scene of {}: {}", folders[r], folders[0],
-                                    fmt::join(other, "; ")));
-  }
+  describe_runs(runs, traces.end, c);
   return c;
 }
 

@@ -4,12 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 
-#include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "runs/scene/value_reader.hpp"
 
 namespace acinus::runs {
 namespace fs = std::filesystem;
@@ -37,24 +35,24 @@ constexpr const char* kNameRule = "must be a name of letters, digits, _ and -";
 class KeyReader final : public Visitor {
  public:
   KeyReader(const Document& document, Report& report, const std::string& prefix)
-      : document_(document), report_(report), prefix_(prefix) {
+      : report_(report), values_(document, report), prefix_(prefix) {
     frame_.node = &document.root;
     frame_.origin = document.root.origin;
   }
 
   void real(const Key& key, double& value) override {
-    if (const Node* node = take(key)) read_real(key, *node, pointer_of(key), value);
+    if (const Node* node = take(key)) values_.read_real(key, *node, pointer_of(key), value);
   }
 
   void optional_real(const Key& key, std::optional<double>& value) override {
     const Node* node = take(key);
     if (node == nullptr || is_auto(key, *node)) return;
     double number = 0;
-    if (read_real(key, *node, pointer_of(key), number)) value = number;
+    if (values_.read_real(key, *node, pointer_of(key), number)) value = number;
   }
 
   void integer(const Key& key, int& value) override {
-    if (const Node* node = take(key)) read_integer(key, *node, pointer_of(key), value);
+    if (const Node* node = take(key)) values_.read_integer(key, *node, pointer_of(key), value);
   }
 
   void seed(const Key& key, std::uint64_t& value) override {
@@ -84,11 +82,11 @@ class KeyReader final : public Visitor {
     if (node->kind != Kind::kText) {
       report_.add_value(*node, pointer, "must be a text in quotes");
     } else if (key.is_run) {
-      read_run_name(*node, pointer, value);
+      values_.read_run_name(*node, pointer, value);
     } else if (const auto choices = choices_of(key);
                key.is_file &&
                std::find(choices.begin(), choices.end(), node->text) == choices.end()) {
-      read_file_name(key, *node, pointer, value);
+      values_.read_file_name(key, *node, pointer, value);
     } else if (!choices.empty() &&
                std::find(choices.begin(), choices.end(), node->text) == choices.end()) {
       const std::string hint = nearest_name(node->text, choices);
@@ -107,7 +105,7 @@ class KeyReader final : public Visitor {
   }
 
   void vector(const Key& key, Vec3& value) override {
-    if (const Node* node = take(key)) read_vector(key, *node, pointer_of(key), value);
+    if (const Node* node = take(key)) values_.read_vector(key, *node, pointer_of(key), value);
   }
 
   void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) override {
@@ -120,7 +118,7 @@ class KeyReader final : public Visitor {
     }
     std::array<Vec3, 2> corners{Vec3::Zero(), Vec3::Zero()};
     for (std::size_t i = 0; i < 2; ++i) {
-      read_vector(key, node->items[i], fmt::format("{}/{}", pointer, i), corners[i]);
+      values_.read_vector(key, node->items[i], fmt::format("{}/{}", pointer, i), corners[i]);
     }
     value = corners;
   }
@@ -128,9 +126,10 @@ class KeyReader final : public Visitor {
   void counts(const Key& key, std::array<int, 3>& value) override {
     const Node* node = take(key);
     const std::string pointer = pointer_of(key);
-    if (node == nullptr || !has_three(*node, pointer, key)) return;
+    if (node == nullptr || !values_.has_three(*node, pointer, key)) return;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      read_integer(key, node->items[axis], fmt::format("{}/{}", pointer, axis), value[axis]);
+      values_.read_integer(key, node->items[axis], fmt::format("{}/{}", pointer, axis),
+                           value[axis]);
     }
   }
 
@@ -145,7 +144,7 @@ class KeyReader final : public Visitor {
     values.clear();
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       std::int64_t number = 0;
-      if (read_long(key, node->items[i], fmt::format("{}/{}", pointer, i), number)) {
+      if (values_.read_long(key, node->items[i], fmt::format("{}/{}", pointer, i), number)) {
         values.push_back(number);
       }
     }
@@ -183,12 +182,12 @@ class KeyReader final : public Visitor {
 
   void settings(const Key& key, std::vector<Member>& members) override {
     const Node* node = take(key);
-    if (node != nullptr && is_object(*node, pointer_of(key))) members = node->members;
+    if (node != nullptr && values_.is_object(*node, pointer_of(key))) members = node->members;
   }
 
   void object(const Key& key, const Members& members) override {
     const Node* node = take(key);
-    if (node != nullptr && !is_object(*node, pointer_of(key))) return;
+    if (node != nullptr && !values_.is_object(*node, pointer_of(key))) return;
     enter(key.name, short_path(key.name), node, [&] { members(*this); });
   }
 
@@ -196,7 +195,7 @@ class KeyReader final : public Visitor {
                        const Members& members) override {
     const Node* node = take(key);
     const bool present = node != nullptr && node->kind != Kind::kNull;
-    if (present && !is_object(*node, pointer_of(key))) return;
+    if (present && !values_.is_object(*node, pointer_of(key))) return;
     set_present(present);
     if (present) enter(key.name, short_path(key.name), node, [&] { members(*this); });
   }
@@ -212,14 +211,14 @@ class KeyReader final : public Visitor {
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const Node& item = node->items[i];
       const std::string part = fmt::format("{}/{}", key.name, i);
-      if (!is_object(item, frame_.pointer + "/" + part)) continue;
+      if (!values_.is_object(item, frame_.pointer + "/" + part)) continue;
       enter(part, std::string(key.item) + ".", &item, [&] { elements.visit(*this, i); });
     }
   }
 
   void map(const Key& key, const Elements& elements) override {
     const Node* node = take(key);
-    if (node == nullptr || !is_object(*node, pointer_of(key))) return;
+    if (node == nullptr || !values_.is_object(*node, pointer_of(key))) return;
     for (const Member& member : node->members) {
       if (is_name(member.name)) {
         elements.add(member.name);
@@ -234,7 +233,7 @@ class KeyReader final : public Visitor {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Node* item = node->find(names[i]);
       const std::string part = fmt::format("{}/{}", key.name, names[i]);
-      if (!is_object(*item, frame_.pointer + "/" + part)) continue;
+      if (!values_.is_object(*item, frame_.pointer + "/" + part)) continue;
       enter(part, std::string(key.item) + ".", item, [&] { elements.visit(*this, i); });
     }
   }
@@ -318,151 +317,12 @@ class KeyReader final : public Visitor {
     std::swap(frame_, inner);
   }
 
-  bool is_object(const Node& node, const std::string& pointer) {
-    if (node.kind == Kind::kObject) return true;
-    report_.add_value(node, pointer, "must be a block, { ... }");
-    return false;
-  }
-
-  bool has_three(const Node& node, const std::string& pointer, const Key& key) {
-    if (node.kind == Kind::kList && node.items.size() == 3) return true;
-    const std::string one = key.unit[0] ? "\"" + dimension_example(key.dimension) + "\"" : "1";
-    report_.add_value(node, pointer,
-                      fmt::format("must be a list of three, e.g. [{0}, {0}, {0}]", one));
-    return false;
-  }
-
   bool is_auto(const Key& key, const Node& node) const {
     return key.automatic[0] && node.kind == Kind::kText && node.text == "auto";
   }
 
-  bool read_real(const Key& key, const Node& node, const std::string& pointer, double& value) {
-    double number = 0;
-    if (key.unit[0] == '\0') {
-      if (node.kind != Kind::kInteger && node.kind != Kind::kNumber) {
-        report_.add_value(node, pointer, "must be a plain number, without unit and quotes");
-        return false;
-      }
-      number = node.number;
-    } else if (node.kind == Kind::kInteger || node.kind == Kind::kNumber) {
-      report_.add_value(
-          node, pointer,
-          fmt::format("a bare number; needed {} as a text with its unit, e.g. \"{}\"",
-                      dimension_name(key.dimension), dimension_example(key.dimension)));
-      return false;
-    } else if (node.kind != Kind::kText) {
-      report_.add_value(
-          node, pointer,
-          fmt::format("must be {} as a text with its unit, e.g. \"{}\"",
-                      dimension_name(key.dimension), dimension_example(key.dimension)));
-      return false;
-    } else {
-      try {
-        number = parse_quantity(node.text, key.dimension);
-      } catch (const Error& error) {
-        report_.add_value(node, pointer, without_prefix(error.what(), node.text));
-        return false;
-      }
-    }
-    if (!key.range.contains(number)) {
-      report_.add_value(node, pointer, "must be " + range_text(key.range, key.dimension, key.unit));
-      return false;
-    }
-    value = number;
-    return true;
-  }
-
-  void read_vector(const Key& key, const Node& node, const std::string& pointer, Vec3& value) {
-    if (!has_three(node, pointer, key)) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Node& item = node.items[static_cast<std::size_t>(axis)];
-      double number = 0;
-      if (read_real(key, item, fmt::format("{}/{}", pointer, axis), number)) value[axis] = number;
-    }
-  }
-
-  void read_integer(const Key& key, const Node& node, const std::string& pointer, int& value) {
-    constexpr double kLargest = std::numeric_limits<int>::max();
-    if ((node.kind != Kind::kInteger && node.kind != Kind::kNumber) ||
-        std::floor(node.number) != node.number || std::abs(node.number) > kLargest) {
-      report_.add_value(node, pointer, "must be a whole number, without quotes");
-      return;
-    }
-    const int number = static_cast<int>(node.number);
-    const std::vector<std::string> choices = choices_of(key);
-    if (!choices.empty() &&
-        std::find(choices.begin(), choices.end(), std::to_string(number)) == choices.end()) {
-      report_.add_value(node, pointer, fmt::format("must be one of {}", fmt::join(choices, ", ")));
-    } else if (!key.range.contains(number)) {
-      report_.add_value(node, pointer, "must be " + range_text(key.range, kDimensionless, ""));
-    } else {
-      value = number;
-    }
-  }
-
-  /// A whole number too large for an int, such as a lineage number.
-  bool read_long(const Key& key, const Node& node, const std::string& pointer,
-                 std::int64_t& value) {
-    constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (node.kind != Kind::kInteger || node.magnitude > kLargest) {
-      report_.add_value(node, pointer, "must be a whole number, without quotes");
-      return false;
-    }
-    const auto magnitude = static_cast<std::int64_t>(node.magnitude);
-    value = node.negative ? -magnitude : magnitude;
-    if (key.range.contains(static_cast<double>(value))) return true;
-    report_.add_value(node, pointer, "must be " + range_text(key.range, kDimensionless, ""));
-    return false;
-  }
-
-  void read_file_name(const Key& key, const Node& node, const std::string& pointer,
-                      std::string& value) {
-    if (node.text.empty()) {
-      if (key.required) report_.add_value(node, pointer, "must name a file");
-      return;
-    }
-    const Source& source = document_.sources.at(static_cast<std::size_t>(node.origin.source));
-    const std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
-    std::error_code code;
-    if (node.text.find('\0') != std::string::npos || !fs::is_regular_file(path, code)) {
-      report_.add_value(node, pointer, "no such file: " + pointer_path(path));
-      return;
-    }
-    value = path;
-  }
-
-  void read_run_name(const Node& node, const std::string& pointer, std::string& value) {
-    if (node.text.empty()) return;
-    const Source& source = document_.sources.at(static_cast<std::size_t>(node.origin.source));
-    const std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
-    std::error_code code;
-    if (node.text.find('\0') != std::string::npos || !fs::is_directory(path, code)) {
-      report_.add_value(node, pointer, "no such run folder: " + pointer_path(path));
-    } else if (!fs::is_regular_file(path + "/start.h5", code)) {
-      report_.add_value(node, pointer,
-                        "that folder has no start.h5: its run has no start_up, or did not reach "
-                        "t = 0 yet");
-    } else {
-      value = path;
-    }
-  }
-
-  /// A path fit for a message: no control characters, not endless.
-  static std::string pointer_path(const std::string& path) {
-    std::string text = path.substr(0, 500);
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
-    return text;
-  }
-
-  /// The message of parse_quantity starts with the text, which stands before it already.
-  static std::string without_prefix(const std::string& message, const std::string& text) {
-    const std::string prefix = "\"" + text + "\": ";
-    return pointer_path(message.starts_with(prefix) ? message.substr(prefix.size()) : message);
-  }
-
-  const Document& document_;
   Report& report_;
+  ValueReader values_;
   const std::string& prefix_;
   Frame frame_;
 };

@@ -147,7 +147,7 @@ void describe_contact(Visitor& v, ContactBlock& b) {
          b.skin);
 }
 
-void describe_friction(Visitor& v, FrictionBlock& b) {
+void describe_friction_of_contacts(Visitor& v, FrictionBlock& b) {
   v.real({.name = "dcm_dcm",
           .meaning = "friction between two DCM cells, per contact area",
           .dimension = kFrictionPerArea,
@@ -183,6 +183,10 @@ void describe_friction(Visitor& v, FrictionBlock& b) {
                    .range = kNotNegative,
                    .automatic = "the type's cbm.ecm_friction"},
                   b.cbm_vessel);
+}
+
+void describe_friction(Visitor& v, FrictionBlock& b) {
+  describe_friction_of_contacts(v, b);
   v.text({.name = "form",
           .meaning = "between what dcm_dcm acts: facing points of two surfaces, or each node of a "
                      "triangle with each node of the one it touches, which also holds back "
@@ -283,9 +287,7 @@ void describe_output(Visitor& v, OutputBlock& b) {
   v.flag({.name = "start_up", .meaning = "also write frames at t < 0"}, b.start_up);
 }
 
-}  // namespace
-
-void describe(Visitor& v, Scene& s) {
+void describe_scene(Visitor& v, Scene& s) {
   v.text({.name = "name",
           .meaning = "name of the scene and of its run folder",
           .automatic = "the scene file's name",
@@ -303,6 +305,12 @@ void describe(Visitor& v, Scene& s) {
           .choices = "dcm|cbm|zoom",
           .automatic = "cells.model stays"},
          s.model);
+}
+
+}  // namespace
+
+void describe(Visitor& v, Scene& s) {
+  describe_scene(v, s);
   block(v, {.name = "time", .meaning = "duration and steps"}, s.time, describe_time);
   block(v, {.name = "solver", .meaning = "linear solver"}, s.solver, describe_solver);
   block(v, {.name = "start_up", .meaning = "growth and settling before t = 0"}, s.start_up,

@@ -3,7 +3,7 @@
 namespace acinus::runs {
 namespace {
 
-void describe_dcm(Visitor& v, DcmBlock& b) {
+void describe_cortex(Visitor& v, DcmBlock& b) {
   v.integer({.name = "nodes",
              .meaning = "nodes of the cell's surface mesh",
              .choices = "42|162|642|2562",
@@ -28,6 +28,10 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .range = {.low = 0, .high = 0.5},
           .symbol = "nu_cor"},
          b.cortex_poisson);
+}
+
+void describe_dcm(Visitor& v, DcmBlock& b) {
+  describe_cortex(v, b);
   v.real({.name = "area_modulus",
           .meaning = "resistance of the whole surface to area change",
           .dimension = kTension,

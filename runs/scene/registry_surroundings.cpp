@@ -1,8 +1,9 @@
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
+namespace {
 
-void describe_lobule(Visitor& v, LobuleBlock& b) {
+void describe_lobule_shape(Visitor& v, LobuleBlock& b) {
   v.text({.name = "shape",
           .meaning = "one of six slices of the hexagon, or all of it",
           .choices = "pie|hexagon"},
@@ -27,6 +28,12 @@ void describe_lobule(Visitor& v, LobuleBlock& b) {
           .range = kPositive,
           .symbol = "R_nec"},
          b.lesion_radius);
+}
+
+}  // namespace
+
+void describe_lobule(Visitor& v, LobuleBlock& b) {
+  describe_lobule_shape(v, b);
   v.real({.name = "central_vein_radius",
           .meaning = "radius of the central vein",
           .dimension = kLength,

@@ -56,13 +56,9 @@ void add_lobule_figures(const Measures& m, Json& measures) {
   measures["closed_d_by_area"] = by_area;
 }
 
-}  // namespace
-
-void write_summary(const std::string& folder, const SummaryInput& in) {
+/// What was run and how it ended.
+void add_run(const SummaryInput& in, Json& j) {
   const coupling::State& s = in.world.state;
-  const RunTotals& t = in.totals;
-  const int dcm_cells = dcm::count_cells(s.dcm), cbm_cells = static_cast<int>(s.cbm.n_cell());
-  Json j;
   j["scene"] = in.scene.name;
   j["scene_sha"] = in.scene.sha;
   j["version"] = ACINUS_VERSION;
@@ -74,16 +70,25 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["start_up_s"] = number(s.clock.phase == coupling::Phase::kRun ? s.clock.origin : s.clock.time);
   if (!in.scene.start_up.from.empty())
     j["start"] = {{"from", in.scene.start_up.from}, {"state_hash", in.scene.start_state}};
-  j["wall_s"] = number(t.wall_s);
-  j["cpu_s"] = number(t.cpu_s);
+}
+
+void add_cost(const SummaryInput& in, Json& j) {
+  const coupling::Clock& clock = in.world.state.clock;
+  j["wall_s"] = number(in.totals.wall_s);
+  j["cpu_s"] = number(in.totals.cpu_s);
   j["peak_rss_bytes"] = peak_rss_bytes();
   j["ranks"] = in.world.ranks.size();
   j["threads"] = in.threads;
   j["instruction_set"] = std::string(best_instruction_set());
-  j["steps"] = {{"accepted", s.clock.accepted},
-                {"rejected", s.clock.rejected},
-                {"solves", s.clock.solves},
-                {"cg", s.clock.cg_iterations}};
+  j["steps"] = {{"accepted", clock.accepted},
+                {"rejected", clock.rejected},
+                {"solves", clock.solves},
+                {"cg", clock.cg_iterations}};
+}
+
+void add_cells(const SummaryInput& in, Json& j) {
+  const coupling::State& s = in.world.state;
+  const int dcm_cells = dcm::count_cells(s.dcm), cbm_cells = static_cast<int>(s.cbm.n_cell());
   j["cells"] = {{"dcm", dcm_cells},
                 {"cbm", cbm_cells},
                 {"start", static_cast<int>(in.life.start_cells)},
@@ -92,7 +97,12 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
                 {"deaths", s.deaths}};
   if (dcm_cells > 0 && s.divisions > 0) j["division"] = division_figures(in.life);
   if (in.life.remeshed + in.life.degenerate > 0) j["meshes"] = mesh_figures(in.life);
-  j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
+}
+
+/// How far the state is from what it should be.
+void add_errors(const SummaryInput& in, Json& j) {
+  const coupling::State& s = in.world.state;
+  const RunTotals& t = in.totals;
   j["balance"] = {{"momentum", number(s.balance.momentum)},
                   {"torque", number(s.balance.torque)},
                   {"friction_torque", number(s.balance.friction_torque)}};
@@ -109,11 +119,9 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["max_overlap_cbm_um"] = number(t.max_overlap_cbm_um);
   j["min_triangle_quality"] = number(t.min_triangle_quality);
   j["self_intersecting_cells"] = static_cast<int>(t.self_intersecting);
-  j["skipped"] = in.skipped;
-  j["notes"] = in.notes;
-  Json timings = Json::object();
-  for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
-  j["timings"] = timings;
+}
+
+Json list_measures(const SummaryInput& in) {
   Json measures = Json::object();
   for (const auto& [name, values] : in.measures) {
     Json list = Json::array();
@@ -123,10 +131,27 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   for (const auto& [cells, wall] : wall_times(in.life))
     measures["wall_s_at_cells"][cells] = number(wall);
   if (!in.world.params.around.vessels.network.segment.empty())
-    measures["max_overlap_with_vessels_um"] = number(std::max(t.dcm_vessel_um, t.cbm_vessel_um));
+    measures["max_overlap_with_vessels_um"] =
+        number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
   if (in.scene.experiment == "lobule") add_lobule_figures(in.measures, measures);
-  j["measures"] = measures;
+  return measures;
+}
 
+}  // namespace
+
+void write_summary(const std::string& folder, const SummaryInput& in) {
+  Json j;
+  add_run(in, j);
+  add_cost(in, j);
+  add_cells(in, j);
+  j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
+  add_errors(in, j);
+  j["skipped"] = in.skipped;
+  j["notes"] = in.notes;
+  Json timings = Json::object();
+  for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
+  j["timings"] = timings;
+  j["measures"] = list_measures(in);
   io::write_text_file(folder + "/summary.json", j.dump(2) + "\n");
 }
 

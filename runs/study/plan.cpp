@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "runs/build/build_surroundings.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/build/start_state.hpp"
 #include "runs/experiments/observables.hpp"

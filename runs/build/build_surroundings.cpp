@@ -1,0 +1,116 @@
+#include "runs/build/build_surroundings.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/mesh/read_network.hpp"
+#include "core/mesh/read_surface.hpp"
+#include "runs/build/cell_types.hpp"
+
+namespace acinus::runs {
+namespace {
+
+mesh::Network read_vessels(const VesselBlock& v) {
+  mesh::Network n = mesh::read_network(v.file);
+  n = mesh::transform_network(n, {v.unit, v.scale, v.radius_scale, v.center, v.shift});
+  if (v.crop) n = mesh::crop_network(n, *v.crop);
+  check(!n.segment.empty(),
+        fmt::format("{}: no vessel segment is left inside /vessels/crop. Enlarge the box, or move "
+                    "the network with shift or center.",
+                    v.file));
+  return mesh::resample_network(n);
+}
+
+constexpr const char* kCapsuleName = "capsule";
+
+contact::Material mirror() {
+  contact::Material m;
+  m.mirror = true;
+  return m;
+}
+
+contact::Material wall_material(const WallEntry& w) {
+  contact::Material m = mirror();
+  if (!w.mirror) m = {w.adhesion, w.young.value_or(contact::Material{}.young), w.poisson, false};
+  return m;
+}
+
+void add_static_meshes(const Scene& scene, contact::Surroundings& around) {
+  for (const StaticMeshEntry& m : scene.static_meshes) {
+    for (mesh::Surface& s : mesh::read_closed_surfaces(m.file, m.unit * m.scale)) {
+      contact::StaticMesh body;
+      body.name = m.name;
+      body.triangle = s.triangle;
+      body.inside = m.inside;
+      if (m.inside)
+        for (auto& t : body.triangle) std::swap(t[1], t[2]);
+      body.body.node = s.node;
+      for (Vec3& x : body.body.node) x += m.shift;
+      around.meshes.push_back(std::move(body));
+    }
+  }
+  for (contact::StaticMesh& m : around.meshes) {  // addresses are final only now
+    m.body.triangle = &m.triangle;
+    contact::refresh_body(m.body);
+  }
+}
+
+}  // namespace
+
+coupling::LobuleParameters lobule_parameters(const Scene& scene) {
+  const LobuleBlock& b = *scene.lobule;
+  return {b.shape,
+          b.radius,
+          b.height,
+          b.lesion_radius,
+          b.central_vein_radius,
+          b.portal_vein_radius,
+          b.sinusoid_radius,
+          b.vessel_fraction,
+          b.branch_density,
+          b.min_distance,
+          b.cells,
+          scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
+}
+
+void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
+                      contact::Surroundings& around) {
+  mesh::Network network;
+  if (!scene.vessels.file.empty())
+    network = read_vessels(scene.vessels);
+  else if (lobule)
+    network = lobule->vessels;
+  contact::set_network(around.vessels, std::move(network));
+  around.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
+                             false};
+  if (lobule)
+    for (const coupling::MirrorPlane& p : lobule->planes)
+      around.planes.push_back({p.name, p.point, p.normal, 0, 0, mirror(), contact::Plane{}.opens});
+  for (const WallEntry& w : scene.walls)
+    around.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel,
+                             wall_material(w), w.opens.value_or(contact::Plane{}.opens)});
+  if (scene.capsule.enabled)
+    around.capsules.push_back({kCapsuleName,
+                               scene.capsule.center,
+                               scene.capsule.radius,
+                               scene.capsule.speed,
+                               scene.capsule.min_radius,
+                               scene.capsule.opens.value_or(contact::Capsule{}.opens),
+                               {}});
+  add_static_meshes(scene, around);
+}
+
+std::vector<std::string> boundary_names(const Scene& scene) {
+  std::vector<std::string> names;
+  if (scene.lobule)
+    for (const coupling::MirrorPlane& p : coupling::make_domain(lobule_parameters(scene)).plane)
+      names.push_back(p.name);
+  for (const WallEntry& w : scene.walls) names.push_back(w.name);
+  if (scene.capsule.enabled) names.emplace_back(kCapsuleName);
+  for (const StaticMeshEntry& m : scene.static_meshes) names.push_back(m.name);
+  return names;
+}
+
+}  // namespace acinus::runs

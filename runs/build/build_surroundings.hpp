@@ -1,0 +1,24 @@
+#pragma once
+/// Vessels, walls, capsules and static meshes of a scene.
+
+#include <string>
+#include <vector>
+
+#include "core/contact/surroundings.hpp"
+#include "coupling/generate/lobule.hpp"
+#include "runs/scene/scene.hpp"
+
+namespace acinus::runs {
+
+/// @pre the scene has a lobule
+coupling::LobuleParameters lobule_parameters(const Scene& scene);
+
+/// @param lobule  null: none
+/// @throws Error for files that cannot be used
+void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
+                      contact::Surroundings& around);
+
+/// Names of the walls, capsule and closed meshes that a scene's cells meet, without building it.
+std::vector<std::string> boundary_names(const Scene& scene);
+
+}  // namespace acinus::runs
