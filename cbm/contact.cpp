@@ -185,11 +185,8 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   for (const Contact& k : contacts.sphere_obstacle()) {
     const auto i = static_cast<std::size_t>(k.a);
     add_point(system.external_force.data(), cell_address(in.first_row, i), k.force * k.normal);
-    solve::PointLink link{cell_point(in.first_row, i),
-                          solve::kNowhere,
-                          {},
-                          static_cast<float>(k.slope),
-                          static_cast<float>(k.friction)};
+    solve::PointLink link{
+        cell_point(in.first_row, i), solve::kNowhere, {}, static_cast<float>(k.slope), k.friction};
     for (int m = 0; m < 3; ++m)
       link.normal[static_cast<std::size_t>(m)] = static_cast<float>(k.normal[m]);
     system.point_links.push_back(link);

@@ -103,13 +103,13 @@ class ObstacleSearch {
   /// Adds a contact, complete.
   void add(Contact k, const contact::SphereForce& law, double friction, double slope) {
     const auto i = static_cast<std::size_t>(k.a);
-    k.area = k.touching = kPi * law.contact_radius * law.contact_radius;
+    k.touching = kPi * law.contact_radius * law.contact_radius;
     k.force = law.force;
     k.slope = std::max(0.0, law.stiffness);
-    k.friction = friction * k.area;
+    k.friction = static_cast<float>(friction * k.touching);
     couple(i, law, slope);
     out_.push_back(k);
-    work_.contact_area[i] += k.area;
+    work_.contact_area[i] += k.touching;
   }
 
   /// @param recess  um, by which a wall is met later than at the radius
@@ -149,6 +149,7 @@ class ObstacleSearch {
     return {.a = static_cast<int>(i),
             .b = index,
             .partner = partner,
+            .place = {},
             .normal = normal,
             .gap = -(radius(i) - gap)};
   }

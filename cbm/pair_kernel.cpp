@@ -312,17 +312,17 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
     const contact::SphereForce law =
         weaken(contact::jkr_force(pair, overlap, true), in.cells.pair_share(i, j));
     const double area = kPi * law.contact_radius * law.contact_radius;
-    contacts.all.push_back(
-        {.a = a,
-         .b = b,
-         .partner = contact::Partner::kSphere,
-         .normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitX(),
-         .gap = -overlap,
-         .area = area,
-         .touching = area,
-         .force = law.force,
-         .slope = std::max(0.0, law.stiffness),
-         .friction = in.options.friction_factor * in.options.cell_friction * area});
+    contacts.all.push_back({.a = a,
+                            .b = b,
+                            .partner = contact::Partner::kSphere,
+                            .friction = static_cast<float>(in.options.friction_factor *
+                                                           in.options.cell_friction * area),
+                            .place = {},
+                            .normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitX(),
+                            .gap = -overlap,
+                            .touching = area,
+                            .force = law.force,
+                            .slope = std::max(0.0, law.stiffness)});
   }
 }
 

@@ -81,7 +81,8 @@ class VesselSearch {
 
  private:
   VesselContact nearest(std::size_t site, int point, const Vec3& x) const {
-    VesselContact best{{.a = number_, .point = point, .b = -1, .partner = Partner::kVessel}, 0};
+    VesselContact best{
+        {.a = number_, .point = point, .b = -1, .partner = Partner::kVessel, .stiffness = 0}, 0};
     best.contact.gap = range_;
     for (std::uint32_t e = list_.start[site]; e < list_.start[site + 1]; ++e) {
       const contact::Gap g = contact::gap_to_segment(vessels_.network, list_.segment[e], x);
@@ -167,9 +168,9 @@ std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, 
                        .point = p,
                        .b = static_cast<int>(index),
                        .partner = kind,
+                       .stiffness = c.repulsion,
                        .normal = g.normal,
-                       .gap = g.gap,
-                       .stiffness = c.repulsion});
+                       .gap = g.gap});
     }
   };
   for (std::size_t i = 0; i < around.planes.size(); ++i)

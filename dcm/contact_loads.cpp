@@ -38,6 +38,7 @@ double touching_share(const ContactParams& c, const ContactWorkspace& work, int 
 
 /// The law of a contact.
 struct Law {
+  double area = 0;  ///< um^2, what the point stands for
   contact::Well well;
   double friction = 0;   ///< nN s/um^3
   double clearance = 0;  ///< um, how far it is from its repulsive branch
@@ -64,41 +65,44 @@ struct Completion {
   contact::Well repulsion(double stiffness) const { return {0, stiffness, 1}; }
 
   Law meet_surface(Contact& k) const {
-    k.area = 0.5 * area(k.a, k.point);  // seen from both sides
-    if (k.is_fold()) return {repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
+    const double half = 0.5 * area(k.a, k.point);  // seen from both sides
+    if (k.is_fold())
+      return {half, repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
-    k.touching = k.area * share;
+    k.touching = half * share;
     const double adhesion = std::sqrt(params_of(k.a).adhesion * params_of(k.b).adhesion);
     const bool rubs = in.options.friction_form == FrictionForm::kSurface;
-    return {well(k.a, adhesion, in.options.repulsion),
+    return {half, well(k.a, adhesion, in.options.repulsion),
             rubs ? in.options.friction_factor * share * in.options.cell_friction : 0, k.gap};
   }
 
   Law meet_obstacle(Contact& k) const {
     if (k.only_pushes()) {
-      k.area = k.guard ? guard_area(*body(k.a).topology, k.point, in.lanes.radius[lane_of(k.a)])
-                       : area(k.a, k.point);
-      return {repulsion(k.stiffness), 0, k.gap + k.onset};
+      const double pushing =
+          k.guard ? guard_area(*body(k.a).topology, k.point, in.lanes.radius[lane_of(k.a)])
+                  : area(k.a, k.point);
+      return {pushing, repulsion(k.stiffness), 0, k.gap + k.onset};
     }
-    k.area = area(k.a, k.point);
+    const double whole = area(k.a, k.point);
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
-    k.touching = k.area * share;
+    k.touching = whole * share;
     const contact::Material& m = material_of(in.around, k.partner, k.b);
     const double stiffness = k.partner == Partner::kMesh ? in.options.repulsion : k.stiffness;
-    return {well(k.a, m.adhesion, stiffness), m.mirror ? 0 : share * params_of(k.a).vessel_friction,
-            k.gap};
+    return {whole, well(k.a, m.adhesion, stiffness),
+            m.mirror ? 0 : share * params_of(k.a).vessel_friction, k.gap};
   }
 
   void complete(Contact& k, solve::Link& link, solve::LinkLoad& load) const {
     const Law law = k.partner == Partner::kSurface ? meet_surface(k) : meet_obstacle(k);
-    k.force = -k.area * contact::well_traction(law.well, law.clearance);
-    k.slope = k.area * contact::well_stiffness(law.well, law.clearance);
-    k.friction = k.area * law.friction;
+    const double friction = law.area * law.friction;
+    k.force = -law.area * contact::well_traction(law.well, law.clearance);
+    k.slope = law.area * contact::well_stiffness(law.well, law.clearance);
+    k.friction = static_cast<float>(friction);
     link.a = side_a(in, work, k);
     link.b = side_b(in, work, k);
     const double gap = k.is_fold() ? law.clearance : k.gap;
-    solve::set_law(k.slope, k.friction, gap, k.normal, link);
-    load = {k.normal, k.force, k.area * law.well.repulsion, law.clearance};
+    solve::set_law(k.slope, friction, gap, k.normal, link);
+    load = {k.normal, k.force, law.area * law.well.repulsion, law.clearance};
   }
 };
 

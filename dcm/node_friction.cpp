@@ -73,11 +73,14 @@ class PairTable {
 };
 
 /// Adds the contacts of a run to the pairs of its bodies' nodes.
-void add_run(const ContactParams& c, const ContactWorkspace& work,
+void add_run(const ContactInput& in, const ContactWorkspace& work,
              std::span<const contact::Contact> run, PairTable& table) {
+  const ContactParams& c = in.options;
   for (const contact::Contact& s : run) {
     const auto a = static_cast<std::size_t>(s.a), b = static_cast<std::size_t>(s.b);
-    const double friction = s.area * cell_friction_at(c, work, s);
+    const double half = 0.5 * point_area(*work.body[a].topology, c.quadrature, s.point,
+                                         in.lanes.radius[work.lane_of_body[a]]);
+    const double friction = half * cell_friction_at(c, work, s);
     if (friction == 0) continue;
     const contact::PointStencil at = contact::point_stencil(work.body[a], c.quadrature, s.point);
     const auto own = nodes_of(at);
@@ -114,7 +117,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
       const auto& body_b = work.body[static_cast<std::size_t>(b)];
       table.start(body_a.node.size(), body_b.node.size());
       for (std::size_t k = group[g]; k < group[g + 1]; ++k)
-        add_run(c, work, contacts.range(runs[k].first, runs[k].last), table);
+        add_run(in, work, contacts.range(runs[k].first, runs[k].last), table);
       auto point = [&](int body, int node) {
         return side_at(in.state, work.lane_of_body[static_cast<std::size_t>(body)],
                        {1, {node, 0, 0}, {1, 0, 0}})

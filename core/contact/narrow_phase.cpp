@@ -40,8 +40,8 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
                      .point = point[i],
                      .b = partner,
                      .triangle = block.triangle[i],
-                     .place = {block.rounded[0][i], block.rounded[1][i]},
                      .partner = is_fixed ? Partner::kMesh : Partner::kSurface,
+                     .place = {block.rounded[0][i], block.rounded[1][i]},
                      .normal = Vec3(block.normal[0][i], block.normal[1][i], block.normal[2][i]),
                      .gap = gap});
     }

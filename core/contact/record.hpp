@@ -26,24 +26,26 @@ struct Contact {
   int point = kWhole;  ///< of surface a: site * points_per_site + local index
   int b = 0;           ///< surface, sphere, or number of the obstacle within its kind
   int triangle = -1;   ///< of surface or mesh b
-  std::array<float, 2>
-      place{};  ///< barycentric weights of the first two corners of the triangle,
-                ///< as the solver keeps them; gap and normal are those of the place
-                ///< they name (of the exact place on a mesh without unknowns)
   Partner partner = Partner::kPlane;
-  /// The point is a node or a face centre (dcm/contact.hpp), which only pushes.
-  bool guard = false;
+  bool guard = false;  ///< the point is a node or a face centre that only pushes (dcm/contact.hpp)
+  // Written by the law, here for lack of room below:
+  float friction = 0;  ///< nN s/um
+  // Written by the search:
+  union {
+    /// Surface and mesh: barycentric weights of the first two corners of the triangle, as the
+    /// solver keeps them; gap and normal are those of the place they name (of the exact place on a
+    /// mesh, which has no unknowns).
+    std::array<float, 2> place{};
+    double stiffness;  ///< other obstacles of a surface: nN/um^3 under compression
+    double depth;      ///< sphere at a surface: um, the deepest point of this pair of cells
+  };
   Vec3 normal = Vec3::Zero();  ///< unit, d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: overlap
-  double depth = 0;            ///< um, the deepest point of this pair of cells; interface only
-  double stiffness = 0;        ///< nN/um^3 of an obstacle under compression
   double onset = 0;            ///< um, how deep inside an obstacle it begins to push
   // Written by the law:
-  double area = 0;      ///< um^2, what the point stands for; of a sphere what touches
-  double touching = 0;  ///< um^2 of it in touch
+  double touching = 0;  ///< um^2 in touch
   double force = 0;     ///< nN, positive pushes apart; without friction
   double slope = 0;     ///< nN/um, its growth with depth, not negative
-  double friction = 0;  ///< nN s/um
 
   std::array<double, 3> weights() const {
     const double w0 = static_cast<double>(place[0]), w1 = static_cast<double>(place[1]);
@@ -53,6 +55,7 @@ struct Contact {
   /// A second contact of a point, to push with what the others do not.
   bool only_pushes() const { return guard || onset > 0; }
 };
+static_assert(sizeof(Contact) == 96);  // a step reads and writes all of them: larger is slower
 
 /// All contacts of a moment, in four ranges one after the other. In each of them contacts of one
 /// cell a stand together.

@@ -61,20 +61,22 @@ struct LinkLoad {
   /// Law once the gap is closed, force = -closed_stiffness * gap; nN/um. 0: none to switch to.
   double closed_stiffness = 0;
   double clearance = 0;  ///< um, how far the contact is from that branch; not positive: is on it
-  bool active = false;   ///< switched to that branch although it was open; see coupling/closing
-  double open_force = 0, open_stiffness = 0;  ///< what it had before it was switched
 };
 
 /// Contacts with up to three points a side, sorted by the cell of side a.
 struct Links {
   std::vector<Link> link;
   std::vector<LinkLoad> load;  ///< of the same contact
+  /// [n_link] 1: has its closed law although it was open; see coupling/step/closing. Empty: none.
+  std::vector<std::uint8_t> closed;
 
   std::size_t size() const { return link.size(); }
   void resize(std::size_t n) {
     link.resize(n);
     load.resize(n);
+    closed.clear();
   }
+  bool is_closed(std::size_t l) const { return !closed.empty() && closed[l] != 0; }
   void clear() { resize(0); }
 };
 

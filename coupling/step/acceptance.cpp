@@ -132,7 +132,7 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
   if (gap > 0.5 * max_depth) return 0;
   const double end = gap_after(w, link);
   if (end - gap > -kClosing) return 0;
-  const bool felt = load.active || load.clearance <= 0;
+  const bool felt = w.system.links.is_closed(l) || load.clearance <= 0;
   const bool deep = end < range || (!felt && clearance_at(end, link, load) < unfelt);
   return deep ? -end : 0;
 }

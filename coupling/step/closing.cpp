@@ -53,7 +53,7 @@ bool activate_closing(Workspace& w) {
     const solve::LinkLoad& load = links.load[l];
     if (!(load.closed_stiffness > 0) || load.clearance <= 0) continue;
     const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], load);
-    if (load.active) {
+    if (links.is_closed(l)) {
       change[l] = end > 0 ? 2 : 0;
       wrong = wrong || end > kOpen;
     } else if (end < -kShallow) {
@@ -62,17 +62,17 @@ bool activate_closing(Workspace& w) {
     }
   }
   if (!wrong) return false;
+  links.closed.resize(links.size(), 0);
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (change[l] == 0) continue;
     solve::LinkLoad& load = links.load[l];
-    load.active = change[l] == 1;
-    if (load.active) {
-      load.open_force = load.force;
-      load.open_stiffness = static_cast<double>(links.link[l].stiffness);
+    links.closed[l] = change[l] == 1 ? 1 : 0;
+    if (links.closed[l] != 0) {
       replace_law(load.closed_stiffness, -load.closed_stiffness * load.clearance, links.link[l],
                   load, w.system);
-    } else {
-      replace_law(load.open_stiffness, load.open_force, links.link[l], load, w.system);
+    } else {  // its own law again
+      const contact::Contact& own = w.contacts.all[l];
+      replace_law(own.slope, own.force, links.link[l], load, w.system);
     }
   }
   w.op.prepare(w.system);
@@ -82,7 +82,7 @@ bool activate_closing(Workspace& w) {
 bool pulls_open(const Workspace& w) {
   const solve::Links& links = w.system.links;
   for (std::size_t l = 0; l < links.size(); ++l)
-    if (links.load[l].active &&
+    if (links.is_closed(l) &&
         clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kOpen)
       return true;
   return false;

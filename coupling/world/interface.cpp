@@ -59,6 +59,7 @@ std::vector<Contact> find_pair(const InterfaceInput& in, const dcm::ContactWorks
                          .point = point,
                          .b = pair.second,
                          .partner = contact::Partner::kSphere,
+                         .depth = 0,
                          .normal = d / distance,
                          .gap = gap});
     }
@@ -157,19 +158,20 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
     Contact& k = contacts.all[n];
     const auto body = static_cast<std::size_t>(k.a);
     const PairLaw law = law_of(in, dcm_work, modulus, k);
-    k.area = dcm::point_area(*dcm_work.body[body].topology, in.dcm.options.quadrature, k.point,
-                             in.dcm.lanes.radius[dcm_work.lane_of_body[body]]);
+    const double area = dcm::point_area(*dcm_work.body[body].topology, in.dcm.options.quadrature,
+                                        k.point, in.dcm.lanes.radius[dcm_work.lane_of_body[body]]);
     const double share = dcm::share_scale(dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
                          contact::contact_share(k.gap, in.dcm.options.friction_range);
-    k.touching = k.area * share;
-    k.force = -k.area * contact::well_traction(law.well, k.gap);
-    k.slope = k.area * (contact::well_stiffness(law.well, k.gap) + law.hardening);
-    k.friction = in.params.friction_factor * in.params.friction * k.area * share;
+    const double friction = in.params.friction_factor * in.params.friction * area * share;
+    k.touching = area * share;
+    k.force = -area * contact::well_traction(law.well, k.gap);
+    k.slope = area * (contact::well_stiffness(law.well, k.gap) + law.hardening);
+    k.friction = static_cast<float>(friction);
     solve::Link& link = links.link[at];
     link.a = dcm::side_a(in.dcm, dcm_work, k);
     link.b = sphere_side(in, k);
-    solve::set_law(k.slope, k.friction, k.gap, k.normal, link);
-    links.load[at] = {k.normal, k.force, k.area * law.well.repulsion, k.gap};
+    solve::set_law(k.slope, friction, k.gap, k.normal, link);
+    links.load[at] = {k.normal, k.force, area * law.well.repulsion, k.gap};
   }
 }
 

@@ -422,7 +422,7 @@ TEST(MediumFriction, ActsOnWhatTouchesNothing) {
   op.apply(one, drag);
   std::vector<double> area(11);
   for (const contact::Contact& c : s.sphere())
-    for (int k : {c.a, c.b}) area[static_cast<std::size_t>(k)] += c.area;
+    for (int k : {c.a, c.b}) area[static_cast<std::size_t>(k)] += c.touching;
   const auto r = s.radius();
   for (std::size_t i = 0; i < 16; ++i) {
     const double medium = system.medium[i / kLanes * kLanes + i % kLanes];

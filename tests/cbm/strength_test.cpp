@@ -46,13 +46,13 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
     for (std::size_t k : {a, b}) {
       force[k] += (k == a ? share : -share) * c.force * c.normal;
       size[k] += share * std::abs(c.force);
-      area[k] += share * c.area;
+      area[k] += share * c.touching;
       overlap[k] += share * relative;
     }
     listed.push_back(c);
     listed.back().force *= share;
     listed.back().slope *= share;
-    listed.back().area *= share;
+    listed.back().touching *= share;
   }
   ASSERT_GT(touching.size(), 100u);
   ASSERT_LT(touching.size(), full.sphere().size());
@@ -73,10 +73,10 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
     const contact::Contact &found = weak.sphere()[k], &law = listed[k];
     EXPECT_DOUBLE_EQ(found.force, law.force);
     EXPECT_DOUBLE_EQ(found.slope, law.slope);
-    EXPECT_NEAR(found.area, law.area, 4 * kEps * law.area);
+    EXPECT_NEAR(found.touching, law.touching, 4 * kEps * law.touching);
     // links keep floats
     const solve::PointLink link = weak.links()[k];
-    const double stiffness = law.slope, friction = 10 * law.area;
+    const double stiffness = law.slope, friction = 10 * law.touching;
     EXPECT_NEAR(static_cast<double>(link.stiffness), stiffness, 1e-7 * stiffness + 1e-12);
     EXPECT_NEAR(static_cast<double>(link.friction), friction, 1e-7 * friction);
   }
@@ -133,7 +133,7 @@ TEST(Strength, ScalesContactsWithSurroundings) {
     EXPECT_NE(f.force, 0);
     EXPECT_EQ(h.force, 0.5 * f.force);
     EXPECT_EQ(h.slope, 0.5 * f.slope);
-    EXPECT_NEAR(h.area, 0.5 * f.area, 4 * kEps * f.area);
+    EXPECT_NEAR(h.touching, 0.5 * f.touching, 4 * kEps * f.touching);
     EXPECT_EQ(half.links()[k].stiffness, 0.5f * full.links()[k].stiffness);
     EXPECT_FLOAT_EQ(half.links()[k].friction, 0.5f * full.links()[k].friction);
   }
@@ -190,16 +190,16 @@ TEST(DeepOverlap, ForceStiffnessAndAreaRiseAndStayFinite) {
       ASSERT_TRUE(std::isfinite(law.force) && std::isfinite(law.slope));
       EXPECT_GT(law.force, last_force) << overlap;
       EXPECT_GT(law.slope, last_stiffness) << overlap;
-      EXPECT_GT(law.area, last_area) << overlap;
-      EXPECT_GT(4 * kPi * 144, 3 * law.area) << "two thirds stay free at least";
+      EXPECT_GT(law.touching, last_area) << overlap;
+      EXPECT_GT(4 * kPi * 144, 3 * law.touching) << "two thirds stay free at least";
       last_force = law.force;
       last_stiffness = law.slope;
-      last_area = law.area;
+      last_area = law.touching;
       // eight pairs at once: their normal has round-off of its own
       const double scale = 1e-12 * std::max(std::abs(law.force), law.slope * overlap);
       EXPECT_LT((s.force(0) - law.force * law.normal).norm(), scale);
       EXPECT_EQ(s.force(1), -s.force(0));
-      EXPECT_NEAR(s.work.contact_area[0], law.area, 1e-12 * law.area);
+      EXPECT_NEAR(s.work.contact_area[0], law.touching, 1e-12 * law.touching);
       EXPECT_NEAR(static_cast<double>(s.links()[0].stiffness), law.slope, 1e-7 * law.slope);
       for (double distance : {18.0, 6.0, 0.5})
         if (std::abs(24 - overlap - distance) < 1e-9)
@@ -207,7 +207,7 @@ TEST(DeepOverlap, ForceStiffnessAndAreaRiseAndStayFinite) {
               "W %.2f nN/um, centres %4.1f um apart: %6.2f nN (Hertz %6.2f), %5.2f nN/um, a %.2f\n",
               adhesion, distance, law.force,
               4.0 / 3 * 0.45 / (1 - 0.47 * 0.47) / 2 * std::sqrt(6 * std::pow(overlap, 3)),
-              law.slope, std::sqrt(law.area / kPi));
+              law.slope, std::sqrt(law.touching / kPi));
     }
     // Without adhesion F/k = (2/3) overlap: a step of any length takes a pair part of the way.
     EXPECT_LT(last_force, 24 * last_stiffness);
