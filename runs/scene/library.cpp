@@ -65,8 +65,8 @@ std::string scene_folder() {
                              ACINUS_SCENE_DIR};
   for (const fs::path& place : places)
     if (fs::is_directory(place, code)) return place.string();
-  throw Error(fmt::format("no folder of shipped scenes: neither {}, {} nor {}",
-                          places[0].string(), places[1].string(), places[2].string()),
+  throw Error(fmt::format("no folder of shipped scenes: neither {}, {} nor {}", places[0].string(),
+                          places[1].string(), places[2].string()),
               Exit::kFileError);
 }
 
