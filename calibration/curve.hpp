@@ -1,5 +1,5 @@
 #pragma once
-/// Contact force over overlap, as a clump that is squeezed gives it.
+/// Contact force over overlap, as a clump that is compressed gives it.
 
 #include <span>
 #include <vector>

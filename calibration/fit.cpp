@@ -19,34 +19,34 @@ constexpr double kLeastPower = 1.05;
 constexpr double kNormal95 = 1.96;
 constexpr std::size_t kLeastSamples = 8;
 
-/// The moments that count, and what is known about them.
+/// The snapshots that count, and what is known about them.
 struct Samples {
-  Squeeze squeeze;
-  std::vector<double> force;      ///< nN, of each moment
+  Compression compression;
+  std::vector<double> force;      ///< nN, of each snapshot
   std::array<double, 2> range{};  ///< of d
   double rms = 0;                 ///< nN, of the force
   double stiffer = 0;  ///< their force over that of plain spheres at the end of the range
 };
 
-Samples choose_samples(const Squeeze& squeeze, const cbm::Params& sphere, double highest) {
+Samples choose_samples(const Compression& compression, const cbm::Params& sphere, double highest) {
   Samples chosen;
-  chosen.squeeze = {{}, squeeze.inner};
+  chosen.compression = {{}, compression.inner};
   chosen.range = {highest, 0};
-  const std::vector<Bulk> bulks = measure_bulks(squeeze.moment, squeeze.inner);
+  const std::vector<Bulk> bulks = measure_bulks(compression.snapshots, compression.inner);
   for (const std::size_t k : find_pressing(bulks, highest)) {
-    const Moment& m = squeeze.moment[k];
+    const ClumpSnapshot& m = compression.snapshots[k];
     const Bulk& b = bulks[k];
-    chosen.squeeze.moment.push_back(m);
+    chosen.compression.snapshots.push_back(m);
     chosen.force.push_back(b.force);
     chosen.range[0] = std::min(chosen.range[0], b.overlap);
     if (b.overlap > chosen.range[1])
-      chosen.stiffer = b.force / bulk_as_spheres(m, sphere, squeeze).force;
+      chosen.stiffer = b.force / bulk_as_spheres(m, sphere, compression.inner).force;
     chosen.range[1] = std::max(chosen.range[1], b.overlap);
     chosen.rms += b.force * b.force;
   }
   check(chosen.force.size() >= kLeastSamples && chosen.range[0] < chosen.range[1],
-        fmt::format("calibration: only {} samples of the squeeze press at overlaps up to {}. "
-                    "Squeeze further (capsule.min_radius) or write more often (output.every).",
+        fmt::format("calibration: only {} samples of the compression press at overlaps up to {}. "
+                    "Compress further (capsule.min_radius) or write more often (output.every).",
                     chosen.force.size(), highest),
         Exit::kCannotContinue);
   chosen.rms = std::sqrt(chosen.rms / static_cast<double>(chosen.force.size()));
@@ -83,7 +83,7 @@ struct Residuals {
     p.correction = {{term.at(x)}, {}, term.highest};
     for (std::size_t k = 0; k < samples.force.size(); ++k)
       r[static_cast<Eigen::Index>(k)] =
-          (bulk_as_spheres(samples.squeeze.moment[k], p, samples.squeeze).force -
+          (bulk_as_spheres(samples.compression.snapshots[k], p, samples.compression.inner).force -
            samples.force[k]) /
           samples.rms;
     return 0;
@@ -125,8 +125,9 @@ void judge(const Samples& samples, const cbm::Params& sphere, FitAttempt& attemp
   for (const double force : samples.force) mean += force / n;
   for (std::size_t k = 0; k < samples.force.size(); ++k) {
     const double force = samples.force[k];
-    const double miss =
-        force_with(attempt.law, samples.squeeze.moment[k], sphere, samples.squeeze) - force;
+    const double miss = force_with(attempt.law, samples.compression.snapshots[k], sphere,
+                                   samples.compression.inner) -
+                        force;
     total += (force - mean) * (force - mean);
     misfit += miss * miss;
     pointwise += std::pow(miss / force, 2) / n;
@@ -148,9 +149,9 @@ double relative_error(const Curve& target, const Curve& spheres, double highest)
   return std::sqrt(difference / size);
 }
 
-std::vector<FitAttempt> fit_law(const Squeeze& squeeze, const cbm::Params& sphere,
+std::vector<FitAttempt> fit_law(const Compression& compression, const cbm::Params& sphere,
                                 const FitOptions& options) {
-  const Samples samples = choose_samples(squeeze, sphere, options.highest);
+  const Samples samples = choose_samples(compression, sphere, options.highest);
   const LeadingTerm leading{sphere.young, samples.range[1], options.power};
   Residuals residuals{samples, sphere, leading, options.free_power ? 2 : 1};
   const Solution best = solve(residuals);
@@ -174,7 +175,7 @@ std::vector<FitAttempt> fit_law(const Squeeze& squeeze, const cbm::Params& spher
   std::vector<FitAttempt> attempts{attempt};
   if (attempt.law.rms_relative <= options.good_enough) return attempts;
 
-  attempt.law = tabulate_law(squeeze, sphere, attempt.law);
+  attempt.law = tabulate_law(compression, sphere, attempt.law);
   attempt.form = fmt::format("a table of {} moduli", attempt.law.table.size());
   judge(samples, sphere, attempt);
   if (attempt.law.rms_relative < attempts[0].law.rms_relative) attempts.push_back(attempt);

@@ -1,10 +1,10 @@
 #pragma once
-/// Finds the law that makes squeezed spheres push as squeezed deformable cells do.
+/// Finds the law that makes compressed spheres push as compressed deformable cells do.
 
 #include <string>
 #include <vector>
 
-#include "calibration/clump.hpp"
+#include "calibration/compression.hpp"
 #include "calibration/curve.hpp"
 #include "calibration/law.hpp"
 
@@ -25,18 +25,18 @@ struct FitAttempt {
   double pointwise = 0;  ///< rms of the relative error point by point
 };
 
-/// Least squares on the mean force of the inner cells over the moments of a squeeze that press,
-/// with spheres put where the deformable cells are: same places, hence same d, by the spheres' own
-/// law. First the leading term with the a0 of the spheres; where its error exceeds good_enough, a
-/// table of moduli. rms_relative is the rms of the difference over the rms of the force; the
-/// interval of a1 is that of least squares at 95 %, from the scatter about the first form.
-/// Law::jkr_underestimation is for the moments that are squeezed most. Law::dcm, cbm and provenance
-/// are left empty.
+/// Least squares on the mean force of the inner cells over the snapshots of a compression that
+/// press, with spheres put where the deformable cells are: same places, hence same d, by the
+/// spheres' own law. First the leading term with the a0 of the spheres; where its error exceeds
+/// good_enough, a table of moduli. rms_relative is the rms of the difference over the rms of the
+/// force; the interval of a1 is that of least squares at 95 %, from the scatter about the first
+/// form. Law::jkr_underestimation is for the snapshots that are compressed most. Law::dcm, cbm and
+/// provenance are left empty.
 /// @param sphere  constants of the spheres; young is a0
 /// @return all forms taken, the one to use last
-/// @throws Error(kCannotContinue) where the squeeze hardly presses, or no law with a positive a1
-/// fits
-std::vector<FitAttempt> fit_law(const Squeeze& squeeze, const cbm::Params& sphere,
+/// @throws Error(kCannotContinue) where the compression hardly presses, or no law with a positive
+/// a1 fits
+std::vector<FitAttempt> fit_law(const Compression& compression, const cbm::Params& sphere,
                                 const FitOptions& options);
 
 /// rms of (spheres - target) over rms of target, at 40 overlaps at equal distances up to `highest`

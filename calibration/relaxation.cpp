@@ -1,12 +1,16 @@
 #include "calibration/relaxation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calibration/clump.hpp"
 #include "core/error.hpp"
+#include "coupling/measure/measure.hpp"
+#include "coupling/simulation.hpp"
 #include "coupling/step/stages.hpp"
 
 namespace acinus::calibration {
@@ -51,6 +55,19 @@ Decay fit_with_time(double time, std::span<const double> t, std::span<const doub
     d.rms += w[k] / s * std::pow(d.end + height * std::exp(-t[k] / time) - y[k], 2);
   d.rms = std::sqrt(d.rms);
   return d;
+}
+
+/// The compressed clump without its capsule, steps and solver as its way back asks.
+coupling::World let_go(coupling::World world, double scale) {
+  world.params.around.capsules.clear();
+  world.params.motility.random = false;
+  coupling::Numerics& numerics = world.params.numerics;
+  numerics.max_step *= scale;
+  numerics.min_step *= scale;
+  numerics.cg.tolerance = std::min(numerics.cg.tolerance, kSolverTolerance);
+  world.state.clock.step = kFirstLook * scale / 10;
+  world.state.clock.last_step = 0;  // what happened in the capsule says nothing about what comes
+  return world;
 }
 
 }  // namespace
@@ -105,32 +122,27 @@ Relaxation relax_clump(coupling::World world, double scale) {
   const Vec3 center = world.params.around.capsules.empty()
                           ? Vec3(Vec3::Zero())
                           : world.params.around.capsules.front().center;
-  world.params.around.capsules.clear();
-  world.params.motility.random = false;
-  world.params.numerics.max_step *= scale;
-  world.params.numerics.min_step *= scale;
-  double& solver = world.params.numerics.cg.tolerance;
-  solver = std::min(solver, kSolverTolerance);
-  coupling::Clock& clock = world.state.clock;
-  clock.step = kFirstLook * scale / 10;
-  clock.last_step = 0;  // what happened in the capsule says nothing about what comes
-  coupling::Workspace work;
-  coupling::size_workspace(world, work);
+  coupling::Simulation simulation(let_go(std::move(world), scale));
   Relaxation r;
   std::size_t central = 0;
-  auto look = [&](double time) {
-    const std::vector<coupling::CellMeasure> cells = observe_cells(world, work);
+  const auto look = [&](double time) {
+    coupling::observe(simulation.world(), simulation.work());
+    const std::vector<coupling::CellMeasure> cells =
+        coupling::measure_cells(simulation.world(), simulation.work());
     if (r.time.empty()) central = find_central_cell(cells, center);
     r.time.push_back(time);
     r.overlap.push_back(measure_clump(cells, central).shell_overlap);
   };
   look(0);
-  double next = kFirstLook * scale;
-  for (double time = 0;;) {
-    advance_to(world, work, clock.time + (next - time));
+  for (double time = 0, next = kFirstLook * scale;; next *= kGrowth) {
+    const coupling::LoopResult steps = simulation.run_until(simulation.time() + (next - time));
+    check(
+        steps.ok,
+        fmt::format("relaxation: a step fails {:.4g} h after the release: {}. Cells concerned: {}",
+                    time / 3600, steps.last.cause, fmt::join(steps.last.cells, ", ")),
+        Exit::kCannotContinue);
     time = next;
     look(time);
-    next *= kGrowth;
     const auto half = std::ranges::lower_bound(r.time, time / 2) - r.time.begin();
     const double late = std::abs(r.overlap.back() - r.overlap[static_cast<std::size_t>(half)]),
                  way = std::abs(r.overlap.back() - r.overlap.front());

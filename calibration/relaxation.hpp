@@ -1,5 +1,5 @@
 #pragma once
-/// How fast a squeezed clump comes back once it is let go, and the friction that makes it take a
+/// How fast a compressed clump comes back once it is let go, and the friction that makes it take a
 /// given time.   [VanLiedekerke2020, Appendix 1, Fig. 12c]
 
 #include <functional>
@@ -27,9 +27,9 @@ struct Relaxation {
   Decay decay;
 };
 
-/// Follows a squeezed clump from the moment its capsule opens, until the second half of the time
+/// Follows a compressed clump from the moment its capsule opens, until the second half of the time
 /// brings less than 1 % of the way.
-/// @param world   squeezed; its capsules are taken away, motion of its own is off
+/// @param world   compressed; its capsules are taken away, motion of its own is off
 /// @param friction_scale  expected slow-down over Table 1 friction: times and steps scale with it
 /// @throws Error(kCannotContinue) if a step fails or the clump does not come to rest
 Relaxation relax_clump(coupling::World world, double friction_scale);

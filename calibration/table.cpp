@@ -23,32 +23,33 @@ constexpr double kLargestChange = 1.5;
 struct Demand {
   double overlap = 0, modulus = 0;
   double force = 0;  ///< nN, of the cells
-  const Moment* moment = nullptr;
+  const ClumpSnapshot* snapshot = nullptr;
 };
 
-/// The modulus all spheres must have for the force of a moment, which rises with it.
-double find_modulus(const Moment& moment, double force, cbm::Params sphere,
-                    const Squeeze& squeeze) {
+/// The modulus all spheres must have for the force of a snapshot, which rises with it.
+double find_modulus(const ClumpSnapshot& snapshot, double force, cbm::Params sphere,
+                    const std::vector<std::size_t>& inner) {
   const double plain = sphere.young;
   double low = kSoftest * plain, high = kStiffest * plain;
   while (high > 1.0001 * low) {
     sphere.young = std::sqrt(low * high);
-    (bulk_as_spheres(moment, sphere, squeeze).force < force ? low : high) = sphere.young;
+    (bulk_as_spheres(snapshot, sphere, inner).force < force ? low : high) = sphere.young;
   }
   return std::sqrt(low * high);
 }
 
-std::vector<Demand> find_demands(const Squeeze& squeeze, const cbm::Params& sphere,
+std::vector<Demand> find_demands(const Compression& compression, const cbm::Params& sphere,
                                  double highest) {
-  const std::vector<Bulk> bulks = measure_bulks(squeeze.moment, squeeze.inner);
+  const std::vector<Bulk> bulks = measure_bulks(compression.snapshots, compression.inner);
   std::vector<Demand> all;
   for (std::size_t k = 0; k < bulks.size(); ++k)
-    all.push_back({bulks[k].overlap, 0, bulks[k].force, &squeeze.moment[k]});
+    all.push_back({bulks[k].overlap, 0, bulks[k].force, &compression.snapshots[k]});
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 10);
   std::vector<Demand> demands;
   for (auto d = std::ranges::min_element(first, all.end(), {}, &Demand::force); d != all.end(); ++d)
     if (d->overlap <= highest) demands.push_back(*d);
-  for (Demand& d : demands) d.modulus = find_modulus(*d.moment, d.force, sphere, squeeze);
+  for (Demand& d : demands)
+    d.modulus = find_modulus(*d.snapshot, d.force, sphere, compression.inner);
   return demands;
 }
 
@@ -90,28 +91,28 @@ std::vector<TableEntry> make_table(std::vector<Demand> demands) {
 
 }  // namespace
 
-double force_with(const Law& law, const Moment& moment, const cbm::Params& sphere,
-                  const Squeeze& squeeze) {
+double force_with(const Law& law, const ClumpSnapshot& snapshot, const cbm::Params& sphere,
+                  const std::vector<std::size_t>& inner) {
   cbm::Params p = sphere;
   p.young = law.a0;
   p.correction = stiffness_law(law);
-  return bulk_as_spheres(moment, p, squeeze).force;
+  return bulk_as_spheres(snapshot, p, inner).force;
 }
 
-Law tabulate_law(const Squeeze& squeeze, const cbm::Params& sphere, const Law& known) {
-  std::vector<Demand> demands = find_demands(squeeze, sphere, known.overlap_range[1]);
+Law tabulate_law(const Compression& compression, const cbm::Params& sphere, const Law& known) {
+  std::vector<Demand> demands = find_demands(compression, sphere, known.overlap_range[1]);
   Law best = known;
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (const Demand& d : demands) largest = std::max(largest, d.force);
   for (int round = 0; round < kRounds; ++round) {
     Law law = known;
     law.table = make_table(demands);
-    if (law.table.size() < 2) break;  // the squeeze ends where it presses least
+    if (law.table.size() < 2) break;  // the compression ends where it presses least
     law.a0 = law.table.front().modulus;
     law.overlap_range = {law.table.front().overlap, law.table.back().overlap};
     double misfit = 0;
     for (Demand& d : demands) {
-      const double force = force_with(law, *d.moment, sphere, squeeze);
+      const double force = force_with(law, *d.snapshot, sphere, compression.inner);
       misfit += std::pow(force - d.force, 2);
       if (d.force > kTells * largest)
         d.modulus *= force > 0 ? std::clamp(d.force / force, 1 / kLargestChange, kLargestChange)

@@ -7,10 +7,11 @@
 #include "calibration/curve.hpp"
 
 namespace acinus::calibration {
-double capsule_excess(const Squeeze& cells, const std::vector<Moment>& spheres, double highest) {
+double capsule_excess(const Compression& cells, const std::vector<ClumpSnapshot>& spheres,
+                      double highest) {
   std::vector<double> force;
   for (const Bulk& b : measure_bulks(spheres, cells.inner)) force.push_back(b.force);
-  const std::vector<Bulk> bulks = measure_bulks(cells.moment, cells.inner);
+  const std::vector<Bulk> bulks = measure_bulks(cells.snapshots, cells.inner);
   double sum = 0;
   int n = 0;
   for (const std::size_t k : find_pressing(bulks, highest)) {
@@ -19,7 +20,7 @@ double capsule_excess(const Squeeze& cells, const std::vector<Moment>& spheres, 
     const auto before = std::min(static_cast<std::size_t>(at), spheres.size() - 2);
     const double excess = std::lerp(spheres[before].capsule, spheres[before + 1].capsule,
                                     at - static_cast<double>(before)) -
-                          cells.moment[k].capsule;
+                          cells.snapshots[k].capsule;
     if (!std::isfinite(excess)) continue;  // a capsule that has opened
     sum += excess;
     ++n;

@@ -18,7 +18,7 @@ namespace acinus::bench {
 /// adhesion by a factor of a few at most.
 inline constexpr double kLeastVolume = 0.1, kMostVolume = 10;
 
-/// A division halves a volume to rounding. Until the next frame neighbours and cortex may squeeze
+/// A division halves a volume to rounding. Until the next frame neighbours and cortex may compress
 /// or stretch the pair, as they may any cell, but hardly by this factor.
 inline constexpr double kMostDivisionChange = 1.5;
 

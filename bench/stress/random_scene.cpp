@@ -20,10 +20,10 @@ using Json = nlohmann::ordered_json;
 /// alone: about two seconds.
 constexpr double kCellSteps = 2500;
 constexpr double kFewestSteps = 15, kMostSteps = 150;
-/// Closest packing that a squeeze aims at before cells are compressed: coarse meshes do not fill
+/// Closest packing that a compression aims at before cells are compressed: coarse meshes do not fill
 /// the corners of a box, and would be pressed far harder than asked.
 constexpr double kFullPacking = 0.75, kTightPacking = 0.92;
-/// Smallest volume, relative to the start, that a squeeze may ask of a cell.
+/// Smallest volume, relative to the start, that a compression may ask of a cell.
 constexpr double kSmallestVolume = 0.6;
 constexpr double kGap = 0.2;       ///< um between cells and walls at the start
 constexpr double kSlowWall = 20;   ///< um/h, fastest wall of a nominal scene
@@ -64,8 +64,8 @@ class Drawing {
   void add_zoom(double half_width);
   void draw_time();
   void add_life();
-  /// Volume into which the cells are squeezed, as a share of theirs at rest.
-  double squeezed_volume();
+  /// Volume into which the cells are compressed, as a share of theirs at rest.
+  double compressed_volume();
   double rest_volume() const { return count_ * 4.0 / 3 * kPi * std::pow(radius_, 3); }
   /// Speed, um/h, and travel, um, of a wall that is to move so far.
   void limit_motion(double& travel, double& speed) const;
@@ -161,7 +161,7 @@ void Drawing::draw_time() {
   scene_["output"]["every"] = quantity(end_ / 4, "s");
 }
 
-double Drawing::squeezed_volume() {
+double Drawing::compressed_volume() {
   const double pressure = wide_ ? decades(50, 1000) : decades(50, 300);  // Pa
   return std::max(std::exp(-pressure / bulk_), kSmallestVolume) /
          (wide_ ? kTightPacking : kFullPacking);
@@ -186,7 +186,7 @@ void Drawing::add_zoom(double half_width) {
 
 void Drawing::add_capsule(double reach) {
   const double radius = reach + radius_ + kGap;
-  double travel = radius - std::cbrt(3 / (4 * kPi) * rest_volume() * squeezed_volume());
+  double travel = radius - std::cbrt(3 / (4 * kPi) * rest_volume() * compressed_volume());
   if (travel <= 0) return;
   double speed = 0;
   limit_motion(travel, speed);
@@ -256,7 +256,7 @@ void Drawing::draw_box() {
     half[k] =
         radius_ * ((grid[static_cast<std::size_t>(k)] - 1) * spacing_ + 1 + 2 * jitter_) + kGap;
   add_zoom(half.x());
-  double travel = 2 * half.x() - rest_volume() * squeezed_volume() / (4 * half.y() * half.z());
+  double travel = 2 * half.x() - rest_volume() * compressed_volume() / (4 * half.y() * half.z());
   double speed = 0;
   if (travel > 0) limit_motion(travel, speed);
   Json walls = Json::array();

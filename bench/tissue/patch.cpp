@@ -12,7 +12,7 @@
 #include "calibration/curve.hpp"
 #include "core/error.hpp"
 #include "runs/build/read_cells.hpp"
-#include "runs/calibrate/calibrate.hpp"
+#include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/writer.hpp"
@@ -164,7 +164,7 @@ BenchRow compare(const Variant& v, const std::string& folder, const runs::Scene&
            {"cost", summary.cpu_s / reference.cpu}}};
 }
 
-/// A squeeze may end early where surfaces crumple: what was reached is compared.
+/// A compression may end early where surfaces crumple: what was reached is compared.
 void run(const Variant& v, const std::string& folder, int threads) {
   const int code = runs::run_stage(v.scene, {folder, threads, true, false, "acinus bench patch"});
   check(code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),

@@ -10,7 +10,7 @@
 #include "calibration/recovery.hpp"
 #include "core/error.hpp"
 #include "core/time_grid.hpp"
-#include "runs/calibrate/calibrate.hpp"
+#include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kHour = 3600;
 constexpr double kHolds[] = {1 * kHour, 10 * kHour};
-/// When it is looked at what of the squeeze is left, s after the release.
+/// When it is looked at what of the compression is left, s after the release.
 constexpr std::pair<const char*, double> kLooks[] = {
     {"10s", 10}, {"10min", 600}, {"1h", kHour}, {"5h", 5 * kHour}, {"24h", 24 * kHour}};
 
@@ -32,8 +32,8 @@ struct Variant {
   runs::Scene scene;
 };
 
-/// Time at which squeezing stops.
-double squeezed(const runs::Scene& scene) {
+/// Time at which the compression stops.
+double end_of_compression(const runs::Scene& scene) {
   double t = scene.capsule.enabled
                  ? (scene.capsule.radius - scene.capsule.min_radius) / scene.capsule.speed
                  : 0;
@@ -42,10 +42,10 @@ double squeezed(const runs::Scene& scene) {
   return t;
 }
 
-/// The same squeeze, held for another time; what follows lasts as long as in the shipped scene.
+/// The same compression, held for another time; what follows lasts as long as in the shipped scene.
 void hold(double time, runs::Scene& scene) {
   const double after = scene.time.end - runs::next_opening(scene, -1),
-               opens = squeezed(scene) + time;
+               opens = end_of_compression(scene) + time;
   for (runs::WallEntry& w : scene.walls) w.opens = opens;
   if (scene.capsule.enabled) scene.capsule.opens = opens;
   scene.time.end = opens + after;
@@ -98,19 +98,19 @@ BenchRow make_row(const Variant& v, const std::string& folder) {
       std::ranges::lower_bound(time, release - kSameTime) - time.begin());
   BenchRow row{v.name, summary.dcm + summary.cbm, {}};
   row.value.emplace_back(name + "_before", y.front());
-  if (time.begin() + from == time.end()) {  // the squeeze could not be finished
-    row.value.emplace_back("squeezed_for_h", time.back() / kHour);
+  if (time.begin() + from == time.end()) {  // the compression could not be finished
+    row.value.emplace_back("compressed_for_h", time.back() / kHour);
     return row;
   }
   const std::vector<double> after(y.begin() + from, y.end());
   std::vector<double> since;
   for (std::size_t k = static_cast<std::size_t>(from); k < time.size(); ++k)
     since.push_back(time[k] - release);
-  row.value.emplace_back(name + "_squeezed", after.front());
-  const double squeeze = y.front() - after.front();
+  row.value.emplace_back(name + "_compressed", after.front());
+  const double compression = y.front() - after.front();
   for (const auto& [label, t] : kLooks)
     row.value.emplace_back(fmt::format("left_after_{}", label),
-                           (y.front() - calibration::value_at(t, since, after)) / squeeze);
+                           (y.front() - calibration::value_at(t, since, after)) / compression);
   for (const char* what : {"back_10s", "efold_h", "return_h"})
     row.value.emplace_back(what, series(summary, name + "_" + what).back());
   row.value.emplace_back("cpu_s", summary.cpu_s);

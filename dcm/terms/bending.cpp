@@ -15,15 +15,15 @@ constexpr double kFoldFloor = 0.02;
 /// Share of its reference area below which a face resists collapse.
 constexpr double kLeastArea = 0.1;
 
-/// What a face is to its hinges: k_b squeeze^2 / 3 in each of the three.
+/// What a face is to its hinges: k_b compression^2 / 3 in each of the three.
 struct Collapse {
-  Lane squeeze;  ///< kLeastArea a0 / a - 1
-  Lane slope;    ///< -d squeeze / d a, 1/um^2
+  Lane compression;  ///< kLeastArea a0 / a - 1
+  Lane slope;    ///< -d compression / d a, 1/um^2
 };
 ACINUS_INLINE Collapse find_collapse(Lane least, Lane area) {
   const Lane inverse = 1.0 / area;
-  const Lane squeeze = lane_max0(least * inverse - 1.0);
-  return {squeeze, squeeze > 0.0 ? least * inverse * inverse : lane_of(0)};
+  const Lane compression = lane_max0(least * inverse - 1.0);
+  return {compression, compression > 0.0 ? least * inverse * inverse : lane_of(0)};
 }
 
 /// A face of a hinge: corners about its normal, the last two on the edge.
@@ -38,7 +38,7 @@ ACINUS_INLINE void add_collapse(Lane k, const Collapse& c, double stiffness_scal
                                 const HingeFace& face, float* spring) {
   const auto& [x, normal, force] = face;
   const Lane3 half_normal = (0.5 / lane_sqrt(dot(normal, normal))) * normal;
-  const Lane push = (2.0 / 3.0) * k * c.squeeze * c.slope;
+  const Lane push = (2.0 / 3.0) * k * c.compression * c.slope;
   add3(force[0], push * cross(half_normal, x[2] - x[1]));
   add3(force[1], push * cross(half_normal, x[0] - x[2]));
   add3(force[2], push * cross(half_normal, x[1] - x[0]));
@@ -155,8 +155,8 @@ double bending_energy(const Params& p, const GroupView& g, int lane) {
   }
   for (std::size_t f = 0; f < g.topology->triangle.size(); ++f) {
     const double least = kLeastArea * rest_triangle_area(g, f, lane);
-    const double squeeze = std::max(least / triangle_area(g, f, lane) - 1, 0.0);
-    energy += p.bending_stiffness * squeeze * squeeze;
+    const double compression = std::max(least / triangle_area(g, f, lane) - 1, 0.0);
+    energy += p.bending_stiffness * compression * compression;
   }
   return g.active[lane] * energy;
 }

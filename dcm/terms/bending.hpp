@@ -18,7 +18,7 @@ namespace acinus::dcm {
 /// Faces get E = k_b max(0, a0 / (10 a) - 1)^2, which the paper lacks too: nothing in its cortex
 /// keeps the corner of a face from passing through the opposite edge, and the direction of a hinge
 /// is lost there. Stiffness: springs along the three edges that are at least as stiff as
-/// 2 k_b squeeze'^2 grad a grad a^T.
+/// 2 k_b compression'^2 grad a grad a^T.
 void add_bending(const Params& p, const GroupView& g, solve::System& system);
 
 /// Bending energy of one lane, fJ.

@@ -22,11 +22,11 @@ struct Arguments {
 int run(Arguments& arguments) {
   CalibrateOptions& options = arguments.options;
   if (!arguments.check_friction.empty())
-    options.check_friction =
+    options.calibration.check_friction =
         flag_value("--check-friction", arguments.check_friction,
                    [](const std::string& text) { return parse_quantity(text, kFrictionPerArea); });
   if (!arguments.relaxation_time.empty())
-    options.relaxation_time =
+    options.calibration.relaxation_time =
         flag_value("--relaxation-time", arguments.relaxation_time,
                    [](const std::string& text) { return parse_quantity(text, kTime); });
   return calibrate(read_scene(find_scene_file(arguments.scene_file), arguments.set), options);
@@ -55,20 +55,22 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
   command->add_option("--rate", o.clump.rate, "factor on the speed of compression")
       ->type_name("F")
       ->check(CLI::Range(0.01, 10.0));
-  command->add_option("--highest", o.fit.highest, "largest overlap d of the fit (default: 0.2)")
+  command
+      ->add_option("--highest", o.calibration.fit.highest,
+                   "largest overlap d of the fit (default: 0.2)")
       ->type_name("D")
       ->check(CLI::Range(0.05, 0.3));
-  command->add_option("--power", o.fit.power, "power of the leading term (default: 4)")
+  command->add_option("--power", o.calibration.fit.power, "power of the leading term (default: 4)")
       ->type_name("P")
       ->check(CLI::Range(1.1, 12.0));
-  command->add_flag("--free-power", o.fit.free_power, "fit the power as well");
+  command->add_flag("--free-power", o.calibration.fit.free_power, "fit the power as well");
   command
       ->add_option(
-          "--good-enough", o.fit.good_enough,
+          "--good-enough", o.calibration.fit.good_enough,
           "relative error up to which one term is enough and no table is made (default: 0.1)")
       ->type_name("E")
       ->check(CLI::Range(0.0, 10.0));
-  command->add_flag("!--no-relaxation", o.relaxation,
+  command->add_flag("!--no-relaxation", o.calibration.relaxation,
                     "leave out how long the clump takes to relax");
   command
       ->add_option("--check-friction", arguments->check_friction,

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/units.hpp"
-#include "runs/calibrate/calibrate.hpp"
+#include "runs/calibrate/law_cache.hpp"
 #include "runs/commands/command.hpp"
 #include "runs/commands/wall_time.hpp"
 #include "runs/scene/library.hpp"

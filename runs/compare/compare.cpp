@@ -286,7 +286,7 @@ const std::map<std::string, std::string>& comparable_quantities() {
       {"cell_force", "contact force of the same cells at the end, rms"},
       {"contacts", "mean number of cells a cell touches, rms over time"},
       {"lesion_area", "relative lesion area, rms over time"},
-      {"overlap", "overlap of the central cell of a squeezed clump, rms over time"},
+      {"overlap", "overlap of the central cell of a compressed clump, rms over time"},
       {"normal_force", "normal forces on it, rms over time"},
       {"cpu", "CPU time"}};
   return names;

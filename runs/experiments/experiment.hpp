@@ -39,7 +39,7 @@ void sample_patch(const Scene& scene, const coupling::World& world, const Snapsh
 void sample_capsule(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                     Measures& measures);
 
-/// A clump that is squeezed, held and let go: overlap (mean relative overlap of a cell and
+/// A clump that is compressed, held and let go: overlap (mean relative overlap of a cell and
 /// its 14 nearest, over all cells), height_um and width_um (extent of the clump along the axis of
 /// the first wall that opens, z if none does, and across it: that of the even ellipsoid whose
 /// points spread as the cells' centres do) and for each of the three, since the release

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kHour = 3600;
 
-/// Along which the clump is squeezed.
+/// Along which the clump is compressed.
 Vec3 axis_of(const Scene& scene) {
   for (const WallEntry& w : scene.walls)
     if (w.opens) return w.normal.normalized();
   return Vec3::UnitZ();
 }
 
-/// Squeezed between plates: what the cells' mean distance hardly tells.
+/// Compressed between plates: what the cells' mean distance hardly tells.
 bool is_flat(const Scene& scene) {
   return std::ranges::any_of(scene.walls, [](const WallEntry& w) { return w.opens.has_value(); });
 }
@@ -59,9 +59,9 @@ void add_recovery(const std::string& name, double release, Measures& m) {
   put(m, name + "_back_10s", r.sprung);
   put(m, name + "_efold_h", r.efold / kHour);
   put(m, name + "_return_h", r.time / kHour);
-  const double squeezed = y.empty() ? 0 : y.front() - all.front();
+  const double compressed = y.empty() ? 0 : y.front() - all.front();
   put(m, name + "_recovered",
-      squeezed != 0 ? (y.front() - r.end) / squeezed : std::numeric_limits<double>::quiet_NaN());
+      compressed != 0 ? (y.front() - r.end) / compressed : std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "runs/calibrate/calibrate.hpp"
+#include "runs/calibrate/law_cache.hpp"
 
 namespace acinus::runs {
 

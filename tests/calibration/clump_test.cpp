@@ -1,6 +1,6 @@
 /// Which cells of a clump stand for tissue, what they mean together, and how wide capsules are.
 
-#include "calibration/clump.hpp"
+#include "calibration/compression.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace acinus::calibration {
 namespace {
 
 /// Cells on a line through the middle of a capsule of 50 um, with their place as force.
-Moment line() {
-  Moment m;
+ClumpSnapshot line() {
+  ClumpSnapshot m;
   for (const double x : {-36.0, -20.0, 0.0, 21.0, 34.0}) {
     m.center.emplace_back(x, 0, 0);
     m.radius.push_back(12);
@@ -25,7 +25,7 @@ Moment line() {
 
 TEST(Clump, InnerCellsStandAwayFromTheCapsuleWhenItBeginsToPress) {
   const auto inner = [](double capsule) {
-    std::vector<Moment> history(3, line());
+    std::vector<ClumpSnapshot> history(3, line());
     history[0].force.assign(5, 1);
     history[1].force.assign(5, 20);
     history[2].force.assign(5, 100);
@@ -38,8 +38,8 @@ TEST(Clump, InnerCellsStandAwayFromTheCapsuleWhenItBeginsToPress) {
   EXPECT_EQ(inner(37), (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_EQ(inner(14), (std::vector<std::size_t>{2})) << "never none";
   EXPECT_TRUE(find_inner_cells({}, Vec3::Zero()).empty());
-  std::vector<Moment> pulls(2, line());
-  for (Moment& m : pulls) m.force.assign(5, -1);
+  std::vector<ClumpSnapshot> pulls(2, line());
+  for (ClumpSnapshot& m : pulls) m.force.assign(5, -1);
   EXPECT_EQ(find_inner_cells(pulls, Vec3::Zero()).size(), 4u);
 }
 
@@ -51,12 +51,12 @@ TEST(Clump, BulkIsTheMeanOfInnerCells) {
   EXPECT_NEAR(b.overlap, (middle + right) / 2 / 12, 1e-14);
 }
 
-/// Capsules that shrink by 1 um from moment to moment; the force is that of a capsule wider by
+/// Capsules that shrink by 1 um from snapshot to snapshot; the force is that of a capsule wider by
 /// `excess`.
-std::vector<Moment> history(double excess) {
-  std::vector<Moment> h;
+std::vector<ClumpSnapshot> history(double excess) {
+  std::vector<ClumpSnapshot> h;
   for (int k = 0; k <= 20; ++k) {
-    Moment m = line();
+    ClumpSnapshot m = line();
     m.capsule = 60 - k;
     m.force.assign(m.center.size(), 3 * std::exp(0.2 * (45 - (m.capsule - excess))));
     h.push_back(m);
@@ -65,13 +65,13 @@ std::vector<Moment> history(double excess) {
 }
 
 TEST(Wall, ExcessIsHowMuchWiderACapsuleBearsTheSame) {
-  const Squeeze cells{history(0), {2}};
+  const Compression cells{history(0), {2}};
   EXPECT_NEAR(capsule_excess(cells, history(0), 1), 0, 1e-12);
   // Forces between moments are linear, not exponential: an error of the second order.
   EXPECT_NEAR(capsule_excess(cells, history(0.7), 1), 0.7, 0.03);
   EXPECT_NEAR(capsule_excess(cells, history(-2), 1), -2, 1e-12);
   EXPECT_TRUE(std::isnan(capsule_excess(cells, history(-100), 1))) << "never as much";
-  EXPECT_TRUE(std::isnan(capsule_excess(cells, history(0), 0.01))) << "no moment counts";
+  EXPECT_TRUE(std::isnan(capsule_excess(cells, history(0), 0.01))) << "no snapshot counts";
 }
 
 }  // namespace

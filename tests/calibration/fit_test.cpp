@@ -22,8 +22,8 @@ cbm::Params sphere() {
 
 /// A body-centred lattice so large that the neighbours of the middle cell have all of theirs,
 /// shrunk so that neighbours overlap by d.
-Moment lattice(double d) {
-  Moment m;
+ClumpSnapshot lattice(double d) {
+  ClumpSnapshot m;
   const double edge = 24 * (1 - d) * 2 / std::sqrt(3.0);
   for (int x = -4; x <= 4; ++x)
     for (int y = -4; y <= 4; ++y)
@@ -37,53 +37,53 @@ Moment lattice(double d) {
   return m;
 }
 
-std::size_t middle_of(const Moment& m) {
+std::size_t middle_of(const ClumpSnapshot& m) {
   for (std::size_t i = 0; i < m.center.size(); ++i)
     if (m.center[i].norm() < 1e-9) return i;
   return m.center.size();
 }
 
-/// A squeeze whose force is that of spheres of this law, and of which the middle cell counts.
-Squeeze squeeze_with(const cbm::StiffnessLaw& law, double young) {
+/// A compression whose force is that of spheres of this law, and of which the middle cell counts.
+Compression compression_with(const cbm::StiffnessLaw& law, double young) {
   cbm::Params p = sphere();
   p.young = young;
   p.correction = law;
-  Squeeze squeeze;
-  squeeze.inner = {middle_of(lattice(0))};
+  Compression compression;
+  compression.inner = {middle_of(lattice(0))};
   for (int k = 0; k <= 40; ++k)
-    squeeze.moment.push_back(as_spheres(lattice(0.03 + 0.005 * k), p, squeeze.inner));
-  return squeeze;
+    compression.snapshots.push_back(as_spheres(lattice(0.03 + 0.005 * k), p, compression.inner));
+  return compression;
 }
 
 TEST(Fit, SpheresInPlaceFeelTheLawOfTheirOwnOverlap) {
-  Squeeze squeeze;
-  squeeze.inner = {middle_of(lattice(0.1))};
-  const Bulk plain = bulk_as_spheres(lattice(0.1), sphere(), squeeze);
+  Compression compression;
+  compression.inner = {middle_of(lattice(0.1))};
+  const Bulk plain = bulk_as_spheres(lattice(0.1), sphere(), compression.inner);
   EXPECT_NEAR(plain.overlap, 8 * 0.1 / 12, 1e-12);  // next neighbours are 0.04 diameters apart
   cbm::Params stiff = sphere();
   stiff.correction = {{{4000, 4}}, {}, 0.2};
-  EXPECT_GT(bulk_as_spheres(lattice(0.1), stiff, squeeze).force, 1.05 * plain.force);
+  EXPECT_GT(bulk_as_spheres(lattice(0.1), stiff, compression.inner).force, 1.05 * plain.force);
 }
 
 TEST(Fit, InnerSpheresFollowTheirOwnOverlapOthersTheMean) {
-  Moment moment = lattice(0.1);
-  const std::size_t middle = middle_of(moment);
+  ClumpSnapshot snapshot = lattice(0.1);
+  const std::size_t middle = middle_of(snapshot);
   std::size_t near = middle;
-  for (std::size_t i = 0; i < moment.center.size(); ++i)
-    if (std::abs(moment.center[i].norm() - 24 * 0.9) < 1e-9) near = i;
-  moment.center[near] *= 0.97;  // both have a d of their own now
+  for (std::size_t i = 0; i < snapshot.center.size(); ++i)
+    if (std::abs(snapshot.center[i].norm() - 24 * 0.9) < 1e-9) near = i;
+  snapshot.center[near] *= 0.97;  // both have a d of their own now
   cbm::Params law = sphere();
   law.correction = {{{4000, 4}}, {}, 0.3};
   const std::vector<std::size_t> inner{middle, near};
-  const Moment spheres = as_spheres(moment, law, inner);
+  const ClumpSnapshot spheres = as_spheres(snapshot, law, inner);
   const auto modulus = [&](const std::vector<std::size_t>& cells) {
-    Moment m = moment;
+    ClumpSnapshot m = snapshot;
     m.force.assign(m.center.size(), 0.0);
     return cbm::corrected_modulus(law.correction, 0.45, measure_bulk(m, cells).overlap).value;
   };
   double expected = 0;
-  for (std::size_t j = 0; j < moment.center.size(); ++j) {
-    const double apart = (moment.center[middle] - moment.center[j]).norm();
+  for (std::size_t j = 0; j < snapshot.center.size(); ++j) {
+    const double apart = (snapshot.center[middle] - snapshot.center[j]).norm();
     if (j == middle || apart > 24) continue;
     expected +=
         contact::jkr_force(
@@ -97,7 +97,7 @@ TEST(Fit, InnerSpheresFollowTheirOwnOverlapOthersTheMean) {
 }
 
 TEST(Fit, FindsTheFactorOfAKnownLaw) {
-  const auto found = fit_law(squeeze_with({{{4000, 4}}, {}, 0.3}, 0.45), sphere(), {});
+  const auto found = fit_law(compression_with({{{4000, 4}}, {}, 0.3}, 0.45), sphere(), {});
   ASSERT_EQ(found.size(), 1u);  // one term is enough
   EXPECT_NEAR(found[0].law.a1, 4000, 40);
   EXPECT_LT(found[0].law.rms_relative, 0.005);
@@ -111,7 +111,7 @@ TEST(Fit, FindsTheFactorOfAKnownLaw) {
 TEST(Fit, FindsThePowerWhenAsked) {
   FitOptions options;
   options.free_power = true;
-  const auto power = fit_law(squeeze_with({{{1000, 3}}, {}, 0.3}, 0.45), sphere(), options);
+  const auto power = fit_law(compression_with({{{1000, 3}}, {}, 0.3}, 0.45), sphere(), options);
   EXPECT_NEAR(power[0].law.power, 3, 0.05);
   EXPECT_NEAR(power[0].law.a1, 1000, 100);
 }
@@ -119,7 +119,7 @@ TEST(Fit, FindsThePowerWhenAsked) {
 TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
   // Soft until the cells fill their room, then hard: what no power of d follows.
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
-  const auto found = fit_law(squeeze_with(wanted, 0.1), sphere(), {});
+  const auto found = fit_law(compression_with(wanted, 0.1), sphere(), {});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_GT(found[0].law.rms_relative, 0.1);
   EXPECT_LT(found[1].law.rms_relative, 0.05);
@@ -138,19 +138,19 @@ TEST(Fit, MakesATableWhereOneTermIsNotEnough) {
   }
 }
 
-TEST(Fit, MakesNoTableOfASqueezeThatEndsWhereItPressesLeast) {
+TEST(Fit, MakesNoTableOfACompressionThatEndsWhereItPressesLeast) {
   const cbm::StiffnessLaw wanted{{}, {{0.05, 0}, {0.09, 0.1}, {0.11, 5}, {0.3, 6}}, 0.3};
   for (const double end : {0.03, 0.3}) {  // let go; or so far in that it counts no more
-    Squeeze squeeze = squeeze_with(wanted, 0.1);
-    squeeze.moment.push_back(lattice(end));
-    squeeze.moment.back().force.assign(squeeze.moment[0].center.size(), -100);
-    EXPECT_EQ(fit_law(squeeze, sphere(), {}).size(), 1u);
+    Compression compression = compression_with(wanted, 0.1);
+    compression.snapshots.push_back(lattice(end));
+    compression.snapshots.back().force.assign(compression.snapshots[0].center.size(), -100);
+    EXPECT_EQ(fit_law(compression, sphere(), {}).size(), 1u);
   }
 }
 
-TEST(Fit, RefusesWhatIsNoSqueezeOrNeedsNoCorrection) {
+TEST(Fit, RefusesWhatIsNoCompressionOrNeedsNoCorrection) {
   EXPECT_THROW(fit_law({}, sphere(), {}), Error);
-  EXPECT_THROW(fit_law(squeeze_with({}, 0.1), sphere(), {}), Error);
+  EXPECT_THROW(fit_law(compression_with({}, 0.1), sphere(), {}), Error);
 }
 
 }  // namespace

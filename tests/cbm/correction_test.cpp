@@ -189,7 +189,7 @@ Eigen::MatrixXd matrix(Spheres& s, double h) {
 }
 
 /// Steps until nothing moves: only about rest does a step that neither grows nor shrinks what
-/// disturbs it say anything about the method. Squeezed spheres out of balance do run away.
+/// disturbs it say anything about the method. Compressed spheres out of balance do run away.
 void settle(Spheres& s) {
   for (int k = 0; k < 4000; ++k) {
     const Eigen::MatrixXd a = matrix(s, 600);
@@ -266,13 +266,13 @@ Eigen::MatrixXd frozen_matrix(Spheres& s, double h) {
 }
 
 /// What a shell that shrinks round 27 spheres, down to this radius in um, shows.
-struct Squeeze {
+struct Compression {
   double lowest = 1, highest = 0;    ///< d of the central one
   double overshoot = 0, growth = 0;  ///< of steps: -1 and 1 would be neutral
   double frozen_overshoot = 0;       ///< with moduli held fixed
 };
-Squeeze squeeze(const StiffnessLaw& law, double young, double smallest) {
-  Squeeze found;
+Compression compress_clump(const StiffnessLaw& law, double young, double smallest) {
+  Compression found;
   Spheres s = make_clump(0.1, 5);
   s.params[0].correction = law;
   s.params[0].young = young;
@@ -298,7 +298,7 @@ Squeeze squeeze(const StiffnessLaw& law, double young, double smallest) {
 }
 
 TEST(Correction, StepsOfAnyLengthAreStable) {
-  const Squeeze found = squeeze(quartic(), 0.45, 32.2);
+  const Compression found = compress_clump(quartic(), 0.45, 32.2);
   EXPECT_LT(found.lowest, 0.06);
   EXPECT_GT(found.highest, 0.19);
   EXPECT_GE(found.overshoot, -1);
@@ -322,7 +322,7 @@ TEST(Correction, StepsDoNotOvershootWithATable) {
   for (const double wall : {0.0, 0.3}) {
     StiffnessLaw law = table;
     law.wall_recess = wall;
-    const Squeeze found = squeeze(law, 0.042, wall > 0 ? 30.5 : 31);
+    const Compression found = compress_clump(law, 0.042, wall > 0 ? 30.5 : 31);
     EXPECT_GT(found.highest, 0.16);
     EXPECT_GE(found.overshoot, 0);
     EXPECT_LT(found.frozen_overshoot, -1) << "this test must be able to fail";

@@ -288,7 +288,7 @@ TEST(Audit, SistersMayBeInEachOtherUntilTheyHaveComeApart) {
     return audit_bodies({}, frame).cbm_cbm.depth_um;
   };
   EXPECT_EQ(overlap(5, 0.5, 3), 0) << "coming apart";
-  EXPECT_EQ(overlap(1, 0.5, 3), 0) << "squeezed while weak";
+  EXPECT_EQ(overlap(1, 0.5, 3), 0) << "compressed while weak";
   EXPECT_EQ(overlap(5, 1, 3), 0) << "not apart yet";
   EXPECT_DOUBLE_EQ(overlap(4, 1, 3), 16) << "nearer than at birth";
   EXPECT_DOUBLE_EQ(overlap(11, 1, 3), 9) << "an overlap like any other";

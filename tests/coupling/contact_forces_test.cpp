@@ -83,7 +83,7 @@ TEST(Reactions, OfAWallOnADeformableCellIsTheSumOverItsPoints) {
 }
 
 /// Eight cells of both models in a box that is too small for them.
-World squeezed_box() {
+World compressed_box() {
   World world = make_test_world(checkered_cube(22.5), 60, 42);
   for (int k = 0; k < 3; ++k) {
     world.params.around.planes.push_back(mirror_at(-11 * Vec3::Unit(k), Vec3::Unit(k)));
@@ -93,7 +93,7 @@ World squeezed_box() {
 }
 
 TEST(Reactions, OfOppositeWallsAgreeWhenTheCellsAreAtRest) {
-  World world = squeezed_box();
+  World world = compressed_box();
   Workspace work;
   size_workspace(world, work);
   ASSERT_TRUE(run_until(world, work, 2 * 3600));
@@ -157,7 +157,7 @@ TEST(Interface, ExertsNoNetForceOnBothModelsTogether) {
 }
 
 TEST(Reactions, DoNotDependOnTheNumberOfThreads) {
-  const World world = squeezed_box();
+  const World world = compressed_box();
   const int before = omp_get_max_threads();
   std::vector<Reaction> of[2];
   for (const int threads : {1, 3}) {

@@ -21,7 +21,7 @@ namespace {
 constexpr double kEnd = 0.064;   ///< s, a part of the slow modes' relaxation
 constexpr double kStep = 0.002;  ///< s, below the limit of explicit Euler
 
-/// One cell of 42 nodes, stretched by 10 % along one axis and squeezed along the others so that the
+/// One cell of 42 nodes, stretched by 10 % along one axis and compressed along the others so that the
 /// volume stays.
 World stretched_cell(Integrator integrator, double step) {
   World w = make_test_world({{Vec3(1, 2, 3)}}, step, 42);

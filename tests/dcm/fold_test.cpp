@@ -123,7 +123,7 @@ TEST(Collapse, StiffnessIsAtLeastThatOfTheArea) {
     g.segment<3>(3 * corner[m]) = 0.5 * n.normalized().cross(x[(m + 2) % 3] - x[(m + 1) % 3]);
   const double area = 0.5 * n.norm(), least = 0.1 * rest_triangle_area(c.view(), 11, kLane);
   const double curvature =
-      2 * table_one().bending_stiffness * std::pow(least / (area * area), 2);  // 2 k_b squeeze'^2
+      2 * table_one().bending_stiffness * std::pow(least / (area * area), 2);  // 2 k_b compression'^2
   const Eigen::MatrixXd k = lane_matrices(c)[kLane];
   EXPECT_GE(g.dot(k * g), curvature * std::pow(g.squaredNorm(), 2));
 }

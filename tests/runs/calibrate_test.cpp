@@ -1,5 +1,5 @@
 /// `acinus calibrate` and `acinus compare` as a user calls them, on a small coarse clump that is
-/// squeezed fast, and scenes that name what came out.
+/// compressed fast, and scenes that name what came out.
 
 #include "tests/runs/program.hpp"
 
@@ -65,10 +65,10 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   for (const char* file : {"curves.json", "force.svg", "relaxation.svg"})
     EXPECT_TRUE(fs::exists(path(std::string("law.calibration/") + file))) << file;
 
-  // Everything is there: the second time squeezes nothing.
-  const Json before = read("law.calibration/squeeze_dcm/summary.json");
+  // Everything is there: the second time compresses nothing.
+  const Json before = read("law.calibration/compression_dcm/summary.json");
   ASSERT_EQ(calibrate(one_term).code, 0);
-  EXPECT_EQ(read("law.calibration/squeeze_dcm/summary.json"), before);
+  EXPECT_EQ(read("law.calibration/compression_dcm/summary.json"), before);
   EXPECT_EQ(read("law.json")["a1_kPa"], law["a1_kPa"]);
 
   const Words spheres{"--set", "model=cbm", "--set",
@@ -80,7 +80,7 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   EXPECT_TRUE(has(used, "kPa d^4")) << used.text;
   EXPECT_FALSE(has(used, "warning")) << used.text;
   EXPECT_EQ(summary("used")["state_hash"],
-            summary("law.calibration/squeeze_corrected")["state_hash"]);
+            summary("law.calibration/compression_corrected")["state_hash"]);
 
   // A law for other cells is told.
   words = run_words("clump.json", "other", spheres);
@@ -90,7 +90,7 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   EXPECT_EQ(other.code, 0) << other.text;
   EXPECT_TRUE(has(other, "bulk_modulus_kPa: the law holds for 2.5, here it is 5")) << other.text;
 
-  const std::string runs = "law.calibration/squeeze_";
+  const std::string runs = "law.calibration/compression_";
   const Outcome same = call({"compare", runs + "dcm", runs + "dcm", "--tolerance", "pressure=0",
                              "--tolerance", "positions=0", "--out", "same.json"});
   EXPECT_EQ(same.code, 0) << same.text;
@@ -125,7 +125,7 @@ TEST_F(Calibrate, BadInputIsRefusedWithTheReason) {
   const Outcome weak =
       calibrate({"--set", "capsule.min_radius=39.9 um", "--set", "time.end=30 min"});
   EXPECT_EQ(weak.code, 3) << weak.text;
-  EXPECT_TRUE(has(weak, "Squeeze further")) << weak.text;
+  EXPECT_TRUE(has(weak, "Compress further")) << weak.text;
   EXPECT_EQ(call({"compare", "nowhere", "here"}).code, 4);
   const Outcome unknown = call({"compare", "a", "b", "--tolerance", "presure=1"});
   EXPECT_EQ(unknown.code, 2) << unknown.text;

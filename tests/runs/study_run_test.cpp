@@ -173,7 +173,7 @@ TEST_F(StudyRun, StoppedWhileAnotherProcessCalibratesItStillReports) {
     "set": { "cells.model": "cbm", "cell_types.hepatocyte.cbm.stiffness_correction": "auto" },
     "seeds": [1], "variants": { "only": {} }, "observables": ["cells"] })");
   Process first(path("."), words("auto.json", "a"));
-  ASSERT_TRUE(first.await("squeezing"));
+  ASSERT_TRUE(first.await("compressing"));
   Process study(path("."), words("auto.json", "s"));
   ASSERT_TRUE(study.await("waiting for another process"));
   study.send(SIGTERM);

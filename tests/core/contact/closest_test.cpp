@@ -15,7 +15,7 @@ namespace {
 
 using reference::kEps;
 
-/// A bumpy sphere with a few triangles squeezed flat.
+/// A bumpy sphere with a few triangles compressed flat.
 struct Bumpy {
   std::vector<std::array<int, 3>> triangle;
   SurfaceBody body;

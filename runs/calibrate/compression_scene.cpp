@@ -1,4 +1,4 @@
-#include "runs/calibrate/squeeze_scene.hpp"
+#include "runs/calibrate/compression_scene.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,7 @@ namespace {
 
 /// Volume of a capsule in which neighbours overlap by d = 0.2, over that of the free cells:
 /// measured with 15 cells.
-constexpr double kSqueezedVolume = 0.70;
+constexpr double kCompressedVolume = 0.70;
 /// Shrink rate over the smallest radius, 1/s: 0.3 um/h at 26 um. Half of it changes the force by
 /// 1 % (docs/calibration.md).
 constexpr double kRate = 0.0115 / 3600;
@@ -45,7 +45,7 @@ std::string choose_type(const Scene& scene, const std::string& type) {
   return type.empty() ? names.front() : type;
 }
 
-Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
+Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
   const bool itself = scene.experiment == "capsule" && scene.capsule.enabled;
   Scene s = scene;
   if (!itself) {
@@ -84,7 +84,7 @@ Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
     s.capsule = CapsuleEntry{};
     s.capsule.enabled = true;
     s.capsule.radius = reach_of(s) + 1.1 * type.radius;
-    s.capsule.min_radius = type.radius * std::cbrt(s.cells.count * kSqueezedVolume);
+    s.capsule.min_radius = type.radius * std::cbrt(s.cells.count * kCompressedVolume);
     s.capsule.speed = kRate * s.capsule.min_radius;
     s.time.end = (s.capsule.radius - s.capsule.min_radius) / s.capsule.speed;
   }
@@ -97,8 +97,8 @@ Scene squeeze_scene(const Scene& scene, const ClumpOptions& options) {
   return s;
 }
 
-Scene as_spheres(const Scene& squeeze, const std::string& law_file) {
-  Scene s = squeeze;
+Scene as_spheres(const Scene& compression, const std::string& law_file) {
+  Scene s = compression;
   s.model = s.cells.model = "cbm";
   for (auto& [name, type] : s.cell_types) type.cbm.stiffness_correction = law_file;
   set_canonical(s);

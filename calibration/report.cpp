@@ -1,3 +1,5 @@
+#include "calibration/report.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,12 +8,10 @@
 #include "calibration/recovery.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/plot.hpp"
-#include "runs/calibrate/calibrate.hpp"
 
-namespace acinus::runs {
+namespace acinus::calibration {
 namespace {
 
-using calibration::Curve;
 using Json = nlohmann::ordered_json;
 
 constexpr double kPa_in_Pa = 1e3;
@@ -25,8 +25,8 @@ io::PlotLine line(const std::string& name, const std::vector<double>& x,
 
 Json json_of(const Curve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
 
-Json json_of(const calibration::Relaxation& r) {
-  const calibration::Recovery back = calibration::measure_recovery(r.time, r.overlap);
+Json json_of(const Relaxation& r) {
+  const Recovery back = measure_recovery(r.time, r.overlap);
   return {{"time_s", r.time},
           {"overlap", r.overlap},
           {"back_10s", back.sprung},
@@ -37,7 +37,7 @@ Json json_of(const calibration::Relaxation& r) {
 }
 
 /// The relaxation with another cell-cell friction: the one that was asked for, else the fitted one.
-const calibration::FrictionFit& other_friction(const Calibration& c) {
+const FrictionFit& other_friction(const Calibration& c) {
   return c.checked.friction > 0 ? c.checked : c.friction;
 }
 
@@ -47,17 +47,15 @@ std::string row(const std::string& name, const std::string& value) {
 
 }  // namespace
 
-std::string calibration_table(const Scene& squeeze, const Calibration& c,
-                              const std::string& law_file) {
-  const calibration::FitAttempt &first = c.attempts.front(), &last = c.attempts.back();
-  const CellType& type = squeeze.cell_types.begin()->second;
-  std::string t =
-      fmt::format("{} cells of {} nodes, seed {}; means over {} that are not at the capsule\n",
-                  squeeze.cells.count, type.dcm.nodes, squeeze.seed, c.inner);
-  t += row("contacts of the central cell",
-           fmt::format("{:.0f} at the start, {:.0f} squeezed", c.contacts_first, c.contacts_last));
+std::string calibration_table(const Calibration& c) {
+  const FitAttempt &first = c.attempts.front(), &last = c.attempts.back();
+  std::string t = fmt::format(
+      "{} cells of {:.0f} nodes, seed {}; means over {} that are not at the capsule\n",
+      c.law.provenance.at("cells"), c.law.dcm.at("nodes"), c.law.provenance.at("seed"), c.inner);
+  t += row("contacts of the central cell", fmt::format("{:.0f} at the start, {:.0f} compressed",
+                                                       c.contacts_first, c.contacts_last));
   t += row("d of the central cell while nothing presses", fmt::format("{:.3f}", c.overlap_at_rest));
-  for (const calibration::FitAttempt& a : c.attempts)
+  for (const FitAttempt& a : c.attempts)
     t += row(fmt::format("error of {}", a.form),
              fmt::format("{:.1f} % rms of the force, {:.0f} % point by point",
                          100 * a.law.rms_relative, 100 * a.pointwise));
@@ -75,19 +73,18 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
   t += row("deformable cells over plain spheres",
            fmt::format("{:.1f} times the force at d = {:.2f}", last.law.jkr_underestimation,
                        last.law.overlap_range[1]));
-  t += row("plain spheres squeezed by themselves",
+  t += row("plain spheres compressed by themselves",
            fmt::format("{:.0f} % rms off the deformable cells' force at the same d",
                        100 * c.error_plain));
-  t += row("corrected spheres squeezed by themselves",
+  t += row("corrected spheres compressed by themselves",
            fmt::format("{:.1f} %", 100 * c.error_corrected));
   t += row(
       "at walls they leave out",
       fmt::format("{:.3f} of their radius; for the same force the capsule is then {:.2f} um wider",
-                  c.wall_recess, c.capsule_excess));
+                  c.law.wall_recess, c.capsule_excess));
   if (!c.relaxation.empty()) {
     const double t1 = c.relaxation[0].decay.time, t5 = c.relaxation[1].decay.time;
-    const calibration::Recovery back =
-        calibration::measure_recovery(c.relaxation[0].time, c.relaxation[0].overlap);
+    const Recovery back = measure_recovery(c.relaxation[0].time, c.relaxation[0].overlap);
     t += row("relaxation after release",
              fmt::format("{:.0f} % of the way in 10 s, e-fold of the rest {:.3g} h, within 1 % of "
                          "the end after {:.3g} h",
@@ -95,14 +92,14 @@ std::string calibration_table(const Scene& squeeze, const Calibration& c,
     t += row("one exponential for all of it",
              fmt::format("{:.3g} h (misfit {:.0f} %)", t1 / 3600, 100 * c.relaxation[0].decay.rms));
     t += row("with all friction x 5", fmt::format("{:.3f} times as long", t5 / t1));
-    const calibration::FrictionFit& f = other_friction(c);
-    if (f.friction == 0) return t + fmt::format("law file: {}\n", law_file);
+    const FrictionFit& f = other_friction(c);
+    if (f.friction == 0) return t;
     t += row(fmt::format("cell-cell friction {} {:.3g} h", c.checked.friction > 0 ? "gives" : "for",
                          f.relaxation.decay.time / 3600),
              fmt::format("{:.3g} N s/m^3, {:.3g} times the scene's", 1e9 * f.friction,
                          f.friction / c.friction_before));
   }
-  return t + fmt::format("law file: {}\n", law_file);
+  return t;
 }
 
 void write_curves(const Calibration& c, const std::string& folder) {
@@ -114,10 +111,10 @@ void write_curves(const Calibration& c, const std::string& folder) {
   j["error_corrected"] = c.error_corrected;
   j["contacts"] = {c.contacts_first, c.contacts_last};
   j["inner_cells"] = c.inner;
-  j["wall_recess"] = c.wall_recess;
+  j["wall_recess"] = c.law.wall_recess;
   j["capsule_excess_um"] = c.capsule_excess;
   j["forms"] = Json::array();
-  for (const calibration::FitAttempt& a : c.attempts)
+  for (const FitAttempt& a : c.attempts)
     j["forms"].push_back({{"form", a.form},
                           {"a1_kPa", a.law.a1},
                           {"rms_relative", a.law.rms_relative},
@@ -125,7 +122,7 @@ void write_curves(const Calibration& c, const std::string& folder) {
   if (!c.relaxation.empty()) {
     j["relaxation"] = json_of(c.relaxation[0]);
     j["relaxation_friction_x5"] = json_of(c.relaxation[1]);
-    const calibration::FrictionFit& other = other_friction(c);
+    const FrictionFit& other = other_friction(c);
     if (other.friction > 0) {
       j["relaxation_other_friction"] = json_of(other.relaxation);
       j["other_friction_N_s_per_m3"] = 1e9 * other.friction;
@@ -133,7 +130,7 @@ void write_curves(const Calibration& c, const std::string& folder) {
   }
   io::write_text_file(folder + "/curves.json", j.dump(1) + "\n");
   io::write_plot(folder + "/force.svg",
-                 {"Squeezed clump, mean of the inner cells",
+                 {"Compressed clump, mean of the inner cells",
                   "relative overlap d",
                   "sum of normal forces, nN",
                   false,
@@ -145,11 +142,11 @@ void write_curves(const Calibration& c, const std::string& folder) {
   std::vector<io::PlotLine> lines{
       line("friction of the scene", c.relaxation[0].time, c.relaxation[0].overlap, 3600),
       line("all friction x 5", c.relaxation[1].time, c.relaxation[1].overlap, 3600)};
-  if (const calibration::FrictionFit& other = other_friction(c); other.friction > 0)
+  if (const FrictionFit& other = other_friction(c); other.friction > 0)
     lines.push_back(
         line("other cell-cell friction", other.relaxation.time, other.relaxation.overlap, 3600));
   io::write_plot(folder + "/relaxation.svg",
                  {"Clump let go", "time, h", "overlap with the nearest 14", true, false, lines});
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::calibration

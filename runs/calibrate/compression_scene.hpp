@@ -1,5 +1,5 @@
 #pragma once
-/// The clump that calibration squeezes, as a scene.
+/// The clump that calibration compresses, as a scene.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace acinus::runs {
 struct ClumpOptions {
   std::string type;  ///< cell type; empty = the scene's only one
   int cells = 0;     ///< 0: as in the scene, 59 if it has no clump
-  double rate = 1;   ///< factor on the speed of squeezing
+  double rate = 1;   ///< factor on the speed of compressing
 };
 
 /// Name of the cell type meant. @throws Error if the scene has several and none is named
@@ -20,9 +20,9 @@ std::string choose_type(const Scene& scene, const std::string& type);
 /// overlap by a fifth of their diameters, without motility. A scene that is such an experiment
 /// itself stays as it is unless other cells or another rate are asked for; of any other scene it
 /// has the cell type, contact, friction and seed.
-Scene squeeze_scene(const Scene& scene, const ClumpOptions& options);
+Scene compression_scene(const Scene& scene, const ClumpOptions& options);
 
 /// The same clump as spheres of one modulus, with a law file or "none".
-Scene as_spheres(const Scene& squeeze, const std::string& law_file);
+Scene as_spheres(const Scene& compression, const std::string& law_file);
 
 }  // namespace acinus::runs

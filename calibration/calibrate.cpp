@@ -1,0 +1,136 @@
+#include "calibration/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/wall.hpp"
+#include "core/error.hpp"
+
+namespace acinus::calibration {
+namespace {
+
+/// Largest overlap from which on a compression that ended early still says how cells stiffen.
+constexpr double kWorthFitting = 0.15;
+
+constexpr int kCannotContinue = static_cast<int>(Exit::kCannotContinue);
+
+/// Whether a compression that could not go on reached overlaps that are worth a fit.
+bool got_far(const CompressionRun& run, const Vec3& center, const Runs& runs) {
+  if (run.exit != kCannotContinue) return false;
+  const double reached =
+      force_curve(run.snapshots, find_inner_cells(run.snapshots, center)).overlap.back();
+  if (reached < kWorthFitting) return false;
+  runs.say(fmt::format("the compression ended early, at d = {:.3f}: the law is fitted up to there",
+                       reached));
+  return true;
+}
+
+/// d of the central cell when its clump has come to rest and nothing presses it yet: where its
+/// contact pressure is smallest after the first tenth of the time.
+double overlap_at_rest(const std::vector<ClumpSample>& central) {
+  const auto first = central.begin() + static_cast<std::ptrdiff_t>(central.size() / 10);
+  return std::ranges::min_element(first, central.end(), {}, &ClumpSample::pressure)->overlap;
+}
+
+/// Compresses spheres with the law until they bear what the cells do in a capsule as wide: each
+/// time they meet it later by as much as theirs is too wide.
+/// @return exit code of a run that was stopped or failed, else 0
+int fit_wall_recess(const Clump& clump, const Compression& cells, double highest, const Runs& runs,
+                    Calibration& found) {
+  constexpr int kRounds = 5;
+  constexpr double kClose = 0.01;  // of a radius
+  for (int round = 1;; ++round) {
+    const CompressionRun spheres = runs.compress(ClumpModel::kCorrectedSpheres, found.law);
+    if (spheres.exit != 0 && spheres.exit != kCannotContinue) return spheres.exit;
+    if (spheres.exit != 0) runs.say("these spheres could not be compressed to the end");
+    found.corrected = force_curve(spheres.snapshots, cells.inner);
+    found.capsule_excess = capsule_excess(cells, spheres.snapshots, highest);
+    check(
+        std::isfinite(found.capsule_excess),
+        "calibration: corrected spheres never bear what the deformable cells do, the law does not "
+        "hold for them. Compress less far (capsule.min_radius) or take another clump (--cells)",
+        Exit::kCannotContinue);
+    if (std::abs(found.capsule_excess) < kClose * clump.radius) return 0;
+    const double recess = std::clamp(found.law.wall_recess + found.capsule_excess / clump.radius,
+                                     0.0, cbm::kLargestRecess);
+    if (round == kRounds || recess == found.law.wall_recess) {
+      runs.say("the capsule of the corrected spheres could not be made as wide");
+      return 0;
+    }
+    found.law.wall_recess = recess;
+  }
+}
+
+void relax(const Options& options, const Runs& runs, Calibration& found) {
+  const coupling::World world = runs.compressed_world();
+  found.friction_before = world.params.dcm_contact.cell_friction;
+  runs.say("letting the clump go");
+  found.relaxation.push_back(relax_clump(world, 1));
+  coupling::World slow = world;
+  scale_all_friction(slow.params, 5);
+  found.relaxation.push_back(relax_clump(slow, 5));
+  if (options.check_friction > 0) {
+    coupling::World other = world;
+    other.params.dcm_contact.cell_friction = options.check_friction;
+    const double slower = std::max(1.0, options.check_friction / found.friction_before);
+    found.checked = {options.check_friction, relax_clump(other, slower)};
+    return;
+  }
+  if (options.relaxation_time == 0) return;
+  runs.say(fmt::format("looking for the friction that makes it take {:.3g} h",
+                       options.relaxation_time / 3600));
+  found.friction = fit_friction(world, options.relaxation_time);
+}
+
+/// The form that fits best, before it is known how its spheres meet walls.
+Law make_law(const Clump& clump, const FitAttempt& attempt) {
+  Law law = attempt.law;
+  law.dcm = clump.dcm;
+  law.cbm = clump.cbm;
+  law.provenance = clump.origin;
+  law.provenance["form"] = attempt.form;
+  return law;
+}
+
+}  // namespace
+
+Calibration calibrate(const Clump& clump, const Options& options, const Runs& runs) {
+  Calibration found;
+  const CompressionRun deformable = runs.compress(ClumpModel::kDeformable, {});
+  if (deformable.exit != 0 && !got_far(deformable, clump.center, runs)) {
+    found.exit = deformable.exit;
+    return found;
+  }
+  const CompressionRun plain = runs.compress(ClumpModel::kSpheres, {});
+  found.exit = plain.exit;
+  if (found.exit != 0) return found;
+  const Compression cells{deformable.snapshots,
+                          find_inner_cells(deformable.snapshots, clump.center)};
+  found.inner = static_cast<int>(cells.inner.size());
+  found.dcm = force_curve(cells.snapshots, cells.inner);
+  found.plain = force_curve(plain.snapshots, cells.inner);
+  found.contacts_first = deformable.central.front().contacts;
+  found.contacts_last = deformable.central.back().contacts;
+  found.overlap_at_rest = overlap_at_rest(deformable.central);
+
+  runs.say("fitting the law");
+  found.attempts = fit_law(cells, clump.sphere, options.fit);
+  found.law = make_law(clump, found.attempts.back());
+  found.exit = fit_wall_recess(clump, cells, options.fit.highest, runs, found);
+  if (found.exit != 0) return found;
+  found.error_plain = relative_error(found.dcm, found.plain, options.fit.highest);
+  found.error_corrected = relative_error(found.dcm, found.corrected, options.fit.highest);
+  if (options.relaxation) {
+    try {
+      relax(options, runs, found);
+    } catch (const Error& error) {  // the law does not depend on it
+      found.relaxation.clear();
+      runs.say(fmt::format("no relaxation time: {}", error.what()));
+    }
+  }
+  return found;
+}
+
+}  // namespace acinus::calibration

@@ -1,0 +1,16 @@
+#pragma once
+/// What a calibration found, for readers.
+
+#include <string>
+
+#include "calibration/calibrate.hpp"
+
+namespace acinus::calibration {
+
+/// The table that `acinus calibrate` prints.
+std::string calibration_table(const Calibration& found);
+
+/// Writes curves.json, force.svg and relaxation.svg into the folder.   @throws Error(kFileError)
+void write_curves(const Calibration& found, const std::string& folder);
+
+}  // namespace acinus::calibration

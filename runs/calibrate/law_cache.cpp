@@ -1,0 +1,100 @@
+#include "runs/calibrate/law_cache.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "core/io/file_lock.hpp"
+#include "runs/build/build_correction.hpp"
+#include "runs/calibrate/calibrate.hpp"
+#include "runs/session/stop_signals.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cache_folder() {
+  if (const char* base = std::getenv("XDG_CACHE_HOME"); base != nullptr && *base != '\0')
+    return std::string(base) + "/acinus/laws";
+  const char* home = std::getenv("HOME");
+  check(home != nullptr && *home != '\0',
+        "stiffness_correction \"auto\" keeps laws in XDG_CACHE_HOME or ~/.cache, but neither "
+        "XDG_CACHE_HOME nor HOME is set. Calibrate yourself and name the law file.");
+  return std::string(home) + "/.cache/acinus/laws";
+}
+
+/// Two processes must not calibrate the same law: they would write in the same run folders.
+/// Nothing if it was asked to stop meanwhile.
+std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
+  std::error_code code;
+  fs::create_directories(fs::path(file).parent_path(), code);
+  const std::string lock = file + ".lock";
+  if (auto held = io::FileLock::try_take(lock)) return held;
+  if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
+  std::fflush(stdout);
+  constexpr double kLook = 0.2;  // s between looks at signals
+  const StopSignals signals;
+  while (stop_signal() == 0)
+    if (auto held = io::FileLock::try_take(lock, kLook)) return held;
+  return {};
+}
+
+/// The scene by which "auto" calibrates: what a law stands for, and nothing that only says how a
+/// scene is computed, so that it does not matter which scene asks first.
+Scene made_for_law(const Scene& scene) {
+  Scene s;
+  s.file = scene.file;
+  s.cell_types = scene.cell_types;
+  s.contact.quadrature = scene.contact.quadrature;
+  s.contact.repulsion = scene.contact.repulsion;
+  s.contact.range = scene.contact.range;
+  s.contact.max_depth = scene.contact.max_depth;
+  return s;
+}
+
+/// Name of a law in the cache: all it depends on, to the last digit.
+std::string key_of(const Scene& scene, const LawParameters& p) {
+  std::string text =
+      fmt::format("{}\n{} {:a} {:a}\n", calibration::kLawSchema, scene.contact.quadrature,
+                  scene.contact.range.value_or(-1), scene.contact.max_depth);
+  for (const auto* model : {&p.dcm, &p.cbm})
+    for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
+  return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
+}
+
+}  // namespace
+
+int resolve_corrections(Scene& scene, int threads, bool quiet) {
+  for (auto& [name, type] : scene.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    const std::string file =
+        cache_folder() + "/" + key_of(scene, law_parameters(scene, type)) + ".json";
+    std::error_code code;
+    if (!fs::exists(file, code)) {
+      const std::optional<io::FileLock> calibrating = lock_law(file, quiet);
+      if (!calibrating) return static_cast<int>(Exit::kStopped);
+      if (fs::exists(file, code)) {  // another process was faster
+        type.cbm.stiffness_correction = file;
+        continue;
+      }
+      CalibrateOptions options;
+      options.clump.type = name;
+      options.out = file;
+      options.calibration.relaxation = false;
+      options.threads = threads;
+      options.quiet = quiet;
+      options.command_line = "stiffness_correction auto";
+      if (const int stop = calibrate(made_for_law(scene), options)) return stop;
+    }
+    type.cbm.stiffness_correction = file;
+  }
+  return 0;
+}
+
+}  // namespace acinus::runs
