@@ -13,7 +13,7 @@ usage: ./acinus.sh COMMAND [ARGUMENT...]
   help                      this text
   anything else             build the program and hand all arguments to it, in the folder you are
                             in: run, check, schema, explain, list, new, calibrate, compare,
-                            report, bench (`./acinus.sh --help` says more)
+                            study, bench (`./acinus.sh --help` says more)
 
 Missing packages of packages.txt are installed by apt-get, as root or through sudo.
 Environment: ACINUS_JOBS               compile jobs (default: number of processors)
@@ -164,7 +164,7 @@ is_configured() {
 # build_targets [TARGET...]: configure if needed, compile what changed; silent if nothing did.
 build_targets() {
   local start=$SECONDS
-  # A checkout that belongs to somebody else (containers) must not hide its commit from the build.
+  # A checkout that belongs to another user (containers) must not hide its commit from the build.
   local n=${GIT_CONFIG_COUNT:-0}
   export GIT_CONFIG_COUNT=$((n + 1)) "GIT_CONFIG_KEY_$n=safe.directory" "GIT_CONFIG_VALUE_$n=$here"
   if command -v ccache >/dev/null; then

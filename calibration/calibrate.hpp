@@ -55,7 +55,7 @@ struct Calibration {
   Law law;
   std::vector<FitAttempt> attempts;             ///< the last one became the law
   int inner = 0;                                ///< cells that are not at the capsule
-  Curve dcm, plain, corrected;                  ///< force over overlap, means over inner cells
+  ForceCurve dcm, plain, corrected;             ///< force over overlap, means over inner cells
   double error_plain = 0, error_corrected = 0;  ///< relative, over the fitted range
   double capsule_excess = 0;  ///< um, by which the capsule of the corrected spheres is wider
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell

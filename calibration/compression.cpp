@@ -35,7 +35,7 @@ std::vector<std::size_t> find_inner_cells(const std::vector<ClumpSnapshot>& snap
   const double enough = kPressing * *std::ranges::max_element(force);
   auto presses = std::ranges::find_if(force, [&](double f) { return f >= enough; });
   if (presses == force.end()) presses = std::ranges::max_element(force);  // all pull
-  const ClumpSnapshot& snapshot = snapshots[static_cast<std::size_t>(presses - force.begin())];
+  const ClumpSnapshot& snapshot = snapshots[presses - force.begin()];
   const auto distance = [&](std::size_t i) { return (snapshot.center[i] - point).norm(); };
   std::size_t middle = 0;
   for (std::size_t i = 0; i < snapshot.center.size(); ++i) {
@@ -60,8 +60,8 @@ std::vector<Bulk> measure_bulks(const std::vector<ClumpSnapshot>& snapshots,
   return bulks;
 }
 
-Curve force_curve(const std::vector<ClumpSnapshot>& snapshots,
-                  const std::vector<std::size_t>& inner) {
+ForceCurve force_curve(const std::vector<ClumpSnapshot>& snapshots,
+                       const std::vector<std::size_t>& inner) {
   std::vector<double> overlap, force;
   for (const Bulk& b : measure_bulks(snapshots, inner)) {
     overlap.push_back(b.overlap);

@@ -45,8 +45,8 @@ std::vector<Bulk> measure_bulks(const std::vector<ClumpSnapshot>& snapshots,
                                 const std::vector<std::size_t>& inner);
 
 /// Force over overlap of the inner cells, from where overlaps rise without a break.
-Curve force_curve(const std::vector<ClumpSnapshot>& snapshots,
-                  const std::vector<std::size_t>& inner);
+ForceCurve force_curve(const std::vector<ClumpSnapshot>& snapshots,
+                       const std::vector<std::size_t>& inner);
 
 /// Indices of the snapshots that press, with a hundredth of the largest force or more, at an
 /// overlap up to `highest`.

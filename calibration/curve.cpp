@@ -5,10 +5,10 @@
 
 namespace acinus::calibration {
 
-Curve loading_branch(std::span<const double> overlap, std::span<const double> force) {
-  Curve curve;
+ForceCurve loading_branch(std::span<const double> overlap, std::span<const double> force) {
+  ForceCurve curve;
   if (overlap.empty()) return curve;
-  const auto last = static_cast<std::size_t>(std::ranges::max_element(overlap) - overlap.begin());
+  const std::size_t last = std::ranges::max_element(overlap) - overlap.begin();
   std::size_t first = last;
   while (first > 0 && overlap[first - 1] < overlap[first]) --first;
   for (std::size_t k = first; k <= last; ++k) {
@@ -18,11 +18,11 @@ Curve loading_branch(std::span<const double> overlap, std::span<const double> fo
   return curve;
 }
 
-double force_at(const Curve& curve, double overlap) {
+double force_at(const ForceCurve& curve, double overlap) {
   const auto after = std::ranges::lower_bound(curve.overlap, overlap);
   if (after == curve.overlap.begin()) return curve.force.front();
   if (after == curve.overlap.end()) return curve.force.back();
-  const auto k = static_cast<std::size_t>(after - curve.overlap.begin());
+  const std::size_t k = after - curve.overlap.begin();
   const double share = (overlap - curve.overlap[k - 1]) / (curve.overlap[k] - curve.overlap[k - 1]);
   return curve.force[k - 1] + share * (curve.force[k] - curve.force[k - 1]);
 }
@@ -34,9 +34,10 @@ double find_last_rise(std::span<const double> history, double value) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<double> common_overlaps(std::span<const Curve* const> curves, double highest, int n) {
+std::vector<double> common_overlaps(std::span<const ForceCurve* const> curves, double highest,
+                                    int n) {
   double low = 0, high = highest;
-  for (const Curve* c : curves) {
+  for (const ForceCurve* c : curves) {
     if (c->empty()) return {};
     low = std::max(low, c->overlap.front());
     high = std::min(high, c->overlap.back());

@@ -119,7 +119,7 @@ Solution solve(Residuals& residuals) {
 }
 
 /// What the figures of a law say about its curve.
-void judge(const Samples& samples, const cbm::Params& sphere, FitAttempt& attempt) {
+void rate(const Samples& samples, const cbm::Params& sphere, FitAttempt& attempt) {
   const auto n = static_cast<double>(samples.force.size());
   double mean = 0, total = 0, misfit = 0, pointwise = 0;
   for (const double force : samples.force) mean += force / n;
@@ -139,8 +139,8 @@ void judge(const Samples& samples, const cbm::Params& sphere, FitAttempt& attemp
 
 }  // namespace
 
-double relative_error(const Curve& target, const Curve& spheres, double highest) {
-  const Curve* both[] = {&target, &spheres};
+double relative_error(const ForceCurve& target, const ForceCurve& spheres, double highest) {
+  const ForceCurve* both[] = {&target, &spheres};
   double difference = 0, size = 0;
   for (const double d : common_overlaps(both, highest, 40)) {
     difference += std::pow(force_at(spheres, d) - force_at(target, d), 2);
@@ -171,13 +171,13 @@ std::vector<FitAttempt> fit_law(const Compression& compression, const cbm::Param
   attempt.law.a1_interval = {term.factor - spread, term.factor + spread};
   attempt.law.overlap_range = samples.range;
   attempt.law.jkr_underestimation = samples.stiffer;
-  judge(samples, sphere, attempt);
+  rate(samples, sphere, attempt);
   std::vector<FitAttempt> attempts{attempt};
   if (attempt.law.rms_relative <= options.good_enough) return attempts;
 
   attempt.law = tabulate_law(compression, sphere, attempt.law);
   attempt.form = fmt::format("a table of {} moduli", attempt.law.table.size());
-  judge(samples, sphere, attempt);
+  rate(samples, sphere, attempt);
   if (attempt.law.rms_relative < attempts[0].law.rms_relative) attempts.push_back(attempt);
   return attempts;
 }

@@ -41,6 +41,6 @@ std::vector<FitAttempt> fit_law(const Compression& compression, const cbm::Param
 
 /// rms of (spheres - target) over rms of target, at 40 overlaps at equal distances up to `highest`
 /// that both curves cover. NaN if there are none.
-double relative_error(const Curve& target, const Curve& spheres, double highest);
+double relative_error(const ForceCurve& target, const ForceCurve& spheres, double highest);
 
 }  // namespace acinus::calibration

@@ -15,10 +15,10 @@ constexpr double kNoWay = 1e-12;  ///< relative to the values: nothing moved
 /// The first time at which as long again brings less than 1 % more, and the value after that; an
 /// infinite time if it was not followed so far. Before half of the way a curve that turns round
 /// once must not be taken for one that ends.
-struct End {
+struct WayEnd {
   double time = std::numeric_limits<double>::infinity(), value = 0;
 };
-End find_end(std::span<const double> t, std::span<const double> y) {
+WayEnd find_end(std::span<const double> t, std::span<const double> y) {
   const double farthest =
       *std::ranges::max_element(y, {}, [&](double v) { return std::abs(v - y.front()); });
   const double most = kMost * std::abs(farthest - y.front());
@@ -41,7 +41,7 @@ double crossing(double level, std::size_t k, std::span<const double> t, std::spa
 }  // namespace
 
 double value_at(double time, std::span<const double> t, std::span<const double> y) {
-  const auto next = static_cast<std::size_t>(std::ranges::lower_bound(t, time) - t.begin());
+  const std::size_t next = std::ranges::lower_bound(t, time) - t.begin();
   if (next == 0) return y.front();
   if (next == t.size()) return y.back();
   const double share = (time - t[next - 1]) / (t[next] - t[next - 1]);
@@ -51,7 +51,7 @@ double value_at(double time, std::span<const double> t, std::span<const double> 
 Recovery measure_recovery(std::span<const double> t, std::span<const double> y) {
   Recovery r;
   if (t.size() < 2 || !(t.back() > kAtOnce)) return r;
-  const End end = find_end(t, y);
+  const WayEnd end = find_end(t, y);
   const double way = end.value - y.front();
   if (!(std::abs(way) > kNoWay * std::max(std::abs(end.value), std::abs(y.front())))) return r;
   r.end = end.value;

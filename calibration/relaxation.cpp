@@ -59,7 +59,7 @@ Decay fit_with_time(double time, std::span<const double> t, std::span<const doub
 
 /// The compressed clump without its capsule, steps and solver as its way back asks.
 coupling::World let_go(coupling::World world, double scale) {
-  world.params.around.capsules.clear();
+  world.params.boundary.capsules.clear();
   world.params.motility.random = false;
   coupling::Numerics& numerics = world.params.numerics;
   numerics.max_step *= scale;
@@ -119,9 +119,9 @@ void scale_all_friction(coupling::Params& params, double factor) {
 }
 
 Relaxation relax_clump(coupling::World world, double scale) {
-  const Vec3 center = world.params.around.capsules.empty()
+  const Vec3 center = world.params.boundary.capsules.empty()
                           ? Vec3(Vec3::Zero())
-                          : world.params.around.capsules.front().center;
+                          : world.params.boundary.capsules.front().center;
   coupling::Simulation simulation(let_go(std::move(world), scale));
   Relaxation r;
   std::size_t central = 0;
@@ -144,7 +144,7 @@ Relaxation relax_clump(coupling::World world, double scale) {
     time = next;
     look(time);
     const auto half = std::ranges::lower_bound(r.time, time / 2) - r.time.begin();
-    const double late = std::abs(r.overlap.back() - r.overlap[static_cast<std::size_t>(half)]),
+    const double late = std::abs(r.overlap.back() - r.overlap[half]),
                  way = std::abs(r.overlap.back() - r.overlap.front());
     if (time >= kShortest * scale && late <= kRest * way) break;
     check(

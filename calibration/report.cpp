@@ -23,7 +23,7 @@ io::PlotLine line(const std::string& name, const std::vector<double>& x,
   return out;
 }
 
-Json json_of(const Curve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
+Json json_of(const ForceCurve& c) { return {{"overlap", c.overlap}, {"force_nN", c.force}}; }
 
 Json json_of(const Relaxation& r) {
   const Recovery back = measure_recovery(r.time, r.overlap);

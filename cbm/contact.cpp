@@ -14,7 +14,7 @@ namespace {
 using contact::Contact;
 
 void count_overlap(ContactWorkspace& work, int cell, double relative, double share) {
-  work.overlap_sum[static_cast<std::size_t>(cell)] += share * relative;
+  work.overlap_sum[cell] += share * relative;
 }
 
 /// The moduli of all cells, from the overlaps where a law asks for them.
@@ -23,7 +23,7 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
   const bool corrects = has_correction(params);
   work.coupling.assign(corrects ? s.n_cell() : 0, 0.0);
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
-    const StiffnessLaw& law = params[static_cast<std::size_t>(s.type[i])].correction;
+    const StiffnessLaw& law = params[s.type[i]].correction;
     if (!law.corrects()) {
       work.modulus[i] = {s.young[i], 0};
       continue;
@@ -41,20 +41,19 @@ void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
   std::vector<double> contacts(work.coupling.size(), 0.0);
   for (const auto& [a, b] : work.touching) {
     if (b < 0) continue;
-    ++contacts[static_cast<std::size_t>(a)];
-    ++contacts[static_cast<std::size_t>(b)];
+    ++contacts[a];
+    ++contacts[b];
   }
-  for (const Contact& o : obstacle) ++contacts[static_cast<std::size_t>(o.a)];
+  for (const Contact& o : obstacle) ++contacts[o.a];
   for (std::size_t i = 0; i < contacts.size(); ++i) work.coupling[i] *= contacts[i] / kNeighbours;
   std::size_t k = 0;
   for (const auto& touching : work.touching) {
-    if (touching.second < 0) continue;  // surroundings
+    if (touching.second < 0) continue;  // boundary
     while (work.pair[k] != touching) ++k;
     link[k].stiffness +=
-        static_cast<float>(work.coupling[static_cast<std::size_t>(touching.first)] +
-                           work.coupling[static_cast<std::size_t>(touching.second)]);
+        static_cast<float>(work.coupling[touching.first] + work.coupling[touching.second]);
   }
-  for (Contact& o : obstacle) o.slope += work.coupling[static_cast<std::size_t>(o.a)];
+  for (Contact& o : obstacle) o.slope += work.coupling[o.a];
 }
 
 }  // namespace
@@ -71,14 +70,13 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   std::vector<double> relative(work.pair.size());
 #pragma omp parallel for schedule(static) if (relative.size() > 10000)
   for (std::size_t k = 0; k < relative.size(); ++k) {
-    const auto i = static_cast<std::size_t>(work.pair[k].first),
-               j = static_cast<std::size_t>(work.pair[k].second);
+    const std::size_t i = work.pair[k].first, j = work.pair[k].second;
     relative[k] = 1 - (center_of(s, i) - center_of(s, j)).norm() / (radius[i] + radius[j]);
   }
   for (std::size_t k = 0; k < relative.size(); ++k) {
     if (!(relative[k] > 0)) continue;
     const auto [a, b] = work.pair[k];
-    const double share = cells.pair_share(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    const double share = cells.pair_share(a, b);
     count_overlap(work, a, relative[k], share);
     count_overlap(work, b, relative[k], share);
   }
@@ -88,24 +86,24 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
       count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
                     cells.strength_of(i));
     };
-    for (const contact::Plane& p : in.around.planes)
+    for (const contact::Plane& p : in.boundary.planes)
       count(contact::gap_to_plane(p, center_of(s, i), in.time).gap);
-    for (const contact::Capsule& c : in.around.capsules)
+    for (const contact::Capsule& c : in.boundary.capsules)
       count(contact::gap_to_capsule(c, center_of(s, i), in.time).gap);
   }
 }
 
 double largest_separation(const State& s, std::span<const Params> params,
-                          std::span<const double> radius, const contact::Surroundings& around) {
+                          std::span<const double> radius, const contact::Boundary& boundary) {
   if (s.n_cell() == 0) return 0;
-  double adhesion = around.vessels.material.adhesion;
+  double adhesion = boundary.vessels.material.adhesion;
   for (const Params& p : params) adhesion = std::max(adhesion, p.adhesion);
-  for (const auto& p : around.planes) adhesion = std::max(adhesion, p.material.adhesion);
-  for (const auto& m : around.meshes) adhesion = std::max(adhesion, m.material.adhesion);
+  for (const auto& p : boundary.planes) adhesion = std::max(adhesion, p.material.adhesion);
+  for (const auto& m : boundary.meshes) adhesion = std::max(adhesion, m.material.adhesion);
   if (adhesion <= 0) return 0;
   double softest = *std::ranges::min_element(s.young);
-  if (!around.vessels.network.segment.empty())
-    softest = std::min(softest, around.vessels.material.young);
+  if (!boundary.vessels.network.segment.empty())
+    softest = std::min(softest, boundary.vessels.material.young);
   const double largest = *std::ranges::max_element(radius);
   // |delta_min| = 3 a_d^2 / R grows with R^(1/3) and falls with E: flat soft partners are the worst
   // case.
@@ -140,23 +138,23 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
     }
     if (2 * (moved + wider) <= skin) return false;
   }
-  const double margin = largest_separation(s, in.params, radius, in.around) + skin;
+  const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
   work.pair = {};  // before the new ones take memory
   work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin);
   work.segment.clear();
-  const mesh::Network& network = in.around.vessels.network;
+  const mesh::Network& network = in.boundary.vessels.network;
   if (!network.segment.empty()) {
     std::vector<Box> boxes, segments;
     for (std::size_t i = 0; i < s.n_cell(); ++i)
       boxes.push_back(sphere_box(center_of(s, i), radius[i]));
     for (std::size_t k = 0; k < network.segment.size(); ++k) {
       Box box;
-      for (int n : network.segment[k]) box.include(network.node[static_cast<std::size_t>(n)]);
+      for (int n : network.segment[k]) box.include(network.node[n]);
       segments.push_back(box.grown(std::max(network.radius[k][0], network.radius[k][1])));
     }
     work.segment = contact::find_pairs_between(boxes, segments, margin);
     std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
-      const auto i = static_cast<std::size_t>(p.first);
+      const std::size_t i = p.first;
       return contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
     });
   }
@@ -183,12 +181,11 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   for (std::size_t k = 0; k < work.force.size(); ++k) force[k] += work.force[k];
   system.point_links.resize(work.pair.size());
   for (const Contact& k : contacts.sphere_obstacle()) {
-    const auto i = static_cast<std::size_t>(k.a);
+    const std::size_t i = k.a;
     add_point(system.external_force.data(), cell_address(in.first_row, i), k.force * k.normal);
     solve::PointLink link{
         cell_point(in.first_row, i), solve::kNowhere, {}, static_cast<float>(k.slope), k.friction};
-    for (int m = 0; m < 3; ++m)
-      link.normal[static_cast<std::size_t>(m)] = static_cast<float>(k.normal[m]);
+    for (int m = 0; m < 3; ++m) link.normal[m] = static_cast<float>(k.normal[m]);
     system.point_links.push_back(link);
   }
 }
@@ -207,9 +204,9 @@ void add_cell_loads(const ContactInput& in, const ContactWorkspace& work,
   for (std::size_t i = 0; i < s.n_row() * kLanes; ++i) {
     const Address a = cell_address(in.first_row, i);
     const bool cell = i < s.n_cell();
-    const double friction = cell ? medium_friction(in.params[static_cast<std::size_t>(s.type[i])],
-                                                   in.cells.radius[i], work.contact_area[i])
-                                 : 1.0;
+    const double friction =
+        cell ? medium_friction(in.params[s.type[i]], in.cells.radius[i], work.contact_area[i])
+             : 1.0;
     system.medium[a / kPointStride * kLanes + a % kLanes] += friction;
     if (cell) add_point(system.external_force.data(), a, cell_force[i]);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Contacts of spheres with each other and with surroundings: JKR with hysteresis, and their links.
+/// Contacts of spheres with each other and with boundary: JKR with hysteresis, and their links.
 
 #include <cstdint>
 #include <span>
@@ -8,9 +8,9 @@
 
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
+#include "core/contact/boundary.hpp"
 #include "core/contact/jkr.hpp"
 #include "core/contact/record.hpp"
-#include "core/contact/surroundings.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::cbm {
@@ -28,7 +28,7 @@ struct ContactInput {
   std::span<const Params> params;  ///< [type]
   const ContactParams& options;
   CellData cells;
-  const contact::Surroundings& around;
+  const contact::Boundary& boundary;
   double time = 0;            ///< s, for which moving walls stand
   std::size_t first_row = 0;  ///< where the CBM rows start in the system
 };
@@ -43,7 +43,7 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
-  /// find_overlaps; the DCM-CBM interface adds its own. Empty: nobody asks.
+  /// find_overlaps; the DCM-CBM interface adds its own. Empty: not wanted.
   std::vector<double> overlap_sum;
   std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
   /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
@@ -67,9 +67,9 @@ inline constexpr double kNeighbours = 12;
 double relative_overlap(const ContactWorkspace& work, std::size_t cell);
 
 /// How far apart two adhering spheres may stand before they let go, um: a bound over all pairs and
-/// surroundings.
+/// boundary.
 double largest_separation(const State& state, std::span<const Params> params,
-                          std::span<const double> radius, const contact::Surroundings& around);
+                          std::span<const double> radius, const contact::Boundary& boundary);
 
 /// Renews the near pairs if a cell moved more than half the skin. Returns whether it did.
 bool refresh_pairs(const ContactInput& in, ContactWorkspace& work);
@@ -89,14 +89,14 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work);
 /// a bound of what the other contacts of both do to this one: with E~ held fixed long steps are
 /// unstable above d = 0.09. All that a contact of two cells
 /// does is multiplied by the larger of their strengths, so that spheres born into each other come
-/// apart slowly, and all that a contact with surroundings does by the cell's own.
+/// apart slowly, and all that a contact with boundary does by the cell's own.
 /// @pre find_overlaps if has_correction, and the interface's overlaps are added
-/// @param contacts  gets those with surroundings, complete
+/// @param contacts  gets those with boundary, complete
 /// @param link      one per near pair, zero where not touching
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
                    std::vector<solve::PointLink>& link);
 
-/// Adds the forces find_contacts worked out, and force and link of contacts with surroundings.
+/// Adds the forces find_contacts worked out, and force and link of contacts with boundary.
 /// @pre the point links are those of find_contacts
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, solve::System& system);

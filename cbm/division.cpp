@@ -6,12 +6,12 @@
 
 namespace acinus::cbm {
 
-Daughters divide(const Mother& m) {
+DaughterSpheres divide(const Mother& m) {
   ACINUS_ASSERT(m.radius > 0);
   ACINUS_ASSERT(std::abs(m.direction.norm() - 1) < 1e-9);
   ACINUS_ASSERT(m.separation >= 0 && m.separation <= 1);
   ACINUS_ASSERT(m.ramp_duration >= 0);
-  Daughters d;
+  DaughterSpheres d;
   d.radius = m.radius / std::cbrt(2.0);
   const Vec3 arm = m.separation * (m.radius - d.radius) * m.direction;
   d.center = {m.center + arm, m.center - arm};

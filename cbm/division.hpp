@@ -17,7 +17,7 @@ struct Mother {
   double time = 0, ramp_duration = 0;  ///< s
 };
 
-struct Daughters {
+struct DaughterSpheres {
   std::array<Vec3, 2> center;
   double radius = 0;  ///< um, of each
   Ramp strength;      ///< of each
@@ -29,6 +29,6 @@ struct Daughters {
 /// 1.48 R_d, where the law of contact would tear them apart. Hence their strength rises from 0 to 1
 /// over the ramp.
 /// @pre radius > 0, direction of length one, separation 0..1, ramp_duration >= 0 (asserted)
-Daughters divide(const Mother& mother);
+DaughterSpheres divide(const Mother& mother);
 
 }  // namespace acinus::cbm

@@ -16,16 +16,16 @@ bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
 
-/// A key for surroundings that cannot be a cell number.
-int surrounding_key(Partner kind, int index) { return ~(index * 4 + static_cast<int>(kind)); }
+/// A key for a part of the boundary that cannot be a cell number.
+int boundary_key(Partner kind, int index) { return ~(index * 4 + static_cast<int>(kind)); }
 
 /// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact
 /// that slides past a joint is still the same contact.
 bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int cell, int segment) {
-  if (was_touching(s, cell, surrounding_key(Partner::kVessel, segment))) return true;
-  for (int node : vessels.network.segment[static_cast<std::size_t>(segment)])
-    for (int other : vessels.segments_of_node[static_cast<std::size_t>(node)])
-      if (was_touching(s, cell, surrounding_key(Partner::kVessel, other))) return true;
+  if (was_touching(s, cell, boundary_key(Partner::kVessel, segment))) return true;
+  for (int node : vessels.network.segment[segment])
+    for (int other : vessels.segments_of_node[node])
+      if (was_touching(s, cell, boundary_key(Partner::kVessel, other))) return true;
   return false;
 }
 
@@ -41,15 +41,12 @@ MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) 
     const double far = reach + b.reach[t];
     if ((x - b.center[t]).squaredNorm() > far * far) continue;
     const auto& corner = (*b.triangle)[t];
-    const mesh::ClosestPoint c = mesh::find_closest_point(
-        x, b.node[static_cast<std::size_t>(corner[0])], b.node[static_cast<std::size_t>(corner[1])],
-        b.node[static_cast<std::size_t>(corner[2])]);
+    const mesh::ClosestPoint c =
+        mesh::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);
     if (c.squared_distance >= best2) continue;
     best2 = c.squared_distance;
     Vec3 out = Vec3::Zero();
-    for (int m = 0; m < 3; ++m)
-      out += c.weight[m] *
-             b.node_normal[static_cast<std::size_t>(corner[static_cast<std::size_t>(m)])];
+    for (int m = 0; m < 3; ++m) out += c.weight[m] * b.node_normal[corner[m]];
     out.normalize();
     const Vec3 apart = x - c.point;
     const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(best2);
@@ -58,32 +55,30 @@ MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) 
   return gap;
 }
 
-/// Finds and completes the contacts of spheres with surroundings.
+/// Finds and completes the contacts of spheres with boundary.
 class ObstacleSearch {
  public:
   ObstacleSearch(const ContactInput& in, ContactWorkspace& work, std::vector<Contact>& out)
       : in_(in), work_(work), out_(out) {}
 
   void run() {
-    const contact::Surroundings& around = in_.around;
-    if (around.planes.empty() && around.capsules.empty() && around.meshes.empty() &&
+    const contact::Boundary& boundary = in_.boundary;
+    if (boundary.planes.empty() && boundary.capsules.empty() && boundary.meshes.empty() &&
         work_.segment.empty())
       return;
     for (std::size_t i = 0; i < in_.state.n_cell(); ++i) {
       const Vec3 x = center_of(in_.state, i);
-      for (std::size_t k = 0; k < around.planes.size(); ++k) meet_plane(i, k, x);
-      for (std::size_t k = 0; k < around.capsules.size(); ++k) meet_capsule(i, k, x);
-      for (std::size_t k = 0; k < around.meshes.size(); ++k) meet_mesh(i, k, x);
+      for (std::size_t k = 0; k < boundary.planes.size(); ++k) meet_plane(i, k, x);
+      for (std::size_t k = 0; k < boundary.capsules.size(); ++k) meet_capsule(i, k, x);
+      for (std::size_t k = 0; k < boundary.meshes.size(); ++k) meet_mesh(i, k, x);
     }
-    for (auto [cell, segment] : work_.segment) meet_vessel(static_cast<std::size_t>(cell), segment);
+    for (auto [cell, segment] : work_.segment) meet_vessel(cell, segment);
     std::ranges::sort(work_.touching);
   }
 
  private:
   double radius(std::size_t i) const { return in_.cells.radius[i]; }
-  const Params& params_of(std::size_t i) const {
-    return in_.params[static_cast<std::size_t>(in_.state.type[i])];
-  }
+  const Params& params_of(std::size_t i) const { return in_.params[in_.state.type[i]]; }
   SphereBody body(std::size_t i) const {
     return {radius(i), work_.modulus[i].value, params_of(i).poisson};
   }
@@ -102,7 +97,7 @@ class ObstacleSearch {
 
   /// Adds a contact, complete.
   void add(Contact k, const contact::SphereForce& law, double friction, double slope) {
-    const auto i = static_cast<std::size_t>(k.a);
+    const std::size_t i = k.a;
     k.touching = kPi * law.contact_radius * law.contact_radius;
     k.force = law.force;
     k.slope = std::max(0.0, law.stiffness);
@@ -116,10 +111,10 @@ class ObstacleSearch {
   /// @param slope   of its modulus over that of the cell
   void meet(const Contact& k, const contact::SpherePair& pair, double recess = 0,
             double slope = 1) {
-    const auto i = static_cast<std::size_t>(k.a);
-    const int key = surrounding_key(k.partner, k.b);
+    const std::size_t i = k.a;
+    const int key = boundary_key(k.partner, k.b);
     const bool before = k.partner == Partner::kVessel
-                            ? was_touching_vessel(in_.state, in_.around.vessels, k.a, k.b)
+                            ? was_touching_vessel(in_.state, in_.boundary.vessels, k.a, k.b)
                             : was_touching(in_.state, k.a, key);
     const double overlap = -k.gap;
     if (overlap < recess && !before) return;
@@ -131,7 +126,7 @@ class ObstacleSearch {
   }
 
   void meet_wall(const Contact& k, const contact::Material& material, double shape) {
-    const auto i = static_cast<std::size_t>(k.a);
+    const std::size_t i = k.a;
     const WallFace face =
         wall_face(params_of(i).correction, in_.state.young[i], work_.modulus[i].value);
     SphereBody crowded = body(i);
@@ -155,7 +150,7 @@ class ObstacleSearch {
   }
 
   void meet_plane(std::size_t i, std::size_t index, const Vec3& x) {
-    const contact::Plane& p = in_.around.planes[index];
+    const contact::Plane& p = in_.boundary.planes[index];
     const contact::Gap g = contact::gap_to_plane(p, x, in_.time);
     const Contact k = contact_with(Partner::kPlane, i, static_cast<int>(index), g.gap, g.normal);
     if (!p.material.mirror) {
@@ -168,7 +163,7 @@ class ObstacleSearch {
   }
 
   void meet_capsule(std::size_t i, std::size_t index, const Vec3& x) {
-    const contact::Capsule& shell = in_.around.capsules[index];
+    const contact::Capsule& shell = in_.boundary.capsules[index];
     const double r = shell.radius_at(in_.time);
     if (r <= radius(i) || !std::isfinite(r)) return;
     const contact::Gap g = contact::gap_to_capsule(shell, x, in_.time);
@@ -177,7 +172,7 @@ class ObstacleSearch {
   }
 
   void meet_mesh(std::size_t i, std::size_t index, const Vec3& x) {
-    const contact::StaticMesh& m = in_.around.meshes[index];
+    const contact::StaticMesh& m = in_.boundary.meshes[index];
     const double reach = 2 * radius(i);
     if (!m.body.box.grown(reach).contains(x)) return;
     const MeshGap g = gap_to_mesh(m.body, x, reach);
@@ -187,7 +182,7 @@ class ObstacleSearch {
   }
 
   void meet_vessel(std::size_t i, int segment) {
-    const contact::Vessels& vessels = in_.around.vessels;
+    const contact::Vessels& vessels = in_.boundary.vessels;
     const Vec3 x = center_of(in_.state, i);
     const contact::Gap g = contact::gap_to_segment(vessels.network, segment, x);
     if (!contact::is_local_minimum(vessels, segment, x, g)) return;

@@ -7,7 +7,7 @@
 
 namespace acinus::cbm {
 
-/// Appends the contacts of spheres with surroundings, complete, and adds their areas, couplings and
+/// Appends the contacts of spheres with boundary, complete, and adds their areas, couplings and
 /// touching flags to `work`. The second of the stages of find_contacts.
 void find_obstacle_contacts(const ContactInput& in, ContactWorkspace& work,
                             std::vector<contact::Contact>& contacts);

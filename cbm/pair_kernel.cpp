@@ -70,15 +70,15 @@ TypeTable make_table(std::span<const Params> params, double adhesion_factor) {
 }
 
 /// What one side of a pair does, by its own overlap or its crowd.
-struct Face {
+struct CrowdedFace {
   Modulus modulus;
   bool own = false;  ///< by its own overlap
 };
-Face face_toward(const State& s, const TypeTable& table, const ContactWorkspace& work,
-                 std::size_t cell, double overlap) {
+CrowdedFace face_toward(const State& s, const TypeTable& table, const ContactWorkspace& work,
+                        std::size_t cell, double overlap) {
   const Modulus& crowd = work.modulus[cell];
   if (work.coupling.empty()) return {crowd};  // no type has a law
-  const StiffnessLaw& law = *table.law[static_cast<std::size_t>(s.type[cell])];
+  const StiffnessLaw& law = *table.law[s.type[cell]];
   const Modulus m = modulus_toward(law, s.young[cell], crowd, overlap);
   return {m, m.value > crowd.value};
 }
@@ -119,7 +119,7 @@ class RangeSearch {
 
  private:
   void clear() {
-    const auto from = static_cast<std::size_t>(first_), to = static_cast<std::size_t>(last_);
+    const std::size_t from = first_, to = last_;
     std::fill(work_.contact_area.begin() + first_, work_.contact_area.begin() + last_, 0.0);
     std::fill(work_.force.begin() + static_cast<std::ptrdiff_t>(from / kLanes * kPointStride),
               work_.force.begin() +
@@ -135,7 +135,7 @@ class RangeSearch {
   void push(std::size_t k) {
     index_[n_] = k;
     const auto [a, b] = work_.pair[k];
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const std::size_t i = a, j = b;
     const Address at_a = cell_address(0, i), at_b = cell_address(0, j);
     const double* x = s_.position.data();
     for (std::size_t m = 0; m < 3; ++m) {
@@ -145,7 +145,7 @@ class RangeSearch {
     batch_.radius_a[n_] = cells_.radius[i];
     batch_.radius_b[n_] = cells_.radius[j];
     if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
-    const auto ta = static_cast<std::size_t>(s_.type[i]), tb = static_cast<std::size_t>(s_.type[j]);
+    const std::size_t ta = s_.type[i], tb = s_.type[j];
     const Modulus *of_a = &work_.modulus[i], *of_b = &work_.modulus[j];
     if (!work_.coupling.empty()) {  // a law corrects
       const double overlap = overlap_now();
@@ -209,13 +209,13 @@ class RangeSearch {
     if (own) touching_.emplace_back(a, b);
     auto add = [&](int cell, double sign) {
       if (cell < first_ || cell >= last_) return;
-      const auto i = static_cast<std::size_t>(cell);
+      const std::size_t i = cell;
       const Address at = cell_address(0, i);
       for (std::size_t m = 0; m < 3; ++m)
         work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
       work_.contact_area[i] += batch_.area[l];
       if (work_.coupling.empty()) return;
-      const Face& face = face_[l][sign > 0 ? 0 : 1];
+      const CrowdedFace& face = face_[l][sign > 0 ? 0 : 1];
       if (!face.own)
         work_.coupling[i] = std::max(work_.coupling[i], by_modulus(i, face.modulus, l));
     };
@@ -226,7 +226,7 @@ class RangeSearch {
   /// How much stiffer a contact is because the modulus of a side grows with its overlap. dF/dE^ is
   /// (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
   double by_modulus(std::size_t cell, const Modulus& m, std::size_t l) const {
-    const double softness = table_.softness[static_cast<std::size_t>(s_.type[cell])];
+    const double softness = table_.softness[s_.type[cell]];
     const double by_own = 2.0 / 3 * std::max(batch_.overlap[l], 0.0) * batch_.stiffness[l] *
                           softness / (batch_.compliance[l] * m.value * m.value);
     return by_own * m.slope / (batch_.radius_a[l] + batch_.radius_b[l]);
@@ -236,21 +236,21 @@ class RangeSearch {
   void stiffen(std::size_t l) {
     const auto [a, b] = work_.pair[index_[l]];
     double more = 0;
-    if (face_[l][0].own) more += by_modulus(static_cast<std::size_t>(a), face_[l][0].modulus, l);
-    if (face_[l][1].own) more += by_modulus(static_cast<std::size_t>(b), face_[l][1].modulus, l);
+    if (face_[l][0].own) more += by_modulus(a, face_[l][0].modulus, l);
+    if (face_[l][1].own) more += by_modulus(b, face_[l][1].modulus, l);
     batch_.stiffness[l] += more;
   }
 
   void write_link(std::size_t k, std::size_t l) {
     solve::PointLink& link = link_[k];
-    link.a = cell_point(first_row_, static_cast<std::size_t>(work_.pair[k].first));
-    link.b = cell_point(first_row_, static_cast<std::size_t>(work_.pair[k].second));
+    link.a = cell_point(first_row_, work_.pair[k].first);
+    link.b = cell_point(first_row_, work_.pair[k].second);
     for (std::size_t m = 0; m < 3; ++m) link.normal[m] = static_cast<float>(batch_.normal[m][l]);
     link.stiffness = static_cast<float>(batch_.stiffness[l]);
     link.friction = static_cast<float>(friction_ * batch_.area[l]);
   }
 
-  static constexpr std::size_t kUnset = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kUnset = -1;
   const State& s_;
   const TypeTable& table_;
   double friction_;
@@ -261,8 +261,8 @@ class RangeSearch {
   std::vector<solve::PointLink>& link_;
   std::vector<std::pair<int, int>>& touching_;
   Batch batch_{};
-  std::array<std::array<Face, 2>, kLanes> face_{};  ///< of both sides
-  double share_[kLanes] = {};                       ///< used only when not all strengths are 1
+  std::array<std::array<CrowdedFace, 2>, kLanes> face_{};  ///< of both sides
+  double share_[kLanes] = {};  ///< used only when not all strengths are 1
   std::size_t index_[kLanes] = {};
   std::size_t n_ = 0, finger_ = kUnset;
 };
@@ -297,9 +297,9 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
   const std::span<const double> radius = in.cells.radius;
   const TypeTable table = make_table(in.params, in.options.adhesion_factor);
   for (const auto& [a, b] : work.touching) {
-    if (b < 0) continue;  // surroundings
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    const auto ta = static_cast<std::size_t>(s.type[i]), tb = static_cast<std::size_t>(s.type[j]);
+    if (b < 0) continue;  // boundary
+    const std::size_t i = a, j = b;
+    const std::size_t ta = s.type[i], tb = s.type[j];
     const Vec3 d = center_of(s, i) - center_of(s, j);
     const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
     const double sum = radius[i] + radius[j];

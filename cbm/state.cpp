@@ -46,8 +46,8 @@ State compose(std::span<const CellRef> cells) {
   }
   for (const auto& [from, index] : new_index)
     for (const auto& [a, b] : from->touching) {
-      const int i = index[static_cast<std::size_t>(a)];
-      const int j = b < 0 ? b : index[static_cast<std::size_t>(b)];
+      const int i = index[a];
+      const int j = b < 0 ? b : index[b];
       if (i < 0 || (b >= 0 && j < 0)) continue;
       s.touching.emplace_back(b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j));
     }

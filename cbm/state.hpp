@@ -23,7 +23,7 @@ struct State {
   std::vector<Ramp> strength;         ///< [n_cell] 0..1, rises after birth; CellData says of what
   std::vector<double> young;          ///< [n_cell] kPa
   std::vector<Vec3> pull;             ///< [n_cell] nN, constant load
-  /// Adhesive contacts that exist, as (cell, cell) or (cell, ~surroundings key); sorted. JKR
+  /// Adhesive contacts that exist, as (cell, cell) or (cell, ~boundary key); sorted. JKR
   /// contact has hysteresis, so this is state.
   std::vector<std::pair<int, int>> touching;
 
@@ -51,7 +51,7 @@ struct CellRef {
 };
 
 /// Copies cells into a new state, in the order given. Contacts that exist between cells of one
-/// state, or with surroundings, are kept.
+/// state, or with boundary, are kept.
 State compose(std::span<const CellRef> cells);
 
 /// Address in arrays that start with the CBM rows at `first_row`.
@@ -80,7 +80,7 @@ struct CellData {
       {};  ///< [n_cell] lineage, -1: none; empty: all are sisters
 
   double strength_of(std::size_t cell) const { return strength.empty() ? 1 : strength[cell]; }
-  /// Share of a contact of two spheres. Only sisters, who are born deep in each other, come apart
+  /// Share of a contact of two spheres. Only sisters, which are born deep in each other, come apart
   /// slowly; neighbours hold a daughter's place with full force, newborn or not: else they fell
   /// into the mother's place, or into each other, before they were strong.
   double pair_share(std::size_t a, std::size_t b) const {

@@ -45,7 +45,7 @@ inline constexpr int kSymStride = 6 * kLanes;    ///< numbers per symmetric 3x3 
 /// Index of a point's x component in a [point][3][lane] array.
 using Address = std::uint32_t;
 inline Address make_address(std::size_t point_row, int lane) {
-  return static_cast<Address>(point_row * kPointStride + static_cast<std::size_t>(lane));
+  return static_cast<Address>(point_row * kPointStride + lane);
 }
 
 inline Vec3 load_point(const double* array, Address address) {

@@ -12,7 +12,7 @@
 namespace acinus {
 
 /// Edits (insert, delete, replace, swap of neighbours) that turn one word into the other, upper and
-/// lower case taken as equal. Words above 64 characters are given up: a hint for them helps nobody
+/// lower case taken as equal. Words above 64 characters are given up: a hint for them is of no use
 /// and the cost grows with the product of the lengths.
 inline std::size_t edit_distance(std::string_view word_a, std::string_view word_b) {
   constexpr std::size_t kLongest = 64;

@@ -91,7 +91,7 @@ std::uint64_t UniformStream::bits() {
     ++next_block_;
     used_ = 0;
   }
-  return block_[static_cast<std::size_t>(used_++)];
+  return block_[used_++];
 }
 
 double UniformStream::uniform() { return to_open_interval(bits()); }

@@ -1,7 +1,7 @@
 #pragma once
-/// Random numbers without state: every number is a pure function of its address (who, why, when,
-/// which), so a rejected step, a restart or another number of threads and ranks meets the same
-/// numbers again.
+/// Random numbers without state: every number is a pure function of its address (cell, purpose,
+/// time, which), so a rejected step, a restart or another number of threads and ranks meets the
+/// same numbers again.
 ///
 /// Generator: Philox4x64-10 [Salmon2011], a bijection of a 256 bit counter for each 128 bit key.
 /// The address is packed, never hashed: different addresses are different inputs, and under one key

@@ -82,14 +82,14 @@ void Ranks::sum(std::span<double> values) const {
   for (std::size_t begin = 0; begin < values.size(); begin += kChunk) {
     const std::span<double> part = values.subspan(begin, std::min(kChunk, values.size() - begin));
     const int count = static_cast<int>(part.size());
-    if (is_root()) gathered.resize(part.size() * static_cast<std::size_t>(size_));
+    if (is_root()) gathered.resize(part.size() * size_);
     MPI_Gather(part.data(), count, MPI_DOUBLE, gathered.data(), count, MPI_DOUBLE, 0,
                handle(communicator_));
     if (is_root()) {
       for (std::size_t i = 0; i < part.size(); ++i) {
         double total = gathered[i];
         for (int other = 1; other < size_; ++other) {
-          total += gathered[static_cast<std::size_t>(other) * part.size() + i];
+          total += gathered[other * part.size() + i];
         }
         part[i] = total;
       }
@@ -121,7 +121,7 @@ void Ranks::barrier() const {
 
 int Ranks::agree_worst(int exit_code) const {
   if (size_ == 1) return exit_code;
-  std::vector<int> codes(static_cast<std::size_t>(size_));
+  std::vector<int> codes(size_);
   MPI_Allgather(&exit_code, 1, MPI_INT, codes.data(), 1, MPI_INT, handle(communicator_));
   return *std::max_element(codes.begin(), codes.end(),
                            [](int a, int b) { return severity(a) < severity(b); });

@@ -134,9 +134,9 @@ std::string tidy(const std::string& scientific) {
   if (exponent < 0) {
     digits.insert(0, "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0'));
   } else if (exponent + 1 >= n_digit) {
-    digits.append(static_cast<std::size_t>(exponent + 1 - n_digit), '0');
+    digits.append(exponent + 1 - n_digit, '0');
   } else {
-    digits.insert(static_cast<std::size_t>(exponent + 1), ".");
+    digits.insert(exponent + 1, ".");
   }
   return sign + digits;
 }

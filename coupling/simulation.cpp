@@ -19,13 +19,13 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFirstFreeStep = 0.1;
 
 /// The next moment after `time` at which a wall or a capsule opens, s; infinite if none does.
-double next_opening(const contact::Surroundings& around, double time) {
+double next_opening(const contact::Boundary& boundary, double time) {
   double next = kNever;
   const auto look = [&](double opens) {
     if (opens > time + kSameTime) next = std::min(next, opens);
   };
-  for (const contact::Plane& p : around.planes) look(p.opens);
-  for (const contact::Capsule& c : around.capsules) look(c.opens);
+  for (const contact::Plane& p : boundary.planes) look(p.opens);
+  for (const contact::Capsule& c : boundary.capsules) look(c.opens);
   return next;
 }
 
@@ -44,7 +44,7 @@ void Simulation::resize() { size_workspace(world_, work_); }
 double Simulation::time_to_event(const Observer& observer) const {
   if (!is_running()) return time_to_phase_event(world_);
   const double t = time();
-  double left = next_opening(world_.params.around, t) - t;
+  double left = next_opening(world_.params.boundary, t) - t;
   if (observer.next_moment) left = std::min(left, observer.next_moment(t) - t);
   left = std::min(left, coupling::time_to_event(world_));
   const Motility& m = world_.params.motility;
@@ -75,7 +75,7 @@ LoopResult Simulation::run_until(double end, const Observer& observer) {
        .advance =
            [&](double limit) {
              was_running = is_running();
-             opening = next_opening(world_.params.around, time());
+             opening = next_opening(world_.params.boundary, time());
              return coupling::advance(world_, work_, limit);
            },
        .time_to_event = [&] { return time_to_event(observer); },

@@ -8,7 +8,7 @@ BirthShape make_birth_shape(const mesh::Topology& t, std::span<const Vec3> node,
                             double stretch, const Ramp& weight) {
   BirthShape shape;
   shape.weight = weight;
-  const auto at = [&](int i) -> const Vec3& { return node[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const Vec3& { return node[i]; };
   for (std::size_t e = 0; e < t.edge.size(); ++e)
     shape.edge.push_back((at(t.edge[e][1]) - at(t.edge[e][0])).norm() /
                          (t.rest_length[e] * radius * std::sqrt(stretch)));

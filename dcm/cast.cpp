@@ -29,8 +29,7 @@ class Spreader {
            std::span<Vec3> node)
       : topology_(topology), star_(star), rule_(rule), node_(node), face_(node.size(), 0) {
     for (const auto& [i, j] : topology.edge)
-      length_ += (node[static_cast<std::size_t>(i)] - node[static_cast<std::size_t>(j)]).norm() /
-                 topology.n_edge;
+      length_ += (node[i] - node[j]).norm() / topology.n_edge;
     int at = 0;
     for (std::size_t i = 0; i < node.size(); ++i)
       if (rule.part[i] == Part::kShell)
@@ -39,7 +38,7 @@ class Spreader {
 
   // Returns how far the node went, as part of the mean edge.
   double move(int node, const Sweep& sweep) {
-    const auto i = static_cast<std::size_t>(node);
+    const std::size_t i = node;
     if (rule_.part[i] == Part::kRim) return 0;
     mesh::Hit to{make_target(node, sweep), face_[i]};
     if (rule_.part[i] == Part::kShell) {
@@ -57,9 +56,9 @@ class Spreader {
 
  private:
   std::span<const int> triangles_around(int node) const {
-    const auto i = static_cast<std::size_t>(node);
-    const auto first = static_cast<std::size_t>(topology_.node_triangle_start[i]);
-    const auto end = static_cast<std::size_t>(topology_.node_triangle_start[i + 1]);
+    const std::size_t i = node;
+    const std::size_t first = topology_.node_triangle_start[i];
+    const std::size_t end = topology_.node_triangle_start[i + 1];
     return std::span(topology_.node_triangle).subspan(first, end - first);
   }
 
@@ -68,17 +67,17 @@ class Spreader {
     Vec3 moment = Vec3::Zero(), area_vector = Vec3::Zero();
     double area = 0;
     for (const int t : triangles_around(node)) {
-      const auto& corner = topology_.triangle[static_cast<std::size_t>(t)];
-      const Vec3& a = node_[static_cast<std::size_t>(corner[0])];
-      const Vec3& b = node_[static_cast<std::size_t>(corner[1])];
-      const Vec3& c = node_[static_cast<std::size_t>(corner[2])];
+      const auto& corner = topology_.triangle[t];
+      const Vec3& a = node_[corner[0]];
+      const Vec3& b = node_[corner[1]];
+      const Vec3& c = node_[corner[2]];
       const Vec3 part = (b - a).cross(c - a) / 2;
       const double size = part.norm();
       area_vector += part;
       area += size;
       moment += size * (a + b + c) / 3;
     }
-    const auto i = static_cast<std::size_t>(node);
+    const std::size_t i = node;
     const Vec3& x = node_[i];
     Vec3 target = x + sweep.even * (moment / area - x);
     if (rule_.part[i] == Part::kShell) {
@@ -94,8 +93,8 @@ class Spreader {
     for (const int t : triangles_around(node)) {
       std::array<Vec3, 3> v;
       for (std::size_t k = 0; k < 3; ++k) {
-        const int corner = topology_.triangle[static_cast<std::size_t>(t)][k];
-        v[k] = (corner == node ? x : node_[static_cast<std::size_t>(corner)]) - star_.center();
+        const int corner = topology_.triangle[t][k];
+        v[k] = (corner == node ? x : node_[corner]) - star_.center();
       }
       const double quality = mesh::compute_triangle_quality(v[0], v[1], v[2]);
       worst = std::min(worst, v[0].dot(v[1].cross(v[2])) > 0 ? quality : -1.0);
@@ -130,9 +129,9 @@ std::optional<std::vector<Vec3>> cast_sphere(const mesh::Topology& topology,
 
 bool faces_outward(const mesh::Topology& topology, std::span<const Vec3> node, const Vec3& center) {
   const auto is_outward = [&](const std::array<int, 3>& t) {
-    const Vec3 a = node[static_cast<std::size_t>(t[0])] - center;
-    const Vec3 b = node[static_cast<std::size_t>(t[1])] - center;
-    const Vec3 c = node[static_cast<std::size_t>(t[2])] - center;
+    const Vec3 a = node[t[0]] - center;
+    const Vec3 b = node[t[1]] - center;
+    const Vec3 c = node[t[2]] - center;
     return a.dot(b.cross(c)) > 0;
   };
   // A surface wound twice round the centre passes the first test.

@@ -21,14 +21,14 @@ int count_edge_parts(const mesh::Topology& topology) {
 
 // Edges between each node and node 0.
 std::vector<int> count_edges_to_pole(const mesh::Topology& topology) {
-  std::vector<int> distance(static_cast<std::size_t>(topology.n_node), -1), queue = {0};
+  std::vector<int> distance(topology.n_node, -1), queue = {0};
   distance[0] = 0;
   for (std::size_t head = 0; head < queue.size(); ++head) {
-    const auto i = static_cast<std::size_t>(queue[head]);
+    const std::size_t i = queue[head];
     for (int k = topology.ring_start[i]; k < topology.ring_start[i + 1]; ++k) {
-      const int next = topology.ring[static_cast<std::size_t>(k)];
-      if (distance[static_cast<std::size_t>(next)] >= 0) continue;
-      distance[static_cast<std::size_t>(next)] = distance[i] + 1;
+      const int next = topology.ring[k];
+      if (distance[next] >= 0) continue;
+      distance[next] = distance[i] + 1;
       queue.push_back(next);
     }
   }
@@ -36,7 +36,7 @@ std::vector<int> count_edges_to_pole(const mesh::Topology& topology) {
 }
 
 // Where a node lies between the pole, the ring and the opposite pole.
-struct Place {
+struct RingPlace {
   double around = 0;  // along the ring, 0 to 1
   double depth = 0;   // cap: 0 pole, 1 ring; shell: 0 ring, 1 opposite pole
 };
@@ -49,7 +49,7 @@ struct Polar {
 std::vector<Polar> make_polar(const mesh::Topology& topology, const std::vector<Part>& part) {
   const Vec3 pole = topology.rest[0].normalized();
   const auto first = std::find(part.begin(), part.end(), Part::kRim) - part.begin();
-  const Vec3 to_first = topology.rest[static_cast<std::size_t>(first)];
+  const Vec3 to_first = topology.rest[first];
   const Vec3 x = (to_first - pole * pole.dot(to_first)).normalized(), y = pole.cross(x);
   std::vector<Polar> out;
   for (const Vec3& rest : topology.rest) {
@@ -61,7 +61,7 @@ std::vector<Polar> make_polar(const mesh::Topology& topology, const std::vector<
   return out;
 }
 
-std::vector<Place> make_places(const mesh::Topology& topology, const std::vector<Part>& part) {
+std::vector<RingPlace> make_places(const mesh::Topology& topology, const std::vector<Part>& part) {
   const std::vector<Polar> polar = make_polar(topology, part);
   std::vector<Polar> ring;
   for (std::size_t i = 0; i < part.size(); ++i)
@@ -71,14 +71,14 @@ std::vector<Place> make_places(const mesh::Topology& topology, const std::vector
   const std::size_t n_ring = ring.size();
   ring.push_back({ring[0].azimuth + 2 * kPi, ring[0].angle});
 
-  std::vector<Place> out;
+  std::vector<RingPlace> out;
   for (std::size_t i = 0; i < part.size(); ++i) {
     std::size_t k = 0;  // the side of the ring that faces the node
     while (k + 1 < n_ring && ring[k + 1].azimuth <= polar[i].azimuth + 1e-9) ++k;
     const double along =
         (polar[i].azimuth - ring[k].azimuth) / (ring[k + 1].azimuth - ring[k].azimuth);
     const double angle = ring[k].angle + along * (ring[k + 1].angle - ring[k].angle);
-    Place place;
+    RingPlace place;
     place.around = (static_cast<double>(k) + along) / static_cast<double>(n_ring);
     if (part[i] == Part::kCap) place.depth = polar[i].angle / angle;
     if (part[i] == Part::kShell) place.depth = (polar[i].angle - angle) / (kPi - angle);
@@ -88,9 +88,9 @@ std::vector<Place> make_places(const mesh::Topology& topology, const std::vector
 }
 
 // A closed polygon by its length.
-class Curve {
+class Polygon {
  public:
-  explicit Curve(std::span<const Vec3> point) : point_(point), length_{0} {
+  explicit Polygon(std::span<const Vec3> point) : point_(point), length_{0} {
     for (std::size_t k = 0; k < point.size(); ++k)
       length_.push_back(length_.back() + (point[(k + 1) % point.size()] - point[k]).norm());
   }
@@ -148,14 +148,14 @@ std::optional<HalfMesh> cast_half(const mesh::Topology& topology, const mesh::Su
   const mesh::StarSurface star(half, *center);
   const std::vector<Part> part = make_parts(topology);
   const SpreadRule rule{part, static_cast<int>(half.triangle.size() - (rim.size() - 2))};
-  const Curve curve(rim);
+  const Polygon curve(rim);
   const Vec3 cap_center = compute_cap_center(rim);
   const Vec3 opposite = (*center - cap_center).normalized();
 
   HalfMesh out;
   out.center = *center;
   int face = 0;
-  const std::vector<Place> places = make_places(topology, part);
+  const std::vector<RingPlace> places = make_places(topology, part);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3 on_rim = curve.at(places[i].around + turn);
     if (part[i] != Part::kShell) {

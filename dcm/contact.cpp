@@ -108,7 +108,7 @@ class VesselSearch {
 
   /// A node belongs to several faces; the deepest of what they see counts, once.
   void look(std::size_t site, int number) {
-    const auto i = static_cast<std::size_t>(number);
+    const std::size_t i = number;
     const Vec3& x = i < b_.node.size() ? b_.node[i] : b_.center[i - b_.node.size()];
     const VesselContact best = nearest(site, number, x);
     if (best.contact.b < 0 || best.contact.gap >= std::min(guard_[i].contact.gap, -kGuardGap))
@@ -120,7 +120,7 @@ class VesselSearch {
   void find_guards_of_faces() {
     const int n_node = static_cast<int>(b_.node.size());
     for (std::size_t s = 0; s < list_.site.size(); ++s) {
-      for (int p : (*b_.triangle)[static_cast<std::size_t>(list_.site[s])]) look(s, p);
+      for (int p : (*b_.triangle)[list_.site[s]]) look(s, p);
       look(s, n_node + list_.site[s]);
     }
   }
@@ -131,11 +131,10 @@ class VesselSearch {
     const int n_node = static_cast<int>(b_.node.size());
     std::vector<int> list_of_node(b_.node.size(), -1);
     for (std::size_t s = 0; s < list_.site.size() && list_.site[s] < n_node; ++s)
-      list_of_node[static_cast<std::size_t>(list_.site[s])] = static_cast<int>(s);
+      list_of_node[list_.site[s]] = static_cast<int>(s);
     for (std::size_t f = 0; f < b_.triangle->size(); ++f)
       for (int corner : (*b_.triangle)[f])
-        if (const int s = list_of_node[static_cast<std::size_t>(corner)]; s >= 0)
-          look(static_cast<std::size_t>(s), n_node + static_cast<int>(f));
+        if (const int s = list_of_node[corner]; s >= 0) look(s, n_node + static_cast<int>(f));
   }
 
   const contact::SurfaceBody& b_;
@@ -150,10 +149,10 @@ class VesselSearch {
 /// Contacts of one body with planes, capsules and vessels.
 std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, double range,
                                             const ContactWorkspace& work) {
-  const contact::SurfaceBody& b = work.body[static_cast<std::size_t>(number)];
-  const SegmentCandidates& list = work.lists.segment[static_cast<std::size_t>(number)];
+  const contact::SurfaceBody& b = work.body[number];
+  const SegmentCandidates& list = work.lists.segment[number];
   const ContactParams& c = in.options;
-  const contact::Surroundings& around = in.around;
+  const contact::Boundary& boundary = in.boundary;
   std::vector<Contact> out;
   const int n_point = static_cast<int>(contact::n_points(b, c.quadrature));
   const Vec3 middle = 0.5 * (b.box.low + b.box.high);
@@ -173,14 +172,14 @@ std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, 
                        .gap = g.gap});
     }
   };
-  for (std::size_t i = 0; i < around.planes.size(); ++i)
+  for (std::size_t i = 0; i < boundary.planes.size(); ++i)
     probe(Partner::kPlane, i,
-          [&](const Vec3& x) { return contact::gap_to_plane(around.planes[i], x, in.time); });
-  for (std::size_t i = 0; i < around.capsules.size(); ++i)
+          [&](const Vec3& x) { return contact::gap_to_plane(boundary.planes[i], x, in.time); });
+  for (std::size_t i = 0; i < boundary.capsules.size(); ++i)
     probe(Partner::kCapsule, i,
-          [&](const Vec3& x) { return contact::gap_to_capsule(around.capsules[i], x, in.time); });
+          [&](const Vec3& x) { return contact::gap_to_capsule(boundary.capsules[i], x, in.time); });
   if (list.site.empty()) return out;
-  for (const VesselContact& v : VesselSearch(b, number, c, range, list, around.vessels).find())
+  for (const VesselContact& v : VesselSearch(b, number, c, range, list, boundary.vessels).find())
     out.push_back(v.contact);
   return out;
 }
@@ -194,7 +193,7 @@ std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, 
 /// rule's. No share at the nodes would be exact for it, but then they could not push.
 double rest_share(const mesh::Topology& t, contact::Quadrature q, int point) {
   constexpr double kNodeShare = 0.25, kMidpointShare = (1 - kNodeShare) / 3;
-  const auto p = static_cast<std::size_t>(point), n_node = static_cast<std::size_t>(t.n_node);
+  const std::size_t p = point, n_node = t.n_node;
   switch (q) {
     case contact::Quadrature::kThreePoint:
       return t.rest_triangle_area[p / 3] / 3;
@@ -205,8 +204,7 @@ double rest_share(const mesh::Topology& t, contact::Quadrature q, int point) {
   }
   if (p < n_node) return kNodeShare * t.rest_node_area[p];
   double area = 0;
-  for (int face : t.edge_triangle[p - n_node])
-    area += kMidpointShare * t.rest_triangle_area[static_cast<std::size_t>(face)];
+  for (int face : t.edge_triangle[p - n_node]) area += kMidpointShare * t.rest_triangle_area[face];
   return area;
 }
 
@@ -221,11 +219,9 @@ void find_shares(const ContactInput& in, const contact::ContactList& contacts,
     const auto number = static_cast<int>(k);
     share.assign(contact::n_points(work.body[k], in.options.quadrature), 0.0);
     for (const Contact& s : std::ranges::equal_range(contacts.surface(), number, {}, &Contact::a))
-      if (!s.is_fold())
-        share[static_cast<std::size_t>(s.point)] += contact::contact_share(s.gap, range);
+      if (!s.is_fold()) share[s.point] += contact::contact_share(s.gap, range);
     for (const Contact& o : std::ranges::equal_range(contacts.obstacle(), number, {}, &Contact::a))
-      if (!o.only_pushes())
-        share[static_cast<std::size_t>(o.point)] += contact::contact_share(o.gap, range);
+      if (!o.only_pushes()) share[o.point] += contact::contact_share(o.gap, range);
   }
 }
 
@@ -245,13 +241,11 @@ contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceB
   if (!o.guard) return contact::point_stencil(body, c.quadrature, o.point);
   if (o.point < n_node) return {1, {o.point, 0, 0}, {1, 0, 0}};
   constexpr double kThird = 1.0f / 3;
-  return {3,
-          (*body.triangle)[static_cast<std::size_t>(o.point - n_node)],
-          {kThird, kThird, 1 - 2 * kThird}};
+  return {3, (*body.triangle)[o.point - n_node], {kThird, kThird, 1 - 2 * kThird}};
 }
 
 double guard_area(const mesh::Topology& t, int point, double radius) {
-  const auto k = static_cast<std::size_t>(point), n_node = static_cast<std::size_t>(t.n_node);
+  const std::size_t k = point, n_node = t.n_node;
   return kGuardShare * radius * radius *
          (k < n_node ? t.rest_node_area[k] : t.rest_triangle_area[k - n_node]);
 }
@@ -282,9 +276,9 @@ void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
     lineage.push_back(in.state.lineage[lane]);
     if (!work.constrained.empty()) constrained.push_back(work.constrained[lane]);
   }
-  refresh_lists(
-      {work.body, work.fixed, lineage, constrained, in.around.vessels.network, search_options(in)},
-      work.lists);
+  refresh_lists({work.body, work.fixed, lineage, constrained, in.boundary.vessels.network,
+                 search_options(in)},
+                work.lists);
 }
 
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts) {
@@ -340,9 +334,7 @@ void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
           (c.whole_medium_area ? 1.0 : 1 - std::min(1.0, work.share[k][p]));
       const contact::PointStencil s = contact::point_stencil(b, c.quadrature, static_cast<int>(p));
       for (int m = 0; m < s.n; ++m)
-        medium_area[(first + static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) *
-                        kLanes +
-                    lane % kLanes] += s.weight[static_cast<std::size_t>(m)] * area;
+        medium_area[(first + s.node[m]) * kLanes + lane % kLanes] += s.weight[m] * area;
     }
   }
 }

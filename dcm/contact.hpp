@@ -1,15 +1,15 @@
 #pragma once
-/// Contacts of deformable cells with each other and with surroundings: from closest features to
+/// Contacts of deformable cells with each other and with boundary: from closest features to
 /// links.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/contact/boundary.hpp"
+#include "core/contact/cohesive.hpp"
 #include "core/contact/record.hpp"
 #include "core/contact/surface.hpp"
-#include "core/contact/surroundings.hpp"
-#include "core/contact/well.hpp"
 #include "core/solve/system.hpp"
 #include "dcm/contact_lists.hpp"
 #include "dcm/loads.hpp"
@@ -49,7 +49,7 @@ struct ContactInput {
   std::span<const Params> params;  ///< [type]
   const ContactParams& options;
   const LaneData& lanes;
-  const contact::Surroundings& around;
+  const contact::Boundary& boundary;
   double time = 0;  ///< s, for which moving walls stand
 };
 
@@ -106,7 +106,7 @@ void refresh_bodies(const State& state, ContactWorkspace& work);
 /// Makes the lists again that no longer hold (contact_lists.hpp). @pre refresh_bodies
 void refresh_lists(const ContactInput& in, ContactWorkspace& work);
 
-/// Starts the list of contacts with all those between surfaces and of surfaces with surroundings,
+/// Starts the list of contacts with all those between surfaces and of surfaces with boundary,
 /// and finds each point's touching share.
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts);
 
@@ -127,7 +127,7 @@ solve::Side side_a(const ContactInput& in, const ContactWorkspace& work,
 solve::Side side_b(const ContactInput& in, const ContactWorkspace& work,
                    const contact::Contact& contact);
 
-/// Completes the contacts of surfaces with each other and with surroundings, and adds a link for
+/// Completes the contacts of surfaces with each other and with boundary, and adds a link for
 /// each. Cell-cell contacts are seen from both sides and carry half the weight each. Friction
 /// between cells only in the form between surfaces.
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::dcm {
@@ -52,8 +52,7 @@ std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     const auto found = before.find(in.lineage[k]);
     if (found == before.end()) continue;
-    if (lists.body[static_cast<std::size_t>(found->second)].topology == in.body[k].topology)
-      was[k] = found->second;
+    if (lists.body[found->second].topology == in.body[k].topology) was[k] = found->second;
     before.erase(found);
   }
   return was;
@@ -62,12 +61,9 @@ std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
 /// Counts the lists of every snapshot.
 void count_lists(ContactLists& lists) {
   for (ListedBody& b : lists.body)
-    for (Snapshot& s : b.snapshot) s.lists = 0;
+    for (ListSnapshot& s : b.snapshot) s.lists = 0;
   const auto count = [&](int body, int snapshot) {
-    if (snapshot >= 0)
-      ++lists.body[static_cast<std::size_t>(body)]
-            .snapshot[static_cast<std::size_t>(snapshot)]
-            .lists;
+    if (snapshot >= 0) ++lists.body[body].snapshot[snapshot].lists;
   };
   for (std::size_t k = 0; k < lists.pair.size(); ++k) {
     count(lists.pair[k].body_a, lists.age[k].a);
@@ -91,7 +87,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     ListedBody& b = next.body[k];
     if (was[k] >= 0) {
-      const auto from = static_cast<std::size_t>(was[k]);
+      const std::size_t from = was[k];
       b = std::move(lists.body[from]);
       next.segment[k] = std::move(lists.segment[from]);
       next.segment_age[k] = lists.segment_age[from];
@@ -103,12 +99,11 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   }
   next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);
   std::erase_if(next.pair, [&](const contact::Candidates& c) {
-    return is_constrained(in, static_cast<std::size_t>(c.body_a)) &&
-           is_constrained(in, static_cast<std::size_t>(c.body_b));
+    return is_constrained(in, c.body_a) && is_constrained(in, c.body_b);
   });
   next.age.resize(next.pair.size());
   const auto number_before = [&](int body) {
-    const auto k = static_cast<std::size_t>(body);
+    const std::size_t k = body;
     return k < was.size() ? was[k] : body - static_cast<int>(was.size() - lists.body.size());
   };
   const auto bodies_of = [](const contact::Candidates& c) { return std::pair(c.body_a, c.body_b); };
@@ -117,7 +112,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
     const std::pair before(number_before(c.body_a), number_before(c.body_b));
     const auto found = std::ranges::lower_bound(lists.pair, before, {}, bodies_of);
     if (found == lists.pair.end() || bodies_of(*found) != before) continue;
-    next.age[k] = lists.age[static_cast<std::size_t>(found - lists.pair.begin())];
+    next.age[k] = lists.age[found - lists.pair.begin()];
     const auto [a, b] = bodies_of(c);
     c = std::move(*found);
     c.body_a = a;
@@ -127,7 +122,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   count_lists(lists);
 }
 
-void find_motion(const contact::SurfaceBody& now, Snapshot& s) {
+void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   const std::size_t n = s.node.size();
   s.mean = Vec3::Zero();
   for (std::size_t i = 0; i < n; ++i) s.mean += now.node[i] - s.node[i];
@@ -138,9 +133,9 @@ void find_motion(const contact::SurfaceBody& now, Snapshot& s) {
   s.spread = std::sqrt(spread2);
 }
 
-const Snapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {
+const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {
   if (snapshot < 0) return nullptr;
-  return &lists.body[static_cast<std::size_t>(body)].snapshot[static_cast<std::size_t>(snapshot)];
+  return &lists.body[body].snapshot[snapshot];
 }
 
 /// The place of a new snapshot of a body.
@@ -148,7 +143,7 @@ int add_snapshot(const contact::SurfaceBody& now, ListedBody& body) {
   std::size_t place = 0;
   while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
   if (place == body.snapshot.size()) body.snapshot.emplace_back();
-  Snapshot& s = body.snapshot[place];
+  ListSnapshot& s = body.snapshot[place];
   s.node = now.node;
   s.mean = Vec3::Zero();
   s.spread = 0;
@@ -165,7 +160,7 @@ SegmentCandidates find_segments(const contact::SurfaceBody& b, const contact::Se
   std::vector<int> near;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
     Box box;
-    for (int n : network.segment[s]) box.include(network.node[static_cast<std::size_t>(n)]);
+    for (int n : network.segment[s]) box.include(network.node[n]);
     const double r = std::max(network.radius[s][0], network.radius[s][1]);
     if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
   }
@@ -190,8 +185,8 @@ SegmentCandidates find_segments(const contact::SurfaceBody& b, const contact::Se
 
 double relative_motion(const ContactLists& lists, std::size_t pair) {
   const contact::Candidates& list = lists.pair[pair];
-  const Snapshot* a = snapshot_of(lists, list.body_a, lists.age[pair].a);
-  const Snapshot* b = snapshot_of(lists, list.body_b, lists.age[pair].b);
+  const ListSnapshot* a = snapshot_of(lists, list.body_a, lists.age[pair].a);
+  const ListSnapshot* b = snapshot_of(lists, list.body_b, lists.age[pair].b);
   if (b == nullptr) return a->spread + a->mean.norm();  // a static mesh
   if (a == b) return 2 * a->spread;
   return a->spread + b->spread + (a->mean - b->mean).norm();
@@ -204,7 +199,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
       n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
 #pragma omp parallel for schedule(static) if (threads)
   for (std::size_t k = 0; k < n_body; ++k)
-    for (Snapshot& s : lists.body[k].snapshot)
+    for (ListSnapshot& s : lists.body[k].snapshot)
       if (s.lists > 0) find_motion(in.body[k], s);
 
   const double range = in.options.range, skin = in.options.skin;
@@ -217,7 +212,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
     for (std::size_t k = 0; k < n_body; ++k) {
       if (is_constrained(in, k)) continue;
       const ListAge& age = lists.segment_age[k];
-      const Snapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
+      const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
       if (s == nullptr || s->spread + s->mean.norm() + range - age.range > skin)
         segments_expired.push_back(k);
     }
@@ -234,8 +229,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   std::vector<contact::Candidates*> to_fill;
   for (std::size_t k : expired) {
     contact::Candidates& list = lists.pair[k];
-    const int a = snapshot_now(static_cast<std::size_t>(list.body_a)),
-              b = snapshot_now(static_cast<std::size_t>(list.body_b));
+    const int a = snapshot_now(list.body_a), b = snapshot_now(list.body_b);
     lists.age[k] = {a, b, range};
     to_fill.push_back(&list);
   }

@@ -3,7 +3,7 @@
 ///
 /// A list holds until its two bodies have moved relative to each other by more than the skin; then
 /// it alone is made again. A cell that divides or moves fast costs its neighbours new lists, and
-/// nobody else. What contacts are found does not depend on when a list was made.
+/// no other. What contacts are found does not depend on when a list was made.
 
 #include <cstdint>
 #include <span>
@@ -22,7 +22,7 @@ struct SegmentCandidates {
 };
 
 /// The nodes of a body when lists with it were made, and how they moved since.
-struct Snapshot {
+struct ListSnapshot {
   std::vector<Vec3> node;    ///< um
   Vec3 mean = Vec3::Zero();  ///< um, movement since then
   double spread = 0;         ///< um, largest deviation of a node's movement from the mean
@@ -35,7 +35,7 @@ struct ListedBody {
   const mesh::Topology* topology = nullptr;
   bool constrained = false;
   Box box;  ///< when pairs were looked for
-  std::vector<Snapshot> snapshot;
+  std::vector<ListSnapshot> snapshot;
 };
 
 /// When a list was made: the snapshots of its bodies (-1: of what has none), and the range then.

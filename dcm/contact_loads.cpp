@@ -11,35 +11,34 @@ namespace {
 
 using contact::Contact, contact::Partner;
 
-const contact::Material& material_of(const contact::Surroundings& around, Partner kind, int index) {
-  const auto i = static_cast<std::size_t>(index);
+const contact::Material& material_of(const contact::Boundary& boundary, Partner kind, int index) {
+  const std::size_t i = index;
   switch (kind) {
     case Partner::kPlane:
-      return around.planes[i].material;
+      return boundary.planes[i].material;
     case Partner::kCapsule:
-      return around.capsules[i].material;
+      return boundary.capsules[i].material;
     case Partner::kMesh:
-      return around.meshes[i].material;
+      return boundary.meshes[i].material;
     case Partner::kVessel:
     case Partner::kSurface:
     case Partner::kSphere:
       break;
   }
-  return around.vessels.material;
+  return boundary.vessels.material;
 }
 
 /// Share of its area with which a point rubs on a partner at this gap.
 double touching_share(const ContactParams& c, const ContactWorkspace& work, int body, int point,
                       double gap) {
-  const auto& share = work.share[static_cast<std::size_t>(body)];
-  return share_scale(share[static_cast<std::size_t>(point)]) *
-         contact::contact_share(gap, c.friction_range);
+  const auto& share = work.share[body];
+  return share_scale(share[point]) * contact::contact_share(gap, c.friction_range);
 }
 
 /// The law of a contact.
-struct Law {
+struct PointLaw {
   double area = 0;  ///< um^2, what the point stands for
-  contact::Well well;
+  contact::CohesiveLaw cohesive;
   double friction = 0;   ///< nN s/um^3
   double clearance = 0;  ///< um, how far it is from its repulsive branch
 };
@@ -49,22 +48,22 @@ struct Completion {
   const ContactInput& in;
   const ContactWorkspace& work;
 
-  std::size_t lane_of(int body) const { return work.lane_of_body[static_cast<std::size_t>(body)]; }
-  const contact::SurfaceBody& body(int k) const { return work.body[static_cast<std::size_t>(k)]; }
+  std::size_t lane_of(int body) const { return work.lane_of_body[body]; }
+  const contact::SurfaceBody& body(int k) const { return work.body[k]; }
   const Params& params_of(int body) const {
-    return in.params[static_cast<std::size_t>(in.state.group[lane_of(body) / kLanes].type)];
+    return in.params[in.state.group[lane_of(body) / kLanes].type];
   }
   double area(int k, int point) const {
     return point_area(*body(k).topology, in.options.quadrature, point, in.lanes.radius[lane_of(k)]);
   }
-  contact::Well well(int k, double adhesion, double repulsion) const {
+  contact::CohesiveLaw cohesive(int k, double adhesion, double repulsion) const {
     return {
         in.options.adhesion_factor * adhesion, repulsion,
         in.options.range_factor * body(k).topology->mean_rest_length * in.lanes.radius[lane_of(k)]};
   }
-  contact::Well repulsion(double stiffness) const { return {0, stiffness, 1}; }
+  contact::CohesiveLaw repulsion(double stiffness) const { return {0, stiffness, 1}; }
 
-  Law meet_surface(Contact& k) const {
+  PointLaw meet_surface(Contact& k) const {
     const double half = 0.5 * area(k.a, k.point);  // seen from both sides
     if (k.is_fold())
       return {half, repulsion(in.options.repulsion), 0, std::min(0.0, k.gap - kSelfGap)};
@@ -72,11 +71,11 @@ struct Completion {
     k.touching = half * share;
     const double adhesion = std::sqrt(params_of(k.a).adhesion * params_of(k.b).adhesion);
     const bool rubs = in.options.friction_form == FrictionForm::kSurface;
-    return {half, well(k.a, adhesion, in.options.repulsion),
+    return {half, cohesive(k.a, adhesion, in.options.repulsion),
             rubs ? in.options.friction_factor * share * in.options.cell_friction : 0, k.gap};
   }
 
-  Law meet_obstacle(Contact& k) const {
+  PointLaw meet_obstacle(Contact& k) const {
     if (k.only_pushes()) {
       const double pushing =
           k.guard ? guard_area(*body(k.a).topology, k.point, in.lanes.radius[lane_of(k.a)])
@@ -86,23 +85,23 @@ struct Completion {
     const double whole = area(k.a, k.point);
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
     k.touching = whole * share;
-    const contact::Material& m = material_of(in.around, k.partner, k.b);
+    const contact::Material& m = material_of(in.boundary, k.partner, k.b);
     const double stiffness = k.partner == Partner::kMesh ? in.options.repulsion : k.stiffness;
-    return {whole, well(k.a, m.adhesion, stiffness),
+    return {whole, cohesive(k.a, m.adhesion, stiffness),
             m.mirror ? 0 : share * params_of(k.a).vessel_friction, k.gap};
   }
 
   void complete(Contact& k, solve::Link& link, solve::LinkLoad& load) const {
-    const Law law = k.partner == Partner::kSurface ? meet_surface(k) : meet_obstacle(k);
+    const PointLaw law = k.partner == Partner::kSurface ? meet_surface(k) : meet_obstacle(k);
     const double friction = law.area * law.friction;
-    k.force = -law.area * contact::well_traction(law.well, law.clearance);
-    k.slope = law.area * contact::well_stiffness(law.well, law.clearance);
+    k.force = -law.area * contact::cohesive_traction(law.cohesive, law.clearance);
+    k.slope = law.area * contact::cohesive_stiffness(law.cohesive, law.clearance);
     k.friction = static_cast<float>(friction);
     link.a = side_a(in, work, k);
     link.b = side_b(in, work, k);
     const double gap = k.is_fold() ? law.clearance : k.gap;
     solve::set_law(k.slope, friction, gap, k.normal, link);
-    load = {k.normal, k.force, law.area * law.well.repulsion, law.clearance};
+    load = {k.normal, k.force, law.area * law.cohesive.repulsion, law.clearance};
   }
 };
 
@@ -115,9 +114,7 @@ double cell_friction_at(const ContactParams& c, const ContactWorkspace& work, co
 solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& s) {
   auto point = [&](int m) {
     return static_cast<solve::Point>(
-        (state.group[lane / kLanes].first_row +
-         static_cast<std::size_t>(s.node[static_cast<std::size_t>(m)])) *
-            kLanes +
+        (state.group[lane / kLanes].first_row + static_cast<std::size_t>(s.node[m])) * kLanes +
         lane % kLanes);
   };
   if (s.n == 1) return solve::Side::at(point(0));
@@ -126,16 +123,15 @@ solve::Side side_at(const State& state, std::size_t lane, const contact::PointSt
 }
 
 solve::Side side_a(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
-  const auto body = static_cast<std::size_t>(k.a);
+  const std::size_t body = k.a;
   return side_at(in.state, work.lane_of_body[body], stencil_of(in.options, work.body[body], k));
 }
 
 solve::Side side_b(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
   if (k.partner != Partner::kSurface) return solve::Side::nowhere();
-  const auto body = static_cast<std::size_t>(k.b);
-  return side_at(
-      in.state, work.lane_of_body[body],
-      {3, (*work.body[body].triangle)[static_cast<std::size_t>(k.triangle)], k.weights()});
+  const std::size_t body = k.b;
+  return side_at(in.state, work.lane_of_body[body],
+                 {3, (*work.body[body].triangle)[k.triangle], k.weights()});
 }
 
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,

@@ -24,20 +24,17 @@ inline double rest_area(const GroupView& g, int lane) {
   return g.topology->rest_area * g.radius[lane] * g.radius[lane] * g.area[lane];
 }
 inline double rest_length(const GroupView& g, std::size_t edge, int lane) {
-  const double ratio = g.edge ? g.edge[edge * kLanes + static_cast<std::size_t>(lane)] : 1;
+  const double ratio = g.edge ? g.edge[edge * kLanes + lane] : 1;
   return g.topology->rest_length[edge] * g.radius[lane] * ratio;
 }
 inline double rest_triangle_area(const GroupView& g, std::size_t triangle, int lane) {
-  const double ratio =
-      g.triangle ? g.triangle[triangle * kLanes + static_cast<std::size_t>(lane)] : 1;
+  const double ratio = g.triangle ? g.triangle[triangle * kLanes + lane] : 1;
   return g.topology->rest_triangle_area[triangle] * g.radius[lane] * g.radius[lane] * ratio;
 }
 
 /// Present area of a triangle, um^2.
 inline double triangle_area(const GroupView& g, std::size_t triangle, int lane) {
-  const auto node = [&](int corner) {
-    return load_point(g.position, make_address(static_cast<std::size_t>(corner), lane));
-  };
+  const auto node = [&](int corner) { return load_point(g.position, make_address(corner, lane)); };
   const auto& [a, b, c] = g.topology->triangle[triangle];
   return 0.5 * (node(b) - node(a)).cross(node(c) - node(a)).norm();
 }

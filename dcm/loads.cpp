@@ -82,7 +82,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
   for (std::size_t k = 0; k < state.group.size(); ++k) {
     if (s.block[k].still) continue;
     const GroupView g = view_group(state, lanes, s, k);
-    const Params& p = params[static_cast<std::size_t>(state.group[k].type)];
+    const Params& p = params[state.group[k].type];
     if (p.spring_stiffness > 0 || p.nodal_friction > 0) add_cortex(p, g, s);
     if (p.bending_stiffness > 0) add_bending(p, g, s);
     if (p.local_area_modulus > 0) add_local_area(p, g, s);

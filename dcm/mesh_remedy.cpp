@@ -31,15 +31,15 @@ constexpr double kFit = 0.7;
 /// A fit must bring the farthest point outside down to this share of what it was.
 constexpr double kWorthFitting = 0.97;
 
-const Vec3& at(std::span<const Vec3> node, int i) { return node[static_cast<std::size_t>(i)]; }
+const Vec3& at(std::span<const Vec3> node, int i) { return node[i]; }
 
 Vec3 face_normal(const mesh::Topology& t, std::span<const Vec3> node, int face) {
-  const auto& [i, j, k] = t.triangle[static_cast<std::size_t>(face)];
+  const auto& [i, j, k] = t.triangle[face];
   return (at(node, j) - at(node, i)).cross(at(node, k) - at(node, i)).normalized();
 }
 
 double face_quality(const mesh::Topology& t, std::span<const Vec3> node, int face) {
-  const auto& [i, j, k] = t.triangle[static_cast<std::size_t>(face)];
+  const auto& [i, j, k] = t.triangle[face];
   return mesh::compute_triangle_quality(at(node, i), at(node, j), at(node, k));
 }
 
@@ -111,8 +111,8 @@ class Relaxer {
 
  private:
   std::span<const int> faces_around(int i) const {
-    const auto k = static_cast<std::size_t>(i);
-    const auto first = static_cast<std::size_t>(topology_.node_triangle_start[k]);
+    const std::size_t k = i;
+    const std::size_t first = topology_.node_triangle_start[k];
     return std::span(topology_.node_triangle)
         .subspan(first, static_cast<std::size_t>(topology_.node_triangle_start[k + 1]) - first);
   }
@@ -122,14 +122,14 @@ class Relaxer {
   void update_normals() {
     std::vector<Vec3> one(node_.size(), Vec3::Zero());
     for (int f = 0; f < topology_.n_triangle; ++f) {
-      const auto& [i, j, k] = topology_.triangle[static_cast<std::size_t>(f)];
+      const auto& [i, j, k] = topology_.triangle[f];
       const Vec3 area = (at(node_, j) - at(node_, i)).cross(at(node_, k) - at(node_, i));
-      for (const int n : {i, j, k}) one[static_cast<std::size_t>(n)] += area;
+      for (const int n : {i, j, k}) one[n] += area;
     }
     normal_ = one;
     for (std::size_t i = 0; i < one.size(); ++i) {
       for (int k = topology_.ring_start[i]; k < topology_.ring_start[i + 1]; ++k)
-        normal_[i] += one[static_cast<std::size_t>(topology_.ring[static_cast<std::size_t>(k)])];
+        normal_[i] += one[topology_.ring[k]];
       normal_[i].normalize();
     }
   }
@@ -140,12 +140,11 @@ class Relaxer {
     for (const int f : faces_around(i)) {
       std::array<Vec3, 3> v;
       for (std::size_t k = 0; k < 3; ++k) {
-        const int n = topology_.triangle[static_cast<std::size_t>(f)][k];
+        const int n = topology_.triangle[f][k];
         v[k] = n == i ? x : at(node_, n);
       }
       const double q = mesh::compute_triangle_quality(v[0], v[1], v[2]);
-      const bool turned =
-          (v[1] - v[0]).cross(v[2] - v[0]).dot(normal_[static_cast<std::size_t>(i)]) < 0;
+      const bool turned = (v[1] - v[0]).cross(v[2] - v[0]).dot(normal_[i]) < 0;
       worst = std::min(worst, turned ? -q : q);
     }
     return worst;
@@ -160,12 +159,12 @@ class Relaxer {
 
   /// Moves a poor node towards the middle of the faces around it if that helps.
   bool improve(int i) {
-    const auto k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     const double before = worst_around(i, node_[k]);
     if (before >= kMiddling) return false;
     Vec3 middle = Vec3::Zero();
     for (int n = topology_.ring_start[k]; n < topology_.ring_start[k + 1]; ++n)
-      middle += at(node_, topology_.ring[static_cast<std::size_t>(n)]);
+      middle += at(node_, topology_.ring[n]);
     middle /= topology_.ring_start[k + 1] - topology_.ring_start[k];
     for (const double part : {1.0, 0.5, 0.2}) {
       const Vec3 to = put_on_surface(node_[k] + part * (middle - node_[k]), normal_[k]);
@@ -219,8 +218,8 @@ void fit_surface(const mesh::Topology& t, const mesh::AuditBody& body,
   std::vector<double> sum(node.size(), 0.0), weight(node.size(), 0.0);
   std::size_t sample = 0;
   const auto count_for = [&](int i, double d) {  // the farthest count
-    sum[static_cast<std::size_t>(i)] += d * d * d;
-    weight[static_cast<std::size_t>(i)] += d * d;
+    sum[i] += d * d * d;
+    weight[i] += d * d;
   };
   for (int i = 0; i < t.n_node; ++i) count_for(i, distance[sample++]);
   for (const auto& end : body.edge) {
@@ -233,7 +232,7 @@ void fit_surface(const mesh::Topology& t, const mesh::AuditBody& body,
     const Vec3 part = (at(node, corner[1]) - a).cross(at(node, corner[2]) - a);
     for (const int i : corner) {
       count_for(i, distance[sample]);
-      area[static_cast<std::size_t>(i)] += part;
+      area[i] += part;
     }
     ++sample;
   }
@@ -257,8 +256,8 @@ bool is_sound(const Old& old, std::span<const Vec3> node, Mended& m) {
   return m.why.empty();
 }
 
-/// Gives a candidate the old volume, fits it to the old surface and judges it by the finer limit.
-void judge(const Old& old, std::vector<Vec3> node, Mended& m) {
+/// Gives a candidate the old volume, fits it to the old surface and rates it by the finer limit.
+void rate(const Old& old, std::vector<Vec3> node, Mended& m) {
   const std::vector<double> all(node.size(), 1.0);
   double best = std::numeric_limits<double>::infinity();
   for (int fit = 0; fit <= kFits; ++fit) {
@@ -295,7 +294,7 @@ MeshHealth measure_health(const mesh::Topology& t, std::span<const Vec3> node, d
   MeshHealth h;
   std::vector<Vec3> normal(t.triangle.size());
   for (int f = 0; f < t.n_triangle; ++f) {
-    normal[static_cast<std::size_t>(f)] = face_normal(t, node, f);
+    normal[f] = face_normal(t, node, f);
     h.quality = std::min(h.quality, face_quality(t, node, f));
   }
   double shortest2 = std::numeric_limits<double>::infinity();
@@ -303,8 +302,7 @@ MeshHealth measure_health(const mesh::Topology& t, std::span<const Vec3> node, d
     const auto& [i, j] = t.edge[e];
     const auto& [a, b] = t.edge_triangle[e];
     shortest2 = std::min(shortest2, (at(node, i) - at(node, j)).squaredNorm());
-    h.opposed = std::min(
-        h.opposed, normal[static_cast<std::size_t>(a)].dot(normal[static_cast<std::size_t>(b)]));
+    h.opposed = std::min(h.opposed, normal[a].dot(normal[b]));
   }
   h.spacing = std::sqrt(shortest2) / (t.mean_rest_length * radius);
   return h;
@@ -333,10 +331,10 @@ Mended mend_mesh(const mesh::Topology& t, std::span<const Vec3> node, double rad
   Mended fresh = m, relaxed = m;
   fresh.method = "fresh";
   fresh.why = "it is not seen whole from inside";
-  if (auto cast = make_fresh(t, node, old.body)) judge(old, std::move(*cast), fresh);
+  if (auto cast = make_fresh(t, node, old.body)) rate(old, std::move(*cast), fresh);
   if (fresh.ok && is_within(fresh.shift, kFineLimit, old.edge)) return fresh;
   relaxed.method = "relaxed";
-  judge(old, Relaxer(t, node, old.body).run(), relaxed);
+  rate(old, Relaxer(t, node, old.body).run(), relaxed);
   if (!relaxed.ok) return fresh.ok ? fresh : relaxed;
   return fresh.ok && fresh.shift.outside <= relaxed.shift.outside ? fresh : relaxed;
 }

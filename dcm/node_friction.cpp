@@ -11,14 +11,14 @@ namespace acinus::dcm {
 namespace {
 
 /// Contacts in a row that join the same two bodies.
-struct Run {
+struct ContactRun {
   std::array<int, 2> body{};  ///< the lower one first
   std::size_t first = 0, last = 0;
 };
 
 /// The runs between cells, sorted by pairs of bodies.
-std::vector<Run> find_runs(std::span<const contact::Contact> contacts) {
-  std::vector<Run> runs;
+std::vector<ContactRun> find_runs(std::span<const contact::Contact> contacts) {
+  std::vector<ContactRun> runs;
   for (std::size_t k = 0, next; k < contacts.size(); k = next) {
     const contact::Contact& first = contacts[k];
     const auto belongs = [&](const contact::Contact& other) {
@@ -28,7 +28,7 @@ std::vector<Run> find_runs(std::span<const contact::Contact> contacts) {
     if (first.partner == contact::Partner::kSurface && !first.is_fold())
       runs.push_back({{std::min(first.a, first.b), std::max(first.a, first.b)}, k, next});
   }
-  std::ranges::stable_sort(runs, {}, &Run::body);
+  std::ranges::stable_sort(runs, {}, &ContactRun::body);
   return runs;
 }
 
@@ -38,10 +38,10 @@ std::span<const int> nodes_of(const contact::PointStencil& s) {
 }
 
 /// Friction between the nodes of two bodies.
-class PairTable {
+class NodePairs {
  public:
   void start(std::size_t n_a, std::size_t n_b) {
-    for (const Entry& e : entry_) slot_[slot_of(e.a, e.b)] = 0;
+    for (const PairFriction& e : entry_) slot_[slot_of(e.a, e.b)] = 0;
     entry_.clear();
     n_b_ = n_b;
     if (slot_.size() < n_a * n_b) slot_.resize(n_a * n_b, 0);
@@ -56,35 +56,33 @@ class PairTable {
   }
   template <class F>
   void for_each(F f) const {
-    for (const Entry& e : entry_) f(e.a, e.b, e.friction);
+    for (const PairFriction& e : entry_) f(e.a, e.b, e.friction);
   }
 
  private:
-  struct Entry {
+  struct PairFriction {
     int a, b;
     double friction;  ///< nN s/um
   };
-  std::size_t slot_of(int a, int b) const {
-    return static_cast<std::size_t>(a) * n_b_ + static_cast<std::size_t>(b);
-  }
+  std::size_t slot_of(int a, int b) const { return a * n_b_ + b; }
   std::size_t n_b_ = 0;
   std::vector<std::uint32_t> slot_;  ///< [n_a][n_b] 1 + number of the entry; 0: none
-  std::vector<Entry> entry_;
+  std::vector<PairFriction> entry_;
 };
 
 /// Adds the contacts of a run to the pairs of its bodies' nodes.
 void add_run(const ContactInput& in, const ContactWorkspace& work,
-             std::span<const contact::Contact> run, PairTable& table) {
+             std::span<const contact::Contact> run, NodePairs& table) {
   const ContactParams& c = in.options;
   for (const contact::Contact& s : run) {
-    const auto a = static_cast<std::size_t>(s.a), b = static_cast<std::size_t>(s.b);
+    const std::size_t a = s.a, b = s.b;
     const double half = 0.5 * point_area(*work.body[a].topology, c.quadrature, s.point,
                                          in.lanes.radius[work.lane_of_body[a]]);
     const double friction = half * cell_friction_at(c, work, s);
     if (friction == 0) continue;
     const contact::PointStencil at = contact::point_stencil(work.body[a], c.quadrature, s.point);
     const auto own = nodes_of(at);
-    const auto& other = (*work.body[b].triangle)[static_cast<std::size_t>(s.triangle)];
+    const auto& other = (*work.body[b].triangle)[s.triangle];
     const double each = friction / static_cast<double>(own.size() * other.size());
     for (const int i : own)
       for (const int j : other)
@@ -101,7 +99,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, std::vector<solve::PointLink>& links) {
   const ContactParams& c = in.options;
   if (c.friction_factor * c.cell_friction == 0) return;
-  const std::vector<Run> runs = find_runs(contacts.surface());
+  const std::vector<ContactRun> runs = find_runs(contacts.surface());
   std::vector<std::size_t> group;  // where each pair of bodies starts
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (k == 0 || runs[k].body != runs[k - 1].body) group.push_back(k);
@@ -110,18 +108,16 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
   std::vector<std::vector<solve::PointLink>> part(n_part);
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
   for (std::size_t p = 0; p < n_part; ++p) {
-    PairTable table;
+    NodePairs table;
     for (std::size_t g = p * n_group / n_part; g < (p + 1) * n_group / n_part; ++g) {
       const auto [a, b] = runs[group[g]].body;
-      const auto& body_a = work.body[static_cast<std::size_t>(a)];
-      const auto& body_b = work.body[static_cast<std::size_t>(b)];
+      const auto& body_a = work.body[a];
+      const auto& body_b = work.body[b];
       table.start(body_a.node.size(), body_b.node.size());
       for (std::size_t k = group[g]; k < group[g + 1]; ++k)
         add_run(in, work, contacts.range(runs[k].first, runs[k].last), table);
       auto point = [&](int body, int node) {
-        return side_at(in.state, work.lane_of_body[static_cast<std::size_t>(body)],
-                       {1, {node, 0, 0}, {1, 0, 0}})
-            .point[0];
+        return side_at(in.state, work.lane_of_body[body], {1, {node, 0, 0}, {1, 0, 0}}).point[0];
       };
       table.for_each([&](int i, int j, double friction) {
         part[p].push_back({point(a, i), point(b, j), {}, 0, static_cast<float>(friction)});

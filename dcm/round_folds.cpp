@@ -15,15 +15,14 @@ constexpr int kMostSweeps = 30;
 constexpr double kShare = 0.3;
 
 Vec3 area_vector(const mesh::Topology& t, std::span<const Vec3> node, int triangle) {
-  const auto at = [&](int i) -> const Vec3& { return node[static_cast<std::size_t>(i)]; };
-  const auto& [a, b, c] = t.triangle[static_cast<std::size_t>(triangle)];
+  const auto at = [&](int i) -> const Vec3& { return node[i]; };
+  const auto& [a, b, c] = t.triangle[triangle];
   return 0.5 * (at(b) - at(a)).cross(at(c) - at(a));
 }
 
 Vec3 mean_of_neighbours(const mesh::Topology& t, std::span<const Vec3> node, std::size_t i) {
   Vec3 sum = Vec3::Zero();
-  for (int k = t.ring_start[i]; k < t.ring_start[i + 1]; ++k)
-    sum += node[static_cast<std::size_t>(t.ring[static_cast<std::size_t>(k)])];
+  for (int k = t.ring_start[i]; k < t.ring_start[i + 1]; ++k) sum += node[t.ring[k]];
   return sum / (t.ring_start[i + 1] - t.ring_start[i]);
 }
 
@@ -34,7 +33,7 @@ std::vector<std::uint8_t> find_sharp_nodes(const mesh::Topology& t, double least
   for (int e = 0; e < t.n_edge; ++e) {
     if (fold_radius(t, node, e) >= least_radius) continue;
     sharp.resize(node.size(), 0);
-    for (const int i : t.edge[static_cast<std::size_t>(e)]) sharp[static_cast<std::size_t>(i)] = 1;
+    for (const int i : t.edge[e]) sharp[i] = 1;
   }
   return sharp;
 }
@@ -42,12 +41,10 @@ std::vector<std::uint8_t> find_sharp_nodes(const mesh::Topology& t, double least
 }  // namespace
 
 double fold_radius(const mesh::Topology& t, std::span<const Vec3> node, int edge) {
-  const auto e = static_cast<std::size_t>(edge);
+  const std::size_t e = edge;
   const Vec3 a = area_vector(t, node, t.edge_triangle[e][0]),
              b = area_vector(t, node, t.edge_triangle[e][1]);
-  const double length =
-      (node[static_cast<std::size_t>(t.edge[e][1])] - node[static_cast<std::size_t>(t.edge[e][0])])
-          .norm();
+  const double length = (node[t.edge[e][1]] - node[t.edge[e][0]]).norm();
   // A centroid is a third of its triangle's height off the edge.
   const double width = 2 * (a.norm() + b.norm()) / (3 * length);
   const double angle = std::atan2(a.cross(b).norm(), a.dot(b));

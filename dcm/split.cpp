@@ -17,10 +17,9 @@ namespace {
 std::vector<Vec3> make_area_vectors(const mesh::Topology& topology, std::span<const Vec3> node) {
   std::vector<Vec3> out(node.size(), Vec3::Zero());
   for (const auto& t : topology.triangle) {
-    const Vec3& a = node[static_cast<std::size_t>(t[0])];
-    const Vec3 part =
-        (node[static_cast<std::size_t>(t[1])] - a).cross(node[static_cast<std::size_t>(t[2])] - a);
-    for (const int i : t) out[static_cast<std::size_t>(i)] += part;
+    const Vec3& a = node[t[0]];
+    const Vec3 part = (node[t[1]] - a).cross(node[t[2]] - a);
+    for (const int i : t) out[i] += part;
   }
   return out;
 }
@@ -88,7 +87,7 @@ Split split_cell(const mesh::Topology& topology, std::span<const Vec3> node, con
   const mesh::Cut cut = mesh::cut_surface(node, topology.triangle, *plane);
   if (cut.loop.size() != 1) return {std::nullopt, SplitFailure::kSeveralLoops};
 
-  Daughters out;
+  DaughterShapes out;
   out.plane = *plane;
   out.rim = cut.loop[0];
   out.rim_length = compute_length(out.rim);

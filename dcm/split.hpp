@@ -26,7 +26,7 @@ bool match_volume(const mesh::Topology& topology, double target_volume,
                   std::span<const double> weight, std::span<Vec3> node);
 
 /// Below (0) and above (1) the plane; both meshes have the mother's topology and volume_mother / 2.
-struct Daughters {
+struct DaughterShapes {
   mesh::CutPlane plane;
   std::vector<Vec3> rim;   ///< where the plane cuts the mother, in order
   double rim_length = 0;   ///< um
@@ -46,7 +46,7 @@ enum class SplitFailure {
 };
 
 struct Split {
-  std::optional<Daughters> daughters;
+  std::optional<DaughterShapes> daughters;
   SplitFailure failure = SplitFailure::kNone;
 };
 

@@ -35,11 +35,10 @@ class Grouping {
     s.volume.resize(n, Ramp::constant(4.0 / 3 * kPi));
     s.birth.resize(n);
     s.pull.resize(n, Vec3::Zero());
-    s.position.resize((first + static_cast<std::size_t>(topology->n_node)) * kPointStride, 0.0);
+    s.position.resize((first + topology->n_node) * kPointStride, 0.0);
     for (std::size_t l = lane; l < n; ++l)
       for (int i = 0; i < topology->n_node; ++i)
-        store_point(s.position.data(), node_address(s, l, i),
-                    topology->rest[static_cast<std::size_t>(i)]);
+        store_point(s.position.data(), node_address(s, l, i), topology->rest[i]);
     return lane;
   }
   std::vector<std::pair<std::size_t, std::size_t>> open_;  ///< (group, its next lane)
@@ -56,9 +55,8 @@ State make_state(const std::vector<NewCell>& cells) {
     s.volume[lane] = Ramp::constant(4.0 / 3 * kPi * c.radius * c.radius * c.radius);
     s.pull[lane] = c.pull;
     for (int i = 0; i < c.topology->n_node; ++i)
-      store_point(
-          s.position.data(), node_address(s, lane, i),
-          c.center + c.radius * (c.rotation * c.topology->rest[static_cast<std::size_t>(i)]));
+      store_point(s.position.data(), node_address(s, lane, i),
+                  c.center + c.radius * (c.rotation * c.topology->rest[i]));
   }
   return s;
 }
@@ -99,16 +97,14 @@ Vec3 cell_center(const State& s, std::size_t lane) {
   const mesh::Topology& t = *s.group[lane / kLanes].topology;
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < t.n_node; ++i)
-    sum += t.rest_node_area[static_cast<std::size_t>(i)] *
-           load_point(s.position.data(), node_address(s, lane, i));
+    sum += t.rest_node_area[i] * load_point(s.position.data(), node_address(s, lane, i));
   return sum / t.rest_area;
 }
 
 void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
   const int n = s.group[lane / kLanes].topology->n_node;
-  node.resize(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i)
-    node[static_cast<std::size_t>(i)] = load_point(s.position.data(), node_address(s, lane, i));
+  node.resize(n);
+  for (int i = 0; i < n; ++i) node[i] = load_point(s.position.data(), node_address(s, lane, i));
 }
 
 std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> params,
@@ -120,7 +116,7 @@ std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> pa
     block.still = !constrained.empty();
     for (std::size_t l = k * kLanes; l < (k + 1) * kLanes && block.still; ++l)
       block.still = !s.active(l) || constrained[l] != 0;
-    const Params& p = params[static_cast<std::size_t>(g.type)];
+    const Params& p = params[g.type];
     block.pattern = block.still ? &shared_point_pattern(g.topology->n_node)
                                 : &shared_mesh_pattern(*g.topology, p);
     block.dashpot = p.nodal_friction;

@@ -73,8 +73,7 @@ std::vector<double> reference_radii(const State& state, double time);
 
 /// Address of a node in arrays that start with the DCM rows.
 inline Address node_address(const State& state, std::size_t lane, int node) {
-  return make_address(state.group[lane / kLanes].first_row + static_cast<std::size_t>(node),
-                      static_cast<int>(lane % kLanes));
+  return make_address(state.group[lane / kLanes].first_row + node, static_cast<int>(lane % kLanes));
 }
 
 /// Mean of the nodes weighted by their share of the rest surface.

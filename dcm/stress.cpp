@@ -8,10 +8,9 @@ namespace acinus::dcm {
 
 std::vector<double> compute_node_tension(const Params& p, const GroupView& g, int lane) {
   const mesh::Topology& t = *g.topology;
-  std::vector<double> tension(static_cast<std::size_t>(t.n_node), 0.0);
+  std::vector<double> tension(t.n_node, 0.0);
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
-    const auto i = static_cast<std::size_t>(t.edge[e][0]),
-               j = static_cast<std::size_t>(t.edge[e][1]);
+    const std::size_t i = t.edge[e][0], j = t.edge[e][1];
     const double length = (load_point(g.position, make_address(j, lane)) -
                            load_point(g.position, make_address(i, lane)))
                               .norm();

@@ -7,7 +7,7 @@
 /// with r the vessel's radius and d the indentation of the pair over r at the start of the step.
 /// [VanLiedekerke2020, Table 1: E_sin]
 
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 
 namespace acinus::dcm {
 

@@ -2,7 +2,7 @@
 
 usage: layers_test.py ROOT
 
-The rules are first tried on a temporary tree that breaks each of them once; then ROOT is judged.
+The rules are first tried on a temporary tree that breaks each of them once; then ROOT is checked.
 Prints file:line and the rule broken; exit code 1 if there is any.
 """
 
@@ -26,8 +26,12 @@ MAX_TEST_LINES = 500
 MAX_README_LINES = 40
 SOURCES = (".hpp", ".cpp")
 COUNTED = SOURCES + (".py", ".sh", ".cmake", "CMakeLists.txt")
+# The two models and the hybrid world name what plays the same part in each alike: dcm::State, cbm::State, coupling::State.
+MODELS = ("dcm", "cbm", "coupling")
+TYPE = re.compile(r"^\s*(?:struct|class|enum class)\s+(?:alignas\(\w+\)\s+)?(\w+)\b(?:\s+final)?\s*(?::[^:].*)?(?:\{.*)?$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-SKIPPED = re.compile(r"^(build.*|out|\.git|__pycache__|.*\.run)$")
+SKIPPED = re.compile(r"^(out|\.git|__pycache__|.*\.run)$")
+BUILD = re.compile(r"^build")  # at the top only: rooms may be named so
 
 
 def check_include(path, bracket, target, beside):
@@ -99,6 +103,30 @@ def list_includes(root, path):
         return {match.group(2) for match in found if match and match.group(2).split("/")[0] in FLOORS}
 
 
+def list_types(root, path):
+    """(line, name) of the types a source defines."""
+    with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+        for number, line in enumerate(file, 1):
+            found = TYPE.match(line.split("//")[0].rstrip())
+            if found:
+                yield number, found.group(1)
+
+
+def find_namesakes(types):
+    """Types that have the name of one before. types: (path, line, name) in the order of paths."""
+    first, models = {}, {}
+    for path, line, name in types:
+        folder = path.split("/")[0]
+        if folder in MODELS and folder not in models.setdefault(name, set()):
+            models[name].add(folder)
+            if name not in first or first[name].split("/")[0] in MODELS:
+                first.setdefault(name, f"{path}:{line}")
+                continue
+        if name in first:
+            yield f"{path}:{line}: {name} is the name of a type in {first[name]}, too"
+        first.setdefault(name, f"{path}:{line}")
+
+
 def check_file(root, path):
     """All findings of one file as (line, message)."""
     with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
@@ -123,9 +151,10 @@ def check_file(root, path):
 
 def check_tree(root):
     """All findings below root as "path:line: message", and the number of sources read."""
-    findings, n_source, includes = [], 0, {}
+    findings, n_source, includes, types = [], 0, {}, []
     for folder, folders, names in os.walk(root):
-        folders[:] = sorted(name for name in folders if not SKIPPED.match(name))
+        folders[:] = sorted(name for name in folders
+                            if not SKIPPED.match(name) and not (folder == root and BUILD.match(name)))
         for name in sorted(names):
             path = os.path.relpath(os.path.join(folder, name), root).replace(os.sep, "/")
             if path.endswith(COUNTED + (".md",)):
@@ -133,8 +162,11 @@ def check_tree(root):
                 findings += [f"{path}:{line}: {text}" for line, text in check_file(root, path)]
             if path.endswith(".hpp"):
                 includes[path] = list_includes(root, path)
+            if path.endswith(SOURCES) and path.split("/")[0] in FLOORS:
+                types += [(path, line, name) for line, name in list_types(root, path)]
     for ring in find_rings(includes):
         findings.append(f"{ring[0]}:1: headers include each other: {' -> '.join(ring)}")
+    findings += find_namesakes(types)
     return findings, n_source
 
 
@@ -154,6 +186,9 @@ def test_rules():
         "bench/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n',
         "core/ring_b.hpp": '#include "core/ring_a.hpp"\n',
         "build/a.cpp": '#include "../runs/a.hpp"\n',
+        "runs/build/a.hpp": '#include "runs/scene/a.hpp"\nstruct A;\nenum class B { kA };\n',
+        "dcm/state.hpp": "struct State {\n};\n",
+        "cbm/state.hpp": "struct State {  // of spheres\n};\nclass Model : public Base {\n",
         "core/long.cpp": "\n" * MAX_LINES,
         "core/README.md": "\n" * MAX_README_LINES,
         "README.md": "\n" * (MAX_README_LINES + 60),
@@ -178,6 +213,8 @@ def test_rules():
         "runs/cellar/a.cpp": ('#include "runs/scene/a.hpp"\n', 1),
         "core/ring_a.hpp": ('#include "core/ring_b.hpp"\n', 1),
         "runs/d.cpp": ('#include "bench/a.hpp"\n', 1),
+        "runs/study/e.cpp": ("struct A {};\nenum class B : char { kA };\n", 2),
+        "dcm/store.hpp": ("\nclass State final {\n", 2),
         "dcm/long.cpp": ("\n" * (MAX_LINES + 1), MAX_LINES + 1),
         "dcm/README.md": ("\n" * (MAX_README_LINES + 1), MAX_README_LINES + 1),
     }

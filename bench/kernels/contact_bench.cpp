@@ -26,16 +26,14 @@ std::vector<PointAndTriangle> listed_pairs() {
   const dcm::ContactWorkspace& work = packed_clump(64).work.dcm;
   std::vector<PointAndTriangle> pair;
   for (const contact::Candidates& list : work.lists.pair) {
-    const contact::SurfaceBody &a = work.body[static_cast<std::size_t>(list.body_a)],
-                               &b = work.body[static_cast<std::size_t>(list.body_b)];
+    const contact::SurfaceBody &a = work.body[list.body_a], &b = work.body[list.body_b];
     for (std::size_t k = 0; k < list.point.size(); ++k) {
       const Vec3 p =
           point_position(a, point_stencil(a, contact::Quadrature::kThreePoint, list.point[k]));
       for (std::size_t c = list.start[k]; c < list.start[k + 1]; ++c) {
         if (pair.size() == kPairs) return pair;
-        const auto [i, j, m] = (*b.triangle)[static_cast<std::size_t>(list.triangle[c])];
-        pair.push_back({p, b.node[static_cast<std::size_t>(i)], b.node[static_cast<std::size_t>(j)],
-                        b.node[static_cast<std::size_t>(m)]});
+        const auto [i, j, m] = (*b.triangle)[list.triangle[c]];
+        pair.push_back({p, b.node[i], b.node[j], b.node[m]});
       }
     }
   }
@@ -114,7 +112,7 @@ void fill_candidates(benchmark::State& state) {
     contact::fill_candidates(clump.work.dcm.body, {}, options, all);
     benchmark::ClobberMemory();
   }
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  count(state, "cells", state.range());
 }
 BENCHMARK(fill_candidates)->Apply(clump_sizes);
 

@@ -20,7 +20,7 @@ void add_loads(benchmark::State& state) {
                    w.forces.dcm, system);
     benchmark::ClobberMemory();
   }
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  count(state, "cells", state.range());
 }
 BENCHMARK(add_loads)->Apply(clump_sizes);
 
@@ -32,11 +32,11 @@ void add_term(benchmark::State& state, Term add) {
   solve::System system = clump.work.system;
   for (auto _ : state) {
     for (std::size_t k = 0; k < cells.group.size(); ++k)
-      add(clump.world.params.dcm[static_cast<std::size_t>(cells.group[k].type)],
+      add(clump.world.params.dcm[cells.group[k].type],
           view_group(cells, clump.work.lanes, system, k), system);
     benchmark::ClobberMemory();
   }
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  count(state, "cells", state.range());
 }
 
 using dcm::GroupView, dcm::Params, solve::System;
@@ -57,8 +57,8 @@ BENCHMARK_CAPTURE(add_term, area, [](const Params& p, const GroupView& g, System
 void add_contact_loads(benchmark::State& state) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const coupling::Params& p = clump.world.params;
-  const dcm::ContactInput in{clump.world.state.dcm, p.dcm,    p.dcm_contact,
-                             clump.work.lanes,      p.around, 0};
+  const dcm::ContactInput in{clump.world.state.dcm, p.dcm,      p.dcm_contact,
+                             clump.work.lanes,      p.boundary, 0};
   contact::ContactList contacts = clump.work.contacts;
   solve::Links links;
   for (auto _ : state) {

@@ -29,7 +29,7 @@ void multiply_block(benchmark::State& state) {
       benchmark::DoNotOptimize(solve::multiply_block(view[b], x.data() + at,
                                                      contact.data() + row * kLanes, y.data() + at));
     }
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  count(state, "cells", state.range());
 }
 BENCHMARK_TEMPLATE(multiply_block, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(multiply_block, float)->Apply(clump_sizes);
@@ -67,7 +67,7 @@ void measure(benchmark::State& state, Map<T> map, bool merged = false) {
   const std::vector<T> x(s.n_dof(), T(1e-3));
   std::vector<T> y(s.n_dof());
   for (auto _ : state) benchmark::DoNotOptimize((op.*map)(x, y));
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  count(state, "cells", state.range());
 }
 
 /// A whole product, as an iteration of conjugate gradients makes it.
@@ -92,7 +92,7 @@ void merge_links(benchmark::State& state) {
   solve::LinkMerger merger;
   solve::MergedLinks merged;
   for (auto _ : state) merger.merge(s, block_of_row, merged);
-  count(state, "cells", static_cast<std::size_t>(state.range()));
+  count(state, "cells", state.range());
 }
 BENCHMARK(merge_links)->Apply(clump_sizes);
 

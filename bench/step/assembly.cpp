@@ -68,8 +68,8 @@ BenchRow measure_parts(int count, const std::string& quadrature) {
   std::vector<float> xf(n, 1e-3f), yf(n);
   const double cells = count;
 
-  const dcm::ContactInput in{s.dcm,   world.params.dcm,    world.params.dcm_contact,
-                             w.lanes, world.params.around, 0};
+  const dcm::ContactInput in{s.dcm,   world.params.dcm,      world.params.dcm_contact,
+                             w.lanes, world.params.boundary, 0};
   const double within = time_us([&] {
     solve::clear_loads(w.system);
     dcm::add_loads(s.dcm, world.params.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);

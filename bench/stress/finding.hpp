@@ -1,5 +1,5 @@
 #pragma once
-/// What the judge of the stress suite finds wrong.
+/// What the stress suite finds wrong.
 
 #include <string>
 
@@ -12,7 +12,7 @@ enum class Defect {
   kTunnelled,
   kVolume,
   kLost,
-  kUnborn,    ///< a cell nobody bore
+  kUnborn,    ///< a cell without a mother
   kVanished,  ///< a cell that is gone although nothing ended it
   kUntimely,  ///< a birth or death that could not be, or did not come
 };

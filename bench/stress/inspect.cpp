@@ -29,7 +29,7 @@ struct Mesh {
 };
 
 Vec3 point_of(const io::Frame& f, std::int64_t k) {
-  const auto i = static_cast<std::size_t>(3 * k);
+  const std::size_t i = 3 * k;
   return {f.point[i], f.point[i + 1], f.point[i + 2]};
 }
 
@@ -79,13 +79,14 @@ std::vector<coupling::AuditSphere> spheres_of(const io::Frame& f) {
 }
 
 /// Where every cell of the start is, and how easily it moves.
-struct Origin {
+struct StartOfCell {
   Vec3 center = Vec3::Zero();
   double friction = 0;  ///< nN s/um with the medium, at least
   double pull = 0;      ///< nN
 };
-std::map<std::int64_t, Origin> origins(const coupling::World& start, const Pedigree& pedigree) {
-  std::map<std::int64_t, Origin> all;
+std::map<std::int64_t, StartOfCell> origins(const coupling::World& start,
+                                            const Pedigree& pedigree) {
+  std::map<std::int64_t, StartOfCell> all;
   const auto medium = [](double per_area, double viscosity, double volume) {
     const double radius = sphere_radius(volume);
     return viscosity > 0 ? 6 * kPi * viscosity * radius : 4 * kPi * radius * radius * per_area;
@@ -94,7 +95,7 @@ std::map<std::int64_t, Origin> origins(const coupling::World& start, const Pedig
     const Relative& r = pedigree.all().at(coupling::lineage_of(start.state, c));
     const coupling::DeathParams& death = start.params.life.type[r.type].death;
     const double smallest = r.unit * (death.lysis ? death.final_volume : 1);
-    Origin& o = all[r.founder];
+    StartOfCell& o = all[r.founder];
     o.center = coupling::center_of(start.state, c);
     if (c.deformable) {
       const dcm::Params& p = start.params.dcm[r.type];
@@ -126,7 +127,7 @@ class Inspection {
       : frame_(frame),
         scene_(scene),
         start_(start),
-        around_(start.params.around),
+        boundary_(start.params.boundary),
         pedigree_(pedigree),
         rest_(rest_volumes(frame)),
         meshes_(meshes_of(frame)),
@@ -161,7 +162,7 @@ class Inspection {
   const io::Frame& frame_;
   const runs::Scene& scene_;
   const coupling::World& start_;
-  const contact::Surroundings& around_;
+  const contact::Boundary& boundary_;
   const Pedigree& pedigree_;
   std::map<std::int64_t, double> rest_;  ///< um^3
   std::vector<Mesh> meshes_;
@@ -192,14 +193,14 @@ void Inspection::inspect_overlaps() {
   std::vector<coupling::AuditMesh> meshes;
   for (const Mesh& m : meshes_) meshes.push_back({m.id, m.node, m.triangle});
   std::vector<coupling::AuditPlane> planes;
-  for (const contact::Plane& p : around_.planes) planes.push_back({p.point_at(time()), p.normal});
+  for (const contact::Plane& p : boundary_.planes) planes.push_back({p.point_at(time()), p.normal});
   std::vector<coupling::AuditCapsule> capsules;
-  for (const contact::Capsule& c : around_.capsules)
+  for (const contact::Capsule& c : boundary_.capsules)
     capsules.push_back({c.center, c.radius_at(time())});
   coupling::AuditFrame seen;
   seen.meshes = meshes;
   seen.spheres = spheres_;
-  seen.vessels = &around_.vessels.network;
+  seen.vessels = &boundary_.vessels.network;
   seen.planes = planes;
   seen.capsules = capsules;
   const coupling::AuditResult audit = coupling::audit(seen);
@@ -223,17 +224,18 @@ void Inspection::inspect_overlaps() {
          std::max(radius_of(audit.cbm_cbm.ids[0]), radius_of(audit.cbm_cbm.ids[1])));
 }
 
-/// The audit leaves spheres and surroundings alone.
+/// The audit leaves spheres and boundary alone.
 void Inspection::inspect_spheres() {
   for (const coupling::AuditSphere& s : spheres_) {
     double gap = std::numeric_limits<double>::infinity();
-    for (const contact::Plane& p : around_.planes)
+    for (const contact::Plane& p : boundary_.planes)
       gap = std::min(gap, contact::gap_to_plane(p, s.center, time()).gap);
-    for (const contact::Capsule& c : around_.capsules)
+    for (const contact::Capsule& c : boundary_.capsules)
       gap = std::min(gap, contact::gap_to_capsule(c, s.center, time()).gap);
-    for (std::size_t k = 0; k < around_.vessels.network.segment.size(); ++k)
+    for (std::size_t k = 0; k < boundary_.vessels.network.segment.size(); ++k)
       gap = std::min(
-          gap, contact::gap_to_segment(around_.vessels.network, static_cast<int>(k), s.center).gap);
+          gap,
+          contact::gap_to_segment(boundary_.vessels.network, static_cast<int>(k), s.center).gap);
     if (gap < 0)
       add(Defect::kTunnelled,
           fmt::format("sphere {} has its centre {:.3g} um inside an obstacle", s.id, -gap));
@@ -241,7 +243,7 @@ void Inspection::inspect_spheres() {
 }
 
 void Inspection::inspect_places() {
-  const std::map<std::int64_t, Origin> origin = origins(start_, pedigree_);
+  const std::map<std::int64_t, StartOfCell> origin = origins(start_, pedigree_);
   double force = 0, friction = std::numeric_limits<double>::infinity(), size = 0, diffusion = 0;
   for (const auto& [id, o] : origin) friction = std::min(friction, o.friction);
   for (const auto& [id, r] : pedigree_.all()) {
@@ -270,12 +272,12 @@ void Inspection::inspect_places() {
 }
 
 /// Volume and rest volume of a deformable cell, um^3.
-struct Load {
+struct VolumeOfCell {
   double volume = 0, rest = 0;
 };
-std::map<std::int64_t, Load> loads_of(const io::Frame& f) {
+std::map<std::int64_t, VolumeOfCell> loads_of(const io::Frame& f) {
   const std::map<std::int64_t, double> rest = rest_volumes(f);
-  std::map<std::int64_t, Load> all;
+  std::map<std::int64_t, VolumeOfCell> all;
   for (const Mesh& m : meshes_of(f))
     if (rest.contains(m.id)) all[m.id] = {mesh::compute_volume(m.node, m.triangle), rest.at(m.id)};
   return all;
@@ -283,8 +285,8 @@ std::map<std::int64_t, Load> loads_of(const io::Frame& f) {
 
 /// How the volume over rest volume of the middle one of the cells that are in both frames has
 /// changed: what walls do to everybody. 1 without such cells.
-double typical_change(const std::map<std::int64_t, Load>& before,
-                      const std::map<std::int64_t, Load>& now) {
+double typical_change(const std::map<std::int64_t, VolumeOfCell>& before,
+                      const std::map<std::int64_t, VolumeOfCell>& now) {
   std::vector<double> change;
   for (const auto& [id, load] : now)
     if (const auto it = before.find(id); it != before.end())
@@ -296,10 +298,10 @@ double typical_change(const std::map<std::int64_t, Load>& before,
 }
 
 /// Daughters against their mother in the frame before, next to how all others have fared.
-std::vector<Finding> compare_volumes(const std::map<std::int64_t, Load>& before,
-                                     const std::map<std::int64_t, Load>& now,
+std::vector<Finding> compare_volumes(const std::map<std::int64_t, VolumeOfCell>& before,
+                                     const std::map<std::int64_t, VolumeOfCell>& now,
                                      const Pedigree& pedigree, double time) {
-  std::map<std::int64_t, std::vector<Load>> born;
+  std::map<std::int64_t, std::vector<VolumeOfCell>> born;
   for (const auto& [id, load] : now)
     if (const auto it = pedigree.all().find(id); it != pedigree.all().end())
       if (before.contains(it->second.parent)) born[it->second.parent].push_back(load);
@@ -365,12 +367,12 @@ std::vector<Finding> inspect_frames(std::span<const io::Frame> frames,
     for (; told < events.size() && events[told].time_s <= time; ++told)
       keep(pedigree.add(events[told]));
   };
-  std::map<std::int64_t, Load> before;
+  std::map<std::int64_t, VolumeOfCell> before;
   for (const io::Frame& frame : frames) {
     tell_until(frame.time_s + kSameTime);
     keep(inspect_frame(frame, scene, start, pedigree));
     if (!all.empty() && all.back().defect == Defect::kNotFinite) return all;
-    const std::map<std::int64_t, Load> now = loads_of(frame);
+    const std::map<std::int64_t, VolumeOfCell> now = loads_of(frame);
     keep(compare_volumes(before, now, pedigree, frame.time_s));
     before = now;
   }

@@ -38,7 +38,7 @@ std::vector<Finding> inspect_frame(const io::Frame& frame, const runs::Scene& sc
                                    const coupling::World& start, const Pedigree& pedigree);
 
 /// Frames and the events between them: also finds events that could not be or did not come
-/// (untimely), and daughters who together have another volume than their mother had in the frame
+/// (untimely), and daughters that together have another volume than their mother had in the frame
 /// before, relative to rest, by kMostDivisionChange.
 /// @param start  what build_world makes of the scene
 std::vector<Finding> inspect_frames(std::span<const io::Frame> frames,

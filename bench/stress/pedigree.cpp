@@ -62,10 +62,10 @@ double Pedigree::shortest_cycle(const Relative& r) const {
   return life_of(r).time * (1 - kCut * life_of(r).spread);
 }
 
-Range Pedigree::rest_volume(const Relative& r, double time) const {
+Interval Pedigree::rest_volume(const Relative& r, double time) const {
   const coupling::CycleParams& life = life_of(r);
   const double grows = std::max(0.0, std::min(time, r.dissolves) - r.birth);
-  Range range{r.first_volume, r.first_volume};
+  Interval range{r.first_volume, r.first_volume};
   if (life.time > 0)
     range.high = std::min(2 * r.unit, r.first_volume + r.unit * grows / shortest_cycle(r));
   if (time > r.dissolves) {
@@ -88,14 +88,14 @@ bool Pedigree::may_die(std::int64_t id, const Relative& r, double time) const {
 std::string Pedigree::bear(const io::Event& e) {
   if (e.cell_id.size() != 3) return "a division without two daughters";
   const std::int64_t id = e.cell_id[0];
-  if (!is_there(id)) return fmt::format("cell {} divides, who is not there", id);
+  if (!is_there(id)) return fmt::format("cell {} divides, which is not there", id);
   Relative& mother = all_.at(id);
   mother.end = e.time_s;
   std::string wrong;
   const double needs = (2 * mother.unit - mother.first_volume) / mother.unit *
                        shortest_cycle(mother) * (1 - kRounding);
   if (life_of(mother).time <= 0 || std::isfinite(mother.dissolves))
-    wrong = fmt::format("cell {} divides, who does not grow", id);
+    wrong = fmt::format("cell {} divides, which does not grow", id);
   else if (e.time_s - mother.birth < needs - kRounding * (1 + e.time_s))
     wrong = fmt::format("cell {} divides {:.4g} s old; it cannot before {:.4g} s", id,
                         e.time_s - mother.birth, needs);
@@ -114,7 +114,7 @@ std::string Pedigree::bear(const io::Event& e) {
 
 std::string Pedigree::end_life(const io::Event& e) {
   const std::int64_t id = e.cell_id.empty() ? -1 : e.cell_id[0];
-  if (!is_there(id)) return fmt::format("{} of cell {}, who is not there", e.code, id);
+  if (!is_there(id)) return fmt::format("{} of cell {}, which is not there", e.code, id);
   Relative& r = all_.at(id);
   const coupling::DeathParams& death = life_of(r).death;
   const double slack = kRounding * (1 + e.time_s);
@@ -183,7 +183,7 @@ std::vector<Finding> Pedigree::compare(const io::Frame& f) const {
       add(Defect::kUnborn,
           fmt::format("cell {} is the daughter of {}, not of {}", id[k], r.parent, parent[k]));
     if (f.time_s < 0) continue;  // cells of a start-up are still small
-    const Range range = rest_volume(r, f.time_s);
+    const Interval range = rest_volume(r, f.time_s);
     const double v = rest.at(id[k]);
     if (v < (1 - kRounding) * range.low || v > (1 + kRounding) * range.high)
       add(Defect::kVolume, fmt::format("cell {} has a rest volume of {:.6g} um^3, not {:.6g} to "

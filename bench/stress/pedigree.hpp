@@ -1,6 +1,6 @@
 #pragma once
-/// Who may be there: the cells of a start and what events say became of them. Births, deaths and
-/// sizes are checked against what the parameters of life allow, not against the program's own
+/// Which cells may be there: those of a start and what events say became of them. Births, deaths
+/// and sizes are checked against what the parameters of life allow, not against the program's own
 /// state.
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Relative {
   bool early = false;  ///< taken away while dissolving, as the run says
 };
 
-struct Range {
+struct Interval {
   double low = 0, high = 0;
 };
 
@@ -36,7 +36,7 @@ class Pedigree {
   /// @param start  what build_world makes of a scene
   explicit Pedigree(const coupling::World& start);
 
-  /// Takes note of an event. @return unborn, untimely: partners who are not there, a division
+  /// Takes note of an event. @return unborn, untimely: partners that are not there, a division
   /// before the shortest cycle is over, a death outside its rule's time
   std::vector<Finding> add(const io::Event& event);
   /// Cells that must have divided or died by then, had the rules been kept.
@@ -50,7 +50,7 @@ class Pedigree {
   bool is_there(std::int64_t id) const;
   /// Reference volumes that a cell may have: it doubles within its cycle, and shrinks in lysis,
   /// um^3.
-  Range rest_volume(const Relative& cell, double time) const;
+  Interval rest_volume(const Relative& cell, double time) const;
 
  private:
   const coupling::CycleParams& life_of(const Relative& cell) const {

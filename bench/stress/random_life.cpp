@@ -18,9 +18,9 @@ constexpr std::uint64_t kStream = 1;  ///< the rest of the scene is drawn from s
 constexpr double kShortestCycle = 1800;
 
 /// The life of one scene in the making, drawn in a fixed order.
-class Drawing {
+class LifeDrawing {
  public:
-  explicit Drawing(const LifeSetting& setting)
+  explicit LifeDrawing(const LifeSetting& setting)
       : setting_(setting), random_(setting.seed, Purpose::kSampling, kStream) {}
   std::string draw();
 
@@ -39,12 +39,12 @@ class Drawing {
   UniformStream random_;
 };
 
-Json Drawing::direction() {
+Json LifeDrawing::direction() {
   const Vec3 v = random_.unit_vector();
   return {v.x(), v.y(), v.z()};
 }
 
-Json Drawing::draw_cycle() {
+Json LifeDrawing::draw_cycle() {
   const double time = setting_.wide
                           ? setting_.end * decades(0.1, 1.5)
                           : std::max(setting_.end * random_.uniform(0.3, 1.5), kShortestCycle);
@@ -71,7 +71,7 @@ Json Drawing::draw_cycle() {
   return cycle;
 }
 
-Json Drawing::draw_inhibition() {
+Json LifeDrawing::draw_inhibition() {
   const double by = random_.uniform(), threshold = random_.uniform(), power = random_.uniform();
   Json inhibition;
   const bool tissue = setting_.confined && !setting_.wide;  // that has no room left
@@ -89,7 +89,7 @@ Json Drawing::draw_inhibition() {
   return inhibition;
 }
 
-Json Drawing::draw_death() {
+Json LifeDrawing::draw_death() {
   const bool lysis = chance(0.5), soft = chance(0.5);
   const double duration = setting_.wide ? decades(1e-3, 1) : random_.uniform(0.1, 0.5);
   const double left = setting_.wide ? decades(0.02, 0.9) : random_.uniform(0.15, 0.4);
@@ -103,7 +103,7 @@ Json Drawing::draw_death() {
   return death;
 }
 
-Json Drawing::draw_region() {
+Json LifeDrawing::draw_region() {
   const double kind = random_.uniform(), part = random_.uniform();
   const Json normal = direction();
   if (kind < 0.6) return nullptr;
@@ -113,7 +113,7 @@ Json Drawing::draw_region() {
   return {{"kind", "sphere"}, {"radius", fmt::format("{:.5g} um", (0.2 + part) * reach)}};
 }
 
-Json Drawing::draw_rule(bool die) {
+Json LifeDrawing::draw_rule(bool die) {
   const bool everybody = chance(0.1), named = chance(0.2), descendants = chance(0.5);
   const double share = setting_.wide ? decades(0.05, 1) : random_.uniform(0.05, 0.4);
   const double from = chance(0.2) ? 0 : random_.uniform(0, 0.8) * setting_.end;
@@ -134,7 +134,7 @@ Json Drawing::draw_rule(bool die) {
   return rule;
 }
 
-std::string Drawing::draw() {
+std::string LifeDrawing::draw() {
   Json type, life, scene;
   const bool grows = chance(0.92);
   const Json cycle = draw_cycle(), inhibition = draw_inhibition();
@@ -166,6 +166,6 @@ std::string Drawing::draw() {
 
 }  // namespace
 
-std::string draw_life(const LifeSetting& setting) { return Drawing(setting).draw(); }
+std::string draw_life(const LifeSetting& setting) { return LifeDrawing(setting).draw(); }
 
 }  // namespace acinus::bench

@@ -20,8 +20,8 @@ using Json = nlohmann::ordered_json;
 /// alone: about two seconds.
 constexpr double kCellSteps = 2500;
 constexpr double kFewestSteps = 15, kMostSteps = 150;
-/// Closest packing that a compression aims at before cells are compressed: coarse meshes do not fill
-/// the corners of a box, and would be pressed far harder than asked.
+/// Closest packing that a compression aims at before cells are compressed: coarse meshes do not
+/// fill the corners of a box, and would be pressed far harder than asked.
 constexpr double kFullPacking = 0.75, kTightPacking = 0.92;
 /// Smallest volume, relative to the start, that a compression may ask of a cell.
 constexpr double kSmallestVolume = 0.6;
@@ -253,8 +253,7 @@ void Drawing::draw_box() {
   scene_["cells"] = {{"source", "box"}, {"grid", grid}, {"spacing", spacing_}, {"jitter", jitter_}};
   Vec3 half;
   for (int k = 0; k < 3; ++k)
-    half[k] =
-        radius_ * ((grid[static_cast<std::size_t>(k)] - 1) * spacing_ + 1 + 2 * jitter_) + kGap;
+    half[k] = radius_ * ((grid[k] - 1) * spacing_ + 1 + 2 * jitter_) + kGap;
   add_zoom(half.x());
   double travel = 2 * half.x() - rest_volume() * compressed_volume() / (4 * half.y() * half.z());
   double speed = 0;
@@ -265,7 +264,7 @@ void Drawing::draw_box() {
       Vec3 point = Vec3::Zero();
       point[k] = side * half[k];
       Json normal = {0, 0, 0};
-      normal[static_cast<std::size_t>(k)] = -side;
+      normal[k] = -side;
       Json wall = {{"point", place(point)}, {"normal", normal}};
       if (k == 0 && side > 0 && travel > 0) {
         wall["speed"] = quantity(speed, "um/h");

@@ -30,7 +30,7 @@ using Json = nlohmann::json;
 constexpr double kRunTime = 60, kHangTime = 300;
 constexpr std::size_t kAtATime = 2;
 
-enum class Outcome {
+enum class TrialOutcome {
   kClean,      ///< completed, nothing found
   kNamed,      ///< completed; what was found, the run told as an event
   kStopped,    ///< exit 3 with a cause and a checkpoint that opens
@@ -39,22 +39,23 @@ enum class Outcome {
   kCrashed,
   kHung,
   kNotFinite,
-  kUnnoticed,  ///< the run found nothing wrong, the judge did
+  kUnnoticed,  ///< the run found nothing wrong, the inspection did
 };
-constexpr std::array kOutcomes{Outcome::kClean,     Outcome::kNamed,     Outcome::kStopped,
-                               Outcome::kTimeLimit, Outcome::kRefused,   Outcome::kCrashed,
-                               Outcome::kHung,      Outcome::kNotFinite, Outcome::kUnnoticed};
-const char* name_of(Outcome outcome) {
+constexpr std::array kOutcomes{
+    TrialOutcome::kClean,     TrialOutcome::kNamed,     TrialOutcome::kStopped,
+    TrialOutcome::kTimeLimit, TrialOutcome::kRefused,   TrialOutcome::kCrashed,
+    TrialOutcome::kHung,      TrialOutcome::kNotFinite, TrialOutcome::kUnnoticed};
+const char* name_of(TrialOutcome outcome) {
   constexpr std::array kNames{"clean",   "named", "stopped",    "time_limit", "refused",
                               "crashed", "hung",  "not_finite", "unnoticed"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
-bool is_failure(Outcome o) { return o >= Outcome::kRefused; }
+bool is_failure(TrialOutcome o) { return o >= TrialOutcome::kRefused; }
 
 /// What came of one scene.
-struct Judgement {
+struct RunVerdict {
   std::uint64_t seed = 0;
-  Outcome outcome = Outcome::kClean;
+  TrialOutcome outcome = TrialOutcome::kClean;
   std::string cause;
   int cells = 0;
   double cpu_s = 0;
@@ -96,12 +97,12 @@ class Workplace {
   fs::path path_;
 };
 
-/// One scene on its way: written, running, judged.
-class Trial {
+/// One scene on its way: written, running, inspected.
+class RandomRun {
  public:
-  Trial(std::uint64_t seed, bool life, const fs::path& root);
+  RandomRun(std::uint64_t seed, bool life, const fs::path& root);
   const runs::Child& child() const { return *child_; }
-  Judgement judge();
+  RunVerdict inspect();
   void remove() const {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
@@ -122,12 +123,12 @@ class Trial {
   bool resumes() const;
   std::string last_line() const;
 
-  Judgement result_;
+  RunVerdict result_;
   fs::path folder_;
   std::optional<runs::Child> child_;
 };
 
-Trial::Trial(std::uint64_t seed, bool life, const fs::path& root)
+RandomRun::RandomRun(std::uint64_t seed, bool life, const fs::path& root)
     : folder_(root / fmt::format("seed_{}", seed)) {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
@@ -140,13 +141,13 @@ Trial::Trial(std::uint64_t seed, bool life, const fs::path& root)
   child_.emplace(words("--overwrite", fmt::format("{} s", kRunTime)), child_options());
 }
 
-Json Trial::summary() const {
+Json RandomRun::summary() const {
   if (!fs::exists(file("run/summary.json"))) return Json::object();
   return Json::parse(io::read_text_file(file("run/summary.json")), nullptr, false);
 }
 
 /// Whether the checkpoint opens and the run goes on from it, be it into the same trouble.
-bool Trial::resumes() const {
+bool RandomRun::resumes() const {
   runs::Child again(words("--resume", "0.000001 s"), child_options());
   runs::wait_for_any({&again});
   const runs::ChildEnd end = again.collect();
@@ -155,7 +156,7 @@ bool Trial::resumes() const {
          end.code == static_cast<int>(Exit::kCannotContinue);
 }
 
-std::string Trial::last_line() const {
+std::string RandomRun::last_line() const {
   std::ifstream in(file("output.txt"));
   std::string line, last;
   while (std::getline(in, line))
@@ -163,28 +164,30 @@ std::string Trial::last_line() const {
   return last;
 }
 
-Judgement Trial::judge() {
+RunVerdict RandomRun::inspect() {
   const runs::ChildEnd end = child_->collect();
-  Judgement& j = result_;
+  RunVerdict& j = result_;
   j.cpu_s = end.cpu_s;
-  const auto settle = [&](Outcome outcome, const std::string& cause) {
+  const auto settle = [&](TrialOutcome outcome, const std::string& cause) {
     j.outcome = outcome;
     j.cause = cause;
     return j;
   };
-  if (end.timed_out) return settle(Outcome::kHung, fmt::format("killed after {} s", kHangTime));
-  if (end.signal != 0) return settle(Outcome::kCrashed, fmt::format("signal {}", end.signal));
-  if (end.code == static_cast<int>(Exit::kBadInput)) return settle(Outcome::kRefused, last_line());
+  if (end.timed_out)
+    return settle(TrialOutcome::kHung, fmt::format("killed after {} s", kHangTime));
+  if (end.signal != 0) return settle(TrialOutcome::kCrashed, fmt::format("signal {}", end.signal));
+  if (end.code == static_cast<int>(Exit::kBadInput))
+    return settle(TrialOutcome::kRefused, last_line());
   const bool stopped = end.code == static_cast<int>(Exit::kCannotContinue);
   const bool late = end.code == static_cast<int>(Exit::kStopped);
   if (end.code != 0 && !stopped && !late)
-    return settle(Outcome::kCrashed, fmt::format("exit {}: {}", end.code, last_line()));
+    return settle(TrialOutcome::kCrashed, fmt::format("exit {}: {}", end.code, last_line()));
 
   const Json s = summary();
   if (!s.is_object() || !s.contains("status"))
-    return settle(Outcome::kCrashed, fmt::format("exit {} without summary.json", end.code));
+    return settle(TrialOutcome::kCrashed, fmt::format("exit {} without summary.json", end.code));
   if (s["status"] != (stopped ? "failed" : late ? "stopped" : "completed"))
-    return settle(Outcome::kCrashed,
+    return settle(TrialOutcome::kCrashed,
                   fmt::format("exit {}, but status {}", end.code, s["status"].dump()));
   const runs::Scene scene = runs::read_scene(file("scene.json"));
   const io::RunReader run(file("run/run.vtkhdf"));
@@ -196,15 +199,15 @@ Judgement Trial::judge() {
     return fmt::format("{} at {:.4g} s: {}", name_of(f.defect), f.time_s, f.what);
   };
   for (const Finding& f : found)
-    if (f.defect == Defect::kNotFinite) return settle(Outcome::kNotFinite, text(f));
+    if (f.defect == Defect::kNotFinite) return settle(TrialOutcome::kNotFinite, text(f));
   for (const Finding& f : found)
-    if (concerns_family(f.defect)) return settle(Outcome::kUnnoticed, text(f));
+    if (concerns_family(f.defect)) return settle(TrialOutcome::kUnnoticed, text(f));
   if (stopped) {
     const std::string cause = s.value("cause", "");
-    if (cause.empty()) return settle(Outcome::kUnnoticed, "exit 3 without a cause");
+    if (cause.empty()) return settle(TrialOutcome::kUnnoticed, "exit 3 without a cause");
     if (!resumes())
-      return settle(Outcome::kUnnoticed, "the checkpoint cannot be resumed: " + last_line());
-    return settle(Outcome::kStopped, cause);
+      return settle(TrialOutcome::kUnnoticed, "the checkpoint cannot be resumed: " + last_line());
+    return settle(TrialOutcome::kStopped, cause);
   }
   // A start that overlaps is the scene's own doing; what counts is whether contact mends it.
   std::erase_if(found, [&](const Finding& f) {
@@ -213,26 +216,26 @@ Judgement Trial::judge() {
   if (!found.empty()) {
     const bool named =
         std::ranges::all_of(found, [&](const Finding& f) { return names(events, f); });
-    return settle(named ? Outcome::kNamed : Outcome::kUnnoticed,
+    return settle(named ? TrialOutcome::kNamed : TrialOutcome::kUnnoticed,
                   found.size() == 1
                       ? text(found.front())
                       : fmt::format("{} ... {}", text(found.front()), text(found.back())));
   }
-  if (late) return settle(Outcome::kTimeLimit, s.value("cause", ""));
-  return settle(Outcome::kClean, "");
+  if (late) return settle(TrialOutcome::kTimeLimit, s.value("cause", ""));
+  return settle(TrialOutcome::kClean, "");
 }
 
 /// What happened in scenes with life, as counted in the table.
 constexpr std::array kLifeEvents{"division", "division_waits", "settling_failed", "death",
                                  "lysis",    "remeshed",       "mesh_degenerate"};
 
-BenchRow row_of(Family family, bool life, const std::vector<Judgement>& all) {
+BenchRow row_of(Family family, bool life, const std::vector<RunVerdict>& all) {
   BenchRow row{name_of(family), 0, {}};
-  std::map<Outcome, int> count;
+  std::map<TrialOutcome, int> count;
   std::map<std::string, int> event;
   int n = 0;
   double cpu = 0;
-  for (const Judgement& j : all) {
+  for (const RunVerdict& j : all) {
     if (family_of(j.seed) != family) continue;
     ++n;
     ++count[j.outcome];
@@ -242,7 +245,7 @@ BenchRow row_of(Family family, bool life, const std::vector<Judgement>& all) {
     row.passed = row.passed && !is_failure(j.outcome);
   }
   row.value.emplace_back("scenes", n);
-  for (const Outcome o : kOutcomes) row.value.emplace_back(name_of(o), count[o]);
+  for (const TrialOutcome o : kOutcomes) row.value.emplace_back(name_of(o), count[o]);
   if (life)
     for (const char* code : kLifeEvents) row.value.emplace_back(code, event[code]);
   row.value.emplace_back("cpu_s", cpu);
@@ -259,30 +262,30 @@ BenchTable bench_stress(const BenchOptions& options) {
   const std::size_t most = options.threads == 1 ? 1 : kAtATime;
   const auto first = static_cast<std::uint64_t>(options.first);
   const std::uint64_t end = first + static_cast<std::uint64_t>(options.seeds);
-  std::vector<Judgement> all;
-  std::vector<Trial> running;
+  std::vector<RunVerdict> all;
+  std::vector<RandomRun> running;
   for (std::uint64_t seed = first; seed < end || !running.empty();) {
     while (running.size() < most && seed < end)
       running.emplace_back(seed++, options.life, place.path());
     std::vector<const runs::Child*> children;
-    for (const Trial& trial : running) children.push_back(&trial.child());
+    for (const RandomRun& trial : running) children.push_back(&trial.child());
     const auto done = running.begin() + static_cast<std::ptrdiff_t>(*runs::wait_for_any(children));
-    const Judgement j = done->judge();
-    if (j.outcome == Outcome::kClean) done->remove();
+    const RunVerdict j = done->inspect();
+    if (j.outcome == TrialOutcome::kClean) done->remove();
     running.erase(done);
     all.push_back(j);
     list << fmt::format("{},{},{},{},{:.2f},\"{}\"\n", j.seed, name_of(family_of(j.seed)),
                         name_of(j.outcome), j.cells, j.cpu_s, j.cause)
          << std::flush;
   }
-  std::ranges::sort(all, {}, &Judgement::seed);
+  std::ranges::sort(all, {}, &RunVerdict::seed);
   BenchTable table;
   for (const Family family : {Family::kNominal, Family::kWide}) {
     table.push_back(row_of(family, options.life, all));
     print_row(table.back());
   }
-  for (const Judgement& j : all)
-    if (j.outcome != Outcome::kClean)
+  for (const RunVerdict& j : all)
+    if (j.outcome != TrialOutcome::kClean)
       fmt::print("seed {} ({}, {:.1f} s): {}: {}\n", j.seed, name_of(family_of(j.seed)), j.cpu_s,
                  name_of(j.outcome), j.cause);
   return table;

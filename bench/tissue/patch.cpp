@@ -29,7 +29,7 @@ constexpr double kInner = 0.65;
 constexpr std::size_t kNear = 12;
 
 /// A frame: its cells, and how dense they are about each, 1/um^3 up to a factor.
-struct Moment {
+struct PatchFrame {
   runs::CellRecords cells;
   std::map<std::int64_t, double> density;
 };
@@ -46,35 +46,35 @@ double density_about(const runs::CellRecords& cells, std::int64_t id) {
   return std::pow(static_cast<double>(n) / sum, 3);
 }
 
-std::vector<Moment> read_moments(const std::string& folder) {
+std::vector<PatchFrame> read_frames(const std::string& folder) {
   const io::RunReader run(folder + "/run.vtkhdf");
-  std::vector<Moment> moments;
+  std::vector<PatchFrame> frames;
   for (int k = 0; k < run.n_frame(); ++k) {
-    Moment m{runs::read_cells(run, k, folder), {}};
+    PatchFrame m{runs::read_cells(run, k, folder), {}};
     for (const auto& [id, unused] : m.cells) m.density[id] = density_about(m.cells, id);
-    moments.push_back(std::move(m));
+    frames.push_back(std::move(m));
   }
-  return moments;
+  return frames;
 }
 
 /// Means over the inner cells of one kind.
-struct Bulk {
+struct HalfMean {
   double pressure = 0, force = 0, density = 0;
   int cells = 0;
 };
 
 /// @param like        where the cells stand that count, and which of them are deformable
 /// @param deformable  which of both kinds counts
-Bulk measure(const Moment& moment, const Moment& like, bool deformable, double reach) {
-  Bulk b;
-  for (const auto& [id, c] : moment.cells) {
+HalfMean measure(const PatchFrame& frame, const PatchFrame& like, bool deformable, double reach) {
+  HalfMean b;
+  for (const auto& [id, c] : frame.cells) {
     const auto there = like.cells.find(id);
     if (there == like.cells.end() || there->second.deformable != deformable ||
         !(there->second.center.norm() < reach))
       continue;
     b.pressure += c.pressure;
     b.force += c.force;
-    b.density += moment.density.at(id);
+    b.density += frame.density.at(id);
     ++b.cells;
   }
   const double n = std::max(1, b.cells);
@@ -87,15 +87,15 @@ Bulk measure(const Moment& moment, const Moment& like, bool deformable, double r
 double jump(double a, double b) { return 2 * std::abs(a - b) / (a + b); }
 
 /// A variant of the scene.
-struct Variant {
+struct PatchVariant {
   std::string name, folder;
   runs::Scene scene;
 };
 
-Variant make_variant(const runs::Scene& shipped, const std::string& name, double share,
-                     const std::string& law) {
-  Variant v{name, fmt::format("{:.0f}_{}", 100 * share, law == "none" ? "plain" : "calibrated"),
-            shipped};
+PatchVariant make_variant(const runs::Scene& shipped, const std::string& name, double share,
+                          const std::string& law) {
+  PatchVariant v{
+      name, fmt::format("{:.0f}_{}", 100 * share, law == "none" ? "plain" : "calibrated"), shipped};
   if (share >= 1) {
     v.scene.model = v.scene.cells.model = "dcm";
     v.scene.zoom.clear();
@@ -115,26 +115,26 @@ Variant make_variant(const runs::Scene& shipped, const std::string& name, double
 }
 
 struct Reference {
-  std::vector<Moment> moment;
+  std::vector<PatchFrame> frame;
   double cpu = 0;
 };
 
-BenchRow compare(const Variant& v, const std::string& folder, const runs::Scene& shipped,
+BenchRow compare(const PatchVariant& v, const std::string& folder, const runs::Scene& shipped,
                  const Reference& reference) {
-  const std::vector<Moment> moments = read_moments(folder);
+  const std::vector<PatchFrame> frames = read_frames(folder);
   double pressure = 0, force = 0, density = 0, error = 0, shift = 0, worst = 0, reached = 0;
   int n = 0, cells = 0;
   std::vector<double> alone;  // pressure of the deformable ball at every frame
-  for (const Moment& m : reference.moment)
+  for (const PatchFrame& m : reference.frame)
     alone.push_back(measure(m, m, true, kInner * shipped.capsule.min_radius).pressure);
-  for (std::size_t k = 0; k < std::min(moments.size(), reference.moment.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(frames.size(), reference.frame.size()); ++k) {
     const double time = static_cast<double>(k) * shipped.output.every;
     const double reach = kInner * std::max(shipped.capsule.min_radius,
                                            shipped.capsule.radius - shipped.capsule.speed * time);
-    const Bulk shells = measure(moments[k], moments[k], true, reach),
-               spheres = measure(moments[k], moments[k], false, reach),
-               same = measure(reference.moment[k], moments[k], true, reach);
-    cells = static_cast<int>(moments[k].cells.size());
+    const HalfMean shells = measure(frames[k], frames[k], true, reach),
+                   spheres = measure(frames[k], frames[k], false, reach),
+                   same = measure(reference.frame[k], frames[k], true, reach);
+    cells = static_cast<int>(frames[k].cells.size());
     if (shells.cells == 0 || spheres.cells == 0) continue;
     if (!(same.pressure > kLowest && same.pressure < kHighest)) continue;
     reached = same.pressure;
@@ -153,7 +153,7 @@ BenchRow compare(const Variant& v, const std::string& folder, const runs::Scene&
   return {v.name,
           cells,
           {{"share_of_deformable_cells", static_cast<double>(summary.dcm) / cells},
-           {"moments", n},
+           {"frames", n},
            {"up_to_pressure_Pa", reached},
            {"pressure_jump", pressure / count},
            {"worst_pressure_jump", worst},
@@ -165,7 +165,7 @@ BenchRow compare(const Variant& v, const std::string& folder, const runs::Scene&
 }
 
 /// A compression may end early where surfaces crumple: what was reached is compared.
-void run(const Variant& v, const std::string& folder, int threads) {
+void run(const PatchVariant& v, const std::string& folder, int threads) {
   const int code = runs::run_stage(v.scene, {folder, threads, true, false, "acinus bench patch"});
   check(code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),
         fmt::format("bench patch: the run in {} ended with exit code {}", folder, code),
@@ -180,12 +180,12 @@ BenchTable bench_patch(const BenchOptions& options) {
   const int stop = runs::resolve_corrections(shipped, options.threads, false);
   check(stop == 0, "bench patch: the calibration was stopped", Exit::kCannotContinue);
   const std::string law = shipped.cell_types.begin()->second.cbm.stiffness_correction;
-  const Variant all = make_variant(shipped, "deformable cells only", 1, "none");
+  const PatchVariant all = make_variant(shipped, "deformable cells only", 1, "none");
   run(all, root + "/" + all.folder, options.threads);
-  const Reference reference{read_moments(root + "/" + all.folder),
+  const Reference reference{read_frames(root + "/" + all.folder),
                             runs::read_summary(root + "/" + all.folder).cpu_s};
   BenchTable table;
-  for (const Variant& v :
+  for (const PatchVariant& v :
        {make_variant(shipped, "plain spheres, half", 0.5, "none"),
         make_variant(shipped, "calibrated, three quarters deformable", 0.75, law),
         make_variant(shipped, "calibrated, half", 0.5, law),

@@ -1,6 +1,6 @@
 #pragma once
-/// How well the two models meet: a compressed ball, part of it deformable cells and the rest spheres,
-/// against the same ball of deformable cells only.
+/// How well the two models meet: a compressed ball, part of it deformable cells and the rest
+/// spheres, against the same ball of deformable cells only.
 
 #include "bench/output/table.hpp"
 

@@ -27,7 +27,7 @@ constexpr std::pair<const char*, double> kLooks[] = {
     {"10s", 10}, {"10min", 600}, {"1h", kHour}, {"5h", 5 * kHour}, {"24h", 24 * kHour}};
 
 /// What stands in one row.
-struct Variant {
+struct RelaxationVariant {
   std::string name, folder;
   runs::Scene scene;
 };
@@ -52,8 +52,9 @@ void hold(double time, runs::Scene& scene) {
 }
 
 /// Deformable cells, or spheres if there are no nodes.
-Variant make_variant(const runs::Scene& shipped, double held, int nodes, const std::string& form) {
-  Variant v{"", "", shipped};
+RelaxationVariant make_variant(const runs::Scene& shipped, double held, int nodes,
+                               const std::string& form) {
+  RelaxationVariant v{"", "", shipped};
   hold(held, v.scene);
   std::string what = form;
   if (nodes > 0) {
@@ -75,8 +76,8 @@ Variant make_variant(const runs::Scene& shipped, double held, int nodes, const s
   return v;
 }
 
-std::vector<Variant> make_variants(const runs::Scene& shipped) {
-  std::vector<Variant> all;
+std::vector<RelaxationVariant> make_variants(const runs::Scene& shipped) {
+  std::vector<RelaxationVariant> all;
   for (const double held : kHolds) {
     for (const int nodes : {162, 642})
       for (const char* form : {"surface", "nodes"})
@@ -88,7 +89,7 @@ std::vector<Variant> make_variants(const runs::Scene& shipped) {
 }
 
 /// Figures of a run: the overlap from a capsule, the height from between plates.
-BenchRow make_row(const Variant& v, const std::string& folder) {
+BenchRow make_row(const RelaxationVariant& v, const std::string& folder) {
   const runs::RunSummary summary = runs::read_summary(folder);
   const std::string name = v.scene.capsule.enabled ? "overlap" : "height";
   const std::vector<double>&time = series(summary, "time_s"),
@@ -104,8 +105,7 @@ BenchRow make_row(const Variant& v, const std::string& folder) {
   }
   const std::vector<double> after(y.begin() + from, y.end());
   std::vector<double> since;
-  for (std::size_t k = static_cast<std::size_t>(from); k < time.size(); ++k)
-    since.push_back(time[k] - release);
+  for (std::size_t k = from; k < time.size(); ++k) since.push_back(time[k] - release);
   row.value.emplace_back(name + "_compressed", after.front());
   const double compression = y.front() - after.front();
   for (const auto& [label, t] : kLooks)
@@ -127,7 +127,7 @@ BenchTable bench_relaxation(const BenchOptions& options) {
     for (auto& [type_name, type] : shipped.cell_types) type.cbm.stiffness_correction = "auto";
     const int stop = runs::resolve_corrections(shipped, options.threads, false);
     check(stop == 0, "bench relaxation: the calibration was stopped", Exit::kCannotContinue);
-    for (const Variant& v : make_variants(shipped)) {
+    for (const RelaxationVariant& v : make_variants(shipped)) {
       const std::string folder = root + "/" + v.folder;
       const int code = runs::run_stage(
           v.scene, {folder, options.threads, true, false, "acinus bench relaxation"});

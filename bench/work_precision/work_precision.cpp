@@ -21,8 +21,8 @@ namespace {
 struct CaseReport {
   std::string text;  ///< markdown
   BenchTable rows;
-  std::vector<Outcome> time, space;
-  std::vector<std::vector<Outcome>> study;  ///< of time, one by one
+  std::vector<PrecisionOutcome> time, space;
+  std::vector<std::vector<PrecisionOutcome>> study;  ///< of time, one by one
 };
 
 /// Adds to the text and prints.
@@ -34,17 +34,18 @@ void say(CaseReport& report, const std::string& text) {
 
 CaseReport run_case(const WorkCase& c, WarmScene& scene) {
   CaseReport report;
-  auto run = [&](const Study& study, std::vector<Outcome>& all) {
+  auto run = [&](const PrecisionStudy& study, std::vector<PrecisionOutcome>& all) {
     say(report, table_head(c.scene, study));
-    std::vector<Outcome> outcomes = run_study(scene, study, [&](const Outcome& e) {
-      say(report, table_line(c.scene, e));
-      report.rows.push_back(bench_row(c.scene, study.title, e));
-    });
+    std::vector<PrecisionOutcome> outcomes =
+        run_study(scene, study, [&](const PrecisionOutcome& e) {
+          say(report, table_line(c.scene, e));
+          report.rows.push_back(bench_row(c.scene, study.title, e));
+        });
     all.insert(all.end(), outcomes.begin(), outcomes.end());
     return outcomes;
   };
-  for (const Study& s : c.time) report.study.push_back(run(s, report.time));
-  for (const Study& s : c.space) run(s, report.space);
+  for (const PrecisionStudy& s : c.time) report.study.push_back(run(s, report.time));
+  for (const PrecisionStudy& s : c.space) run(s, report.space);
   return report;
 }
 
@@ -58,17 +59,19 @@ void write_case(const WorkCase& c, const CaseReport& report, const std::string& 
   const std::string stem = (std::filesystem::path(folder) / c.scene.name).string();
   io::write_text_file(stem + ".md", report.text);
   const bool strain = c.scene.axis != Vec3::Zero();
-  auto plot = [&](const std::vector<Outcome>& outcomes, const char* kind, const std::string& file) {
+  auto plot = [&](const std::vector<PrecisionOutcome>& outcomes, const char* kind,
+                  const std::string& file) {
     if (outcomes.empty()) return;
     const std::string title = fmt::format("{}: {}", c.scene.title, kind);
     io::write_plot(
         stem + file + (strain ? "_strain.svg" : "_pressure.svg"),
         make_plot(c.scene, title, outcomes, strain ? "strain error, %" : "pressure error, %",
-                  [](const Outcome& e) { return 100 * e.judged; }));
+                  [](const PrecisionOutcome& e) { return 100 * e.main_error; }));
     if (!strain)
-      io::write_plot(stem + file + "_force.svg",
-                     make_plot(c.scene, title, outcomes, "contact force error, %",
-                               [](const Outcome& e) { return 100 * e.error.contact_force; }));
+      io::write_plot(
+          stem + file + "_force.svg",
+          make_plot(c.scene, title, outcomes, "contact force error, %",
+                    [](const PrecisionOutcome& e) { return 100 * e.error.contact_force; }));
   };
   plot(report.time, "time stepping", "");
   plot(report.space, "mesh and quadrature", "_mesh");
@@ -83,9 +86,10 @@ BenchTable bench_case(const WorkCase& c, const BenchOptions& options) {
 }
 
 /// Outcomes of one method with fixed steps.
-std::vector<Outcome> of_method(const std::vector<Outcome>& outcomes, coupling::Integrator method) {
-  std::vector<Outcome> own;
-  std::ranges::copy_if(outcomes, std::back_inserter(own), [&](const Outcome& e) {
+std::vector<PrecisionOutcome> of_method(const std::vector<PrecisionOutcome>& outcomes,
+                                        coupling::Integrator method) {
+  std::vector<PrecisionOutcome> own;
+  std::ranges::copy_if(outcomes, std::back_inserter(own), [&](const PrecisionOutcome& e) {
     return e.setting.integrator == method && !e.setting.adaptive;
   });
   return own;
@@ -93,9 +97,10 @@ std::vector<Outcome> of_method(const std::vector<Outcome>& outcomes, coupling::I
 
 /// That of the longest step up to `most`, s; null: none. A short window has no room for very long
 /// steps.
-const Outcome* find_longest_step(const std::vector<Outcome>& outcomes, double most) {
-  const Outcome* longest = nullptr;
-  for (const Outcome& e : outcomes)
+const PrecisionOutcome* find_longest_step(const std::vector<PrecisionOutcome>& outcomes,
+                                          double most) {
+  const PrecisionOutcome* longest = nullptr;
+  for (const PrecisionOutcome& e : outcomes)
     if (e.failure.empty() && e.setting.step <= most &&
         (!longest || e.setting.step > longest->setting.step))
       longest = &e;
@@ -104,26 +109,31 @@ const Outcome* find_longest_step(const std::vector<Outcome>& outcomes, double mo
 
 /// What the linearly implicit method saves against explicit Euler at the same error. Explicit Euler
 /// takes too long for the long window, so CPU times per simulated time are compared, each method
-/// with its cheapest setting over the window it was judged on; the two are timed in turns.
+/// with its cheapest setting over the window it was measured on; the two are timed in turns.
 BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
-                                 const std::vector<Outcome>& long_window,
-                                 const std::vector<Outcome>& short_window, CaseReport& report) {
+                                 const std::vector<PrecisionOutcome>& long_window,
+                                 const std::vector<PrecisionOutcome>& short_window,
+                                 CaseReport& report) {
   constexpr double kError = 0.02;
   constexpr int kTurns = 3;
   const auto explicits = of_method(short_window, coupling::Integrator::kExplicitEuler);
   const auto implicits = of_method(long_window, coupling::Integrator::kLinearlyImplicit);
   const auto brief = of_method(short_window, coupling::Integrator::kLinearlyImplicit);
-  const Outcome *slow = find_cheapest(explicits, kError), *fast = find_cheapest(implicits, kError);
+  const PrecisionOutcome *slow = find_cheapest(explicits, kError),
+                         *fast = find_cheapest(implicits, kError);
   if (!slow || !fast) {
     say(report,
         fmt::format("\nNo ratio to explicit Euler: no setting within {:g} %.\n", 100 * kError));
     return {};
   }
   // The usual step is more careful than the error asks for; its ratio is what users see.
-  const Outcome& usual = *std::ranges::find_if(implicits, [](const Outcome& e) {
-    return e.setting.step == Setting{}.step && e.setting.cg_tolerance == Setting{}.cg_tolerance;
+  const PrecisionOutcome& usual = *std::ranges::find_if(implicits, [](const PrecisionOutcome& e) {
+    return e.setting.step == PrecisionSetting{}.step &&
+           e.setting.cg_tolerance == PrecisionSetting{}.cg_tolerance;
   });
-  auto rate = [&](const Outcome& e) { return scene.run(e.setting, e.window, 1).cpu / e.window; };
+  auto rate = [&](const PrecisionOutcome& e) {
+    return scene.run(e.setting, e.window, 1).cpu / e.window;
+  };
   std::vector<double> ratio, usual_ratio;
   for (int turn = 0; turn < kTurns; ++turn) {
     const double explicit_rate = rate(*slow);
@@ -139,7 +149,7 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                   "dt {:g} s, {:.2g} % over {:g} s, the cheapest of its settings within the limit. "
                   "Linearly implicit: dt {:g} s, {:.2g} % over {:g} s",
                   100 * kError, middle, ratio.front(), ratio.back(), kTurns, slow->setting.step,
-                  100 * slow->judged, slow->window, fast->setting.step, 100 * fast->judged,
+                  100 * slow->main_error, slow->window, fast->setting.step, 100 * fast->main_error,
                   fast->window));
   BenchRow row{c.scene.title + ": explicit Euler over linearly implicit",
                slow->cells,
@@ -149,16 +159,16 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                 {"cpu_ratio_usual_step", usual_middle},
                 {"explicit_step_s", slow->setting.step},
                 {"implicit_step_s", fast->setting.step},
-                {"explicit_error", slow->judged},
-                {"implicit_error", fast->judged}}};
-  if (const Outcome* nearest = find_longest_step(brief, fast->setting.step)) {
+                {"explicit_error", slow->main_error},
+                {"implicit_error", fast->main_error}}};
+  if (const PrecisionOutcome* nearest = find_longest_step(brief, fast->setting.step)) {
     say(report, fmt::format("; dt {:g} s, {:.2g} % over {:g} s", nearest->setting.step,
-                            100 * nearest->judged, nearest->window));
+                            100 * nearest->main_error, nearest->window));
     row.value.emplace_back("implicit_step_short_s", nearest->setting.step);
-    row.value.emplace_back("implicit_error_short", nearest->judged);
+    row.value.emplace_back("implicit_error_short", nearest->main_error);
   }
   say(report, fmt::format(".\nWith the usual step of {:g} s, {:.2g} % over {:g} s: {:.0f}.\n",
-                          usual.setting.step, 100 * usual.judged, usual.window, usual_middle));
+                          usual.setting.step, 100 * usual.main_error, usual.window, usual_middle));
   return {row};
 }
 
@@ -184,11 +194,11 @@ BenchTable bench_clump(const BenchOptions& options) {
   const WorkCase c = clump_case();
   WarmScene scene(c.scene);
   CaseReport report = run_case(c, scene);
-  const std::vector<Outcome> brief = report.study.back();
+  const std::vector<PrecisionOutcome> brief = report.study.back();
   report.time.resize(report.time.size() - brief.size());  // ten minutes are no six hours
   say(report, "\n" + cheapest_text(c.scene, report.time));
   const BenchTable ratio = compare_with_explicit(c, scene, report.study.front(), brief, report);
-  std::ranges::copy_if(brief, std::back_inserter(report.time), [](const Outcome& e) {
+  std::ranges::copy_if(brief, std::back_inserter(report.time), [](const PrecisionOutcome& e) {
     return e.setting.integrator == coupling::Integrator::kExplicitEuler;
   });
   report.rows.insert(report.rows.end(), ratio.begin(), ratio.end());

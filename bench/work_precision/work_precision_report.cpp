@@ -11,7 +11,7 @@
 namespace acinus::bench {
 namespace {
 
-const double kUsualTolerance = Setting{}.cg_tolerance;
+const double kUsualTolerance = PrecisionSetting{}.cg_tolerance;
 
 bool measures_strain(const WorkScene& scene) { return scene.axis != Vec3::Zero(); }
 
@@ -20,7 +20,7 @@ std::string name_space(const Discretisation& d) {
 }
 
 /// "60 s", "up to 60 s for 0.01 um"
-std::string name_step(const Setting& s) {
+std::string name_step(const PrecisionSetting& s) {
   return s.adaptive ? fmt::format("up to {:g} s for {:g} um", s.step, s.tolerance)
                     : fmt::format("{:g} s", s.step);
 }
@@ -41,12 +41,14 @@ const char* short_name(coupling::Integrator integrator) {
 }
 
 /// Which line of a plot an outcome belongs to.
-std::string series_of(const Outcome& e, bool deformable, bool spatial, double usual_window) {
-  const Setting& s = e.setting;
+std::string series_of(const PrecisionOutcome& e, bool deformable, bool spatial,
+                      double usual_window) {
+  const PrecisionSetting& s = e.setting;
   const std::string quadrature = deformable ? s.space.quadrature : "";
   if (spatial) return quadrature;
   std::string name = short_name(s.integrator);
-  if (s.adaptive) name = "adaptive" + (s.integrator == Setting{}.integrator ? "" : ", " + name);
+  if (s.adaptive)
+    name = "adaptive" + (s.integrator == PrecisionSetting{}.integrator ? "" : ", " + name);
   if (s.extrapolate) name += ", extrapolated";
   if (deformable && s.space.quadrature != Discretisation{}.quadrature) name += ", " + quadrature;
   if (s.cg_tolerance != kUsualTolerance) name += ", other CG";
@@ -56,13 +58,13 @@ std::string series_of(const Outcome& e, bool deformable, bool spatial, double us
 
 }  // namespace
 
-std::string describe(const Setting& s, bool deformable) {
+std::string describe(const PrecisionSetting& s, bool deformable) {
   return fmt::format("{}{}{}, {}dt {}, CG {:g}", coupling::name_of(s.integrator),
                      s.extrapolate ? " (extrapolated)" : "", s.adaptive ? " (adaptive)" : "",
                      deformable ? name_space(s.space) + ", " : "", name_step(s), s.cg_tolerance);
 }
 
-std::string table_head(const WorkScene& scene, const Study& study) {
+std::string table_head(const WorkScene& scene, const PrecisionStudy& study) {
   const std::string moments =
       study.samples > 1 ? fmt::format("at {} equally spaced moments", study.samples) : "at its end";
   std::string out = fmt::format(
@@ -81,8 +83,8 @@ std::string table_head(const WorkScene& scene, const Study& study) {
   return out + rule + (scene.deformable ? "---|---|---|---|---|\n" : "---|---|---|---|\n");
 }
 
-std::string table_line(const WorkScene& scene, const Outcome& e) {
-  const Setting& s = e.setting;
+std::string table_line(const WorkScene& scene, const PrecisionOutcome& e) {
+  const PrecisionSetting& s = e.setting;
   std::string out = fmt::format(
       "| {}{}{} | {}{} | {:g} | {:.3g} | {} | {:.1f} |", coupling::name_of(s.integrator),
       s.extrapolate ? ", extrapolated" : "", s.adaptive ? ", adaptive" : "",
@@ -100,21 +102,21 @@ std::string table_line(const WorkScene& scene, const Outcome& e) {
                            e.error.center_max, e.error.center_rms);
 }
 
-std::string cheapest_text(const WorkScene& scene, const std::vector<Outcome>& outcomes) {
+std::string cheapest_text(const WorkScene& scene, const std::vector<PrecisionOutcome>& outcomes) {
   std::set<Discretisation> spaces;
-  for (const Outcome& e : outcomes) spaces.insert(e.setting.space);
+  for (const PrecisionOutcome& e : outcomes) spaces.insert(e.setting.space);
   const char* what = measures_strain(scene) ? "strain" : "pressure";
   std::string out;
   for (const Discretisation& d : spaces) {
-    std::vector<Outcome> own;
+    std::vector<PrecisionOutcome> own;
     std::ranges::copy_if(outcomes, std::back_inserter(own),
-                         [&](const Outcome& e) { return e.setting.space == d; });
+                         [&](const PrecisionOutcome& e) { return e.setting.space == d; });
     for (const double limit : {0.05, 0.02, 0.01}) {
-      const Outcome* best = find_cheapest(own, limit);
+      const PrecisionOutcome* best = find_cheapest(own, limit);
       out += fmt::format("- {} within {:g} %{}: ", what, 100 * limit,
                          scene.deformable ? " on " + name_space(d) : "");
       out += best ? fmt::format("{}: {:.3g} s CPU, {:.2g} %\n", describe(best->setting, false),
-                                best->cpu, 100 * best->judged)
+                                best->cpu, 100 * best->main_error)
                   : std::string("none of the settings\n");
     }
   }
@@ -122,13 +124,13 @@ std::string cheapest_text(const WorkScene& scene, const std::vector<Outcome>& ou
 }
 
 io::Plot make_plot(const WorkScene& scene, const std::string& title,
-                   const std::vector<Outcome>& outcomes, const std::string& y_label,
-                   double (*error)(const Outcome&)) {
-  const bool spatial = std::ranges::any_of(outcomes, [&](const Outcome& e) {
+                   const std::vector<PrecisionOutcome>& outcomes, const std::string& y_label,
+                   double (*error)(const PrecisionOutcome&)) {
+  const bool spatial = std::ranges::any_of(outcomes, [&](const PrecisionOutcome& e) {
     return e.setting.space.nodes != outcomes.front().setting.space.nodes;
   });
   io::Plot plot{title, "CPU s per simulated hour", y_label, true, true, {}};
-  for (const Outcome& e : outcomes) {
+  for (const PrecisionOutcome& e : outcomes) {
     if (!e.failure.empty()) continue;
     const std::string name = series_of(e, scene.deformable, spatial, outcomes.front().window);
     auto line = std::ranges::find(plot.line, name, &io::PlotLine::name);
@@ -139,7 +141,7 @@ io::Plot make_plot(const WorkScene& scene, const std::string& title,
   return plot;
 }
 
-BenchRow bench_row(const WorkScene& scene, const std::string& study, const Outcome& e) {
+BenchRow bench_row(const WorkScene& scene, const std::string& study, const PrecisionOutcome& e) {
   const Errors& r = e.error;
   BenchRow row{fmt::format("{}: {}: {}", scene.title, study, describe(e.setting, scene.deformable)),
                e.cells,

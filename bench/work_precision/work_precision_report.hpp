@@ -10,22 +10,23 @@
 namespace acinus::bench {
 
 /// "linearly-implicit, 162 nodes, 3-point, dt 60 s, CG 0.001"; of spheres without the mesh.
-std::string describe(const Setting& setting, bool deformable);
+std::string describe(const PrecisionSetting& setting, bool deformable);
 
 /// Head of a study's table in markdown: title, reference and column names.
-std::string table_head(const WorkScene& scene, const Study& study);
+std::string table_head(const WorkScene& scene, const PrecisionStudy& study);
 /// One line of it.
-std::string table_line(const WorkScene& scene, const Outcome& outcome);
+std::string table_line(const WorkScene& scene, const PrecisionOutcome& outcome);
 
 /// The cheapest settings that reach 5, 2 and 1 %, for every mesh and quadrature among the outcomes.
-std::string cheapest_text(const WorkScene& scene, const std::vector<Outcome>& outcomes);
+std::string cheapest_text(const WorkScene& scene, const std::vector<PrecisionOutcome>& outcomes);
 
 /// Error against CPU time per simulated hour, one line per integrator, mesh and quadrature; CG
 /// tolerances other than the usual one are points of their own. Failed outcomes are left out.
 io::Plot make_plot(const WorkScene& scene, const std::string& title,
-                   const std::vector<Outcome>& outcomes, const std::string& y_label,
-                   double (*error)(const Outcome&));
+                   const std::vector<PrecisionOutcome>& outcomes, const std::string& y_label,
+                   double (*error)(const PrecisionOutcome&));
 
-BenchRow bench_row(const WorkScene& scene, const std::string& study, const Outcome& outcome);
+BenchRow bench_row(const WorkScene& scene, const std::string& study,
+                   const PrecisionOutcome& outcome);
 
 }  // namespace acinus::bench

@@ -22,7 +22,7 @@ namespace {
 constexpr double kLongEnough = 1;
 constexpr int kRepeats = 3;
 
-void set_numerics(const Setting& setting, coupling::Numerics& n) {
+void set_numerics(const PrecisionSetting& setting, coupling::Numerics& n) {
   const runs::TimeBlock usual;
   n.max_step = setting.step;
   n.min_step = setting.adaptive ? usual.min_step : setting.step;
@@ -106,7 +106,7 @@ const coupling::World& WarmScene::start(const Discretisation& space) {
   return start_.emplace(space, std::move(warm)).first->second;
 }
 
-Trajectory WarmScene::run(const Setting& setting, double window, int samples) {
+Trajectory WarmScene::run(const PrecisionSetting& setting, double window, int samples) {
   coupling::World world = start(setting.space);
   set_numerics(setting, world.params.numerics);
   const coupling::Clock before = world.state.clock;
@@ -172,28 +172,28 @@ Errors compute_errors(const Trajectory& trajectory, const Trajectory& reference)
   return e;
 }
 
-std::vector<Outcome> run_study(WarmScene& scene, const Study& study,
-                               const std::function<void(const Outcome&)>& done) {
+std::vector<PrecisionOutcome> run_study(WarmScene& scene, const PrecisionStudy& study,
+                                        const std::function<void(const PrecisionOutcome&)>& done) {
   const Trajectory reference = scene.run(study.reference, study.window, study.samples);
   check(reference.failure.empty(),
         fmt::format("{}: {}: the reference failed: {}", scene.scene().name, study.title,
                     reference.failure),
         Exit::kCannotContinue);
   const int cells = static_cast<int>(reference.sample.front().center.size());
-  std::vector<Outcome> outcomes;
-  for (const Setting& setting : study.setting) {
+  std::vector<PrecisionOutcome> outcomes;
+  for (const PrecisionSetting& setting : study.setting) {
     Trajectory t = scene.run(setting, study.window, study.samples);
     std::vector<double> cpu{t.cpu};
     while (t.failure.empty() && t.cpu < kLongEnough && cpu.size() < kRepeats)
       cpu.push_back(scene.run(setting, study.window, study.samples).cpu);
     std::ranges::sort(cpu);
-    Outcome e{setting, t.failure, cpu[cpu.size() / 2], study.window,
-              cells,   t.steps,   t.rejected,          t.cg_iterations};
+    PrecisionOutcome e{setting, t.failure, cpu[cpu.size() / 2], study.window,
+                       cells,   t.steps,   t.rejected,          t.cg_iterations};
     if (t.failure.empty()) {
       e.error = compute_errors(t, reference);
-      e.judged = scene.scene().axis == Vec3::Zero() ? e.error.pressure : e.error.strain;
+      e.main_error = scene.scene().axis == Vec3::Zero() ? e.error.pressure : e.error.strain;
       // One that exploded without being noticed is no result.
-      if (!std::isfinite(e.judged)) e.failure = "the error is not finite";
+      if (!std::isfinite(e.main_error)) e.failure = "the error is not finite";
     }
     if (done) done(e);
     outcomes.push_back(e);
@@ -201,10 +201,10 @@ std::vector<Outcome> run_study(WarmScene& scene, const Study& study,
   return outcomes;
 }
 
-const Outcome* find_cheapest(const std::vector<Outcome>& outcomes, double error) {
-  const Outcome* best = nullptr;
-  for (const Outcome& e : outcomes)
-    if (e.failure.empty() && e.judged <= error && (!best || e.cpu < best->cpu)) best = &e;
+const PrecisionOutcome* find_cheapest(const std::vector<PrecisionOutcome>& outcomes, double error) {
+  const PrecisionOutcome* best = nullptr;
+  for (const PrecisionOutcome& e : outcomes)
+    if (e.failure.empty() && e.main_error <= error && (!best || e.cpu < best->cpu)) best = &e;
   return best;
 }
 

@@ -23,7 +23,7 @@ struct Discretisation {
 };
 
 /// One choice of numerics.
-struct Setting {
+struct PrecisionSetting {
   Discretisation space;
   coupling::Integrator integrator = coupling::Integrator::kLinearlyImplicit;
   double step = 60;                                    ///< s; the longest when adaptive
@@ -47,12 +47,12 @@ struct WorkScene {
 };
 
 /// Settings that are compared with one reference over one stretch of time.
-struct Study {
+struct PrecisionStudy {
   std::string title;
   double window = 0;  ///< s
   int samples = 1;    ///< equally spaced moments at which results are compared, the end included
-  Setting reference;
-  std::vector<Setting> setting;
+  PrecisionSetting reference;
+  std::vector<PrecisionSetting> setting;
 };
 
 /// The cells at one moment.
@@ -78,16 +78,16 @@ struct Errors {
   double center_max = 0, center_rms = 0;                           ///< um
 };
 
-struct Outcome {
-  Setting setting;
+struct PrecisionOutcome {
+  PrecisionSetting setting;
   std::string failure;
   double cpu = 0;     ///< s, median of repetitions when they are short
   double window = 0;  ///< s, simulated
   int cells = 0;
   std::int64_t steps = 0, rejected = 0, cg_iterations = 0;
   Errors error{};  ///< meaningful without a failure
-  /// What the cheapest setting is judged by: pressure, or strain where strain is measured.
-  double judged = 0;
+  /// What the cheapest setting is chosen by: pressure, or strain where strain is measured.
+  double main_error = 0;
 };
 
 /// A scene relaxed once for every discretisation asked for.
@@ -98,7 +98,7 @@ class WarmScene {
 
   /// Runs from the relaxed state. Fixed steps stay what they are: one that is rejected ends the
   /// run.
-  Trajectory run(const Setting& setting, double window, int samples);
+  Trajectory run(const PrecisionSetting& setting, double window, int samples);
 
  private:
   const coupling::World& start(const Discretisation& space);
@@ -111,10 +111,11 @@ Errors compute_errors(const Trajectory& trajectory, const Trajectory& reference)
 
 /// Runs the reference, then every setting. `done` is told of every outcome as it comes.
 /// @throws Error when the reference fails
-std::vector<Outcome> run_study(WarmScene& scene, const Study& study,
-                               const std::function<void(const Outcome&)>& done = {});
+std::vector<PrecisionOutcome> run_study(
+    WarmScene& scene, const PrecisionStudy& study,
+    const std::function<void(const PrecisionOutcome&)>& done = {});
 
 /// The outcome of least CPU time whose error is at most this; null: none.
-const Outcome* find_cheapest(const std::vector<Outcome>& outcomes, double error);
+const PrecisionOutcome* find_cheapest(const std::vector<PrecisionOutcome>& outcomes, double error);
 
 }  // namespace acinus::bench

@@ -36,24 +36,24 @@ void stretch_first(coupling::World& world, const Vec3& axis) {
   world.state.clock.last_step = 0;  // what the cell did before says nothing about what comes
 }
 
-void add_steps(std::vector<Setting>& list, const Discretisation& space, Integrator integrator,
-               const std::vector<double>& steps,
+void add_steps(std::vector<PrecisionSetting>& list, const Discretisation& space,
+               Integrator integrator, const std::vector<double>& steps,
                double cg_tolerance = solve::CgOptions{}.tolerance) {
   for (const double h : steps) list.push_back({space, integrator, h, cg_tolerance});
 }
-void add_tolerances(std::vector<Setting>& list, const Discretisation& space, double step,
+void add_tolerances(std::vector<PrecisionSetting>& list, const Discretisation& space, double step,
                     const std::vector<double>& tolerances) {
   for (const double t : tolerances) list.push_back({space, Integrator::kLinearlyImplicit, step, t});
 }
-Setting usual_control(const Discretisation& space) {
+PrecisionSetting usual_control(const Discretisation& space) {
   const runs::TimeBlock time;
   return {.space = space, .step = time.step, .adaptive = true};
 }
 
 /// The same numerics on every mesh and with both quadratures, against the finest.
-Study space_study(double window, int samples, double step, int finest,
-                  const std::vector<int>& meshes) {
-  Study s{"error of mesh and quadrature", window, samples, {{finest, "3-point"}}, {}};
+PrecisionStudy space_study(double window, int samples, double step, int finest,
+                           const std::vector<int>& meshes) {
+  PrecisionStudy s{"error of mesh and quadrature", window, samples, {{finest, "3-point"}}, {}};
   s.reference.step = step;
   for (const char* quadrature : {"nodes", "3-point"})
     for (const int nodes : meshes)
@@ -84,7 +84,7 @@ WorkCase stretch_case() {
              .warm_up_step = 1,
              .begin = [axis](coupling::World& w) { stretch_first(w, axis); },
              .axis = axis};
-  Study s{"error of time stepping", 4, 4, {kUsual, Integrator::kRos2, 0.001, 1e-7}, {}};
+  PrecisionStudy s{"error of time stepping", 4, 4, {kUsual, Integrator::kRos2, 0.001, 1e-7}, {}};
   add_steps(s.setting, kUsual, Integrator::kLinearlyImplicit,
             {0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1});
   add_tolerances(s.setting, kUsual, 0.02, {1e-2, 1e-3, 1e-4, 1e-5});
@@ -102,7 +102,7 @@ WorkCase stretch_case() {
   c.space = {space_study(4, 4, 0.02, 2562, {42, 162, 642})};
   // Nothing touches: the quadrature has nothing to do.
   std::erase_if(c.space.front().setting,
-                [](const Setting& t) { return t.space.quadrature == "nodes"; });
+                [](const PrecisionSetting& t) { return t.space.quadrature == "nodes"; });
   return c;
 }
 
@@ -116,11 +116,11 @@ WorkCase clump_case() {
              .warm_up_step = 10};
   constexpr double kHours = 6, kWindow = kHours * 3600;
   for (const Discretisation& d : {kUsual, kNodes}) {
-    Study s{"error of time stepping, " + d.quadrature,
-            kWindow,
-            6,
-            {d, Integrator::kLinearlyImplicit, 3.75, 1e-5},
-            {}};
+    PrecisionStudy s{"error of time stepping, " + d.quadrature,
+                     kWindow,
+                     6,
+                     {d, Integrator::kLinearlyImplicit, 3.75, 1e-5},
+                     {}};
     add_steps(s.setting, d, Integrator::kLinearlyImplicit, {15, 30, 60, 120, 300, 600, 1200});
     add_tolerances(s.setting, d, 120, {1e-2, 1e-3, 1e-4, 1e-5});
     if (d == kUsual) {
@@ -131,11 +131,11 @@ WorkCase clump_case() {
     s.setting.push_back(usual_control(d));
     c.time.push_back(s);
   }
-  Study brief{"error of time stepping over ten minutes",
-              600,
-              1,
-              {kUsual, Integrator::kLinearlyImplicit, 0.25, 1e-5},
-              {}};
+  PrecisionStudy brief{"error of time stepping over ten minutes",
+                       600,
+                       1,
+                       {kUsual, Integrator::kLinearlyImplicit, 0.25, 1e-5},
+                       {}};
   // A loose friction solve damps the fastest modes and so lengthens the stable step: both count.
   add_steps(brief.setting, kUsual, Integrator::kExplicitEuler, {0.1, 0.25, 0.5, 1, 2});
   add_steps(brief.setting, kUsual, Integrator::kExplicitEuler, {0.1, 0.25, 0.5}, 1e-3);
@@ -154,11 +154,11 @@ WorkCase packed_case() {
              .warm_up = 3600,
              .warm_up_step = 7.5};
   for (const Discretisation& d : {kUsual, kNodes}) {
-    Study s{"120 s against 7.5 s, " + d.quadrature,
-            6 * 3600,
-            6,
-            {d, Integrator::kLinearlyImplicit, 7.5, 1e-5},
-            {}};
+    PrecisionStudy s{"120 s against 7.5 s, " + d.quadrature,
+                     6 * 3600,
+                     6,
+                     {d, Integrator::kLinearlyImplicit, 7.5, 1e-5},
+                     {}};
     add_steps(s.setting, d, Integrator::kLinearlyImplicit, {60, 120, 300});
     add_tolerances(s.setting, d, 120, {1e-2, 1e-3, 1e-4});
     c.time.push_back(s);
@@ -184,11 +184,11 @@ WorkCase growth_case(int cells) {
              .warm_up_step = 120,
              .grow_to = cells};
   for (const Discretisation& d : {kNodesAndEdges, kNodes}) {
-    Study s{"error of time stepping, " + d.quadrature,
-            2 * 3600,
-            4,
-            {.space = d, .step = 15, .cg_tolerance = 1e-4, .extrapolate = true},
-            {}};
+    PrecisionStudy s{"error of time stepping, " + d.quadrature,
+                     2 * 3600,
+                     4,
+                     {.space = d, .step = 15, .cg_tolerance = 1e-4, .extrapolate = true},
+                     {}};
     for (const bool extrapolate : {false, true})
       for (const double step : {30.0, 60.0, 120.0})
         s.setting.push_back({.space = d,
@@ -222,14 +222,14 @@ WorkCase capsule_case() {
           },
       .warm_up = 1800,
       .warm_up_step = 15,
-      .begin = [](coupling::World& w) { w.params.around.capsules.front().speed = 4.5 / 3600; }};
+      .begin = [](coupling::World& w) { w.params.boundary.capsules.front().speed = 4.5 / 3600; }};
   constexpr double kWindow = 2 * 3600;
   for (const Discretisation& d : {kUsual, kNodes}) {
-    Study s{"error of time stepping, " + d.quadrature,
-            kWindow,
-            4,
-            {d, Integrator::kLinearlyImplicit, 7.5, 1e-4},
-            {}};
+    PrecisionStudy s{"error of time stepping, " + d.quadrature,
+                     kWindow,
+                     4,
+                     {d, Integrator::kLinearlyImplicit, 7.5, 1e-4},
+                     {}};
     add_steps(s.setting, d, Integrator::kLinearlyImplicit, {30, 60, 120, 300, 600});
     if (d == kUsual) {
       add_tolerances(s.setting, d, 60, {1e-2, 1e-3, 1e-4, 1e-5});
@@ -256,7 +256,8 @@ WorkCase cbm_case() {
              .warm_up = 1800,
              .warm_up_step = 15,
              .deformable = false};
-  Study s{"error of time stepping", 2 * 3600, 4, {kUsual, Integrator::kRos2, 3.75, 1e-6}, {}};
+  PrecisionStudy s{
+      "error of time stepping", 2 * 3600, 4, {kUsual, Integrator::kRos2, 3.75, 1e-6}, {}};
   add_steps(s.setting, kUsual, Integrator::kLinearlyImplicit,
             {7.5, 15, 30, 60, 120, 300, 600, 1800});
   add_tolerances(s.setting, kUsual, 60, {1e-2, 1e-3, 1e-4, 1e-5});

@@ -11,7 +11,7 @@ namespace acinus::bench {
 /// step, those of `space` one on a finer mesh.
 struct WorkCase {
   WorkScene scene;
-  std::vector<Study> time, space;
+  std::vector<PrecisionStudy> time, space;
 };
 
 /// One cell in a liquid, stretched at constant volume and let go.

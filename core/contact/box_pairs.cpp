@@ -12,9 +12,9 @@ using CellIndex = std::array<std::int64_t, 3>;
 
 /// Boxes hashed by the grid cell of their centre; x runs fastest so a row of cells is one key
 /// range.
-class Grid {
+class BoxGrid {
  public:
-  Grid(std::span<const Box> boxes, double width, const Vec3& origin)
+  BoxGrid(std::span<const Box> boxes, double width, const Vec3& origin)
       : width_(width), origin_(origin) {
     item_.reserve(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -25,8 +25,7 @@ class Grid {
     const Vec3 at = (0.5 * (b.low + b.high) - origin_) / width_;
     CellIndex c;
     for (int k = 0; k < 3; ++k)
-      c[static_cast<std::size_t>(k)] =
-          static_cast<std::int64_t>(std::floor(std::clamp(at[k], -1e6, 1e6))) + kBias;
+      c[k] = static_cast<std::int64_t>(std::floor(std::clamp(at[k], -1e6, 1e6))) + kBias;
     return c;
   }
   /// f(box index) for every box in the 27 cells around c.
@@ -63,12 +62,12 @@ double widest(std::span<const Box> boxes) {
 std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double margin) {
   std::vector<std::pair<int, int>> pairs;
   if (boxes.size() < 2) return pairs;
-  const Grid grid(boxes, widest(boxes) + margin, boxes[0].low);
+  const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box reach = boxes[i].grown(margin);
     const std::size_t first = pairs.size();
     grid.for_each_near(grid.cell(boxes[i]), [&](int j) {
-      if (j > static_cast<int>(i) && reach.overlaps(boxes[static_cast<std::size_t>(j)]))
+      if (j > static_cast<int>(i) && reach.overlaps(boxes[j]))
         pairs.emplace_back(static_cast<int>(i), j);
     });
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
@@ -80,13 +79,12 @@ std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std:
                                                     double margin) {
   std::vector<std::pair<int, int>> pairs;
   if (a.empty() || b.empty()) return pairs;
-  const Grid grid(b, std::max(widest(a), widest(b)) + margin, b[0].low);
+  const BoxGrid grid(b, std::max(widest(a), widest(b)) + margin, b[0].low);
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Box reach = a[i].grown(margin);
     const std::size_t first = pairs.size();
     grid.for_each_near(grid.cell(a[i]), [&](int j) {
-      if (reach.overlaps(b[static_cast<std::size_t>(j)]))
-        pairs.emplace_back(static_cast<int>(i), j);
+      if (reach.overlaps(b[j])) pairs.emplace_back(static_cast<int>(i), j);
     });
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
   }

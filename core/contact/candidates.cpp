@@ -21,7 +21,7 @@ constexpr double kSelfRings = 3.0;
 /// Where a triangle's centre lies on the unit rest shape.
 Vec3 rest_center(const mesh::Topology& t, std::size_t triangle) {
   Vec3 sum = Vec3::Zero();
-  for (int c : t.triangle[triangle]) sum += t.rest[static_cast<std::size_t>(c)];
+  for (int c : t.triangle[triangle]) sum += t.rest[c];
   return sum / 3;
 }
 
@@ -35,7 +35,7 @@ bool far_on_surface(const SurfaceBody& b, Quadrature q, std::size_t site, std::s
     from = t.rest[site];
   } else {
     const auto& [i, j] = t.edge[site - t.rest.size()];
-    from = 0.5 * (t.rest[static_cast<std::size_t>(i)] + t.rest[static_cast<std::size_t>(j)]);
+    from = 0.5 * (t.rest[i] + t.rest[j]);
   }
   return (from - rest_center(t, triangle)).norm() > kSelfRings * t.mean_rest_length;
 }
@@ -112,14 +112,14 @@ class ListBuilder {
     origin_ = 0.5 * (b.box.low + b.box.high);
     find_included(near_a_, b.center, b.reach);
     discs_.reset(included_.size());
-    for (const int t : included_) discs_.add(b, static_cast<std::size_t>(t), origin_);
+    for (const int t : included_) discs_.add(b, t, origin_);
     near_.reset(discs_.n);
     bound_.resize(std::max(bound_.size(), discs_.triangle.size()));
     near_index_.resize(discs_.triangle.size());
     clear_block();
     if (discs_.n == 0) return;
     find_included_sites();
-    for (const int s : included_) look_from(static_cast<std::size_t>(s));
+    for (const int s : included_) look_from(s);
     flush();
   }
 
@@ -204,15 +204,13 @@ class ListBuilder {
     int likely = near[0];
     for (int k = 1; k < n; ++k) likely = bound[near[k]] < bound[likely] ? near[k] : likely;
     const auto& corner = (*b_->triangle)[discs_.triangle_at(likely)];
-    const double no_more =
-        std::sqrt(mesh::find_closest_point(at, b_->node[static_cast<std::size_t>(corner[0])],
-                                           b_->node[static_cast<std::size_t>(corner[1])],
-                                           b_->node[static_cast<std::size_t>(corner[2])])
-                      .squared_distance);
+    const double no_more = std::sqrt(
+        mesh::find_closest_point(at, b_->node[corner[0]], b_->node[corner[1]], b_->node[corner[2]])
+            .squared_distance);
     const auto matters = static_cast<float>(no_more + 2 * (radius + o_.skin) + kRounding);
     near_.reset(0);
     for (int k = 0; k < n; ++k)
-      if (bound[near[k]] <= matters) near_.add(discs_, static_cast<std::size_t>(near[k]));
+      if (bound[near[k]] <= matters) near_.add(discs_, near[k]);
     const int per_site = points_per_site(o_.quadrature);
     for (int q = 0; q < per_site; ++q) add(static_cast<int>(site) * per_site + q, no_more + radius);
   }
@@ -244,7 +242,7 @@ class ListBuilder {
     n_wide_ = end;
     std::swap(triangle[first], triangle[likely]);
     std::swap(bound[first], bound[likely]);
-    const auto n = static_cast<std::size_t>(block_.n++);
+    const std::size_t n = block_.n++;
     point_[n] = point;
     for (std::size_t m = 0; m < 3; ++m) block_.x[3 * n + m] = x[static_cast<int>(m)];
     block_.begin[n] = static_cast<std::uint32_t>(first);
@@ -264,7 +262,7 @@ class ListBuilder {
     list_->bound.resize(end + n_wide_ + 1);
     int* const triangle = list_->triangle.data();
     float* const bound = list_->bound.data();
-    for (std::size_t n = 0; n < static_cast<std::size_t>(block_.n); ++n) {
+    for (int n = 0; n < block_.n; ++n) {
       const double gap = block_.gap[n];
       if (gap > out_ + o_.skin || -gap > depth_ + o_.skin || block_.triangle[n] < 0) continue;
       list_->point.push_back(point_[n]);
@@ -334,7 +332,7 @@ std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
     pairs.emplace_back(a, b + static_cast<int>(bodies.size()));
   if (o.self_range > 0)
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
-      if (bodies[static_cast<std::size_t>(a)].topology != nullptr) pairs.emplace_back(a, a);
+      if (bodies[a].topology != nullptr) pairs.emplace_back(a, a);
   std::ranges::sort(pairs);
   std::vector<Candidates> lists(pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k)

@@ -38,7 +38,7 @@ struct Candidates {
 /// A body by its number: those that probe come first, then those that are only probed.
 inline const SurfaceBody& body_at(std::span<const SurfaceBody> bodies,
                                   std::span<const SurfaceBody> fixed, int k) {
-  const auto i = static_cast<std::size_t>(k);
+  const std::size_t i = k;
   return i < bodies.size() ? bodies[i] : fixed[i - bodies.size()];
 }
 

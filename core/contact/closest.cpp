@@ -96,11 +96,10 @@ class Measurer {
 
  private:
   void measure_sliver(int k) {
-    const Triangle& corner = (*b_.triangle)[static_cast<std::size_t>(pairs_.triangle[k])];
+    const Triangle& corner = (*b_.triangle)[pairs_.triangle[k]];
     const mesh::ClosestPoint c = mesh::find_closest_point_of_sliver(
-        Eigen::Map<const Vec3>(block_.x + 3 * pairs_.point[k]),
-        b_.node[static_cast<std::size_t>(corner[0])], b_.node[static_cast<std::size_t>(corner[1])],
-        b_.node[static_cast<std::size_t>(corner[2])]);
+        Eigen::Map<const Vec3>(block_.x + 3 * pairs_.point[k]), b_.node[corner[0]],
+        b_.node[corner[1]], b_.node[corner[2]]);
     pairs_.weight_b[k] = c.weight[1];
     pairs_.weight_c[k] = c.weight[2];
     pairs_.squared[k] = c.squared_distance;

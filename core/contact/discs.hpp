@@ -27,9 +27,7 @@ struct Discs {
       number.resize(n_group * kStride);
     }
   }
-  std::size_t triangle_at(int k) const {
-    return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]);
-  }
+  std::size_t triangle_at(int k) const { return static_cast<std::size_t>(triangle[k]); }
   static std::size_t place_of(std::size_t k) { return k / kLanes * kStride + k % kLanes; }
 
   void add(const SurfaceBody& b, std::size_t t, const Vec3& origin) {

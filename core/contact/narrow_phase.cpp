@@ -32,7 +32,7 @@ std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> b
       if (gap > range || gap < -depth) continue;
       // A sheet met through the cell's own inside is not a contact.
       if (self && gap < 0) continue;
-      const auto site = static_cast<std::size_t>(point[i] / per_site);
+      const std::size_t site = point[i] / per_site;
       const Vec3 facing = site_normal(a, o.quadrature, site);
       if (!are_facing(facing, Vec3(block.outward[0][i], block.outward[1][i], block.outward[2][i])))
         continue;

@@ -20,7 +20,7 @@ Vec3 center(const double* position, std::size_t i) {
 }
 
 /// Spheres sorted by the grid cell of their centre; cells in x run side by side.
-struct Grid {
+struct PointGrid {
   Vec3 low;
   double width = 1;
   std::array<std::int64_t, 3> n{};
@@ -41,8 +41,8 @@ struct Grid {
 };
 
 /// Empty (no cells) when the spheres are so scattered that most of the grid would be.
-Grid make_grid(const double* position, std::span<const double> radius, double margin) {
-  Grid g;
+PointGrid make_grid(const double* position, std::span<const double> radius, double margin) {
+  PointGrid g;
   Box box;
   double largest = 0;
   for (std::size_t i = 0; i < radius.size(); ++i) {
@@ -56,7 +56,7 @@ Grid make_grid(const double* position, std::span<const double> radius, double ma
     const double n = std::floor((box.high[k] - box.low[k]) / g.width) + 1;
     cells *= n;
     if (!(cells <= 8.0 * static_cast<double>(radius.size()) + 1000)) return g;
-    g.n[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(n);
+    g.n[k] = static_cast<std::int64_t>(n);
   }
   g.start.assign(static_cast<std::size_t>(cells) + 1, 0);
   auto at = [&](std::size_t i) {
@@ -87,19 +87,18 @@ bool are_near(const double* position, std::span<const double> radius, double mar
 std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
                                                    std::span<const double> radius, double margin) {
   if (radius.size() < 2) return {};
-  const Grid g = make_grid(position, radius, margin);
+  const PointGrid g = make_grid(position, radius, margin);
   if (g.start.empty()) {
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < radius.size(); ++i)
       boxes.push_back(sphere_box(center(position, i), radius[i]));
     Pairs pairs = find_pairs(boxes, margin);
     std::erase_if(pairs, [&](const auto& p) {
-      return !are_near(position, radius, margin, static_cast<std::size_t>(p.first),
-                       static_cast<std::size_t>(p.second));
+      return !are_near(position, radius, margin, p.first, p.second);
     });
     return pairs;
   }
-  const auto n_part = static_cast<std::size_t>(omp_get_max_threads());
+  const std::size_t n_part = omp_get_max_threads();
   std::vector<Pairs> part(n_part);
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t k = 0; k < n_part; ++k) {
@@ -115,7 +114,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
           const std::size_t from = g.index(std::max<std::int64_t>(c[0] - 1, 0), y, z);
           const std::size_t to = g.index(std::min(c[0] + 1, g.n[0] - 1), y, z);
           for (std::uint32_t e = g.start[from]; e < g.start[to + 1]; ++e) {
-            const auto j = static_cast<std::size_t>(g.item[e]);
+            const std::size_t j = g.item[e];
             if (j > i && are_near(position, radius, margin, i, j))
               part[k].emplace_back(static_cast<int>(i), static_cast<int>(j));
           }

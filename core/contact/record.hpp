@@ -63,7 +63,7 @@ struct ContactList {
   std::vector<Contact> all;
   /// Where ranges end: surfaces with surfaces and static meshes; surfaces with other obstacles;
   /// surfaces with spheres; spheres with obstacles. What follows are spheres with spheres, listed
-  /// for those who look: a step works them out eight at a time without records.
+  /// for those that look: a step works them out eight at a time without records.
   std::size_t surface_end = 0, obstacle_end = 0, interface_end = 0, sphere_obstacle_end = 0;
 
   std::span<const Contact> surface() const { return range(0, surface_end); }

@@ -46,7 +46,7 @@ inline std::size_t n_sites(const SurfaceBody& b, Quadrature q) {
   return b.node.size() + b.topology->edge.size();
 }
 inline std::size_t n_points(const SurfaceBody& b, Quadrature q) {
-  return n_sites(b, q) * static_cast<std::size_t>(points_per_site(q));
+  return n_sites(b, q) * points_per_site(q);
 }
 
 /// Where a site is: the triangle's centre, the node, or the midpoint of the edge.
@@ -54,7 +54,7 @@ inline Vec3 site_place(const SurfaceBody& b, Quadrature q, std::size_t site) {
   if (has_face_sites(q)) return b.center[site];
   if (site < b.node.size()) return b.node[site];
   const auto& [i, j] = b.topology->edge[site - b.node.size()];
-  return 0.5 * (b.node[static_cast<std::size_t>(i)] + b.node[static_cast<std::size_t>(j)]);
+  return 0.5 * (b.node[i] + b.node[j]);
 }
 
 /// How far from its place the corners of a site's triangle are, um; its points are half as far.
@@ -68,9 +68,7 @@ inline Vec3 site_normal(const SurfaceBody& b, Quadrature q, std::size_t site) {
   if (site < b.node.size()) return b.node_normal[site];
   const auto& [s, t] = b.topology->edge_triangle[site - b.node.size()];
   // Eigen leaves a zero vector (the faces are folded flat on each other) as it is.
-  return (b.triangle_normal[static_cast<std::size_t>(s)] +
-          b.triangle_normal[static_cast<std::size_t>(t)])
-      .normalized();
+  return (b.triangle_normal[s] + b.triangle_normal[t]).normalized();
 }
 
 /// Whether two surfaces can touch where their outward normals are these. Beside each other still
@@ -94,19 +92,17 @@ inline PointStencil point_stencil(const SurfaceBody& body, Quadrature q, int poi
   if (q == Quadrature::kNodes || (q == Quadrature::kNodesAndEdges && point < n_node))
     return {1, {point, 0, 0}, {1, 0, 0}};
   if (q == Quadrature::kNodesAndEdges) {
-    const auto& hinge = body.topology->hinge[static_cast<std::size_t>(point - n_node)];
+    const auto& hinge = body.topology->hinge[point - n_node];
     return {2, {hinge[2], hinge[3], hinge[0]}, {0.5, 0.5, 0}};
   }
   constexpr double kSmall = 1.0f / 6, kLarge = 2.0f / 3;
   const int local = point % 3;
   const double w0 = local == 0 ? kLarge : kSmall, w1 = local == 1 ? kLarge : kSmall;
-  return {3, (*body.triangle)[static_cast<std::size_t>(point / 3)], {w0, w1, 1 - w0 - w1}};
+  return {3, (*body.triangle)[point / 3], {w0, w1, 1 - w0 - w1}};
 }
 
 inline Vec3 point_position(const SurfaceBody& body, const PointStencil& s) {
-  auto node = [&](int k) -> const Vec3& {
-    return body.node[static_cast<std::size_t>(s.node[static_cast<std::size_t>(k)])];
-  };
+  auto node = [&](int k) -> const Vec3& { return body.node[s.node[k]]; };
   if (s.n == 1) return node(0);
   if (s.n == 2) return s.weight[0] * node(0) + s.weight[1] * node(1);
   return s.weight[0] * node(0) + s.weight[1] * node(1) + s.weight[2] * node(2);

@@ -41,7 +41,7 @@ struct Frame {
   std::int64_t n_sphere = 0;
   std::vector<std::array<std::int64_t, 3>> triangle;  ///< indices into mesh nodes, this frame only
   std::vector<Field> point_data;                      ///< rows: points
-  std::vector<std::int64_t> cell_id;  ///< [n_triangle + n_sphere] lineage id, -1 for surroundings
+  std::vector<std::int64_t> cell_id;  ///< [n_triangle + n_sphere] lineage id, -1 for boundary
   std::vector<std::uint8_t> kind;     ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall
   std::vector<Field> cell_data;       ///< rows: triangles, then spheres
   Table cells;                        ///< /cells: one row per biological cell

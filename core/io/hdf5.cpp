@@ -145,7 +145,7 @@ std::vector<std::string> File::members(const std::string& name) const {
     };
     const auto length = get(nullptr, 0);
     if (length < 0) fail_here("read group " + name);
-    std::string member(static_cast<std::size_t>(length), '\0');
+    std::string member(length, '\0');
     get(member.data(), member.size() + 1);
     result.push_back(std::move(member));
   }
@@ -164,7 +164,7 @@ std::vector<hsize_t> File::shape(const std::string& name) const {
   const Handle space(H5Dget_space(dataset.id()), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.id());
   if (rank < 1 || rank > 2) fail_here("read dataset " + name + " as rows");
-  std::vector<hsize_t> result(static_cast<std::size_t>(rank));
+  std::vector<hsize_t> result(rank);
   H5Sget_simple_extent_dims(space.id(), result.data(), nullptr);
   return result;
 }
@@ -208,7 +208,7 @@ void File::create_rows(const std::string& name, const Storage& storage, std::str
 }
 
 void File::create_text_rows(const std::string& name, int width, std::int64_t chunk_rows) {
-  const Handle type = text_type(static_cast<std::size_t>(width), H5T_CSET_UTF8);
+  const Handle type = text_type(width, H5T_CSET_UTF8);
   create_dataset(name, type.id(), {.chunk_rows = chunk_rows}, "text");
 }
 
@@ -311,7 +311,7 @@ std::vector<std::string> File::read_text_rows(const std::string& name, std::int6
     if (H5Tget_class(type.id()) != H5T_STRING) fail_here("read dataset " + name + " as text");
     width = H5Tget_size(type.id());
   }
-  const auto possible = static_cast<std::size_t>(std::clamp<std::int64_t>(n, 0, n_row(name)));
+  const std::size_t possible = std::clamp<std::int64_t>(n, 0, n_row(name));
   std::string packed(width * possible, '\0');
   const Handle type = text_type(width, H5T_CSET_UTF8);
   read_raw(name, type.id(), first_row, n, packed.data());

@@ -58,7 +58,7 @@ std::vector<std::int64_t> File::read_attribute(const std::string& object,
   const Handle space(H5Aget_space(attribute.id()), H5Sclose);
   const hssize_t n = H5Sget_simple_extent_npoints(space.id());
   if (n < 0 || n > 64) fail_here("read attribute " + name + " of " + object);
-  std::vector<std::int64_t> value(static_cast<std::size_t>(n));
+  std::vector<std::int64_t> value(n);
   if (H5Aread(attribute.id(), H5T_NATIVE_INT64, value.data()) < 0) {
     fail_here("read attribute " + name + " of " + object);
   }

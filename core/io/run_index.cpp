@@ -76,7 +76,7 @@ RunLayout read_layout(const File& file) {
 
 std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layout,
                                          std::int64_t n_frame) {
-  std::vector<FrameIndex> frame(static_cast<std::size_t>(n_frame));
+  std::vector<FrameIndex> frame(n_frame);
   const auto read = [&](const std::string& name, std::int64_t first = 0) {
     return file.read_rows<std::int64_t>(name, first, n_frame);
   };
@@ -91,7 +91,7 @@ std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layo
   const auto n_cell = file.read_all<std::int64_t>("/VTKHDF/NumberOfCells");
   const auto n_connectivity = file.read_all<std::int64_t>("/VTKHDF/NumberOfConnectivityIds");
   for (std::size_t k = 0; k < frame.size(); ++k) {
-    const auto p = static_cast<std::size_t>(part[k]);
+    const std::size_t p = part[k];
     check(part[k] >= 0 && p < n_point.size() && p < n_cell.size() && p < n_connectivity.size(),
           fmt::format("{}: frame {} refers to part {} of {}. The file is damaged.", file.path(), k,
                       part[k], n_point.size()),

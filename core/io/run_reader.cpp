@@ -46,7 +46,7 @@ RunReader::RunReader(const std::string& path) : path_(path) {
 const FrameIndex& RunReader::index(int k) const {
   check(k >= 0 && k < n_frame(),
         fmt::format("{}: has no frame {}, only 0 to {}", path_, k, n_frame() - 1));
-  return frame_[static_cast<std::size_t>(k)];
+  return frame_[k];
 }
 
 double RunReader::time_s(int k) const { return index(k).time_s; }
@@ -78,9 +78,7 @@ Frame RunReader::frame(int k) const {
         {field.name, field.unit, field.components,
          file.read_rows<float>("/VTKHDF/CellData/" + field.name, where(field.name), f.n_cell)});
   }
-  const auto begin = [&](auto end) {
-    return k == 0 ? 0 : frame_[static_cast<std::size_t>(k) - 1].*end;
-  };
+  const auto begin = [&](auto end) { return k == 0 ? 0 : frame_[k - 1].*end; };
   frame.cells =
       read_table(file, "/cells", layout_.cells, begin(&FrameIndex::cells_end), f.cells_end);
   frame.interface = read_table(file, "/interface", layout_.interface,

@@ -63,7 +63,7 @@ void write_topology(FrameWrite& w) {
   const FrameIndex* last = w.last;
   FrameIndex& index = w.index;
   std::vector<std::int64_t> connectivity;
-  connectivity.reserve(static_cast<std::size_t>(index.n_connectivity));
+  connectivity.reserve(index.n_connectivity);
   for (const auto& triangle : frame.triangle)
     connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
   for (std::int64_t s = 0; s < frame.n_sphere; ++s) connectivity.push_back(frame.n_mesh_node + s);
@@ -89,8 +89,8 @@ void write_topology(FrameWrite& w) {
   std::vector<std::int64_t> offset{0};
   for (std::int64_t c = 0; c < index.n_cell; ++c)
     offset.push_back(offset.back() + (c < n_triangle ? 3 : 1));
-  std::vector<std::uint8_t> type(static_cast<std::size_t>(n_triangle), kTriangleType);
-  type.resize(static_cast<std::size_t>(index.n_cell), kVertexType);
+  std::vector<std::uint8_t> type(n_triangle, kTriangleType);
+  type.resize(index.n_cell, kVertexType);
   w.file.write_rows<std::int64_t>("/VTKHDF/Connectivity", index.connectivity_offset, connectivity);
   w.file.write_rows<std::int64_t>("/VTKHDF/Offsets", index.cell_offset + index.part, offset);
   w.file.write_rows<std::uint8_t>("/VTKHDF/Types", index.cell_offset, type);

@@ -15,7 +15,7 @@
 
 namespace acinus::io::h5 {
 
-/// Outcome of one session, owned by the caller, who keeps it alive until the file is closed.
+/// Outcome of one session, owned by the caller, which keeps it alive until the file is closed.
 struct StagedState {
   int error = 0;         ///< errno of the first failed write, 0 = none
   bool discard = false;  ///< set by the caller or by a failure: nothing more is written, close

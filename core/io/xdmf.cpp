@@ -50,14 +50,14 @@ void add_attribute(std::string* out, const std::string& file, const char* center
 }
 
 /// One grid: cells first_cell .. first_cell + n_cell of the frame, of one kind.
-struct Grid {
+struct XdmfGrid {
   const char* name;
   const char* topology;
   std::int64_t first_cell, n_cell, first_id, n_id;
 };
 
 void add_grid(std::string* out, const std::string& file, const FrameIndex& f,
-              const RunLayout& layout, const Grid& grid) {
+              const RunLayout& layout, const XdmfGrid& grid) {
   if (grid.n_cell == 0) return;
   const auto to = std::back_inserter(*out);
   fmt::format_to(

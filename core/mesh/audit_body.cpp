@@ -55,12 +55,9 @@ struct AuditBody::Surface {
 std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box) {
   std::vector<int> order(box.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](std::size_t k) -> const Box& {
-    return box[static_cast<std::size_t>(order[k])];
-  };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return box[static_cast<std::size_t>(a)].low.x() < box[static_cast<std::size_t>(b)].low.x();
-  });
+  const auto at = [&](std::size_t k) -> const Box& { return box[order[k]]; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return box[a].low.x() < box[b].low.x(); });
   std::vector<std::pair<int, int>> pair;
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size() && at(j).low.x() <= at(i).high.x(); ++j)
@@ -79,7 +76,7 @@ AuditBody::AuditBody(std::span<const Vec3> nodes, std::span<const std::array<int
   box = segment_box(nodes[0], nodes[0]);
   for (const Vec3& x : nodes) box.low = box.low.cwiseMin(x), box.high = box.high.cwiseMax(x);
 
-  const auto node = [&](int i) -> const Vec3& { return nodes[static_cast<std::size_t>(i)]; };
+  const auto node = [&](int i) -> const Vec3& { return nodes[i]; };
   const Vec3 origin = nodes[0];  // moments about a near point lose no digits
   Vec3 moment = Vec3::Zero();
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -169,13 +166,13 @@ bool AuditBody::self_intersects() const {
   const auto opposite = [&](const std::array<int, 3>& t, int corner) {
     std::vector<Point> end;
     for (const int i : t)
-      if (i != corner) end.push_back(surface_->node[static_cast<std::size_t>(i)]);
+      if (i != corner) end.push_back(surface_->node[i]);
     return Kernel::Segment_3(end[0], end[1]);
   };
   for (const auto& [i, j] : meeting_boxes(boxes)) {
-    const auto f = static_cast<std::size_t>(i), g = static_cast<std::size_t>(j);
-    const auto& t = triangle_[static_cast<std::size_t>(surface_->triangle[f])];
-    const auto& u = triangle_[static_cast<std::size_t>(surface_->triangle[g])];
+    const std::size_t f = i, g = j;
+    const auto& t = triangle_[surface_->triangle[f]];
+    const auto& u = triangle_[surface_->triangle[g]];
     int n_shared = 0, corner = -1;
     for (const int a : t)
       for (const int b : u)

@@ -21,8 +21,7 @@ std::string text(const Vec3& x) {
 
 std::string edge_text(const Surface& surface, const HalfEdge& edge) {
   return fmt::format("edge {}-{} from {} to {} um", edge.low, edge.high,
-                     text(surface.node[static_cast<std::size_t>(edge.low)]),
-                     text(surface.node[static_cast<std::size_t>(edge.high)]));
+                     text(surface.node[edge.low]), text(surface.node[edge.high]));
 }
 
 void check_corners(const Surface& surface, const std::string& where) {
@@ -84,7 +83,7 @@ void check_fans(const Surface& surface, const std::string& where) {
   const std::size_t n_node = surface.node.size();
   std::vector<int> start(n_node + 1, 0);
   for (const auto& triangle : surface.triangle) {
-    for (const int node : triangle) ++start[static_cast<std::size_t>(node) + 1];
+    for (const int node : triangle) ++start[node + 1];
   }
   for (std::size_t node = 0; node < n_node; ++node) start[node + 1] += start[node];
   std::vector<std::array<int, 2>> link(surface.triangle.size() *
@@ -92,8 +91,8 @@ void check_fans(const Surface& surface, const std::string& where) {
   std::vector<int> filled(start.begin(), start.end() - 1);
   for (const auto& triangle : surface.triangle) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const int slot = filled[static_cast<std::size_t>(triangle[k])]++;
-      link[static_cast<std::size_t>(slot)] = {triangle[(k + 1) % 3], triangle[(k + 2) % 3]};
+      const int slot = filled[triangle[k]]++;
+      link[slot] = {triangle[(k + 1) % 3], triangle[(k + 2) % 3]};
     }
   }
   for (std::size_t node = 0; node < n_node; ++node) {

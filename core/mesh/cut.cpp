@@ -26,10 +26,8 @@ Profile make_profile(std::span<const Vec3> node, Triangles triangle, const Vec3&
   Profile out;
   for (const Vec3& x : node) out.height.push_back(normal.dot(x - node[0]));
   for (const auto& [a, b, c] : triangle) {
-    const Vec3& origin = node[static_cast<std::size_t>(a)];
-    out.twice_projected.push_back(
-        normal.dot((node[static_cast<std::size_t>(b)] - origin)
-                       .cross(node[static_cast<std::size_t>(c)] - origin)));
+    const Vec3& origin = node[a];
+    out.twice_projected.push_back(normal.dot((node[b] - origin).cross(node[c] - origin)));
   }
   return out;
 }
@@ -45,7 +43,7 @@ Below compute_below(const Profile& profile, Triangles triangle, double level) {
     std::array<double, 3> h;
     int n_below = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      h[k] = profile.height[static_cast<std::size_t>(triangle[t][k])] - level;
+      h[k] = profile.height[triangle[t][k]] - level;
       n_below += h[k] < 0;
     }
     if (n_below == 0) continue;
@@ -86,8 +84,8 @@ std::optional<Crossing> find_crossing(const std::array<int, 3>& triangle,
   bool crosses = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const int from = triangle[k], to = triangle[(k + 1) % 3];
-    const bool from_below = below[static_cast<std::size_t>(from)];
-    if (from_below == static_cast<bool>(below[static_cast<std::size_t>(to)])) continue;
+    const bool from_below = below[from];
+    if (from_below == static_cast<bool>(below[to])) continue;
     (from_below ? out.up : out.down) = {from, to};
     crosses = true;
   }
@@ -107,7 +105,7 @@ Crossings find_crossings(Triangles triangle, const std::vector<char>& below) {
   std::sort(out.edge.begin(), out.edge.end());
   std::vector<int> next(out.edge.size(), -1);
   for (const auto& [up, down] : crossing) {
-    const auto from = static_cast<std::size_t>(out.find(down[0], down[1]));
+    const std::size_t from = out.find(down[0], down[1]);
     ACINUS_ASSERT(from < next.size() && next[from] < 0);
     next[from] = out.find(up[0], up[1]);
   }
@@ -135,7 +133,7 @@ std::vector<std::array<int, 3>> triangulate_cap(std::span<const Vec3> rim) {
   std::vector<int> polygon(rim.size());
   std::iota(polygon.begin(), polygon.end(), 0);
   std::vector<std::array<int, 3>> out;
-  const auto x = [&](std::size_t k) { return rim[static_cast<std::size_t>(polygon[k])]; };
+  const auto x = [&](std::size_t k) { return rim[polygon[k]]; };
   for (std::size_t k = 0; k < polygon.size() && polygon.size() > 3;) {
     const std::size_t n = polygon.size(), next = (k + 1) % n;
     if ((x(next) - x(k)).norm() > 1e-10 * length) {
@@ -163,18 +161,16 @@ Surface make_open_half(std::span<const Vec3> node, Triangles triangle,
   }
   const int first_rim = static_cast<int>(out.node.size());
   for (std::size_t k = 0; k < rim.size(); ++k)
-    rim_number[static_cast<std::size_t>(crossings.loop[0][k])] = first_rim + static_cast<int>(k);
+    rim_number[crossings.loop[0][k]] = first_rim + static_cast<int>(k);
   out.node.insert(out.node.end(), rim.begin(), rim.end());
   for (const auto& t : triangle) {
     std::array<int, 4> corner{};  // of the part on this side, counter-clockwise
     std::size_t n_corner = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto from = static_cast<std::size_t>(t[k]),
-                 to = static_cast<std::size_t>(t[(k + 1) % 3]);
+      const std::size_t from = t[k], to = t[(k + 1) % 3];
       if (below[from] == side) corner[n_corner++] = number[from];
       if (below[from] != below[to])
-        corner[n_corner++] =
-            rim_number[static_cast<std::size_t>(crossings.find(t[k], t[(k + 1) % 3]))];
+        corner[n_corner++] = rim_number[crossings.find(t[k], t[(k + 1) % 3])];
     }
     if (n_corner >= 3) out.triangle.push_back({corner[0], corner[1], corner[2]});
     if (n_corner == 4) out.triangle.push_back({corner[0], corner[2], corner[3]});
@@ -223,8 +219,8 @@ Cut cut_surface(std::span<const Vec3> node, Triangles triangle, const CutPlane& 
   for (const std::vector<int>& loop : crossings.loop) {
     std::vector<Vec3>& rim = out.loop.emplace_back();
     for (const int e : loop) {
-      const auto [i, j] = crossings.edge[static_cast<std::size_t>(e)];
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const auto [i, j] = crossings.edge[e];
+      const std::size_t a = i, b = j;
       rim.push_back(node[a] + height[a] / (height[a] - height[b]) * (node[b] - node[a]));
     }
   }

@@ -14,9 +14,7 @@ namespace acinus::mesh {
 
 namespace {
 
-const Vec3& at(const Network& network, int node) {
-  return network.node[static_cast<std::size_t>(node)];
-}
+const Vec3& at(const Network& network, int node) { return network.node[node]; }
 
 double length_of(const Network& network, std::size_t segment) {
   const auto& [a, b] = network.segment[segment];
@@ -27,7 +25,7 @@ double length_of(const Network& network, std::size_t segment) {
 Network compacted(const Network& network) {
   std::vector<int> rank(network.node.size(), -1);
   for (const auto& segment : network.segment) {
-    for (const int node : segment) rank[static_cast<std::size_t>(node)] = 0;
+    for (const int node : segment) rank[node] = 0;
   }
   Network out;
   for (std::size_t node = 0; node < rank.size(); ++node) {
@@ -38,7 +36,7 @@ Network compacted(const Network& network) {
   out.segment = network.segment;
   out.radius = network.radius;
   for (auto& segment : out.segment) {
-    for (int& node : segment) node = rank[static_cast<std::size_t>(node)];
+    for (int& node : segment) node = rank[node];
   }
   return out;
 }
@@ -56,8 +54,8 @@ Network merged(const Network& network) {
   out.node = network.node;
   std::set<std::array<int, 2>> seen;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    const int a = same[static_cast<std::size_t>(network.segment[s][0])];
-    const int b = same[static_cast<std::size_t>(network.segment[s][1])];
+    const int a = same[network.segment[s][0]];
+    const int b = same[network.segment[s][1]];
     if (a == b || !seen.insert({std::min(a, b), std::max(a, b)}).second) continue;
     out.segment.push_back({a, b});
     out.radius.push_back(network.radius[s]);
@@ -74,7 +72,7 @@ struct Chain {
 std::vector<Chain> find_chains(const Network& network) {
   std::vector<std::vector<std::size_t>> around(network.node.size());
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    for (const int node : network.segment[s]) around[static_cast<std::size_t>(node)].push_back(s);
+    for (const int node : network.segment[s]) around[node].push_back(s);
   }
   std::vector<char> used(network.segment.size(), 0);
   std::vector<Chain> chains;
@@ -88,7 +86,7 @@ std::vector<Chain> find_chains(const Network& network) {
       chain.radius.push_back(forward ? std::array{ra, rb} : std::array{rb, ra});
       node = network.segment[segment][forward ? 1 : 0];
       chain.node.push_back(node);
-      const auto& next = around[static_cast<std::size_t>(node)];
+      const auto& next = around[node];
       if (next.size() != 2) break;
       segment = used[next[0]] ? next[1] : next[0];
       if (used[segment]) break;  // round a loop

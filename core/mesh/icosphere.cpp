@@ -65,8 +65,7 @@ Surface subdivide(const Surface& coarse) {
     const auto [entry, is_new] =
         middle.try_emplace({std::min(i, j), std::max(i, j)}, static_cast<int>(out.node.size()));
     if (is_new) {
-      const Vec3 x = out.node[static_cast<std::size_t>(entry->first[0])] +
-                     out.node[static_cast<std::size_t>(entry->first[1])];
+      const Vec3 x = out.node[entry->first[0]] + out.node[entry->first[1]];
       out.node.push_back(x.normalized());
     }
     return entry->second;
@@ -83,22 +82,21 @@ Surface subdivide(const Surface& coarse) {
 Surface order_breadth_first(const Surface& in) {
   std::vector<std::vector<int>> ring(in.node.size());
   for (const auto& triangle : in.triangle) {
-    for (std::size_t k = 0; k < 3; ++k)
-      ring[static_cast<std::size_t>(triangle[k])].push_back(triangle[(k + 1) % 3]);
+    for (std::size_t k = 0; k < 3; ++k) ring[triangle[k]].push_back(triangle[(k + 1) % 3]);
   }
   std::vector<int> rank(in.node.size(), -1), queue = {0};
   rank[0] = 0;
   for (std::size_t head = 0; head < queue.size(); ++head) {
-    for (const int next : ring[static_cast<std::size_t>(queue[head])]) {
-      if (rank[static_cast<std::size_t>(next)] >= 0) continue;
-      rank[static_cast<std::size_t>(next)] = static_cast<int>(queue.size());
+    for (const int next : ring[queue[head]]) {
+      if (rank[next] >= 0) continue;
+      rank[next] = static_cast<int>(queue.size());
       queue.push_back(next);
     }
   }
   Surface out;
-  for (const int old : queue) out.node.push_back(in.node[static_cast<std::size_t>(old)]);
+  for (const int old : queue) out.node.push_back(in.node[old]);
   for (auto triangle : in.triangle) {
-    for (int& node : triangle) node = rank[static_cast<std::size_t>(node)];
+    for (int& node : triangle) node = rank[node];
     std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
                 triangle.end());
     out.triangle.push_back(triangle);
@@ -118,7 +116,7 @@ Topology make_icosphere(int n_node) {
 const Topology& shared_icosphere(int n_node) {
   static std::array<std::optional<Topology>, kNodeCounts.size()> kept;
   static std::array<std::once_flag, kNodeCounts.size()> made;
-  const auto level = static_cast<std::size_t>(level_of(n_node));
+  const std::size_t level = level_of(n_node);
   std::call_once(made[level], [&] { kept[level] = make_icosphere(n_node); });
   return *kept[level];
 }

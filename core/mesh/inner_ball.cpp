@@ -17,22 +17,21 @@ namespace {
 double compute_depth(const Surface& surface, const Vec3& point) {
   double squared = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : surface.triangle)
-    squared = std::min(squared, find_closest_point(point, surface.node[static_cast<std::size_t>(a)],
-                                                   surface.node[static_cast<std::size_t>(b)],
-                                                   surface.node[static_cast<std::size_t>(c)])
-                                    .squared_distance);
+    squared = std::min(squared,
+                       find_closest_point(point, surface.node[a], surface.node[b], surface.node[c])
+                           .squared_distance);
   const double distance = std::sqrt(squared);
   return is_inside(point, surface.node, surface.triangle) ? distance : -distance;
 }
 
-struct Cube {
+struct SearchCube {
   Vec3 center = Vec3::Zero();
   double half = 0;   // of its side
   double bound = 0;  // no point in it is deeper
 };
 
 struct Shallower {
-  bool operator()(const Cube& a, const Cube& b) const { return a.bound < b.bound; }
+  bool operator()(const SearchCube& a, const SearchCube& b) const { return a.bound < b.bound; }
 };
 
 }  // namespace
@@ -42,7 +41,7 @@ InnerBall find_inner_ball(const Surface& surface) {
   const double volume = compute_volume(surface.node, surface.triangle);
   if (!(volume > 0)) return best;
   const double precision = 0.05 * std::cbrt(3 * volume / (4 * kPi));
-  std::priority_queue<Cube, std::vector<Cube>, Shallower> queue;
+  std::priority_queue<SearchCube, std::vector<SearchCube>, Shallower> queue;
   const auto add = [&](const Vec3& center, double half) {
     const double depth = compute_depth(surface, center);
     if (depth > best.radius) best = {center, depth};
@@ -54,7 +53,7 @@ InnerBall find_inner_ball(const Surface& surface) {
   add(compute_centroid(surface.node, surface.triangle), 0);
   add((low + high) / 2, (high - low).maxCoeff() / 2);
   while (!queue.empty() && queue.top().bound > best.radius + precision) {
-    const Cube cube = queue.top();
+    const SearchCube cube = queue.top();
     queue.pop();
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);

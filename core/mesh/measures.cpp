@@ -14,13 +14,11 @@ struct Corners {
 
 Corners corners_of(std::span<const Vec3> node, const std::array<int, 3>& triangle,
                    const Vec3& origin) {
-  return {node[static_cast<std::size_t>(triangle[0])] - origin,
-          node[static_cast<std::size_t>(triangle[1])] - origin,
-          node[static_cast<std::size_t>(triangle[2])] - origin};
+  return {node[triangle[0]] - origin, node[triangle[1]] - origin, node[triangle[2]] - origin};
 }
 
 Vec3 origin_of(std::span<const Vec3> node, Triangles triangle) {
-  return triangle.empty() ? Vec3::Zero() : node[static_cast<std::size_t>(triangle[0][0])];
+  return triangle.empty() ? Vec3::Zero() : node[triangle[0][0]];
 }
 
 ClosestPoint closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b, int from, int to) {
@@ -97,7 +95,7 @@ MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles trian
   out.mixed_area.assign(node.size(), 0.0);
   for (const auto& t : triangle) {
     std::array<Vec3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = node[static_cast<std::size_t>(t[k])];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = node[t[k]];
     const double twice_area = (x[1] - x[0]).cross(x[2] - x[0]).norm();
     if (twice_area == 0) continue;
     Vec3 cot;
@@ -110,7 +108,7 @@ MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles trian
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
       const double cot_next = cot[static_cast<int>(next)], cot_last = cot[static_cast<int>(last)];
-      const auto i = static_cast<std::size_t>(t[k]);
+      const std::size_t i = t[k];
       out.normal[i] += cot_last * (x[k] - x[next]) + cot_next * (x[k] - x[last]);
       if (obtuse < 0) {  // Voronoi part of the triangle
         out.mixed_area[i] += (cot_last * (x[k] - x[next]).squaredNorm() +

@@ -100,8 +100,7 @@ Network read_vtk_network(const std::string& path) {
       }
       out.segment.push_back({line[k], line[k + 1]});
       if (radius.per_point) {
-        out.radius.push_back({node_radius[static_cast<std::size_t>(line[k])],
-                              node_radius[static_cast<std::size_t>(line[k + 1])]});
+        out.radius.push_back({node_radius[line[k]], node_radius[line[k + 1]]});
       } else {
         // Cell data count the vertices first, then the lines.
         const double r =
@@ -206,7 +205,7 @@ Network read_swc(InputFile& file) {
     }
     const int up = parent->second;
     out.segment.push_back({up, static_cast<int>(i)});
-    out.radius.push_back({nodes[static_cast<std::size_t>(up)].radius, nodes[i].radius});
+    out.radius.push_back({nodes[up].radius, nodes[i].radius});
   }
   check(!out.segment.empty(),
         fmt::format("{}: the file has {} nodes but no segment. Give nodes a parent: id type x y z "

@@ -10,7 +10,7 @@ namespace acinus::mesh {
 
 namespace {
 
-struct Face {
+struct ObjFace {
   std::size_t place = 0;
   std::vector<int> corner;
 };
@@ -49,9 +49,9 @@ Vec3 parse_node(const InputFile& file, std::size_t place, const std::vector<std:
   return x;
 }
 
-Face parse_face(const InputFile& file, std::size_t place, const std::vector<std::string>& word,
-                std::size_t n_node) {
-  Face face{place, {}};
+ObjFace parse_face(const InputFile& file, std::size_t place, const std::vector<std::string>& word,
+                   std::size_t n_node) {
+  ObjFace face{place, {}};
   for (std::size_t k = 1; k < word.size(); ++k) {
     std::int64_t index = 0;
     const bool good = parse_integer(word[k].substr(0, word[k].find('/')), index);
@@ -72,7 +72,7 @@ Face parse_face(const InputFile& file, std::size_t place, const std::vector<std:
 Surface read_obj(const std::string& path) {
   InputFile file(path);
   Surface soup;
-  std::vector<Face> faces;  // cut after all nodes are known: OBJ allows nodes behind faces
+  std::vector<ObjFace> faces;  // cut after all nodes are known: OBJ allows nodes behind faces
   while (file.remaining() > 0) {
     const std::size_t place = file.position();
     const std::vector<std::string> word = next_words(file);

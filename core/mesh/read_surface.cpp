@@ -26,7 +26,7 @@ Surface compacted(const std::vector<Vec3>& node, std::vector<std::array<int, 3>>
   used.erase(std::unique(used.begin(), used.end()), used.end());
   Surface out;
   out.node.reserve(used.size());
-  for (const int index : used) out.node.push_back(node[static_cast<std::size_t>(index)]);
+  for (const int index : used) out.node.push_back(node[index]);
   for (auto& t : triangle) {
     for (int& index : t) {
       index = static_cast<int>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
@@ -40,16 +40,16 @@ void add_components(const Surface& soup, std::vector<Surface>& bodies) {
   std::vector<int> parent(soup.node.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int node) {
-    while (parent[static_cast<std::size_t>(node)] != node) {
-      int& up = parent[static_cast<std::size_t>(node)];
-      up = parent[static_cast<std::size_t>(up)];  // path halving
+    while (parent[node] != node) {
+      int& up = parent[node];
+      up = parent[up];  // path halving
       node = up;
     }
     return node;
   };
   for (const auto& [a, b, c] : soup.triangle) {
-    parent[static_cast<std::size_t>(root(b))] = root(a);
-    parent[static_cast<std::size_t>(root(c))] = root(a);
+    parent[root(b)] = root(a);
+    parent[root(c)] = root(a);
   }
   std::map<int, std::size_t> body;
   std::vector<std::vector<std::array<int, 3>>> triangle;
@@ -64,8 +64,8 @@ void add_components(const Surface& soup, std::vector<Surface>& bodies) {
 // Entry of a polyhedron: the number of faces, then per face its number of nodes and the nodes.
 Surface read_polyhedron(const VtkLegacy& vtk, std::size_t cell) {
   const std::size_t place = vtk.position(vtk.cells, cell);
-  std::size_t at = static_cast<std::size_t>(vtk.cells.start[cell]);
-  const std::size_t end = static_cast<std::size_t>(vtk.cells.start[cell + 1]);
+  std::size_t at = vtk.cells.start[cell];
+  const std::size_t end = vtk.cells.start[cell + 1];
   const auto next = [&]() {
     if (at >= end) {
       vtk.file.fail_at(
@@ -105,7 +105,7 @@ Surface read_polyhedron(const VtkLegacy& vtk, std::size_t cell) {
   for (const auto& corner : face) used.insert(used.end(), corner.begin(), corner.end());
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const int node : used) all.node.push_back(vtk.point[static_cast<std::size_t>(node)]);
+  for (const int node : used) all.node.push_back(vtk.point[node]);
   for (std::size_t f = 0; f < face.size(); ++f) {
     for (int& node : face[f]) {
       node = static_cast<int>(std::lower_bound(used.begin(), used.end(), node) - used.begin());

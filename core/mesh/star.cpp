@@ -27,9 +27,9 @@ std::vector<FacePlane> make_planes(const Surface& surface) {
   for (const Vec3& x : surface.node) low = low.cwiseMin(x), high = high.cwiseMax(x);
   std::vector<FacePlane> out;
   for (const auto& t : surface.triangle) {
-    const Vec3& a = surface.node[static_cast<std::size_t>(t[0])];
-    const Vec3& b = surface.node[static_cast<std::size_t>(t[1])];
-    const Vec3& c = surface.node[static_cast<std::size_t>(t[2])];
+    const Vec3& a = surface.node[t[0]];
+    const Vec3& b = surface.node[t[1]];
+    const Vec3& c = surface.node[t[2]];
     const Vec3 twice_area = (b - a).cross(c - a);
     const double size = twice_area.norm();
     if (!(size > kNoArea * (high - low).squaredNorm())) continue;
@@ -84,7 +84,7 @@ StarSurface::StarSurface(const Surface& surface, const Vec3& center)
   for (std::size_t t = 0; t < face_.size(); ++t) {
     Face& face = face_[t];
     for (std::size_t k = 0; k < 3; ++k)
-      face.corner[k] = surface.node[static_cast<std::size_t>(surface.triangle[t][k])] - center;
+      face.corner[k] = surface.node[surface.triangle[t][k]] - center;
     for (std::size_t k = 0; k < 3; ++k)
       face.side[k] = face.corner[(k + 1) % 3].cross(face.corner[(k + 2) % 3]);
     face.normal =
@@ -93,10 +93,10 @@ StarSurface::StarSurface(const Surface& surface, const Vec3& center)
   const std::vector<HalfEdge> half = make_half_edges(surface.triangle);
   for (std::size_t e = 0; e + 1 < half.size(); e += 2) {
     for (const auto& [mine, other] : {std::pair{e, e + 1}, std::pair{e + 1, e}}) {
-      const auto t = static_cast<std::size_t>(half[mine].triangle);
+      const std::size_t t = half[mine].triangle;
       const auto& corner = surface.triangle[t];
       const auto k = std::find(corner.begin(), corner.end(), half[mine].opposite) - corner.begin();
-      face_[t].neighbour[static_cast<std::size_t>(k)] = half[other].triangle;
+      face_[t].neighbour[k] = half[other].triangle;
     }
   }
 }
@@ -112,15 +112,15 @@ Hit StarSurface::make_hit(const Vec3& weight, std::size_t face) const {
 Hit StarSurface::cast(const Vec3& direction, int start) const {
   int at = start, last = -1;
   for (std::size_t step = 0; step < face_.size(); ++step) {
-    const Face& face = face_[static_cast<std::size_t>(at)];
+    const Face& face = face_[at];
     const Vec3 weight(direction.dot(face.side[0]), direction.dot(face.side[1]),
                       direction.dot(face.side[2]));
     int k = 0;
     const double least = weight.minCoeff(&k);
-    const int next = face.neighbour[static_cast<std::size_t>(k)];
+    const int next = face.neighbour[k];
     if (least >= 0 || next == last) {  // sent back: the ray runs along the side between the two
       if (!(weight.sum() > 0)) break;
-      return make_hit(weight, static_cast<std::size_t>(at));
+      return make_hit(weight, at);
     }
     last = at;
     at = next;

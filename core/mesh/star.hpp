@@ -39,7 +39,7 @@ class StarSurface {
 
   const Vec3& center() const { return center_; }
   const Vec3& normal(int triangle) const {  ///< outward, of length 1 or zero
-    return face_[static_cast<std::size_t>(triangle)].normal;
+    return face_[triangle].normal;
   }
 
  private:

@@ -29,15 +29,15 @@ void make_edges(Topology& out) {
 }
 
 void make_rings(Topology& out) {
-  const auto n_node = static_cast<std::size_t>(out.n_node);
+  const std::size_t n_node = out.n_node;
   std::vector<std::vector<int>> ring(n_node), around(n_node);
   for (const auto& [i, j] : out.edge) {
-    ring[static_cast<std::size_t>(i)].push_back(j);
-    ring[static_cast<std::size_t>(j)].push_back(i);
+    ring[i].push_back(j);
+    ring[j].push_back(i);
   }
   for (int t = 0; t < out.n_triangle; ++t) {
-    for (const int node : out.triangle[static_cast<std::size_t>(t)]) {
-      around[static_cast<std::size_t>(node)].push_back(t);
+    for (const int node : out.triangle[t]) {
+      around[node].push_back(t);
     }
   }
   out.ring_start = {0};
@@ -53,16 +53,16 @@ void make_rings(Topology& out) {
 
 // One piece without handles: what the cell model, division and ray casting rely on.
 void check_sphere_like(const Topology& out) {
-  std::vector<char> seen(static_cast<std::size_t>(out.n_node), 0);
+  std::vector<char> seen(out.n_node, 0);
   std::vector<int> stack = {0};
   seen[0] = 1;
   while (!stack.empty()) {
-    const auto node = static_cast<std::size_t>(stack.back());
+    const std::size_t node = stack.back();
     stack.pop_back();
     for (int k = out.ring_start[node]; k < out.ring_start[node + 1]; ++k) {
-      const int next = out.ring[static_cast<std::size_t>(k)];
-      if (seen[static_cast<std::size_t>(next)]) continue;
-      seen[static_cast<std::size_t>(next)] = 1;
+      const int next = out.ring[k];
+      if (seen[next]) continue;
+      seen[next] = 1;
       stack.push_back(next);
     }
   }
@@ -96,10 +96,10 @@ void make_rest_shape(Topology& out, const Surface& surface) {
 }
 
 void make_rest_measures(Topology& out) {
-  const auto x = [&](int node) -> const Vec3& { return out.rest[static_cast<std::size_t>(node)]; };
+  const auto x = [&](int node) -> const Vec3& { return out.rest[node]; };
   out.rest_node_area.assign(static_cast<std::size_t>(out.n_node), 0.0);
   for (int t = 0; t < out.n_triangle; ++t) {
-    const auto& [a, b, c] = out.triangle[static_cast<std::size_t>(t)];
+    const auto& [a, b, c] = out.triangle[t];
     // Below this the triangle's normal, and with it the rest angles, would be round-off.
     check(compute_triangle_quality(x(a), x(b), x(c)) > 1e-9,
           fmt::format("{}: triangle {} (nodes {}, {}, {}) has no area. Remesh the surface.", kWhere,
@@ -107,7 +107,7 @@ void make_rest_measures(Topology& out) {
     const double area = (x(b) - x(a)).cross(x(c) - x(a)).norm() / 2;
     out.rest_triangle_area.push_back(area);
     out.rest_area += area;
-    for (const int node : {a, b, c}) out.rest_node_area[static_cast<std::size_t>(node)] += area / 3;
+    for (const int node : {a, b, c}) out.rest_node_area[node] += area / 3;
   }
   for (const auto& [x1, x2, x3, x4] : out.hinge) {
     const Vec3 edge = x(x4) - x(x3);

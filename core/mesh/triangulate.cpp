@@ -11,7 +11,7 @@ namespace {
 bool is_ear(const std::vector<int>& polygon, std::size_t k, std::span<const Vec3> node,
             const Vec3& normal) {
   const std::size_t n = polygon.size();
-  const auto x = [&](std::size_t i) { return node[static_cast<std::size_t>(polygon[i % n])]; };
+  const auto x = [&](std::size_t i) { return node[polygon[i % n]]; };
   const Vec3 a = x(k + n - 1), b = x(k), c = x(k + 1);
   if ((b - a).cross(c - b).dot(normal) <= 0) return false;
   for (std::size_t other = k + 2; other < k + n - 1; ++other) {
@@ -31,9 +31,7 @@ std::vector<std::array<int, 3>> triangulate(std::span<const int> corner,
   ACINUS_ASSERT(corner.size() >= 3 && corner.size() <= kMaxPolygon);
   std::vector<int> polygon(corner.begin(), corner.end());
   std::vector<std::array<int, 3>> out;
-  const auto x = [&](std::size_t i) {
-    return node[static_cast<std::size_t>(polygon[i % polygon.size()])];
-  };
+  const auto x = [&](std::size_t i) { return node[polygon[i % polygon.size()]]; };
   Vec3 normal = Vec3::Zero();  // twice the vector area, about the first corner
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
     normal += (x(k) - x(0)).cross(x(k + 1) - x(0));

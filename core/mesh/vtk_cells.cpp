@@ -78,7 +78,7 @@ void VtkParser::offset_cells(VtkCells& list, std::uint64_t n_offset, std::uint64
                       keyword, offset[c], low, high));
     }
     if (c == 0) continue;
-    list.token.push_back(static_cast<std::size_t>(low));
+    list.token.push_back(low);
     list.start.push_back(offset[c]);
   }
   if (list.start.back() != static_cast<std::int64_t>(size)) {

@@ -143,7 +143,7 @@ std::vector<int> VtkLegacy::nodes_of(const VtkCells& list, std::size_t c,
                                      const std::string& what) const {
   std::vector<int> node;
   for (std::int64_t k = list.start[c]; k < list.start[c + 1]; ++k) {
-    const std::int64_t index = list.index[static_cast<std::size_t>(k)];
+    const std::int64_t index = list.index[k];
     if (index < 0 || index >= static_cast<std::int64_t>(point.size())) {
       file.fail_at(
           position(list, c),

@@ -65,9 +65,9 @@ void CoarseSpace::place_cells(std::span<const double> position,
   size_.clear();
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const std::size_t row = s.block[b].first_row;
-    const auto n = static_cast<std::size_t>(s.block[b].pattern->n_point);
+    const std::size_t n = s.block[b].pattern->n_point;
     for (int l = 0; l < kLanes; ++l) {
-      if (!active[b * kLanes + static_cast<std::size_t>(l)]) continue;
+      if (!active[b * kLanes + l]) continue;
       Vec3 mean = Vec3::Zero();
       for (std::size_t i = row; i < row + n; ++i)
         mean += load_point(position.data(), make_address(i, l));
@@ -81,7 +81,7 @@ void CoarseSpace::place_cells(std::span<const double> position,
         for (int c = 0; c < 3; ++c)
           arm_[make_address(i, l) + static_cast<Address>(c * kLanes)] = static_cast<float>(arm[c]);
       }
-      cell_[b * kLanes + static_cast<std::size_t>(l)] = static_cast<int>(center_.size());
+      cell_[b * kLanes + l] = static_cast<int>(center_.size());
       center_.push_back(mean);
       size_.push_back(size);
     }
@@ -109,7 +109,7 @@ void CoarseSpace::find_neighbours() {
   start_.assign(center_.size() + 1, 0);
   column_.clear();
   for (const auto& [row, column] : pair) {
-    ++start_[static_cast<std::size_t>(row) + 1];
+    ++start_[row + 1];
     column_.push_back(column);
   }
   for (std::size_t c = 0; c < center_.size(); ++c) start_[c + 1] += start_[c];
@@ -135,13 +135,13 @@ void CoarseSpace::add_cells(const Operator& op) {
       for (std::size_t l = 0; l < kLanes; ++l) {
         const int c = cell_[b * kLanes + l];
         if (c < 0) continue;
-        Mat6& e = block_[static_cast<std::size_t>(start_[static_cast<std::size_t>(c) + 1] - 1)];
-        for (int k = 0; k < 6; ++k) e(k, m) = out[static_cast<std::size_t>(k) * kLanes + l];
+        Mat6& e = block_[start_[c + 1] - 1];
+        for (int k = 0; k < 6; ++k) e(k, m) = out[k * kLanes + l];
       }
     }
   }
   for (std::size_t c = 0; c < center_.size(); ++c) {
-    Mat6& e = block_[static_cast<std::size_t>(start_[c + 1] - 1)];
+    Mat6& e = block_[start_[c + 1] - 1];
     if (size_[c] == 0) e.bottomRightCorner<3, 3>().setIdentity();
     e = (0.5 * (e + e.transpose())).eval();
   }
@@ -157,11 +157,11 @@ void CoarseSpace::add_links(std::span<const double> position) {
   };
   // turning by omega moves a place by omega x arm
   auto arm = [&](int c, const Vec3& x) -> Vec3 {
-    const auto k = static_cast<std::size_t>(c);
+    const std::size_t k = c;
     return size_[k] > 0 ? Vec3((x - center_[k]) / size_[k]) : Vec3::Zero();
   };
   auto slot = [&](int a, int b) {
-    const auto row = static_cast<std::size_t>(std::max(a, b));
+    const std::size_t row = std::max(a, b);
     const auto from = column_.begin() + start_[row], to = column_.begin() + start_[row + 1];
     return static_cast<std::size_t>(std::lower_bound(from, to, std::min(a, b)) - column_.begin());
   };
@@ -211,14 +211,13 @@ void CoarseSpace::factor() {
   for (double shift = 0;; shift = shift > 0 ? 2 * shift : kShift) {
     bool positive = true;
     for (std::size_t i = 0; i < center_.size() && positive; ++i) {
-      const auto from = static_cast<std::size_t>(start_[i]),
-                 diagonal = static_cast<std::size_t>(start_[i + 1]) - 1;
+      const std::size_t from = start_[i], diagonal = start_[i + 1] - 1;
       for (std::size_t e = from; e <= diagonal; ++e) {
-        const auto j = static_cast<std::size_t>(column_[e]);
+        const std::size_t j = column_[e];
         Mat6 sum = matrix[e];
         if (e == diagonal) sum.diagonal() *= 1 + shift;
-        std::size_t p = from, q = static_cast<std::size_t>(start_[j]);
-        const std::size_t q_end = static_cast<std::size_t>(start_[j + 1]) - 1;
+        std::size_t p = from, q = start_[j];
+        const std::size_t q_end = start_[j + 1] - 1;
         while (p < e && q < q_end) {
           if (column_[p] == column_[q])
             sum.noalias() -= block_[p++] * block_[q++].transpose();
@@ -245,16 +244,15 @@ void CoarseSpace::factor() {
 void CoarseSpace::solve(std::vector<Vec6>& v) const {
   const std::size_t n = center_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const auto diagonal = static_cast<std::size_t>(start_[i + 1]) - 1;
-    for (auto e = static_cast<std::size_t>(start_[i]); e < diagonal; ++e)
-      v[i].noalias() -= block_[e] * v[static_cast<std::size_t>(column_[e])];
+    const std::size_t diagonal = start_[i + 1] - 1;
+    for (std::size_t e = start_[i]; e < diagonal; ++e) v[i].noalias() -= block_[e] * v[column_[e]];
     block_[diagonal].triangularView<Eigen::Lower>().solveInPlace(v[i]);
   }
   for (std::size_t i = n; i-- > 0;) {
-    const auto diagonal = static_cast<std::size_t>(start_[i + 1]) - 1;
+    const std::size_t diagonal = start_[i + 1] - 1;
     block_[diagonal].triangularView<Eigen::Lower>().transpose().solveInPlace(v[i]);
-    for (auto e = static_cast<std::size_t>(start_[i]); e < diagonal; ++e)
-      v[static_cast<std::size_t>(column_[e])].noalias() -= block_[e].transpose() * v[i];
+    for (std::size_t e = start_[i]; e < diagonal; ++e)
+      v[column_[e]].noalias() -= block_[e].transpose() * v[i];
   }
 }
 
@@ -276,14 +274,13 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const auto n_block = static_cast<std::ptrdiff_t>(s.block.size());
 #pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::ptrdiff_t k = 0; k < n_block; ++k) {
-    const auto b = static_cast<std::size_t>(k);
+    const std::size_t b = k;
     const std::size_t at = s.block[b].first_row * kPointStride;
     double out[6 * kLanes];
     restrict_block(s.block[b].pattern->n_point, arm_.data() + at, r.data() + at, out);
     for (std::size_t l = 0; l < kLanes; ++l)
       if (const int c = cell_[b * kLanes + l]; c >= 0)
-        for (int m = 0; m < 6; ++m)
-          small_[static_cast<std::size_t>(c)][m] = out[static_cast<std::size_t>(m) * kLanes + l];
+        for (int m = 0; m < 6; ++m) small_[c][m] = out[m * kLanes + l];
   }
   double product = 0;
   const std::vector<Vec6> load = small_;
@@ -291,13 +288,12 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   for (std::size_t c = 0; c < load.size(); ++c) product += load[c].dot(small_[c]);
 #pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::ptrdiff_t k = 0; k < n_block; ++k) {
-    const auto b = static_cast<std::size_t>(k);
+    const std::size_t b = k;
     const std::size_t at = s.block[b].first_row * kPointStride;
     double in[6 * kLanes] = {};
     for (std::size_t l = 0; l < kLanes; ++l)
       if (const int c = cell_[b * kLanes + l]; c >= 0)
-        for (int m = 0; m < 6; ++m)
-          in[static_cast<std::size_t>(m) * kLanes + l] = small_[static_cast<std::size_t>(c)][m];
+        for (int m = 0; m < 6; ++m) in[m * kLanes + l] = small_[c][m];
     prolong_block(s.block[b].pattern->n_point, arm_.data() + at, in, z.data() + at);
   }
   return product;

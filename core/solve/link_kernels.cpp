@@ -11,7 +11,7 @@ ACINUS_INLINE void add4(Packed<T>* v, Point p, Four<T> f) {
 }
 
 /// The normal, and in the fourth place whatever follows it: vectors hold zero there on the way in,
-/// and nobody reads it on the way out.
+/// and it is not read on the way out.
 template <class T, class L>
 ACINUS_INLINE Four<T> load_normal(const L& l) {
   static_assert(offsetof(L, stiffness) == offsetof(L, normal) + sizeof(l.normal));
@@ -144,7 +144,7 @@ ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, std::span<const Share
       const Four<float> r = xa - load4(x + b);
       Eight m;
       __builtin_memcpy(&m, pairs.block[k].data(), sizeof(m));
-      // The columns of the block; what they hold in the fourth place nobody reads.
+      // The columns of the block; what they hold in the fourth place is not read.
       const Four<float> f = r[0] * __builtin_shufflevector(m, m, 0, 1, 2, 6) +
                             r[1] * __builtin_shufflevector(m, m, 1, 3, 4, 6) +
                             r[2] * __builtin_shufflevector(m, m, 2, 4, 5, 6);

@@ -38,7 +38,7 @@ void multiply_links(const LinkSet<PointLink>& set, LinkScales scales, const Pack
 void multiply_links(const LinkSet<PointLink>& set, LinkScales scales, const Packed<float>* x,
                     Packed<float>* y);
 
-/// y += force of contacts between cells, or of contacts with surroundings.
+/// y += force of contacts between cells, or of contacts with boundary.
 void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
                 Packed<double>* y);
 

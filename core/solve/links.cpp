@@ -10,9 +10,8 @@ Stencil stencil_of(const Link& link) {
     for (int m = 0; m < 3; ++m) {
       const double w = m == 0 ? w0 : m == 1 ? w1 : w2;
       if (side.is_single() && m < 2) continue;
-      s.address[static_cast<std::size_t>(s.n)] =
-          address_of(side.point[static_cast<std::size_t>(m)]);
-      s.weight[static_cast<std::size_t>(s.n++)] = sign * (side.is_single() ? 1 : w);
+      s.address[s.n] = address_of(side.point[m]);
+      s.weight[s.n++] = sign * (side.is_single() ? 1 : w);
     }
   };
   add(link.a, 1);

@@ -4,7 +4,7 @@
 /// A side of a contact is a place on one cell, x = w0 x0 + w1 x1 + (1 - w0 - w1) x2. The third
 /// weight is never stored: both sides then get exactly the same force, whatever the weights were
 /// rounded to. The relative vector is r = x_a - x_b; side b has no unknowns when it is
-/// surroundings.
+/// boundary.
 
 #include <array>
 #include <cstdint>
@@ -47,8 +47,7 @@ static_assert(sizeof(Link) == 64);
 
 /// Writes the coefficients of a link, rounded to what it keeps.
 inline void set_law(double stiffness, double friction, double gap, const Vec3& normal, Link& link) {
-  for (int k = 0; k < 3; ++k)
-    link.normal[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
+  for (int k = 0; k < 3; ++k) link.normal[k] = static_cast<float>(normal[k]);
   link.stiffness = static_cast<float>(stiffness);
   link.friction = static_cast<float>(friction);
   link.gap = static_cast<float>(gap);
@@ -80,7 +79,7 @@ struct Links {
   void clear() { resize(0); }
 };
 
-/// A contact of one point with one other, or with surroundings (b = kNowhere). Its force is not
+/// A contact of one point with one other, or with boundary (b = kNowhere). Its force is not
 /// kept here: the owner adds it in double along the exact direction.
 struct PointLink {
   Point a = 0, b = kNowhere;

@@ -40,7 +40,7 @@ CellPoints points_of(const System& s, std::uint64_t cell) {
 }
 
 /// Pairs of points of one pair of cells.
-class PairTable {
+class PointPairTable {
  public:
   /// Starts anew.
   void start(CellPoints a, CellPoints b) {
@@ -133,7 +133,7 @@ ACINUS_KERNEL void write_edges(std::size_t n_spring, const float* spring, const 
 
 bool is_merged(const System& s, const std::vector<int>& block_of_row, const Link& l) {
   auto on_mesh = [&](const Side& side) {
-    const auto b = static_cast<std::size_t>(block_of(block_of_row, side.point[0]));
+    const std::size_t b = block_of(block_of_row, side.point[0]);
     return !s.block[b].pattern->spring_of.empty();
   };
   return l.b.exists() && !l.a.is_single() && on_mesh(l.a) && (l.b.is_single() || on_mesh(l.b));
@@ -159,7 +159,7 @@ void LinkMerger::find_runs(const System& s, const std::vector<int>& block_of_row
       run_.push_back({cells, i, i + 1, a > b});
     open = true;
   }
-  std::ranges::stable_sort(run_, {}, &Run::cells);
+  std::ranges::stable_sort(run_, {}, &LinkRun::cells);
   group_.clear();
   for (std::size_t k = 0; k < run_.size(); ++k)
     if (k == 0 || run_[k].cells != run_[k - 1].cells) group_.push_back(k);
@@ -174,7 +174,7 @@ void LinkMerger::add_across(const System& s, PointPairs& pairs) {
   for (std::size_t part = 0; part < n_part; ++part) {
     PointPairs& out = part == 0 ? pairs : part_[part - 1];
     out.clear();
-    PairTable table;
+    PointPairTable table;
     for (std::size_t g = part * n_group / n_part; g < (part + 1) * n_group / n_part; ++g) {
       const std::uint64_t cells = run_[group_[g]].cells;
       table.start(points_of(s, cells >> 32), points_of(s, cells & 0xffffffff));
@@ -203,7 +203,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
     end_.push_back({static_cast<std::uint32_t>(low / kLanes), k, run_[k].swapped});
     end_.push_back({static_cast<std::uint32_t>(high / kLanes), k, !run_[k].swapped});
   }
-  std::ranges::stable_sort(end_, {}, &End::block);
+  std::ranges::stable_sort(end_, {}, &RunEnd::block);
 
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   const std::size_t n_part = count_threads(s.n_row);
@@ -215,7 +215,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
       const Block& block = s.block[b];
       sum.assign(block.pattern->spring.size() * kLanes, {});
       FaceSprings face;
-      for (const End& end : std::ranges::equal_range(end_, b, {}, &End::block))
+      for (const RunEnd& end : std::ranges::equal_range(end_, b, {}, &RunEnd::block))
         for (std::uint32_t k = run_[end.run].first; k < run_[end.run].last; ++k) {
           const Link& l = s.links.link[k];
           const Side& side = end.is_b ? l.b : l.a;

@@ -36,13 +36,13 @@ class LinkMerger {
 
  private:
   /// Contacts in a row that join the same two cells.
-  struct Run {
+  struct LinkRun {
     std::uint64_t cells;  ///< the two cells, the lower one first
     std::uint32_t first, last;
     bool swapped;  ///< side a is on the second cell
   };
   /// One side of the contacts of a run.
-  struct End {
+  struct RunEnd {
     std::uint32_t block, run;
     bool is_b;
   };
@@ -50,9 +50,9 @@ class LinkMerger {
   void add_across(const System& system, PointPairs& pairs);
   void add_within(const System& system, std::vector<float>& edge);
 
-  std::vector<Run> run_;            ///< by pair of cells
+  std::vector<LinkRun> run_;        ///< by pair of cells
   std::vector<std::size_t> group_;  ///< where in run_ each pair of cells starts
-  std::vector<End> end_;            ///< by block
+  std::vector<RunEnd> end_;         ///< by block
   std::vector<PointPairs> part_;    ///< [thread]
 };
 

@@ -26,25 +26,25 @@ template <class F>
 void Operator::for_each_range(F f) {
   const auto n = static_cast<int>(range_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
-  for (int k = 0; k < n; ++k) f(range_[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < n; ++k) f(range_[k]);
 }
 template <class F>
 void Operator::for_each_range(F f) const {
   const auto n = static_cast<int>(range_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
-  for (int k = 0; k < n; ++k) f(range_[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < n; ++k) f(range_[k]);
 }
 
 template <class F>
-void Operator::for_each_block(const Range& range, F f) const {
+void Operator::for_each_block(const ThreadRange& range, F f) const {
   for (std::size_t b = range.first_block; b < range.last_block; ++b)
-    f(b, system_->block[b].first_row, static_cast<std::size_t>(system_->block[b].pattern->n_point));
+    f(b, system_->block[b].first_row, system_->block[b].pattern->n_point);
 }
 
-LinkSet<Link> Operator::links_of(const Range& range) const {
+LinkSet<Link> Operator::links_of(const ThreadRange& range) const {
   return {system_->links.link, range.link};
 }
-LinkSet<PointLink> Operator::point_links_of(const Range& range) const {
+LinkSet<PointLink> Operator::point_links_of(const ThreadRange& range) const {
   return {system_->point_links, range.point_link};
 }
 
@@ -66,7 +66,7 @@ void Operator::divide() {
 void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
   // Every thread picks out its own: reading all contacts is cheaper than sorting them.
-  for_each_range([&](Range& range) {
+  for_each_range([&](ThreadRange& range) {
     const std::size_t from = first_point(s, range.first_block),
                       to = first_point(s, range.last_block);
     auto owns = [&](Point p) { return p >= from && p < to; };
@@ -94,7 +94,7 @@ void Operator::merge_links() {
   find_row_blocks(s, block_of_row_);
   merger_.merge(s, block_of_row_, merge_);
   const PointPairs& pairs = merge_.pairs;
-  for_each_range([&](Range& range) {
+  for_each_range([&](ThreadRange& range) {
     const std::size_t from = first_point(s, range.first_block),
                       to = first_point(s, range.last_block);
     auto owns = [&](Point p) { return p >= from && p < to; };
@@ -119,7 +119,7 @@ void Operator::compute_inverse() {
     rank_one_[k].resize(s.rank_one[k].vector.size());
   SymBlock* const diagonal_blocks = diagonal();
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
       std::fill_n(diagonal_blocks + row * kLanes, n * kLanes, SymBlock{});
     });
@@ -186,7 +186,7 @@ double Operator::sum_partials() const {
 template <class T>
 Operator::PackedVectors<T> Operator::pack(In<T> x) const {
   const PackedVectors<T> work = packed<T>();
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
       pack_points(x.data() + row * kPointStride, n, work.x + row * kLanes);
       std::fill_n(work.y + row * kLanes, n * kLanes, Packed<T>{});
@@ -200,7 +200,7 @@ double Operator::apply(In<T> x, Out<T> y) const {
   const System& s = *system_;
   const PackedVectors<T> work = pack<T>(x);
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     const float* edge = nullptr;
     if constexpr (std::is_same_v<T, float>) {
       if (merged_) {
@@ -220,7 +220,7 @@ double Operator::apply(In<T> x, Out<T> y) const {
 }
 
 void Operator::apply_within(std::span<const double> x, std::span<double> y) const {
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     Packed<double>* const none = packed<double>().y;
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
       std::fill_n(none + row * kLanes, n * kLanes, Packed<double>{});
@@ -234,7 +234,7 @@ void Operator::apply_friction(std::span<const double> x, std::span<double> y) co
   const System& s = *system_;
   const PackedVectors<double> work = pack<double>(x);
   const LinkScales scales{0, s.friction_scale};
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     multiply_links(links_of(range), scales, work.x, work.y);
     multiply_links(point_links_of(range), scales, work.x, work.y);
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
@@ -253,7 +253,7 @@ void Operator::apply_external_friction(std::span<const double> x, std::span<doub
 void Operator::apply_external(std::span<const double> x, std::span<double> y,
                               LinkScales scales) const {
   const System& s = *system_;
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
       for (std::size_t i = row; i < row + n; ++i)
         store3(y.data() + i * kPointStride,
@@ -263,13 +263,11 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y,
   });
   auto add = [&](const Stencil& at, const auto& l) {
     Vec3 r = Vec3::Zero();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(at.n); ++k)
-      r += at.weight[k] * load_point(x.data(), at.address[k]);
+    for (int k = 0; k < at.n; ++k) r += at.weight[k] * load_point(x.data(), at.address[k]);
     const Vec3 n(l.normal[0], l.normal[1], l.normal[2]);
     const Vec3 f = scales.stiffness * static_cast<double>(l.stiffness) * n.dot(r) * n +
                    scales.friction * static_cast<double>(l.friction) * r;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(at.n); ++k)
-      add_point(y.data(), at.address[k], at.weight[k] * f);
+    for (int k = 0; k < at.n; ++k) add_point(y.data(), at.address[k], at.weight[k] * f);
   };
   for (const std::uint32_t l : external_) add(stencil_of(s.links.link[l]), s.links.link[l]);
   for (const std::uint32_t l : external_point_)
@@ -281,7 +279,7 @@ void Operator::add_link_forces(System& system) {
   share_links(false);
   Packed<double>* const y = packed<double>().y;
   for (auto* to : {&system.force, &system.external_force})
-    for_each_range([&](const Range& range) {
+    for_each_range([&](const ThreadRange& range) {
       const bool external = to == &system.external_force;
       for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
         std::fill_n(y + row * kLanes, n * kLanes, Packed<double>{});
@@ -295,7 +293,7 @@ void Operator::add_link_forces(System& system) {
 
 template <class T>
 double Operator::precondition(In<T> r, Out<T> z) const {
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       partial_[b] = precondition_block(inverse_of(b), r.data() + row * kPointStride,
                                        z.empty() ? nullptr : z.data() + row * kPointStride);
@@ -306,7 +304,7 @@ double Operator::precondition(In<T> r, Out<T> z) const {
 
 template <class T>
 double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const {
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       const std::size_t at = row * kPointStride;
       partial_[b] = descend_block(inverse_of(b), alpha,
@@ -319,7 +317,7 @@ double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out
 
 template <class T>
 void Operator::redirect(In<T> z, double beta, Out<T> p) const {
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
       redirect_range(z.data() + row * kPointStride, beta, p.data() + row * kPointStride,
                      n * kPointStride);
@@ -329,7 +327,7 @@ void Operator::redirect(In<T> z, double beta, Out<T> p) const {
 
 template <class T>
 double Operator::dot(In<T> a, In<T> b) const {
-  for_each_range([&](const Range& range) {
+  for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t k, std::size_t row, std::size_t n) {
       partial_[k] =
           dot_range(a.data() + row * kPointStride, b.data() + row * kPointStride, n * kPointStride);

@@ -58,22 +58,22 @@ class Operator {
   /// y = A x without contacts: medium and what is within the cells.
   void apply_within(std::span<const double> x, std::span<double> y) const;
 
-  /// y = A_external x: friction with the medium and contacts with surroundings only.
+  /// y = A_external x: friction with the medium and contacts with boundary only.
   void apply_external(std::span<const double> x, std::span<double> y) const;
 
-  /// y = Gamma/h x, the part of A x that is friction; and what of it is with the surroundings.
+  /// y = Gamma/h x, the part of A x that is friction; and what of it is with the boundary.
   void apply_friction(std::span<const double> x, std::span<double> y) const;
   void apply_external_friction(std::span<const double> x, std::span<double> y) const;
 
   /// Adds the force of every link to the points it joins: to force, or to external_force where one
-  /// side is surroundings. Changes what the system asks for, not its matrix: prepare comes after.
+  /// side is boundary. Changes what the system asks for, not its matrix: prepare comes after.
   void add_link_forces(System& system);
 
   const System& system() const { return *system_; }
 
  private:
   /// What one thread works on.
-  struct Range {
+  struct ThreadRange {
     std::size_t first_block = 0, last_block = 0;
     std::vector<Share> link, point_link;
     std::vector<Share> single, pair;  ///< in float: links that are not merged, and rows of pairs
@@ -93,26 +93,26 @@ class Operator {
   void divide();
   void share_links(bool with_matrix);
   void compute_inverse();
-  LinkSet<Link> links_of(const Range& range) const;
-  LinkSet<PointLink> point_links_of(const Range& range) const;
+  LinkSet<Link> links_of(const ThreadRange& range) const;
+  LinkSet<PointLink> point_links_of(const ThreadRange& range) const;
   template <class F>
   void for_each_range(F f);
   template <class F>
   void for_each_range(F f) const;
   /// f(block, first point row, number of points) for the blocks of a range.
   template <class F>
-  void for_each_block(const Range& range, F f) const;
+  void for_each_block(const ThreadRange& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
   double sum_partials() const;
   void apply_external(std::span<const double> x, std::span<double> y, LinkScales scales) const;
 
   const System* system_ = nullptr;
-  std::vector<Range> range_;
+  std::vector<ThreadRange> range_;
   bool merged_ = false;  ///< products in float use merge_
   std::vector<int> block_of_row_;
   LinkMerger merger_;
   MergedLinks merge_;
-  std::vector<std::uint32_t> external_, external_point_;  ///< links with surroundings
+  std::vector<std::uint32_t> external_, external_point_;  ///< links with boundary
   std::vector<float> inverse_;                            ///< [n_row][6][lane]
   /// [family][rows of its blocks][3][lane], as InverseView wants them.
   std::vector<std::vector<float>> rank_one_;

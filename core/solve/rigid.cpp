@@ -14,7 +14,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Map3x6 = Eigen::Matrix<double, 3, 6>;
 
-struct Group {
+struct RigidGroup {
   Vec3 center = Vec3::Zero();
   Vec3 sum = Vec3::Zero();  ///< um, of the positions
   double n_point = 0;
@@ -27,7 +27,7 @@ struct Group {
   Vec6 motion = Vec6::Zero();
   bool correct = false;
 
-  void add(const Group& o) {
+  void add(const RigidGroup& o) {
     sum += o.sum;
     n_point += o.n_point;
     squared_reach = std::max(squared_reach, o.squared_reach);
@@ -40,10 +40,9 @@ struct Group {
 };
 
 int find_root(std::vector<int>& parent, int i) {
-  while (parent[static_cast<std::size_t>(i)] != i) {
-    parent[static_cast<std::size_t>(i)] =
-        parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
-    i = parent[static_cast<std::size_t>(i)];
+  while (parent[i] != i) {
+    parent[i] = parent[parent[i]];
+    i = parent[i];
   }
   return i;
 }
@@ -65,7 +64,7 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
     last_a = a;
     last_b = b;
     const int root_a = find_root(parent, a), root_b = find_root(parent, b);
-    parent[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
+    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
   };
   for (const Link& l : s.links.link) join(l.a.point[0], l.b.point[0]);
   for (const PointLink& l : s.point_links) join(l.a, l.b);
@@ -73,7 +72,7 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
   int n = 0;
   for (std::size_t c = 0; c < active.size(); ++c) {
     if (!active[c]) continue;
-    const auto root = static_cast<std::size_t>(find_root(parent, static_cast<int>(c)));
+    const std::size_t root = find_root(parent, static_cast<int>(c));
     if (work.group[root] < 0) work.group[root] = n++;
     work.group[c] = work.group[root];
   }
@@ -89,7 +88,7 @@ Map3x6 unit_motions(const Vec3& from_center) {
 }
 
 /// Sum of m z^T z over the points of a group.
-Mat6 medium_matrix(const Group& g) {
+Mat6 medium_matrix(const RigidGroup& g) {
   Mat3 cross;  // cross * v = first_moment x v
   const Vec3& f = g.first_moment;
   cross << 0, -f.z(), f.y(), f.z(), 0, -f.x(), -f.y(), f.x(), 0;
@@ -108,10 +107,8 @@ void for_each_point(const System& s, const std::vector<int>& group, std::size_t 
   for (std::size_t b = first; b < last; ++b)
     for (int i = 0; i < s.block[b].pattern->n_point; ++i)
       for (int l = 0; l < kLanes; ++l) {
-        const int g = group[b * kLanes + static_cast<std::size_t>(l)];
-        if (g >= 0)
-          f(make_address(s.block[b].first_row + static_cast<std::size_t>(i), l),
-            static_cast<std::size_t>(g));
+        const int g = group[b * kLanes + l];
+        if (g >= 0) f(make_address(s.block[b].first_row + i, l), static_cast<std::size_t>(g));
       }
 }
 
@@ -132,10 +129,10 @@ void for_each_point(const System& s, const std::vector<int>& group, F f) {
 
 /// f(address, its group's part) for every point; parts are added to the groups in order.
 template <class F>
-void sum_over_points(const System& s, const std::vector<int>& group, std::vector<Group>& groups,
-                     F f) {
+void sum_over_points(const System& s, const std::vector<int>& group,
+                     std::vector<RigidGroup>& groups, F f) {
   const std::size_t n_part = count_parts(s, groups.size());
-  std::vector<std::vector<Group>> part(n_part, std::vector<Group>(groups.size()));
+  std::vector<std::vector<RigidGroup>> part(n_part, std::vector<RigidGroup>(groups.size()));
 #pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::size_t k = 0; k < n_part; ++k)
     for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
@@ -160,19 +157,19 @@ class RigidModes {
         s_(op.system()),
         position_(cells.position),
         work_(work),
-        groups_(static_cast<std::size_t>(number_groups(s_, cells.active, work))) {
-    sum([&](Address a, const Group&, Group& part) {
+        groups_(number_groups(s_, cells.active, work)) {
+    sum([&](Address a, const RigidGroup&, RigidGroup& part) {
       part.sum += at(a);
       part.n_point += 1;
     });
-    for (Group& g : groups_) g.center = g.sum / g.n_point;
+    for (RigidGroup& g : groups_) g.center = g.sum / g.n_point;
   }
 
-  /// What ties a group to the outside: medium and surroundings. It is a lower bound of the
+  /// What ties a group to the outside: medium and boundary. It is a lower bound of the
   /// projected matrix, and all of it but for the rotations: no link or element within a group feels
   /// a translation.
   void tie_to_outside(std::span<const double> residual) {
-    sum([&](Address a, const Group& whole, Group& group) {
+    sum([&](Address a, const RigidGroup& whole, RigidGroup& group) {
       const Vec3 d = at(a) - whole.center;
       group.squared_reach = std::max(group.squared_reach, d.squaredNorm());
       const Vec3 r = load_point(residual.data(), a);
@@ -183,7 +180,7 @@ class RigidModes {
       group.first_moment += m * d;
       group.second_moment += m * d * d.transpose();
     });
-    for (Group& g : groups_) g.matrix = medium_matrix(g);
+    for (RigidGroup& g : groups_) g.matrix = medium_matrix(g);
     for (const Link& l : s_.links.link)
       if (!l.b.exists())
         tie(stencil_of(l), l.normal, static_cast<double>(l.stiffness),
@@ -197,7 +194,7 @@ class RigidModes {
   /// Chooses the groups whose rigid error may be larger, um.
   int choose(double threshold) {
     int chosen = 0;
-    for (Group& g : groups_) {
+    for (RigidGroup& g : groups_) {
       g.correct = size_of(solve_spd(g.matrix, g.residual), g) > threshold;
       chosen += g.correct ? 1 : 0;
     }
@@ -209,7 +206,7 @@ class RigidModes {
   void project_rotations() {
     work_.mode.resize(position_.size());
     work_.product.resize(position_.size());
-    for (Group& g : groups_) g.matrix.bottomRightCorner<3, 3>().setZero();
+    for (RigidGroup& g : groups_) g.matrix.bottomRightCorner<3, 3>().setZero();
     for (int axis = 0; axis < 3; ++axis) {
       std::ranges::fill(work_.mode, 0.0);
       for_each_point(s_, work_.group, [&](Address a, std::size_t g) {
@@ -217,7 +214,7 @@ class RigidModes {
           store_point(work_.mode.data(), a, Vec3::Unit(axis).cross(at(a) - groups_[g].center));
       });
       op_.apply(work_.mode, work_.product);
-      sum([&](Address a, const Group& whole, Group& group) {
+      sum([&](Address a, const RigidGroup& whole, RigidGroup& group) {
         group.matrix.block<3, 1>(3, 3 + axis) +=
             (at(a) - whole.center).cross(load_point(work_.product.data(), a));
       });
@@ -227,7 +224,7 @@ class RigidModes {
   /// Moves the chosen groups. @return the largest move, um
   double correct(std::span<double> x) {
     double largest = 0;
-    for (Group& g : groups_) {
+    for (RigidGroup& g : groups_) {
       if (!g.correct) continue;
       g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
       largest = std::max(largest, size_of(g.motion, g));
@@ -241,7 +238,7 @@ class RigidModes {
 
  private:
   Vec3 at(Address a) const { return load_point(position_.data(), a); }
-  static double size_of(const Vec6& motion, const Group& g) {
+  static double size_of(const Vec6& motion, const RigidGroup& g) {
     return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
   }
   template <class F>
@@ -251,13 +248,12 @@ class RigidModes {
   void tie(const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
            double friction) {
     const Address first = stencil.address[0];
-    const auto cell = static_cast<std::size_t>(work_.block_of_row[first / kPointStride] * kLanes +
-                                               static_cast<int>(first % kPointStride));
+    const std::size_t cell =
+        work_.block_of_row[first / kPointStride] * kLanes + static_cast<int>(first % kPointStride);
     if (work_.group[cell] < 0) return;
-    Group& group = groups_[static_cast<std::size_t>(work_.group[cell])];
+    RigidGroup& group = groups_[work_.group[cell]];
     Vec3 place = Vec3::Zero();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
-      place += stencil.weight[k] * at(stencil.address[k]);
+    for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
     const Map3x6 z = unit_motions(place - group.center);
     const Vec3 n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
                  static_cast<double>(normal[2]));
@@ -270,7 +266,7 @@ class RigidModes {
   const System& s_;
   std::span<const double> position_;
   RigidWorkspace& work_;
-  std::vector<Group> groups_;
+  std::vector<RigidGroup> groups_;
 };
 
 }  // namespace

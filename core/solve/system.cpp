@@ -9,15 +9,15 @@ namespace acinus::solve {
 void index_springs(BlockPattern& p) {
   p.first_spring_of.assign(static_cast<std::size_t>(p.n_point) + 1, 0);
   for (const auto& s : p.spring)
-    for (int i : s) ++p.first_spring_of[static_cast<std::size_t>(i) + 1];
+    for (int i : s) ++p.first_spring_of[i + 1];
   for (std::size_t i = 1; i < p.first_spring_of.size(); ++i)
     p.first_spring_of[i] += p.first_spring_of[i - 1];
   p.spring_of.resize(2 * p.spring.size());
   std::vector<std::size_t> next = p.first_spring_of;
   for (std::size_t k = 0; k < p.spring.size(); ++k) {
     const auto [i, j] = p.spring[k];
-    p.spring_of[next[static_cast<std::size_t>(i)]++] = {j, static_cast<int>(k)};
-    p.spring_of[next[static_cast<std::size_t>(j)]++] = {i, static_cast<int>(k)};
+    p.spring_of[next[i]++] = {j, static_cast<int>(k)};
+    p.spring_of[next[j]++] = {i, static_cast<int>(k)};
   }
 }
 

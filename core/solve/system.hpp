@@ -39,10 +39,10 @@ void index_springs(BlockPattern& pattern);
 
 /// The spring between two points. @pre index_springs, and the spring exists
 inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
-  std::size_t k = p.first_spring_of[static_cast<std::size_t>(i)];
+  std::size_t k = p.first_spring_of[i];
   while (p.spring_of[k][0] != j) {
     ++k;
-    ACINUS_ASSERT(k < p.first_spring_of[static_cast<std::size_t>(i) + 1]);
+    ACINUS_ASSERT(k < p.first_spring_of[i + 1]);
   }
   return static_cast<std::size_t>(p.spring_of[k][1]);
 }

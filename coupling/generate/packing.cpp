@@ -84,7 +84,7 @@ std::vector<Vec3> make_clump(const ClumpParameters& p, const Uniform& uniform) {
   const double unit = p.spacing / std::sqrt(fcc ? 2.0 : 3.0);
   std::vector<Vec3> point;
   for (int i = 0; i < p.count; ++i) {
-    const auto& [distance2, z, y, x] = lattice[static_cast<std::size_t>(i)];
+    const auto& [distance2, z, y, x] = lattice[i];
     point.emplace_back(unit * x, unit * y, unit * z);
   }
   add_jitter(p.jitter, uniform, point);
@@ -128,13 +128,11 @@ std::vector<int> space_filling_order(std::span<const Vec3> point) {
   for (std::size_t i = 0; i < point.size(); ++i) {
     std::array<std::uint32_t, 3> cell{};
     for (int axis = 0; axis < 3; ++axis)
-      cell[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(
+      cell[axis] = static_cast<std::uint32_t>(
           std::min((point[i][axis] - low[axis]) * scale, (1 << kBits) - 1.0));
     key[i] = hilbert_key(cell, kBits);
   }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
   return order;
 }
 

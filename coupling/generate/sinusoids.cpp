@@ -31,7 +31,7 @@ struct Edge {
 
 void add_branch_points(const LobuleParameters& p, const Domain& domain, const Uniform& uniform,
                        std::vector<Vec3>& node) {
-  const auto wanted = static_cast<std::size_t>(std::lround(p.branch_density * domain.volume));
+  const std::size_t wanted = std::lround(p.branch_density * domain.volume);
   const double distance = kDiskFraction / std::cbrt(p.branch_density);
   Buckets taken(distance);
   for (int misses = 0; node.size() < wanted && misses < kMaxMisses; ++misses) {
@@ -111,7 +111,7 @@ class Builder {
     std::vector<int> first;  // one wall node of each vein
     for (std::size_t i = 0; i < vein_of.size(); ++i) {
       if (vein_of[i] < 0) continue;
-      const auto vein = static_cast<std::size_t>(vein_of[i]);
+      const std::size_t vein = vein_of[i];
       if (first.size() <= vein) first.resize(vein + 1, -1);
       if (first[vein] < 0) first[vein] = static_cast<int>(i);
       parent_[i] = first[vein];

@@ -68,8 +68,8 @@ void add_tube(const std::vector<Ring>& ring, const Vec3& tip_a, const Vec3& tip_
 VesselSurface make_vessel_surface(const mesh::Network& network) {
   VesselSurface out;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    const Vec3 a = network.node[static_cast<std::size_t>(network.segment[s][0])];
-    const Vec3 b = network.node[static_cast<std::size_t>(network.segment[s][1])];
+    const Vec3 a = network.node[network.segment[s][0]];
+    const Vec3 b = network.node[network.segment[s][1]];
     const auto [radius_a, radius_b] = network.radius[s];
     const double length = (b - a).norm();
     const Vec3 along = length > 0 ? Vec3((b - a) / length) : Vec3::UnitZ();
@@ -85,9 +85,7 @@ double vessel_volume(const mesh::Network& network) {
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
     const auto& [a, b] = network.segment[s];
     const auto& [ra, rb] = network.radius[s];
-    const double length =
-        (network.node[static_cast<std::size_t>(b)] - network.node[static_cast<std::size_t>(a)])
-            .norm();
+    const double length = (network.node[b] - network.node[a]).norm();
     volume += kPi * length * (ra * ra + ra * rb + rb * rb) / 3;
   }
   return volume;

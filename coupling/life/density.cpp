@@ -18,7 +18,7 @@ struct Contribution {
 /// so corners have the images of images.
 std::vector<Contribution> with_images(const World& world, std::vector<Contribution> all) {
   const double time = std::max(0.0, time_since_start(world));
-  for (const contact::Plane& p : world.params.around.planes) {
+  for (const contact::Plane& p : world.params.boundary.planes) {
     if (!p.material.mirror) continue;
     const Vec3 normal = p.normal.normalized(), point = p.point_at(time);
     const std::size_t n = all.size();

@@ -45,23 +45,22 @@ Vec3 nearest_vessel(const mesh::Network& network, const Vec3& x) {
     if (gap >= nearest) continue;
     nearest = gap;
     const auto [a, b] = network.segment[s];
-    direction =
-        network.node[static_cast<std::size_t>(b)] - network.node[static_cast<std::size_t>(a)];
+    direction = network.node[b] - network.node[a];
   }
   return direction.norm() > 0 ? direction.normalized() : Vec3::Zero();
 }
 
 /// The mother as the split sees her.
-struct Mother {
+struct MotherCell {
   std::vector<Vec3> node;
   const mesh::Topology* topology = nullptr;
   double volume = 0, rest_volume = 0;  ///< um^3
   double stretch = 1;                  ///< of the surface, area over its reference
 };
 
-Mother look_at(const World& world, std::size_t lane) {
+MotherCell look_at(const World& world, std::size_t lane) {
   const State& s = world.state;
-  Mother m;
+  MotherCell m;
   m.topology = s.dcm.group[lane / kLanes].topology;
   dcm::copy_nodes(s.dcm, lane, m.node);
   m.volume = mesh::compute_volume(m.node, m.topology->triangle);
@@ -106,7 +105,7 @@ std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& 
 
 /// Fills a half that no point sees whole: a ball inside it is blown up until it fills the mother's
 /// surface, which stands still.
-Filling blow_up(const World& world, int type, const Mother& mother, const mesh::CutPlane& plane,
+Filling blow_up(const World& world, int type, const MotherCell& mother, const mesh::CutPlane& plane,
                 const mesh::Surface& half) {
   const mesh::Topology& topology = *mother.topology;
   const mesh::InnerBall ball = mesh::find_inner_ball(half);
@@ -125,9 +124,9 @@ Filling blow_up(const World& world, int type, const Mother& mother, const mesh::
 }
 
 /// Both daughters on either side of a plane.   @return empty, or what is wrong with it
-std::string try_plane(const World& world, int type, const Mother& mother, const Vec3& axis,
-                      Daughters& daughters) {
-  const double thickness = world.params.dcm[static_cast<std::size_t>(type)].cortex_thickness;
+std::string try_plane(const World& world, int type, const MotherCell& mother, const Vec3& axis,
+                      DaughterMeshes& daughters) {
+  const double thickness = world.params.dcm[type].cortex_thickness;
   const dcm::Split split = dcm::split_cell(*mother.topology, mother.node, axis, thickness);
   std::string why;
   if (split.daughters) {
@@ -162,16 +161,17 @@ Vec3 division_axis(const World& world, const CycleParams& cycle, std::int64_t li
   Vec3 wanted = Vec3::Zero();
   if (cycle.axis == DivisionAxis::kGiven) wanted = cycle.direction.normalized();
   if (cycle.axis == DivisionAxis::kVessel)
-    wanted = nearest_vessel(world.params.around.vessels.network, center);
+    wanted = nearest_vessel(world.params.boundary.vessels.network, center);
   if (wanted.isZero()) return random;
   return attempt == 0 ? wanted : (wanted + kTurn * random).normalized();
 }
 
-bool split_shell(const World& world, std::size_t lane, Daughters& daughters, std::string& why) {
+bool split_shell(const World& world, std::size_t lane, DaughterMeshes& daughters,
+                 std::string& why) {
   const State& s = world.state;
-  const Mother mother = look_at(world, lane);
+  const MotherCell mother = look_at(world, lane);
   const int type = s.dcm.group[lane / kLanes].type;
-  const CycleParams& cycle = world.params.life.type[static_cast<std::size_t>(type)];
+  const CycleParams& cycle = world.params.life.type[type];
   const Vec3 center = mesh::compute_centroid(mother.node, mother.topology->triangle);
   const std::int64_t lineage = s.dcm.lineage[lane];
   DivisionFigures& f = daughters.figures;
@@ -185,7 +185,7 @@ bool split_shell(const World& world, std::size_t lane, Daughters& daughters, std
   if (!why.empty()) return false;
 
   const mesh::AuditBody body(mother.node, mother.topology->triangle);
-  const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
+  const double bulk = world.params.dcm[type].bulk_modulus;
   const double before = dcm::cytosol_pressure(bulk, mother.volume, mother.rest_volume);
   daughters.stretch = mother.stretch;
   f.pressure = before;

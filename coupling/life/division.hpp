@@ -26,7 +26,7 @@ struct DivisionFigures {
 };
 
 /// The meshes of two daughters.
-struct Daughters {
+struct DaughterMeshes {
   std::array<std::vector<Vec3>, 2> node;  ///< um
   double stretch = 1;                     ///< of the mother's surface, area over its reference
   Vec3 axis = Vec3::UnitX();
@@ -38,7 +38,7 @@ struct Daughters {
 /// (fill.hpp). Other planes are tried if the cut is not one loop or a daughter's mesh is not sound.
 /// [VanLiedekerke2020, section 2.1.2 and Fig. 3; docs/decisions/0014.md]
 /// @return false if no plane served; `why` says what was wrong with the last one
-[[nodiscard]] bool split_shell(const World& world, std::size_t lane, Daughters& daughters,
+[[nodiscard]] bool split_shell(const World& world, std::size_t lane, DaughterMeshes& daughters,
                                std::string& why);
 
 /// Direction from one daughter to the other, unit: random, given, or along the nearest vessel.
@@ -54,7 +54,7 @@ struct Settled {
   std::map<std::int64_t, double> pressure;  ///< kPa, of each daughter's cytosol
 };
 
-/// Lets new deformable daughters settle against each other and their neighbours, who stand still,
+/// Lets new deformable daughters settle against each other and their neighbours, which stand still,
 /// so that the next step of the whole world is an ordinary one. Without success all stay where they
 /// were.
 Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughters);

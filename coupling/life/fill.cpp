@@ -38,7 +38,7 @@ contact::StaticMesh make_envelope(const mesh::Surface& surface) {
 Filling fill(const World& world, int type, const mesh::Topology& topology,
              const std::vector<Vec3>& node, const mesh::Surface& envelope) {
   World small;
-  dcm::Params p = world.params.dcm[static_cast<std::size_t>(type)];
+  dcm::Params p = world.params.dcm[type];
   p.medium_friction = kFriction;
   p.nodal_friction = kFriction;
   p.viscosity = p.diffusion = p.adhesion = p.vessel_friction = 0;
@@ -48,8 +48,8 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   small.params.dcm_contact.cell_friction = 0;
   small.params.numerics.min_step = 1e-7;
   small.params.numerics.cg = world.params.numerics.cg;
-  small.params.around.meshes.push_back(make_envelope(envelope));
-  contact::StaticMesh& m = small.params.around.meshes.front();
+  small.params.boundary.meshes.push_back(make_envelope(envelope));
+  contact::StaticMesh& m = small.params.boundary.meshes.front();
   m.body.triangle = &m.triangle;
   contact::refresh_body(m.body);
 
@@ -59,8 +59,7 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   State& s = small.state;
   s.dcm = dcm::make_state({{0, 0, &topology, Vec3::Zero(), radius}});
   for (int i = 0; i < topology.n_node; ++i)
-    store_point(s.dcm.position.data(), dcm::node_address(s.dcm, 0, i),
-                node[static_cast<std::size_t>(i)]);
+    store_point(s.dcm.position.data(), dcm::node_address(s.dcm, 0, i), node[i]);
   if (start < kNearlyFull * full) s.dcm.volume[0] = {start, full, 0, kGrowth};
   dcm::BirthShape& shape = s.dcm.birth[0];
   shape.weight = Ramp::constant(1);

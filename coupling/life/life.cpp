@@ -57,21 +57,20 @@ void bear_spheres(World& world, const Cell& mother, Newborn& born, LifeReport& r
   const int type = type_of(s, mother);
   const double radius = sphere_radius(volume_of(s, mother).at(s.clock.time));
   const Vec3 axis = division_axis(world, p, parent, center, 0);
-  const cbm::Daughters daughters =
+  const cbm::DaughterSpheres daughters =
       cbm::divide({center, radius, axis, 1, s.clock.time, p.force_ramp * p.time});
   for (const Vec3& place : daughters.center) {
     const std::int64_t id = s.next_lineage++;
     born.sphere_cycle.push_back(inherit(world, mother, id));
     born.sphere.push_back({id, type, place, daughters.radius,
-                           cbm::draw_young(world.params.cbm[static_cast<std::size_t>(type)],
-                                           world.params.life.seed, id),
+                           cbm::draw_young(world.params.cbm[type], world.params.life.seed, id),
                            s.cbm.pull[mother.at], daughters.strength});
   }
   report.events.push_back(
       {"division", {parent, s.next_lineage - 2, s.next_lineage - 1}, describe(axis)});
 }
 
-void bear_shells(World& world, const Cell& mother, const Daughters& daughters, Newborn& born,
+void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughters, Newborn& born,
                  LifeReport& report) {
   State& s = world.state;
   const std::int64_t parent = lineage_of(s, mother);
@@ -103,8 +102,8 @@ State make_state(const Newborn& born, double time) {
   s.cbm = cbm::make_state(born.sphere);
   s.cycle.assign(s.dcm.n_lane() + s.cbm.n_cell(), Cycle{});
   for (std::size_t k = 0; k < born.shell.size(); ++k) {
-    const auto lane = static_cast<std::size_t>(
-        std::ranges::find(s.dcm.lineage, born.shell[k].lineage) - s.dcm.lineage.begin());
+    const std::size_t lane =
+        std::ranges::find(s.dcm.lineage, born.shell[k].lineage) - s.dcm.lineage.begin();
     for (std::size_t i = 0; i < born.node[k].size(); ++i)
       store_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, static_cast<int>(i)),
                   born.node[k][i]);
@@ -132,7 +131,7 @@ void add_settling(const Settled& settled, const std::array<std::int64_t, 2>& dau
 /// Splits all deformable mothers; many are worked on by all threads.
 void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born,
                    std::vector<std::uint8_t>& gone, LifeReport& report) {
-  std::vector<Daughters> daughters(mothers.size());
+  std::vector<DaughterMeshes> daughters(mothers.size());
   std::vector<std::string> why(mothers.size());
   std::vector<std::uint8_t> done(mothers.size(), 0);
 #pragma omp parallel for schedule(dynamic, 1) if (mothers.size() > 1)
@@ -202,7 +201,7 @@ LifeReport turn_over(World& world, Workspace& work) {
     dissolves[c.index] = 1;
     begin_lysis(world, c, report);
   }
-  // In the order of their numbers: who is born when must not depend on how cells are stored.
+  // In the order of their numbers: which cell is born when must not depend on how cells are stored.
   std::ranges::sort(plan.divide, {}, [&](const Cell& c) { return lineage_of(s, c); });
   std::vector<Cell> shells;
   for (const Cell& c : plan.divide) {

@@ -22,7 +22,7 @@ int layer_of(const Proliferation& rule, double edge, const Vec3& place);
 double lesion_edge(const World& world);
 
 /// Lets resting cells enter the cycle with the rate of their layer, over one interval of the life
-/// grid. Cells are asked in the order of their numbers; nobody enters once as many cells as wanted
+/// grid. Cells are asked in the order of their numbers; none enters once as many cells as wanted
 /// are there or on their way.
 /// @param factor  [dcm lanes, then cbm cells] of growth_factor; scales the rate
 void let_proliferate(World& world, std::span<const double> factor);

@@ -16,7 +16,7 @@ constexpr double kSteps = 1;
 double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>& node) {
   const State& s = world.state;
   const dcm::Group& group = s.dcm.group[lane / kLanes];
-  return dcm::cytosol_pressure(world.params.dcm[static_cast<std::size_t>(group.type)].bulk_modulus,
+  return dcm::cytosol_pressure(world.params.dcm[group.type].bulk_modulus,
                                mesh::compute_volume(node, group.topology->triangle),
                                s.dcm.volume[lane].at(s.clock.time));
 }

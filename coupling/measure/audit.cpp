@@ -36,15 +36,14 @@ double surface_depth(const mesh::AuditBody& a, const mesh::AuditBody& b, mesh::L
     depth = std::max(depth, b.distance(point));
     return true;
   };
-  std::vector<char> bad(static_cast<std::size_t>(a.n_node));
+  std::vector<char> bad(a.n_node);
   for (std::size_t s = 0; s < a.sample.size(); ++s) {
     const bool is_bad = look(a.sample[s]);
     if (s < bad.size()) bad[s] = is_bad;
   }
   for (const auto& [i, j] : a.edge) {
-    if (bad[static_cast<std::size_t>(i)] || bad[static_cast<std::size_t>(j)]) continue;
-    const Vec3 &from = a.sample[static_cast<std::size_t>(i)],
-               &to = a.sample[static_cast<std::size_t>(j)];
+    if (bad[i] || bad[j]) continue;
+    const Vec3 &from = a.sample[i], &to = a.sample[j];
     probe_pieces(from, to, b.crossings(from, to), look);
   }
   return depth;
@@ -116,8 +115,7 @@ double vessel_depth(const mesh::AuditBody& cell, const RoundCone& cone) {
   for (const Vec3& x : cell.sample)
     if (box.contains(x)) on_surface(x);
   for (const auto& [i, j] : cell.edge) {
-    const Vec3 &from = cell.sample[static_cast<std::size_t>(i)],
-               &to = cell.sample[static_cast<std::size_t>(j)];
+    const Vec3 &from = cell.sample[i], &to = cell.sample[j];
     if (box.overlaps(segment_box(from, to)))
       on_surface(nearest_on_segment(from, to, cone.a, cone.b));
   }
@@ -183,9 +181,8 @@ Bodies prepare(const AuditFrame& frame) {
   if (!frame.vessels) return bodies;
   const mesh::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)
-    bodies.cone.push_back({net.node[static_cast<std::size_t>(net.segment[s][0])],
-                           net.node[static_cast<std::size_t>(net.segment[s][1])], net.radius[s][0],
-                           net.radius[s][1]});
+    bodies.cone.push_back({net.node[net.segment[s][0]], net.node[net.segment[s][1]],
+                           net.radius[s][0], net.radius[s][1]});
   return bodies;
 }
 
@@ -193,9 +190,7 @@ void audit_shapes(const AuditFrame& frame, const Bodies& bodies, AuditResult& re
   const int n = static_cast<int>(bodies.cell.size());
   std::vector<char> crosses(bodies.cell.size());
 #pragma omp parallel for schedule(dynamic)
-  for (int c = 0; c < n; ++c)
-    crosses[static_cast<std::size_t>(c)] =
-        bodies.cell[static_cast<std::size_t>(c)].self_intersects();
+  for (int c = 0; c < n; ++c) crosses[c] = bodies.cell[c].self_intersects();
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
     const mesh::AuditBody& cell = bodies.cell[c];
     result.n_inverted += cell.volume <= 0;
@@ -255,7 +250,7 @@ void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, Audit
 }
 
 struct Pair {
-  enum class Kind {
+  enum class PairKind {
     kCellCell,
     kCellSphere,
     kCellVessel,
@@ -277,20 +272,20 @@ std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
   const std::size_t fixed = cone + bodies.cone.size();
   std::vector<Pair> pair;
   for (const auto& [i, j] : mesh::meeting_boxes(box)) {  // i < j: the cell comes first
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const std::size_t a = i, b = j;
     if (a < sphere) {
       if (b < sphere)
-        pair.push_back({Pair::Kind::kCellCell, a, b});
+        pair.push_back({Pair::PairKind::kCellCell, a, b});
       else if (b < cone)
-        pair.push_back({Pair::Kind::kCellSphere, a, b - sphere});
+        pair.push_back({Pair::PairKind::kCellSphere, a, b - sphere});
       else if (b < fixed)
-        pair.push_back({Pair::Kind::kCellVessel, a, b - cone});
+        pair.push_back({Pair::PairKind::kCellVessel, a, b - cone});
       else if (!frame.statics[b - fixed].inside)
-        pair.push_back({Pair::Kind::kCellFixed, a, b - fixed});
+        pair.push_back({Pair::PairKind::kCellFixed, a, b - fixed});
     } else if (a < cone && b < cone) {
-      pair.push_back({Pair::Kind::kSphereSphere, a - sphere, b - sphere});
+      pair.push_back({Pair::PairKind::kSphereSphere, a - sphere, b - sphere});
     } else if (a < cone && b < fixed) {
-      pair.push_back({Pair::Kind::kSphereVessel, a - sphere, b - cone});
+      pair.push_back({Pair::PairKind::kSphereVessel, a - sphere, b - cone});
     }
   }
   return pair;
@@ -306,17 +301,17 @@ double sphere_overlap(const AuditSphere& a, const AuditSphere& b) {
 
 double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pair) {
   switch (pair.kind) {
-    case Pair::Kind::kCellCell:
+    case Pair::PairKind::kCellCell:
       return body_depth(bodies.cell[pair.a], bodies.cell[pair.b]);
-    case Pair::Kind::kCellSphere:
+    case Pair::PairKind::kCellSphere:
       return sphere_depth(bodies.cell[pair.a], frame.spheres[pair.b]);
-    case Pair::Kind::kCellVessel:
+    case Pair::PairKind::kCellVessel:
       return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
-    case Pair::Kind::kCellFixed:
+    case Pair::PairKind::kCellFixed:
       return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
-    case Pair::Kind::kSphereSphere:
+    case Pair::PairKind::kSphereSphere:
       return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
-    case Pair::Kind::kSphereVessel:
+    case Pair::PairKind::kSphereVessel:
       return frame.spheres[pair.a].radius +
              cone_depth(bodies.cone[pair.b], frame.spheres[pair.a].center);
   }
@@ -326,36 +321,37 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
 void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
   const auto other = static_cast<std::int64_t>(pair.b);
   const bool of_cell =
-      pair.kind != Pair::Kind::kSphereSphere && pair.kind != Pair::Kind::kSphereVessel;
+      pair.kind != Pair::PairKind::kSphereSphere && pair.kind != Pair::PairKind::kSphereVessel;
   const bool newborn = of_cell && frame.meshes[pair.a].newborn;
   switch (pair.kind) {
-    case Pair::Kind::kCellCell:
+    case Pair::PairKind::kCellCell:
       keep_penetration(result, pair.depth, newborn || frame.meshes[pair.b].newborn);
       return keep_worst(result.dcm_dcm, pair.depth, frame.meshes[pair.a].id,
                         frame.meshes[pair.b].id);
-    case Pair::Kind::kCellSphere: {
+    case Pair::PairKind::kCellSphere: {
       const std::int64_t mesh = frame.meshes[pair.a].id, sphere = frame.spheres[pair.b].id;
-      const auto dent = std::ranges::find_if(frame.dents, [&](const AuditDent& d) {
-        return d.mesh_id == mesh && d.sphere_id == sphere;
-      });
-      const double explained = dent == frame.dents.end() ? 0 : std::max(0.0, dent->depth);
+      const auto indentation = std::ranges::find_if(
+          frame.indentations,
+          [&](const KnownIndentation& d) { return d.mesh_id == mesh && d.sphere_id == sphere; });
+      const double explained =
+          indentation == frame.indentations.end() ? 0 : std::max(0.0, indentation->depth);
       const double beyond = std::max(0.0, pair.depth - explained);
       keep_penetration(result, beyond, newborn);
-      keep_worst(result.dcm_cbm_beyond_dent, beyond, mesh, sphere);
+      keep_worst(result.dcm_cbm_beyond_indentation, beyond, mesh, sphere);
       return keep_worst(result.dcm_cbm, pair.depth, mesh, sphere);
     }
-    case Pair::Kind::kCellVessel:
+    case Pair::PairKind::kCellVessel:
       keep_penetration(result, pair.depth, newborn);
       return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
-    case Pair::Kind::kCellFixed: {
+    case Pair::PairKind::kCellFixed: {
       const auto before = static_cast<std::int64_t>(frame.planes.size() + frame.capsules.size());
       keep_penetration(result, pair.depth, newborn);
       return keep_worst(result.dcm_wall, pair.depth, frame.meshes[pair.a].id, before + other);
     }
-    case Pair::Kind::kSphereSphere:
+    case Pair::PairKind::kSphereSphere:
       return keep_worst(result.cbm_cbm, pair.depth, frame.spheres[pair.a].id,
                         frame.spheres[pair.b].id);
-    case Pair::Kind::kSphereVessel:
+    case Pair::PairKind::kSphereVessel:
       return keep_worst(result.cbm_vessel, pair.depth, frame.spheres[pair.a].id, other);
   }
 }
@@ -372,7 +368,7 @@ AuditResult audit(const AuditFrame& frame) {
   const auto n = static_cast<std::ptrdiff_t>(pairs.size());
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::ptrdiff_t k = 0; k < n; ++k) {
-    Pair& pair = pairs[static_cast<std::size_t>(k)];
+    Pair& pair = pairs[k];
     pair.depth = pair_depth(frame, bodies, pair);
   }
   for (const Pair& pair : pairs)

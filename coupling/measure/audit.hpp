@@ -26,8 +26,8 @@ struct AuditSphere {
   double strength = 1;       ///< of a new sphere, see cbm::CellData
   std::int64_t mother = -1;  ///< sisters start in one place; -1: there from the start
 };
-/// How deep a sphere is known to be dented by a cell, from the force between them.
-struct AuditDent {
+/// How deep a sphere is known to be indented by a cell, from the force between them.
+struct KnownIndentation {
   std::int64_t mesh_id = 0, sphere_id = 0;
   double depth = 0;  ///< um
 };
@@ -49,7 +49,7 @@ struct AuditStatic {  ///< a closed mesh that does not move
 struct AuditFrame {
   std::span<const AuditMesh> meshes;
   std::span<const AuditSphere> spheres;
-  std::span<const AuditDent> dents;  ///< pairs not listed are taken as not dented
+  std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
   const mesh::Network* vessels = nullptr;
   std::span<const AuditPlane> planes;
   std::span<const AuditCapsule> capsules;
@@ -62,21 +62,22 @@ struct WorstPair {
 };
 
 struct AuditResult {
-  /// Largest of dcm_dcm, dcm_vessel, dcm_wall and dcm_cbm_beyond_dent. A soft sphere yields where a
-  /// cell presses on it, as two spheres overlap by their law; only what goes deeper counts
+  /// Largest of dcm_dcm, dcm_vessel, dcm_wall and dcm_cbm_beyond_indentation. A soft sphere yields
+  /// where a cell presses on it, as two spheres overlap by their law; only what goes deeper counts
   /// (docs/decisions/0009.md).
   double max_penetration_um = 0;
   /// The same without the pairs in which a cell is newborn.
   double max_penetration_grown_um = 0;
-  WorstPair dcm_dcm;              ///< ids of the cells
-  WorstPair dcm_vessel;           ///< cell id, vessel segment
-  WorstPair dcm_wall;             ///< cell id, index counted through planes, capsules, statics
-  WorstPair dcm_cbm;              ///< mesh cell id, sphere id: geometric depth in the round sphere
-  WorstPair dcm_cbm_beyond_dent;  ///< the same, less the dent the pair's force explains
-  double max_overlap_cbm_um = 0;  ///< max of Ri + Rj - distance over spheres
-  WorstPair cbm_cbm;              ///< sphere ids
-  WorstPair cbm_vessel;           ///< sphere id, vessel segment
-  WorstPair cbm_wall;             ///< sphere id, index as of dcm_wall
+  WorstPair dcm_dcm;     ///< ids of the cells
+  WorstPair dcm_vessel;  ///< cell id, vessel segment
+  WorstPair dcm_wall;    ///< cell id, index counted through planes, capsules, statics
+  WorstPair dcm_cbm;     ///< mesh cell id, sphere id: geometric depth in the round sphere
+  WorstPair
+      dcm_cbm_beyond_indentation;  ///< the same, less the indentation the pair's force explains
+  double max_overlap_cbm_um = 0;   ///< max of Ri + Rj - distance over spheres
+  WorstPair cbm_cbm;               ///< sphere ids
+  WorstPair cbm_vessel;            ///< sphere id, vessel segment
+  WorstPair cbm_wall;              ///< sphere id, index as of dcm_wall
   double min_triangle_quality =
       1;  ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 flat
   std::int64_t worst_triangle_cell = -1;

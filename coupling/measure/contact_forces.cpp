@@ -23,7 +23,7 @@ struct Places {
   }
 
   Vec3 point(const contact::Contact& k) const {
-    const contact::SurfaceBody& body = w.dcm.body[static_cast<std::size_t>(k.a)];
+    const contact::SurfaceBody& body = w.dcm.body[k.a];
     return contact::point_position(body, dcm::stencil_of(world.params.dcm_contact, body, k));
   }
 
@@ -32,8 +32,8 @@ struct Places {
     const std::vector<double>& radius = w.cbm_radius;
     const bool pair = k.partner == contact::Partner::kSphere;
     const double depth = pair ? -0.5 * k.gap : -k.gap;
-    f.arm_a = -(radius[static_cast<std::size_t>(k.a)] - depth) * k.normal;
-    if (pair) f.arm_b = (radius[static_cast<std::size_t>(k.b)] - depth) * k.normal;
+    f.arm_a = -(radius[k.a] - depth) * k.normal;
+    if (pair) f.arm_b = (radius[k.b] - depth) * k.normal;
   }
 
   void set_arms_of_surface(const contact::Contact& k, ContactForce& f) const {
@@ -45,10 +45,10 @@ struct Places {
   }
 };
 
-/// The part of the surroundings a contact is with.
+/// The part of the boundary a contact is with.
 template <class AnyReactions>
 auto& part_of(AnyReactions& reactions, const ContactForce& c) {
-  const auto i = static_cast<std::size_t>(c.index);
+  const std::size_t i = c.index;
   switch (c.kind) {
     case contact::Partner::kPlane:
       return reactions.plane[i];
@@ -93,12 +93,12 @@ void visit_contacts(const World& world, const Workspace& w,
 }
 
 Reactions find_reactions(const World& world, const Workspace& w) {
-  const contact::Surroundings& around = world.params.around;
+  const contact::Boundary& boundary = world.params.boundary;
   Reactions r;
-  r.plane.resize(around.planes.size());
-  r.capsule.resize(around.capsules.size());
-  r.mesh.resize(around.meshes.size());
-  r.segment.resize(around.vessels.network.segment.size());
+  r.plane.resize(boundary.planes.size());
+  r.capsule.resize(boundary.capsules.size());
+  r.mesh.resize(boundary.meshes.size());
+  r.segment.resize(boundary.vessels.network.segment.size());
   visit_contacts(world, w, [&](const ContactForce& c) {
     if (c.b != kNoCell) return;
     Reaction& part = part_of(r, c);
@@ -140,7 +140,7 @@ double interface_residual(const World& world, const Workspace& w) {
   std::vector<Load> loads;
   for (const contact::Contact& k : w.contacts.interface()) {
     const solve::Stencil stencil = stencil_of(world, w, k);
-    for (std::size_t m = 0; m < static_cast<std::size_t>(stencil.n); ++m)
+    for (int m = 0; m < stencil.n; ++m)
       loads.push_back({load_point(w.position.data(), stencil.address[m]),
                        stencil.weight[m] * (k.force * k.normal)});
   }

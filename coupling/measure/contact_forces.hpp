@@ -1,5 +1,5 @@
 #pragma once
-/// The contacts of an assembled moment one by one: who presses on what, how hard and where.
+/// The contacts of an assembled state one by one: what presses on what, how hard and where.
 
 #include <cstddef>
 #include <functional>
@@ -14,18 +14,18 @@ namespace acinus::coupling {
 
 inline constexpr std::size_t kNoCell = std::numeric_limits<std::size_t>::max();
 
-/// A contact of a cell with another, with itself (a fold) or with surroundings. Cells are numbered
+/// A contact of a cell with another, with itself (a fold) or with boundary. Cells are numbered
 /// as measure_cells lists them.
 struct ContactForce {
   std::size_t a = 0;
-  std::size_t b = kNoCell;                           ///< kNoCell: surroundings
-  contact::Partner kind = contact::Partner::kPlane;  ///< of the surroundings
+  std::size_t b = kNoCell;                           ///< kNoCell: boundary
+  contact::Partner kind = contact::Partner::kPlane;  ///< of the boundary
   int index = 0;                                     ///< within its kind
   Vec3 force = Vec3::Zero();   ///< nN, on a; what it touches gets the opposite
   Vec3 normal = Vec3::Zero();  ///< unit, toward a: force . normal > 0 where they press
   Vec3 arm_a = Vec3::Zero();   ///< um, from the centre of a to where the force acts
   Vec3 arm_b = Vec3::Zero();   ///< um, the same of b
-  double area = 0;             ///< um^2 in touch, of contacts with surroundings
+  double area = 0;             ///< um^2 in touch, of contacts with boundary
   /// Two cells that exert a force on each other; never of a fold.
   bool touching = false;
 };
@@ -34,10 +34,10 @@ struct ContactForce {
 void visit_contacts(const World& world, const Workspace& work,
                     const std::function<void(const ContactForce&)>& look);
 
-/// What cells exert on one part of the surroundings by pressing and pulling; what they exert by
+/// What cells exert on one part of the boundary by pressing and pulling; what they exert by
 /// rubbing depends on how fast they move and is left out.
 struct Reaction {
-  Vec3 net = Vec3::Zero();  ///< nN, sum of the forces on the surroundings
+  Vec3 net = Vec3::Zero();  ///< nN, sum of the forces on the boundary
   double normal = 0;  ///< nN, sum of their sizes along the normals, positive where cells press
   double area = 0;    ///< um^2 in touch
   Reaction& operator+=(const Reaction& other) {
@@ -48,7 +48,7 @@ struct Reaction {
   }
 };
 
-/// Of each plane, capsule and mesh in the order of Surroundings, and of each vessel segment.
+/// Of each plane, capsule and mesh in the order of Boundary, and of each vessel segment.
 struct Reactions {
   std::vector<Reaction> plane, capsule, mesh, segment;
 };

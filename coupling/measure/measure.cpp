@@ -50,9 +50,8 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   m.radius = w.lanes.radius[lane];
   m.volume = dcm::compute_volumes(g)[l];
   m.area = dcm::compute_areas(g)[l];
-  m.cytosol_pressure =
-      dcm::cytosol_pressure(world.params.dcm[static_cast<std::size_t>(m.type)].bulk_modulus,
-                            m.volume, sphere_volume(m.radius));
+  m.cytosol_pressure = dcm::cytosol_pressure(world.params.dcm[m.type].bulk_modulus, m.volume,
+                                             sphere_volume(m.radius));
   m.migration_force = w.forces.dcm[lane].norm();
   const std::vector<double>& share = w.dcm.share[body];
   for (std::size_t p = 0; p < share.size(); ++p)
@@ -85,7 +84,7 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
-  /// nN, of every pair in contact, on the first; and of all surroundings on each cell
+  /// nN, of every pair in contact, on the first; and of all boundary on each cell
   std::map<std::pair<std::size_t, std::size_t>, Vec3> pair_force;
   std::vector<Vec3> wall_force(cells.size(), Vec3::Zero());
   visit_contacts(world, w, [&](const ContactForce& c) {
@@ -141,7 +140,7 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   for (std::size_t l = 0; l < links.size(); ++l) {
     const solve::Stencil stencil = solve::stencil_of(links.link[l]);
     const Vec3 f = links.load[l].force * links.load[l].normal;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+    for (int k = 0; k < stencil.n; ++k)
       if (stencil.address[k] < contact.size())
         add_point(contact.data(), stencil.address[k], stencil.weight[k] * f);
   }
@@ -149,11 +148,11 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
     const std::size_t lane = w.dcm.lane_of_body[b];
     const dcm::Group& group = s.dcm.group[lane / kLanes];
     const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
-    const auto tension = dcm::compute_node_tension(
-        world.params.dcm[static_cast<std::size_t>(group.type)], g, static_cast<int>(lane % kLanes));
+    const auto tension =
+        dcm::compute_node_tension(world.params.dcm[group.type], g, static_cast<int>(lane % kLanes));
     const double r2 = w.lanes.radius[lane] * w.lanes.radius[lane];
     for (int i = 0; i < group.topology->n_node; ++i) {
-      const auto k = static_cast<std::size_t>(i);
+      const std::size_t k = i;
       const Vec3 f = load_point(contact.data(), dcm::node_address(s.dcm, lane, i));
       n.force.push_back(f);
       n.pressure.push_back(-f.dot(w.dcm.body[b].node_normal[k]) /

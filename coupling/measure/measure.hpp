@@ -27,7 +27,7 @@ struct CellMeasure {
   double contact_area = 0;         ///< um^2
   double strength = 1;             ///< of a new sphere, see cbm::CellData
   bool newborn = false;            ///< in the first ten minutes after a division
-  /// nN, sum over partners of the size of the force with each; all surroundings are one partner.
+  /// nN, sum over partners of the size of the force with each; all boundary are one partner.
   double contact_force = 0;
   /// nN, sum over partner cells of the force along the line between the centres, positive where
   /// they press.

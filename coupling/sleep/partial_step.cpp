@@ -30,7 +30,7 @@ double find_reach(const World& world) {
   const Params& p = world.params;
   const std::vector<double> shell = dcm::reference_radii(s.dcm, s.clock.time),
                             sphere = cbm::radii_at(s.cbm, s.clock.time);
-  double reach = cbm::largest_separation(s.cbm, p.cbm, sphere, p.around) + p.cbm_contact.skin;
+  double reach = cbm::largest_separation(s.cbm, p.cbm, sphere, p.boundary) + p.cbm_contact.skin;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l))
       reach = std::max(reach, p.dcm_contact.skin +

@@ -49,8 +49,7 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
     const double r2 = w.lanes.radius[c.at] * w.lanes.radius[c.at];
     double sum = 0;
     for (int i = 0; i < t.n_node; ++i)
-      sum += force_at(dcm::node_address(s.dcm, c.at, i)).squaredNorm() /
-             (t.rest_node_area[static_cast<std::size_t>(i)] * r2);
+      sum += force_at(dcm::node_address(s.dcm, c.at, i)).squaredNorm() / (t.rest_node_area[i] * r2);
     traction[c.index] = std::sqrt(sum / (t.rest_area * r2));
   });
   return traction;

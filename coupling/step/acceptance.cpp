@@ -60,8 +60,7 @@ bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>
     if (!(was.dot(is) > kLeastArea * was.squaredNorm())) return true;
   }
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
-    const Normals &f = normal[static_cast<std::size_t>(t.edge_triangle[e][0])],
-                  &g = normal[static_cast<std::size_t>(t.edge_triangle[e][1])];
+    const Normals &f = normal[t.edge_triangle[e][0]], &g = normal[t.edge_triangle[e][1]];
     if (f.before.dot(g.before) > 0 || f.after.dot(g.after) > 0) continue;
     // Faces beyond a right angle on both sides of the step: the edge must bend the same way still.
     const Address a = dcm::node_address(s, lane, t.edge[e][0]),
@@ -179,7 +178,7 @@ Assessment assess_contacts(const World& world, const Workspace& w) {
   Assessment result = reject(s,
                              fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
                                          depth_after(world, w, deep),
-                                         pair ? name_lane(s, b) : std::string("its surroundings")),
+                                         pair ? name_lane(s, b) : std::string("its boundary")),
                              a);
   if (pair && b != a) result.cells.push_back(lineage_of(s, b));
   return result;

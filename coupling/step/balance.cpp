@@ -9,7 +9,7 @@ namespace acinus::coupling {
 
 namespace {
 
-/// Brings w.cg.residual to that of the step, and w.cg.product to what surroundings and medium
+/// Brings w.cg.residual to that of the step, and w.cg.product to what boundary and medium
 /// exert in it.
 void find_products(const World& world, Workspace& w) {
   // Of A dx = b the residual is known; displacements made up of stages need the product.
@@ -32,18 +32,18 @@ void find_products(const World& world, Workspace& w) {
   });
 }
 
-struct Middle {
+struct CenterSum {
   Vec3 sum = Vec3::Zero();
   double n = 0;
-  void add(const Middle& o) {
+  void add(const CenterSum& o) {
     sum += o.sum;
     n += o.n;
   }
 };
 
 Vec3 find_center(const Workspace& w) {
-  const Middle middle =
-      sum_over_cells<Middle>(w, true, [&](std::size_t, Address first, int n_point, Middle& part) {
+  const CenterSum middle = sum_over_cells<CenterSum>(
+      w, true, [&](std::size_t, Address first, int n_point, CenterSum& part) {
         for (int i = 0; i < n_point; ++i)
           part.sum += load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
         part.n += n_point;

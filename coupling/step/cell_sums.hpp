@@ -27,7 +27,7 @@ Part sum_over_cells(const Workspace& w, bool unconstrained_only, F f) {
   for (std::size_t k = 0; k < part.size(); ++k)
     for (std::size_t b = start[k]; b < start[k + 1]; ++b)
       for (int l = 0; l < kLanes; ++l) {
-        const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
+        const std::size_t lane = b * kLanes + l;
         if (w.active[lane] && !(unconstrained_only && w.constraint.holds(lane)))
           f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[k]);
       }

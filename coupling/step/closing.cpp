@@ -24,7 +24,7 @@ void replace_law(double stiffness, double force, solve::Link& link, solve::LinkL
   const Vec3 change = (force - load.force) * load.normal;
   std::vector<double>& to = link.b.exists() ? s.force : s.external_force;
   const solve::Stencil stencil = solve::stencil_of(link);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
+  for (int k = 0; k < stencil.n; ++k)
     add_point(to.data(), stencil.address[k], stencil.weight[k] * change);
   link.stiffness = static_cast<float>(stiffness);
   load.force = force;
@@ -35,11 +35,9 @@ void replace_law(double stiffness, double force, solve::Link& link, solve::LinkL
 double gap_after(const Workspace& w, const solve::Link& link) {
   const solve::Stencil stencil = solve::stencil_of(link);
   Vec3 r = Vec3::Zero();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(stencil.n); ++k)
-    r += stencil.weight[k] * rest_of_move(w, stencil.address[k]);
+  for (int k = 0; k < stencil.n; ++k) r += stencil.weight[k] * rest_of_move(w, stencil.address[k]);
   double gap = static_cast<double>(link.gap);
-  for (int k = 0; k < 3; ++k)
-    gap += static_cast<double>(link.normal[static_cast<std::size_t>(k)]) * r[k];
+  for (int k = 0; k < 3; ++k) gap += static_cast<double>(link.normal[k]) * r[k];
   return gap;
 }
 

@@ -10,16 +10,16 @@ namespace acinus::coupling {
 double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
   const bool noise = world.params.motility.random &&
                      controls_at(world.state.clock, world.params.start_up).motility;
-  struct Part {
+  struct ErrorSum {
     double sum2 = 0, largest2 = 0, n = 0;
-    void add(const Part& o) {
+    void add(const ErrorSum& o) {
       sum2 += o.sum2;
       largest2 = std::max(largest2, o.largest2);
       n += o.n;
     }
   };
-  const Part p =
-      sum_over_cells<Part>(w, true, [&](std::size_t, Address first, int n_point, Part& part) {
+  const ErrorSum p = sum_over_cells<ErrorSum>(
+      w, true, [&](std::size_t, Address first, int n_point, ErrorSum& part) {
         auto at = [&](int i) {
           return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
         };

@@ -37,12 +37,10 @@ double largest_move(const Workspace& w, std::span<const double> field) {
   for (std::size_t b = 0; b < w.system.block.size(); ++b)
     for (int i = 0; i < w.system.block[b].pattern->n_point; ++i)
       for (int l = 0; l < kLanes; ++l)
-        if (w.active[b * kLanes + static_cast<std::size_t>(l)])
+        if (w.active[b * kLanes + l])
           largest = std::max(
               largest,
-              load_point(field.data(),
-                         make_address(w.system.block[b].first_row + static_cast<std::size_t>(i), l))
-                  .norm());
+              load_point(field.data(), make_address(w.system.block[b].first_row + i, l)).norm());
   return largest;
 }
 

@@ -30,12 +30,12 @@ InterfaceInput input_of(const World& world, const PhaseParams& phase, double wal
                         const Workspace& w) {
   const State& s = world.state;
   const Params& p = world.params;
-  return {{s.dcm, p.dcm, phase.dcm, w.lanes, p.around, wall_time},
+  return {{s.dcm, p.dcm, phase.dcm, w.lanes, p.boundary, wall_time},
           {s.cbm,
            p.cbm,
            phase.cbm,
            {w.cbm_radius, w.cbm_strength, w.cbm_mother},
-           p.around,
+           p.boundary,
            wall_time,
            cbm_first_row(s)},
           phase.interface};
@@ -86,16 +86,15 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
     const dcm::Group& g = s.dcm.group[l / kLanes];
     double area = 0;
     for (int i = 0; i < g.topology->n_node; ++i)
-      area += w.medium_area[(g.first_row + static_cast<std::size_t>(i)) * kLanes + l % kLanes];
+      area += w.medium_area[(g.first_row + i) * kLanes + l % kLanes];
     w.medium_friction.dcm[l] =
-        area * dcm::medium_friction_per_area(world.params.dcm[static_cast<std::size_t>(g.type)],
-                                             w.lanes.radius[l], g.topology->rest_area);
+        area * dcm::medium_friction_per_area(world.params.dcm[g.type], w.lanes.radius[l],
+                                             g.topology->rest_area);
   }
   w.medium_friction.cbm.resize(s.cbm.n_cell());
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    w.medium_friction.cbm[c] =
-        cbm::medium_friction(world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])],
-                             w.cbm_radius[c], w.cbm.contact_area[c]);
+    w.medium_friction.cbm[c] = cbm::medium_friction(world.params.cbm[s.cbm.type[c]],
+                                                    w.cbm_radius[c], w.cbm.contact_area[c]);
 }
 
 }  // namespace
@@ -120,7 +119,7 @@ void size_workspace(const World& world, Workspace& w) {
   w.dcm.lane_of_body.clear();
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();
-  for (const contact::StaticMesh& m : world.params.around.meshes) w.dcm.fixed.push_back(m.body);
+  for (const contact::StaticMesh& m : world.params.boundary.meshes) w.dcm.fixed.push_back(m.body);
 }
 
 void find_all_contacts(const World& world, double step, Workspace& w) {
@@ -179,7 +178,7 @@ solve::Stencil stencil_of(const World& world, const Workspace& w, const contact:
   const InterfaceInput in = input_of(world, phase, 0, w);
   solve::Link link;
   if (k.point == contact::kWhole) {
-    link.a = solve::Side::at(cbm::cell_point(in.cbm.first_row, static_cast<std::size_t>(k.a)));
+    link.a = solve::Side::at(cbm::cell_point(in.cbm.first_row, k.a));
   } else {
     link.a = dcm::side_a(in.dcm, w.dcm, k);
   }

@@ -23,13 +23,13 @@ Box box_of(const State& s, std::size_t lane) {
 }
 
 /// Walls stay where they are at this moment.
-void stop_walls(contact::Surroundings& around, double time) {
-  for (contact::Plane& p : around.planes) {
+void stop_walls(contact::Boundary& boundary, double time) {
+  for (contact::Plane& p : boundary.planes) {
     p.point = p.point_at(time);  // far away if it is gone
     p.opens = contact::Plane{}.opens;
     p.speed = 0;
   }
-  for (contact::Capsule& c : around.capsules) {
+  for (contact::Capsule& c : boundary.capsules) {
     c.radius = c.radius_at(time);
     c.speed = 0;  // and one that is open has an infinite radius
   }
@@ -64,11 +64,10 @@ void write_touching(const Subworld& sub, cbm::State& to) {
   std::vector<std::uint8_t> moves(to.n_cell(), 0);
   for (std::size_t c : sub.moving.cbm) moves[c] = 1;
   const auto is_replaced = [&](const std::pair<int, int>& pair) {
-    return moves[static_cast<std::size_t>(pair.first)] != 0 ||
-           (pair.second >= 0 && moves[static_cast<std::size_t>(pair.second)] != 0);
+    return moves[pair.first] != 0 || (pair.second >= 0 && moves[pair.second] != 0);
   };
   const auto index = [&](int sphere) {
-    const auto k = static_cast<std::size_t>(sphere), n = sub.moving.cbm.size();
+    const std::size_t k = sphere, n = sub.moving.cbm.size();
     return static_cast<int>(k < n ? sub.moving.cbm[k] : sub.constrained.cbm[k - n]);
   };
   std::erase_if(to.touching, is_replaced);
@@ -99,8 +98,7 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach) 
   for (std::size_t l : others.dcm) outer.push_back(box_of(s, l));
   for (std::size_t c : others.cbm) outer.push_back(sphere(c));
   std::vector<std::uint8_t> near(outer.size(), 0);
-  for (const auto& pair : contact::find_pairs_between(inner, outer, reach))
-    near[static_cast<std::size_t>(pair.second)] = 1;
+  for (const auto& pair : contact::find_pairs_between(inner, outer, reach)) near[pair.second] = 1;
   const std::size_t n_shell = others.dcm.size();
   CellSet found;
   for (std::size_t k = 0; k < near.size(); ++k) {
@@ -142,7 +140,7 @@ Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained
   Subworld sub;
   Params& params = sub.world.params;
   params = world.params;
-  stop_walls(params.around, time_since_start(world));
+  stop_walls(params.boundary, time_since_start(world));
   params.motility.random = false;
   params.motility.leader_force = 0;
   params.numerics.adaptive = true;

@@ -38,7 +38,7 @@ inline Vec3 center_of(const State& s, const Cell& c) {
   return c.deformable ? dcm::cell_center(s.dcm, c.at) : cbm::center_of(s.cbm, c.at);
 }
 inline const CycleParams& cycle_of(const Params& p, const State& s, const Cell& c) {
-  return p.life.type[static_cast<std::size_t>(type_of(s, c))];
+  return p.life.type[type_of(s, c)];
 }
 
 /// Calls f with where each point of a cell stands among all unknowns.

@@ -17,8 +17,7 @@ void for_each_constrained_point(const Workspace& w, F f) {
   for (std::size_t lane = 0; lane < w.active.size(); ++lane) {
     const solve::Block& b = w.system.block[lane / kLanes];
     if (!w.constraint.holds(lane) && !b.still) continue;  // with the empty lanes beside these
-    for (int i = 0; i < b.pattern->n_point; ++i)
-      f(b.first_row + static_cast<std::size_t>(i), lane % kLanes);
+    for (int i = 0; i < b.pattern->n_point; ++i) f(b.first_row + i, lane % kLanes);
   }
 }
 

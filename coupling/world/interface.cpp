@@ -13,17 +13,16 @@ using contact::Contact;
 
 /// The surface that presses and the sphere below.
 struct PairLaw {
-  contact::Well well;
+  contact::CohesiveLaw cohesive;
   double hardening = 0;  ///< nN/um^3, by how much the contact stiffens as the indentation grows
 };
 
 PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                std::span<const cbm::Modulus> modulus, const Contact& k) {
-  const auto body = static_cast<std::size_t>(k.a), sphere = static_cast<std::size_t>(k.b);
+  const std::size_t body = k.a, sphere = k.b;
   const std::size_t lane = dcm_work.lane_of_body[body];
-  const dcm::Params& a =
-      in.dcm.params[static_cast<std::size_t>(in.dcm.state.group[lane / kLanes].type)];
-  const cbm::Params& b = in.cbm.params[static_cast<std::size_t>(in.cbm.state.type[sphere])];
+  const dcm::Params& a = in.dcm.params[in.dcm.state.group[lane / kLanes].type];
+  const cbm::Params& b = in.cbm.params[in.cbm.state.type[sphere]];
   const Compliance under =
       find_compliance(in.dcm.options.repulsion,
                       {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
@@ -38,9 +37,9 @@ PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
 /// Contacts of one surface with one sphere.
 std::vector<Contact> find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
                                std::pair<int, int> pair, double range) {
-  const contact::SurfaceBody& b = dcm_work.body[static_cast<std::size_t>(pair.first)];
+  const contact::SurfaceBody& b = dcm_work.body[pair.first];
   const contact::Quadrature q = in.dcm.options.quadrature;
-  const auto sphere = static_cast<std::size_t>(pair.second);
+  const std::size_t sphere = pair.second;
   const Vec3 center = cbm::center_of(in.cbm.state, sphere);
   const double radius = in.cbm.cells.radius[sphere];
   const int per_site = contact::points_per_site(q);
@@ -114,12 +113,12 @@ InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& d
     found[p] = find_pair(in, dcm_work, pairs[p], range);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [body, sphere] = pairs[p];
-    const auto k = static_cast<std::size_t>(body), i = static_cast<std::size_t>(sphere);
+    const std::size_t k = body, i = sphere;
     const std::size_t lane = dcm_work.lane_of_body[k];
     double area = 0;
     for (const Contact& m : found[p]) {
       const double share = contact::contact_share(m.gap, c.friction_range);
-      dcm_work.share[k][static_cast<std::size_t>(m.point)] += share;
+      dcm_work.share[k][m.point] += share;
       area +=
           share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, radius[lane]);
     }
@@ -141,12 +140,11 @@ InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& d
 }
 
 void add_interface_areas(const InterfaceAreas& areas, cbm::ContactWorkspace& cbm_work) {
-  for (const auto& [sphere, area] : areas)
-    cbm_work.contact_area[static_cast<std::size_t>(sphere)] += area;
+  for (const auto& [sphere, area] : areas) cbm_work.contact_area[sphere] += area;
 }
 
 solve::Side sphere_side(const InterfaceInput& in, const Contact& k) {
-  return solve::Side::at(cbm::cell_point(in.cbm.first_row, static_cast<std::size_t>(k.b)));
+  return solve::Side::at(cbm::cell_point(in.cbm.first_row, k.b));
 }
 
 void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
@@ -156,22 +154,22 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
   links.resize(at + contacts.interface().size());
   for (std::size_t n = contacts.obstacle_end; n < contacts.interface_end; ++n, ++at) {
     Contact& k = contacts.all[n];
-    const auto body = static_cast<std::size_t>(k.a);
+    const std::size_t body = k.a;
     const PairLaw law = law_of(in, dcm_work, modulus, k);
     const double area = dcm::point_area(*dcm_work.body[body].topology, in.dcm.options.quadrature,
                                         k.point, in.dcm.lanes.radius[dcm_work.lane_of_body[body]]);
-    const double share = dcm::share_scale(dcm_work.share[body][static_cast<std::size_t>(k.point)]) *
+    const double share = dcm::share_scale(dcm_work.share[body][k.point]) *
                          contact::contact_share(k.gap, in.dcm.options.friction_range);
     const double friction = in.params.friction_factor * in.params.friction * area * share;
     k.touching = area * share;
-    k.force = -area * contact::well_traction(law.well, k.gap);
-    k.slope = area * (contact::well_stiffness(law.well, k.gap) + law.hardening);
+    k.force = -area * contact::cohesive_traction(law.cohesive, k.gap);
+    k.slope = area * (contact::cohesive_stiffness(law.cohesive, k.gap) + law.hardening);
     k.friction = static_cast<float>(friction);
     solve::Link& link = links.link[at];
     link.a = dcm::side_a(in.dcm, dcm_work, k);
     link.b = sphere_side(in, k);
     solve::set_law(k.slope, friction, k.gap, k.normal, link);
-    links.load[at] = {k.normal, k.force, area * law.well.repulsion, k.gap};
+    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap};
   }
 }
 
@@ -184,9 +182,8 @@ std::vector<InterfaceForce> compute_interface_forces(const InterfaceInput& in,
     if (k.a != body || k.b != sphere) {
       body = k.a;
       sphere = k.b;
-      forces.push_back({in.dcm.state.lineage[dcm_work.lane_of_body[static_cast<std::size_t>(body)]],
-                        in.cbm.state.lineage[static_cast<std::size_t>(sphere)], Vec3::Zero(), 0,
-                        k.gap});
+      forces.push_back({in.dcm.state.lineage[dcm_work.lane_of_body[body]],
+                        in.cbm.state.lineage[sphere], Vec3::Zero(), 0, k.gap});
     }
     InterfaceForce& f = forces.back();
     f.force += k.force * k.normal;

@@ -173,7 +173,7 @@ bool choose_leaders(const World& world, std::span<const double> dcm_radius,
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
     cells[n_lane + c] = make_polar(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
   for (std::size_t i = 0; i < n; ++i) cells[i].led = leader[i] != 0;
-  leader = find_leaders(m, cells, world.params.around.planes);
+  leader = find_leaders(m, cells, world.params.boundary.planes);
   return true;
 }
 

@@ -53,14 +53,14 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
 #pragma omp parallel for schedule(static) if (s.dcm.n_lane() > kParallelCells)
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
     if (!s.dcm.active(l)) continue;
-    const dcm::Params& p = world.params.dcm[static_cast<std::size_t>(s.dcm.group[l / kLanes].type)];
+    const dcm::Params& p = world.params.dcm[s.dcm.group[l / kLanes].type];
     forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
     if (m.leader_force > 0 && leader[l])
       forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
   }
 #pragma omp parallel for schedule(static) if (s.cbm.n_cell() > kParallelCells)
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
-    const cbm::Params& p = world.params.cbm[static_cast<std::size_t>(s.cbm.type[c])];
+    const cbm::Params& p = world.params.cbm[s.cbm.type[c]];
     forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
     if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
       forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));

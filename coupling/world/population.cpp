@@ -14,7 +14,7 @@ T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
 void sort_along_curve(std::vector<Member>& members, const std::vector<Vec3>& center) {
   std::vector<Member> sorted;
   sorted.reserve(members.size());
-  for (int k : space_filling_order(center)) sorted.push_back(members[static_cast<std::size_t>(k)]);
+  for (int k : space_filling_order(center)) sorted.push_back(members[k]);
   members = std::move(sorted);
 }
 

@@ -20,7 +20,7 @@ struct Member {
 /// A state with these cells in this order and everything that belongs to each of them (position,
 /// last movement, contacts that exist, cycle). Deformable cells are grouped by type and mesh.
 /// Clock, balance and counters are those of `like`.
-/// @param lane  [dcm] where each deformable cell came to stand; null: nobody asks. Spheres keep
+/// @param lane  [dcm] where each deformable cell came to stand; null: not wanted. Spheres keep
 ///              their order
 State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
               std::vector<std::size_t>* lane = nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-/// The hybrid world: both models' cells, their surroundings, and the constants of a run.
+/// The hybrid world: both models' cells, their boundary, and the constants of a run.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "cbm/contact.hpp"
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 #include "core/ranks.hpp"
 #include "core/solve/cg.hpp"
 #include "coupling/world/cycle.hpp"
@@ -32,7 +32,7 @@ struct StartUp {
   double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative
 };
 
-/// Who leads; see leaders.hpp.
+/// Which cells lead; see leaders.hpp.
 enum class Leaders {
   kForemost,  ///< cells with no other nearer the vein within one diameter in arc and height
   kFront,     ///< cells with a clear straight way to the vein
@@ -87,7 +87,7 @@ struct Params {
   LifeParams life;
   Sleep sleep;
   Numerics numerics;
-  contact::Surroundings around;
+  contact::Boundary boundary;
 };
 
 struct Clock {

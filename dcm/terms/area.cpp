@@ -48,7 +48,7 @@ void add_area(const Params& p, const GroupView& g, solve::System& s, solve::Rank
   for (int l = 0; l < kLanes; ++l) {
     const double a0 = rest_area(g, l);
     pull[l] = -g.active[l] * p.area_modulus * (area[l] - a0) / a0;
-    family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
+    family.coefficient[g.index * kLanes + l] =
         s.stiffness_scale * g.active[l] * p.area_modulus / a0;
     across[l] = s.stiffness_scale * std::max(0.0, -pull[l]) / std::sqrt(3.0);
     tense = tense || across[l] > 0;

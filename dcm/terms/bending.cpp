@@ -18,7 +18,7 @@ constexpr double kLeastArea = 0.1;
 /// What a face is to its hinges: k_b compression^2 / 3 in each of the three.
 struct Collapse {
   Lane compression;  ///< kLeastArea a0 / a - 1
-  Lane slope;    ///< -d compression / d a, 1/um^2
+  Lane slope;        ///< -d compression / d a, 1/um^2
 };
 ACINUS_INLINE Collapse find_collapse(Lane least, Lane area) {
   const Lane inverse = 1.0 / area;
@@ -75,12 +75,12 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
   const Lane k = p.bending_stiffness * load(g.active);
   const Lane radius = load(g.radius);
   const auto least_area = [&](int triangle) {
-    const auto f = static_cast<std::size_t>(triangle);
+    const std::size_t f = triangle;
     const Lane a0 = (kLeastArea * t.rest_triangle_area[f]) * radius * radius;
     return g.triangle ? a0 * load(g.triangle + f * kLanes) : a0;
   };
   for (int e = 0; e < t.n_edge; ++e) {
-    const auto& h = t.hinge[static_cast<std::size_t>(e)];
+    const auto& h = t.hinge[e];
     const Lane3 x1 = load3(g.position + h[0] * kPointStride);
     const Lane3 x2 = load3(g.position + h[1] * kPointStride);
     const Lane3 x3 = load3(g.position + h[2] * kPointStride);
@@ -92,9 +92,7 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane inverse_norms = 1.0 / lane_sqrt(s1 * s2);
     const Lane cos_theta = dot(n1, n2) * inverse_norms;
     const Lane sin_theta = -dot(cross(n1, n2), edge) * inverse_length * inverse_norms;
-    const FoldLaw law =
-        fold_law(cos_theta, sin_theta, t.rest_angle_cos[static_cast<std::size_t>(e)],
-                 t.rest_angle_sin[static_cast<std::size_t>(e)]);
+    const FoldLaw law = fold_law(cos_theta, sin_theta, t.rest_angle_cos[e], t.rest_angle_sin[e]);
     const Lane moment = k * law.moment, stiffness = stiffness_scale * k * law.slope;
     const Lane root = lane_sqrt(stiffness);
 
@@ -113,7 +111,7 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     store3(element + 6 * kLanes, root * grad3);
     element += solve::kHingeStride;
 
-    const auto& face = t.edge_triangle[static_cast<std::size_t>(e)];
+    const auto& face = t.edge_triangle[e];
     const Lane least1 = least_area(face[0]), least2 = least_area(face[1]);
     const Lane missing =
         lane_max0(4.0 * least1 * least1 - s1) + lane_max0(4.0 * least2 * least2 - s2);
@@ -142,8 +140,7 @@ double bending_energy(const Params& p, const GroupView& g, int lane) {
   for (std::size_t e = 0; e < g.topology->hinge.size(); ++e) {
     const auto& h = g.topology->hinge[e];
     Vec3 x[4];
-    for (std::size_t m = 0; m < 4; ++m)
-      x[m] = load_point(g.position, make_address(static_cast<std::size_t>(h[m]), lane));
+    for (std::size_t m = 0; m < 4; ++m) x[m] = load_point(g.position, make_address(h[m], lane));
     const Vec3 edge = x[3] - x[2];
     const Vec3 n1 = (x[0] - x[2]).cross(x[0] - x[3]), n2 = (x[1] - x[3]).cross(x[1] - x[2]);
     const double theta = -std::atan2(n1.cross(n2).dot(edge) / edge.norm(), n1.dot(n2));

@@ -13,8 +13,7 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
   const Lane friction = (p.nodal_friction * friction_scale) * active;
   const double* rest = t.rest_length.data();
   for (int e = 0; e < t.n_edge; ++e) {
-    const int i = t.edge[static_cast<std::size_t>(e)][0],
-              j = t.edge[static_cast<std::size_t>(e)][1];
+    const int i = t.edge[e][0], j = t.edge[e][1];
     const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
     const Lane length = lane_sqrt(dot(d, d));
     const Lane inverse = 1.0 / length;
@@ -46,8 +45,8 @@ double cortex_energy(const Params& p, const GroupView& g, int lane) {
   double energy = 0;
   for (std::size_t e = 0; e < g.topology->edge.size(); ++e) {
     const auto& [i, j] = g.topology->edge[e];
-    const double length = (load_point(g.position, make_address(static_cast<std::size_t>(j), lane)) -
-                           load_point(g.position, make_address(static_cast<std::size_t>(i), lane)))
+    const double length = (load_point(g.position, make_address(j, lane)) -
+                           load_point(g.position, make_address(i, lane)))
                               .norm();
     const double stretch = length - rest_length(g, e, lane);
     energy += 0.5 * p.spring_stiffness * stretch * stretch;

@@ -13,7 +13,7 @@ void add_medium(const Params& p, const GroupView& g, const double* medium_area, 
     per_area[l] = medium_friction_per_area(p, g.radius[l], g.topology->rest_area);
   const Lane gamma = load(per_area), active = load(g.active), idle = 1.0 - active;
   for (int i = 0; i < g.topology->n_node; ++i) {
-    const std::size_t row = g.first_row + static_cast<std::size_t>(i);
+    const std::size_t row = g.first_row + i;
     const Lane friction = active * gamma * load(medium_area + i * kLanes) + idle;
     add_to(s.medium.data() + row * kLanes, friction);
   }

@@ -40,8 +40,7 @@ void add_volume(const Params& p, const GroupView& g, solve::System& s, solve::Ra
     const double v0 = 4.0 / 3 * kPi * g.radius[l] * g.radius[l] * g.radius[l];
     const double v = std::max(volume[l], kSmallestVolume * v0);
     pressure[l] = g.active[l] * cytosol_pressure(p.bulk_modulus, v, v0);
-    family.coefficient[g.index * kLanes + static_cast<std::size_t>(l)] =
-        s.stiffness_scale * g.active[l] * p.bulk_modulus / v;
+    family.coefficient[g.index * kLanes + l] = s.stiffness_scale * g.active[l] * p.bulk_modulus / v;
   }
   add_scaled(g.topology->n_node, pressure, gradient, s.force.data() + g.first_row * kPointStride);
 }

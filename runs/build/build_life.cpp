@@ -34,7 +34,7 @@ coupling::CycleParams make_cycle(const CellType& t) {
   return p;
 }
 
-coupling::LifeRule make_rule(const Scene& scene, const LifeRule& r) {
+coupling::LifeRule make_rule(const Scene& scene, const LifeRuleBlock& r) {
   coupling::LifeRule rule;
   rule.die = r.action == "die";
   if (r.region)
@@ -73,7 +73,7 @@ void build_life(const Scene& scene, coupling::Params& p, std::vector<std::string
     p.life.proliferation = make_proliferation(scene, *scene.life.proliferation);
   p.sleep = {scene.life.sleep, scene.life.grid, scene.life.sleep_traction};
   for (const auto& [name, type] : scene.cell_types) p.life.type.push_back(make_cycle(type));
-  for (const LifeRule& r : scene.life.rules) p.life.rule.push_back(make_rule(scene, r));
+  for (const LifeRuleBlock& r : scene.life.rules) p.life.rule.push_back(make_rule(scene, r));
   std::size_t k = 0;
   for (const auto& [name, type] : scene.cell_types) {
     coupling::DeathParams& death = p.life.type[k].death;

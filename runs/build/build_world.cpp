@@ -15,10 +15,10 @@
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/start_up.hpp"
+#include "runs/build/build_boundary.hpp"
 #include "runs/build/build_correction.hpp"
 #include "runs/build/build_life.hpp"
 #include "runs/build/build_params.hpp"
-#include "runs/build/build_surroundings.hpp"
 #include "runs/build/cell_types.hpp"
 #include "runs/build/place_cells.hpp"
 #include "runs/build/start_state.hpp"
@@ -41,7 +41,7 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
   std::vector<dcm::NewCell> shells;
   std::vector<cbm::NewCell> spheres;
   for (int k : coupling::space_filling_order(centers)) {
-    const PlacedCell& c = cells[static_cast<std::size_t>(k)];
+    const PlacedCell& c = cells[k];
     const CellType& t = scene.cell_types.at(c.type);
     const int type = static_cast<int>(std::ranges::find(types, c.type) - types.begin());
     if (c.deformable) {
@@ -49,8 +49,7 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
           {c.lineage, type, &mesh::shared_icosphere(t.dcm.nodes), c.center, c.radius, c.pull,
            c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage)});
     } else {
-      const double young =
-          cbm::draw_young(params[static_cast<std::size_t>(type)], scene.seed, c.lineage);
+      const double young = cbm::draw_young(params[type], scene.seed, c.lineage);
       spheres.push_back({c.lineage, type, c.center, c.radius, young, c.pull});
     }
   }
@@ -94,8 +93,8 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   std::optional<coupling::Lobule> lobule;
   if (scene.lobule) lobule = build_lobule(scene, built.notes);
   if (lobule) p.motility.axis_radius = scene.lobule->central_vein_radius;
-  add_surroundings(scene, lobule ? &*lobule : nullptr, p.around);
-  built.vessel_length = mesh::total_length(p.around.vessels.network);
+  add_boundary(scene, lobule ? &*lobule : nullptr, p.boundary);
+  built.vessel_length = mesh::total_length(p.boundary.vessels.network);
 
   for (const auto& [name, type] : scene.cell_types) {
     built.type_names.push_back(name);
@@ -110,13 +109,12 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     coupling::begin_life(world);
     return built;
   }
-  std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.around);
+  std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.boundary);
   for (PlacedCell& c : cells) {  // older cells are larger
-    const auto type = static_cast<std::size_t>(
-        std::distance(scene.cell_types.begin(), scene.cell_types.find(c.type)));
+    const std::size_t type = std::distance(scene.cell_types.begin(), scene.cell_types.find(c.type));
     c.radius *= std::cbrt(1 + coupling::draw_start_age(p.life.type[type], scene.seed, c.lineage));
   }
-  check_starts(scene, cells, p.around);
+  check_starts(scene, cells, p.boundary);
   add_cells(scene, cells, built.type_names, p.cbm, world.state);
   if (scene.start_up.enabled)
     coupling::begin_start_up(world, scene.start_up.initial_radius);

@@ -39,9 +39,7 @@ double gap_to_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
   }
   double squared = std::numeric_limits<double>::infinity();
   for (const auto& t : m.triangle) {
-    const auto corner = [&](int k) {
-      return node[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
-    };
+    const auto corner = [&](int k) { return node[t[k]]; };
     squared = std::min(
         squared, mesh::find_closest_point(x, corner(0), corner(1), corner(2)).squared_distance);
   }
@@ -50,22 +48,22 @@ double gap_to_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
   return within == m.inside ? std::sqrt(squared) : -std::sqrt(squared);
 }
 
-double nearest_gap(const contact::Surroundings& around, const Vec3& x, std::string* name) {
+double nearest_gap(const contact::Boundary& boundary, const Vec3& x, std::string* name) {
   double nearest = std::numeric_limits<double>::infinity();
   auto look = [&](double gap, auto label) {
     if (gap >= nearest) return;
     nearest = gap;
     if (name) *name = label();
   };
-  for (const auto& p : around.planes)
+  for (const auto& p : boundary.planes)
     look(contact::gap_to_plane(p, x, 0).gap, [&] { return fmt::format("wall \"{}\"", p.name); });
-  for (const auto& c : around.capsules)
+  for (const auto& c : boundary.capsules)
     look(contact::gap_to_capsule(c, x, 0).gap, [&] { return std::string("the capsule"); });
-  const auto& network = around.vessels.network;
+  const auto& network = boundary.vessels.network;
   for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)
     look(contact::gap_to_segment(network, s, x).gap,
          [&] { return fmt::format("vessel segment {}", s); });
-  for (const auto& m : around.meshes)
+  for (const auto& m : boundary.meshes)
     look(gap_to_mesh(m, x, nearest), [&] { return fmt::format("static mesh \"{}\"", m.name); });
   return nearest;
 }
@@ -75,8 +73,8 @@ double largest_start(const CellType& t) {
   return t.radius * (t.cycle.time && t.cycle.start == "random" ? std::cbrt(2.0) : 1);
 }
 
-/// Darts thrown into a box, at least min_distance apart and clear of the surroundings.
-std::vector<Vec3> fill_box(const Scene& scene, const contact::Surroundings& around) {
+/// Darts thrown into a box, at least min_distance apart and clear of the boundary.
+std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
   UniformStream random(scene.seed, Purpose::kPlacement, 0);
   std::vector<Vec3> seeds;
@@ -90,7 +88,7 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Surroundings& arou
     // The next cell's type hangs on its number: large cells are not rarer for the room they need.
     const CellType& type =
         scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(seeds.size()), x));
-    if (nearest_gap(around, x, nullptr) < start_radius(scene, largest_start(type))) continue;
+    if (nearest_gap(boundary, x, nullptr) < start_radius(scene, largest_start(type))) continue;
     seeds.push_back(x);
     tries = 0;
   }
@@ -113,13 +111,12 @@ std::string name_of(const Scene& scene, const PlacedCell& cell) {
 /// Pairs of cells closer than half the larger radius, in the order of the list.
 std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
                                               const std::vector<PlacedCell>& cells) {
-  std::vector<Box> around;
+  std::vector<Box> boxes;
   for (const PlacedCell& c : cells)
-    around.push_back(sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
-  std::vector<std::pair<int, int>> pairs = contact::find_pairs(around, 0);
+    boxes.push_back(sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
+  std::vector<std::pair<int, int>> pairs = contact::find_pairs(boxes, 0);
   std::erase_if(pairs, [&](const std::pair<int, int>& pair) {
-    const PlacedCell &p = cells[static_cast<std::size_t>(pair.first)],
-                     &q = cells[static_cast<std::size_t>(pair.second)];
+    const PlacedCell &p = cells[pair.first], &q = cells[pair.second];
     return (p.center - q.center).norm() >=
            0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius));
   });
@@ -160,7 +157,7 @@ bool in_zoom(const Scene& scene, const Vec3& x) {
 }
 
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
-                                    const contact::Surroundings& around) {
+                                    const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
   const double diameter = 2 * largest_radius(scene);
   UniformStream stream(scene.seed, Purpose::kJitter, 0);
@@ -191,7 +188,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
           {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
           uniform);
     else if (c.source == "fill")
-      centers = fill_box(scene, around);
+      centers = fill_box(scene, boundary);
     else if (lobule)
       centers = lobule->seeds;
     cells.reserve(centers.size());
@@ -210,14 +207,14 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
 }
 
 void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
-                  const contact::Surroundings& around) {
+                  const contact::Boundary& boundary) {
   check_sizes(scene, cells);
   std::string message;
   int bad = 0;
   for (const PlacedCell& c : cells) {
     std::string name;
     const double r = start_radius(scene, c.radius);
-    const double gap = nearest_gap(around, c.center, &name);
+    const double gap = nearest_gap(boundary, c.center, &name);
     if (gap >= r - kStartDepth) continue;
     if (++bad <= 10)
       message += fmt::format(
@@ -228,8 +225,7 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
   }
   for (const auto& [i, j] : find_crowded(scene, cells)) {
     if (++bad > 10) continue;
-    const PlacedCell &p = cells[static_cast<std::size_t>(i)],
-                     &q = cells[static_cast<std::size_t>(j)];
+    const PlacedCell &p = cells[i], &q = cells[j];
     message += fmt::format(
         "{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} "
         "um, is needed.\n",

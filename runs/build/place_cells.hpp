@@ -26,7 +26,7 @@ struct PlacedCell {
 /// @param lobule  empty unless the scene has one
 /// @throws Error when a source cannot place what is asked
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
-                                    const contact::Surroundings& around);
+                                    const contact::Boundary& boundary);
 
 /// Whether a point lies in a region.
 /// @param axis_point  the vein axis is vertical through it
@@ -39,6 +39,6 @@ bool in_zoom(const Scene& scene, const Vec3& x);
 /// in one message; before that, the first of an absurd size or place.
 /// @throws Error if there is any
 void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
-                  const contact::Surroundings& around);
+                  const contact::Boundary& boundary);
 
 }  // namespace acinus::runs

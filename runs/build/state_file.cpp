@@ -67,7 +67,7 @@ void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
   const std::vector<double>& numbers = d.numbers("dcm/birth_shape");
   std::size_t at = 0;
   for (std::int64_t lane : d.integers("dcm/birth_lane")) {
-    const auto l = static_cast<std::size_t>(lane);
+    const std::size_t l = lane;
     check_same(d, "dcm/birth_lane", l < s.n_lane() ? 1 : 0, 1);
     const mesh::Topology& t = *s.group[l / kLanes].topology;
     const std::size_t n_edge = t.edge.size(), n_triangle = t.triangle.size();

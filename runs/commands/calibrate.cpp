@@ -12,14 +12,14 @@
 namespace acinus::runs {
 namespace {
 
-struct Arguments {
+struct CalibrateArguments {
   CalibrateOptions options;
   std::string scene_file = "calibration";
   std::vector<std::string> set;
   std::string check_friction, relaxation_time;
 };
 
-int run(Arguments& arguments) {
+int run(CalibrateArguments& arguments) {
   CalibrateOptions& options = arguments.options;
   if (!arguments.check_friction.empty())
     options.calibration.check_friction =
@@ -35,7 +35,7 @@ int run(Arguments& arguments) {
 }  // namespace
 
 Command add_calibrate(CLI::App& app, const std::string& command_line) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CalibrateArguments>();
   CalibrateOptions& o = arguments->options;
   CLI::App* command =
       add_command(app, "calibrate", "find the law that makes spheres push as deformable cells do",

@@ -10,13 +10,13 @@
 namespace acinus::runs {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::string scene_file;
   std::vector<std::string> set;
   bool resolved = false;  ///< print the scene with every default
 };
 
-int check_scene(const Arguments& arguments) {
+int check_scene(const CheckArguments& arguments) {
   const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
   Scene plain = scene;
   std::vector<std::string> notes;
@@ -49,7 +49,7 @@ Command add_check(CLI::App& app) {
   CLI::App* command =
       add_command(app, "check", "validate a scene and its geometry without running it",
                   "acinus check two_cells --resolved");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("SCENE", arguments->scene_file, "scene file, or the name of a shipped scene")
       ->required();
   add_set(*command, arguments->set);

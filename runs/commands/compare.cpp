@@ -13,7 +13,7 @@
 namespace acinus::runs {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::vector<std::string> folders, tolerances, set;
   std::string scene, out;
   CompareScenes scenes;
@@ -35,7 +35,7 @@ std::map<std::string, double> read_tolerances(const std::vector<std::string>& te
   return out;
 }
 
-int run(Arguments& arguments) {
+int run(CompareArguments& arguments) {
   std::vector<std::string> folders = arguments.folders;
   const std::map<std::string, double> tolerance = read_tolerances(arguments.tolerances);
   if (!arguments.scene.empty()) {
@@ -55,7 +55,7 @@ int run(Arguments& arguments) {
 }  // namespace
 
 Command add_compare(CLI::App& app, const std::string& command_line) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   CompareScenes& o = arguments->scenes;
   CLI::App* command = add_command(
       app, "compare", "how runs of the same scene differ; the first one is the reference",

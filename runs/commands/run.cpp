@@ -13,12 +13,12 @@
 namespace acinus::runs {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   RunOptions run;
   std::string until, checkpoint_every, max_walltime, progress;
 };
 
-int run(Arguments& arguments) {
+int run(RunArguments& arguments) {
   RunOptions& run = arguments.run;
   if (!arguments.until.empty())
     run.until_s = flag_value("--until", arguments.until,
@@ -40,7 +40,7 @@ int run(Arguments& arguments) {
 Command add_run(CLI::App& app, const std::string& command_line) {
   CLI::App* command =
       add_command(app, "run", "simulate a scene", "acinus run two_cells --set time.end=\"30 min\"");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RunArguments>();
   RunOptions& run = arguments->run;
   command->add_option("SCENE", run.scene_file, "scene file, or the name of a shipped scene")
       ->required();

@@ -10,7 +10,7 @@ namespace acinus::runs {
 
 Command add_study(CLI::App& app) {
   CLI::App* command = add_command(
-      app, "study", "run the variants and seeds of a study side by side, and judge its claims",
+      app, "study", "run the variants and seeds of a study side by side, and check its claims",
       "acinus study example --jobs 2");
   const auto options = std::make_shared<StudyOptions>();
   StudyOptions& o = *options;

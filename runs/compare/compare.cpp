@@ -38,13 +38,13 @@ double mean(const CellRecords& cells, double CellRecord::*what) {
 }
 
 /// The ball round the middle of the reference's cells that holds half of them.
-struct Middle {
+struct TissueCenter {
   Vec3 center = Vec3::Zero();
   double radius = 0;
   double border = 0;  ///< um, a cell's radius
 };
-Middle middle_of(const CellRecords& cells) {
-  Middle m;
+TissueCenter middle_of(const CellRecords& cells) {
+  TissueCenter m;
   for (const auto& [id, c] : cells) m.center += c.center / static_cast<double>(cells.size());
   std::vector<double> r;
   for (const auto& [id, c] : cells) r.push_back((c.center - m.center).norm());
@@ -58,7 +58,7 @@ Middle middle_of(const CellRecords& cells) {
 
 /// Cells per mm^3 in the ball. Cells count with a border as wide as their radius, so that their
 /// number does not jump when one crosses it.
-double density_in(const CellRecords& cells, const Middle& m) {
+double density_in(const CellRecords& cells, const TissueCenter& m) {
   double count = 0;
   for (const auto& [id, c] : cells)
     count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / m.border, 0.0, 1.0);
@@ -77,27 +77,28 @@ double rms_by_lineage(const CellRecords& a, const CellRecords& b, Squared square
   return n > 0 ? std::sqrt(sum / n) : 0;
 }
 
-struct RunData {
+struct ComparedRun {
   RunSummary summary;
   io::RunReader reader;
   std::vector<int> frame;  ///< those that all runs have
 };
 
-std::vector<RunData> open_runs(const std::vector<std::string>& folders) {
-  std::vector<RunData> runs;
+std::vector<ComparedRun> open_runs(const std::vector<std::string>& folders) {
+  std::vector<ComparedRun> runs;
   for (const std::string& folder : folders) {
     RunSummary s = read_summary(folder);
     runs.push_back({std::move(s), io::RunReader(folder + "/run.vtkhdf"), {}});
   }
-  auto find = [](const RunData& run, double time) {
+  auto find = [](const ComparedRun& run, double time) {
     for (int k = 0; k < run.reader.n_frame(); ++k)
       if (std::abs(run.reader.time_s(k) - time) <= kSameFrame) return k;
     return -1;
   };
   for (int k = 0; k < runs[0].reader.n_frame(); ++k) {
     const double time = runs[0].reader.time_s(k);
-    if (std::ranges::any_of(runs, [&](const RunData& r) { return find(r, time) < 0; })) continue;
-    for (RunData& r : runs) r.frame.push_back(find(r, time));
+    if (std::ranges::any_of(runs, [&](const ComparedRun& r) { return find(r, time) < 0; }))
+      continue;
+    for (ComparedRun& r : runs) r.frame.push_back(find(r, time));
   }
   check(!runs[0].frame.empty(),
         fmt::format("no frame at the same time in {}. Give the runs the same output.every.",
@@ -153,18 +154,18 @@ void record_trace(const DifferenceTable& record, std::size_t run, const Trace& t
 }
 
 /// A series of the summary at the frames compared; empty if a run has it not or not everywhere.
-std::vector<double> measured(const RunData& run, const std::string& name) {
+std::vector<double> measured(const ComparedRun& run, const std::string& name) {
   const auto found = run.summary.measures.find(name);
   std::vector<double> out;
   if (found == run.summary.measures.end() ||
       static_cast<int>(found->second.size()) != run.reader.n_frame())
     return out;
-  for (const int k : run.frame) out.push_back(found->second[static_cast<std::size_t>(k)]);
+  for (const int k : run.frame) out.push_back(found->second[k]);
   if (!std::ranges::all_of(out, [](double v) { return std::isfinite(v); })) out.clear();
   return out;
 }
 
-void compare_measures(const std::vector<RunData>& runs, const DifferenceTable& record,
+void compare_measures(const std::vector<ComparedRun>& runs, const DifferenceTable& record,
                       Comparison& c) {
   struct Measure {
     const char *name, *series, *unit;
@@ -173,7 +174,7 @@ void compare_measures(const std::vector<RunData>& runs, const DifferenceTable& r
        {Measure{"lesion_area", "lesion_area_relative", "1"}, Measure{"overlap", "overlap", "1"},
         Measure{"normal_force", "normal_force_nN", "nN"}}) {
     Trace trace{m.name, m.unit, {}, {}};
-    for (const RunData& r : runs) trace.value.push_back(measured(r, m.series));
+    for (const ComparedRun& r : runs) trace.value.push_back(measured(r, m.series));
     if (std::ranges::any_of(trace.value, [](const auto& v) { return v.empty(); })) continue;
     for (const int k : runs[0].frame) trace.time.push_back(runs[0].reader.time_s(k));
     for (std::size_t r = 1; r < runs.size(); ++r) record_trace(record, r, trace);
@@ -202,10 +203,10 @@ struct Traces {
   std::vector<CellRecords> end;  ///< [run]
 };
 
-Traces read_traces(const std::vector<RunData>& runs) {
+Traces read_traces(const std::vector<ComparedRun>& runs) {
   Traces t;
   const auto all = {&t.count, &t.pressure, &t.force, &t.contacts};
-  for (const RunData& run : runs) {
+  for (const ComparedRun& run : runs) {
     for (Trace* trace : all) trace->value.emplace_back();
     CellRecords cells;
     for (const int k : run.frame) {
@@ -238,7 +239,7 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
         [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
     record.relative(r, name, unit, size, rms_of(end, what), rms / size);
   };
-  const Middle middle = middle_of(reference);
+  const TissueCenter middle = middle_of(reference);
   record.relative(r, "cells", "1", t.count.value[0].back(), t.count.value[r].back());
   record.absolute(r, "positions", "um",
                   rms_by_lineage(reference, end, [](const CellRecord& a, const CellRecord& b) {
@@ -253,7 +254,7 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
 }
 
 /// Drag of every run, and where it is not the same scene or not at its end.
-void describe_runs(const std::vector<RunData>& runs, const std::vector<CellRecords>& end,
+void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellRecords>& end,
                    Comparison& c) {
   const std::string reference = runs[0].reader.provenance().at("scene");
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -302,7 +303,7 @@ Comparison compare_runs(const std::vector<std::string>& folders,
                         const std::map<std::string, double>& tolerance) {
   check(folders.size() >= 2, "compare needs two run folders or more, the reference first");
   check_names(tolerance);
-  const std::vector<RunData> runs = open_runs(folders);
+  const std::vector<ComparedRun> runs = open_runs(folders);
   Comparison c;
   c.runs = folders;
   c.difference.resize(folders.size() - 1);

@@ -8,7 +8,7 @@ namespace acinus::runs {
 
 void sample_capsule(const Scene&, const coupling::World& world, const Snapshot& s, Measures& m) {
   if (s.cells.empty()) return;
-  const std::vector<contact::Capsule>& capsules = world.params.around.capsules;
+  const std::vector<contact::Capsule>& capsules = world.params.boundary.capsules;
   double radius = std::numeric_limits<double>::quiet_NaN();
   Vec3 center = Vec3::Zero();
   if (!capsules.empty()) {

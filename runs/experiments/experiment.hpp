@@ -12,15 +12,15 @@
 namespace acinus::runs {
 
 /// Named series, one number per written frame; a profile holds the numbers of the last frame only.
-/// Kept in checkpoints. What has no value at a moment is NaN, in files null.
+/// Kept in checkpoints. What has no value at a frame is NaN, in files null.
 using Measures = std::map<std::string, std::vector<double>>;
 
 /// Shells (rings) of a profile of growing tissue.
 inline constexpr int kShells = 10;
 
-/// Adds the numbers of one moment that follow from it alone: time_s and cells of any experiment and
+/// Adds the numbers of one frame that follow from it alone: time_s and cells of any experiment and
 /// the series of the scene's own. What needs the frames before, or more than the snapshot, is added
-/// by observe_frame (observer.hpp).
+/// by observe_frame (observe.hpp).
 void sample_experiment(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                        Measures& measures);
 

@@ -27,13 +27,13 @@ const std::array<LesionReading, 4>& lesion_readings() {
 double lesion_radius(std::span<const LesionCell> cells, const LesionFrame& f,
                      const LesionReading& reading) {
   const int n = reading.rings ? kRings : n_slices(f);
-  std::vector<double> nearest(static_cast<std::size_t>(n), std::numeric_limits<double>::infinity());
+  std::vector<double> nearest(n, std::numeric_limits<double>::infinity());
   for (const LesionCell& c : cells) {
     const int layer = reading.rings
                           ? c.layer - 1
                           : std::clamp(static_cast<int>(c.height / f.height * n), 0, n - 1);
     if (layer >= n) continue;
-    double& r = nearest[static_cast<std::size_t>(layer)];
+    double& r = nearest[layer];
     r = std::min(r, reading.surface ? c.surface : c.center);
   }
   double sum = 0;
@@ -63,7 +63,7 @@ double surface_distance(const contact::SurfaceBody& body, const Vec3& axis_point
     for (std::size_t k = 0; k < 3; ++k) {
       if (t[k] > t[(k + 1) % 3]) continue;  // every edge once
       const auto at = [&](int i) -> Eigen::Vector2d {
-        return (body.node[static_cast<std::size_t>(i)] - axis_point).head<2>();
+        return (body.node[i] - axis_point).head<2>();
       };
       const Eigen::Vector2d a = at(t[k]), way = at(t[(k + 1) % 3]) - a;
       const double length2 = way.squaredNorm();

@@ -18,14 +18,14 @@ constexpr double kClosed = 0.05;  ///< relative area below which a lesion counts
 constexpr double kHour = 3600, kDay = 86400;
 
 /// The value of the first frame.
-double first_of(const std::string& name, double now, Observer& o) {
+double first_of(const std::string& name, double now, Observables& o) {
   return o.start.try_emplace(name, now).first->second;
 }
 
 double distance_from(const Vec3& axis, const Vec3& x) { return (x - axis).head<2>().norm(); }
 
-std::vector<LesionCell> lesion_cells(const Moment& moment, const LobuleRoom& room) {
-  const std::vector<CellMeasure>& cells = moment.snapshot.cells;
+std::vector<LesionCell> lesion_cells(const ObservedFrame& frame, const LobuleRoom& room) {
+  const std::vector<CellMeasure>& cells = frame.snapshot.cells;
   std::vector<coupling::LayerCell> all;
   for (const CellMeasure& c : cells) all.push_back({c.center, room.frame.cell_radius});
   const std::vector<int> layer = coupling::find_layers(all, room.axis);
@@ -33,14 +33,14 @@ std::vector<LesionCell> lesion_cells(const Moment& moment, const LobuleRoom& roo
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const double r = distance_from(room.axis, cells[k].center);
     out.push_back({cells[k].center.z(), r,
-                   cells[k].deformable ? surface_distance(moment.work.dcm.body[k], room.axis)
+                   cells[k].deformable ? surface_distance(frame.work.dcm.body[k], room.axis)
                                        : r - cells[k].radius,
                    layer[k]});
   }
   return out;
 }
 
-void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame, Observer& o) {
+void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame, Observables& o) {
   Measures& m = o.measures;
   for (const LesionReading& reading : lesion_readings()) {
     const std::string name = "lesion_radius_" + reading.name + "_um",
@@ -55,10 +55,9 @@ void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame
   m["lesion_area_surface"].push_back(m["lesion_area_slices_surface_floor"].back());
 }
 
-void sample_layers(const std::vector<LesionCell>& cells, Observer& o) {
+void sample_layers(const std::vector<LesionCell>& cells, Observables& o) {
   std::array<double, kLayers + 1> n{};
-  for (const LesionCell& c : cells)
-    ++n[static_cast<std::size_t>(std::min(c.layer, kLayers + 1) - 1)];
+  for (const LesionCell& c : cells) ++n[std::min(c.layer, kLayers + 1) - 1];
   double births = 0;
   const std::vector<std::string> names = layer_names();
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -70,17 +69,17 @@ void sample_layers(const std::vector<LesionCell>& cells, Observer& o) {
 }
 
 /// Open area and front, plates, and the densities that depend on them.
-void sample_sections(const Moment& moment, Observer& o) {
+void sample_sections(const ObservedFrame& frame, Observables& o) {
   Measures& m = o.measures;
   const LobuleRoom& room = *o.room;
-  const mesh::Network& vessels = moment.world.params.around.vessels.network;
-  const std::vector<CellMeasure>& cells = moment.snapshot.cells;
+  const mesh::Network& vessels = frame.world.params.boundary.vessels.network;
+  const std::vector<CellMeasure>& cells = frame.snapshot.cells;
   if (!o.grid)
     o.grid = make_lesion_grid(room, o.start.at("lesion_radius_slices_surface_um"), vessels);
   std::vector<Ball> balls;
   for (const CellMeasure& c : cells)
     if (!c.deformable) balls.push_back({c.center, c.radius});
-  const std::vector<Section> sections = make_sections(moment.work.dcm.body, balls, o.grid->height);
+  const std::vector<Section> sections = make_sections(frame.work.dcm.body, balls, o.grid->height);
 
   const Opening opening = measure_opening(*o.grid, sections);
   const auto relative = [&](const std::string& name, double now) {
@@ -104,10 +103,10 @@ void sample_sections(const Moment& moment, Observer& o) {
 }
 
 /// How fast cells that were there at the last frame came nearer to the axis.
-void sample_speeds(const Moment& moment, Observer& o) {
+void sample_speeds(const ObservedFrame& frame, Observables& o) {
   double sum[2] = {0, 0}, count[2] = {0, 0}, leaders = 0;
-  const double hours = (moment.snapshot.time - o.last_time) / kHour;
-  for (const CellMeasure& c : moment.snapshot.cells) {
+  const double hours = (frame.snapshot.time - o.last_time) / kHour;
+  for (const CellMeasure& c : frame.snapshot.cells) {
     leaders += c.leader ? 1 : 0;
     const auto before = o.track.find(c.id);
     if (before == o.track.end() || hours <= 0) continue;
@@ -125,34 +124,34 @@ void sample_speeds(const Moment& moment, Observer& o) {
   }
 }
 
-void sample_sinusoids(const Moment& moment, Observer& o) {
+void sample_sinusoids(const ObservedFrame& frame, Observables& o) {
   const LobuleRoom& room = *o.room;
-  const coupling::Reactions r = coupling::find_reactions(moment.world, moment.work);
+  const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
   double area = 0;
   for (std::size_t s = 0; s < room.sinusoid.size(); ++s)
     if (room.sinusoid[s] != 0) area += r.segment[s].area;
   std::vector<Vec3> centers;
-  for (const CellMeasure& c : moment.snapshot.cells) centers.push_back(c.center);
+  for (const CellMeasure& c : frame.snapshot.cells) centers.push_back(c.center);
   o.measures["sinusoid_contact_area_um2"].push_back(area);
   o.measures["sinusoid_contact_area_per_cell_um2"].push_back(
       centers.empty() ? 0 : area / static_cast<double>(centers.size()));
   o.measures["sinusoid_distance_um"].push_back(
-      mean_distance(centers, moment.world.params.around.vessels.network, room.sinusoid));
+      mean_distance(centers, frame.world.params.boundary.vessels.network, room.sinusoid));
 }
 
 }  // namespace
 
-void sample_lobule(const Moment& moment, Observer& o) {
-  if (!o.room) o.room = make_lobule_room(moment.scene, moment.world.params.around.vessels);
-  const std::vector<LesionCell> cells = lesion_cells(moment, *o.room);
-  o.measures["time_d"].push_back(moment.snapshot.time / kDay);
+void sample_lobule(const ObservedFrame& frame, Observables& o) {
+  if (!o.room) o.room = make_lobule_room(frame.scene, frame.world.params.boundary.vessels);
+  const std::vector<LesionCell> cells = lesion_cells(frame, *o.room);
+  o.measures["time_d"].push_back(frame.snapshot.time / kDay);
   sample_radii(cells, o.room->frame, o);
   sample_layers(cells, o);
-  sample_sections(moment, o);
-  sample_speeds(moment, o);
-  sample_sinusoids(moment, o);
+  sample_sections(frame, o);
+  sample_speeds(frame, o);
+  sample_sinusoids(frame, o);
   double pressure = 0;
-  for (const CellMeasure& c : moment.snapshot.cells) pressure += c.pressure;
+  for (const CellMeasure& c : frame.snapshot.cells) pressure += c.pressure;
   o.measures["mean_pressure_Pa"].push_back(1e3 * pressure /
                                            std::max<double>(1, static_cast<double>(cells.size())));
 }

@@ -1,13 +1,13 @@
 #pragma once
-/// Closing of a central lesion: its size by several readings, births, who moves how fast, plates.
+/// Closing of a central lesion: its size by several readings, births, speeds, plates.
 
-#include "runs/experiments/observer.hpp"
+#include "runs/experiments/observe.hpp"
 
 namespace acinus::runs {
 
 /// Adds one number to each series of the experiment "lobule". Areas are relative to the first frame
-/// the observer saw.   @pre sample_experiment
-void sample_lobule(const Moment& moment, Observer& observer);
+/// the observables saw.   @pre sample_experiment
+void sample_lobule(const ObservedFrame& frame, Observables& observables);
 
 /// "1" to "6" and "beyond": the endings of series by layer.
 std::vector<std::string> layer_names();

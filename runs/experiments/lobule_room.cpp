@@ -19,8 +19,7 @@ double vessel_volume(const coupling::Domain& domain, const mesh::Network& networ
   const auto count = [&](int k) { return static_cast<std::size_t>(n[k]); };
   std::vector<bool> inside(count(0) * count(1) * count(2));
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    const Vec3 &a = network.node[static_cast<std::size_t>(network.segment[s][0])],
-               &b = network.node[static_cast<std::size_t>(network.segment[s][1])];
+    const Vec3 &a = network.node[network.segment[s][0]], &b = network.node[network.segment[s][1]];
     const double margin = std::max(network.radius[s][0], network.radius[s][1]);
     int first[3], last[3];
     for (int k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@ std::vector<Box> segment_boxes(const mesh::Network& n) {
   std::vector<Box> boxes;
   for (std::size_t s = 0; s < n.segment.size(); ++s) {
     Box box;
-    for (const int i : n.segment[s]) box.include(n.node[static_cast<std::size_t>(i)]);
+    for (const int i : n.segment[s]) box.include(n.node[i]);
     boxes.push_back(box.grown(std::max(n.radius[s][0], n.radius[s][1])));
   }
   return boxes;

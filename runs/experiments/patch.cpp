@@ -13,9 +13,9 @@ struct WallBox {
   Vec3 low = Vec3::Constant(-std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
 };
-WallBox wall_box(const contact::Surroundings& around, double time) {
+WallBox wall_box(const contact::Boundary& boundary, double time) {
   WallBox box;
-  for (const contact::Plane& p : around.planes)
+  for (const contact::Plane& p : boundary.planes)
     for (int k = 0; k < 3; ++k) {
       if (p.normal[k] > 0.999) box.low[k] = std::max(box.low[k], p.point_at(time)[k]);
       if (p.normal[k] < -0.999) box.high[k] = std::min(box.high[k], p.point_at(time)[k]);
@@ -53,7 +53,7 @@ void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s,
     ++count[k];
   }
   if (count[0] == 0 && count[1] == 0) return;
-  const WallBox box = wall_box(world.params.around, std::max(0.0, s.time));
+  const WallBox box = wall_box(world.params.boundary, std::max(0.0, s.time));
   const double area = (box.high.y() - box.low.y()) * (box.high.z() - box.low.z());
   m["box_length_um"].push_back(box.high.x() - box.low.x());
   double middle = 0.5 * (box.low.x() + box.high.x());

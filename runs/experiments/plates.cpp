@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -54,8 +54,7 @@ double mean_distance(std::span<const Vec3> points, const mesh::Network& network,
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < chosen.size(); ++s) {
       if (chosen[s] == 0) continue;
-      const Vec3 &a = network.node[static_cast<std::size_t>(network.segment[s][0])],
-                 &b = network.node[static_cast<std::size_t>(network.segment[s][1])];
+      const Vec3 &a = network.node[network.segment[s][0]], &b = network.node[network.segment[s][1]];
       const double bound = (x - 0.5 * (a + b)).norm() - 0.5 * (b - a).norm() -
                            std::max(network.radius[s][0], network.radius[s][1]);
       if (bound < least)

@@ -61,7 +61,8 @@ void add_recovery(const std::string& name, double release, Measures& m) {
   put(m, name + "_return_h", r.time / kHour);
   const double compressed = y.empty() ? 0 : y.front() - all.front();
   put(m, name + "_recovered",
-      compressed != 0 ? (y.front() - r.end) / compressed : std::numeric_limits<double>::quiet_NaN());
+      compressed != 0 ? (y.front() - r.end) / compressed
+                      : std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace

@@ -9,15 +9,14 @@ namespace {
 /// Where the edge i-j meets the plane. Both triangles at an edge ask with the lower node first, so
 /// that their answers are the same to the bit and outlines close.
 Vec2 meet(const std::vector<Vec3>& node, int i, int j, double z) {
-  const Vec3 &a = node[static_cast<std::size_t>(std::min(i, j))],
-             &b = node[static_cast<std::size_t>(std::max(i, j))];
+  const Vec3 &a = node[std::min(i, j)], &b = node[std::max(i, j)];
   const double t = (z - a.z()) / (b.z() - a.z());
   return (a + t * (b - a)).head<2>();
 }
 
 Outline cut_body(const contact::SurfaceBody& body, double z) {
   Outline out;
-  const auto above = [&](int i) { return body.node[static_cast<std::size_t>(i)].z() >= z; };
+  const auto above = [&](int i) { return body.node[i].z() >= z; };
   for (const auto& t : *body.triangle) {
     std::array<Vec2, 2> side;
     std::size_t n = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Everything about one moment: made once, used by the run file, the audit and the experiments.
+/// Everything about one frame: made once, used by the run file, the audit and the experiments.
 
 #include <vector>
 

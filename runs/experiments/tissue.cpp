@@ -16,21 +16,20 @@ using coupling::Reaction;
 void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
   m[name + "_force_nN"].push_back(r.normal);
   for (int k = 0; k < 3; ++k)
-    m[name + "_net_" + std::string("xyz").substr(static_cast<std::size_t>(k), 1) + "_nN"].push_back(
-        r.net[k]);
+    m[name + "_net_" + std::string("xyz").substr(k, 1) + "_nN"].push_back(r.net[k]);
 }
 
 /// Reactions of everything with a name, those of one name together.
-void sample_reactions(const Moment& moment, Measures& m) {
-  const contact::Surroundings& around = moment.world.params.around;
-  const coupling::Reactions r = coupling::find_reactions(moment.world, moment.work);
+void sample_reactions(const ObservedFrame& frame, Measures& m) {
+  const contact::Boundary& boundary = frame.world.params.boundary;
+  const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
   std::map<std::string, Reaction> wall;
-  for (std::size_t k = 0; k < around.planes.size(); ++k)
-    wall[name_in_columns(around.planes[k].name)] += r.plane[k];
-  for (std::size_t k = 0; k < around.capsules.size(); ++k)
-    wall[name_in_columns(around.capsules[k].name)] += r.capsule[k];
-  for (std::size_t k = 0; k < around.meshes.size(); ++k)
-    wall[name_in_columns(around.meshes[k].name)] += r.mesh[k];
+  for (std::size_t k = 0; k < boundary.planes.size(); ++k)
+    wall[name_in_columns(boundary.planes[k].name)] += r.plane[k];
+  for (std::size_t k = 0; k < boundary.capsules.size(); ++k)
+    wall[name_in_columns(boundary.capsules[k].name)] += r.capsule[k];
+  for (std::size_t k = 0; k < boundary.meshes.size(); ++k)
+    wall[name_in_columns(boundary.meshes[k].name)] += r.mesh[k];
   for (const auto& [name, reaction] : wall) add_reaction("wall_" + name, reaction, m);
   Reaction vessels;
   for (const Reaction& segment : r.segment) vessels += segment;
@@ -62,7 +61,7 @@ void sample_pressures(const std::vector<CellMeasure>& cells, Measures& m) {
 void sample_overlaps(const coupling::AuditResult& a, Measures& m) {
   m["overlap_dcm_dcm_um"].push_back(a.dcm_dcm.depth_um);
   m["overlap_dcm_cbm_um"].push_back(a.dcm_cbm.depth_um);
-  m["overlap_dcm_cbm_beyond_um"].push_back(a.dcm_cbm_beyond_dent.depth_um);
+  m["overlap_dcm_cbm_beyond_um"].push_back(a.dcm_cbm_beyond_indentation.depth_um);
   m["overlap_cbm_cbm_um"].push_back(a.cbm_cbm.depth_um);
   m["overlap_dcm_vessels_um"].push_back(a.dcm_vessel.depth_um);
   m["overlap_cbm_vessels_um"].push_back(a.cbm_vessel.depth_um);
@@ -71,9 +70,9 @@ void sample_overlaps(const coupling::AuditResult& a, Measures& m) {
   m["overlap_cbm_walls_um"].push_back(a.cbm_wall.depth_um);
 }
 
-void sample_clusters(const Moment& moment, Measures& m) {
+void sample_clusters(const ObservedFrame& frame, Measures& m) {
   const std::vector<int> size = coupling::cluster_sizes(
-      moment.snapshot.cells.size(), coupling::find_touching(moment.world, moment.work));
+      frame.snapshot.cells.size(), coupling::find_touching(frame.world, frame.work));
   double clusters = 0;
   for (const int n : size) clusters += 1.0 / n;
   m["detached_cells"].push_back(static_cast<double>(std::ranges::count(size, 1)));
@@ -82,38 +81,38 @@ void sample_clusters(const Moment& moment, Measures& m) {
   m["clusters"].push_back(std::round(clusters));
 }
 
-void sample_interface(const Moment& moment, Measures& m) {
+void sample_interface(const ObservedFrame& frame, Measures& m) {
   double pairs = 0, force = 0;
-  for (const coupling::InterfaceForce& f : moment.snapshot.interface) {
+  for (const coupling::InterfaceForce& f : frame.snapshot.interface) {
     pairs += f.force.squaredNorm() > 0 ? 1 : 0;
     force += f.force.norm();
   }
   m["interface_pairs"].push_back(pairs);
   m["interface_force_nN"].push_back(force);
-  m["interface_residual"].push_back(coupling::interface_residual(moment.world, moment.work));
+  m["interface_residual"].push_back(coupling::interface_residual(frame.world, frame.work));
 }
 
 }  // namespace
 
-void sample_tissue(const Moment& moment, Measures& m) {
-  m["divisions"].push_back(static_cast<double>(moment.world.state.divisions));
-  m["deaths"].push_back(static_cast<double>(moment.world.state.deaths));
-  sample_pressures(moment.snapshot.cells, m);
-  sample_overlaps(moment.audit, m);
-  sample_clusters(moment, m);
-  sample_interface(moment, m);
-  sample_reactions(moment, m);
+void sample_tissue(const ObservedFrame& frame, Measures& m) {
+  m["divisions"].push_back(static_cast<double>(frame.world.state.divisions));
+  m["deaths"].push_back(static_cast<double>(frame.world.state.deaths));
+  sample_pressures(frame.snapshot.cells, m);
+  sample_overlaps(frame.audit, m);
+  sample_clusters(frame, m);
+  sample_interface(frame, m);
+  sample_reactions(frame, m);
 }
 
-std::vector<std::string> wall_names(const contact::Surroundings& around) {
+std::vector<std::string> wall_names(const contact::Boundary& boundary) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::ranges::find(names, name_in_columns(name)) == names.end())
       names.push_back(name_in_columns(name));
   };
-  for (const contact::Plane& p : around.planes) add(p.name);
-  for (const contact::Capsule& c : around.capsules) add(c.name);
-  for (const contact::StaticMesh& b : around.meshes) add(b.name);
+  for (const contact::Plane& p : boundary.planes) add(p.name);
+  for (const contact::Capsule& c : boundary.capsules) add(c.name);
+  for (const contact::StaticMesh& b : boundary.meshes) add(b.name);
   return names;
 }
 

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/surroundings.hpp"
-#include "runs/experiments/observer.hpp"
+#include "core/contact/boundary.hpp"
+#include "runs/experiments/observe.hpp"
 
 namespace acinus::runs {
 
 /// Adds one number to each series of the tissue, and of each wall.
-void sample_tissue(const Moment& moment, Measures& measures);
+void sample_tissue(const ObservedFrame& frame, Measures& measures);
 
 /// Planes, capsules and closed meshes by the names their observables have: without characters that
 /// cannot be in a name, and each once. A mesh file with several bodies is one.
-std::vector<std::string> wall_names(const contact::Surroundings& around);
+std::vector<std::string> wall_names(const contact::Boundary& boundary);
 
 }  // namespace acinus::runs

@@ -27,9 +27,9 @@ std::string read_file(const std::string& path, std::size_t limit) {
   const std::uintmax_t size = fs::file_size(path, code);
   check(!code && size <= limit,
         fmt::format("{}: has {} bytes; at most {} are read", path, size, limit), Exit::kFileError);
-  std::string text(static_cast<std::size_t>(size), '\0');
+  std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  text.resize(file.gcount());
   check(!file.bad(), fmt::format("{}: cannot be read", path), Exit::kFileError);
   return text;
 }
@@ -43,9 +43,9 @@ void merge(Node& base, Node&& over) {
     return;
   }
   base.origin = over.origin;
-  for (Member& member : over.members) {
+  for (JsonMember& member : over.members) {
     if (Node* known = base.find(member.name)) {
-      for (Member& old : base.members) {
+      for (JsonMember& old : base.members) {
         if (&old.value == known) old.origin = member.origin;
       }
       merge(*known, std::move(member.value));
@@ -56,7 +56,7 @@ void merge(Node& base, Node&& over) {
 }
 
 void erase_member(Node& object, std::string_view name) {
-  std::erase_if(object.members, [name](const Member& member) { return member.name == name; });
+  std::erase_if(object.members, [name](const JsonMember& member) { return member.name == name; });
 }
 
 /// Parses source number `source` and merges it over what it extends.
@@ -71,7 +71,7 @@ Node load(Document& document, int source, const std::string& text,
   erase_member(node, "$schema");
   const Node* extends = node.find("extends");
   if (extends == nullptr) return node;
-  const Origin origin = extends->origin;
+  const TextPlace origin = extends->origin;
   const auto refuse = [&](const std::string& message) {
     throw_complaints(document.sources,
                      {{origin, "/extends", " = " + shown(*extends) + ": " + message}});
@@ -79,7 +79,7 @@ Node load(Document& document, int source, const std::string& text,
   if (extends->kind != Node::Kind::kText || extends->text.empty()) {
     refuse("must be the path of a scene file, relative to this file");
   }
-  const Source from = document.sources[static_cast<std::size_t>(source)];
+  const Source from = document.sources[source];
   const fs::path path = (fs::path(from.folder) / extends->text).lexically_normal();
   std::error_code code;
   if (!fs::is_regular_file(path, code)) refuse("no such file: " + path.string());
@@ -118,7 +118,7 @@ std::vector<std::string> split_path(std::string_view path) {
 
 /// The value at a path; blocks on the way are made when missing.
 /// @param where  stands before what is wrong
-Node& reach(Document& document, const std::vector<std::string>& parts, Origin origin,
+Node& reach(Document& document, const std::vector<std::string>& parts, TextPlace origin,
             const std::string& where) {
   Node* target = &document.root;
   std::string pointer;
@@ -192,7 +192,7 @@ void apply_set(Document& document, const std::string& assignment) {
 
   document.sources.push_back({flag, fs::current_path().string(), true});
   const int source = static_cast<int>(document.sources.size()) - 1;
-  const Origin origin{source, 0, 0};
+  const TextPlace origin{source, 0, 0};
   // Text that looks like JSON must be JSON; anything else is a bare string.
   const bool looks_json = !value_text.empty() && std::strchr("{[\"", value_text.front());
   Node value;
@@ -206,7 +206,7 @@ void apply_set(Document& document, const std::string& assignment) {
   const std::function<void(Node&)> mark = [&](Node& node) {
     node.origin = origin;
     for (Node& item : node.items) mark(item);
-    for (Member& member : node.members) {
+    for (JsonMember& member : node.members) {
       member.origin = origin;
       mark(member.value);
     }
@@ -215,7 +215,7 @@ void apply_set(Document& document, const std::string& assignment) {
   reach(document, parts, origin, flag) = std::move(value);
 }
 
-void put_value(Document& document, const std::string& path, const Member& value,
+void put_value(Document& document, const std::string& path, const JsonMember& value,
                const std::string& where) {
   const std::vector<std::string> parts = split_path(path);
   check(static_cast<int>(parts.size()) < kMaxDepth, where + ": the path is too long");

@@ -35,7 +35,7 @@ void apply_set(Document& document, const std::string& assignment);
 /// must belong to the document's sources.
 /// @param where  stands before what is wrong with the path
 /// @throws Error starting with `where`
-void put_value(Document& document, const std::string& path, const Member& value,
+void put_value(Document& document, const std::string& path, const JsonMember& value,
                const std::string& where);
 
 /// The bytes of a regular file of at most `limit` bytes. @throws Error (kFileError).

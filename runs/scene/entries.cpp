@@ -92,7 +92,7 @@ class EntryCollector final : public Visitor {
   void values(const Key& key, std::vector<Node>&) override {
     add(key, "list of values", "[]", bounds(key));
   }
-  void settings(const Key& key, std::vector<Member>&) override {
+  void settings(const Key& key, std::vector<JsonMember>&) override {
     add(key, "values by scene key", "{}", bounds(key));
   }
   void object(const Key& key, const Members& members) override {

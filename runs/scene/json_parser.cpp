@@ -29,21 +29,21 @@ class TokenCursor {
   }
 
   /// Moves to the start of the next token and returns its place.
-  Origin next(int source) {
+  TextPlace next(int source) {
     skip_gap();
-    const Origin origin = here(source);
+    const TextPlace origin = here(source);
     skip_token();
     return origin;
   }
 
   /// Place of the next token without taking it: where a syntax error stands.
-  Origin peek(int source) {
+  TextPlace peek(int source) {
     skip_gap();
     return here(source);
   }
 
   /// Place of a byte at or after the present one.
-  Origin at_byte(int source, std::size_t byte) {
+  TextPlace at_byte(int source, std::size_t byte) {
     while (at_ < std::min(byte, text_.size())) step();
     return here(source);
   }
@@ -63,7 +63,7 @@ class TokenCursor {
     ++at_;
   }
 
-  Origin here(int source) const {
+  TextPlace here(int source) const {
     return {source, line_, static_cast<int>(at_ - line_start_ - n_continuation_) + 1};
   }
 
@@ -187,8 +187,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     if (what.size() > 160) what = what.substr(0, 100) + " ... " + what.substr(what.size() - 40);
     const bool inside_token = what.starts_with("invalid string") &&
                               what.find("missing closing quote") == std::string::npos;
-    const Origin origin = inside_token && position > 0 ? cursor_.at_byte(source_, position - 1)
-                                                       : cursor_.peek(source_);
+    const TextPlace origin = inside_token && position > 0 ? cursor_.at_byte(source_, position - 1)
+                                                          : cursor_.peek(source_);
     if (cursor_.previous_character() == ',' && !inside_token &&
         (what.find("'}'") != std::string::npos || what.find("']'") != std::string::npos)) {
       what += ". Is there a comma too many?";
@@ -203,8 +203,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   struct Open {
     Node node;
     std::string name;  ///< in the object above
-    Origin name_origin;
-    std::map<std::string, Origin> names;
+    TextPlace name_origin;
+    std::map<std::string, TextPlace> names;
   };
 
   bool add_integer(bool negative, std::uint64_t magnitude, double number) {
@@ -221,7 +221,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return place(std::move(node), std::move(name_), name_origin_);
   }
 
-  bool place(Node node, std::string name, Origin name_origin) {
+  bool place(Node node, std::string name, TextPlace name_origin) {
     if (++n_value_ > kMaxValues) {
       return stop(node.origin, "", fmt::format(": more than {} values in one file", kMaxValues));
     }
@@ -266,7 +266,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return text;
   }
 
-  bool stop(Origin origin, std::string where, std::string message) {
+  bool stop(TextPlace origin, std::string where, std::string message) {
     complaints.push_back({origin, std::move(where), std::move(message)});
     return false;
   }
@@ -275,7 +275,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   int source_;
   std::vector<Open> open_;
   std::string name_;
-  Origin name_origin_;
+  TextPlace name_origin_;
   std::size_t n_value_ = 0;
 };
 
@@ -302,7 +302,7 @@ Node parse_json(const std::vector<Source>& sources, int source, const std::strin
   const bool good = Json::sax_parse(text.begin(), text.end(), &builder,
                                     nlohmann::detail::input_format_t::json, true, true);
   throw_complaints(sources, builder.complaints);
-  check(good, sources.at(static_cast<std::size_t>(source)).label + ": not valid JSON");
+  check(good, sources.at(source).label + ": not valid JSON");
   return std::move(builder.root);
 }
 

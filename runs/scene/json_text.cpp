@@ -14,7 +14,7 @@
 namespace acinus::runs {
 
 const Node* Node::find(std::string_view name) const {
-  for (const Member& member : members) {
+  for (const JsonMember& member : members) {
     if (member.name == name) return &member.value;
   }
   return nullptr;
@@ -86,7 +86,7 @@ std::string json_of(const Node& node) {
     return "[" + text + "]";
   }
   if (node.kind == Node::Kind::kObject) {
-    for (const Member& member : node.members)
+    for (const JsonMember& member : node.members)
       text += (text.empty() ? "" : ", ") + quoted(member.name) + ": " + json_of(member.value);
     return "{" + text + "}";
   }
@@ -142,7 +142,7 @@ void throw_complaints(const std::vector<Source>& sources, std::vector<Complaint>
   std::string text;
   for (std::size_t i = 0; i < std::min(complaints.size(), kMost); ++i) {
     const Complaint& complaint = complaints[i];
-    const Source& source = sources.at(static_cast<std::size_t>(complaint.origin.source));
+    const Source& source = sources.at(complaint.origin.source);
     if (i > 0) text += "\n";
     text += source.label;
     if (!source.is_flag) {

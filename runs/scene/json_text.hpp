@@ -14,7 +14,7 @@ inline constexpr std::size_t kMaxValues = 4u << 20;  ///< of one scene file
 inline constexpr std::size_t kMaxNames = 10000;      ///< of one object
 
 /// Where a value was written. Flags have line 0.
-struct Origin {
+struct TextPlace {
   int source = 0;            ///< index into the sources of the document
   int line = 0, column = 0;  ///< from 1; columns count characters, not bytes
 };
@@ -25,34 +25,34 @@ struct Source {
   bool is_flag = false;
 };
 
-struct Member;
+struct JsonMember;
 
 /// One JSON value.
 struct Node {
   enum class Kind { kNull, kBoolean, kInteger, kNumber, kText, kList, kObject };
   Kind kind = Kind::kNull;
   bool boolean = false;
-  bool negative = false;        ///< kInteger: the value is -(magnitude)
-  std::uint64_t magnitude = 0;  ///< kInteger
-  double number = 0;            ///< kInteger and kNumber
-  std::string text;             ///< kText, valid UTF-8
-  std::vector<Node> items;      ///< kList
-  std::vector<Member> members;  ///< kObject, in the order written, names unique
-  Origin origin;
+  bool negative = false;            ///< kInteger: the value is -(magnitude)
+  std::uint64_t magnitude = 0;      ///< kInteger
+  double number = 0;                ///< kInteger and kNumber
+  std::string text;                 ///< kText, valid UTF-8
+  std::vector<Node> items;          ///< kList
+  std::vector<JsonMember> members;  ///< kObject, in the order written, names unique
+  TextPlace origin;
 
   const Node* find(std::string_view name) const;
   Node* find(std::string_view name);
 };
 
-struct Member {
+struct JsonMember {
   std::string name;
-  Origin origin;  ///< of the name
+  TextPlace origin;  ///< of the name
   Node value;
 };
 
 /// One mistake, not yet written out.
 struct Complaint {
-  Origin origin;
+  TextPlace origin;
   std::string pointer;  ///< "/time/end"; "" = the whole text
   std::string message;  ///< starts with ": " or " = value: "
 };

@@ -180,7 +180,7 @@ class KeyReader final : public Visitor {
     }
   }
 
-  void settings(const Key& key, std::vector<Member>& members) override {
+  void settings(const Key& key, std::vector<JsonMember>& members) override {
     const Node* node = take(key);
     if (node != nullptr && values_.is_object(*node, pointer_of(key))) members = node->members;
   }
@@ -219,7 +219,7 @@ class KeyReader final : public Visitor {
   void map(const Key& key, const Elements& elements) override {
     const Node* node = take(key);
     if (node == nullptr || !values_.is_object(*node, pointer_of(key))) return;
-    for (const Member& member : node->members) {
+    for (const JsonMember& member : node->members) {
       if (is_name(member.name)) {
         elements.add(member.name);
       } else {
@@ -251,7 +251,7 @@ class KeyReader final : public Visitor {
   /// Reports the members of the innermost block that no key has asked for.
   void finish_block() {
     if (frame_.node == nullptr) return;
-    for (const Member& member : frame_.node->members) {
+    for (const JsonMember& member : frame_.node->members) {
       if (std::find(frame_.known.begin(), frame_.known.end(), member.name) != frame_.known.end()) {
         continue;
       }
@@ -269,9 +269,9 @@ class KeyReader final : public Visitor {
 
  private:
   enum class Mode { kRead, kIgnore, kForbid };
-  struct Frame {
+  struct OpenBlock {
     const Node* node = nullptr;  ///< the block read; nullptr = absent, all its keys at default
-    Origin origin;               ///< of the nearest block that is in the text
+    TextPlace origin;            ///< of the nearest block that is in the text
     std::string pointer;         ///< "" or "/time"
     std::string short_path;      ///< "" or "time."
     std::vector<std::string> known;
@@ -306,7 +306,7 @@ class KeyReader final : public Visitor {
 
   void enter(const std::string& part, const std::string& short_path, const Node* node,
              const std::function<void()>& members) {
-    Frame inner;
+    OpenBlock inner;
     inner.node = node;
     inner.origin = node != nullptr ? node->origin : frame_.origin;
     inner.pointer = frame_.pointer + "/" + part;
@@ -324,7 +324,7 @@ class KeyReader final : public Visitor {
   Report& report_;
   ValueReader values_;
   const std::string& prefix_;
-  Frame frame_;
+  OpenBlock frame_;
 };
 
 }  // namespace

@@ -82,7 +82,7 @@ std::string find_document(const std::string& name, const std::string& kind,
     if (document.name == name) return document.file;
     names.push_back(document.name);
   }
-  if (fs::exists(given)) return name;  // a folder: who reads it says so
+  if (fs::exists(given)) return name;  // a folder: reading it says so
   const std::string hint = nearest_name(name, names);
   throw Error(
       fmt::format("{}: no such file, and no shipped {} of that name. {}`acinus list` names "

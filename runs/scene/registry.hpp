@@ -87,7 +87,7 @@ class Visitor {
   virtual void value(const Key& key, std::optional<Node>& value) = 0;
   virtual void values(const Key& key, std::vector<Node>& values) = 0;
   /// Values by names that no registry of this visitor knows.
-  virtual void settings(const Key& key, std::vector<Member>& members) = 0;
+  virtual void settings(const Key& key, std::vector<JsonMember>& members) = 0;
   /// A block that is always there.
   virtual void object(const Key& key, const Members& members) = 0;
   /// A block that may be absent; `members` may be called only while it is present.

@@ -3,7 +3,7 @@
 namespace acinus::runs {
 namespace {
 
-void describe_rule(Visitor& v, LifeRule& b) {
+void describe_rule(Visitor& v, LifeRuleBlock& b) {
   v.text({.name = "do",
           .meaning = "rest: the cells do not grow while the rule holds for them; die: they die as "
                      "soon as it holds",
@@ -206,7 +206,7 @@ void describe_death(Visitor& v, DeathBlock& b) {
 void describe_life(Visitor& v, LifeBlock& b) {
   blocks(v,
          {.name = "rules",
-          .meaning = "who rests or dies; all rules that hold for a cell count",
+          .meaning = "which cells rest or die; all rules that hold for a cell count",
           .item = "life.rules"},
          b.rules, describe_rule);
   optional_block(v,

@@ -15,7 +15,7 @@ const Node* child(const Node& node, const std::string& part) {
     const bool whole = code == std::errc() && end == part.data() + part.size();
     return whole && index < node.items.size() ? &node.items[index] : nullptr;
   }
-  for (const Member& member : node.members) {
+  for (const JsonMember& member : node.members) {
     if (pointer_part(member.name) == part) return &member.value;
   }
   return nullptr;
@@ -48,7 +48,7 @@ void Report::keep(Complaint complaint) {
   complaints_.push_back(std::move(complaint));
 }
 
-void Report::add(Origin origin, const std::string& pointer, const std::string& message) {
+void Report::add(TextPlace origin, const std::string& pointer, const std::string& message) {
   keep({origin, pointer, ": " + message});
 }
 

@@ -15,7 +15,7 @@ class Report {
   explicit Report(const Document& document) : document_(document) {}
 
   /// A mistake at a place of the text. Its pointer counts as bad from now on.
-  void add(Origin origin, const std::string& pointer, const std::string& message);
+  void add(TextPlace origin, const std::string& pointer, const std::string& message);
 
   /// A mistake of a value: "pointer = value: message".
   void add_value(const Node& node, const std::string& pointer, const std::string& message);

@@ -221,7 +221,7 @@ void check_lobule(const Scene& scene, Report& report) {
   below("sinusoid_radius", lobule.sinusoid_radius, "radius", lobule.radius);
 }
 
-void check_surroundings(const Scene& scene, Report& report) {
+void check_boundary(const Scene& scene, Report& report) {
   if (scene.vessels.crop) {
     check_box((*scene.vessels.crop)[0], (*scene.vessels.crop)[1], "/vessels/crop/0",
               "/vessels/crop/1", report);
@@ -288,7 +288,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_zoom(scene, report);
   check_life(scene, report);
   check_lobule(scene, report);
-  check_surroundings(scene, report);
+  check_boundary(scene, report);
 }
 
 }  // namespace acinus::runs

@@ -58,9 +58,10 @@ void check_proliferation(const Scene& scene, Report& report) {
   }
   for (const auto& [name, type] : scene.cell_types)
     if (type.cycle.time) return;
-  report.add_relation({pointer, "/cell_types"}, "",
-                      "has nobody to call: no cell type has a cycle. Give cell_types.<name>.cycle "
-                      "a time");
+  report.add_relation(
+      {pointer, "/cell_types"}, "",
+      "has no cells to call: no cell type has a cycle. Give cell_types.<name>.cycle "
+      "a time");
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ void check_life(const Scene& scene, Report& report) {
   }
   check_proliferation(scene, report);
   for (std::size_t i = 0; i < scene.life.rules.size(); ++i) {
-    const LifeRule& rule = scene.life.rules[i];
+    const LifeRuleBlock& rule = scene.life.rules[i];
     const std::string pointer = fmt::format("/life/rules/{}", i);
     if (rule.region) check_region(*rule.region, pointer + "/region", report);
     if (rule.until && *rule.until <= rule.from) {

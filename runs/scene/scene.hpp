@@ -131,7 +131,7 @@ struct MotilityBlock {
   std::string directions = "space";    ///< or "plane": the random force is horizontal
   double grid = 60;                    ///< s, time grid of the random force
   double leader_force = 0;             ///< nN, toward the vein axis
-  double leader_grid = 600;            ///< s, re-evaluation of who leads
+  double leader_grid = 600;            ///< s, re-evaluation of which cells lead
   std::string leaders = "foremost";    ///< foremost | front | border | sector | nearest
   int leader_count = 24;               ///< nearest: cells; sector: sectors of the whole circle
   std::optional<double> leader_slice;  ///< um, sector: height of a slice; empty = cell diameter
@@ -148,8 +148,8 @@ struct Region {
   double min_distance = 0, max_distance = 0;  ///< axis_distance: distance from the vein axis, um
 };
 
-/// Who rests or dies, and when. A cell is meant if `region` and `cells` both are.
-struct LifeRule {
+/// Which cells rest or die, and when. A cell is meant if `region` and `cells` both are.
+struct LifeRuleBlock {
   std::string action;               ///< key "do": rest (no growth while it holds) | die
   std::optional<Region> region;     ///< cells with their centre in it; empty = anywhere
   std::vector<std::int64_t> cells;  ///< lineage numbers; empty = all
@@ -176,7 +176,7 @@ struct ProliferationBlock {
 };
 
 struct LifeBlock {
-  std::vector<LifeRule> rules;
+  std::vector<LifeRuleBlock> rules;
   std::optional<ProliferationBlock> proliferation;
   double grid = 600;             ///< s between two looks at rules, inhibition, sleep and meshes
   bool sleep = false;            ///< cells in balance are left out of the step until pushed

@@ -87,7 +87,7 @@ class SchemaBuilder final : public Visitor {
     put(key, Json{{"type", Json::array({"number", "string"})}});
   }
   void values(const Key& key, std::vector<Node>&) override { put(key, Json{{"type", "array"}}); }
-  void settings(const Key& key, std::vector<Member>&) override {
+  void settings(const Key& key, std::vector<JsonMember>&) override {
     put(key, Json{{"type", "object"}});
   }
   void object(const Key& key, const Members& members) override { put(key, inner(members)); }

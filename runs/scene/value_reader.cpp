@@ -85,7 +85,7 @@ void ValueReader::read_vector(const Key& key, const Node& node, const std::strin
                               Vec3& value) const {
   if (!has_three(node, pointer, key)) return;
   for (int axis = 0; axis < 3; ++axis) {
-    const Node& item = node.items[static_cast<std::size_t>(axis)];
+    const Node& item = node.items[axis];
     double number = 0;
     if (read_real(key, item, fmt::format("{}/{}", pointer, axis), number)) value[axis] = number;
   }
@@ -131,7 +131,7 @@ void ValueReader::read_file_name(const Key& key, const Node& node, const std::st
     if (key.required) report_.add_value(node, pointer, "must name a file");
     return;
   }
-  const Source& source = document_.sources.at(static_cast<std::size_t>(node.origin.source));
+  const Source& source = document_.sources.at(node.origin.source);
   const std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
   std::error_code code;
   if (node.text.find('\0') != std::string::npos || !fs::is_regular_file(path, code)) {
@@ -144,7 +144,7 @@ void ValueReader::read_file_name(const Key& key, const Node& node, const std::st
 void ValueReader::read_run_name(const Node& node, const std::string& pointer,
                                 std::string& value) const {
   if (node.text.empty()) return;
-  const Source& source = document_.sources.at(static_cast<std::size_t>(node.origin.source));
+  const Source& source = document_.sources.at(node.origin.source);
   const std::string path = (fs::path(source.folder) / node.text).lexically_normal().string();
   std::error_code code;
   if (node.text.find('\0') != std::string::npos || !fs::is_directory(path, code)) {

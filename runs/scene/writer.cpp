@@ -65,7 +65,7 @@ class JsonWriter final : public Visitor {
     for (const Node& value : values) all.push_back(json_of(value));
     line(key.name, fmt::format("[{}]", fmt::join(all, ", ")));
   }
-  void settings(const Key& key, std::vector<Member>& members) override {
+  void settings(const Key& key, std::vector<JsonMember>& members) override {
     Node all;
     all.kind = Node::Kind::kObject;
     all.members = members;

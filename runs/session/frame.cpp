@@ -11,7 +11,7 @@ namespace {
 
 using coupling::CellMeasure, coupling::NodeMeasure;
 
-constexpr std::uint8_t kShell = 0, kSphere = 1, kSurroundings = 2;
+constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2;
 
 /// Appends one number per component.
 void push(io::Field& field, double value) { field.value.push_back(static_cast<float>(value)); }
@@ -82,7 +82,7 @@ class FrameBuilder {
 
   void add_surface(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle) {
     for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
-    add_triangles(triangle, node.size(), nullptr, kSurroundings);
+    add_triangles(triangle, node.size(), nullptr, kBoundary);
   }
 
   /// Spheres come after all surfaces.
@@ -150,7 +150,7 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
   const std::size_t n_body = w.dcm.body.size();
   for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
   builder.add_surface(vessels.surface.node, vessels.surface.triangle);
-  for (const contact::StaticMesh& m : world.params.around.meshes)
+  for (const contact::StaticMesh& m : world.params.boundary.meshes)
     builder.add_surface(m.body.node, m.triangle);
   for (std::size_t k = n_body; k < snapshot.cells.size(); ++k)
     builder.add_sphere(snapshot.cells[k]);
@@ -161,34 +161,33 @@ namespace {
 
 /// Half the JKR overlap of two such spheres under the pair's force: how far the sphere's own side
 /// yields.
-std::vector<coupling::AuditDent> explained_dents(const coupling::World& world,
-                                                 const Snapshot& snapshot) {
+std::vector<coupling::KnownIndentation> explained_indentations(const coupling::World& world,
+                                                               const Snapshot& snapshot) {
   const cbm::State& s = world.state.cbm;
   auto find = [&](std::int64_t id, bool deformable) {
     return std::ranges::find_if(snapshot.cells, [&](const CellMeasure& c) {
       return c.id == id && c.deformable == deformable;
     });
   };
-  std::vector<coupling::AuditDent> dents;
+  std::vector<coupling::KnownIndentation> indentations;
   for (const coupling::InterfaceForce& f : snapshot.interface) {
     const auto cell = find(f.dcm_id, true), sphere = find(f.cbm_id, false);
-    const auto k =
-        static_cast<std::size_t>(std::ranges::find(s.lineage, f.cbm_id) - s.lineage.begin());
-    const cbm::Params& p = world.params.cbm[static_cast<std::size_t>(s.type[k])];
+    const std::size_t k = std::ranges::find(s.lineage, f.cbm_id) - s.lineage.begin();
+    const cbm::Params& p = world.params.cbm[s.type[k]];
     const contact::SphereBody body{sphere->radius, s.young[k], p.poisson};
     const double press = f.force.dot((cell->center - sphere->center).normalized());
-    dents.push_back(
+    indentations.push_back(
         {f.dcm_id, f.cbm_id,
          0.5 * contact::jkr_overlap(contact::reduced_pair(body, body, p.adhesion), press)});
   }
-  return dents;
+  return indentations;
 }
 
 }  // namespace
 
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,
                                   const Snapshot& snapshot) {
-  const contact::Surroundings& around = world.params.around;
+  const contact::Boundary& boundary = world.params.boundary;
   const double time = std::max(0.0, snapshot.time);
   std::vector<coupling::AuditMesh> meshes;
   std::vector<coupling::AuditSphere> spheres;
@@ -199,14 +198,14 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
     spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
                        snapshot.cells[k].strength, snapshot.cells[k].parent});
   std::vector<coupling::AuditPlane> planes;
-  for (const contact::Plane& p : around.planes) planes.push_back({p.point_at(time), p.normal});
+  for (const contact::Plane& p : boundary.planes) planes.push_back({p.point_at(time), p.normal});
   std::vector<coupling::AuditCapsule> capsules;
-  for (const contact::Capsule& c : around.capsules)
+  for (const contact::Capsule& c : boundary.capsules)
     capsules.push_back({c.center, c.radius_at(time)});
   std::vector<std::vector<std::array<int, 3>>> outward;
   std::vector<coupling::AuditStatic> statics;
-  outward.reserve(around.meshes.size());
-  for (const contact::StaticMesh& m : around.meshes) {
+  outward.reserve(boundary.meshes.size());
+  for (const contact::StaticMesh& m : boundary.meshes) {
     outward.push_back(m.triangle);
     if (m.inside)
       for (auto& t : outward.back()) std::swap(t[1], t[2]);
@@ -215,9 +214,10 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   coupling::AuditFrame frame;
   frame.meshes = meshes;
   frame.spheres = spheres;
-  const std::vector<coupling::AuditDent> dents = explained_dents(world, snapshot);
-  frame.dents = dents;
-  frame.vessels = &around.vessels.network;
+  const std::vector<coupling::KnownIndentation> indentations =
+      explained_indentations(world, snapshot);
+  frame.indentations = indentations;
+  frame.vessels = &boundary.vessels.network;
   frame.planes = planes;
   frame.capsules = capsules;
   frame.statics = statics;

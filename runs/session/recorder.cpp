@@ -39,7 +39,7 @@ Recorder::Recorder(const Scene& scene, const RunOptions& options, coupling::Simu
       options_(options),
       simulation_(simulation),
       vessel_surface_(
-          coupling::make_vessel_surface(simulation.world().params.around.vessels.network)) {
+          coupling::make_vessel_surface(simulation.world().params.boundary.vessels.network)) {
   life_.start_cells = coupling::count_cells(simulation.world().state);
 }
 
@@ -76,7 +76,7 @@ std::string Recorder::resume() {
   cpu_before_ = totals_.cpu_s;
   last_frame_ = data.number("file/last_frame");
   excess_ = {data.number("file/excess"), "some cells overlap beyond what contact mends", {}};
-  observer_ = get_observer(data);
+  observables_ = get_observables(data);
   io::RunFileCounts counts;
   visit(counts, [&](const char* name, std::int64_t& n) { n = data.count(name); });
   file_ = io::RunFile::open_for_append(run_file(), counts, file_options());
@@ -93,7 +93,7 @@ Excess Recorder::write_frame(bool last) {
   add_audit(totals_, audit);
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
-    observables = observe_frame({scene_, world, work, snapshot, audit}, observer_);
+    observables = observe_frame({scene_, world, work, snapshot, audit}, observables_);
   if (world.ranks.is_root())
     file_->append(make_frame(world, work, snapshot, vessel_surface_), observables);
   last_frame_ = snapshot.time;
@@ -132,7 +132,7 @@ void Recorder::add_event(const std::string& code, const std::string& message,
 void Recorder::add_life(const coupling::LifeReport& report) {
   const coupling::World& world = simulation_.world();
   runs::add_life(life_, report, coupling::count_cells(world.state), wall_s());
-  observe_births(scene_, world, report, observer_);
+  observe_births(scene_, world, report, observables_);
   for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
 }
 
@@ -144,7 +144,7 @@ io::CheckpointData Recorder::make_checkpoint() {
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
   put_totals(totals_, data);
   put_totals(life_, data);
-  put_observer(observer_, data);
+  put_observables(observables_, data);
   data.put_number("file/last_frame", last_frame_);
   data.put_number("file/excess", excess_.depth_um);
   const io::RunFileCounts counts = file_->counts();
@@ -167,7 +167,7 @@ void Recorder::close(const std::string& status, const std::string& cause) {
   const coupling::Workspace& work = simulation_.work();
   std::vector<std::string> skipped = list_skipped(world);
   for (const std::string& what : list_skipped_work(world, work)) skipped.push_back(what);
-  write_summary(options_.out, {scene_, options_, world, totals_, life_, observer_.measures,
+  write_summary(options_.out, {scene_, options_, world, totals_, life_, observables_.measures,
                                work.timings, skipped, notes_, status, cause, options_.threads});
 }
 

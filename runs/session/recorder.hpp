@@ -12,7 +12,7 @@
 #include "core/timing.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/experiments/observer.hpp"
+#include "runs/experiments/observe.hpp"
 #include "runs/session/run_scene.hpp"
 #include "runs/session/soundness.hpp"
 #include "runs/session/totals.hpp"
@@ -61,7 +61,7 @@ class Recorder {
   std::optional<io::RunFile> file_;
   RunTotals totals_;
   LifeTotals life_;
-  Observer observer_;
+  Observables observables_;
   std::vector<std::string> notes_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues

@@ -58,9 +58,9 @@ std::string resume_command(const RunOptions& options) {
 }
 
 /// One run from its first to its last step.
-class Run {
+class SceneRun {
  public:
-  Run(const Scene& scene, const RunOptions& options, BuiltWorld built);
+  SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld built);
   int go();
 
  private:
@@ -93,7 +93,7 @@ class Run {
   Excess excess_;             ///< why a frame ended the run, if its depth is > 0
 };
 
-Run::Run(const Scene& scene, const RunOptions& options, BuiltWorld built)
+SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld built)
     : scene_(scene),
       options_(options),
       notes_(std::move(built.notes)),
@@ -103,7 +103,7 @@ Run::Run(const Scene& scene, const RunOptions& options, BuiltWorld built)
       progress_(options, std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
       end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))) {}
 
-std::string Run::reason_to_stop() const {
+std::string SceneRun::reason_to_stop() const {
   if (const int signal = stop_signal(); signal != 0) return fmt::format("signal {}", signal);
   if (options_.max_walltime_s && wall_seconds() - started_ > *options_.max_walltime_s)
     return "the wall-time limit";
@@ -111,13 +111,13 @@ std::string Run::reason_to_stop() const {
   return {};
 }
 
-bool Run::is_last() const {
+bool SceneRun::is_last() const {
   const int most = options_.until_cells.value_or(scene_.time.until_cells);
   return time() >= end_ - kSameTime ||
          (was_running_ && most > 0 && coupling::count_cells(world().state) >= most);
 }
 
-bool Run::frame_is_due() const {
+bool SceneRun::frame_is_due() const {
   const bool starts = simulation_.is_running() && !was_running_;
   if (!(simulation_.is_running() || scene_.output.start_up)) return false;
   if (time() <= recorder_.last_frame() + kSameTime) return false;
@@ -127,14 +127,14 @@ bool Run::frame_is_due() const {
          (was_running_ && time() > extra_frame_ - kSameTime);
 }
 
-void Run::end_phase(const std::string& what) {
+void SceneRun::end_phase(const std::string& what) {
   progress_.note(what);
   recorder_.add_note(what);
   recorder_.add_event("start_up", what);
 }
 
 /// Frames, checkpoints and reasons to stop, once the events after a step are over.
-bool Run::events_over() {
+bool SceneRun::events_over() {
   if (frame_is_due()) excess_ = recorder_.write_frame(time() >= end_ - kSameTime);
   if (excess_.depth_um > 0) return false;
   if (is_last() && simulation_.is_running()) return false;
@@ -147,7 +147,7 @@ bool Run::events_over() {
   return stopped_by_.empty();
 }
 
-coupling::Observer Run::observer() {
+coupling::Observer SceneRun::observer() {
   return {.next_moment =
               [this](double time) {
                 extra_frame_ = next_frame_of_opening(scene_, time);
@@ -165,7 +165,7 @@ coupling::Observer Run::observer() {
           .events_over = [this] { return events_over(); }};
 }
 
-void Run::close(const std::string& status, const std::string& cause) {
+void SceneRun::close(const std::string& status, const std::string& cause) {
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
     const std::string note = fmt::format(
         "the stiffness of spheres was asked beyond the range of its law in {:.2g} % of cases",
@@ -179,7 +179,7 @@ void Run::close(const std::string& status, const std::string& cause) {
   progress_.finish();
 }
 
-int Run::give_up(const std::string& cause, const std::vector<std::int64_t>& cells) {
+int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>& cells) {
   spdlog::error(cause);
   recorder_.add_event("cannot_continue", cause, cells);
   if (time() > recorder_.last_frame() + kSameTime) recorder_.write_frame(true);
@@ -188,7 +188,7 @@ int Run::give_up(const std::string& cause, const std::vector<std::int64_t>& cell
   return static_cast<int>(Exit::kCannotContinue);
 }
 
-void Run::stop(const std::string& why) {
+void SceneRun::stop(const std::string& why) {
   recorder_.add_event("stopped", "stopped by " + why);
   close("stopped", "stopped by " + why);
   progress_.note(fmt::format("stopped by {}; continue with: {}", why, resume_command(options_)));
@@ -196,7 +196,7 @@ void Run::stop(const std::string& why) {
   std::filesystem::remove(options_.out + "/STOP");
 }
 
-int Run::loop() {
+int SceneRun::loop() {
   was_running_ = simulation_.is_running();
   if (!options_.resume && (was_running_ || scene_.output.start_up))
     excess_ = recorder_.write_frame(false);
@@ -204,7 +204,7 @@ int Run::loop() {
                                      : simulation_.run_until(end_, observer()));
 }
 
-int Run::finish(const coupling::LoopResult& steps) {
+int SceneRun::finish(const coupling::LoopResult& steps) {
   if (!steps.ok) {
     const coupling::StepResult& step = steps.last;
     return give_up(
@@ -231,7 +231,7 @@ int Run::finish(const coupling::LoopResult& steps) {
   return static_cast<int>(Exit::kDone);
 }
 
-int Run::go() {
+int SceneRun::go() {
   if (options_.resume) {
     progress_.note(recorder_.resume());
   } else {
@@ -281,7 +281,7 @@ int run_scene(const Scene& scene, const RunOptions& asked) {
   spdlog::info("acinus {} {}: {}", ACINUS_VERSION, ACINUS_GIT, options.command_line);
   const StopSignals signals;
   try {
-    return Run(scene, options, std::move(built)).go();
+    return SceneRun(scene, options, std::move(built)).go();
   } catch (const std::exception& error) {
     spdlog::error(error.what());
     throw;

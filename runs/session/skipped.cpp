@@ -13,7 +13,7 @@ std::vector<std::string> list_skipped(const coupling::World& world) {
     list = dcm::skipped_terms(world.params.dcm);
   if (s.cbm.n_cell() == 0) list.emplace_back("centre-based cells");
   if (s.dcm.group.empty() || s.cbm.n_cell() == 0) list.emplace_back("DCM-CBM interface");
-  if (world.params.around.empty()) list.emplace_back("surroundings");
+  if (world.params.boundary.empty()) list.emplace_back("boundary");
   if (!world.params.motility.random) list.emplace_back("random motility");
   if (world.params.motility.leader_force <= 0) list.emplace_back("leaders");
   return list;

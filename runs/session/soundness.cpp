@@ -16,15 +16,14 @@ namespace {
 constexpr double kBetweenPoints = 0.25;
 
 double radius_of(const coupling::State& s, std::int64_t id) {
-  const auto k =
-      static_cast<std::size_t>(std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin());
+  const std::size_t k = std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin();
   return sphere_radius(s.cbm.volume[k].at(s.clock.time));
 }
 
-/// The sphere whose centre is deepest inside its surroundings.
+/// The sphere whose centre is deepest inside its boundary.
 Excess find_lost_sphere(const coupling::World& world, const coupling::Workspace& work) {
   const cbm::State& s = world.state.cbm;
-  const contact::Surroundings& around = world.params.around;
+  const contact::Boundary& boundary = world.params.boundary;
   const double time = std::max(0.0, coupling::time_since_start(world));
   Excess worst;
   const auto look = [&](std::size_t k, const contact::Gap& gap, const auto& name) {
@@ -36,14 +35,14 @@ Excess find_lost_sphere(const coupling::World& world, const coupling::Workspace&
   };
   for (std::size_t k = 0; k < s.n_cell(); ++k) {
     const Vec3 x = cbm::center_of(s, k);
-    for (const contact::Plane& p : around.planes)
+    for (const contact::Plane& p : boundary.planes)
       look(k, contact::gap_to_plane(p, x, time), [&] { return "wall " + p.name; });
-    for (const contact::Capsule& c : around.capsules)
+    for (const contact::Capsule& c : boundary.capsules)
       look(k, contact::gap_to_capsule(c, x, time), [&] { return "the wall of the " + c.name; });
   }
   for (const auto& [cell, segment] : work.cbm.segment) {
-    const auto k = static_cast<std::size_t>(cell);
-    look(k, contact::gap_to_segment(around.vessels.network, segment, cbm::center_of(s, k)),
+    const std::size_t k = cell;
+    look(k, contact::gap_to_segment(boundary.vessels.network, segment, cbm::center_of(s, k)),
          [&, at = segment] { return fmt::format("vessel segment {}", at); });
   }
   return worst;

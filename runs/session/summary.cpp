@@ -130,7 +130,7 @@ Json list_measures(const SummaryInput& in) {
   }
   for (const auto& [cells, wall] : wall_times(in.life))
     measures["wall_s_at_cells"][cells] = number(wall);
-  if (!in.world.params.around.vessels.network.segment.empty())
+  if (!in.world.params.boundary.vessels.network.segment.empty())
     measures["max_overlap_with_vessels_um"] =
         number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
   if (in.scene.experiment == "lobule") add_lobule_figures(in.measures, measures);
@@ -144,7 +144,7 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   add_run(in, j);
   add_cost(in, j);
   add_cells(in, j);
-  j["vessel_length_um"] = number(mesh::total_length(in.world.params.around.vessels.network));
+  j["vessel_length_um"] = number(mesh::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
   j["notes"] = in.notes;

@@ -83,7 +83,7 @@ void add_audit(RunTotals& t, const coupling::AuditResult& a) {
   t.cbm_vessel_um = std::max(t.cbm_vessel_um, a.cbm_vessel.depth_um);
   t.cbm_wall_um = std::max(t.cbm_wall_um, a.cbm_wall.depth_um);
   t.dcm_cbm_um = std::max(t.dcm_cbm_um, a.dcm_cbm.depth_um);
-  t.dcm_cbm_beyond_um = std::max(t.dcm_cbm_beyond_um, a.dcm_cbm_beyond_dent.depth_um);
+  t.dcm_cbm_beyond_um = std::max(t.dcm_cbm_beyond_um, a.dcm_cbm_beyond_indentation.depth_um);
   t.max_overlap_cbm_um = std::max(t.max_overlap_cbm_um, a.max_overlap_cbm_um);
   t.min_triangle_quality = std::min(t.min_triangle_quality, a.min_triangle_quality);
   t.self_intersecting = std::max(t.self_intersecting, static_cast<double>(a.n_self_intersecting));

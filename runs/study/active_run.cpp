@@ -32,8 +32,7 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
   if (!resume) clear_run(folder);
   write_record(root, plan, run);
   Scene scene = run.scene;
-  if (run.source >= 0)
-    scene.start_up.from = root + "/" + plan.runs[static_cast<std::size_t>(run.source)].folder;
+  if (run.source >= 0) scene.start_up.from = root + "/" + plan.runs[run.source].folder;
   io::write_text_file(folder + "/scene.json", write_resolved(scene));
   const std::vector<std::string> words{
       "run", folder + "/scene.json", "--out", folder, "--threads", std::to_string(options.threads),

@@ -28,7 +28,7 @@ std::set<std::size_t> wanted(const StudyPlan& plan, const std::vector<std::strin
 /// How many runs must come before this one.
 int depth(const StudyPlan& plan, std::size_t k) {
   int n = 0;
-  for (int s = plan.runs[k].source; s >= 0; s = plan.runs[static_cast<std::size_t>(s)].source) ++n;
+  for (int s = plan.runs[k].source; s >= 0; s = plan.runs[s].source) ++n;
   return n;
 }
 
@@ -37,7 +37,7 @@ std::set<std::size_t> part_of(const std::set<std::size_t>& runs, const std::vect
                               int task, int tasks) {
   std::vector<std::size_t> order(runs.begin(), runs.end());
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
-  std::vector<double> load(static_cast<std::size_t>(tasks), 0);
+  std::vector<double> load(tasks, 0);
   std::set<std::size_t> mine;
   for (std::size_t k : order) {
     const auto least = std::ranges::min_element(load);
@@ -56,8 +56,7 @@ std::vector<ChosenRun> choose_runs(const StudyPlan& plan, const RunChoice& choic
       part_of(wanted(plan, choice.only), cost, choice.task, choice.tasks);
   std::set<std::size_t> all = own;
   for (std::size_t k : own)
-    for (int s = plan.runs[k].source; s >= 0; s = plan.runs[static_cast<std::size_t>(s)].source)
-      all.insert(static_cast<std::size_t>(s));
+    for (int s = plan.runs[k].source; s >= 0; s = plan.runs[s].source) all.insert(s);
   std::vector<ChosenRun> chosen;
   for (std::size_t k : all) chosen.push_back({k, own.contains(k)});
   const auto rank_of_seed = [&](const StudyRun& run) {

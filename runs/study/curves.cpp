@@ -58,7 +58,7 @@ double two_sided(double t2, double freedom) {
 
 }  // namespace
 
-std::optional<double> value_at(const Curve& c, double time) {
+std::optional<double> value_at(const TimeCurve& c, double time) {
   if (c.time.empty() || time < c.time.front() - kSameFrame || time > c.time.back() + kSameFrame)
     return std::nullopt;
   const auto after = std::upper_bound(c.time.begin(), c.time.end(), time);
@@ -69,7 +69,7 @@ std::optional<double> value_at(const Curve& c, double time) {
   return c.value[k] + part * (c.value[k + 1] - c.value[k]);
 }
 
-std::optional<double> first_passage(const Curve& c, double level, bool below, double from,
+std::optional<double> first_passage(const TimeCurve& c, double level, bool below, double from,
                                     double until) {
   const double sign = below ? 1 : -1;
   const auto beyond = [&](double v) { return sign * v <= sign * level; };
@@ -87,10 +87,10 @@ std::optional<double> first_passage(const Curve& c, double level, bool below, do
   return std::nullopt;
 }
 
-Curve window(const Curve& c, double from, double until) {
+TimeCurve window(const TimeCurve& c, double from, double until) {
   const std::optional<double> first = value_at(c, from), last = value_at(c, until);
   if (!first || !last) return {};
-  Curve out{{from}, {*first}};
+  TimeCurve out{{from}, {*first}};
   for (std::size_t k = 0; k < c.time.size(); ++k)
     if (c.time[k] > from + kSameFrame && c.time[k] < until - kSameFrame) {
       out.time.push_back(c.time[k]);
@@ -103,7 +103,7 @@ Curve window(const Curve& c, double from, double until) {
   return out;
 }
 
-double time_mean(const Curve& c) {
+double time_mean(const TimeCurve& c) {
   const double length = c.time.back() - c.time.front();
   if (length <= 0) return c.value.front();
   double sum = 0;

@@ -7,25 +7,25 @@
 namespace acinus::runs {
 
 /// What one run measured; times rise, all values are finite.
-struct Curve {
+struct TimeCurve {
   std::vector<double> time;  ///< s
   std::vector<double> value;
 };
 
 /// Between two samples the values are joined by straight lines; nothing outside the samples.
-std::optional<double> value_at(const Curve& curve, double time);
+std::optional<double> value_at(const TimeCurve& curve, double time);
 
 /// When the curve is first at or beyond a level; nothing if it never is within [from, until].
 /// @param below  at or below it, else at or above
-std::optional<double> first_passage(const Curve& curve, double level, bool below, double from,
+std::optional<double> first_passage(const TimeCurve& curve, double level, bool below, double from,
                                     double until);
 
 /// The curve within [from, until], with ends put in between samples; empty if that is not all
 /// within the samples.
-Curve window(const Curve& curve, double from, double until);
+TimeCurve window(const TimeCurve& curve, double from, double until);
 
 /// Mean over time; of a single sample that sample. @pre not empty
-double time_mean(const Curve& curve);
+double time_mean(const TimeCurve& curve);
 
 /// Two-sided p value of Welch's t-test: how often means would differ so much by chance. Nothing for
 /// samples of fewer than two, or without any spread.   [Welch1947]

@@ -19,7 +19,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// One run's curve with what is known about its end.
 struct RunCurve {
   std::int64_t seed = 0;
-  const Curve* curve = nullptr;
+  const TimeCurve* curve = nullptr;
   bool complete = false;
 };
 
@@ -49,7 +49,7 @@ std::vector<RunCurve> find_curves(const StudyPlan& plan, const StudyData& data,
   return found;
 }
 
-double first_time(const Curve& curve) { return std::max(0.0, curve.time.front()); }
+double first_time(const TimeCurve& curve) { return std::max(0.0, curve.time.front()); }
 
 /// The time a measure looks at; the end only of runs that are done.
 std::optional<double> time_of(const RunCurve& s, const std::optional<double>& asked) {
@@ -58,10 +58,10 @@ std::optional<double> time_of(const RunCurve& s, const std::optional<double>& as
   return s.curve->time.back();
 }
 
-std::optional<Curve> window_of(const RunCurve& s, const StudyMeasure& m) {
+std::optional<TimeCurve> window_of(const RunCurve& s, const StudyMeasure& m) {
   const std::optional<double> until = time_of(s, m.until);
   if (!until) return std::nullopt;
-  Curve w = window(*s.curve, m.from.value_or(first_time(*s.curve)), *until);
+  TimeCurve w = window(*s.curve, m.from.value_or(first_time(*s.curve)), *until);
   if (w.time.empty()) return std::nullopt;
   return w;
 }
@@ -79,7 +79,7 @@ std::optional<double> of_run(const RunCurve& s, const StudyMeasure& m, double le
     if (passed) return passed;
     return window_of(s, m) ? std::optional(kNever) : std::nullopt;
   }
-  const std::optional<Curve> w = window_of(s, m);
+  const std::optional<TimeCurve> w = window_of(s, m);
   if (!w) return std::nullopt;
   if (m.kind == "mean") return time_mean(*w);
   return m.kind == "min" ? *std::ranges::min_element(w->value)
@@ -95,8 +95,7 @@ void summarise(Measured& out) {
   out.low = sorted.front();
   out.high = sorted.back();
   const auto n = sorted.size();
-  const auto n_never = static_cast<std::size_t>(
-      std::ranges::count_if(sorted, [](double v) { return std::isinf(v); }));
+  const std::size_t n_never = std::ranges::count_if(sorted, [](double v) { return std::isinf(v); });
   if (n_never == 0 || n_never == n) {
     double sum = 0;
     for (double v : sorted) sum += v;
@@ -110,28 +109,28 @@ void summarise(Measured& out) {
 }
 
 /// All windows of a variant; empty if one is missing.
-std::vector<Curve> windows(const std::vector<RunCurve>& sources, const StudyMeasure& m) {
-  std::vector<Curve> out;
+std::vector<TimeCurve> windows(const std::vector<RunCurve>& sources, const StudyMeasure& m) {
+  std::vector<TimeCurve> out;
   for (const RunCurve& s : sources) {
-    const std::optional<Curve> w = window_of(s, m);
+    const std::optional<TimeCurve> w = window_of(s, m);
     if (!w) return {};
     out.push_back(*w);
   }
   return out;
 }
 
-std::set<double> times_of(const std::vector<Curve>& curves) {
+std::set<double> times_of(const std::vector<TimeCurve>& curves) {
   std::set<double> times;
-  for (const Curve& c : curves) times.insert(c.time.begin(), c.time.end());
+  for (const TimeCurve& c : curves) times.insert(c.time.begin(), c.time.end());
   return times;
 }
 
 /// Largest spread over seeds at one time.
-std::optional<double> widest_band(const std::vector<Curve>& curves) {
+std::optional<double> widest_band(const std::vector<TimeCurve>& curves) {
   double widest = 0;
   for (double t : times_of(curves)) {
     double low = kNever, high = -kNever;
-    for (const Curve& c : curves)
+    for (const TimeCurve& c : curves)
       if (const auto v = value_at(c, t)) {
         low = std::min(low, *v);
         high = std::max(high, *v);
@@ -141,9 +140,9 @@ std::optional<double> widest_band(const std::vector<Curve>& curves) {
   return curves.empty() ? std::nullopt : std::optional(widest);
 }
 
-std::optional<double> mean_at(const std::vector<Curve>& curves, double t) {
+std::optional<double> mean_at(const std::vector<TimeCurve>& curves, double t) {
   double sum = 0;
-  for (const Curve& c : curves) {
+  for (const TimeCurve& c : curves) {
     const auto v = value_at(c, t);
     if (!v) return std::nullopt;
     sum += *v;
@@ -151,7 +150,8 @@ std::optional<double> mean_at(const std::vector<Curve>& curves, double t) {
   return sum / static_cast<double>(curves.size());
 }
 
-std::optional<double> largest_distance(const std::vector<Curve>& a, const std::vector<Curve>& b) {
+std::optional<double> largest_distance(const std::vector<TimeCurve>& a,
+                                       const std::vector<TimeCurve>& b) {
   if (a.empty() || b.empty()) return std::nullopt;
   std::set<double> times = times_of(a);
   times.merge(times_of(b));
@@ -164,8 +164,9 @@ std::optional<double> largest_distance(const std::vector<Curve>& a, const std::v
 }
 
 /// Largest distance of one mean curve from the space between two others.
-std::optional<double> largest_excess(const std::vector<Curve>& a, const std::vector<Curve>& b,
-                                     const std::vector<Curve>& c) {
+std::optional<double> largest_excess(const std::vector<TimeCurve>& a,
+                                     const std::vector<TimeCurve>& b,
+                                     const std::vector<TimeCurve>& c) {
   if (a.empty() || b.empty() || c.empty()) return std::nullopt;
   std::set<double> times = times_of(a);
   times.merge(times_of(b));

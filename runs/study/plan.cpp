@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
-#include "runs/build/build_surroundings.hpp"
+#include "runs/build/build_boundary.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/build/start_state.hpp"
 #include "runs/experiments/observables.hpp"
@@ -59,7 +59,7 @@ class Faults {
 std::string find_scene(const Study& study, const Document& document, Report& report) {
   const Node* node = report.find("/scene");
   if (node == nullptr || report.is_bad("/scene")) return {};
-  const Source& source = document.sources.at(static_cast<std::size_t>(node->origin.source));
+  const Source& source = document.sources.at(node->origin.source);
   const std::string path = (fs::path(source.folder) / study.scene).lexically_normal().string();
   std::error_code code;
   if (study.scene.find('\0') == std::string::npos && fs::is_regular_file(path, code)) return path;
@@ -79,7 +79,7 @@ std::string find_scene(const Study& study, const Document& document, Report& rep
 void shift_sources(Node& node, int by) {
   node.origin.source += by;
   for (Node& item : node.items) shift_sources(item, by);
-  for (Member& member : node.members) {
+  for (JsonMember& member : node.members) {
     member.origin.source += by;
     shift_sources(member.value, by);
   }
@@ -94,10 +94,10 @@ Scene make_scene(const Document& base, const Document& study, const Variant& var
   document.sources.insert(document.sources.end(), study.sources.begin(), study.sources.end());
   Faults faults;
   for (const Setting& setting : variant.set) {
-    Member value = setting.value;
+    JsonMember value = setting.value;
     value.origin.source += offset;
     shift_sources(value.value, offset);
-    const Source& source = document.sources.at(static_cast<std::size_t>(value.origin.source));
+    const Source& source = document.sources.at(value.origin.source);
     try {
       put_value(document, value.name, value,
                 fmt::format("{}:{}:{} {}", source.label, value.origin.line, value.origin.column,
@@ -186,12 +186,12 @@ class Planner {
         if (plan_.runs[k].seed == run.seed && plan_.variant_of(plan_.runs[k]).name == variant.start)
           run.source = static_cast<int>(k);
       if (run.source >= 0 && run.seed == static_cast<std::uint64_t>(variant.seeds.front()))
-        check_start(run, plan_.runs[static_cast<std::size_t>(run.source)]);
+        check_start(run, plan_.runs[run.source]);
     }
     for (StudyRun& run : plan_.runs) {
       std::size_t steps = 0;  // a circle is reported elsewhere
       for (int s = run.source; s >= 0 && ++steps <= plan_.runs.size();) {
-        const StudyRun& source = plan_.runs[static_cast<std::size_t>(s)];
+        const StudyRun& source = plan_.runs[s];
         run.identity += "<" + source.scene.sha;
         s = source.source;
       }

@@ -110,7 +110,7 @@ void write_record(const std::string& root, const StudyPlan& plan, const StudyRun
   j["seed"] = run.seed;
   j["identity"] = run.identity;
   j["version"] = ACINUS_VERSION;
-  if (run.source >= 0) j["start"] = plan.runs[static_cast<std::size_t>(run.source)].name;
+  if (run.source >= 0) j["start"] = plan.runs[run.source].name;
   if (!cause.empty()) j["cause"] = cause;
   io::write_text_file(record_file(root, run), j.dump(2) + "\n");
 }

@@ -28,7 +28,7 @@ struct RunStatus {
 
 /// Looks at a run's folder.
 /// @param root  the study's folder
-/// @param held  the caller has the run's claim: nobody else can be running it
+/// @param held  the caller has the run's claim: no other process can be running it
 RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held = false);
 
 /// What a run folder says about whose it is, written before its first step.

@@ -111,7 +111,7 @@ class Scheduler {
       return true;
     }
     if (run.source >= 0 && !has_start(options_.root, source_of(run))) {
-      const auto source = static_cast<std::size_t>(run.source);
+      const std::size_t source = run.source;
       if (is_pending(source) ||
           inspect_run(options_.root, source_of(run)).state == RunState::kRunning)
         return false;
@@ -142,9 +142,7 @@ class Scheduler {
     chosen_[c.run] = c;
   }
 
-  const StudyRun& source_of(const StudyRun& run) const {
-    return plan_.runs[static_cast<std::size_t>(run.source)];
-  }
+  const StudyRun& source_of(const StudyRun& run) const { return plan_.runs[run.source]; }
 
   bool is_pending(std::size_t run) const {
     const auto is_it = [run](const auto& other) { return other.run == run; };

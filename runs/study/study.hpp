@@ -16,7 +16,7 @@ namespace acinus::runs {
 struct StudyVariant {
   std::string title;
   std::string extends;              ///< variant whose changes come first; "" = none
-  std::vector<Member> set;          ///< scene key -> value
+  std::vector<JsonMember> set;      ///< scene key -> value
   std::vector<std::int64_t> seeds;  ///< empty = those of the study
   std::string start;                ///< variant whose state at t = 0 is taken; "" = none
 };
@@ -73,7 +73,7 @@ struct Study {
   std::string file;  ///< path it was read from
   std::string name, description;
   std::string scene;
-  std::vector<Member> set;
+  std::vector<JsonMember> set;
   std::vector<std::int64_t> seeds{1};
   std::map<std::string, StudyVariant> variants;
   std::vector<StudySweep> sweeps;

@@ -48,7 +48,7 @@ RunData read_run(const StudyPlan& plan, const StudyRun& run, const std::string& 
       if (unit == plan.units.end()) continue;
       const double scale = factor(units.at(name), unit->second);
       if (scale == 0) continue;
-      Curve& curve = data.curve[name];
+      TimeCurve& curve = data.curve[name];
       for (std::size_t k = 0; k < std::min(time.size(), value.size()); ++k) {
         if (!std::isfinite(value[k])) continue;
         curve.time.push_back(time[k]);

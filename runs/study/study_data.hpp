@@ -14,8 +14,8 @@ namespace acinus::runs {
 
 struct RunData {
   RunStatus status;
-  std::map<std::string, Curve> curve;  ///< by observable, in the plan's units
-  double until = 0;                    ///< s, of the last row; nothing is known later
+  std::map<std::string, TimeCurve> curve;  ///< by observable, in the plan's units
+  double until = 0;                        ///< s, of the last row; nothing is known later
 };
 
 /// One per run of the plan, in its order.

@@ -48,7 +48,7 @@ void add_point(io::PlotLine& line, double x, const Spread& s) {
 
 /// What is there of a variant.
 struct CurvesOfVariant {
-  std::vector<const Curve*> curve;
+  std::vector<const TimeCurve*> curve;
   std::size_t n_run = 0;  ///< that there are to be
   /// " (3 of 5 seeds)" if some are missing.
   std::string missing() const {
@@ -57,7 +57,7 @@ struct CurvesOfVariant {
   }
 };
 
-/// Runs that failed are left out: what they would have come to nobody knows.
+/// Runs that failed are left out: what they would have come to is not known.
 CurvesOfVariant curves_of(const StudyPlan& plan, const StudyData& data, std::size_t variant,
                           const std::string& observable, bool to_the_end) {
   CurvesOfVariant out;
@@ -74,14 +74,14 @@ CurvesOfVariant curves_of(const StudyPlan& plan, const StudyData& data, std::siz
 }
 
 /// As far as all curves go: a mean over fewer would jump.
-io::PlotLine line_over_time(const std::vector<const Curve*>& curves, double seconds) {
+io::PlotLine line_over_time(const std::vector<const TimeCurve*>& curves, double seconds) {
   std::set<double> times;
-  for (const Curve* c : curves) times.insert(c->time.begin(), c->time.end());
+  for (const TimeCurve* c : curves) times.insert(c->time.begin(), c->time.end());
   io::PlotLine line;
   line.marks = times.size() <= 12;
   for (double t : times) {
     Spread s;
-    for (const Curve* c : curves)
+    for (const TimeCurve* c : curves)
       if (const auto v = value_at(*c, t)) s.add(*v);
     if (s.n == static_cast<int>(curves.size())) add_point(line, t / seconds, s);
   }
@@ -98,7 +98,7 @@ void add_lines_over_key(const StudyPlan& plan, const StudyData& data, const Stud
       if (run.variant == v) x = value_of_key(run.scene, wanted.over);
     if (!x) continue;
     Spread s;
-    for (const Curve* c : curves_of(plan, data, v, wanted.observable, !wanted.at).curve)
+    for (const TimeCurve* c : curves_of(plan, data, v, wanted.observable, !wanted.at).curve)
       if (const auto value = value_at(*c, wanted.at.value_or(c->time.back()))) s.add(*value);
     const std::string& name = plan.variants[v].name;
     const std::size_t sweep = name.rfind('/');

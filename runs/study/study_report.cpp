@@ -38,8 +38,8 @@ std::string verdict_table(const std::vector<Verdict>& verdicts) {
       "## Claims\n\nMeasured: mean over the seeds [smallest, largest].\n\n"
       "| | claim | expected | measured | verdict |\n|---|---|---|---|---|\n";
   for (const Verdict& v : verdicts) {
-    std::string verdict = name_of(v.judgement);
-    if (v.judgement == Judgement::kDoesNotHold) verdict = "**" + verdict + "**";
+    std::string verdict = name_of(v.status);
+    if (v.status == ClaimStatus::kDoesNotHold) verdict = "**" + verdict + "**";
     if (!v.measured.note.empty()) verdict += ": " + v.measured.note;
     text += fmt::format("| {} | {} | {} | {} | {} |\n", v.id, cell(v.claim), cell(v.expected),
                         cell(show_range(v.measured)), cell(verdict));
@@ -103,8 +103,7 @@ std::string start_list(const StudyPlan& plan, const StudyData& data) {
     const StudyRun& run = plan.runs[k];
     if (run.source < 0) continue;
     const std::string& hash = data[k].status.start_hash;
-    lines += fmt::format("- {}: cells at t = 0 of {}{}\n", run.name,
-                         plan.runs[static_cast<std::size_t>(run.source)].name,
+    lines += fmt::format("- {}: cells at t = 0 of {}{}\n", run.name, plan.runs[run.source].name,
                          hash.empty() ? "" : " (state " + hash + ")");
   }
   if (lines.empty()) return {};
@@ -143,12 +142,12 @@ std::string plot_list(const std::vector<std::string>& files) {
 ReportCounts write_study_report(const StudyPlan& plan, const std::string& root) {
   const io::FileLock writing = io::FileLock::take(root + "/report.lock");
   const StudyData data = read_study_data(plan, root);
-  const std::vector<Verdict> verdicts = judge(plan, data);
+  const std::vector<Verdict> verdicts = check_claims(plan, data);
   ReportCounts n;
   for (const Verdict& v : verdicts)
-    ++(v.judgement == Judgement::kHolds         ? n.holds
-       : v.judgement == Judgement::kDoesNotHold ? n.does_not_hold
-                                                : n.not_measured);
+    ++(v.status == ClaimStatus::kHolds         ? n.holds
+       : v.status == ClaimStatus::kDoesNotHold ? n.does_not_hold
+                                               : n.not_measured);
   for (const RunData& d : data)
     ++(d.status.state == RunState::kDone     ? n.done
        : d.status.state == RunState::kFailed ? n.failed

@@ -18,9 +18,9 @@ const char* instead_of(const std::string& key) {
   return nullptr;
 }
 
-void add_settings(const std::vector<Member>& members, const std::string& pointer, Report& report,
-                  std::vector<Setting>& out) {
-  for (const Member& member : members) {
+void add_settings(const std::vector<JsonMember>& members, const std::string& pointer,
+                  Report& report, std::vector<Setting>& out) {
+  for (const JsonMember& member : members) {
     const std::string place = pointer + "/" + pointer_part(member.name);
     if (const char* instead = instead_of(member.name)) {
       report.add(member.origin, place, fmt::format("cannot be set here. {}", instead));
@@ -31,10 +31,10 @@ void add_settings(const std::vector<Member>& members, const std::string& pointer
 }
 
 /// The place of a variant's key, or of the variant.
-Origin place_of(const Report& report, const std::string& pointer, const char* key) {
+TextPlace place_of(const Report& report, const std::string& pointer, const char* key) {
   const Node* node = report.find(pointer + "/" + key);
   if (node == nullptr) node = report.find(pointer);
-  return node != nullptr ? node->origin : Origin{};
+  return node != nullptr ? node->origin : TextPlace{};
 }
 
 /// Settings of a variant and of those it extends, oldest first.
@@ -44,7 +44,7 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
   const StudyVariant& variant = study.variants.at(name);
   const std::string pointer = "/variants/" + name;
   if (!variant.extends.empty()) {
-    const Origin origin = place_of(report, pointer, "extends");
+    const TextPlace origin = place_of(report, pointer, "extends");
     chain.push_back(name);
     if (!study.variants.contains(variant.extends)) {
       std::vector<std::string> names;
@@ -171,7 +171,7 @@ class Maker {
     std::set<std::string> told;
     for (const Variant& v : variants_) {
       if (v.start.empty() || v.pointer.starts_with("/sweeps")) continue;
-      const Origin origin = place_of(report_, v.pointer, "start");
+      const TextPlace origin = place_of(report_, v.pointer, "start");
       const std::vector<std::size_t> found = find_variants(variants_, v.start);
       if (found.size() != 1 || v.start.ends_with("*")) {
         report_.add(origin, v.pointer + "/start", unknown_variant(variants_, v.start));

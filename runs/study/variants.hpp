@@ -12,7 +12,7 @@ namespace acinus::runs {
 
 /// One change to the scene, with the place it was written.
 struct Setting {
-  Member value;         ///< name: the scene key
+  JsonMember value;     ///< name: the scene key
   std::string pointer;  ///< "/variants/III/set/time.end"
 };
 

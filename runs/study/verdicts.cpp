@@ -61,31 +61,31 @@ std::string describe_bounds(const Verdict& v) {
 }
 
 /// What never happened is later than the end of the runs; about what comes after they say nothing.
-Judgement judge(Verdict& v) {
+ClaimStatus check_claim(Verdict& v) {
   Measured& m = v.measured;
-  if (!m.value) return Judgement::kNotMeasured;
+  if (!m.value) return ClaimStatus::kNotMeasured;
   const double low = v.every_seed ? m.low.value_or(*m.value) : *m.value;
   const double high = v.every_seed ? m.high.value_or(*m.value) : *m.value;
   if (std::isinf(high) && high > 0 && v.expected_low && m.unit == "s" &&
       *v.expected_low > m.known_until) {
     m.note = fmt::format("never before {}, which says nothing about {}",
                          show_value(m.known_until, "s"), show_value(*v.expected_low, "s"));
-    if (!v.expected_high) return Judgement::kNotMeasured;
+    if (!v.expected_high) return ClaimStatus::kNotMeasured;
   }
   if (std::isinf(low) && low < 0 && v.expected_high && -*v.expected_high > m.known_until) {
     m.note = fmt::format("known only to be below {}", show_value(-m.known_until, "s"));
-    return Judgement::kNotMeasured;
+    return ClaimStatus::kNotMeasured;
   }
   if (std::isinf(high) && high > 0 && m.note.empty())
     m.note = fmt::format("never before {}", show_value(m.known_until, "s"));
   const bool above = !v.expected_low || low >= *v.expected_low;
   const bool below = !v.expected_high || high <= *v.expected_high;
-  return above && below ? Judgement::kHolds : Judgement::kDoesNotHold;
+  return above && below ? ClaimStatus::kHolds : ClaimStatus::kDoesNotHold;
 }
 
 }  // namespace
 
-std::vector<Verdict> judge(const StudyPlan& plan, const StudyData& data) {
+std::vector<Verdict> check_claims(const StudyPlan& plan, const StudyData& data) {
   std::vector<Verdict> verdicts;
   for (const StudyExpectation& e : plan.study.expectations) {
     Verdict v;
@@ -99,19 +99,19 @@ std::vector<Verdict> judge(const StudyPlan& plan, const StudyData& data) {
     if (e.low) v.expected_low = number_in(*e.low, v.measured.unit);
     if (e.high) v.expected_high = number_in(*e.high, v.measured.unit);
     v.expected = describe_bounds(v);
-    v.judgement = judge(v);
+    v.status = check_claim(v);
     verdicts.push_back(v);
   }
   return verdicts;
 }
 
-const char* name_of(Judgement judgement) {
-  switch (judgement) {
-    case Judgement::kHolds:
+const char* name_of(ClaimStatus status) {
+  switch (status) {
+    case ClaimStatus::kHolds:
       return "holds";
-    case Judgement::kDoesNotHold:
+    case ClaimStatus::kDoesNotHold:
       return "does not hold";
-    case Judgement::kNotMeasured:
+    case ClaimStatus::kNotMeasured:
       break;
   }
   return "not measured";
@@ -131,9 +131,9 @@ void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& roo
     j["low"] = number(v.measured.low);
     j["high"] = number(v.measured.high);
     j["unit"] = v.measured.unit;
-    j["pass"] = v.judgement == Judgement::kNotMeasured ? Json(nullptr)
-                                                       : Json(v.judgement == Judgement::kHolds);
-    j["verdict"] = name_of(v.judgement);
+    j["pass"] = v.status == ClaimStatus::kNotMeasured ? Json(nullptr)
+                                                      : Json(v.status == ClaimStatus::kHolds);
+    j["verdict"] = name_of(v.status);
     if (!v.measured.note.empty()) j["note"] = v.measured.note;
     all.push_back(j);
   }

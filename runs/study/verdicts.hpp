@@ -8,7 +8,7 @@
 
 namespace acinus::runs {
 
-enum class Judgement { kHolds, kDoesNotHold, kNotMeasured };
+enum class ClaimStatus { kHolds, kDoesNotHold, kNotMeasured };
 
 struct Verdict {
   std::string id, claim;
@@ -17,14 +17,14 @@ struct Verdict {
   std::optional<double> expected_low, expected_high;
   bool every_seed = false;
   Measured measured;
-  Judgement judgement = Judgement::kNotMeasured;
+  ClaimStatus status = ClaimStatus::kNotMeasured;
 };
 
-/// Judges every expectation. What is not measured never holds.
-std::vector<Verdict> judge(const StudyPlan& plan, const StudyData& data);
+/// Checks every expectation. What is not measured never holds.
+std::vector<Verdict> check_claims(const StudyPlan& plan, const StudyData& data);
 
 /// "holds", "does not hold", "not measured".
-const char* name_of(Judgement judgement);
+const char* name_of(ClaimStatus status);
 
 /// verdicts.json: [{id, claim, expected, measured, low, high, pass, ...}]; what has no value is
 /// null, pass too if nothing was measured.   @throws Error(kFileError)

@@ -95,8 +95,7 @@ class LifeInspection : public testing::Test {
   static double& radius_of(io::Frame& f, std::int64_t id) {
     const auto& ids = f.cells.ids.front().value;
     const auto at = std::ranges::find(ids, id) - ids.begin();
-    return std::ranges::find(f.cells.columns, "radius", &io::Column::name)
-        ->value[static_cast<std::size_t>(at)];
+    return std::ranges::find(f.cells.columns, "radius", &io::Column::name)->value[at];
   }
   /// Nodes of a deformable cell: f(position) -> new position.
   template <class F>

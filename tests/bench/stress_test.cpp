@@ -147,7 +147,7 @@ TEST(RandomScene, NominalParametersStayInsideTheTable) {
 }
 
 TEST(RandomScene, WideParametersCoverTheirDecades) {
-  struct Range {
+  struct Interval {
     double low = std::numeric_limits<double>::infinity(), high = 0;
     void add(double x) { low = std::min(low, x), high = std::max(high, x); }
   } young, friction, adhesion, step;
@@ -162,7 +162,7 @@ TEST(RandomScene, WideParametersCoverTheirDecades) {
     EXPECT_LE(s.motility.leader_force, 10 + 1e-6);
   }
   // 150 uniform draws leave the outer twentieth of a range empty once in 2000 times.
-  const auto expect_covered = [](const Range& r, double low, double high, const char* what) {
+  const auto expect_covered = [](const Interval& r, double low, double high, const char* what) {
     const double margin = std::pow(high / low, 0.05), rounding = 1 + 1e-4;
     EXPECT_TRUE(r.low >= low / rounding && r.low <= low * margin) << what << " " << r.low;
     EXPECT_TRUE(r.high <= high * rounding && r.high >= high / margin) << what << " " << r.high;
@@ -204,7 +204,7 @@ TEST(RandomScene, MeetsEveryKindOfLife) {
     if (t.death.softening < 1) seen.insert("soft");
     if (s.life.sleep) seen.insert("sleep");
     seen.insert(s.life.remesh ? "remesh" : "no remesh");
-    for (const runs::LifeRule& r : s.life.rules) {
+    for (const runs::LifeRuleBlock& r : s.life.rules) {
       seen.insert(r.action);
       if (r.region) seen.insert(r.region->kind);
       if (!r.cells.empty()) seen.insert(r.descendants ? "kin" : "one");

@@ -34,8 +34,8 @@ WorkScene two_cells() {
           .warm_up_step = 20};
 }
 
-Study small_study() {
-  Study s{"small", 400, 2, {.space = kSmall, .step = 2.5, .cg_tolerance = 1e-5}, {}};
+PrecisionStudy small_study() {
+  PrecisionStudy s{"small", 400, 2, {.space = kSmall, .step = 2.5, .cg_tolerance = 1e-5}, {}};
   for (const double h : {20.0, 100.0})
     s.setting.push_back({.space = kSmall, .step = h, .cg_tolerance = 1e-5});
   return s;
@@ -44,20 +44,20 @@ Study small_study() {
 TEST(WorkPrecision, ErrorFallsWithTheStepAndRunsRepeat) {
   WarmScene scene(two_cells());
   int told = 0;
-  const auto outcomes = run_study(scene, small_study(), [&](const Outcome&) { ++told; });
+  const auto outcomes = run_study(scene, small_study(), [&](const PrecisionOutcome&) { ++told; });
   ASSERT_EQ(outcomes.size(), 2U);
   EXPECT_EQ(told, 2);
-  for (const Outcome& e : outcomes) {
+  for (const PrecisionOutcome& e : outcomes) {
     EXPECT_TRUE(e.failure.empty()) << e.failure;
     EXPECT_EQ(e.cells, 2);
     EXPECT_EQ(e.steps, std::lround(400 / e.setting.step));
     EXPECT_EQ(e.rejected, 0);
     EXPECT_GT(e.cpu, 0);
-    EXPECT_EQ(e.judged, e.error.pressure);
-    std::printf("%s: pressure %.2g %%\n", describe(e.setting, true).c_str(), 100 * e.judged);
+    EXPECT_EQ(e.main_error, e.error.pressure);
+    std::printf("%s: pressure %.2g %%\n", describe(e.setting, true).c_str(), 100 * e.main_error);
   }
-  EXPECT_GT(outcomes[0].judged, 0);
-  EXPECT_LT(outcomes[0].judged, outcomes[1].judged);
+  EXPECT_GT(outcomes[0].main_error, 0);
+  EXPECT_LT(outcomes[0].main_error, outcomes[1].main_error);
   const Trajectory a = scene.run(outcomes[1].setting, 400, 2),
                    b = scene.run(outcomes[1].setting, 400, 2);
   EXPECT_EQ(a.sample.back().pressure, b.sample.back().pressure);
@@ -71,7 +71,7 @@ TEST(WorkPrecision, FixedStepThatCannotBeTakenIsTold) {
   const Trajectory t = scene.run({kSmall, coupling::Integrator::kExplicitEuler, 1000}, 1e5, 1);
   EXPECT_FALSE(t.failure.empty());
   EXPECT_TRUE(t.sample.empty());
-  Study s = small_study();
+  PrecisionStudy s = small_study();
   s.window = 1e5;
   s.samples = 1;
   s.reference = {kSmall, coupling::Integrator::kExplicitEuler, 1000};
@@ -108,10 +108,10 @@ TEST(WorkPrecision, CellsThatAreInOneRunOnlyDoNotCount) {
 }
 
 TEST(WorkPrecision, CheapestIsTheLeastCpuWithinTheError) {
-  std::vector<Outcome> outcomes(4);
+  std::vector<PrecisionOutcome> outcomes(4);
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     outcomes[k].cpu = 4.0 - static_cast<double>(k);
-    outcomes[k].judged = 0.01 * static_cast<double>(k + 1);
+    outcomes[k].main_error = 0.01 * static_cast<double>(k + 1);
     outcomes[k].window = 3600;
   }
   outcomes[1].failure = "failed";
@@ -122,8 +122,8 @@ TEST(WorkPrecision, CheapestIsTheLeastCpuWithinTheError) {
   EXPECT_NE(text.find("within 1 % on 162 nodes, 3-point: linearly-implicit, dt 60 s"),
             std::string::npos)
       << text;
-  const io::Plot plot =
-      make_plot(two_cells(), "t", outcomes, "y", [](const Outcome& e) { return e.judged; });
+  const io::Plot plot = make_plot(two_cells(), "t", outcomes, "y",
+                                  [](const PrecisionOutcome& e) { return e.main_error; });
   ASSERT_EQ(plot.line.size(), 1U);
   EXPECT_EQ(plot.line[0].point.size(), 3U) << "failed outcomes are left out";
 }
@@ -132,7 +132,7 @@ TEST(WorkPrecision, TablesHaveAsManyCellsAsColumns) {
   for (const WorkCase& c :
        {stretch_case(), clump_case(), packed_case(), capsule_case(), cbm_case()}) {
     const std::string head = table_head(c.scene, c.time.front());
-    Outcome e{c.time.front().setting.front(), "", 1, 1};
+    PrecisionOutcome e{c.time.front().setting.front(), "", 1, 1};
     const std::string line = table_line(c.scene, e);
     const std::size_t last = head.rfind('\n', head.size() - 2);
     EXPECT_EQ(std::count(head.begin() + static_cast<std::ptrdiff_t>(last), head.end(), '|'),
@@ -144,15 +144,15 @@ TEST(WorkPrecision, TablesHaveAsManyCellsAsColumns) {
 TEST(WorkPrecision, EveryStudyComparesWhatItSays) {
   for (const WorkCase& c :
        {stretch_case(), clump_case(), packed_case(), capsule_case(), cbm_case()}) {
-    for (const Study& s : c.time)
-      for (const Setting& t : s.setting) {
+    for (const PrecisionStudy& s : c.time)
+      for (const PrecisionSetting& t : s.setting) {
         EXPECT_EQ(t.space, s.reference.space) << c.scene.name;
         if (t.integrator == s.reference.integrator && !t.adaptive) {
           EXPECT_GT(t.step, s.reference.step) << c.scene.name;
         }
       }
-    for (const Study& s : c.space)
-      for (const Setting& t : s.setting) {
+    for (const PrecisionStudy& s : c.space)
+      for (const PrecisionSetting& t : s.setting) {
         EXPECT_LE(t.space.nodes, s.reference.space.nodes) << c.scene.name;
         EXPECT_EQ(t.step, s.reference.step) << c.scene.name;
       }

@@ -33,10 +33,10 @@ TEST(SpherePairs, BalanceForceAndTorque) {
     const contact::Contact& c = s.sphere()[l];
     for (int k : {c.a, c.b}) {
       sum += std::abs(c.force);
-      sum_torque += std::abs(c.force) * center_of(s.state, static_cast<std::size_t>(k)).norm();
+      sum_torque += std::abs(c.force) * center_of(s.state, k).norm();
     }
-    EXPECT_EQ(s.links()[l].a, cell_point(0, static_cast<std::size_t>(c.a)));
-    EXPECT_EQ(s.links()[l].b, cell_point(0, static_cast<std::size_t>(c.b)));
+    EXPECT_EQ(s.links()[l].a, cell_point(0, c.a));
+    EXPECT_EQ(s.links()[l].b, cell_point(0, c.b));
   }
   std::printf("%zu sphere pairs: net force %.1e, torque %.1e of the sum\n", s.links().size(),
               net.norm() / sum, torque.norm() / sum_torque);
@@ -152,9 +152,8 @@ TEST(SpherePairs, ListsFindWhatTryingEveryPairFinds) {
       double worst = 0;
       for (int i = 0; i < 80; ++i)
         for (int j = i + 1; j < 80; ++j) {
-          const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-          const Params &p = s.params[static_cast<std::size_t>(s.state.type[a])],
-                       &q = s.params[static_cast<std::size_t>(s.state.type[b])];
+          const std::size_t a = i, b = j;
+          const Params &p = s.params[s.state.type[a]], &q = s.params[s.state.type[b]];
           const auto pair = contact::reduced_pair({r[a], s.state.young[a], p.poisson},
                                                   {r[b], s.state.young[b], q.poisson},
                                                   std::sqrt(p.adhesion * q.adhesion));
@@ -198,8 +197,8 @@ TEST(Vessels, StretchedAdhesiveContactWithASoftVesselStaysInTheLists) {
   n.node = {{-50, 0, 0}, {50, 0, 0}};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
-  contact::set_network(s.around.vessels, n);
-  s.around.vessels.material = {0.1, 0.1, 0.4, false};
+  contact::set_network(s.boundary.vessels, n);
+  s.boundary.vessels.material = {0.1, 0.1, 0.4, false};
   s.options.skin = 0.01;
   s.find();
   s.accept();
@@ -224,8 +223,8 @@ TEST(Vessels, OneContactForAnySpacingOfTheChain) {
       n.segment.push_back({k, k + 1});
       n.radius.push_back({4.7, 4.7});
     }
-    contact::set_network(s.around.vessels, n);
-    s.around.vessels.material = {0, 0.6, 0.4, false};
+    contact::set_network(s.boundary.vessels, n);
+    s.boundary.vessels.material = {0, 0.6, 0.4, false};
     s.find();
     ASSERT_EQ(s.links().size(), 1u) << pieces;
     EXPECT_EQ(s.links()[0].b, solve::kNowhere);
@@ -244,8 +243,8 @@ TEST(Vessels, StretchedContactSurvivesAJoint) {
   n.node = {{-50, 0, 0}, {0, 0, 0}, {50, 0, 0}};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};
-  contact::set_network(s.around.vessels, n);
-  s.around.vessels.material = {0.05, 0.6, 0.4, false};
+  contact::set_network(s.boundary.vessels, n);
+  s.boundary.vessels.material = {0.05, 0.6, 0.4, false};
   s.find();
   s.accept();
   for (double x = -3; x < 3; x += 0.1) {
@@ -260,7 +259,7 @@ TEST(Walls, MirrorActsAsTheImageCell) {
   Spheres wall({sphere({0, 0, 11})}), image({sphere({0, 0, 11}), sphere({0, 0, -11})});
   contact::Plane p;
   p.material.mirror = true;
-  wall.around.planes = {p};
+  wall.boundary.planes = {p};
   image.params[0].adhesion = 0;
   wall.find();
   image.find();
@@ -291,9 +290,9 @@ TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
     shell.center = {0, 0, 50};
     shell.radius = 50;
     if (capsule) {
-      s.around.capsules = {shell};
+      s.boundary.capsules = {shell};
     } else {
-      s.around.planes = {floor};
+      s.boundary.planes = {floor};
     }
     s.find();
     ASSERT_EQ(s.obstacle().size(), 1u);
@@ -310,7 +309,7 @@ TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
   mirror.params[0].correction = law;
   contact::Plane p;
   p.material.mirror = true;
-  mirror.around.planes = {p};
+  mirror.boundary.planes = {p};
   mirror.find();
   EXPECT_NEAR(mirror.obstacle()[0].force, contact::mirror_wall_force({12, modulus, 0.47}, 9).force,
               1e-12)
@@ -322,12 +321,12 @@ TEST(Walls, CoupleByTheModulusOfTheFace) {
   Spheres s({sphere({0, 0, 9}, 12, 0.05)});
   s.params[0].poisson = 0.47;
   s.params[0].correction = law;
-  s.around.planes = {contact::Plane{}};
+  s.boundary.planes = {contact::Plane{}};
   s.find();
   ASSERT_EQ(s.obstacle().size(), 1u);
   const double plane_strain = 1 - 0.47 * 0.47;
   const WallFace face = wall_face(law, 0.05, s.work.modulus[0].value);
-  const contact::Material& wall = s.around.planes[0].material;
+  const contact::Material& wall = s.boundary.planes[0].material;
   const double by_modulus =
       contact::jkr_force(contact::reduced_pair({12, face.modulus, 0.47},
                                                {contact::kFlat, wall.young, wall.poisson}, 0),
@@ -347,8 +346,8 @@ TEST(Walls, MovingPlaneAndShrinkingCapsule) {
   shell.center = {0, 0, -35};
   shell.speed = 0.1;
   shell.min_radius = 30;
-  s.around.planes = {p};
-  s.around.capsules = {shell};
+  s.boundary.planes = {p};
+  s.boundary.capsules = {shell};
   s.find();
   EXPECT_EQ(s.links().size(), 0u);
   s.time = 10;
@@ -394,14 +393,14 @@ TEST(RelativeOverlap, CountsWallsOfAnyKindAsTheImageBehindThem) {
     Spheres s({sphere({0, 0, 11})});
     contact::Plane floor;
     floor.material.mirror = mirror;
-    s.around.planes = {floor};
+    s.boundary.planes = {floor};
     s.find();
     EXPECT_NEAR(relative_overlap(s.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14) << mirror;
   }
   Spheres s({sphere({0, 0, 11})});
   contact::Capsule shell;
   shell.radius = 22;
-  s.around.capsules = {shell};
+  s.boundary.capsules = {shell};
   s.find();
   EXPECT_NEAR(relative_overlap(s.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
 }
@@ -414,7 +413,7 @@ TEST(MediumFriction, ActsOnWhatTouchesNothing) {
   system.friction_scale = 0.1;
   std::vector<Vec3> pull(11, Vec3(0, 0, 0.3));
   const std::vector<double> radius = s.radius();
-  add_cell_loads({s.state, s.params, s.options, {radius}, s.around}, s.work, pull, system);
+  add_cell_loads({s.state, s.params, s.options, {radius}, s.boundary}, s.work, pull, system);
   solve::Operator op;
   op.prepare(system);
   const std::vector<double> one(system.n_dof(), 1.0);
@@ -422,7 +421,7 @@ TEST(MediumFriction, ActsOnWhatTouchesNothing) {
   op.apply(one, drag);
   std::vector<double> area(11);
   for (const contact::Contact& c : s.sphere())
-    for (int k : {c.a, c.b}) area[static_cast<std::size_t>(k)] += c.touching;
+    for (int k : {c.a, c.b}) area[k] += c.touching;
   const auto r = s.radius();
   for (std::size_t i = 0; i < 16; ++i) {
     const double medium = system.medium[i / kLanes * kLanes + i % kLanes];

@@ -131,7 +131,7 @@ Spheres make_clump(double overlap, std::uint64_t seed) {
   s.params[0].correction = quartic();
   contact::Capsule shell;
   shell.radius = place[26].norm() + kRadius * (1 - overlap);
-  s.around.capsules = {shell};
+  s.boundary.capsules = {shell};
   s.find();
   s.accept();
   return s;
@@ -214,7 +214,7 @@ Spectrum spectrum(const Eigen::MatrixXd& a, const Eigen::MatrixXd& j) {
 
 TEST(Correction, ForcesOfPairsBalance) {
   Spheres s = make_clump(0.12, 5);
-  s.around = {};
+  s.boundary = {};
   const Eigen::VectorXd f = forces(s);
   Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
   double sum = 0;
@@ -250,7 +250,7 @@ Eigen::MatrixXd frozen_matrix(Spheres& s, double h) {
   Eigen::MatrixXd fixed = matrix(s, h);
   const std::vector<double> coupling = s.work.coupling;
   for (const solve::PointLink& l : s.system.point_links) {
-    const auto a = static_cast<std::size_t>(l.a), b = static_cast<std::size_t>(l.b);
+    const std::size_t a = l.a, b = l.b;
     if (l.friction == 0 && l.stiffness == 0) continue;
     const Vec3 n(l.normal[0], l.normal[1], l.normal[2]);
     const bool wall = l.b == solve::kNowhere;
@@ -278,7 +278,7 @@ Compression compress_clump(const StiffnessLaw& law, double young, double smalles
   s.params[0].young = young;
   s.state.young.assign(s.state.n_cell(), young);
   for (double radius : {42.0, 40.0, 37.5, 36.0, 34.5, 33.0, 0.5 * (33 + smallest), smallest}) {
-    s.around.capsules[0].radius = radius;
+    s.boundary.capsules[0].radius = radius;
     settle(s);
     forces(s);
     const double d = relative_overlap(s.work, 0);

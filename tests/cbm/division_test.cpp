@@ -20,7 +20,7 @@ TEST(Division, DaughtersFillHalfTheMotherEachAndTouchItFromInside) {
     m.center = reference::random_vector(random, 300);
     m.radius = random.uniform(5, 20);
     m.direction = random.unit_vector();
-    const Daughters d = divide(m);
+    const DaughterSpheres d = divide(m);
     EXPECT_NEAR(2 * std::pow(d.radius, 3), std::pow(m.radius, 3), 8 * kEps * std::pow(m.radius, 3));
     // positions of 300 um carry eps of their own
     const double tolerance = 8 * kEps * (300 * std::sqrt(3.0) + m.radius);
@@ -43,20 +43,20 @@ TEST(Division, SeparationIsAShareOfTheLargestDistance) {
 }
 
 TEST(Division, StrengthRisesFromNoneToAllOverTheRamp) {
-  const Daughters d = divide({.radius = 15, .time = 1000, .ramp_duration = 8640});
+  const DaughterSpheres d = divide({.radius = 15, .time = 1000, .ramp_duration = 8640});
   EXPECT_EQ(d.strength.at(1000), 0);
   EXPECT_DOUBLE_EQ(d.strength.at(1000 + 2160), 0.25);
   EXPECT_EQ(d.strength.at(1000 + 8640), 1);
-  const Daughters at_once = divide({.radius = 15, .time = 1000, .ramp_duration = 0});
+  const DaughterSpheres at_once = divide({.radius = 15, .time = 1000, .ramp_duration = 0});
   EXPECT_EQ(at_once.strength.at(1000), 1);
 }
 
 TEST(Division, DaughtersPushEachOtherAlikeAndFarLessThanAtFullStrength) {
-  const Daughters d = divide({.center = {5, 6, 7},
-                              .radius = 12 * std::cbrt(2.0),
-                              .direction = Vec3(1, 2, 2) / 3,
-                              .time = 0,
-                              .ramp_duration = 8640});
+  const DaughterSpheres d = divide({.center = {5, 6, 7},
+                                    .radius = 12 * std::cbrt(2.0),
+                                    .direction = Vec3(1, 2, 2) / 3,
+                                    .time = 0,
+                                    .ramp_duration = 8640});
   std::vector<NewCell> cells{sphere(d.center[0], d.radius), sphere(d.center[1], d.radius)};
   Spheres full(cells);
   for (NewCell& c : cells) c.strength = d.strength;

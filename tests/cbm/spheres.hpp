@@ -15,7 +15,7 @@ struct Spheres {
   State state;
   std::vector<Params> params = std::vector<Params>(1);
   ContactParams options;
-  contact::Surroundings around;
+  contact::Boundary boundary;
   double time = 0;
   ContactWorkspace work;
   solve::System system;
@@ -31,7 +31,7 @@ struct Spheres {
   std::vector<double> radius() const { return radii_at(state, time); }
   void find() {
     const std::vector<double> r = radius(), strength = strengths_at(state, time);
-    const ContactInput in{state, params, options, {r, strength, mother}, around, time, 0};
+    const ContactInput in{state, params, options, {r, strength, mother}, boundary, time, 0};
     refresh_pairs(in, work);
     solve::set_blocks(system, make_blocks(state));
     find_overlaps(in, work);
@@ -50,7 +50,7 @@ struct Spheres {
       if (l.stiffness > 0 || l.friction > 0) out.push_back(l);
     return out;
   }
-  /// Force on a cell from other cells, and from surroundings, nN.
+  /// Force on a cell from other cells, and from boundary, nN.
   Vec3 force(std::size_t cell) const {
     return load_point(system.force.data(), cell_address(0, cell));
   }

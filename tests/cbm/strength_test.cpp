@@ -37,7 +37,7 @@ TEST(Strength, ScalesAllThatAPairDoesByTheStrongerCell) {
   std::vector<contact::Contact> listed;
   const std::vector<double> r = full.radius();
   for (const contact::Contact& c : full.sphere()) {
-    const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+    const std::size_t a = c.a, b = c.b;
     const double share =
         std::max(weak.state.strength[a].at(weak.time), weak.state.strength[b].at(weak.time));
     if (share == 0) continue;
@@ -91,7 +91,7 @@ TEST(Strength, OfOneIsNotLookedAtAndChangesNoBit) {
   s.find();
   const std::vector<double> force = s.system.force, r = s.radius(), ones(s.state.n_cell(), 1.0);
   contact::ContactList contacts;
-  find_contacts({s.state, s.params, s.options, {r, ones}, s.around}, s.work, contacts,
+  find_contacts({s.state, s.params, s.options, {r, ones}, s.boundary}, s.work, contacts,
                 s.system.point_links);
   for (std::size_t k = 0; k < force.size(); ++k) EXPECT_EQ(s.work.force[k], force[k]);
   s.state.strength[7] = {0, 1, 100, 200};
@@ -101,7 +101,7 @@ TEST(Strength, OfOneIsNotLookedAtAndChangesNoBit) {
   EXPECT_TRUE(strengths_at(s.state, 200).empty());
 }
 
-TEST(Strength, ScalesContactsWithSurroundings) {
+TEST(Strength, ScalesContactsWithTheBoundary) {
   auto make = [](double strength) {
     NewCell cell = sphere({1, 2, 11});
     cell.strength = Ramp::constant(strength);
@@ -114,14 +114,14 @@ TEST(Strength, ScalesContactsWithSurroundings) {
     contact::Capsule shell;
     shell.radius = 40;
     shell.center = {1, -26.5, 11};
-    s.around.planes = {floor, mirror};
-    s.around.capsules = {shell};
+    s.boundary.planes = {floor, mirror};
+    s.boundary.capsules = {shell};
     mesh::Network n;
     n.node = {{-8, -50, 24}, {-8, 50, 24}};
     n.segment = {{0, 1}};
     n.radius = {{4.7, 4.7}};
-    contact::set_network(s.around.vessels, n);
-    s.around.vessels.material = {0.01, 0.6, 0.4, false};
+    contact::set_network(s.boundary.vessels, n);
+    s.boundary.vessels.material = {0.01, 0.6, 0.4, false};
     s.find();
     return s;
   };

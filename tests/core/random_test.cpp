@@ -96,7 +96,7 @@ TEST(Random, UniformMomentsAndLevels) {
     squares += (x - 0.5) * (x - 0.5);
     low = std::min(low, x);
     high = std::max(high, x);
-    ++bins[static_cast<std::size_t>(100.0 * x)];
+    ++bins[100.0 * x];
   }
   double chi2 = 0.0;
   for (const int bin : bins) chi2 += (bin - 1e4) * (bin - 1e4) / 1e4;

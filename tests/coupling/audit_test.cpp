@@ -45,19 +45,15 @@ using Ids = std::vector<std::int64_t>;
 double convex_depth(const Surface& a, const Surface& b) {
   std::vector<Vec3> sample = a.node;
   for (const auto& t : a.triangle) {
-    const Vec3 &x = a.node[static_cast<std::size_t>(t[0])],
-               &y = a.node[static_cast<std::size_t>(t[1])],
-               &z = a.node[static_cast<std::size_t>(t[2])];
+    const Vec3 &x = a.node[t[0]], &y = a.node[t[1]], &z = a.node[t[2]];
     sample.insert(sample.end(), {(x + y) / 2, (y + z) / 2, (z + x) / 2, (x + y + z) / 3});
   }
   double depth = 0;
   for (const Vec3& p : sample) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& t : b.triangle) {
-      const Vec3& x = b.node[static_cast<std::size_t>(t[0])];
-      const Vec3 n = (b.node[static_cast<std::size_t>(t[1])] - x)
-                         .cross(b.node[static_cast<std::size_t>(t[2])] - x)
-                         .normalized();
+      const Vec3& x = b.node[t[0]];
+      const Vec3 n = (b.node[t[1]] - x).cross(b.node[t[2]] - x).normalized();
       nearest = std::min(nearest, (x - p).dot(n));
     }
     depth = std::max(depth, nearest);
@@ -304,11 +300,8 @@ TEST(Audit, BrokenCellsAreCounted) {
   Surface folded = ball({0, 100, 0}, 12);
   {  // a node moved just past its opposite edge: only triangles with common corners cross
     const auto& t = folded.triangle[0];
-    const Vec3 middle = (folded.node[static_cast<std::size_t>(t[1])] +
-                         folded.node[static_cast<std::size_t>(t[2])]) /
-                        2;
-    folded.node[static_cast<std::size_t>(t[0])] +=
-        1.6 * (middle - folded.node[static_cast<std::size_t>(t[0])]);
+    const Vec3 middle = (folded.node[t[1]] + folded.node[t[2]]) / 2;
+    folded.node[t[0]] += 1.6 * (middle - folded.node[t[0]]);
   }
   Surface flat = brick({300, 0, 0}, {304, 4, 4});
   flat.node[7] = flat.node[3];  // an edge of length zero: two triangles without area
@@ -376,24 +369,24 @@ TEST(Audit, HundredTouchingCellsGiveTheSameOnAnyThreadsAndPrintTheirTime) {
   EXPECT_GT(result[0].dcm_dcm.depth_um, 0);
 }
 
-TEST(Audit, DentExplainedByTheForceIsNotAPenetrationButTunnellingIs) {
+TEST(Audit, IndentationExplainedByTheForceIsNotAPenetrationButTunnellingIs) {
   const mesh::Topology t = mesh::make_icosphere(162);
-  auto audit_at = [&](double distance, double dent) {
+  auto audit_at = [&](double distance, double indentation) {
     std::vector<Vec3> node;
     for (const Vec3& x : t.rest) node.push_back(12 * x);
     const std::vector<AuditMesh> meshes{{1, node, t.triangle}};
     const std::vector<AuditSphere> spheres{{2, Vec3(distance, 0, 0), 12}};
-    const std::vector<AuditDent> dents{{1, 2, dent}};
+    const std::vector<KnownIndentation> indentations{{1, 2, indentation}};
     AuditFrame frame;
     frame.meshes = meshes;
     frame.spheres = spheres;
-    frame.dents = dents;
+    frame.indentations = indentations;
     return audit(frame);
   };
   const AuditResult pressed = audit_at(23.5, 0.4);
   EXPECT_GT(pressed.dcm_cbm.depth_um, 0.4);
-  EXPECT_NEAR(pressed.dcm_cbm_beyond_dent.depth_um, pressed.dcm_cbm.depth_um - 0.4, 1e-12);
-  EXPECT_EQ(pressed.max_penetration_um, pressed.dcm_cbm_beyond_dent.depth_um);
+  EXPECT_NEAR(pressed.dcm_cbm_beyond_indentation.depth_um, pressed.dcm_cbm.depth_um - 0.4, 1e-12);
+  EXPECT_EQ(pressed.max_penetration_um, pressed.dcm_cbm_beyond_indentation.depth_um);
   const AuditResult tunnelled = audit_at(2, 0.19);  // centres nearly together, hardly any force
   EXPECT_GT(tunnelled.max_penetration_um, 10);
 }

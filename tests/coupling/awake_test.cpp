@@ -95,7 +95,7 @@ TEST(AwakePart, MakesNoDifferenceToTheBitWhereverItsWorkspaceWasMade) {
   EXPECT_EQ(hash_state(again.state), hash_state(w.state));
 }
 
-TEST(AwakePart, IsLeftOutWhenAllSleepAndGlide) {
+TEST(AwakePart, IsLeftOutWhenAllSleepAndMoveOn) {
   World w = make_rows();
   w.state.asleep.assign(w.state.dcm.n_lane() + w.state.cbm.n_cell(), 1);
   const World before = w;
@@ -141,10 +141,10 @@ TEST(AwakePart, SleepersMoveAlongWithThoseAwake) {
   run_steps(tired, tired_work, 30);
   for (std::size_t lane : {0, 1}) {
     const Vec3 way = dcm::cell_center(awake.state.dcm, lane) - start[lane];
-    const Vec3 glided = dcm::cell_center(tired.state.dcm, lane) - start[lane];
-    std::printf("moved by %.3g um, off by %.3g um\n", way.norm(), (glided - way).norm());
+    const Vec3 moved = dcm::cell_center(tired.state.dcm, lane) - start[lane];
+    std::printf("moved by %.3g um, off by %.3g um\n", way.norm(), (moved - way).norm());
     EXPECT_GT(way.norm(), 0.05);
-    EXPECT_LT((glided - way).norm(), 0.02 * way.norm());
+    EXPECT_LT((moved - way).norm(), 0.02 * way.norm());
   }
 }
 

@@ -26,11 +26,11 @@ const double kMotherRadius = 12 * std::cbrt(2.0);  ///< um
 void divide_cell(World& world, std::size_t cell, const Vec3& direction) {
   const cbm::State old = world.state.cbm;
   const double now = world.state.clock.time;
-  const cbm::Daughters d = cbm::divide({.center = cbm::center_of(old, cell),
-                                        .radius = cbm::radii_at(old, now)[cell],
-                                        .direction = direction,
-                                        .time = now,
-                                        .ramp_duration = kRamp});
+  const cbm::DaughterSpheres d = cbm::divide({.center = cbm::center_of(old, cell),
+                                              .radius = cbm::radii_at(old, now)[cell],
+                                              .direction = direction,
+                                              .time = now,
+                                              .ramp_duration = kRamp});
   std::vector<cbm::NewCell> cells;
   for (std::size_t k = 0; k < old.n_cell(); ++k)
     cells.push_back({old.lineage[k], old.type[k], cbm::center_of(old, k),
@@ -72,7 +72,7 @@ World resting_clump(int count, double capsule_radius = 0) {
     shell.radius = capsule_radius + 12;
     shell.min_radius = capsule_radius;
     shell.speed = 12.0 / 36000;
-    w.params.around.capsules = {shell};
+    w.params.boundary.capsules = {shell};
   }
   return settled(std::move(w));
 }
@@ -261,7 +261,7 @@ TEST(CbmDivision, AcrossANarrowGapFindsItsBalance) {
     wall.point = {0, 0, -9 * side};
     wall.normal = {0, 0, side};
     wall.material.mirror = true;
-    narrow.params.around.planes.push_back(wall);
+    narrow.params.boundary.planes.push_back(wall);
   }
   narrow = settled(std::move(narrow));
   for (double step : {60.0, 120.0, 1800.0})

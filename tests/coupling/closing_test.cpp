@@ -18,7 +18,7 @@ World falling_cell(Integrator integrator) {
   World w = make_test_world({{Vec3(0, 0, 12.3), true, Vec3(0, 0, -3)}}, 60, 162);
   contact::Plane floor;
   floor.material.mirror = true;
-  w.params.around.planes = {floor};
+  w.params.boundary.planes = {floor};
   w.params.numerics.adaptive = true;
   w.params.numerics.tolerance = 10;  // the error estimate is not what is looked at
   w.params.numerics.cg = {1e-10, 20000};
@@ -88,8 +88,8 @@ TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
   n.node = {{-30, 0, 0}, {30, 0, 0}};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
-  contact::set_network(w.params.around.vessels, n);
-  w.params.around.vessels.material = {0, 0.6, 0.4, false};
+  contact::set_network(w.params.boundary.vessels, n);
+  w.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   w.params.numerics.adaptive = true;
   w.params.numerics.tolerance = 10;
   Workspace work;
@@ -104,7 +104,7 @@ TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
   dcm::copy_nodes(w.state.dcm, 0, node);
   double depth = 0;
   for (const Vec3& x : node)
-    depth = std::max(depth, -contact::gap_to_segment(w.params.around.vessels.network, 0, x).gap);
+    depth = std::max(depth, -contact::gap_to_segment(w.params.boundary.vessels.network, 0, x).gap);
   std::printf("%.3f um deep, %d rejections\n", depth, rejections);
   EXPECT_GT(depth, kControlledDepth) << "else there is nothing to see";
   EXPECT_EQ(rejections, 0);

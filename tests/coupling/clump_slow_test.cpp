@@ -62,12 +62,11 @@ TEST(ClumpSlow, EveryStepSizeSurvivesAndErrorsFall) {
   for (double step : {60.0, 120.0, 600.0}) {
     const Outcome o = run(step);
     ASSERT_TRUE(o.completed) << "dt = " << step;
-    error[static_cast<std::size_t>(k)] = relative_error(o.pressure, reference.pressure);
+    error[k] = relative_error(o.pressure, reference.pressure);
     std::printf(
         "dt %5.0f s against 7.5 s: pressure %.3g %%, volume %.3g %%, centres (aligned) %.3g um; "
         "penetration %.3f um\n",
-        step, 100 * error[static_cast<std::size_t>(k)],
-        100 * relative_error(o.volume, reference.volume),
+        step, 100 * error[k], 100 * relative_error(o.volume, reference.volume),
         aligned_distance(o.center, reference.center).max, o.penetration);
     if (step == 60) {
       EXPECT_LT(o.penetration, 0.3);

@@ -1,4 +1,4 @@
-/// Contacts one by one: reactions of the surroundings, who touches whom, the interface's balance.
+/// Contacts one by one: reactions of the boundary, who touches whom, the interface's balance.
 
 #include "coupling/measure/contact_forces.hpp"
 
@@ -41,9 +41,9 @@ Observed observed(World world) {
 
 TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
   World world = make_test_world({{Vec3::Zero(), false}});
-  world.params.around.planes = {mirror_at(Vec3(-11, 0, 0), Vec3::UnitX()),
-                                mirror_at(Vec3(11.5, 0, 0), -Vec3::UnitX()),
-                                mirror_at(Vec3(0, 0, -20), Vec3::UnitZ())};
+  world.params.boundary.planes = {mirror_at(Vec3(-11, 0, 0), Vec3::UnitX()),
+                                  mirror_at(Vec3(11.5, 0, 0), -Vec3::UnitX()),
+                                  mirror_at(Vec3(0, 0, -20), Vec3::UnitZ())};
   const Observed o = observed(world);
   const Reactions r = find_reactions(o.world, o.work);
   const double young = cbm::young_from_bulk(2.5, 0.47);
@@ -62,7 +62,7 @@ TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
 
 TEST(Reactions, OfAWallOnADeformableCellIsTheSumOverItsPoints) {
   World world = make_test_world({{Vec3::Zero(), true}});
-  world.params.around.planes = {mirror_at(Vec3(0, 0, -11.6), Vec3::UnitZ())};
+  world.params.boundary.planes = {mirror_at(Vec3(0, 0, -11.6), Vec3::UnitZ())};
   const Observed o = observed(world);
   const Reaction wall = find_reactions(o.world, o.work).plane[0];
   const contact::SurfaceBody& body = o.work.dcm.body[0];
@@ -86,8 +86,8 @@ TEST(Reactions, OfAWallOnADeformableCellIsTheSumOverItsPoints) {
 World compressed_box() {
   World world = make_test_world(checkered_cube(22.5), 60, 42);
   for (int k = 0; k < 3; ++k) {
-    world.params.around.planes.push_back(mirror_at(-11 * Vec3::Unit(k), Vec3::Unit(k)));
-    world.params.around.planes.push_back(mirror_at(33.5 * Vec3::Unit(k), -Vec3::Unit(k)));
+    world.params.boundary.planes.push_back(mirror_at(-11 * Vec3::Unit(k), Vec3::Unit(k)));
+    world.params.boundary.planes.push_back(mirror_at(33.5 * Vec3::Unit(k), -Vec3::Unit(k)));
   }
   return world;
 }
@@ -125,8 +125,8 @@ TEST(Reactions, OfVesselsAreThoseOfEverySegment) {
   n.node = {Vec3(-20, 0, 0), Vec3(20, 0, 0), Vec3(60, 0, 0)};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};
-  contact::set_network(world.params.around.vessels, n);
-  world.params.around.vessels.material = {0, 0.6, 0.4, false};
+  contact::set_network(world.params.boundary.vessels, n);
+  world.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   const Observed o = observed(world);
   const Reactions r = find_reactions(o.world, o.work);
   ASSERT_EQ(r.segment.size(), 2U);

@@ -22,7 +22,7 @@ Uniform stream(std::uint64_t seed) {
 }
 
 const Vec3& end_of(const mesh::Network& net, std::size_t segment, int end) {
-  return net.node[static_cast<std::size_t>(net.segment[segment][static_cast<std::size_t>(end)])];
+  return net.node[net.segment[segment][end]];
 }
 
 struct Statistics {
@@ -41,7 +41,7 @@ Statistics sinusoid_statistics(const Lobule& lobule) {
     ++s.n_sinusoid;
     s.length += length;
     s.longest = std::max(s.longest, length);
-    for (const int node : lobule.vessels.segment[i]) ++s.degree[static_cast<std::size_t>(node)];
+    for (const int node : lobule.vessels.segment[i]) ++s.degree[node];
   }
   return s;
 }
@@ -71,7 +71,7 @@ void expect_sound_network(const LobuleParameters& p, const Lobule& lobule) {
   std::vector<int> part(lobule.vessels.node.size());
   for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<int>(i);
   const auto root = [&](int i) {
-    while (part[static_cast<std::size_t>(i)] != i) i = part[static_cast<std::size_t>(i)];
+    while (part[i] != i) i = part[i];
     return i;
   };
   for (std::size_t i = 0; i < lobule.kind.size(); ++i) {
@@ -83,8 +83,7 @@ void expect_sound_network(const LobuleParameters& p, const Lobule& lobule) {
       for (const Vein& vein : domain.vein)
         EXPECT_GE(axis_distance(vein, x), vein.radius - 1e-4) << "segment " << i;
     }
-    part[static_cast<std::size_t>(root(lobule.vessels.segment[i][0]))] =
-        root(lobule.vessels.segment[i][1]);
+    part[root(lobule.vessels.segment[i][0])] = root(lobule.vessels.segment[i][1]);
   }
   // Wall nodes are joined through their vein, so each connected part must reach a vein's wall.
   const auto at_wall = [&](const Vec3& x) {
@@ -259,14 +258,12 @@ TEST(Packing, ClumpIsTheLatticeShells) {
   const auto fcc = make_clump({Lattice::kFcc, 19, 24, 0}, stream(1));
   ASSERT_EQ(fcc.size(), 19u);
   EXPECT_EQ(fcc[0], Vec3(0, 0, 0));
-  for (int i = 1; i < 13; ++i) EXPECT_NEAR(fcc[static_cast<std::size_t>(i)].norm(), 24, 1e-12);
-  for (int i = 13; i < 19; ++i)
-    EXPECT_NEAR(fcc[static_cast<std::size_t>(i)].norm(), 24 * std::sqrt(2.0), 1e-12);
+  for (int i = 1; i < 13; ++i) EXPECT_NEAR(fcc[i].norm(), 24, 1e-12);
+  for (int i = 13; i < 19; ++i) EXPECT_NEAR(fcc[i].norm(), 24 * std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(smallest_distance(fcc), 24, 1e-12);
   const auto bcc = make_clump({Lattice::kBcc, 15, 24, 0}, stream(1));
-  for (int i = 1; i < 9; ++i) EXPECT_NEAR(bcc[static_cast<std::size_t>(i)].norm(), 24, 1e-12);
-  for (int i = 9; i < 15; ++i)
-    EXPECT_NEAR(bcc[static_cast<std::size_t>(i)].norm(), 48 / std::sqrt(3.0), 1e-12);
+  for (int i = 1; i < 9; ++i) EXPECT_NEAR(bcc[i].norm(), 24, 1e-12);
+  for (int i = 9; i < 15; ++i) EXPECT_NEAR(bcc[i].norm(), 48 / std::sqrt(3.0), 1e-12);
   for (const int count : {0, 1, 500, 3000}) {
     EXPECT_EQ(make_clump({Lattice::kFcc, count, 1, 0}, stream(1)).size(),
               static_cast<std::size_t>(count));
@@ -310,7 +307,7 @@ TEST(Packing, HilbertOrderVisitsAGridByStepsToNeighbours) {
   EXPECT_EQ(seen.size(), grid.size());
   std::vector<Vec3> walk;
   for (const int i : order)
-    if (i != 512) walk.push_back(grid[static_cast<std::size_t>(i)]);
+    if (i != 512) walk.push_back(grid[i]);
   for (std::size_t i = 1; i < walk.size(); ++i)
     EXPECT_NEAR((walk[i] - walk[i - 1]).norm(), 1, 1e-12);
   EXPECT_TRUE(space_filling_order({}).empty());
@@ -332,10 +329,7 @@ TEST(VesselSurface, TubesAreClosedOutwardAndHaveTheVolumeOfTenSidedTubes) {
     for (const auto& e : {std::pair{i, j}, std::pair{j, k}, std::pair{k, i}})
       EXPECT_TRUE(directed.insert(e).second);
     const auto& node = tubes.surface.node;
-    volume[tubes.segment[t]] +=
-        node[static_cast<std::size_t>(i)].dot(
-            node[static_cast<std::size_t>(j)].cross(node[static_cast<std::size_t>(k)])) /
-        6;
+    volume[tubes.segment[t]] += node[i].dot(node[j].cross(node[k])) / 6;
   }
   for (const auto& [i, j] : directed) EXPECT_TRUE(directed.count({j, i}));
   // A regular decagon covers 5 sin(36 deg)/pi of its circle; the caps add about 2/3 pi r^3 each.

@@ -21,8 +21,8 @@ namespace {
 constexpr double kEnd = 0.064;   ///< s, a part of the slow modes' relaxation
 constexpr double kStep = 0.002;  ///< s, below the limit of explicit Euler
 
-/// One cell of 42 nodes, stretched by 10 % along one axis and compressed along the others so that the
-/// volume stays.
+/// One cell of 42 nodes, stretched by 10 % along one axis and compressed along the others so that
+/// the volume stays.
 World stretched_cell(Integrator integrator, double step) {
   World w = make_test_world({{Vec3(1, 2, 3)}}, step, 42);
   w.params.dcm[0].viscosity = 1e-6;
@@ -75,7 +75,7 @@ double largest_edge_difference(const std::vector<Vec3>& x, const std::vector<Vec
   double largest = 0;
   for (const auto& t : mesh::shared_icosphere(42).triangle)
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(t[k]), j = static_cast<std::size_t>(t[(k + 1) % 3]);
+      const std::size_t i = t[k], j = t[(k + 1) % 3];
       largest = std::max(largest, std::abs((x[i] - x[j]).norm() - (y[i] - y[j]).norm()));
     }
   return largest;
@@ -244,7 +244,7 @@ TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
     contact::Capsule shell;
     shell.center = Vec3::Constant(11.75);
     shell.radius = 32;
-    w.params.around.capsules = {shell};
+    w.params.boundary.capsules = {shell};
     Workspace work;
     size_workspace(w, work);
     ASSERT_TRUE(advance(w, work, 60).accepted);

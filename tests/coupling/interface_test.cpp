@@ -115,7 +115,7 @@ TEST(Interface, PartitionedTwinAgreesWithTheSingleSolve) {
 }
 
 TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
-  // k_w = 4 E* / (3 pi R sqrt(dent / R)); E* = 0.45/(1 - 0.47^2), R = 12, dent = 0.48
+  // k_w = 4 E* / (3 pi R sqrt(indentation / R)); E* = 0.45/(1 - 0.47^2), R = 12, indentation = 0.48
   const double young = 0.45 / (1 - 0.47 * 0.47), winkler = 4 * young / (3 * kPi * 12 * 0.2);
   const SphereSurface plain{12, 0.45, 0.47, {0.45, 0}, nullptr};
   EXPECT_NEAR(find_compliance(5, plain, 0.48).stiffness, 5 * winkler / (5 + winkler), 1e-15);
@@ -126,14 +126,14 @@ TEST(Interface, CompliantStiffnessIsTheSeriesOfPenaltyAndWinkler) {
             find_compliance(5, plain, 12 * 0.3).stiffness);
 }
 
-TEST(Interface, ACalibratedSphereHardensUnderADentDeeperThanItsOverlap) {
+TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) {
   const cbm::StiffnessLaw law{{{4000, 4}}, {}, 0.2};
   const double mean = 0.12;
   const SphereSurface sphere{12, 0.45, 0.47, cbm::corrected_modulus(law, 0.45, mean), &law};
   SphereSurface frozen = sphere;
   frozen.law = nullptr;
   // As deep as the mean or less: the modulus of the mean overlap, which does not depend on the
-  // dent.
+  // indentation.
   for (const double d : {0.05, 0.12}) {
     EXPECT_EQ(find_compliance(5, sphere, 12 * d).stiffness,
               find_compliance(5, frozen, 12 * d).stiffness);

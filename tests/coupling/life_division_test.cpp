@@ -128,7 +128,7 @@ TEST(Division, AlongAGivenAxis) {
       n.node = {{40, 0, -50}, {40, 0, 50}, {140, 0, 50}};
       n.segment = {{0, 1}, {1, 2}};
       n.radius = {{4.7, 4.7}, {4.7, 4.7}};
-      contact::set_network(w.params.around.vessels, n);
+      contact::set_network(w.params.boundary.vessels, n);
       begin_with_mothers(w);
       look(w, 0);
       const auto index = index_cells(w.state);
@@ -226,13 +226,13 @@ TEST(Division, AtAMirrorWallAndOnAVesselStaysOnItsSide) {
   World w = make_living_world({mother({0, 0, 14.9}), mother({0, 60, 14.9 + 4.7})}, 162);
   contact::Plane wall;
   wall.material.mirror = true;
-  w.params.around.planes = {wall};
+  w.params.boundary.planes = {wall};
   mesh::Network n;
   n.node = {{-60, 60, 0}, {60, 60, 0}};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
-  contact::set_network(w.params.around.vessels, n);
-  w.params.around.planes[0].point = {0, 0, -0.05};
+  contact::set_network(w.params.boundary.vessels, n);
+  w.params.boundary.planes[0].point = {0, 0, -0.05};
   // One mother across the wall, one along the vessel.
   w.params.life.type[0].axis = DivisionAxis::kGiven;
   w.params.life.type[0].direction = Vec3(1, 0, 1);
@@ -245,8 +245,8 @@ TEST(Division, AtAMirrorWallAndOnAVesselStaysOnItsSide) {
   for (std::int64_t id : lineages(w.state))
     for (const Vec3& x : nodes_of(w.state, id)) {
       wall_depth = std::max(wall_depth, -0.05 - x.z());
-      vessel_depth = std::max(vessel_depth,
-                              -contact::gap_to_segment(w.params.around.vessels.network, 0, x).gap);
+      vessel_depth = std::max(
+          vessel_depth, -contact::gap_to_segment(w.params.boundary.vessels.network, 0, x).gap);
     }
   std::printf("half an hour later: %.3f um into the wall, %.3f um into the vessel\n", wall_depth,
               vessel_depth);
@@ -261,7 +261,7 @@ TEST(Division, ThatNoPlaneAllowsWaits) {
   // A tetrapod: nodes near four corners pulled out, all others drawn in. Every cut has flaws.
   const mesh::Topology& t = mesh::shared_icosphere(42);
   for (int i = 0; i < t.n_node; ++i) {
-    const Vec3& u = t.rest[static_cast<std::size_t>(i)];
+    const Vec3& u = t.rest[i];
     const double lobe = std::max({u.dot(Vec3(1, 1, 1)), u.dot(Vec3(1, -1, -1)),
                                   u.dot(Vec3(-1, 1, -1)), u.dot(Vec3(-1, -1, 1))}) /
                         std::sqrt(3.0);

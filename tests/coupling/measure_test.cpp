@@ -64,17 +64,17 @@ TEST(ContactForce, OfTwoDeformableCellsIsTheSame) {
   EXPECT_EQ(o.cell[0].contacts, 1);
 }
 
-TEST(ContactForce, CountsAllSurroundingsAsOnePartner) {
+TEST(ContactForce, CountsTheWholeBoundaryAsOnePartner) {
   // In a corner of two equal walls: the resultant is sqrt 2 times the force of one.
   World world = make_test_world({{Vec3(11.5, 11.5, 0), false}});
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
     contact::Plane plane;
     plane.normal = normal;
     plane.material.mirror = true;
-    world.params.around.planes.push_back(plane);
+    world.params.boundary.planes.push_back(plane);
   }
   const Observed both = observe_cells(world);
-  world.params.around.planes.pop_back();
+  world.params.boundary.planes.pop_back();
   world.state.cbm.position = both.world.state.cbm.position;
   const Observed one = observe_cells(world);
   EXPECT_GT(one.cell[0].contact_force, 0);

@@ -43,16 +43,14 @@ void spoil(const mesh::Topology& t, Damage damage, double noise, std::vector<Vec
   constexpr std::size_t kNode = 20;
   UniformStream random = reference::stream(7);
   const Vec3 here = d[kNode];
-  const Vec3 next =
-      d[static_cast<std::size_t>(t.ring[static_cast<std::size_t>(t.ring_start[kNode])])];
+  const Vec3 next = d[t.ring[t.ring_start[kNode]]];
   if (damage == Damage::kEdge) d[kNode] = 0.02 * here + 0.98 * next;
   if (damage == Damage::kFold) d[kNode] = here + 1.6 * (next - here);
   if (damage == Damage::kNeedle) {
-    const int face = t.node_triangle[static_cast<std::size_t>(t.node_triangle_start[kNode])];
+    const int face = t.node_triangle[t.node_triangle_start[kNode]];
     Vec3 side = Vec3::Zero();
-    for (const int i : t.triangle[static_cast<std::size_t>(face)])
-      if (i != static_cast<int>(kNode))
-        side += (side.isZero() ? 0.6 : 0.4) * d[static_cast<std::size_t>(i)];
+    for (const int i : t.triangle[face])
+      if (i != static_cast<int>(kNode)) side += (side.isZero() ? 0.6 : 0.4) * d[i];
     d[kNode] = 0.01 * here + 0.99 * side;
   }
   if (damage == Damage::kNoise)
@@ -230,8 +228,8 @@ void spoil_in_place(World& world, std::size_t lane, int node, double share) {
   std::vector<Vec3> x;
   dcm::copy_nodes(world.state.dcm, lane, x);
   const mesh::Topology& t = mesh::shared_icosphere(162);
-  const auto i = static_cast<std::size_t>(node);
-  const auto j = static_cast<std::size_t>(t.ring[static_cast<std::size_t>(t.ring_start[i])]);
+  const std::size_t i = node;
+  const std::size_t j = t.ring[t.ring_start[i]];
   const std::vector<Vec3> before = x;
   x[i] = mesh::AuditBody(before, t.triangle).closest_point(x[i] + share * (x[j] - x[i]));
   const std::vector<double> all(x.size(), 1.0);

@@ -82,12 +82,12 @@ std::map<std::int64_t, Cell> index_cells(const State& s) {
 Touching touching_lineages(const cbm::State& s) {
   Touching t;
   for (const auto& [a, b] : s.touching) {
-    const std::int64_t i = s.lineage[static_cast<std::size_t>(a)];
+    const std::int64_t i = s.lineage[a];
     if (b < 0) {
       t.emplace(i, b);
       continue;
     }
-    const std::int64_t j = s.lineage[static_cast<std::size_t>(b)];
+    const std::int64_t j = s.lineage[b];
     t.emplace(std::min(i, j), std::max(i, j));
   }
   return t;
@@ -170,7 +170,7 @@ TEST(Compose, LanesWithoutACellHoldTheRestShapeAndNothingElse) {
     const mesh::Topology& t = *now.dcm.group[l / kLanes].topology;
     for (int i = 0; i < t.n_node; ++i) {
       const Address a = dcm::node_address(now.dcm, l, i);
-      EXPECT_EQ(load_point(now.dcm.position.data(), a), t.rest[static_cast<std::size_t>(i)]);
+      EXPECT_EQ(load_point(now.dcm.position.data(), a), t.rest[i]);
       EXPECT_EQ(load_point(now.last_move.data(), a), Vec3::Zero());
     }
     EXPECT_EQ(now.cycle[l].fate, Fate::kIdle);

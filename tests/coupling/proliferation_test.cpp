@@ -70,8 +70,7 @@ TEST(Proliferation, EntersWithTheRateOfItsLayerWithinTheWindow) {
   for (double t = 600; t <= 20 * kHour; t += 600) look(w, t);
   std::array<double, 4> share{};
   for_each_cell(w.state, [&](const Cell& c) {
-    if (w.state.cycle[c.index].fate == Fate::kGrow)
-      share[static_cast<std::size_t>(lineage_of(w.state, c) % 4)] += 1.0 / 250;
+    if (w.state.cycle[c.index].fate == Fate::kGrow) share[lineage_of(w.state, c) % 4] += 1.0 / 250;
   });
   std::printf("shares by layer: %.3f %.3f %.3f %.3f\n", share[0], share[1], share[2], share[3]);
   // 1 - exp(-rate * window) (the look at t = 0 is not in the window of 59 looks: 1/60 of it less);
@@ -125,16 +124,16 @@ TEST(Density, CountsCellsAndTheirImagesInMirrorPlanes) {
   EXPECT_NEAR(local_densities(w)[0], 2 * one, 1e-12 * one);
   contact::Plane floor;
   floor.material.mirror = true;
-  w.params.around.planes = {floor};
+  w.params.boundary.planes = {floor};
   EXPECT_NEAR(local_densities(w)[0], 4 * one, 1e-12 * one);
   contact::Plane side;  // 40 um from the first cell: 80 um to its own image, the other's is nearer
   side.point = Vec3(40, 0, 0);
   side.normal = -Vec3::UnitX();
   side.material.mirror = true;
-  w.params.around.planes.push_back(side);
+  w.params.boundary.planes.push_back(side);
   EXPECT_NEAR(local_densities(w)[0], 4 * one, 1e-12 * one) << "image at 50 um is out of reach";
   EXPECT_NEAR(local_densities(w)[1], 6 * one, 1e-12 * one) << "its own at 20 um, twice";
-  w.params.around.planes[0].material.mirror = false;
+  w.params.boundary.planes[0].material.mirror = false;
   EXPECT_NEAR(local_densities(w)[1], 3 * one, 1e-12 * one);
 }
 

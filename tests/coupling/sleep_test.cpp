@@ -23,7 +23,7 @@ World make_pressed_clump(bool sleep) {
   shell.radius = 32;
   shell.min_radius = 26;
   shell.speed = 6.0 / 1800;
-  w.params.around.capsules = {shell};
+  w.params.boundary.capsules = {shell};
   w.params.sleep = {sleep, 600, 1e-3};
   return w;
 }
@@ -61,7 +61,7 @@ std::map<std::int64_t, double> pressures(const World& w, Workspace& work) {
   return p;
 }
 
-TEST(Sleep, ARestingClumpFallsAsleepAndGlidesFromLookToLook) {
+TEST(Sleep, ARestingClumpFallsAsleepAndMovesOnFromCheckToCheck) {
   World w = make_pressed_clump(true);
   Workspace work;
   size_workspace(w, work);
@@ -76,15 +76,15 @@ TEST(Sleep, ARestingClumpFallsAsleepAndGlidesFromLookToLook) {
   run_for(w, work, 399);
   const auto end = places(w.state);
   EXPECT_EQ(count_asleep(w.state), 8);
-  double glided = 0, off = 0;
+  double moved = 0, off = 0;
   for (const auto& [id, x] : start)
     for (std::size_t k = 0; k < x.size(); ++k) {
       const Vec3 way = end.at(id)[k] - x[k];
-      glided = std::max(glided, way.norm());
+      moved = std::max(moved, way.norm());
       off = std::max(off, (middle.at(id)[k] - x[k] - way * (200.0 / 599)).norm());
     }
-  EXPECT_GT(glided, 1e-4) << "what creeps goes on creeping";
-  EXPECT_LT(off, 1e-9 * glided);
+  EXPECT_GT(moved, 1e-4) << "what creeps goes on creeping";
+  EXPECT_LT(off, 1e-9 * moved);
 }
 
 TEST(Sleep, PressuresOfAClumpAtRestAreThoseWithoutSleep) {

@@ -77,8 +77,7 @@ TEST(Subworld, NothingMovesByItselfThere) {
   EXPECT_EQ(s.clock.time, 500);
   ASSERT_EQ(dcm::count_cells(s.dcm), 3);
   ASSERT_EQ(s.cbm.n_cell(), 3u);
-  const auto lane =
-      static_cast<std::size_t>(std::ranges::find(s.dcm.lineage, 2) - s.dcm.lineage.begin());
+  const std::size_t lane = std::ranges::find(s.dcm.lineage, 2) - s.dcm.lineage.begin();
   EXPECT_EQ(s.dcm.volume[lane].at(500), 10500);
   EXPECT_EQ(s.dcm.volume[lane].at(1000), 10500);
   EXPECT_EQ(s.cbm.volume[0].at(1000), 10500) << "moving cells come first";

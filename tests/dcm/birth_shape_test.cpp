@@ -41,7 +41,7 @@ Cells make_half_spheres(double stretch, const Ramp& weight) {
   Cells c = make_rest_cells(t, std::vector<double>(kLanes, kRadius));
   const std::vector<Vec3> half = half_sphere(t);
   for (std::size_t lane : kDaughters) {
-    for (int i = 0; i < t.n_node; ++i) c.move(lane, i, half[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < t.n_node; ++i) c.move(lane, i, half[i]);
     c.state.birth[lane] = make_birth_shape(t, half, kRadius, stretch, weight);
   }
   c.reset();
@@ -67,25 +67,25 @@ Cells make_mixed_cells(int n_node, const Ramp& weight) {
 /// Tension k (1 - 1/sqrt(s)) times the length of every edge: a spring net stretched alike
 /// everywhere.
 std::vector<Vec3> plain_cortex_force(const Cells& c, std::size_t lane, double stretch) {
-  std::vector<Vec3> force(static_cast<std::size_t>(c.n_node()), Vec3::Zero());
+  std::vector<Vec3> force(c.n_node(), Vec3::Zero());
   for (const auto& [i, j] : c.state.group[0].topology->edge) {
     const Vec3 f = table_one().spring_stiffness * (1 - 1 / std::sqrt(stretch)) *
                    (c.node(lane, j) - c.node(lane, i));
-    force[static_cast<std::size_t>(i)] += f;
-    force[static_cast<std::size_t>(j)] -= f;
+    force[i] += f;
+    force[j] -= f;
   }
   return force;
 }
 /// K_A (s - 1) against the gradient of the area, for the whole surface and for every triangle
 /// alike.
 std::vector<Vec3> plain_area_force(const Cells& c, std::size_t lane, double stretch) {
-  std::vector<Vec3> force(static_cast<std::size_t>(c.n_node()), Vec3::Zero());
+  std::vector<Vec3> force(c.n_node(), Vec3::Zero());
   for (const auto& t : c.state.group[0].topology->triangle) {
     const Vec3 x[3] = {c.node(lane, t[0]), c.node(lane, t[1]), c.node(lane, t[2])};
     const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
     for (std::size_t m = 0; m < 3; ++m)
-      force[static_cast<std::size_t>(t[m])] -= table_one().area_modulus * (stretch - 1) * 0.5 *
-                                               normal.cross(x[(m + 2) % 3] - x[(m + 1) % 3]);
+      force[t[m]] -= table_one().area_modulus * (stretch - 1) * 0.5 *
+                     normal.cross(x[(m + 2) % 3] - x[(m + 1) % 3]);
   }
   return force;
 }
@@ -129,7 +129,7 @@ TEST(BirthShape, AStretchIsFeltAsOnASphereStretchedByIt) {
                                              ? plain_cortex_force(c, lane, stretch)
                                              : plain_area_force(c, lane, stretch);
       for (int i = 0; i < c.n_node(); ++i) {
-        const Vec3& f = expected[static_cast<std::size_t>(i)];
+        const Vec3& f = expected[i];
         worst = std::max(worst, (c.force(lane, i) - f).norm());
         size = std::max(size, f.norm());
       }

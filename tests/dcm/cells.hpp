@@ -94,7 +94,7 @@ inline Cells make_deformed_cells(int n_node = 162) {
     const double rough = l == kNoCell ? 0 : 0.1 * t.mean_rest_length * radius[l];
     for (int i = 0; i < t.n_node; ++i) {
       const Vec3 noise = reference::random_vector(random, rough);
-      const Vec3& rest = t.rest[static_cast<std::size_t>(i)];
+      const Vec3& rest = t.rest[i];
       out.move(l, i, l == kNoCell ? rest : Vec3(center + radius[l] * (shape * rest) + noise));
     }
   }
@@ -153,13 +153,11 @@ inline std::vector<Eigen::MatrixXd> lane_matrices(const Cells& c) {
   std::vector<Eigen::MatrixXd> out(kLanes, Eigen::MatrixXd::Zero(n, n));
   std::vector<double> x(c.system.n_dof()), y(x.size());
   for (int column = 0; column < n; ++column) {
-    for (int l = 0; l < kLanes; ++l) x[static_cast<std::size_t>(column * kLanes + l)] = 1;
+    for (int l = 0; l < kLanes; ++l) x[column * kLanes + l] = 1;
     op.apply(x, y);
     for (int l = 0; l < kLanes; ++l) {
-      x[static_cast<std::size_t>(column * kLanes + l)] = 0;
-      for (int row = 0; row < n; ++row)
-        out[static_cast<std::size_t>(l)](row, column) =
-            y[static_cast<std::size_t>(row * kLanes + l)];
+      x[column * kLanes + l] = 0;
+      for (int row = 0; row < n; ++row) out[l](row, column) = y[row * kLanes + l];
     }
   }
   return out;

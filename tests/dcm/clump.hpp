@@ -14,14 +14,14 @@ struct Clump {
   State state;
   std::vector<Params> params;
   ContactParams options;
-  contact::Surroundings around;
+  contact::Boundary boundary;
   double time = 0;
   LaneData lanes;
   ContactWorkspace work;
   contact::ContactList contacts;
   solve::Links links;
 
-  ContactInput input() const { return {state, params, options, lanes, around, time}; }
+  ContactInput input() const { return {state, params, options, lanes, boundary, time}; }
   std::span<const contact::Contact> surface() const { return contacts.surface(); }
   std::span<const contact::Contact> obstacle() const { return contacts.obstacle(); }
 
@@ -34,7 +34,7 @@ struct Clump {
   void find() {
     lanes = make_lane_data(state, time);
     work.fixed.clear();
-    for (const contact::StaticMesh& m : around.meshes) work.fixed.push_back(m.body);
+    for (const contact::StaticMesh& m : boundary.meshes) work.fixed.push_back(m.body);
     refresh_bodies(state, work);
     refresh_lists(input(), work);
     find_contacts(input(), work, contacts);

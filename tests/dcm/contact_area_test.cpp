@@ -84,8 +84,7 @@ TEST(ContactLoads, FlatPatchesTakeTheWorkOfAdhesionToPart) {
     double touched = 0;
     for (std::size_t k = 0; k < t.triangle.size(); ++k) {
       int corners = 0;  // of the triangle that lie on the side
-      for (int i : t.triangle[k])
-        corners += t.rest[static_cast<std::size_t>(i)].z() * radius > half - 1e-9 ? 1 : 0;
+      for (int i : t.triangle[k]) corners += t.rest[i].z() * radius > half - 1e-9 ? 1 : 0;
       const int edges = corners == 3 ? 3 : corners == 2 ? 1 : 0;
       double share = corners == 3 ? 1 : 0;
       if (q == contact::Quadrature::kNodes) share = corners / 3.0;

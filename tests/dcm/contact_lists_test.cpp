@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "tests/dcm/surrounded_clump.hpp"
+#include "tests/dcm/bounded_clump.hpp"
 
 namespace acinus::dcm {
 namespace {
 
 TEST(ContactLists, OldListsGiveWhatNewListsGive) {
   Clump c = make_surrounded_clump(88);
-  connect_meshes(c.around);
+  connect_meshes(c.boundary);
   auto random = reference::stream(89);
   c.find();
   const State start = c.state;
@@ -27,7 +27,7 @@ TEST(ContactLists, OldListsGiveWhatNewListsGive) {
     const auto gap = gaps_of(c);
     const auto force = c.node_force();
     Clump fresh = c;
-    connect_meshes(fresh.around);
+    connect_meshes(fresh.boundary);
     fresh.find_afresh();
     EXPECT_EQ(fresh.work.lists.made, fresh.work.lists.pair.size());
     EXPECT_EQ(features, features_of(fresh));
@@ -43,7 +43,7 @@ TEST(ContactLists, OldListsGiveWhatNewListsGive) {
 
 TEST(ContactLists, OnlyListsOfACellThatMovedAreMade) {
   Clump c = make_surrounded_clump(92);
-  connect_meshes(c.around);
+  connect_meshes(c.boundary);
   c.find();
   const auto made = c.work.lists.made;
   for (int i = 0; i < 162; ++i)
@@ -55,7 +55,7 @@ TEST(ContactLists, OnlyListsOfACellThatMovedAreMade) {
   EXPECT_GT(with_it, 0);
   EXPECT_EQ(c.work.lists.made, made + with_it);
   Clump fresh = c;
-  connect_meshes(fresh.around);
+  connect_meshes(fresh.boundary);
   fresh.find_afresh();
   EXPECT_EQ(features_of(c), features_of(fresh));
   EXPECT_EQ(gaps_of(c), gaps_of(fresh));
@@ -63,7 +63,7 @@ TEST(ContactLists, OnlyListsOfACellThatMovedAreMade) {
 
 TEST(ContactLists, ListsOutliveNewNumbersOfTheCells) {
   Clump c = make_surrounded_clump(93);
-  connect_meshes(c.around);
+  connect_meshes(c.boundary);
   c.find();
   const auto made = c.work.lists.made;
   const std::vector<CellRef> rest{{&c.state, 3}, {&c.state, 8}, {&c.state, 0}, {&c.state, 2}};
@@ -75,7 +75,7 @@ TEST(ContactLists, ListsOutliveNewNumbersOfTheCells) {
   EXPECT_EQ(c.work.lists.body.size(), 4u);
   EXPECT_EQ(c.work.lists.made, made);
   Clump fresh = c;
-  connect_meshes(fresh.around);
+  connect_meshes(fresh.boundary);
   fresh.find_afresh();
   EXPECT_GT(fresh.work.lists.made, 0);
   EXPECT_EQ(features_of(c), features_of(fresh));

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
-#include "tests/dcm/surrounded_clump.hpp"
 #include "tests/reference/dense_system.hpp"
 
 namespace acinus::dcm {
@@ -53,12 +53,12 @@ TEST(ContactLoads, PairsBalanceForceAndTorque) {
 double contact_energy(const Clump& c, std::size_t link, double gap) {
   const contact::Contact& k = c.contacts.all[link];
   const int body = k.a, point = k.point;
-  const std::size_t lane = c.work.lane_of_body[static_cast<std::size_t>(body)];
+  const std::size_t lane = c.work.lane_of_body[body];
   const mesh::Topology& t = *c.state.group[lane / kLanes].topology;
   const double radius = c.lanes.radius[lane];
   if (k.guard) {
     // A node or face centre more than 0.05 um inside: a quarter of its area, repulsion alone.
-    const auto n_node = static_cast<std::size_t>(t.n_node), p = static_cast<std::size_t>(point);
+    const std::size_t n_node = t.n_node, p = point;
     const double rest = p < n_node ? t.rest_node_area[p] : t.rest_triangle_area[p - n_node];
     const double depth = std::max(0.0, -gap - 0.05);
     return 0.25 * rest * radius * radius * 0.5 * c.options.repulsion * depth * depth;
@@ -68,15 +68,15 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
     weight = 0.5;  // the other side probes as well
   } else {
     const contact::Partner kind = k.partner;
-    const auto index = static_cast<std::size_t>(k.b);
-    if (kind == contact::Partner::kPlane) adhesion = c.around.planes[index].material.adhesion;
-    if (kind == contact::Partner::kCapsule) adhesion = c.around.capsules[index].material.adhesion;
-    if (kind == contact::Partner::kVessel) adhesion = c.around.vessels.material.adhesion;
-    if (kind == contact::Partner::kMesh) adhesion = c.around.meshes[0].material.adhesion;
+    const std::size_t index = k.b;
+    if (kind == contact::Partner::kPlane) adhesion = c.boundary.planes[index].material.adhesion;
+    if (kind == contact::Partner::kCapsule) adhesion = c.boundary.capsules[index].material.adhesion;
+    if (kind == contact::Partner::kVessel) adhesion = c.boundary.vessels.material.adhesion;
+    if (kind == contact::Partner::kMesh) adhesion = c.boundary.meshes[0].material.adhesion;
   }
   const double area = rest_share(t, c.options.quadrature, point);
   return weight * area * radius * radius *
-         contact::well_energy(
+         contact::cohesive_energy(
              {adhesion, c.options.repulsion, c.options.range_factor * t.mean_rest_length * radius},
              gap);
 }
@@ -88,7 +88,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
   std::array<int, 5> kinds{};
   for (std::uint64_t seed = 80; seed < 86; ++seed) {
     Clump c = make_surrounded_clump(seed);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.options.quadrature = kAll[seed < 84 ? seed % 2 : 2];
     c.find();
     auto random = reference::stream(seed + 10);
@@ -124,7 +124,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
           (contact_energy(c, down, more[up]) - contact_energy(c, down, less[down])) / (2 * h);
       EXPECT_EQ(links.link[l].gap, static_cast<float>(gap[l]));
       ++tried;
-      const auto kind = static_cast<std::size_t>(before[l][2] / kPartner);
+      const std::size_t kind = before[l][2] / kPartner;
       ++kinds[kind];
       worst[kind] = std::max(worst[kind], std::abs(work + slope) / scale);
     }
@@ -144,7 +144,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
 
 TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
   Clump c = make_surrounded_clump(85);
-  connect_meshes(c.around);
+  connect_meshes(c.boundary);
   c.find();
   const auto gap = gaps_of(c);
   for (std::size_t l = 0; l < c.links.size(); ++l) {
@@ -170,7 +170,7 @@ TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
 TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
   for (const auto q : kAll) {
     Clump c = make_surrounded_clump(94);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.options.quadrature = q;
     c.find();
     const auto gap = gaps_of(c);
@@ -187,7 +187,7 @@ TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
         continue;
       }
       const contact::Contact& k = c.contacts.all[l];
-      const auto& body = c.work.body[static_cast<std::size_t>(k.a)];
+      const auto& body = c.work.body[k.a];
       const contact::PointStencil point = stencil_of(c.options, body, k);
       worst = std::max(worst, (r - contact::point_position(body, point)).norm());
     }
@@ -245,7 +245,7 @@ TEST(Contacts, SameBitsForAnyNumberOfThreads) {
   for (int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Clump c = make_surrounded_clump(91);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.find();
     force.push_back(c.node_force());
   }
@@ -258,7 +258,7 @@ TEST(Contacts, SameBitsForAnyNumberOfThreads) {
 TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
   for (const auto q : kAll) {
     Clump c = make_surrounded_clump(92);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.options.quadrature = q;
     c.options.whole_medium_area = true;
     c.find();
@@ -279,7 +279,7 @@ TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
 TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
   for (const auto q : kAll) {
     Clump c = make_surrounded_clump(92);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.options.quadrature = q;
     c.find();
     std::vector<double> medium_area;
@@ -289,8 +289,8 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     for (std::size_t k = 0; k < c.work.share.size(); ++k)
       for (double s : c.work.share[k]) most = std::max(most, s);
     const auto count = [&](int body, int point, double gap) {
-      const auto k = static_cast<std::size_t>(body);
-      const double total = c.work.share[k][static_cast<std::size_t>(point)];
+      const std::size_t k = body;
+      const double total = c.work.share[k][point];
       touching[k] +=
           point_area(*c.work.body[k].topology, q, point, c.lanes.radius[c.work.lane_of_body[k]]) *
           share_scale(total) * contact::contact_share(gap, c.options.friction_range);
@@ -326,14 +326,14 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
 
 TEST(ContactLoads, FrictionIsAreaTimesShare) {
   Clump c = make_surrounded_clump(93);
-  connect_meshes(c.around);
+  connect_meshes(c.boundary);
   c.options.friction_factor = 0.5;
   c.find();
   const auto gap = gaps_of(c);
   double most = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
     const contact::Contact& contact = c.contacts.all[l];
-    const auto k = static_cast<std::size_t>(contact.a);
+    const std::size_t k = contact.a;
     const int point = contact.point;
     const solve::Link& link = c.links.link[l];
     if (contact.guard) {
@@ -343,7 +343,7 @@ TEST(ContactLoads, FrictionIsAreaTimesShare) {
     }
     const bool pair = contact.partner == contact::Partner::kSurface;
     const bool mirror = contact.partner == contact::Partner::kPlane && contact.b == 1;
-    const double total = c.work.share[k][static_cast<std::size_t>(point)];
+    const double total = c.work.share[k][point];
     const double touching = point_area(*c.work.body[k].topology, c.options.quadrature, point,
                                        c.lanes.radius[c.work.lane_of_body[k]]) *
                             contact::contact_share(gap[l], 0.3) / std::max(1.0, total);

@@ -122,8 +122,8 @@ TEST(Collapse, StiffnessIsAtLeastThatOfTheArea) {
   for (std::size_t m = 0; m < 3; ++m)
     g.segment<3>(3 * corner[m]) = 0.5 * n.normalized().cross(x[(m + 2) % 3] - x[(m + 1) % 3]);
   const double area = 0.5 * n.norm(), least = 0.1 * rest_triangle_area(c.view(), 11, kLane);
-  const double curvature =
-      2 * table_one().bending_stiffness * std::pow(least / (area * area), 2);  // 2 k_b compression'^2
+  const double curvature = 2 * table_one().bending_stiffness *
+                           std::pow(least / (area * area), 2);  // 2 k_b compression'^2
   const Eigen::MatrixXd k = lane_matrices(c)[kLane];
   EXPECT_GE(g.dot(k * g), curvature * std::pow(g.squaredNorm(), 2));
 }

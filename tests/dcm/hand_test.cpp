@@ -166,8 +166,7 @@ TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> v(c.system.n_dof()), f(v.size());
       for (int i = 0; i < c.n_node(); ++i)
-        store_point(v.data(), make_address(static_cast<std::size_t>(i), 0),
-                    Vec3::Unit(axis).cross(c.node(0, i)));
+        store_point(v.data(), make_address(i, 0), Vec3::Unit(axis).cross(c.node(0, i)));
       op.apply(v, f);
       const double drag = op.dot(v, f);  // nN um s
       if (is_axial)
@@ -179,7 +178,7 @@ TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> v(c.system.n_dof()), f(v.size());
       for (int i = 0; i < c.n_node(); ++i)
-        store_point(v.data(), make_address(static_cast<std::size_t>(i), 0), Vec3::Unit(axis));
+        store_point(v.data(), make_address(i, 0), Vec3::Unit(axis));
       op.apply(v, f);
       EXPECT_LT(std::abs(op.dot(v, f)), 1e-12);
     }
@@ -264,8 +263,7 @@ TEST(Medium, StokesDragMatchesReference) {
     p.medium_friction = 1e9;  // must not matter
     std::vector<double> free_area(c.state.n_row() * kLanes, 0.0);
     for (int i = 0; i < n; ++i)
-      free_area[static_cast<std::size_t>(i) * kLanes] =
-          t.rest_node_area[static_cast<std::size_t>(i)] * radius * radius;
+      free_area[static_cast<std::size_t>(i) * kLanes] = t.rest_node_area[i] * radius * radius;
     c.system.friction_scale = 1.0 / 60;
     add_medium(p, c.view(), free_area.data(), c.system);
     solve::Operator op;
@@ -300,7 +298,7 @@ TEST(Medium, StokesDragMatchesReference) {
 TEST(BodyLoad, MovesTheCellWithoutDistortion) {
   Cells c = make_deformed_cells();
   std::vector<Vec3> force(kLanes);
-  for (int l = 0; l < kLanes; ++l) force[static_cast<std::size_t>(l)] = Vec3(1, -l, 0.5 * l);
+  for (int l = 0; l < kLanes; ++l) force[l] = Vec3(1, -l, 0.5 * l);
   add_body_load(c.view(), force, c.system);
   const mesh::Topology& t = *c.state.group[0].topology;
   for (std::size_t l = 0; l < kLanes; ++l) {
@@ -308,7 +306,7 @@ TEST(BodyLoad, MovesTheCellWithoutDistortion) {
     for (int i = 0; i < c.n_node(); ++i) {
       const Vec3 f = load_point(c.system.external_force.data(), node_address(c.state, l, i));
       // Friction is per rest area too, so every node gets the same speed.
-      const Vec3 speed = f / t.rest_node_area[static_cast<std::size_t>(i)] * t.rest_area;
+      const Vec3 speed = f / t.rest_node_area[i] * t.rest_area;
       EXPECT_LT((speed - (l == kNoCell ? Vec3::Zero() : Vec3(force[l]))).norm(), 64 * kEps * 10);
       total += f;
     }

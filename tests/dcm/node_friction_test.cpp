@@ -10,8 +10,8 @@
 #include <map>
 #include <utility>
 
+#include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
-#include "tests/dcm/surrounded_clump.hpp"
 #include "tests/reference/dense_system.hpp"
 
 namespace acinus::dcm {
@@ -50,7 +50,7 @@ Pairs expected_pairs(const Clump& c) {
 TEST(NodeFriction, JoinsEveryNodeOfAFaceWithEveryNodeOfTheFaceItMeets) {
   for (const auto q : kAll) {
     Clump c = make_surrounded_clump(97);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.options.quadrature = q;
     c.find();
     const Pairs expected = expected_pairs(c);
@@ -76,7 +76,7 @@ TEST(NodeFriction, JoinsEveryNodeOfAFaceWithEveryNodeOfTheFaceItMeets) {
 
 TEST(NodeFriction, TakesTheFrictionOutOfTheSurfaceContacts) {
   Clump c = make_surrounded_clump(97);
-  connect_meshes(c.around);
+  connect_meshes(c.boundary);
   c.find();
   const solve::Links before = c.links;
   c.options.friction_form = FrictionForm::kNodes;
@@ -192,7 +192,7 @@ TEST(NodeFriction, SameBitsForAnyNumberOfThreads) {
   for (int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
     Clump c = make_surrounded_clump(91);
-    connect_meshes(c.around);
+    connect_meshes(c.boundary);
     c.find();
     links.push_back(node_links(c));
   }

@@ -39,8 +39,7 @@ double distance_to_loop(const Vec3& x, std::span<const Vec3> loop) {
 std::array<double, 2> edge_range(const mesh::Topology& topology, std::span<const Vec3> node) {
   double low = 1e300, high = 0, mean = 0;
   for (const auto& [i, j] : topology.edge) {
-    const double length =
-        (node[static_cast<std::size_t>(i)] - node[static_cast<std::size_t>(j)]).norm();
+    const double length = (node[i] - node[j]).norm();
     low = std::min(low, length), high = std::max(high, length), mean += length / topology.n_edge;
   }
   return {low / mean, high / mean};
@@ -56,20 +55,19 @@ TEST(Parts, ARingOfMeshEdgesClosesAroundTheCap) {
     for (const auto& t : topology.triangle) {
       bool cap = false, shell = false;
       for (const int i : t) {
-        cap = cap || part[static_cast<std::size_t>(i)] == Part::kCap;
-        shell = shell || part[static_cast<std::size_t>(i)] == Part::kShell;
+        cap = cap || part[i] == Part::kCap;
+        shell = shell || part[i] == Part::kShell;
       }
       EXPECT_FALSE(cap && shell);  // the ring separates them
       n_cap_triangle += !shell;
     }
     EXPECT_EQ(4 * n_cap_triangle, topology.n_triangle);
     for (int i = 0; i < n_node; ++i) {
-      if (part[static_cast<std::size_t>(i)] != Part::kRim) continue;
+      if (part[i] != Part::kRim) continue;
       int n_next = 0;
-      for (int k = topology.ring_start[static_cast<std::size_t>(i)];
-           k < topology.ring_start[static_cast<std::size_t>(i) + 1]; ++k)
-        n_next += part[static_cast<std::size_t>(topology.ring[static_cast<std::size_t>(k)])] ==
-                  Part::kRim;
+      for (int k = topology.ring_start[i]; k < topology.ring_start[static_cast<std::size_t>(i) + 1];
+           ++k)
+        n_next += part[topology.ring[k]] == Part::kRim;
       EXPECT_EQ(n_next, 2);
     }
   }
@@ -151,7 +149,7 @@ struct Tally {
 };
 
 void expect_daughters(const mesh::Topology& topology, const mesh::Surface& mother,
-                      const Daughters& d, Tally& tally) {
+                      const DaughterShapes& d, Tally& tally) {
   const double volume = mesh::compute_volume(mother.node, mother.triangle);
   double sum = 0;
   for (std::size_t h = 0; h < 2; ++h) {

@@ -116,7 +116,7 @@ TEST(State, GroupsCellsByTypeAndTopology) {
   EXPECT_EQ(count_cells(s), 20);
   for (std::size_t l = 0; l < s.n_lane(); ++l) {
     if (!s.active(l)) continue;
-    const auto k = static_cast<std::size_t>(s.lineage[l] - 100);
+    const std::size_t k = s.lineage[l] - 100;
     EXPECT_EQ(s.group[l / kLanes].type, cells[k].type);
     EXPECT_EQ(s.group[l / kLanes].topology, cells[k].topology);
     EXPECT_LT((cell_center(s, l) - cells[k].center).norm(), 1e-12);

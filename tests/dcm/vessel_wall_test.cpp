@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/dcm/surrounded_clump.hpp"
+#include "tests/dcm/bounded_clump.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -26,9 +26,9 @@ Clump cell_on_vessel(double young, double depth, double adhesion = 0) {
   n.node = {{-30, 0, 0}, {1, 0, 0}, {30, 0, 0}};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};
-  contact::set_network(c.around.vessels, n);
-  c.around.vessels.material = wall(young);
-  c.around.vessels.material.adhesion = adhesion;
+  contact::set_network(c.boundary.vessels, n);
+  c.boundary.vessels.material = wall(young);
+  c.boundary.vessels.material.adhesion = adhesion;
   c.find();
   return c;
 }
@@ -71,14 +71,12 @@ TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
   const Clump c = cell_on_vessel(0.6, 0.4);
   ASSERT_EQ(c.links.size(), c.obstacle().size());
   std::vector<double> deepest(2, 0.0);
-  for (const contact::Contact& o : c.obstacle())
-    deepest[static_cast<std::size_t>(o.b)] =
-        std::max(deepest[static_cast<std::size_t>(o.b)], -o.gap);
+  for (const contact::Contact& o : c.obstacle()) deepest[o.b] = std::max(deepest[o.b], -o.gap);
   EXPECT_GT(std::max(deepest[0], deepest[1]), 0.1);
   int pressed = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {
     const contact::Contact& o = c.obstacle()[l];
-    const double k = wall_stiffness(5, wall(0.6), 4.7, deepest[static_cast<std::size_t>(o.b)]);
+    const double k = wall_stiffness(5, wall(0.6), 4.7, deepest[o.b]);
     if (o.only_pushes()) continue;
     EXPECT_EQ(o.stiffness, k);
     if (o.gap >= 0) continue;
@@ -100,7 +98,7 @@ void expect_energy_gradient(double deepest) {
     const contact::Contact& o = start[l];
     const Vec3 x =
         contact::point_position(c.work.body[0], stencil_of(c.options, c.work.body[0], o));
-    const double gap = contact::gap_to_segment(c.around.vessels.network, o.b, x).gap;
+    const double gap = contact::gap_to_segment(c.boundary.vessels.network, o.b, x).gap;
     if (o.only_pushes()) {
       const double depth = std::max(0.0, -gap - o.onset);
       const double area =
@@ -108,7 +106,7 @@ void expect_energy_gradient(double deepest) {
       return area * 0.5 * o.stiffness * depth * depth;
     }
     return point_area(t, c.options.quadrature, o.point, 12) *
-           contact::well_energy({0.01, o.stiffness, 0.3 * t.mean_rest_length * 12}, gap);
+           contact::cohesive_energy({0.01, o.stiffness, 0.3 * t.mean_rest_length * 12}, gap);
   };
   auto random = reference::stream(3);
   std::vector<double> direction(c.state.position.size());

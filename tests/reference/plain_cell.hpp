@@ -17,7 +17,7 @@ struct PlainCell {
   double radius;           ///< um, reference radius
 };
 
-inline const Vec3& at(const std::vector<Vec3>& x, int i) { return x[static_cast<std::size_t>(i)]; }
+inline const Vec3& at(const std::vector<Vec3>& x, int i) { return x[i]; }
 
 inline std::vector<Vec3> rest_nodes(const PlainCell& c) {
   std::vector<Vec3> x = c.topology->rest;

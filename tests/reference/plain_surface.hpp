@@ -36,8 +36,8 @@ inline bool plain_inside(const Vec3& p, std::span<const Vec3> node,
   int crossings = 0;
   for (const auto& t : triangle) {
     Mat3 m;
-    const Vec3& a = node[static_cast<std::size_t>(t[0])];
-    m << node[static_cast<std::size_t>(t[1])] - a, node[static_cast<std::size_t>(t[2])] - a, -ray;
+    const Vec3& a = node[t[0]];
+    m << node[t[1]] - a, node[t[2]] - a, -ray;
     if (std::abs(m.determinant()) < 1e-14) continue;
     const Vec3 s = m.inverse() * (p - a);
     if (s.x() >= 0 && s.y() >= 0 && s.x() + s.y() <= 1 && s.z() > 0) ++crossings;
@@ -49,9 +49,7 @@ inline double plain_signed_distance(const Vec3& p, std::span<const Vec3> node,
                                     std::span<const std::array<int, 3>> triangle) {
   double best = 1e300;
   for (const auto& t : triangle)
-    best = std::min(best, plain_distance_to_triangle(p, node[static_cast<std::size_t>(t[0])],
-                                                     node[static_cast<std::size_t>(t[1])],
-                                                     node[static_cast<std::size_t>(t[2])]));
+    best = std::min(best, plain_distance_to_triangle(p, node[t[0]], node[t[1]], node[t[2]]));
   return plain_inside(p, node, triangle) ? -best : best;
 }
 

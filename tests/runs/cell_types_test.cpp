@@ -77,7 +77,7 @@ TEST(CellTypes, FillKeepsEachClearOfWallsByItsOwnRadius) {
          "types": [{"type": "large", "share": 0.5}, {"type": "small", "share": 0.5}])",
       R"(, "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1]}])");
   const BuiltWorld built = build_world(scene, Ranks::serial());
-  const auto cells = place_cells(scene, nullptr, built.world.params.around);
+  const auto cells = place_cells(scene, nullptr, built.world.params.boundary);
   ASSERT_EQ(cells.size(), 150u);
   double lowest[2] = {1e9, 1e9};
   for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -75,7 +75,7 @@ TEST(Spheroid, ProfileOfKnownCells) {
   ASSERT_EQ(p.size(), 10u);
   ASSERT_EQ(density.size(), 10u);
   for (int k = 0; k < 10; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     const int count = k == 0 ? 1 : k == 4 ? 2 : k == 9 ? 6 : 0;
     EXPECT_NEAR(radius[i], 3 * k + 1.5, 30 * kRoundOff) << k;
     const double volume = 36 * kPi * ((k + 1.0) * (k + 1) * (k + 1) - 1.0 * k * k * k);

@@ -53,8 +53,7 @@ TEST_F(ObservablesRun, HaveAColumnForEachAndARowForEachFrame) {
     for (const double v : values) EXPECT_TRUE(std::isfinite(v)) << name;
   }
   EXPECT_EQ(found, expected);
-  for (int k = 0; k < r.n_frame(); ++k)
-    EXPECT_EQ(table.at("time")[static_cast<std::size_t>(k)], r.time_s(k));
+  for (int k = 0; k < r.n_frame(); ++k) EXPECT_EQ(table.at("time")[k], r.time_s(k));
   const Json s = summary("a"), m = s["measures"];
   EXPECT_EQ(m["lesion_area_open"].size(), table.at("time").size());
   EXPECT_GT(m["max_overlap_with_vessels_um"], 0) << "spheres do stand in vessels";

@@ -37,7 +37,7 @@ struct Watched {
   Scene scene;
   coupling::World world;
   coupling::Workspace work{};
-  Observer observer{};
+  Observables observer{};
   Snapshot snapshot{};
   std::vector<io::SeriesValue> row{};
 
@@ -108,12 +108,12 @@ TEST(Observables, AreWhatTheExperimentsMeasure) {
     plane.name = "left wall";
     plane.point = Vec3(48.5, 0, 0);
     plane.normal = Vec3::UnitX();
-    w.world.params.around.planes = {plane};
+    w.world.params.boundary.planes = {plane};
     contact::Capsule capsule;
     capsule.name = "capsule";
     capsule.center = Vec3(72, 0, 20);
     capsule.radius = 60;
-    w.world.params.around.capsules = {capsule};
+    w.world.params.boundary.capsules = {capsule};
     w.snapshot = take_snapshot(w.world, w.work);
     w.look(3600);
     std::set<std::string> row;
@@ -157,8 +157,8 @@ TEST(Tissue, TellsOverlapsOfSpheresWithVesselsAndEachOther) {
   n.node = {Vec3(-30, 0, 0), Vec3(50, 0, 0)};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
-  contact::set_network(world.params.around.vessels, n);
-  world.params.around.vessels.material = {0, 0.6, 0.4, false};
+  contact::set_network(world.params.boundary.vessels, n);
+  world.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   Watched w({}, world);
   w.look();
   EXPECT_NEAR(w["overlap_cbm_vessels_um"], 1, 1e-11);
@@ -245,9 +245,9 @@ TEST(Lesion, KeepsItsFirstFrameThroughACheckpoint) {
   move_inward(w.snapshot, 20);
   w.look(3600);
   io::CheckpointData data;
-  put_observer(w.observer, data);
+  put_observables(w.observer, data);
   Watched resumed(lobule_scene(), coupling::make_test_world(ring(100)));
-  resumed.observer = get_observer(data);
+  resumed.observer = get_observables(data);
   move_inward(w.snapshot, 20);
   resumed.snapshot = w.snapshot;
   w.look(7200);
@@ -311,7 +311,7 @@ TEST(Lesion, DensityIsOfTheRoomBetweenVessels) {
   n.node = {Vec3(200, 0, -20), Vec3(200, 0, 70)};
   n.segment = {{0, 1}};
   n.radius = {{15, 15}};
-  contact::set_network(world.params.around.vessels, n);
+  contact::set_network(world.params.boundary.vessels, n);
   Watched with(lobule_scene(), world);
   with.look();
   const double free = 16e9 / with["density_per_mm3"];
@@ -329,8 +329,8 @@ TEST(Lesion, ContactWithSinusoidsIsThatOfTheContacts) {
   n.node = {Vec3(60, 0, 20), Vec3(180, 0, 20)};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
-  contact::set_network(world.params.around.vessels, n);
-  world.params.around.vessels.material = {0, 0.6, 0.4, false};
+  contact::set_network(world.params.boundary.vessels, n);
+  world.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   Watched w(lobule_scene(), world);
   w.look();
   double area = 0;

@@ -122,7 +122,7 @@ TEST_F(Run, FollowsWhatWallsLetGoOnALogarithmicGrid) {
   for (const double t : {0.0, 420.0, 600.0, 601.0, 610.0, 700.0, 840.0, 1600.0, 7200.0})
     EXPECT_TRUE(std::ranges::any_of(time, [t](double x) { return std::abs(x - t) < 1e-5; })) << t;
   const auto released = std::ranges::find(time, 600.0, [](double t) { return std::round(t); });
-  const double compressed = height[static_cast<std::size_t>(released - time.begin())];
+  const double compressed = height[released - time.begin()];
   EXPECT_EQ(compressed, *std::ranges::min_element(height)) << "what presses is there to the end";
   EXPECT_LT(compressed, height.front() - 1);
   EXPECT_GT(height.back(), compressed + 1);

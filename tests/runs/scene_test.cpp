@@ -99,7 +99,7 @@ TEST(Scene, LifeIsRead) {
   EXPECT_EQ(young.death.mode, "removal");
   EXPECT_EQ(scene.life.grid, 420);
   ASSERT_EQ(scene.life.rules.size(), 2u);
-  const LifeRule &rest = scene.life.rules[0], &die = scene.life.rules[1];
+  const LifeRuleBlock &rest = scene.life.rules[0], &die = scene.life.rules[1];
   EXPECT_EQ(rest.action, "rest");
   ASSERT_TRUE(rest.region);
   EXPECT_EQ(rest.region->radius, 50);

@@ -235,7 +235,7 @@ TEST(Study, ShippedOnesAreSound) {
 }
 
 TEST(Curves, AreReadBetweenSamplesAndNowhereElse) {
-  const Curve c{{0, 10, 20}, {1, 3, 2}};
+  const TimeCurve c{{0, 10, 20}, {1, 3, 2}};
   EXPECT_EQ(value_at(c, 5), 2);
   EXPECT_EQ(value_at(c, 20), 2);
   EXPECT_FALSE(value_at(c, 21));
@@ -300,32 +300,34 @@ class Claims : public testing::Test {
     }
     return all;
   }
-  Verdict judged(const std::string& measure, const std::string& rest, const StudyData& d = data()) {
-    return judge(plan(claim(measure, rest)), d).at(0);
+  Verdict checked(const std::string& measure, const std::string& rest,
+                  const StudyData& d = data()) {
+    return check_claims(plan(claim(measure, rest)), d).at(0);
   }
 };
 
 TEST_F(Claims, ValueIsTheMeanOfTheSeedsAndTheBandTheirRange) {
-  const Verdict v = judged(R"("variant": "slow", "at": "1 h")", R"("low": "2 um", "high": "3 um")");
+  const Verdict v =
+      checked(R"("variant": "slow", "at": "1 h")", R"("low": "2 um", "high": "3 um")");
   EXPECT_EQ(v.measured.value, 3);
   EXPECT_EQ(v.measured.low, 2);
   EXPECT_EQ(v.measured.high, 4);
   EXPECT_EQ(v.measured.unit, "um");
-  EXPECT_EQ(v.judgement, Judgement::kHolds);
+  EXPECT_EQ(v.status, ClaimStatus::kHolds);
   EXPECT_EQ(v.expected, "from 2 um to 3 um");
-  EXPECT_EQ(judged(R"("variant": "slow")", R"("high": "3.9 um")").judgement,
-            Judgement::kDoesNotHold)
+  EXPECT_EQ(checked(R"("variant": "slow")", R"("high": "3.9 um")").status,
+            ClaimStatus::kDoesNotHold)
       << "at the end the mean is 4";
-  EXPECT_EQ(judged(R"("variant": "slow", "at": "1 h")", R"("high": "3 um", "every_seed": true)")
-                .judgement,
-            Judgement::kDoesNotHold)
+  EXPECT_EQ(
+      checked(R"("variant": "slow", "at": "1 h")", R"("high": "3 um", "every_seed": true)").status,
+      ClaimStatus::kDoesNotHold)
       << "one seed has 4";
 }
 
 TEST_F(Claims, EveryKindOfMeasure) {
   const std::string any = R"("low": 0)", um = R"("low": "0 um")", s = R"("low": "0 s")";
   const auto value = [&](const std::string& kind, const std::string& more, const std::string& low) {
-    return judged("\"kind\": \"" + kind + "\", \"variant\": \"slow\"" + more, low)
+    return checked("\"kind\": \"" + kind + "\", \"variant\": \"slow\"" + more, low)
         .measured.value.value();
   };
   EXPECT_EQ(value("first_above", R"(, "level": "2 um")", s), (3600 + 1200) / 2.0);
@@ -336,8 +338,8 @@ TEST_F(Claims, EveryKindOfMeasure) {
   EXPECT_EQ(value("distance", R"(, "other": "fast")", um), 3);
   EXPECT_EQ(value("outside", R"(, "other": "fast", "another": "fast")", um), 3);
   EXPECT_EQ(value("outside", R"(, "other": "fast", "another": "slow")", um), 0);
-  const Verdict p = judged(R"("kind": "p_value", "variant": "slow", "other": "fast")", any);
-  EXPECT_EQ(p.judgement, Judgement::kNotMeasured) << "one seed has no spread";
+  const Verdict p = checked(R"("kind": "p_value", "variant": "slow", "other": "fast")", any);
+  EXPECT_EQ(p.status, ClaimStatus::kNotMeasured) << "one seed has no spread";
   EXPECT_FALSE(p.measured.note.empty());
 }
 
@@ -345,54 +347,54 @@ TEST_F(Claims, DifferencesAndRatiosAreTakenSeedBySeed) {
   const std::string second =
       R"({ "observable": "overlap_cbm_cbm_um", "variant": "slow", "at": "0 h" })";
   Verdict v =
-      judged(R"("variant": "slow", "at": "2 h")", "\"minus\": " + second + R"(, "low": "2 um")");
+      checked(R"("variant": "slow", "at": "2 h")", "\"minus\": " + second + R"(, "low": "2 um")");
   EXPECT_EQ(v.measured.value, 3);
   EXPECT_EQ(v.measured.low, 2);
   EXPECT_EQ(v.measured.high, 4);
-  v = judged(R"("variant": "slow", "at": "2 h")", "\"over\": " + second + R"(, "low": 4)");
+  v = checked(R"("variant": "slow", "at": "2 h")", "\"over\": " + second + R"(, "low": 4)");
   EXPECT_EQ(v.measured.value, 4);
   EXPECT_EQ(v.measured.unit, "1");
-  v = judged(R"("variant": "fast", "at": "2 h")", "\"over\": " + second + R"(, "low": 4)");
+  v = checked(R"("variant": "fast", "at": "2 h")", "\"over\": " + second + R"(, "low": 4)");
   EXPECT_EQ(v.measured.value, 4) << "other seeds: of the means";
   EXPECT_FALSE(v.measured.low.has_value());
 }
 
 TEST_F(Claims, WhatNeverHappensIsLaterThanTheRun) {
   const std::string never = R"("kind": "first_above", "variant": "slow", "level": "9 um")";
-  Verdict v = judged(never, R"("high": "1 h")");
-  EXPECT_EQ(v.judgement, Judgement::kDoesNotHold);
+  Verdict v = checked(never, R"("high": "1 h")");
+  EXPECT_EQ(v.status, ClaimStatus::kDoesNotHold);
   EXPECT_NE(v.measured.note.find("never"), std::string::npos);
-  EXPECT_EQ(judged(never, R"("low": "2 h")").judgement, Judgement::kHolds);
-  EXPECT_EQ(judged(never, R"("low": "3 h")").judgement, Judgement::kNotMeasured)
+  EXPECT_EQ(checked(never, R"("low": "2 h")").status, ClaimStatus::kHolds);
+  EXPECT_EQ(checked(never, R"("low": "3 h")").status, ClaimStatus::kNotMeasured)
       << "the runs say nothing about what comes after two hours";
 }
 
 TEST_F(Claims, OneSeedInWhichSomethingNeverHappensDoesNotDecideForAll) {
   // Seed 1 ends at 3 um, seed 2 at 4 um.
-  Verdict v = judged(R"("kind": "first_above", "variant": "slow", "level": "3.5 um")",
-                     R"("low": "30 min", "every_seed": true)");
+  Verdict v = checked(R"("kind": "first_above", "variant": "slow", "level": "3.5 um")",
+                      R"("low": "30 min", "every_seed": true)");
   EXPECT_TRUE(std::isinf(v.measured.high.value()));
   EXPECT_NE(v.measured.note.find("1 of 2 seeds never"), std::string::npos) << v.measured.note;
   // A ratio with what never happens is no ratio; zero it is not.
   const std::string never =
       R"({ "kind": "first_above", "observable": "overlap_cbm_cbm_um", "variant": "slow", "level": "9 um" })";
-  v = judged(R"("kind": "first_above", "variant": "slow", "level": "2 um")",
-             "\"over\": " + never + R"(, "low": 0, "high": 1)");
-  EXPECT_EQ(v.judgement, Judgement::kNotMeasured);
+  v = checked(R"("kind": "first_above", "variant": "slow", "level": "2 um")",
+              "\"over\": " + never + R"(, "low": 0, "high": 1)");
+  EXPECT_EQ(v.status, ClaimStatus::kNotMeasured);
   // Two hours were looked at and 2 um come after 40 min on average, so it is sooner by 1 h at
   // least.
   const std::string sooner = R"("kind": "first_above", "variant": "slow", "level": "2 um")";
-  EXPECT_EQ(judged(sooner, "\"minus\": " + never + R"(, "high": "-30 min")").judgement,
-            Judgement::kHolds);
-  EXPECT_EQ(judged(sooner, "\"minus\": " + never + R"(, "high": "-3 h")").judgement,
-            Judgement::kNotMeasured);
+  EXPECT_EQ(checked(sooner, "\"minus\": " + never + R"(, "high": "-30 min")").status,
+            ClaimStatus::kHolds);
+  EXPECT_EQ(checked(sooner, "\"minus\": " + never + R"(, "high": "-3 h")").status,
+            ClaimStatus::kNotMeasured);
   // Other seeds, so of the means: later by 80 min at least, and nobody knows about 3 h.
   const std::string later = R"("kind": "first_above", "variant": "fast", "level": "9 um")";
   const std::string slow =
       R"({ "kind": "first_above", "observable": "overlap_cbm_cbm_um", "variant": "slow", "level": "2 um" })";
-  EXPECT_EQ(judged(later, "\"minus\": " + slow + R"(, "low": "1 h")").judgement, Judgement::kHolds);
-  EXPECT_EQ(judged(later, "\"minus\": " + slow + R"(, "low": "3 h")").judgement,
-            Judgement::kNotMeasured);
+  EXPECT_EQ(checked(later, "\"minus\": " + slow + R"(, "low": "1 h")").status, ClaimStatus::kHolds);
+  EXPECT_EQ(checked(later, "\"minus\": " + slow + R"(, "low": "3 h")").status,
+            ClaimStatus::kNotMeasured);
 }
 
 TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
@@ -400,13 +402,13 @@ TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
     StudyData d = data();
     d[2].status.state = state;
     if (state == RunState::kToDo) d[2].curve.clear();
-    EXPECT_EQ(judged(R"("variant": "slow")", R"("low": "0 um")", d).judgement,
-              Judgement::kNotMeasured);
+    EXPECT_EQ(checked(R"("variant": "slow")", R"("low": "0 um")", d).status,
+              ClaimStatus::kNotMeasured);
   }
   StudyData d = data();
   d[2].status.state = RunState::kToResume;
-  EXPECT_EQ(judged(R"("variant": "slow", "at": "1 h")", R"("low": "0 um")", d).judgement,
-            Judgement::kHolds)
+  EXPECT_EQ(checked(R"("variant": "slow", "at": "1 h")", R"("low": "0 um")", d).status,
+            ClaimStatus::kHolds)
       << "a run that was cut short has passed one hour";
 }
 
@@ -440,7 +442,7 @@ TEST_F(Claims, VerdictsAreJsonWithoutNaN) {
   StudyData d = data();
   d[1].status.state = RunState::kFailed;
   const StudyPlan p = plan(claim(R"("variant": "slow")", R"("low": "0 um")"));
-  write_verdicts(judge(p, d), root);
+  write_verdicts(check_claims(p, d), root);
   std::ifstream file(root + "/verdicts.json");
   const nlohmann::json j = nlohmann::json::parse(file);
   for (const char* key : {"claim", "expected", "measured", "low", "high", "pass"})

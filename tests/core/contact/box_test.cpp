@@ -35,8 +35,7 @@ TEST(FindPairs, FindsWhatTryingEveryPairFinds) {
     std::vector<std::pair<int, int>> expected;
     for (int i = 0; i < 500; ++i)
       for (int j = i + 1; j < 500; ++j)
-        if (near(boxes[static_cast<std::size_t>(i)], boxes[static_cast<std::size_t>(j)], margin))
-          expected.emplace_back(i, j);
+        if (near(boxes[i], boxes[j], margin)) expected.emplace_back(i, j);
     EXPECT_EQ(find_pairs(boxes, margin), expected);
     std::printf("margin %.1f: %zu pairs of 500 boxes\n", margin, expected.size());
     EXPECT_GT(expected.size(), 100u);
@@ -49,8 +48,7 @@ TEST(FindPairs, BetweenTwoSets) {
     std::vector<std::pair<int, int>> expected;
     for (int i = 0; i < 200; ++i)
       for (int j = 0; j < 300; ++j)
-        if (near(a[static_cast<std::size_t>(i)], b[static_cast<std::size_t>(j)], margin))
-          expected.emplace_back(i, j);
+        if (near(a[i], b[j], margin)) expected.emplace_back(i, j);
     EXPECT_EQ(find_pairs_between(a, b, margin), expected);
   }
 }

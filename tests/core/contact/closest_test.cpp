@@ -27,9 +27,7 @@ struct Bumpy {
     for (const Vec3& x : t.rest)
       body.node.push_back(10 * x + reference::random_vector(random, 0.3));
     for (const std::size_t k : {0, 100, 250}) {
-      auto corner = [&](std::size_t m) -> Vec3& {
-        return body.node[static_cast<std::size_t>(triangle[k][m])];
-      };
+      auto corner = [&](std::size_t m) -> Vec3& { return body.node[triangle[k][m]]; };
       corner(2) = 0.5 * (corner(0) + corner(1));
     }
     refresh_body(body);
@@ -37,10 +35,9 @@ struct Bumpy {
   Bumpy(const Bumpy&) = delete;
 
   mesh::ClosestPoint closest_on(int t, const Vec3& x) const {
-    const auto& corner = triangle[static_cast<std::size_t>(t)];
-    return mesh::find_closest_point(x, body.node[static_cast<std::size_t>(corner[0])],
-                                    body.node[static_cast<std::size_t>(corner[1])],
-                                    body.node[static_cast<std::size_t>(corner[2])]);
+    const auto& corner = triangle[t];
+    return mesh::find_closest_point(x, body.node[corner[0]], body.node[corner[1]],
+                                    body.node[corner[2]]);
   }
 };
 
@@ -60,18 +57,17 @@ struct Question {
     block.n = n;
     for (int i = 0; i < n; ++i) {
       const auto k = i % 8 == 1 ? 0 : static_cast<std::size_t>(random.uniform(0, 320));
-      const Vec3& u = b.body.node[static_cast<std::size_t>(b.triangle[k][0])];
-      const Vec3& v = b.body.node[static_cast<std::size_t>(b.triangle[k][1])];
+      const Vec3& u = b.body.node[b.triangle[k][0]];
+      const Vec3& v = b.body.node[b.triangle[k][1]];
       const Vec3 x = i % 4 == 0   ? u
                      : i % 4 == 1 ? Vec3(0.5 * (u + v))
                                   : Vec3(b.body.center[k] * random.uniform(0.85, 1.2));
       for (int m = 0; m < 3; ++m) block.x[3 * i + m] = x[m];
       block.begin[i] = static_cast<std::uint32_t>(triangle.size());
-      std::vector<int> order(static_cast<std::size_t>(n_triangle));
+      std::vector<int> order(n_triangle);
       std::iota(order.begin(), order.end(), 0);
       for (std::size_t at = order.size() - 1; at > 0; --at)
-        std::swap(order[at],
-                  order[static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(at))]);
+        std::swap(order[at], order[random.uniform(0, 1) * static_cast<double>(at)]);
       // A guess that is often right, and bounds that are too low by up to the shift.
       std::swap(*std::ranges::find(order, static_cast<int>(k)), order[0]);
       for (const int t : order) {
@@ -103,7 +99,7 @@ TEST(FindClosest, IsTheFirstOfTheClosestOfAllTriangles) {
         if (here < squared) best = t;
         squared = std::min(squared, here);
       }
-      const auto k = static_cast<std::size_t>(i);
+      const std::size_t k = i;
       ASSERT_EQ(q.block.triangle[k], best) << "point " << i << " of " << n;
       EXPECT_EQ(q.block.squared[k], squared);
       if (best < 0) {
@@ -159,8 +155,8 @@ TEST(FindGaps, PointFromThePlaceToThePoint) {
       find_closest(b.body, {q.triangle, q.bound}, 0.3 + kRounding, 1e150, q.block);
       find_gaps(b.body, place, q.block);
       for (int i = 0; i < n; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const auto& corner = b.triangle[static_cast<std::size_t>(q.block.triangle[k])];
+        const std::size_t k = i;
+        const auto& corner = b.triangle[q.block.triangle[k]];
         Vec3 at = Vec3::Zero(), outward = Vec3::Zero();
         const double r0 = static_cast<double>(q.block.rounded[0][k]),
                      r1 = static_cast<double>(q.block.rounded[1][k]);
@@ -168,7 +164,7 @@ TEST(FindGaps, PointFromThePlaceToThePoint) {
         const Vec3 exact(1 - q.block.weight_b[k] - q.block.weight_c[k], q.block.weight_b[k],
                          q.block.weight_c[k]);
         for (int m = 0; m < 3; ++m) {
-          const auto c = static_cast<std::size_t>(corner[static_cast<std::size_t>(m)]);
+          const std::size_t c = corner[m];
           at += (place == Place::kExact ? exact : rounded)[m] * b.body.node[c];
           outward += rounded[m] * b.body.node_normal[c];
         }

@@ -223,7 +223,7 @@ TEST(JkrLanes, DoNotDependOnTheirNeighbours) {
       cases.push_back({{0.5 + 6.0 * k, 1e-3 * std::pow(5.0, k), k % 3 == 0 ? 0.0 : 1e-3 * k},
                        k % 2 == 0 ? -1e3 : 2.0 * k,
                        k % 4 < 2});
-    cases[static_cast<std::size_t>(l)] = mine;
+    cases[l] = mine;
     EXPECT_EQ(answer(forces_of(cases), static_cast<std::size_t>(l)), alone) << "lane " << l;
   }
 }

@@ -166,7 +166,7 @@ TEST(FindSpherePairs, FarFromTheOrigin) {
 TEST(FindSpherePairs, AscendWithTheFirstBelowTheSecond) {
   for (const double half_width : {40.0, 1e6}) {
     Cloud cloud = random_cloud(76, 300, half_width, 3, 9);
-    for (int k = 0; k < 20; ++k) cloud.add(cloud.center[static_cast<std::size_t>(7 * k)], 1);
+    for (int k = 0; k < 20; ++k) cloud.add(cloud.center[7 * k], 1);
     const Pairs pairs = cloud.pairs(1);
     EXPECT_FALSE(pairs.empty());
     EXPECT_TRUE(std::ranges::is_sorted(pairs));

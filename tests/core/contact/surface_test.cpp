@@ -54,12 +54,11 @@ constexpr Quadrature kAll[] = {Quadrature::kThreePoint, Quadrature::kNodes,
                                Quadrature::kNodesAndEdges};
 
 Vec3 facing_of(const SurfaceBody& b, Quadrature q, int point) {
-  const auto p = static_cast<std::size_t>(point);
+  const std::size_t p = point;
   if (q == Quadrature::kThreePoint) return b.triangle_normal[p / 3];
   if (p < b.node.size()) return b.node_normal[p];
   Vec3 sum = Vec3::Zero();
-  for (int t : b.topology->edge_triangle[p - b.node.size()])
-    sum += b.triangle_normal[static_cast<std::size_t>(t)];
+  for (int t : b.topology->edge_triangle[p - b.node.size()]) sum += b.triangle_normal[t];
   return sum.normalized();
 }
 
@@ -75,8 +74,7 @@ TEST(SurfaceBody, NormalsPointOutward) {
   for (std::size_t t = 0; t < b.center.size(); ++t) {
     EXPECT_GT(b.triangle_normal[t].dot((b.center[t] - center).normalized()), 0.99);
     for (int c : (*b.triangle)[t])
-      EXPECT_LE((b.node[static_cast<std::size_t>(c)] - b.center[t]).norm(),
-                b.reach[t] * (1 + 1e-14));
+      EXPECT_LE((b.node[c] - b.center[t]).norm(), b.reach[t] * (1 + 1e-14));
   }
 }
 
@@ -94,7 +92,7 @@ TEST(PointStencil, PointsShareTheirTriangle) {
       sum += point_position(b, s) / 3;
     }
     // two sixths and a third that are float numbers, on edges of 0.6
-    EXPECT_LT((sum - b.center[static_cast<std::size_t>(t)]).norm(), kFloatEps);
+    EXPECT_LT((sum - b.center[t]).norm(), kFloatEps);
   }
   EXPECT_EQ(point_position(b, point_stencil(b, Quadrature::kNodes, 7)), b.node[7]);
 }
@@ -104,25 +102,24 @@ TEST(PointStencil, NodesThenMidpointsOfEdges) {
   const SurfaceBody b = make_body(mesh::shared_icosphere(42).rest, 42);
   ASSERT_EQ(n_points(b, q), 42u + 120u);
   for (int p = 0; p < 42; ++p) {
-    EXPECT_EQ(point_position(b, point_stencil(b, q, p)), b.node[static_cast<std::size_t>(p)]);
-    EXPECT_EQ(site_normal(b, q, static_cast<std::size_t>(p)), facing_of(b, q, p));
+    EXPECT_EQ(point_position(b, point_stencil(b, q, p)), b.node[p]);
+    EXPECT_EQ(site_normal(b, q, p), facing_of(b, q, p));
   }
   for (int p = 42; p < 162; ++p) {
-    const auto edge = static_cast<std::size_t>(p - 42);
+    const std::size_t edge = p - 42;
     const auto [i, j] = b.topology->edge[edge];
-    const Vec3 middle =
-        0.5 * (b.node[static_cast<std::size_t>(i)] + b.node[static_cast<std::size_t>(j)]);
+    const Vec3 middle = 0.5 * (b.node[i] + b.node[j]);
     const PointStencil s = point_stencil(b, q, p);
     EXPECT_EQ(point_position(b, s), middle);
-    EXPECT_EQ(site_place(b, q, static_cast<std::size_t>(p)), middle);
-    EXPECT_EQ(site_normal(b, q, static_cast<std::size_t>(p)), facing_of(b, q, p));
+    EXPECT_EQ(site_place(b, q, p), middle);
+    EXPECT_EQ(site_normal(b, q, p), facing_of(b, q, p));
     EXPECT_EQ(s.weight[2], 0);
     // The solver takes the three for the corners of a face.
     std::array<int, 3> corners = s.node;
     std::ranges::sort(corners);
     int faces = 0;
     for (int t : b.topology->edge_triangle[edge]) {
-      std::array<int, 3> face = b.topology->triangle[static_cast<std::size_t>(t)];
+      std::array<int, 3> face = b.topology->triangle[t];
       std::ranges::sort(face);
       faces += face == corners ? 1 : 0;
     }
@@ -150,31 +147,30 @@ TEST(FindContacts, GapsAreThoseOfTryingEveryTriangle) {
           2, std::vector<int>(n_sites(bodies[0], q) * static_cast<std::size_t>(points_per_site(q)),
                               0));
       for (const Contact& c : contacts) {
-        const SurfaceBody& a = bodies[static_cast<std::size_t>(c.a)];
-        const SurfaceBody& b = bodies[static_cast<std::size_t>(c.b)];
+        const SurfaceBody& a = bodies[c.a];
+        const SurfaceBody& b = bodies[c.b];
         const Vec3 x = point_position(a, point_stencil(a, q, c.point));
         worst = std::max(
             worst, std::abs(c.gap - reference::plain_signed_distance(x, b.node, *b.triangle)));
-        const auto& corner = (*b.triangle)[static_cast<std::size_t>(c.triangle)];
+        const auto& corner = (*b.triangle)[c.triangle];
         const auto weight = c.weights();
         Vec3 closest = Vec3::Zero();
-        for (std::size_t m = 0; m < 3; ++m)
-          closest += weight[m] * b.node[static_cast<std::size_t>(corner[m])];
+        for (std::size_t m = 0; m < 3; ++m) closest += weight[m] * b.node[corner[m]];
         EXPECT_EQ(weight[0], static_cast<double>(c.place[0]));
         EXPECT_EQ(weight[1], static_cast<double>(c.place[1]));
         EXPECT_NEAR(weight[0] + weight[1] + weight[2], 1, 1e-14);
         // gap and normal are exact for the place that the rounded weights name
         EXPECT_LT((closest + c.gap * c.normal - x).norm(), 1e-12);
         EXPECT_NEAR(c.normal.norm(), 1, 1e-14);
-        ++seen[static_cast<std::size_t>(c.a)][static_cast<std::size_t>(c.point)];
+        ++seen[c.a][c.point];
         ++n_contact;
         n_inside += c.gap < 0 ? 1 : 0;
       }
       for (int body : {0, 1})
         for (std::size_t p = 0; p < seen[0].size(); ++p) {
-          const SurfaceBody& a = bodies[static_cast<std::size_t>(body)];
-          const SurfaceBody& b = bodies[static_cast<std::size_t>(1 - body)];
-          const int times = seen[static_cast<std::size_t>(body)][p];
+          const SurfaceBody& a = bodies[body];
+          const SurfaceBody& b = bodies[1 - body];
+          const int times = seen[body][p];
           EXPECT_LE(times, 1);
           const Vec3 x = point_position(a, point_stencil(a, q, static_cast<int>(p)));
           const Vec3 toward = ((b.box.low + b.box.high) / 2 - x).normalized();
@@ -202,8 +198,8 @@ TEST(FindCandidates, HoldEveryTriangleThatMayBecomeTheClosest) {
                   162)};
     const SearchOptions o{q, 0.9, 1.5, 0.3, 0};
     for (const Candidates& c : find_candidates(bodies, {}, o)) {
-      const SurfaceBody& a = bodies[static_cast<std::size_t>(c.body_a)];
-      const SurfaceBody& b = bodies[static_cast<std::size_t>(c.body_b)];
+      const SurfaceBody& a = bodies[c.body_a];
+      const SurfaceBody& b = bodies[c.body_b];
       ASSERT_EQ(c.start.size(), c.point.size() + 1);
       ASSERT_EQ(c.triangle.size(), c.start.back());
       ASSERT_EQ(c.bound.size(), c.triangle.size());
@@ -215,16 +211,14 @@ TEST(FindCandidates, HoldEveryTriangleThatMayBecomeTheClosest) {
         std::vector<double> listed(b.triangle->size(), -1);
         for (std::uint32_t k = c.start[p]; k < c.start[p + 1]; ++k) {
           EXPECT_GE(c.bound[k], c.bound[c.start[p]]);
-          listed[static_cast<std::size_t>(c.triangle[k])] = static_cast<double>(c.bound[k]);
+          listed[c.triangle[k]] = static_cast<double>(c.bound[k]);
         }
         EXPECT_NEAR(static_cast<double>(c.bound[c.start[p]]), std::abs(gap), 1e-6);
         for (std::size_t t = 0; t < listed.size(); ++t) {
           const auto& corner = (*b.triangle)[t];
-          const double distance =
-              std::sqrt(mesh::find_closest_point(x, b.node[static_cast<std::size_t>(corner[0])],
-                                                 b.node[static_cast<std::size_t>(corner[1])],
-                                                 b.node[static_cast<std::size_t>(corner[2])])
-                            .squared_distance);
+          const double distance = std::sqrt(
+              mesh::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]])
+                  .squared_distance);
           EXPECT_LT(listed[t], distance + 1e-6);
           if (distance < std::abs(gap) + 2 * o.skin) {
             EXPECT_GE(listed[t], 0);
@@ -325,9 +319,7 @@ TEST(SelfContact, HorseshoeMeetsItself) {
         EXPECT_LT(c.gap, 0.3);
         const Vec3 x = point_position(bodies[0], point_stencil(bodies[0], q, c.point));
         EXPECT_LT(x.y(), 0) << "only the ends meet";
-        EXPECT_LT(facing_of(bodies[0], q, c.point)
-                      .dot(bodies[0].triangle_normal[static_cast<std::size_t>(c.triangle)]),
-                  0.2);
+        EXPECT_LT(facing_of(bodies[0], q, c.point).dot(bodies[0].triangle_normal[c.triangle]), 0.2);
       }
     }
   const std::vector<SurfaceBody> open{make_body(horseshoe(30, 5, 2), 162)};

@@ -37,7 +37,7 @@ Dataset describe(hid_t object) {
   const hid_t type = H5Dget_type(object), space = H5Dget_space(object),
               list = H5Dget_create_plist(object);
   d.type = type_of(type);
-  d.shape.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  d.shape.resize(H5Sget_simple_extent_ndims(space));
   H5Sget_simple_extent_dims(space, d.shape.data(), nullptr);
   if (H5Pget_layout(list) == H5D_CHUNKED) {
     d.chunk.resize(d.shape.size());
@@ -73,7 +73,7 @@ struct Open {
   ~Open() { H5Fclose(id); }
   std::vector<std::int64_t> read(const std::string& name) const {
     const hid_t set = H5Dopen2(id, name.c_str(), H5P_DEFAULT), space = H5Dget_space(set);
-    std::vector<std::int64_t> value(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    std::vector<std::int64_t> value(H5Sget_simple_extent_npoints(space));
     EXPECT_GE(H5Dread(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()), 0)
         << name;
     H5Sclose(space);
@@ -84,7 +84,7 @@ struct Open {
     const hid_t a = H5Aopen_by_name(id, object, name, H5P_DEFAULT, H5P_DEFAULT);
     const hid_t type = H5Aget_type(a), space = H5Aget_space(a);
     EXPECT_EQ(type_of(type), "i8") << object << "@" << name;
-    std::vector<std::int64_t> value(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    std::vector<std::int64_t> value(H5Sget_simple_extent_npoints(space));
     H5Aread(a, H5T_NATIVE_INT64, value.data());
     H5Sclose(space);
     H5Tclose(type);
@@ -233,21 +233,21 @@ TEST(RunFileLayout, CompressedFramesStartOnChunks) {
   for (std::size_t k = 0; k < kFrame; ++k) {
     // What a VTKHDF reader does: index = offset of the step, sizes of the part.
     EXPECT_EQ((cell[k] + part[k]) % static_cast<std::int64_t>(kChunk), 0);
-    const auto p = static_cast<std::size_t>(part[k]);
+    const std::size_t p = part[k];
     const Frame frame = test::changing_frame(static_cast<int>(k));
     EXPECT_EQ(n_point[p], frame.n_mesh_node + frame.n_sphere);
     EXPECT_EQ(n_cell[p], std::ssize(frame.triangle) + frame.n_sphere);
-    const auto start = static_cast<std::size_t>(cell[k] + part[k]);
+    const std::size_t start = cell[k] + part[k];
     EXPECT_EQ(offsets[start], 0);
     EXPECT_EQ(offsets[start + static_cast<std::size_t>(n_cell[p])], n_id[p]);
     for (std::int64_t c = 0; c < n_cell[p]; ++c) {
       const bool triangle = c < std::ssize(frame.triangle);
-      const auto at = static_cast<std::size_t>(c);
-      ASSERT_EQ(types[static_cast<std::size_t>(cell[k] + c)], triangle ? 5 : 1);
+      const std::size_t at = c;
+      ASSERT_EQ(types[cell[k] + c], triangle ? 5 : 1);
       const auto first = offsets[start + at];
       ASSERT_EQ(offsets[start + at + 1] - first, triangle ? 3 : 1);
       ASSERT_EQ(
-          ids[static_cast<std::size_t>(id_offset[k] + first)],
+          ids[id_offset[k] + first],
           triangle ? frame.triangle[at][0] : frame.n_mesh_node + c - std::ssize(frame.triangle));
     }
   }

@@ -40,17 +40,17 @@ void expect_run(const std::string& path, int n) {
   const auto series = reader.series();
   ASSERT_EQ(std::ssize(series.at("time")), 7 * n);
   for (int i = 0; i < 7 * n; ++i) {
-    EXPECT_EQ(series.at("time")[static_cast<std::size_t>(i)], i);
-    EXPECT_EQ(series.at("dt")[static_cast<std::size_t>(i)], 0.5 * i);
+    EXPECT_EQ(series.at("time")[i], i);
+    EXPECT_EQ(series.at("dt")[i], 0.5 * i);
   }
   const auto event = reader.events();
   ASSERT_EQ(std::ssize(event), 2 * n);
   for (int k = 0; k < n; ++k) {
-    const Event& e = event[static_cast<std::size_t>(2 * k)];
+    const Event& e = event[2 * k];
     EXPECT_EQ(e.code, "division");
     EXPECT_EQ(e.cell_id, (std::vector<std::int64_t>{k, k + 1}));
     EXPECT_EQ(e.message, "cell " + std::to_string(k) + " divided");
-    EXPECT_TRUE(event[static_cast<std::size_t>(2 * k + 1)].cell_id.empty());
+    EXPECT_TRUE(event[2 * k + 1].cell_id.empty());
   }
 }
 

@@ -167,11 +167,8 @@ TEST(CutSurface, RunsRoundTheNormal) {
   const auto& half = cut.half[0];
   for (std::size_t t = half.triangle.size() - (loop.size() - 2); t < half.triangle.size(); ++t) {
     const auto& [a, b, c] = half.triangle[t];
-    const Vec3& x = half.node[static_cast<std::size_t>(a)];
-    EXPECT_GE((half.node[static_cast<std::size_t>(b)] - x)
-                  .cross(half.node[static_cast<std::size_t>(c)] - x)
-                  .dot(plane.normal),
-              -1e-15);
+    const Vec3& x = half.node[a];
+    EXPECT_GE((half.node[b] - x).cross(half.node[c] - x).dot(plane.normal), -1e-15);
   }
 }
 

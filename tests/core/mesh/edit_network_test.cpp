@@ -25,8 +25,7 @@ Network make_chain(int n, double step, double radius) {
 
 double length_of(const Network& network, std::size_t s) {
   const auto& [a, b] = network.segment[s];
-  return (network.node[static_cast<std::size_t>(b)] - network.node[static_cast<std::size_t>(a)])
-      .norm();
+  return (network.node[b] - network.node[a]).norm();
 }
 
 double mean_radius(const Network& network, std::size_t s) {
@@ -43,8 +42,8 @@ double lateral_area(const Network& network) {
 std::vector<int> degrees(const Network& network) {
   std::vector<int> degree(network.node.size(), 0);
   for (const auto& [a, b] : network.segment) {
-    ++degree[static_cast<std::size_t>(a)];
-    ++degree[static_cast<std::size_t>(b)];
+    ++degree[a];
+    ++degree[b];
   }
   return degree;
 }
@@ -117,8 +116,7 @@ TEST(ResampleNetwork, MergesShortSegmentsAndKeepsTheTaper) {
   for (std::size_t s = 0; s < out.segment.size(); ++s) {
     EXPECT_GE(length_of(out, s), mean_radius(out, s) / 2);
     for (std::size_t end = 0; end < 2; ++end) {  // r = 2 + x / 10
-      EXPECT_NEAR(out.radius[s][end],
-                  2 + out.node[static_cast<std::size_t>(out.segment[s][end])].x() / 10, 1e-12);
+      EXPECT_NEAR(out.radius[s][end], 2 + out.node[out.segment[s][end]].x() / 10, 1e-12);
     }
   }
   EXPECT_EQ(anchors(out), anchors(chain));
@@ -177,7 +175,7 @@ TEST(ResampleNetwork, RealNetworksChangeLittle) {
     for (std::size_t s = 0; s < after.segment.size(); ++s) {
       if (length_of(after, s) >= mean_radius(after, s) / 2 - 1e-9) continue;
       ++n_short;  // only a whole chain between two branch points or ends may be short
-      for (const int node : after.segment[s]) EXPECT_NE(degree[static_cast<std::size_t>(node)], 2);
+      for (const int node : after.segment[s]) EXPECT_NE(degree[node], 2);
     }
     std::printf(
         "%s: %zu -> %zu segments, short %zu -> %zu, length %.2f -> %.2f um, area %.1f -> %.1f "

@@ -153,7 +153,7 @@ TEST(ReadSurface, StlCornersAreMerged) {
     text += "facet normal 0 0 0\nouter loop\n";
     binary += std::string(12, '\0');
     for (const int i : t) {
-      const Vec3& x = sphere.node[static_cast<std::size_t>(i)];
+      const Vec3& x = sphere.node[i];
       text += fmt::format("vertex {} {} {}\n", x.x(), x.y(), x.z());
       for (int d = 0; d < 3; ++d)
         binary += little(std::bit_cast<std::uint32_t>(static_cast<float>(x[d])));
@@ -231,7 +231,7 @@ TEST(Triangulate, CutsConvexAndConcavePolygons) {
     const auto triangle = triangulate(turned, node);
     ASSERT_EQ(triangle.size(), 2u);
     for (const auto& [a, b, c] : triangle) {
-      const auto x = [&](int i) { return node[static_cast<std::size_t>(i)]; };
+      const auto x = [&](int i) { return node[i]; };
       EXPECT_GT((x(b) - x(a)).cross(x(c) - x(a)).z(), 0);
     }
     EXPECT_NEAR(compute_area(node, triangle), 6, 1e-14);

@@ -66,8 +66,7 @@ TEST(Star, RaysMeetTheSurfaceAlsoThroughNodesAndEdges) {
       EXPECT_LT((star.cast(x - center, start).point - x).norm(), tolerance);
     for (const auto& [a, b, c] : shape.triangle)
       for (const auto& [i, j] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-        const Vec3 middle =
-            (shape.node[static_cast<std::size_t>(i)] + shape.node[static_cast<std::size_t>(j)]) / 2;
+        const Vec3 middle = (shape.node[i] + shape.node[j]) / 2;
         EXPECT_LT((star.cast(middle - center, start).point - middle).norm(), tolerance);
       }
   }
@@ -83,12 +82,10 @@ TEST(Star, HitsLieOnTheirTriangleAndTheRay) {
     const Vec3 direction = random.unit_vector();
     const Hit hit = star.cast(3 * direction, start);
     start = hit.triangle;
-    const auto& [a, b, c] = corner.triangle[static_cast<std::size_t>(hit.triangle)];
-    EXPECT_LT(
-        reference::plain_distance_to_triangle(hit.point, corner.node[static_cast<std::size_t>(a)],
-                                              corner.node[static_cast<std::size_t>(b)],
-                                              corner.node[static_cast<std::size_t>(c)]),
-        1e-13);
+    const auto& [a, b, c] = corner.triangle[hit.triangle];
+    EXPECT_LT(reference::plain_distance_to_triangle(hit.point, corner.node[a], corner.node[b],
+                                                    corner.node[c]),
+              1e-13);
     EXPECT_LT((hit.point - center).normalized().cross(direction).norm(), 1e-13);
     EXPECT_GT((hit.point - center).dot(direction), 0.39);
   }

@@ -33,21 +33,19 @@ void expect_sound(const Topology& mesh) {
   EXPECT_NEAR(compute_area(mesh.rest, mesh.triangle), mesh.rest_area, kRoundOff);
   EXPECT_NEAR(length / mesh.n_edge, mesh.mean_rest_length, kRoundOff);
   for (int e = 0; e < mesh.n_edge; ++e) {
-    const auto s = static_cast<std::size_t>(e);
+    const std::size_t s = e;
     const auto [x1, x2, x3, x4] = mesh.hinge[s];
     EXPECT_LT(mesh.edge[s][0], mesh.edge[s][1]);
     EXPECT_EQ(std::minmax(x3, x4), std::minmax(mesh.edge[s][0], mesh.edge[s][1]));
     std::array<Vec3, 4> x;
-    for (std::size_t k = 0; k < 4; ++k)
-      x[k] = mesh.rest[static_cast<std::size_t>(mesh.hinge[s][k])];
+    for (std::size_t k = 0; k < 4; ++k) x[k] = mesh.rest[mesh.hinge[s][k]];
     const std::array<Vec3, 2> normal = {(x[0] - x[2]).cross(x[0] - x[3]),
                                         (x[1] - x[3]).cross(x[1] - x[2])};
     for (std::size_t side = 0; side < 2; ++side) {
-      const auto& t = mesh.triangle[static_cast<std::size_t>(mesh.edge_triangle[s][side])];
+      const auto& t = mesh.triangle[mesh.edge_triangle[s][side]];
       EXPECT_NE(std::find(t.begin(), t.end(), side == 0 ? x1 : x2), t.end());
-      const Vec3 a = mesh.rest[static_cast<std::size_t>(t[0])];
-      const Vec3 outward = (mesh.rest[static_cast<std::size_t>(t[1])] - a)
-                               .cross(mesh.rest[static_cast<std::size_t>(t[2])] - a);
+      const Vec3 a = mesh.rest[t[0]];
+      const Vec3 outward = (mesh.rest[t[1]] - a).cross(mesh.rest[t[2]] - a);
       EXPECT_LT((normal[side] - outward).norm(), 1e-13);
     }
     EXPECT_NEAR(std::remainder(
@@ -126,8 +124,7 @@ TEST(Hinge, AngleGradientHasTheSignOfTheFormula) {
   for (const auto& hinge : mesh.hinge) {
     std::array<Vec3, 4> x;
     for (std::size_t k = 0; k < 4; ++k) {
-      x[k] = mesh.rest[static_cast<std::size_t>(hinge[k])] +
-             Vec3(noise(random), noise(random), noise(random));
+      x[k] = mesh.rest[hinge[k]] + Vec3(noise(random), noise(random), noise(random));
     }
     const Vec3 edge = x[3] - x[2];
     const double length = edge.norm();
@@ -180,8 +177,7 @@ TEST(Topology, RingsAreSortedAndComplete) {
     EXPECT_TRUE(std::is_sorted(mesh.ring.begin() + mesh.ring_start[i],
                                mesh.ring.begin() + mesh.ring_start[i + 1]));
     for (int k = mesh.node_triangle_start[i]; k < mesh.node_triangle_start[i + 1]; ++k) {
-      const auto& t =
-          mesh.triangle[static_cast<std::size_t>(mesh.node_triangle[static_cast<std::size_t>(k)])];
+      const auto& t = mesh.triangle[mesh.node_triangle[k]];
       EXPECT_NE(std::find(t.begin(), t.end(), static_cast<int>(i)), t.end());
     }
   }

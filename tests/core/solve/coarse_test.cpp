@@ -59,7 +59,7 @@ struct Chain {
     for (std::size_t c = 0; c < active.size(); ++c) {
       if (!active[c]) continue;
       const Block& b = system.block[c / kLanes];
-      const auto n = static_cast<std::size_t>(b.pattern->n_point);
+      const std::size_t n = b.pattern->n_point;
       Vec3 mean = Vec3::Zero();
       auto at = [&](std::size_t i) {
         return make_address(b.first_row + i, static_cast<int>(c % kLanes));

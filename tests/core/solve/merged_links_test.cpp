@@ -149,7 +149,7 @@ TEST(MergedLinks, AreTheSumsOverContactsWorkedOutPlainly) {
   for (const Block& block : s.block)
     for (std::size_t e = 0; e < block.pattern->spring.size(); ++e)
       for (int l = 0; l < kLanes; ++l) {
-        const std::size_t k = block.first_spring + e, lane = static_cast<std::size_t>(l);
+        const std::size_t k = block.first_spring + e, lane = l;
         Sum expected;
         const auto number = [&](std::size_t i) {
           return static_cast<double>(s.spring[k * kSpringStride + i * kLanes + lane]);

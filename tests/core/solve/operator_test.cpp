@@ -47,7 +47,7 @@ TEST(RandomSystem, HoldsEveryKindOfElementAndContact) {
   for (std::size_t k = 3 * kLanes; k < s.spring.size(); k += kSpringStride)
     softer_along = softer_along || s.spring[k] < 0;
   EXPECT_TRUE(softer_along);
-  int kinds[2][3] = {};  // points of side a against those of side b, 0: surroundings
+  int kinds[2][3] = {};  // points of side a against those of side b, 0: boundary
   bool within = false, without_matrix = false;
   for (const Link& l : s.links.link) {
     ++kinds[l.a.is_single() ? 0 : 1][!l.b.exists() ? 0 : l.b.is_single() ? 1 : 2];
@@ -119,7 +119,7 @@ TYPED_TEST(OperatorOf, ProductOfEveryKindAlone) {
   }
 }
 
-TEST(Operator, ExternalProductHasMediumAndSurroundingsOnly) {
+TEST(Operator, ExternalProductHasMediumAndBoundaryOnly) {
   const System s = make_system(1);
   System external = s;
   std::ranges::fill(external.spring, 0.0f);
@@ -393,7 +393,7 @@ TEST(Links, StencilNamesEveryPointWithItsWeight) {
   EXPECT_EQ(s.weight[0], 1);
 }
 
-// Pairs feel no translation, contacts with surroundings all of it.
+// Pairs feel no translation, contacts with boundary all of it.
 TEST(Links, WeightsAddUpToNothingOrToOne) {
   const System s = make_system(12);
   for (const Link& link : s.links.link) {

@@ -33,10 +33,9 @@ struct Clusters {
     x.resize(system.n_dof());
     for (int c = 0; c < 2 * kLanes; ++c) {
       cluster.push_back(c < 6 ? 0 : c < 13 ? 1 : -1);
-      active[static_cast<std::size_t>(c)] = c < 13 ? 1 : 0;
+      active[c] = c < 13 ? 1 : 0;
       const double medium = c < 13 ? kMedium : 1;
-      const auto row = static_cast<std::size_t>(c / kLanes),
-                 l = static_cast<std::size_t>(c % kLanes);
+      const std::size_t row = c / kLanes, l = c % kLanes;
       system.medium[row * kLanes + l] = medium;
       store_point(position.data(), at(c),
                   Vec3(c < 6 ? 0 : 60, 0, 0) + reference::random_vector(random, 15));
@@ -44,7 +43,7 @@ struct Clusters {
     }
     for (int a = 0; a < 13; ++a)
       for (int b = 0; b < a; ++b) {
-        if (cluster[static_cast<std::size_t>(a)] != cluster[static_cast<std::size_t>(b)]) continue;
+        if (cluster[a] != cluster[b]) continue;
         const Vec3 u = (place(a) - place(b)).normalized(), pull = random.uniform(-0.1, 0.1) * u;
         add_link(point(a), point(b), random.uniform(0.5, 2), 0, u);
         add_point(rhs.data(), at(a), pull);
@@ -73,14 +72,14 @@ struct Clusters {
     Vec3 sum = Vec3::Zero();
     int n = 0;
     for (int c = 0; c < 13; ++c)
-      if (cluster[static_cast<std::size_t>(c)] == k) sum += place(c), ++n;
+      if (cluster[c] == k) sum += place(c), ++n;
     return sum / n;
   }
   /// Force and torque of a field on one cluster.
   Eigen::Matrix<double, 6, 1> resultant(const std::vector<double>& f, int k) const {
     Eigen::Matrix<double, 6, 1> out = Eigen::Matrix<double, 6, 1>::Zero();
     for (int c = 0; c < 13; ++c) {
-      if (cluster[static_cast<std::size_t>(c)] != k) continue;
+      if (cluster[c] != k) continue;
       out.head<3>() += load_point(f.data(), at(c));
       out.tail<3>() += (place(c) - center(k)).cross(load_point(f.data(), at(c))) / 15;
     }
@@ -101,7 +100,7 @@ struct Clusters {
 double distance_from_rigid(const Clusters& c, const std::vector<double>& move, int k) {
   std::vector<int> cell;
   for (int i = 0; i < 13; ++i)
-    if (c.cluster[static_cast<std::size_t>(i)] == k) cell.push_back(i);
+    if (c.cluster[i] == k) cell.push_back(i);
   Eigen::MatrixXd z(3 * cell.size(), 6);
   Eigen::VectorXd m(3 * cell.size());
   for (std::size_t i = 0; i < cell.size(); ++i) {
@@ -179,9 +178,9 @@ TEST(RigidModes, ClustersAreJudgedApart) {
   }
 }
 
-// A contact with surroundings holds the cluster: it belongs into the projected matrix, else the
-// correction would throw the cluster about. [decisions: 6x6 with the surroundings' stiffness]
-TEST(RigidModes, SurroundingsHoldACluster) {
+// A contact with boundary holds the cluster: it belongs into the projected matrix, else the
+// correction would throw the cluster about. [decisions: 6x6 with the boundary' stiffness]
+TEST(RigidModes, BoundaryHoldsACluster) {
   Clusters c;
   for (int cell = 0; cell < 6; ++cell) {
     c.add_link(Clusters::point(cell), kNowhere, 3, 1e-3, Vec3::UnitZ());

@@ -78,7 +78,7 @@ class Places {
     Side side{{p, p, p}, {}};
     for (std::size_t m = 1; m < 3; ++m) {
       const auto k = static_cast<std::ptrdiff_t>(random_.index(room.size()));
-      side.point[m] = room[static_cast<std::size_t>(k)];
+      side.point[m] = room[k];
       take(side.point[m]);
       room.erase(room.begin() + k);
     }
@@ -99,7 +99,7 @@ class Places {
 };
 
 /// Two groups of deformable cells and two rows of spheres; two rank-one families, the second of
-/// which covers the first group only; contacts of one and of three points a side, with surroundings
+/// which covers the first group only; contacts of one and of three points a side, with boundary
 /// and within a single cell; contacts of spheres.
 /// @param copies  more groups than that: enough rows for threads to start
 inline System make_system(std::uint64_t seed, int copies = 1) {
@@ -153,7 +153,7 @@ inline System make_system(std::uint64_t seed, int copies = 1) {
   return s;
 }
 
-/// Without what acts from outside: medium, surroundings and the whole-cell families (whose random
+/// Without what acts from outside: medium, boundary and the whole-cell families (whose random
 /// vectors, unlike those of volume and area, feel a translation).
 inline System keep_inner(System s) {
   std::ranges::fill(s.medium, 0.0);

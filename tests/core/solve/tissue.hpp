@@ -91,8 +91,8 @@ inline constexpr Kind kKinds[] = {
     {"node, node", kIcosphere, Part::kPoint, kOctahedron, Part::kPoint, false},
     {"sphere, sphere", kSphere, Part::kPoint, kSphere, Part::kPoint, false},
     {"node, face of its own cell", kIcosphere, Part::kPoint, kIcosphere, Part::kFace, false, true},
-    {"face, surroundings", kIcosphere, Part::kFace, kOutside, Part::kPoint, false},
-    {"node, surroundings", kOctahedron, Part::kPoint, kOutside, Part::kPoint, false},
+    {"face, boundary", kIcosphere, Part::kFace, kOutside, Part::kPoint, false},
+    {"node, boundary", kOctahedron, Part::kPoint, kOutside, Part::kPoint, false},
 };
 
 /// Blocks of every shape, and contacts between their cells.
@@ -163,13 +163,11 @@ class Tissue {
       return static_cast<Point>((system.block[cell / kLanes].first_row + i) * kLanes +
                                 cell % kLanes);
     };
-    if (part == Part::kPoint)
-      return Side::at(point(random_.index(static_cast<std::size_t>(m.pattern.n_point))));
+    if (part == Part::kPoint) return Side::at(point(random_.index(m.pattern.n_point)));
     const auto& t = m.triangle[random_.index(m.triangle.size())];
     const std::size_t first = random_.index(3);  // a face may be named from any of its corners
     Side s;
-    for (std::size_t k = 0; k < 3; ++k)
-      s.point[k] = point(static_cast<std::size_t>(t[(first + k) % 3]));
+    for (std::size_t k = 0; k < 3; ++k) s.point[k] = point(t[(first + k) % 3]);
     const double u = random_.uniform(), v = random_.uniform();
     s.weight = {static_cast<float>(std::min(u, v)), static_cast<float>(std::abs(u - v))};
     return s;

@@ -17,8 +17,8 @@
 
 namespace acinus::runs {
 
-/// One written moment. The loads of this moment are assembled (take_snapshot).
-struct Moment {
+/// One written frame. The loads of this frame are assembled (take_snapshot).
+struct ObservedFrame {
   const Scene& scene;
   const coupling::World& world;
   const coupling::Workspace& work;
@@ -32,7 +32,7 @@ struct CellTrack {
   bool leader = false;
 };
 
-struct Observer {
+struct Observables {
   Measures measures;
   // Remembered, and kept in checkpoints:
   std::map<std::string, double> start;  ///< values of the first frame that others are relative to
@@ -45,16 +45,16 @@ struct Observer {
 };
 
 /// Measures a frame of the run phase: adds to all series and returns the row of /observables, time
-/// first. What has no value at this moment is 0 there.
-std::vector<io::SeriesValue> observe_frame(const Moment& moment, Observer& observer);
+/// first. What has no value at this frame is 0 there.
+std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observables& observables);
 
 /// Counts divisions by the layer they happened in. To be called while the daughters are where they
 /// were born; does nothing unless the experiment is a lobule.
 void observe_births(const Scene& scene, const coupling::World& world,
-                    const coupling::LifeReport& report, Observer& observer);
+                    const coupling::LifeReport& report, Observables& observables);
 
-void put_observer(const Observer& observer, io::CheckpointData& data);
+void put_observables(const Observables& observables, io::CheckpointData& data);
 /// @throws Error(kFileError) if the checkpoint is damaged
-Observer get_observer(const io::CheckpointData& data);
+Observables get_observables(const io::CheckpointData& data);
 
 }  // namespace acinus::runs

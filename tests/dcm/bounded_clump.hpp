@@ -1,18 +1,18 @@
 #pragma once
-/// Cells among surroundings of every kind, and what their contacts are.
+/// Cells among boundary of every kind, and what their contacts are.
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 #include "tests/dcm/clump.hpp"
 
 namespace acinus::dcm {
 
-/// All kinds of surroundings, each in reach of some cell of make_clump.
-inline contact::Surroundings make_surroundings() {
-  contact::Surroundings s;
+/// All kinds of boundary, each in reach of some cell of make_clump.
+inline contact::Boundary make_boundary() {
+  contact::Boundary s;
   contact::Plane floor;
   floor.point = {0, 0, -23.9};
   floor.material.adhesion = 0.02;
@@ -43,7 +43,7 @@ inline contact::Surroundings make_surroundings() {
 }
 
 /// To be called once more after every copy.
-inline void connect_meshes(contact::Surroundings& s) {
+inline void connect_meshes(contact::Boundary& s) {
   for (contact::StaticMesh& m : s.meshes) {
     m.body.triangle = &m.triangle;
     contact::refresh_body(m.body);
@@ -52,7 +52,7 @@ inline void connect_meshes(contact::Surroundings& s) {
 
 inline Clump make_surrounded_clump(std::uint64_t seed) {
   Clump c = make_clump(seed);
-  c.around = make_surroundings();
+  c.boundary = make_boundary();
   c.params[0].vessel_friction = 0.1;
   return c;
 }

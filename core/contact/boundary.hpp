@@ -59,7 +59,7 @@ struct StaticMesh {
   Material material;
 };
 
-struct Surroundings {
+struct Boundary {
   std::vector<Plane> planes;
   std::vector<Capsule> capsules;
   Vessels vessels;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "runs/scene/scene.hpp"
 
@@ -15,8 +15,7 @@ coupling::LobuleParameters lobule_parameters(const Scene& scene);
 
 /// @param lobule  null: none
 /// @throws Error for files that cannot be used
-void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
-                      contact::Surroundings& around);
+void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary);
 
 /// Names of the walls, capsule and closed meshes that a scene's cells meet, without building it.
 std::vector<std::string> boundary_names(const Scene& scene);

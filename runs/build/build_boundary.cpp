@@ -1,4 +1,4 @@
-#include "runs/build/build_surroundings.hpp"
+#include "runs/build/build_boundary.hpp"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ contact::Material wall_material(const WallEntry& w) {
   return m;
 }
 
-void add_static_meshes(const Scene& scene, contact::Surroundings& around) {
+void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
   for (const StaticMeshEntry& m : scene.static_meshes) {
     for (mesh::Surface& s : mesh::read_closed_surfaces(m.file, m.unit * m.scale)) {
       contact::StaticMesh body;
@@ -48,10 +48,10 @@ void add_static_meshes(const Scene& scene, contact::Surroundings& around) {
         for (auto& t : body.triangle) std::swap(t[1], t[2]);
       body.body.node = s.node;
       for (Vec3& x : body.body.node) x += m.shift;
-      around.meshes.push_back(std::move(body));
+      boundary.meshes.push_back(std::move(body));
     }
   }
-  for (contact::StaticMesh& m : around.meshes) {  // addresses are final only now
+  for (contact::StaticMesh& m : boundary.meshes) {  // addresses are final only now
     m.body.triangle = &m.triangle;
     contact::refresh_body(m.body);
   }
@@ -75,31 +75,31 @@ coupling::LobuleParameters lobule_parameters(const Scene& scene) {
           scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
 }
 
-void add_surroundings(const Scene& scene, const coupling::Lobule* lobule,
-                      contact::Surroundings& around) {
+void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary) {
   mesh::Network network;
   if (!scene.vessels.file.empty())
     network = read_vessels(scene.vessels);
   else if (lobule)
     network = lobule->vessels;
-  contact::set_network(around.vessels, std::move(network));
-  around.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
-                             false};
+  contact::set_network(boundary.vessels, std::move(network));
+  boundary.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
+                               false};
   if (lobule)
     for (const coupling::MirrorPlane& p : lobule->planes)
-      around.planes.push_back({p.name, p.point, p.normal, 0, 0, mirror(), contact::Plane{}.opens});
+      boundary.planes.push_back(
+          {p.name, p.point, p.normal, 0, 0, mirror(), contact::Plane{}.opens});
   for (const WallEntry& w : scene.walls)
-    around.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel,
-                             wall_material(w), w.opens.value_or(contact::Plane{}.opens)});
+    boundary.planes.push_back({w.name, w.point, w.normal.normalized(), w.speed, w.travel,
+                               wall_material(w), w.opens.value_or(contact::Plane{}.opens)});
   if (scene.capsule.enabled)
-    around.capsules.push_back({kCapsuleName,
-                               scene.capsule.center,
-                               scene.capsule.radius,
-                               scene.capsule.speed,
-                               scene.capsule.min_radius,
-                               scene.capsule.opens.value_or(contact::Capsule{}.opens),
-                               {}});
-  add_static_meshes(scene, around);
+    boundary.capsules.push_back({kCapsuleName,
+                                 scene.capsule.center,
+                                 scene.capsule.radius,
+                                 scene.capsule.speed,
+                                 scene.capsule.min_radius,
+                                 scene.capsule.opens.value_or(contact::Capsule{}.opens),
+                                 {}});
+  add_static_meshes(scene, boundary);
 }
 
 std::vector<std::string> boundary_names(const Scene& scene) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The cohesive well: traction between two surfaces as a function of their gap.
+/// The cohesive potential: traction between two surfaces as a function of their gap.
 
 #include <algorithm>
 
@@ -8,14 +8,14 @@ namespace acinus::contact {
 /// phi(d <= 0) = -W + 1/2 k d^2;  0 < d < range, u = d/range: phi = -W (1-u)^3 (1+3u);  0 beyond.
 /// The area under the traction is W exactly; the traction vanishes at d = 0, where the normal of a
 /// closest point is undefined. Continuous with its first derivative.
-struct Well {
+struct CohesiveLaw {
   double adhesion = 0;   ///< W, nN/um
   double repulsion = 0;  ///< k, nN/um^3
   double range = 1;      ///< um
 };
 
 /// Energy per area, fJ/um^2.
-inline double well_energy(const Well& w, double gap) {
+inline double cohesive_energy(const CohesiveLaw& w, double gap) {
   if (gap <= 0) return -w.adhesion + 0.5 * w.repulsion * gap * gap;
   if (gap >= w.range) return 0;
   const double u = gap / w.range, v = 1 - u;
@@ -23,7 +23,7 @@ inline double well_energy(const Well& w, double gap) {
 }
 
 /// d phi / d gap, kPa: positive pulls the surfaces together.
-inline double well_traction(const Well& w, double gap) {
+inline double cohesive_traction(const CohesiveLaw& w, double gap) {
   if (gap <= 0) return w.repulsion * gap;
   if (gap >= w.range) return 0;
   const double u = gap / w.range, v = 1 - u;
@@ -31,7 +31,7 @@ inline double well_traction(const Well& w, double gap) {
 }
 
 /// max(0, d2 phi / d gap^2), nN/um^3: the softening branch is left out of the matrix.
-inline double well_stiffness(const Well& w, double gap) {
+inline double cohesive_stiffness(const CohesiveLaw& w, double gap) {
   if (gap <= 0) return w.repulsion;
   if (gap >= w.range) return 0;
   const double u = gap / w.range;

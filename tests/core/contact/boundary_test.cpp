@@ -1,4 +1,4 @@
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ Vessels straight_chain(UniformStream& random, int pieces, const Vec3& from, cons
   mesh::Network n;
   for (double t : cut) n.node.push_back(from + t * (to - from));
   for (int k = 0; k < pieces; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     n.segment.push_back(k % 2 == 0 ? std::array{k, k + 1} : std::array{k + 1, k});
     const double a = r0 + cut[i] * (r1 - r0), b = r0 + cut[i + 1] * (r1 - r0);
     n.radius.push_back(k % 2 == 0 ? std::array{a, b} : std::array{b, a});

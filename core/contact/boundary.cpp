@@ -1,4 +1,4 @@
-#include "core/contact/surroundings.hpp"
+#include "core/contact/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,7 @@ void set_network(Vessels& v, mesh::Network network) {
   v.network = std::move(network);
   v.segments_of_node.assign(v.network.node.size(), {});
   for (std::size_t s = 0; s < v.network.segment.size(); ++s)
-    for (int n : v.network.segment[s])
-      v.segments_of_node[static_cast<std::size_t>(n)].push_back(static_cast<int>(s));
+    for (int n : v.network.segment[s]) v.segments_of_node[n].push_back(static_cast<int>(s));
 }
 
 Gap gap_to_plane(const Plane& p, const Vec3& x, double time) {
@@ -46,9 +45,9 @@ Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time) {
 }
 
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {
-  const auto s = static_cast<std::size_t>(segment);
-  const Vec3& a = network.node[static_cast<std::size_t>(network.segment[s][0])];
-  const Vec3& b = network.node[static_cast<std::size_t>(network.segment[s][1])];
+  const std::size_t s = segment;
+  const Vec3& a = network.node[network.segment[s][0]];
+  const Vec3& b = network.node[network.segment[s][1]];
   const auto [ra, rb] = network.radius[s];
   const Vec3 axis = b - a;
   const double length = axis.norm();
@@ -79,14 +78,14 @@ bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const 
   const auto at_start = [](const Gap& g) { return g.parameter <= kEnd; };
   const auto at_finish = [](const Gap& g) { return g.parameter >= 1 - kEnd; };
   const auto& joint = vessels.network.segment;
-  const auto& own = joint[static_cast<std::size_t>(segment)];
+  const auto& own = joint[segment];
   for (int k : {0, 1}) {
-    const int node = own[static_cast<std::size_t>(k)];
+    const int node = own[k];
     const bool here = k == 0 ? at_start(gap) : at_finish(gap);
-    for (int other : vessels.segments_of_node[static_cast<std::size_t>(node)]) {
+    for (int other : vessels.segments_of_node[node]) {
       if (other == segment) continue;
       const Gap o = gap_to_segment(vessels.network, other, x);
-      const bool starts_here = joint[static_cast<std::size_t>(other)][0] == node;
+      const bool starts_here = joint[other][0] == node;
       const bool there = starts_here ? at_start(o) : at_finish(o);
       if (here || there) {
         // Both describe the surface about this joint, and the nearer one counts: segments may

@@ -1,4 +1,4 @@
-#include "runs/experiments/observer.hpp"
+#include "runs/experiments/observe.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,25 +50,25 @@ std::optional<Vec3> find_center(const coupling::State& s, std::int64_t id) {
     if (s.dcm.active(l) && s.dcm.lineage[l] == id) return dcm::cell_center(s.dcm, l);
   const auto at = std::ranges::find(s.cbm.lineage, id);
   if (at == s.cbm.lineage.end()) return {};
-  return cbm::center_of(s.cbm, static_cast<std::size_t>(at - s.cbm.lineage.begin()));
+  return cbm::center_of(s.cbm, at - s.cbm.lineage.begin());
 }
 
 }  // namespace
 
-std::vector<io::SeriesValue> observe_frame(const Moment& moment, Observer& observer) {
-  Measures& m = observer.measures;
+std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observables& observables) {
+  Measures& m = observables.measures;
   const Sizes before = sizes_of(m);
-  sample_experiment(moment.scene, moment.world, moment.snapshot, m);
-  sample_tissue(moment, m);
-  if (moment.scene.experiment == "lobule") sample_lobule(moment, observer);
-  observer.last_time = moment.snapshot.time;
-  observer.track.clear();
-  for (const coupling::CellMeasure& c : moment.snapshot.cells)
-    observer.track[c.id] = {c.center, c.leader};
+  sample_experiment(frame.scene, frame.world, frame.snapshot, m);
+  sample_tissue(frame, m);
+  if (frame.scene.experiment == "lobule") sample_lobule(frame, observables);
+  observables.last_time = frame.snapshot.time;
+  observables.track.clear();
+  for (const coupling::CellMeasure& c : frame.snapshot.cells)
+    observables.track[c.id] = {c.center, c.leader};
 
-  std::vector<io::SeriesValue> row{{"time", "s", moment.snapshot.time}};
-  std::vector<Observable> columns = known_observables(moment.scene.experiment);
-  for (const std::string& wall : wall_names(moment.world.params.around)) {
+  std::vector<io::SeriesValue> row{{"time", "s", frame.snapshot.time}};
+  std::vector<Observable> columns = known_observables(frame.scene.experiment);
+  for (const std::string& wall : wall_names(frame.world.params.boundary)) {
     const std::vector<Observable> of_wall = wall_observables(wall);
     columns.insert(columns.end(), of_wall.begin(), of_wall.end());
   }
@@ -77,7 +77,7 @@ std::vector<io::SeriesValue> observe_frame(const Moment& moment, Observer& obser
 }
 
 void observe_births(const Scene& scene, const coupling::World& world,
-                    const coupling::LifeReport& report, Observer& observer) {
+                    const coupling::LifeReport& report, Observables& observables) {
   if (scene.experiment != "lobule") return;
   // Where a rule says in which layers cells divide, they are counted as it counts them.
   const auto& rule = world.params.life.proliferation;
@@ -98,36 +98,36 @@ void observe_births(const Scene& scene, const coupling::World& world,
                               b = find_center(world.state, e.cells[2]);
     if (!a || !b) continue;  // a daughter that is gone already
     const int layer = layer_at(0.5 * (*a + *b));
-    observer.births[static_cast<std::size_t>(std::min(layer, kLayers + 1) - 1)] += 1;
+    observables.births[std::min(layer, kLayers + 1) - 1] += 1;
   }
 }
 
-void put_observer(const Observer& o, io::CheckpointData& data) {
+void put_observables(const Observables& o, io::CheckpointData& data) {
   for (const auto& [name, values] : o.measures) data.put("measures/" + name, values);
-  for (const auto& [name, value] : o.start) data.put_number("observer/start/" + name, value);
-  data.put_number("observer/last_time", o.last_time);
-  data.put("observer/births", std::vector<double>(o.births.begin(), o.births.end()));
+  for (const auto& [name, value] : o.start) data.put_number("observables/start/" + name, value);
+  data.put_number("observables/last_time", o.last_time);
+  data.put("observables/births", std::vector<double>(o.births.begin(), o.births.end()));
   std::vector<std::int64_t> ids;
   std::vector<double> centers;
   for (const auto& [id, track] : o.track) {
     ids.insert(ids.end(), {id, track.leader ? 1 : 0});
     for (const double x : track.center) centers.push_back(x);
   }
-  data.put("observer/cells", ids);
-  data.put("observer/centers", centers);
+  data.put("observables/cells", ids);
+  data.put("observables/centers", centers);
 }
 
-Observer get_observer(const io::CheckpointData& data) {
-  Observer o;
-  constexpr std::string_view kMeasures = "measures/", kStart = "observer/start/";
+Observables get_observables(const io::CheckpointData& data) {
+  Observables o;
+  constexpr std::string_view kMeasures = "measures/", kStart = "observables/start/";
   for (const auto& [name, value] : data.all()) {
     if (name.starts_with(kMeasures)) o.measures[name.substr(kMeasures.size())] = data.numbers(name);
     if (name.starts_with(kStart)) o.start[name.substr(kStart.size())] = data.number(name);
   }
-  o.last_time = data.number("observer/last_time");
-  const std::vector<double>&births = data.numbers("observer/births"),
-        &centers = data.numbers("observer/centers");
-  const std::vector<std::int64_t>& ids = data.integers("observer/cells");
+  o.last_time = data.number("observables/last_time");
+  const std::vector<double>&births = data.numbers("observables/births"),
+        &centers = data.numbers("observables/centers");
+  const std::vector<std::int64_t>& ids = data.integers("observables/cells");
   check(births.size() == o.births.size() && 2 * centers.size() == 3 * ids.size(),
         data.source() +
             ": what the run remembers of its last frame is damaged. Resume from the "
