@@ -97,7 +97,7 @@ PatchVariant make_variant(const runs::Scene& shipped, const std::string& name, d
   PatchVariant v{
       name, fmt::format("{:.0f}_{}", 100 * share, law == "none" ? "plain" : "calibrated"), shipped};
   if (share >= 1) {
-    v.scene.model = v.scene.cells.model = "dcm";
+    v.scene.model = v.scene.cells.model = runs::CellModel::kDcm;
     v.scene.zoom.clear();
     v.folder = "all_dcm";
   }

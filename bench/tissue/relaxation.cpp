@@ -58,10 +58,11 @@ RelaxationVariant make_variant(const runs::Scene& shipped, double held, int node
   hold(held, v.scene);
   std::string what = form;
   if (nodes > 0) {
-    v.scene.friction.form = form;
+    v.scene.contact.friction_form =
+        form == "nodes" ? dcm::FrictionForm::kNodes : dcm::FrictionForm::kSurface;
     what = fmt::format("{} {}", form, nodes);
   } else {
-    v.scene.model = v.scene.cells.model = "cbm";
+    v.scene.model = v.scene.cells.model = runs::CellModel::kCbm;
   }
   for (auto& [name, type] : v.scene.cell_types) {
     if (nodes > 0) type.dcm.nodes = nodes;

@@ -23,7 +23,7 @@ constexpr double kLongEnough = 1;
 constexpr int kRepeats = 3;
 
 void set_numerics(const PrecisionSetting& setting, coupling::Numerics& n) {
-  const runs::TimeBlock usual;
+  const coupling::Numerics usual;
   n.max_step = setting.step;
   n.min_step = setting.adaptive ? usual.min_step : setting.step;
   n.adaptive = setting.adaptive;

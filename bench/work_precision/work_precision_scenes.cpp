@@ -46,8 +46,7 @@ void add_tolerances(std::vector<PrecisionSetting>& list, const Discretisation& s
   for (const double t : tolerances) list.push_back({space, Integrator::kLinearlyImplicit, step, t});
 }
 PrecisionSetting usual_control(const Discretisation& space) {
-  const runs::TimeBlock time;
-  return {.space = space, .step = time.step, .adaptive = true};
+  return {.space = space, .step = coupling::Numerics{}.max_step, .adaptive = true};
 }
 
 /// The same numerics on every mesh and with both quadratures, against the finest.

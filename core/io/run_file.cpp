@@ -41,8 +41,6 @@ void check_key(const std::string& key) {
 
 RunFile::RunFile(std::string path, const RunFileOptions& options)
     : path_(std::move(path)), options_(options) {
-  check(options.compression == "none" || options.compression == "fast",
-        fmt::format("compression = \"{}\": must be none or fast", options.compression));
   check(options.buffered_rows >= 1, "internal error: buffered_rows must be at least 1",
         Exit::kInternal);
 }
@@ -59,8 +57,8 @@ RunFile RunFile::create(const std::string& path,
                         const RunFileOptions& options) {
   for (const auto& [key, value] : provenance) check_key(key);
   RunFile run(path, options);
-  File file = create_skeleton(path, options.compression == "fast");
-  create_index_rows(file, options.compression == "fast");
+  File file = create_skeleton(path, options.compress);
+  create_index_rows(file, options.compress);
   create_event_rows(file);
   create_samples(file, kSeries);
   create_samples(file, kObservables);
@@ -89,7 +87,7 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
                   Exit::kFileError);
     }
     const bool filtered = old.read_text_attribute("/", "compression") != "none";
-    run.options_.compression = filtered ? "fast" : "none";
+    run.options_.compress = filtered;
     File fresh = create_skeleton(partial, filtered);
     if (keep.frame > 0) {
       run.layout_ = read_layout(old);
@@ -130,7 +128,7 @@ void RunFile::append(const Frame& frame, std::span<const SeriesValue> observable
           Exit::kInternal);
   }
   File file = File::open(path_, Access::kAppend);
-  const bool filtered = options_.compression == "fast";
+  const bool filtered = options_.compress;
   if (frame_.empty()) create_field_rows(file, layout, filtered);
   FrameWrite w{file, frame, frame_.empty() ? nullptr : &frame_.back(), last_hash_, filtered,
                {},   {}};

@@ -37,8 +37,8 @@ struct RunFileCounts {
 };
 
 struct RunFileOptions {
-  std::string compression = "fast";  ///< none | fast (shuffle, deflate 1, checksums)
-  int buffered_rows = 64;            ///< series rows and events kept in memory until a flush
+  bool compress = true;    ///< shuffle, deflate 1, checksums
+  int buffered_rows = 64;  ///< series rows and events kept in memory until a flush
 };
 
 /// Writer of one run. The file is open only inside a call, so others can read while the run goes

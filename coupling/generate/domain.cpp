@@ -22,8 +22,6 @@ void check_parameters(const LobuleParameters& p) {
     check(std::isfinite(value) && value > 0,
           fmt::format("/lobule/{} = {}: must be positive", key, value));
   };
-  check(p.shape == "pie" || p.shape == "hexagon",
-        fmt::format("/lobule/shape = \"{}\": must be \"pie\" or \"hexagon\"", p.shape));
   positive("radius", p.radius);
   positive("height", p.height);
   positive("central_vein_radius", p.central_vein_radius);
@@ -64,7 +62,7 @@ Vein portal_vein(const LobuleParameters& p, double corner, bool whole) {
 
 Domain make_domain(const LobuleParameters& p) {
   check_parameters(p);
-  const bool whole = p.shape == "hexagon";
+  const bool whole = p.shape == LobuleShape::kHexagon;
   const double apothem = p.radius * std::cos(radians(30));
   Domain domain;
   domain.height = p.height;

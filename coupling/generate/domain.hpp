@@ -10,10 +10,12 @@
 
 namespace acinus::coupling {
 
+enum class LobuleShape { kPie, kHexagon };  // one sixth, the whole lobule
+
 /// What the lobule block of a scene holds. Lengths um.
 struct LobuleParameters {
-  std::string shape = "pie";  ///< pie (one sixth) | hexagon (the whole lobule)
-  double radius = 280;        ///< circumradius of the hexagon
+  LobuleShape shape = LobuleShape::kPie;
+  double radius = 280;  ///< circumradius of the hexagon
   double height = 48;
   double lesion_radius = 150;  ///< no hepatocyte nearer the vein axis than this
   double central_vein_radius = 10;
@@ -54,7 +56,7 @@ struct Domain {
 /// Pie: one sixth of the hexagon, an equilateral triangle with its apex on the vein axis, symmetric
 /// about +x, with the portal vein at the outer corner of positive y; three vertical planes.
 /// Hexagon: corners at 30 + 60 k degrees, portal veins at 30, 150 and 270; six vertical planes.
-/// Throws Error naming the key if a length is not positive, the shape is unknown or the veins do
+/// Throws Error naming the key if a length is not positive, the veins do
 /// not fit.
 Domain make_domain(const LobuleParameters& parameters);
 

@@ -2,7 +2,7 @@
 /// Cells that rest in balance are left out of the step until something pushes them.
 ///
 /// A cell falls asleep when it does not grow and the force on it is out of balance by less than a
-/// traction, and wakes when it is out of balance by twice that. Balance is looked at on a time
+/// traction, and wakes when it is out of balance by more. Balance is looked at on a time
 /// grid, with all loads of all cells as if none slept; from there to the next look a sleeper
 /// goes on with the velocity of one long step (partial_step.hpp), a constraint for cells awake.
 /// (docs/decisions/0015.md)

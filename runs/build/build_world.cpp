@@ -72,12 +72,13 @@ coupling::Lobule build_lobule(const Scene& scene, std::vector<std::string>& note
     cells += sphere_volume(
         scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(k), lobule.seeds[k]))
             .radius);
-  const double lesion = b.shape == "pie" ? kPi * b.lesion_radius * b.lesion_radius / 6
-                                         : kPi * b.lesion_radius * b.lesion_radius;
+  const double lesion = b.shape == coupling::LobuleShape::kPie
+                            ? kPi * b.lesion_radius * b.lesion_radius / 6
+                            : kPi * b.lesion_radius * b.lesion_radius;
   notes.push_back(
       fmt::format("lobule {}: height {} um, {} cells at least {} um apart fill {:.2f} of the "
                   "volume outside the lesion",
-                  b.shape, b.height, lobule.seeds.size(), b.min_distance,
+                  name_of_choice(b.shape), b.height, lobule.seeds.size(), b.min_distance,
                   cells / (lobule.volume - lesion * b.height)));
   return lobule;
 }

@@ -70,7 +70,7 @@ double nearest_gap(const contact::Boundary& boundary, const Vec3& x, std::string
 
 /// Cells that start anywhere in their cycle have up to twice the volume.
 double largest_start(const CellType& t) {
-  return t.radius * (t.cycle.time && t.cycle.start == "random" ? std::cbrt(2.0) : 1);
+  return t.radius * (t.cycle.time > 0 && t.cycle.random_start ? std::cbrt(2.0) : 1);
 }
 
 /// Darts thrown into a box, at least min_distance apart and clear of the boundary.
@@ -104,7 +104,8 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary
 
 /// Where a cell comes from, for messages.
 std::string name_of(const Scene& scene, const PlacedCell& cell) {
-  return fmt::format("{}{}", scene.cells.source == "list" ? "/cells/list/" : "generated cell ",
+  return fmt::format("{}{}",
+                     scene.cells.source == CellSource::kList ? "/cells/list/" : "generated cell ",
                      cell.lineage);
 }
 
@@ -142,11 +143,11 @@ void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
 }  // namespace
 
 bool in_region(const Region& r, const Vec3& axis_point, const Vec3& x) {
-  if (r.kind == "all") return true;
-  if (r.kind == "sphere") return (x - r.center).norm() <= r.radius;
-  if (r.kind == "box")
+  if (r.kind == RegionKind::kAll) return true;
+  if (r.kind == RegionKind::kSphere) return (x - r.center).norm() <= r.radius;
+  if (r.kind == RegionKind::kBox)
     return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
-  if (r.kind == "half_space") return (x - r.point).dot(r.normal) <= 0;
+  if (r.kind == RegionKind::kHalfSpace) return (x - r.point).dot(r.normal) <= 0;
   const double distance = (x - axis_point).head<2>().norm();
   return distance >= r.min_distance && distance <= r.max_distance;
 }
@@ -156,6 +157,14 @@ bool in_zoom(const Scene& scene, const Vec3& x) {
                              [&](const Region& r) { return in_region(r, scene.axis_point, x); });
 }
 
+namespace {
+
+bool is_deformable(const Scene& scene, CellModel model, const Vec3& x) {
+  return model == CellModel::kDcm || (model == CellModel::kZoom && in_zoom(scene, x));
+}
+
+}  // namespace
+
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
                                     const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
@@ -164,30 +173,26 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
   const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
 
   std::vector<PlacedCell> cells;
-  if (c.source == "list") {
+  if (c.source == CellSource::kList) {
     for (const CellEntry& e : c.list) {
       PlacedCell p;
       p.center = e.position;
       p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
       p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
       p.pull = e.pull;
-      p.deformable = e.model.empty()
-                         ? c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, e.position))
-                         : e.model == "dcm";
+      p.deformable = is_deformable(scene, e.model.value_or(c.model), e.position);
       cells.push_back(p);
     }
   } else {
     std::vector<Vec3> centers;
-    if (c.source == "clump")
+    if (c.source == CellSource::kClump)
       centers = coupling::make_clump(
-          {c.lattice == "bcc" ? coupling::Lattice::kBcc : coupling::Lattice::kFcc, c.count,
-           c.spacing * diameter, c.jitter * diameter},
-          uniform);
-    else if (c.source == "box")
+          {c.lattice, c.count, c.spacing * diameter, c.jitter * diameter}, uniform);
+    else if (c.source == CellSource::kBox)
       centers = coupling::make_box(
           {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
           uniform);
-    else if (c.source == "fill")
+    else if (c.source == CellSource::kFill)
       centers = fill_box(scene, boundary);
     else if (lobule)
       centers = lobule->seeds;
@@ -198,7 +203,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
       p.radius = scene.cell_types.at(p.type).radius;
       p.oriented = false;
-      p.deformable = c.model == "dcm" || (c.model == "zoom" && in_zoom(scene, x));
+      p.deformable = is_deformable(scene, c.model, x);
       cells.push_back(p);
     }
   }

@@ -58,7 +58,7 @@ bool may_differ_at_start(const Scene& scene, const std::string& pointer) {
   if (end == std::string::npos) return false;
   const std::string rest = pointer.substr(end), first = std::string(kTypes);
   const auto type = scene.cell_types.find(pointer.substr(first.size(), end - first.size()));
-  const bool any_age = type != scene.cell_types.end() && type->second.cycle.start == "random";
+  const bool any_age = type != scene.cell_types.end() && type->second.cycle.random_start;
   if (rest == "/cycle/start" || (any_age && is_or_is_below(rest, "/cycle"))) return false;
   return std::ranges::any_of(kFreeOfType,
                              [&](const char* key) { return is_or_is_below(rest, key); });

@@ -46,7 +46,7 @@ std::string choose_type(const Scene& scene, const std::string& type) {
 }
 
 Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
-  const bool itself = scene.experiment == "capsule" && scene.capsule.enabled;
+  const bool itself = scene.experiment == Experiment::kCapsule && scene.capsule.enabled;
   Scene s = scene;
   if (!itself) {
     s = Scene{};
@@ -54,21 +54,21 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
     s.seed = scene.seed;
     s.contact = scene.contact;
     s.friction = scene.friction;
-    s.solver = scene.solver;
-    s.experiment = "capsule";
-    s.time.step = 60;
-    s.time.tolerance = 0.1;
-    s.time.extrapolate = true;
+    s.numerics.cg = scene.numerics.cg;
+    s.experiment = Experiment::kCapsule;
+    s.numerics.max_step = 60;
+    s.numerics.tolerance = 0.1;
+    s.numerics.extrapolate = true;
     s.motility.random = false;
-    s.cells.source = "clump";
-    s.cells.lattice = "bcc";
+    s.cells.source = CellSource::kClump;
+    s.cells.lattice = coupling::Lattice::kBcc;
     s.cells.count = 59;  // fewer, and the neighbours of the central cell stand at the wall
     s.cells.jitter = 0.01;
     s.output.every = 1200;
   }
   const std::string name = choose_type(scene, options.type);
   CellType type = scene.cell_types.at(name);
-  type.cycle.time.reset();
+  type.cycle.time = 0;
   type.diffusion = 0;
   type.dcm.local_area_modulus =
       std::max(type.dcm.local_area_modulus, kLeastLocalArea * type.dcm.bulk_modulus);
@@ -78,7 +78,7 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
   s.cells.types.clear();
   s.life = {};
   s.name = "calibration";
-  s.model = s.cells.model = "dcm";
+  s.model = s.cells.model = CellModel::kDcm;
   if (options.cells > 0) s.cells.count = options.cells;
   if (!itself || options.cells > 0) {
     s.capsule = CapsuleEntry{};
@@ -99,7 +99,7 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
 
 Scene as_spheres(const Scene& compression, const std::string& law_file) {
   Scene s = compression;
-  s.model = s.cells.model = "cbm";
+  s.model = s.cells.model = CellModel::kCbm;
   for (auto& [name, type] : s.cell_types) type.cbm.stiffness_correction = law_file;
   set_canonical(s);
   return s;

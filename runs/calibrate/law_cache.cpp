@@ -53,16 +53,16 @@ Scene made_for_law(const Scene& scene) {
   s.cell_types = scene.cell_types;
   s.contact.quadrature = scene.contact.quadrature;
   s.contact.repulsion = scene.contact.repulsion;
-  s.contact.range = scene.contact.range;
+  s.contact.range_factor = scene.contact.range_factor;
   s.contact.max_depth = scene.contact.max_depth;
   return s;
 }
 
 /// Name of a law in the cache: all it depends on, to the last digit.
 std::string key_of(const Scene& scene, const LawParameters& p) {
-  std::string text =
-      fmt::format("{}\n{} {:a} {:a}\n", calibration::kLawSchema, scene.contact.quadrature,
-                  scene.contact.range.value_or(-1), scene.contact.max_depth);
+  std::string text = fmt::format(
+      "{}\n{} {:a} {:a}\n", calibration::kLawSchema, name_of_choice(scene.contact.quadrature),
+      scene.contact.range_factor == 0 ? -1 : scene.contact.range_factor, scene.contact.max_depth);
   for (const auto* model : {&p.dcm, &p.cbm})
     for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));

@@ -325,20 +325,21 @@ Comparison compare_runs(const std::vector<std::string>& folders,
 int run_models(const Scene& scene, const CompareScenes& options,
                std::vector<std::string>& folders) {
   struct Model {
-    const char *folder, *model;
+    const char* folder;
+    CellModel model;
     bool corrected;
   };
-  std::vector<Model> models{{"dcm", "dcm", false}, {"cbm", "cbm", false}};
-  if (!options.law.empty()) models.push_back({"cbm_calibrated", "cbm", true});
+  std::vector<Model> models{{"dcm", CellModel::kDcm, false}, {"cbm", CellModel::kCbm, false}};
+  if (!options.law.empty()) models.push_back({"cbm_calibrated", CellModel::kCbm, true});
   for (const Model& m : models) {
     Scene s = scene;
     s.model = s.cells.model = m.model;
     for (auto& [name, type] : s.cell_types) {
       type.cbm.stiffness_correction = m.corrected ? options.law : "none";
-      if (options.equal_drag) type.cbm.ecm_friction = type.dcm.ecm_friction;
+      if (options.equal_drag) type.cbm.medium_friction = type.dcm.medium_friction;
     }
     if (options.equal_drag) {
-      s.friction.cbm_cbm = s.friction.dcm_dcm;
+      s.friction.cbm_cbm = s.contact.cell_friction;
       s.friction.cbm_vessel = s.friction.dcm_vessel;
     }
     set_canonical(s);

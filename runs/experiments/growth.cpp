@@ -118,7 +118,7 @@ void add_shapes(const coupling::World& world, const Snapshot& s, bool flat, Meas
 
 void sample_growth(const Scene& scene, const coupling::World& world, const Snapshot& s,
                    Measures& m) {
-  const bool flat = scene.experiment == "monolayer";
+  const bool flat = scene.experiment == Experiment::kMonolayer;
   Layout layout;
   Shell inner, outer;
   double pressure = kNone, cytosol = kNone;

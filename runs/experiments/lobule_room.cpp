@@ -50,7 +50,7 @@ LobuleRoom make_lobule_room(const Scene& scene, const contact::Vessels& vessels)
   LobuleRoom room;
   room.frame = {b.height, b.central_vein_radius, scene.cell_types.begin()->second.radius};
   room.axis = scene.axis_point;
-  if (b.shape == "pie") {
+  if (b.shape == coupling::LobuleShape::kPie) {
     room.from_angle = -kPi / 6;
     room.to_angle = kPi / 6;
   }

@@ -171,22 +171,28 @@ List lesion() {
 
 }  // namespace
 
-std::vector<Observable> known_observables(const std::string& experiment) {
+std::vector<Observable> known_observables(Experiment experiment) {
   List list = tissue();
-  if (experiment == "lobule")
-    append(list, lesion());
-  else if (experiment == "patch")
-    append(list, patch());
-  else if (experiment == "capsule")
-    append(list, capsule());
-  else if (experiment == "relaxation")
-    append(list, relaxation());
-  else if (experiment == "spheroid" || experiment == "monolayer")
-    append(list, growth(experiment == "monolayer"));
-  else
-    check(experiment == "free",
-          "internal error: no observables are known of experiment \"" + experiment + "\"",
-          Exit::kInternal);
+  switch (experiment) {
+    case Experiment::kFree:
+      break;
+    case Experiment::kLobule:
+      append(list, lesion());
+      break;
+    case Experiment::kPatch:
+      append(list, patch());
+      break;
+    case Experiment::kCapsule:
+      append(list, capsule());
+      break;
+    case Experiment::kRelaxation:
+      append(list, relaxation());
+      break;
+    case Experiment::kSpheroid:
+    case Experiment::kMonolayer:
+      append(list, growth(experiment == Experiment::kMonolayer));
+      break;
+  }
   return list;
 }
 
@@ -206,7 +212,7 @@ std::vector<Observable> wall_observables(const std::string& wall) {
   return list;
 }
 
-std::optional<Observable> find_observable(const std::string& experiment, const std::string& name) {
+std::optional<Observable> find_observable(Experiment experiment, const std::string& name) {
   const auto look = [&](const List& list) -> std::optional<Observable> {
     const auto found = std::ranges::find(list, name, &Observable::name);
     return found == list.end() ? std::nullopt : std::optional(*found);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "runs/scene/choices.hpp"
+
 namespace acinus::runs {
 
 struct Observable {
@@ -15,8 +17,7 @@ struct Observable {
 
 /// Everything a scene with this `experiment` measures besides the walls it has, in the order of the
 /// columns. `time` (s since t = 0), which every run file has, is not among them.
-/// @throws Error(kInternal) for an experiment that does not exist
-std::vector<Observable> known_observables(const std::string& experiment);
+std::vector<Observable> known_observables(Experiment experiment);
 
 /// A name of a scene as columns bear it: letters, digits, '-', '.' and '_'.
 std::string name_in_columns(std::string name);
@@ -25,6 +26,6 @@ std::string name_in_columns(std::string name);
 std::vector<Observable> wall_observables(const std::string& wall);
 
 /// The observable of this name, also of a wall of any name; nothing if there is none.
-std::optional<Observable> find_observable(const std::string& experiment, const std::string& name);
+std::optional<Observable> find_observable(Experiment experiment, const std::string& name);
 
 }  // namespace acinus::runs

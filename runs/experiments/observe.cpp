@@ -60,7 +60,7 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observabl
   const Sizes before = sizes_of(m);
   sample_experiment(frame.scene, frame.world, frame.snapshot, m);
   sample_tissue(frame, m);
-  if (frame.scene.experiment == "lobule") sample_lobule(frame, observables);
+  if (frame.scene.experiment == Experiment::kLobule) sample_lobule(frame, observables);
   observables.last_time = frame.snapshot.time;
   observables.track.clear();
   for (const coupling::CellMeasure& c : frame.snapshot.cells)
@@ -78,7 +78,7 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observabl
 
 void observe_births(const Scene& scene, const coupling::World& world,
                     const coupling::LifeReport& report, Observables& observables) {
-  if (scene.experiment != "lobule") return;
+  if (scene.experiment != Experiment::kLobule) return;
   // Where a rule says in which layers cells divide, they are counted as it counts them.
   const auto& rule = world.params.life.proliferation;
   std::optional<double> edge;

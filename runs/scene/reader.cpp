@@ -35,7 +35,7 @@ Scene read_scene(const Document& document, const std::string& label) {
   Report report(document);
   read_keys(document, report, [&scene](Visitor& visitor) { describe(visitor, scene); });
   if (scene.name.empty()) scene.name = default_name(label);
-  if (!scene.model.empty()) scene.cells.model = scene.model;
+  if (scene.model) scene.cells.model = *scene.model;
   name_the_nameless(scene);
   check_rules(scene, report);
   report.finish();

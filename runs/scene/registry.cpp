@@ -5,7 +5,9 @@
 namespace acinus::runs {
 namespace {
 
-void describe_time(Visitor& v, TimeBlock& b) {
+void describe_time(Visitor& v, Scene& s) {
+  TimeBlock& b = s.time;
+  coupling::Numerics& n = s.numerics;
   v.real({.name = "end",
           .meaning = "simulated time after t = 0",
           .dimension = kTime,
@@ -19,36 +21,36 @@ void describe_time(Visitor& v, TimeBlock& b) {
           .unit = "s",
           .range = kPositive,
           .symbol = "dt"},
-         b.step);
+         n.max_step);
   v.real({.name = "min_step",
           .meaning = "shortest step tried before the run gives up",
           .dimension = kTime,
           .unit = "s",
           .range = kPositive},
-         b.min_step);
+         n.min_step);
   v.flag({.name = "adaptive", .meaning = "step-size control; false keeps every step at time.step"},
-         b.adaptive);
+         n.adaptive);
   v.real({.name = "tolerance",
           .meaning = "position error one step may make",
           .dimension = kLength,
           .unit = "um",
           .range = kPositive},
-         b.tolerance);
+         n.tolerance);
   v.real({.name = "max_move",
           .meaning = "farthest a node may move in one step, in mean edge lengths; 0 = no cap",
           .range = {.low = 0, .high = 1}},
-         b.max_move);
-  v.text({.name = "integrator",
+         n.max_move);
+  choice(v,
+         {.name = "integrator",
           .meaning = "how a step is taken; linearly-implicit is meant for tissue, the others for "
                      "comparison (explicit-euler), smooth single cells (ros2) and equilibrium "
-                     "(newton)",
-          .choices = "linearly-implicit|explicit-euler|ros2|newton"},
-         b.integrator);
+                     "(newton)"},
+         n.integrator);
   v.flag({.name = "extrapolate",
           .meaning =
               "linearly implicit steps look ahead along the last step's velocity: steady motion "
-              "has a quarter of the error"},
-         b.extrapolate);
+              "has a third of the error"},
+         n.extrapolate);
   v.flag({.name = "with_contacts",
           .meaning = "allow ros2 although cells may touch something: contacts make it chatter"},
          b.with_contacts);
@@ -58,7 +60,7 @@ void describe_time(Visitor& v, TimeBlock& b) {
             b.until_cells);
 }
 
-void describe_solver(Visitor& v, SolverBlock& b) {
+void describe_solver(Visitor& v, solve::CgOptions& b) {
   v.real({.name = "tolerance",
           .meaning = "residual of the conjugate gradients, relative to the right-hand side",
           .range = {.low = 0, .high = 0.1, .low_open = true}},
@@ -96,7 +98,7 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
           .dimension = kTime,
           .unit = "h",
           .range = kNotNegative},
-         b.max_duration);
+         b.max_settle);
   v.real({.name = "speed_tolerance",
           .meaning = "settled when no node is faster",
           .dimension = kSpeed,
@@ -104,7 +106,9 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
           .range = kPositive},
          b.speed_tolerance);
   v.real({.name = "pressure_tolerance",
-          .meaning = "settled when no cell's pressure changes faster, relative to its value",
+          .meaning =
+              "settled when pressures change no faster, the mean change over cells relative to the "
+              "mean pressure",
           .dimension = kRate,
           .unit = "1/h",
           .range = kPositive},
@@ -117,22 +121,20 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
 }
 
 void describe_contact(Visitor& v, ContactBlock& b) {
-  v.text({.name = "quadrature",
-          .meaning = "contact points of a triangle",
-          .choices = "3-point|nodes|nodes-and-edges"},
-         b.quadrature);
+  choice(v, {.name = "quadrature", .meaning = "contact points of a triangle"}, b.quadrature);
   v.real({.name = "repulsion",
           .meaning = "stiffness against overlap, pressure per depth",
           .dimension = kStiffnessPerArea,
           .unit = "kPa/um",
           .range = kPositive},
          b.repulsion);
-  v.optional_real({.name = "range",
-                   .meaning = "range of adhesion in mean reference edge lengths",
-                   .range = {.low = 0, .high = 2, .low_open = true},
-                   .symbol = "h_0",
-                   .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges"},
-                  b.range);
+  real_or_auto(v,
+               {.name = "range",
+                .meaning = "range of adhesion in mean reference edge lengths",
+                .range = {.low = 0, .high = 2, .low_open = true},
+                .symbol = "h_0",
+                .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges"},
+               b.range_factor);
   v.real({.name = "max_depth",
           .meaning = "deepest overlap a contact point looks for",
           .dimension = kLength,
@@ -147,14 +149,15 @@ void describe_contact(Visitor& v, ContactBlock& b) {
          b.skin);
 }
 
-void describe_friction_of_contacts(Visitor& v, FrictionBlock& b) {
+void describe_friction_of_contacts(Visitor& v, Scene& s) {
+  FrictionBlock& b = s.friction;
   v.real({.name = "dcm_dcm",
           .meaning = "friction between two DCM cells, per contact area",
           .dimension = kFrictionPerArea,
           .unit = "N s/m^3",
           .range = kNotNegative,
           .symbol = "gamma_ext+"},
-         b.dcm_dcm);
+         s.contact.cell_friction);
   v.real({.name = "cbm_cbm",
           .meaning = "friction between two CBM cells, per contact area",
           .dimension = kFrictionPerArea,
@@ -185,45 +188,48 @@ void describe_friction_of_contacts(Visitor& v, FrictionBlock& b) {
                   b.cbm_vessel);
 }
 
-void describe_friction(Visitor& v, FrictionBlock& b) {
-  describe_friction_of_contacts(v, b);
-  v.text({.name = "form",
+void describe_friction(Visitor& v, Scene& s) {
+  describe_friction_of_contacts(v, s);
+  choice(v,
+         {.name = "form",
           .meaning = "between what dcm_dcm acts: facing points of two surfaces, or each node of a "
                      "triangle with each node of the one it touches, which also holds back "
-                     "surfaces that stretch together, the more the coarser the mesh",
-          .choices = "surface|nodes"},
-         b.form);
+                     "surfaces that stretch together, the more the coarser the mesh"},
+         s.contact.friction_form);
   v.real({.name = "range",
           .meaning = "gap over which friction between DCM surfaces fades out",
           .dimension = kLength,
           .unit = "um",
           .range = kPositive},
-         b.range);
-  v.text({.name = "medium",
+         s.contact.friction_range);
+  choice(v,
+         {.name = "medium",
           .meaning = "what surrounds the cells: matrix, or liquid (Stokes drag)",
           .choices = "ecm|liquid"},
-         b.medium);
+         s.friction.liquid);
   v.real({.name = "viscosity",
           .meaning = "viscosity of the liquid",
           .dimension = kViscosity,
           .unit = "Pa s",
           .range = kPositive,
           .symbol = "eta"},
-         b.viscosity);
-  v.text({.name = "medium_area",
+         s.friction.viscosity);
+  choice(v,
+         {.name = "medium_area",
           .meaning = "part of a cell's surface that feels the medium. free: what touches no other "
                      "cell or surface, so that areas add up to the surface; whole: all of it, as "
                      "in the paper, for a matrix that pervades the tissue",
           .choices = "free|whole"},
-         b.medium_area);
+         s.contact.whole_medium_area);
 }
 
 void describe_motility(Visitor& v, MotilityBlock& b) {
   v.flag({.name = "random", .meaning = "random motion of the cells"}, b.random);
-  v.text({.name = "directions",
+  choice(v,
+         {.name = "directions",
           .meaning = "random motion in space, or in the horizontal plane as on a substrate",
           .choices = "space|plane"},
-         b.directions);
+         b.in_plane);
   v.real({.name = "grid",
           .meaning = "time over which a random force stays constant",
           .dimension = kTime,
@@ -243,30 +249,31 @@ void describe_motility(Visitor& v, MotilityBlock& b) {
           .unit = "min",
           .range = kPositive},
          b.leader_grid);
-  v.text({.name = "leaders",
+  choice(v,
+         {.name = "leaders",
           .meaning = "which cells lead. foremost: those with no other cell nearer the vein within "
                      "one diameter in arc and height; front: all with a clear straight way to the "
                      "vein; border: all with a clear way into the lesion, two cell diameters long, "
                      "within 45 degrees of that to the vein; sector: the nearest of every sector "
                      "of the circle and slice of height; "
-                     "nearest: the leader_count nearest",
-          .choices = "foremost|front|border|sector|nearest"},
+                     "nearest: the leader_count nearest"},
          b.leaders);
-  v.when(b.leaders == "sector" || b.leaders == "nearest", "leaders = sector, nearest",
-         [&b](Visitor& w) {
+  v.when(b.leaders == coupling::Leaders::kSector || b.leaders == coupling::Leaders::kNearest,
+         "leaders = sector, nearest", [&b](Visitor& w) {
            w.integer({.name = "leader_count",
                       .meaning = "nearest: number of leaders; sector: sectors of the whole circle",
                       .range = {.low = 1, .high = 1e6}},
                      b.leader_count);
          });
-  v.when(b.leaders == "sector", "leaders = sector", [&b](Visitor& w) {
-    w.optional_real({.name = "leader_slice",
-                     .meaning = "height of a slice",
-                     .dimension = kLength,
-                     .unit = "um",
-                     .range = kPositive,
-                     .automatic = "the cell diameter"},
-                    b.leader_slice);
+  v.when(b.leaders == coupling::Leaders::kSector, "leaders = sector", [&b](Visitor& w) {
+    real_or_auto(w,
+                 {.name = "leader_slice",
+                  .meaning = "height of a slice",
+                  .dimension = kLength,
+                  .unit = "um",
+                  .range = kPositive,
+                  .automatic = "the cell diameter"},
+                 b.leader_slice);
   });
 }
 
@@ -282,8 +289,9 @@ void describe_output(Visitor& v, OutputBlock& b) {
                         "ten of the time since, from 1 s on; 0 = none",
              .range = {.low = 0, .high = 1000}},
             b.after_opening);
-  v.text({.name = "compression", .meaning = "compression of the run file", .choices = "none|fast"},
-         b.compression);
+  choice(v,
+         {.name = "compression", .meaning = "compression of the run file", .choices = "none|fast"},
+         b.compress);
   v.flag({.name = "start_up", .meaning = "also write frames at t < 0"}, b.start_up);
 }
 
@@ -295,14 +303,11 @@ void describe_scene(Visitor& v, Scene& s) {
          s.name);
   v.text({.name = "description", .meaning = "what the scene shows, in a sentence"}, s.description);
   v.seed({.name = "seed", .meaning = "seed of all random numbers"}, s.seed);
-  v.text({.name = "experiment",
-          .meaning = "what is measured",
-          .choices = "free|lobule|patch|capsule|relaxation|spheroid|monolayer"},
-         s.experiment);
-  v.text({.name = "model",
+  choice(v, {.name = "experiment", .meaning = "what is measured"}, s.experiment);
+  choice(v,
+         {.name = "model",
           .meaning = "replaces cells.model, whatever the scene says there; cells of cells.list "
                      "with a model of their own keep it, zoom regions count only with zoom",
-          .choices = "dcm|cbm|zoom",
           .automatic = "cells.model stays"},
          s.model);
 }
@@ -311,8 +316,8 @@ void describe_scene(Visitor& v, Scene& s) {
 
 void describe(Visitor& v, Scene& s) {
   describe_scene(v, s);
-  block(v, {.name = "time", .meaning = "duration and steps"}, s.time, describe_time);
-  block(v, {.name = "solver", .meaning = "linear solver"}, s.solver, describe_solver);
+  block(v, {.name = "time", .meaning = "duration and steps"}, s, describe_time);
+  block(v, {.name = "solver", .meaning = "linear solver"}, s.numerics.cg, describe_solver);
   block(v, {.name = "start_up", .meaning = "growth and settling before t = 0"}, s.start_up,
         describe_start_up);
   named_blocks(v,
@@ -335,7 +340,7 @@ void describe(Visitor& v, Scene& s) {
             .unit = "um"},
            s.axis_point);
   block(v, {.name = "contact", .meaning = "contact of surfaces"}, s.contact, describe_contact);
-  block(v, {.name = "friction", .meaning = "friction per area"}, s.friction, describe_friction);
+  block(v, {.name = "friction", .meaning = "friction per area"}, s, describe_friction);
   block(v, {.name = "motility", .meaning = "active forces"}, s.motility, describe_motility);
   optional_block(v, {.name = "lobule", .meaning = "generated liver lobule; null = none"}, s.lobule,
                  describe_lobule);

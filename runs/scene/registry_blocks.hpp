@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -72,10 +74,40 @@ void optional_block(Visitor& visitor, const Key& key, std::optional<Block>& valu
       });
 }
 
+/// One of a few names: an enum of choices.hpp, or false and true with the two names in the key.
+template <class E>
+void choice(Visitor& visitor, Key key, E& value) {
+  if constexpr (!std::is_same_v<E, bool>)
+    if (key.choices[0] == '\0') key.choices = kChoices<E>;
+  std::string name = choice_name(key.choices, static_cast<int>(value));
+  visitor.text(key, name);
+  if (const int index = choice_index(key.choices, name); index >= 0) value = static_cast<E>(index);
+}
+
+/// The same, with "auto" for no value.
+template <class E>
+void choice(Visitor& visitor, Key key, std::optional<E>& value) {
+  if (key.choices[0] == '\0') key.choices = kChoices<E>;
+  std::string name = value ? name_of_choice(*value) : "";
+  visitor.text(key, name);
+  const int index = choice_index(key.choices, name);
+  value = index >= 0 ? std::optional(static_cast<E>(index)) : std::nullopt;
+}
+
+/// A number for which `automatic` stands where nothing is given.
+inline void real_or_auto(Visitor& visitor, const Key& key, double& value, double automatic = 0) {
+  std::optional<double> given;
+  if (value != automatic) given = value;
+  visitor.optional_real(key, given);
+  value = given.value_or(automatic);
+}
+
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+
 void describe_cell_type(Visitor& v, CellType& b);
-void describe_cycle(Visitor& v, CycleBlock& b);
-void describe_inhibition(Visitor& v, InhibitionBlock& b);
-void describe_death(Visitor& v, DeathBlock& b);
+void describe_cycle(Visitor& v, coupling::CycleParams& b);
+void describe_inhibition(Visitor& v, coupling::Inhibition& b);
+void describe_death(Visitor& v, CellType& b);
 void describe_life(Visitor& v, LifeBlock& b);
 void describe_cells(Visitor& v, CellsBlock& b);
 void describe_region(Visitor& v, Region& b);

@@ -4,9 +4,7 @@ namespace acinus::runs {
 namespace {
 
 void describe_lobule_shape(Visitor& v, LobuleBlock& b) {
-  v.text({.name = "shape",
-          .meaning = "one of six slices of the hexagon, or all of it",
-          .choices = "pie|hexagon"},
+  choice(v, {.name = "shape", .meaning = "one of six slices of the hexagon, or all of it"},
          b.shape);
   v.real({.name = "radius",
           .meaning = "distance from the axis to a corner",

@@ -59,29 +59,31 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .range = kNotNegative,
           .symbol = "gamma_int"},
          b.nodal_friction);
-  v.text(
+  choice(
+      v,
       {.name = "nodal_friction_kind",
        .meaning = "isotropic resists any relative motion of two nodes, axial only along the edge",
        .choices = "isotropic|axial"},
-      b.nodal_friction_kind);
+      b.axial_friction);
   v.real({.name = "ecm_friction",
           .meaning = "friction of a DCM cell with the matrix, per area",
           .dimension = kFrictionPerArea,
           .unit = "N s/m^3",
           .range = kPositive,
           .symbol = "gamma_ECM+"},
-         b.ecm_friction);
+         b.medium_friction);
 }
 
 void describe_cbm(Visitor& v, CbmBlock& b) {
-  v.optional_real({.name = "young",
-                   .meaning = "Young's modulus of the sphere",
-                   .dimension = kStress,
-                   .unit = "Pa",
-                   .range = kPositive,
-                   .symbol = "E",
-                   .automatic = "3 K_V (1 - 2 nu)"},
-                  b.young);
+  real_or_auto(v,
+               {.name = "young",
+                .meaning = "Young's modulus of the sphere",
+                .dimension = kStress,
+                .unit = "Pa",
+                .range = kPositive,
+                .symbol = "E",
+                .automatic = "3 K_V (1 - 2 nu)"},
+               b.young);
   v.real({.name = "young_spread",
           .meaning = "relative standard deviation of the modulus from cell to cell, cut at 3 sigma",
           .range = {.low = 0, .high = 0.3}},
@@ -97,7 +99,7 @@ void describe_cbm(Visitor& v, CbmBlock& b) {
           .unit = "N s/m^3",
           .range = kPositive,
           .symbol = "gamma_ECM+"},
-         b.ecm_friction);
+         b.medium_friction);
   v.text({.name = "stiffness_correction",
           .meaning = "law by which the modulus grows with the overlap, a file `acinus calibrate` "
                      "wrote, relative to the scene's folder; auto: calibrate for this cell type, "
@@ -124,7 +126,8 @@ void describe_cell(Visitor& v, CellEntry& b) {
                    .range = kPositive,
                    .automatic = "the radius of its type"},
                   b.radius);
-  v.text({.name = "model",
+  choice(v,
+         {.name = "model",
           .meaning = "model of this cell",
           .choices = "dcm|cbm",
           .automatic = "as cells.model and zoom say"},
@@ -174,9 +177,9 @@ void describe_cell_type(Visitor& v, CellType& b) {
          b.diffusion);
   block(v, {.name = "cycle", .meaning = "growth to twice the volume and division"}, b.cycle,
         describe_cycle);
-  block(v, {.name = "inhibition", .meaning = "what slows growth down"}, b.inhibition,
+  block(v, {.name = "inhibition", .meaning = "what slows growth down"}, b.cycle.inhibition,
         describe_inhibition);
-  block(v, {.name = "death", .meaning = "how a cell dies that a rule of life lets die"}, b.death,
+  block(v, {.name = "death", .meaning = "how a cell dies that a rule of life lets die"}, b,
         describe_death);
   block(v, {.name = "dcm", .meaning = "the cell as a deformable triangulated surface"}, b.dcm,
         describe_dcm);
@@ -184,13 +187,8 @@ void describe_cell_type(Visitor& v, CellType& b) {
 }
 
 void describe_cells(Visitor& v, CellsBlock& b) {
-  v.text({.name = "source",
-          .meaning = "where the cells come from",
-          .choices = "list|clump|box|fill|lobule"},
-         b.source);
-  v.text({.name = "model",
-          .meaning = "model of the cells; zoom: DCM inside the zoom regions",
-          .choices = "dcm|cbm|zoom"},
+  choice(v, {.name = "source", .meaning = "where the cells come from"}, b.source);
+  choice(v, {.name = "model", .meaning = "model of the cells; zoom: DCM inside the zoom regions"},
          b.model);
   blocks(v, {.name = "list", .meaning = "cells one by one (source = list)", .item = "cells.list"},
          b.list, describe_cell);
@@ -204,7 +202,7 @@ void describe_cells(Visitor& v, CellsBlock& b) {
              .meaning = "cells of a clump (nearest to its centre first) or of a filled box",
              .range = {.low = 1, .high = 1e6}},
             b.count);
-  v.text({.name = "lattice", .meaning = "packing of a clump", .choices = "fcc|bcc"}, b.lattice);
+  choice(v, {.name = "lattice", .meaning = "packing of a clump"}, b.lattice);
   v.real({.name = "spacing",
           .meaning = "centre distance in a clump or box, in diameters of its largest cell type",
           .range = {.low = 0, .high = 100, .low_open = true}},
@@ -217,7 +215,7 @@ void describe_cells(Visitor& v, CellsBlock& b) {
             .meaning = "cells of a box along x, y and z",
             .range = {.low = 1, .high = 1000}},
            b.grid);
-  v.when(b.source == "fill", "source = fill", [&b](Visitor& w) {
+  v.when(b.source == CellSource::kFill, "source = fill", [&b](Visitor& w) {
     w.vector({.name = "low",
               .meaning = "low corner of the box that random cells fill",
               .dimension = kLength,
@@ -240,12 +238,12 @@ void describe_cells(Visitor& v, CellsBlock& b) {
 }
 
 void describe_region(Visitor& v, Region& b) {
-  v.text({.name = "kind",
+  choice(v,
+         {.name = "kind",
           .meaning = "shape of the region; a cell is in it with its centre",
-          .choices = "sphere|box|half_space|axis_distance|all",
           .required = true},
          b.kind);
-  v.when(b.kind == "sphere", "kind = sphere", [&b](Visitor& w) {
+  v.when(b.kind == RegionKind::kSphere, "kind = sphere", [&b](Visitor& w) {
     w.vector(
         {.name = "center", .meaning = "centre of the sphere", .dimension = kLength, .unit = "um"},
         b.center);
@@ -257,7 +255,7 @@ void describe_region(Visitor& v, Region& b) {
             .required = true},
            b.radius);
   });
-  v.when(b.kind == "box", "kind = box", [&b](Visitor& w) {
+  v.when(b.kind == RegionKind::kBox, "kind = box", [&b](Visitor& w) {
     w.vector({.name = "low",
               .meaning = "corner with the smallest coordinates",
               .dimension = kLength,
@@ -271,7 +269,7 @@ void describe_region(Visitor& v, Region& b) {
               .required = true},
              b.high);
   });
-  v.when(b.kind == "half_space", "kind = half_space", [&b](Visitor& w) {
+  v.when(b.kind == RegionKind::kHalfSpace, "kind = half_space", [&b](Visitor& w) {
     w.vector({.name = "point",
               .meaning = "a point of the bounding plane",
               .dimension = kLength,
@@ -281,7 +279,7 @@ void describe_region(Visitor& v, Region& b) {
     w.vector({.name = "normal", .meaning = "direction out of the region", .required = true},
              b.normal);
   });
-  v.when(b.kind == "axis_distance", "kind = axis_distance", [&b](Visitor& w) {
+  v.when(b.kind == RegionKind::kAxisDistance, "kind = axis_distance", [&b](Visitor& w) {
     w.real({.name = "min_distance",
             .meaning = "smallest distance from the vein axis",
             .dimension = kLength,

@@ -4,12 +4,13 @@ namespace acinus::runs {
 namespace {
 
 void describe_rule(Visitor& v, LifeRuleBlock& b) {
-  v.text({.name = "do",
+  choice(v,
+         {.name = "do",
           .meaning = "rest: the cells do not grow while the rule holds for them; die: they die as "
                      "soon as it holds",
           .choices = "rest|die",
           .required = true},
-         b.action);
+         b.die);
   optional_block(v, {.name = "region", .meaning = "where the cells must be; null = anywhere"},
                  b.region, describe_region);
   v.integers({.name = "cells",
@@ -24,20 +25,21 @@ void describe_rule(Visitor& v, LifeRuleBlock& b) {
           .unit = "h",
           .range = kNotNegative},
          b.from);
-  v.optional_real({.name = "until",
-                   .meaning = "time after t = 0 at which the rule ends",
-                   .dimension = kTime,
-                   .unit = "h",
-                   .range = kPositive,
-                   .automatic = "never"},
-                  b.until);
+  real_or_auto(v,
+               {.name = "until",
+                .meaning = "time after t = 0 at which the rule ends",
+                .dimension = kTime,
+                .unit = "h",
+                .range = kPositive,
+                .automatic = "never"},
+               b.until, kNever);
   v.real({.name = "share",
           .meaning = "probability that the rule is for a cell, drawn once per cell and rule",
           .range = kFraction},
          b.share);
 }
 
-void describe_entry_rate(Visitor& v, EntryRateBlock& b) {
+void describe_entry_rate(Visitor& v, coupling::EntryRate& b) {
   v.integer({.name = "first_layer",
              .meaning = "first layer of cells with this rate; 1 is next to the lesion",
              .range = {.low = 1, .high = 1e6}},
@@ -60,13 +62,14 @@ void describe_entry_rate(Visitor& v, EntryRateBlock& b) {
           .unit = "h",
           .range = kNotNegative},
          b.from);
-  v.optional_real({.name = "until",
-                   .meaning = "time after t = 0 at which the rate ends",
-                   .dimension = kTime,
-                   .unit = "h",
-                   .range = kPositive,
-                   .automatic = "never"},
-                  b.until);
+  real_or_auto(v,
+               {.name = "until",
+                .meaning = "time after t = 0 at which the rate ends",
+                .dimension = kTime,
+                .unit = "h",
+                .range = kPositive,
+                .automatic = "never"},
+               b.until, kNever);
 }
 
 void describe_proliferation(Visitor& v, ProliferationBlock& b) {
@@ -74,21 +77,23 @@ void describe_proliferation(Visitor& v, ProliferationBlock& b) {
          {.name = "rates",
           .meaning = "rates at which resting cells enter the cycle, by layer and time",
           .item = "life.proliferation.rates"},
-         b.rates, describe_entry_rate);
-  v.text(
+         b.rate, describe_entry_rate);
+  choice(
+      v,
       {.name = "edge",
        .meaning = "edge of the lesion from which layers are counted: as it stands now (mean over "
                   "slices of height of the distance from the vein to the nearest centre), or "
                   "as it was at the start (lobule.lesion_radius)",
        .choices = "now|start"},
-      b.edge);
-  v.optional_real({.name = "layer_thickness",
-                   .meaning = "thickness of a layer of cells",
-                   .dimension = kLength,
-                   .unit = "um",
-                   .range = kPositive,
-                   .automatic = "the cell diameter"},
-                  b.layer_thickness);
+      b.edge_at_start);
+  real_or_auto(v,
+               {.name = "layer_thickness",
+                .meaning = "thickness of a layer of cells",
+                .dimension = kLength,
+                .unit = "um",
+                .range = kPositive,
+                .automatic = "the cell diameter"},
+               b.thickness);
   v.integer({.name = "cells",
              .meaning = "no cell enters the cycle once so many cells are there or on their way; "
                         "0 = no limit",
@@ -98,15 +103,16 @@ void describe_proliferation(Visitor& v, ProliferationBlock& b) {
 
 }  // namespace
 
-void describe_cycle(Visitor& v, CycleBlock& b) {
-  v.optional_real({.name = "time",
-                   .meaning = "mean time from birth to division, in which the volume doubles",
-                   .dimension = kTime,
-                   .unit = "h",
-                   .range = kPositive,
-                   .symbol = "tau",
-                   .automatic = "these cells do not grow"},
-                  b.time);
+void describe_cycle(Visitor& v, coupling::CycleParams& b) {
+  real_or_auto(v,
+               {.name = "time",
+                .meaning = "mean time from birth to division, in which the volume doubles",
+                .dimension = kTime,
+                .unit = "h",
+                .range = kPositive,
+                .symbol = "tau",
+                .automatic = "these cells do not grow"},
+               b.time);
   v.real({.name = "spread",
           .meaning = "relative standard deviation of the cycle time from cell to cell, Gaussian, "
                      "cut at 3 sigma",
@@ -123,56 +129,57 @@ void describe_cycle(Visitor& v, CycleBlock& b) {
           .meaning = "share of the cycle over which the forces between two new spheres rise",
           .range = {.low = 0, .high = 1, .low_open = true}},
          b.force_ramp);
-  v.text({.name = "axis",
+  choice(v,
+         {.name = "axis",
           .meaning = "direction in which a cell divides: random in space, random in the horizontal "
-                     "plane, given by cycle.direction, or along the nearest vessel",
-          .choices = "random|plane|given|vessel"},
+                     "plane, given by cycle.direction, or along the nearest vessel"},
          b.axis);
-  v.when(b.axis == "given", "axis = given", [&b](Visitor& w) {
+  v.when(b.axis == coupling::DivisionAxis::kGiven, "axis = given", [&b](Visitor& w) {
     w.vector({.name = "direction",
               .meaning = "direction in which the cells divide, of any length",
               .required = true},
              b.direction);
   });
-  v.text({.name = "start",
+  choice(v,
+         {.name = "start",
           .meaning = "where in their cycle the first cells stand: just born, or uniformly spread",
           .choices = "birth|random"},
-         b.start);
+         b.random_start);
 }
 
-void describe_inhibition(Visitor& v, InhibitionBlock& b) {
-  v.text({.name = "by",
+void describe_inhibition(Visitor& v, coupling::Inhibition& b) {
+  choice(v,
+         {.name = "by",
           .meaning = "what slows growth down. pressure: rate times 1/(1 + (p/p0)^n), p the contact "
                      "pressure, 0 if negative; volume: rate times x^n/(1 + x^n), x = "
                      "(V/V0)/threshold, for DCM cells only, since spheres keep their volume; "
                      "density: rate times 1/(1 + (c/c0)^n), c the number of cells within 48 um "
-                     "over the volume of that ball, images in mirror walls counted",
-          .choices = "none|pressure|volume|density"},
+                     "over the volume of that ball, images in mirror walls counted"},
          b.by);
-  v.when(b.by == "pressure", "by = pressure", [&b](Visitor& w) {
+  v.when(b.by == coupling::InhibitedBy::kPressure, "by = pressure", [&b](Visitor& w) {
     w.real({.name = "pressure_threshold",
             .meaning = "contact pressure that halves the growth rate",
             .dimension = kStress,
             .unit = "Pa",
             .range = kPositive,
             .required = true},
-           b.pressure_threshold);
+           b.threshold);
   });
-  v.when(b.by == "density", "by = density", [&b](Visitor& w) {
+  v.when(b.by == coupling::InhibitedBy::kDensity, "by = density", [&b](Visitor& w) {
     w.real({.name = "density_threshold",
             .meaning = "number of cells per volume that halves the growth rate",
             .dimension = kNumberDensity,
             .unit = "1/um^3",
             .range = kPositive,
             .required = true},
-           b.density_threshold);
+           b.threshold);
   });
-  v.when(b.by == "volume", "by = volume", [&b](Visitor& w) {
+  v.when(b.by == coupling::InhibitedBy::kVolume, "by = volume", [&b](Visitor& w) {
     w.real({.name = "volume_threshold",
             .meaning = "volume, relative to the volume at rest, that halves the growth rate",
             .range = {.low = 0, .high = 1, .low_open = true},
             .required = true},
-           b.volume_threshold);
+           b.threshold);
   });
   v.real({.name = "power",
           .meaning = "how sharply growth stops at the threshold, Hill exponent",
@@ -180,12 +187,14 @@ void describe_inhibition(Visitor& v, InhibitionBlock& b) {
          b.power);
 }
 
-void describe_death(Visitor& v, DeathBlock& b) {
-  v.text({.name = "mode",
+void describe_death(Visitor& v, CellType& type) {
+  coupling::DeathParams& b = type.cycle.death;
+  choice(v,
+         {.name = "mode",
           .meaning = "removal: the cell is gone at once; lysis: it shrinks before it is removed",
           .choices = "removal|lysis"},
-         b.mode);
-  v.when(b.mode == "lysis", "mode = lysis", [&b](Visitor& w) {
+         b.lysis);
+  v.when(b.lysis, "mode = lysis", [&](Visitor& w) {
     w.real({.name = "duration",
             .meaning = "time of shrinking",
             .dimension = kTime,
@@ -196,10 +205,13 @@ void describe_death(Visitor& v, DeathBlock& b) {
             .meaning = "share of its volume at which the cell is removed",
             .range = {.low = 0, .high = 1, .low_open = true, .high_open = true}},
            b.final_volume);
-    w.real({.name = "softening",
-            .meaning = "factor on cortex_young, bulk_modulus and adhesion while it shrinks",
-            .range = {.low = 0, .high = 1, .low_open = true}},
-           b.softening);
+    w.real(
+        {.name = "softening",
+         .meaning =
+             "factor on cortex_young, bulk_modulus and adhesion while it shrinks; of a sphere on "
+             "adhesion only",
+         .range = {.low = 0, .high = 1, .low_open = true}},
+        type.softening);
   });
 }
 

@@ -38,18 +38,18 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
 }
 
 void check_time(const Scene& scene, Report& report) {
-  const TimeBlock& time = scene.time;
-  if (time.step < time.min_step) {
-    report.add_relation({"/time/step", "/time/min_step"}, time_text(time.step),
+  const coupling::Numerics& numerics = scene.numerics;
+  if (numerics.max_step < numerics.min_step) {
+    report.add_relation({"/time/step", "/time/min_step"}, time_text(numerics.max_step),
                         fmt::format("must not be below /time/min_step = {}. Raise step or lower "
                                     "min_step",
-                                    time_text(time.min_step)));
+                                    time_text(numerics.min_step)));
   }
 }
 
 /// Something must let go of what is measured to relax.
 void check_relaxation(const Scene& scene, Report& report) {
-  if (scene.experiment != "relaxation") return;
+  if (scene.experiment != Experiment::kRelaxation) return;
   const double opens = next_opening(scene, -1);
   if (opens < scene.time.end) return;
   report.add_relation({"/experiment", "/walls", "/capsule", "/time/end"}, "",
@@ -59,14 +59,16 @@ void check_relaxation(const Scene& scene, Report& report) {
 
 /// Whether anything in the scene may touch anything else.
 bool may_touch(const Scene& scene) {
-  const bool single = (scene.cells.source == "list" && scene.cells.list.size() == 1) ||
-                      (scene.cells.source == "clump" && scene.cells.count == 1);
+  const bool single = (scene.cells.source == CellSource::kList && scene.cells.list.size() == 1) ||
+                      (scene.cells.source == CellSource::kClump && scene.cells.count == 1);
   return !single || !scene.walls.empty() || !scene.static_meshes.empty() || scene.capsule.enabled ||
          !scene.vessels.file.empty() || scene.lobule;
 }
 
 void check_integrator(const Scene& scene, Report& report) {
-  if (scene.time.integrator != "ros2" || scene.time.with_contacts || !may_touch(scene)) return;
+  if (scene.numerics.integrator != coupling::Integrator::kRos2 || scene.time.with_contacts ||
+      !may_touch(scene))
+    return;
   report.add_relation({"/time/integrator", "/time/with_contacts"}, "\"ros2\"",
                       "is for one cell that touches nothing: contacts make it chatter. Choose "
                       "\"linearly-implicit\", or set /time/with_contacts to true");
@@ -136,15 +138,15 @@ void check_list(const Scene& scene, Report& report) {
 /// Types of cells that are not listed.
 void check_types(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
-  if (cells.types.empty() && cells.source != "list" && scene.cell_types.size() > 1) {
-    report.add_relation(
-        {"/cells/types", "/cells/source"}, "",
-        fmt::format("is empty, but there are {} cell types: {}. Say which cells of "
-                    "source \"{}\" are of which",
-                    scene.cell_types.size(), fmt::join(type_names(scene), ", "), cells.source));
+  if (cells.types.empty() && cells.source != CellSource::kList && scene.cell_types.size() > 1) {
+    report.add_relation({"/cells/types", "/cells/source"}, "",
+                        fmt::format("is empty, but there are {} cell types: {}. Say which cells of "
+                                    "source \"{}\" are of which",
+                                    scene.cell_types.size(), fmt::join(type_names(scene), ", "),
+                                    name_of_choice(cells.source)));
   }
   if (cells.types.empty()) return;
-  if (cells.source == "list") {
+  if (cells.source == CellSource::kList) {
     report.add_relation({"/cells/types", "/cells/source"}, "",
                         "is for cells that are not listed: with /cells/source = \"list\" every "
                         "cell names its type");
@@ -156,7 +158,7 @@ void check_types(const Scene& scene, Report& report) {
     const std::string pointer = fmt::format("/cells/types/{}", i);
     check_type_name(scene, t.type, pointer + "/type", report);
     if (t.region) check_region(*t.region, pointer + "/region", report);
-    anywhere = anywhere || !t.region || t.region->kind == "all";
+    anywhere = anywhere || !t.region || t.region->kind == RegionKind::kAll;
   }
   if (!anywhere) {
     report.add_relation({"/cells/types"}, "",
@@ -166,28 +168,29 @@ void check_types(const Scene& scene, Report& report) {
 
 void check_cells(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
-  if (cells.source == "list") check_list(scene, report);
+  if (cells.source == CellSource::kList) check_list(scene, report);
   check_types(scene, report);
-  if (cells.source == "lobule" && !scene.lobule) {
+  if (cells.source == CellSource::kLobule && !scene.lobule) {
     report.add_relation({"/cells/source", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
   }
-  if (scene.experiment == "lobule" && !scene.lobule) {
+  if (scene.experiment == Experiment::kLobule && !scene.lobule) {
     report.add_relation({"/experiment", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
   }
-  if (!scene.zoom.empty() && cells.model != "zoom" && scene.model.empty()) {
+  if (!scene.zoom.empty() && cells.model != CellModel::kZoom && !scene.model) {
     report.add_relation({"/zoom", "/cells/model"}, "",
                         fmt::format("zoom regions need /cells/model = \"zoom\", not \"{}\". Remove "
                                     "the regions (--set zoom=[]) or change the model",
-                                    cells.model));
+                                    name_of_choice(cells.model)));
   }
-  if (cells.source == "fill") check_box(cells.low, cells.high, "/cells/low", "/cells/high", report);
-  bool all_chosen = cells.source == "list" && !cells.list.empty();
-  for (const CellEntry& cell : cells.list) all_chosen = all_chosen && !cell.model.empty();
-  if (scene.zoom.empty() && cells.model == "zoom" && !all_chosen) {
+  if (cells.source == CellSource::kFill)
+    check_box(cells.low, cells.high, "/cells/low", "/cells/high", report);
+  bool all_chosen = cells.source == CellSource::kList && !cells.list.empty();
+  for (const CellEntry& cell : cells.list) all_chosen = all_chosen && cell.model.has_value();
+  if (scene.zoom.empty() && cells.model == CellModel::kZoom && !all_chosen) {
     report.add_relation(
-        {scene.model.empty() ? "/cells/model" : "/model", "/zoom"}, "\"zoom\"",
+        {scene.model ? "/model" : "/cells/model", "/zoom"}, "\"zoom\"",
         "needs at least one region in /zoom. Add one, or choose \"dcm\" or \"cbm\"");
   }
 }
@@ -269,10 +272,11 @@ void check_boundary(const Scene& scene, Report& report) {
 }  // namespace
 
 void check_region(const Region& region, const std::string& pointer, Report& report) {
-  if (region.kind == "box")
+  if (region.kind == RegionKind::kBox)
     check_box(region.low, region.high, pointer + "/low", pointer + "/high", report);
-  if (region.kind == "half_space") check_normal(region.normal, pointer + "/normal", report);
-  if (region.kind == "axis_distance" && region.min_distance >= region.max_distance) {
+  if (region.kind == RegionKind::kHalfSpace)
+    check_normal(region.normal, pointer + "/normal", report);
+  if (region.kind == RegionKind::kAxisDistance && region.min_distance >= region.max_distance) {
     report.add_relation(
         {pointer + "/min_distance", pointer + "/max_distance"}, length(region.min_distance),
         fmt::format("must be below {}/max_distance = {}", pointer, length(region.max_distance)));

@@ -8,22 +8,23 @@ namespace {
 
 std::string hours(double value) { return "\"" + format_quantity(value, kTime, "h") + "\""; }
 
-void check_cycle(const Scene& scene, const CycleBlock& cycle, const std::string& pointer,
+void check_cycle(const Scene& scene, const coupling::CycleParams& cycle, const std::string& pointer,
                  Report& report) {
-  if (cycle.axis == "given" && cycle.direction.norm() <= 1e-12) {
+  if (cycle.axis == coupling::DivisionAxis::kGiven && cycle.direction.norm() <= 1e-12) {
     report.add_relation({pointer + "/direction"}, "[0, 0, 0]",
                         "must not be zero: it is the direction in which cells divide");
   }
-  if (!cycle.time) return;
-  const double shortest = *cycle.time * (1 - 3 * cycle.spread);
+  if (cycle.time == 0) return;
+  const double shortest = cycle.time * (1 - 3 * cycle.spread);
   if (cycle.mitosis > shortest) {
     report.add_relation(
         {pointer + "/mitosis", pointer + "/time", pointer + "/spread"}, hours(cycle.mitosis),
         fmt::format("must not exceed {:.4g} h, the shortest cycle of /time = {} and /spread = {}: "
                     "mitosis is part of the cycle",
-                    shortest / 3600, hours(*cycle.time), cycle.spread));
+                    shortest / 3600, hours(cycle.time), cycle.spread));
   }
-  if (cycle.axis == "vessel" && scene.vessels.file.empty() && !scene.lobule) {
+  if (cycle.axis == coupling::DivisionAxis::kVessel && scene.vessels.file.empty() &&
+      !scene.lobule) {
     report.add_relation({pointer + "/axis", "/vessels/file", "/lobule"}, "\"vessel\"",
                         "needs vessels: give /vessels/file or a lobule block");
   }
@@ -31,8 +32,9 @@ void check_cycle(const Scene& scene, const CycleBlock& cycle, const std::string&
 
 /// The other integrators have no way to put cells in or take them out.
 void check_integrator(const Scene& scene, const std::string& pointer, Report& report) {
-  if (scene.time.integrator == "linearly-implicit") return;
-  report.add_relation({"/time/integrator", pointer}, "\"" + scene.time.integrator + "\"",
+  if (scene.numerics.integrator == coupling::Integrator::kLinearlyImplicit) return;
+  report.add_relation({"/time/integrator", pointer},
+                      "\"" + name_of_choice(scene.numerics.integrator) + "\"",
                       fmt::format("cannot follow cells that grow, divide or die ({}). Choose "
                                   "\"linearly-implicit\"",
                                   pointer));
@@ -42,22 +44,22 @@ void check_proliferation(const Scene& scene, Report& report) {
   if (!scene.life.proliferation) return;
   const ProliferationBlock& p = *scene.life.proliferation;
   const std::string pointer = "/life/proliferation";
-  if (p.edge == "start" && !scene.lobule)
+  if (p.edge_at_start && !scene.lobule)
     report.add_relation({pointer + "/edge", "/lobule"}, "\"start\"",
                         "needs a lobule block, whose lesion_radius is that edge. Choose \"now\"");
-  for (std::size_t i = 0; i < p.rates.size(); ++i) {
-    const EntryRateBlock& r = p.rates[i];
+  for (std::size_t i = 0; i < p.rate.size(); ++i) {
+    const coupling::EntryRate& r = p.rate[i];
     const std::string at = fmt::format("{}/rates/{}", pointer, i);
     if (r.last_layer < r.first_layer)
       report.add_relation({at + "/last_layer", at + "/first_layer"},
                           fmt::format("{}", r.last_layer),
                           fmt::format("must not be below {}/first_layer = {}", at, r.first_layer));
-    if (r.until && *r.until <= r.from)
-      report.add_relation({at + "/until", at + "/from"}, hours(*r.until),
+    if (r.until <= r.from)
+      report.add_relation({at + "/until", at + "/from"}, hours(r.until),
                           fmt::format("must be after {}/from = {}", at, hours(r.from)));
   }
   for (const auto& [name, type] : scene.cell_types)
-    if (type.cycle.time) return;
+    if (type.cycle.time > 0) return;
   report.add_relation(
       {pointer, "/cell_types"}, "",
       "has no cells to call: no cell type has a cycle. Give cell_types.<name>.cycle "
@@ -71,18 +73,18 @@ void check_life(const Scene& scene, Report& report) {
   for (const auto& [name, type] : scene.cell_types) {
     const std::string pointer = "/cell_types/" + name + "/cycle";
     check_cycle(scene, type.cycle, pointer, report);
-    if (type.cycle.time && reason.empty()) reason = pointer + "/time";
+    if (type.cycle.time > 0 && reason.empty()) reason = pointer + "/time";
   }
   check_proliferation(scene, report);
   for (std::size_t i = 0; i < scene.life.rules.size(); ++i) {
     const LifeRuleBlock& rule = scene.life.rules[i];
     const std::string pointer = fmt::format("/life/rules/{}", i);
     if (rule.region) check_region(*rule.region, pointer + "/region", report);
-    if (rule.until && *rule.until <= rule.from) {
-      report.add_relation({pointer + "/until", pointer + "/from"}, hours(*rule.until),
+    if (rule.until <= rule.from) {
+      report.add_relation({pointer + "/until", pointer + "/from"}, hours(rule.until),
                           fmt::format("must be after {}/from = {}", pointer, hours(rule.from)));
     }
-    if (rule.action == "die" && reason.empty()) reason = pointer + "/do";
+    if (rule.die && reason.empty()) reason = pointer + "/do";
   }
   if (!reason.empty()) check_integrator(scene, reason, report);
 }

@@ -43,9 +43,7 @@ Recorder::Recorder(const Scene& scene, const RunOptions& options, coupling::Simu
   life_.start_cells = coupling::count_cells(simulation.world().state);
 }
 
-io::RunFileOptions Recorder::file_options() const {
-  return {.compression = scene_.output.compression};
-}
+io::RunFileOptions Recorder::file_options() const { return {.compress = scene_.output.compress}; }
 
 void Recorder::create() {
   file_ = io::RunFile::create(run_file(),

@@ -133,7 +133,7 @@ Json list_measures(const SummaryInput& in) {
   if (!in.world.params.boundary.vessels.network.segment.empty())
     measures["max_overlap_with_vessels_um"] =
         number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
-  if (in.scene.experiment == "lobule") add_lobule_figures(in.measures, measures);
+  if (in.scene.experiment == Experiment::kLobule) add_lobule_figures(in.measures, measures);
   return measures;
 }
 

@@ -10,24 +10,25 @@ constexpr double kSphere = 4e-6;
 /// Contacts that close within a step with size control ask for some solves.
 constexpr double kSolves = 3;
 double cell_step(const Scene& scene, int nodes) {
-  const double at_162 = scene.contact.quadrature == "3-point" ? 4e-4 : 2.5e-4;
-  return at_162 * nodes / 162 * (scene.time.adaptive ? kSolves : 1);
+  const double at_162 =
+      scene.contact.quadrature == contact::Quadrature::kThreePoint ? 4e-4 : 2.5e-4;
+  return at_162 * nodes / 162 * (scene.numerics.adaptive ? kSolves : 1);
 }
 
 double count_cells(const Scene& scene) {
   const CellsBlock& c = scene.cells;
   if (scene.life.proliferation && scene.life.proliferation->cells > 0)
     return scene.life.proliferation->cells;
-  if (c.source == "list") return static_cast<double>(c.list.size());
-  if (c.source == "box") return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
-  if (c.source == "lobule" && scene.lobule) return scene.lobule->cells;
+  if (c.source == CellSource::kList) return static_cast<double>(c.list.size());
+  if (c.source == CellSource::kBox) return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
+  if (c.source == CellSource::kLobule && scene.lobule) return scene.lobule->cells;
   return c.count;
 }
 
 /// Share of deformable cells; of zoomed scenes half, where they lie is not looked at.
 double share_deformable(const Scene& scene) {
-  if (scene.cells.model == "zoom") return scene.zoom.empty() ? 0 : 0.5;
-  return scene.cells.model == "dcm" ? 1 : 0;
+  if (scene.cells.model == CellModel::kZoom) return scene.zoom.empty() ? 0 : 0.5;
+  return scene.cells.model == CellModel::kDcm ? 1 : 0;
 }
 
 }  // namespace
@@ -37,10 +38,10 @@ double estimate_cost(const Scene& scene, bool shared_start) {
   for (const auto& [name, type] : scene.cell_types) nodes = type.dcm.nodes;
   double time = scene.time.end;
   if (scene.start_up.enabled && !shared_start)
-    time += scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_duration;
+    time += scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_settle;
   const double deformable = share_deformable(scene);
   const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphere;
-  return std::max(0.1, time / scene.time.step * count_cells(scene) * one);
+  return std::max(0.1, time / scene.numerics.max_step * count_cells(scene) * one);
 }
 
 }  // namespace acinus::runs

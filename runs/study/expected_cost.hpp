@@ -26,7 +26,7 @@ class ExpectedCosts {
     double mean() const { return value / n; }
   };
   std::map<std::size_t, Sum> measured_;  ///< by variant
-  std::map<std::string, Sum> ratio_;     ///< measured over estimated, by model
+  std::map<CellModel, Sum> ratio_;       ///< measured over estimated, by model
 };
 
 }  // namespace acinus::runs

@@ -106,7 +106,7 @@ TEST(RandomScene, LifeIsAnAdditionToTheSameScene) {
     for (const char* key : {"integrator", "with_contacts"}) plain["time"].erase(key);
     // Where cells start anywhere in their cycle, the oldest are as large as those of the scene.
     const auto& cycle = living_scenes()[seed - 1].cell_types.begin()->second.cycle;
-    const double smaller = cycle.time && cycle.start == "random" ? std::cbrt(0.5) : 1;
+    const double smaller = cycle.time > 0 && cycle.random_start ? std::cbrt(0.5) : 1;
     const Lengths has = take_lengths(living), had = take_lengths(plain);
     ASSERT_EQ(has.radius.size(), had.radius.size());
     ASSERT_EQ(has.relative.size(), had.relative.size());
@@ -135,13 +135,13 @@ TEST(RandomScene, NominalParametersStayInsideTheTable) {
     EXPECT_TRUE(t.adhesion >= 0.01 - 1e-6 && t.adhesion <= 0.05 + 1e-6) << s.seed;
     EXPECT_TRUE(t.dcm.bulk_modulus >= 0.75 - 1e-6 && t.dcm.bulk_modulus <= 2.5 + 1e-6) << s.seed;
     EXPECT_DOUBLE_EQ(t.dcm.cortex_young, 1);
-    EXPECT_DOUBLE_EQ(t.dcm.ecm_friction, 0.1);
-    EXPECT_DOUBLE_EQ(t.cbm.ecm_friction, 0.5);
+    EXPECT_DOUBLE_EQ(t.dcm.medium_friction, 0.1);
+    EXPECT_DOUBLE_EQ(t.cbm.medium_friction, 0.5);
     EXPECT_DOUBLE_EQ(t.diffusion, 1e-4);
-    EXPECT_DOUBLE_EQ(s.friction.dcm_dcm, 50);
-    EXPECT_TRUE(s.time.step >= 5 - 1e-3 && s.time.step <= 120 + 1e-3) << s.seed;
-    EXPECT_TRUE(s.time.adaptive) << s.seed;
-    EXPECT_EQ(s.time.integrator, "linearly-implicit") << s.seed;
+    EXPECT_DOUBLE_EQ(s.contact.cell_friction, 50);
+    EXPECT_TRUE(s.numerics.max_step >= 5 - 1e-3 && s.numerics.max_step <= 120 + 1e-3) << s.seed;
+    EXPECT_TRUE(s.numerics.adaptive) << s.seed;
+    EXPECT_EQ(s.numerics.integrator, coupling::Integrator::kLinearlyImplicit) << s.seed;
     EXPECT_LE(s.motility.leader_force, 1 + 1e-6) << s.seed;
   }
 }
@@ -155,10 +155,10 @@ TEST(RandomScene, WideParametersCoverTheirDecades) {
   for (const runs::Scene& s : drawn_scenes()) {
     if (family_of(s.seed) != Family::kWide) continue;
     young.add(type_of(s).dcm.cortex_young);
-    friction.add(s.friction.dcm_dcm);
+    friction.add(s.contact.cell_friction);
     adhesion.add(type_of(s).adhesion);
-    step.add(s.time.step);
-    uncontrolled += s.time.adaptive ? 0 : 1;
+    step.add(s.numerics.max_step);
+    uncontrolled += s.numerics.adaptive ? 0 : 1;
     EXPECT_LE(s.motility.leader_force, 10 + 1e-6);
   }
   // 150 uniform draws leave the outer twentieth of a range empty once in 2000 times.
@@ -177,12 +177,12 @@ TEST(RandomScene, WideParametersCoverTheirDecades) {
 TEST(RandomScene, MeetsEverySituation) {
   std::set<std::string> seen;
   for (const runs::Scene& s : drawn_scenes()) {
-    seen.insert(s.cells.source);
-    seen.insert(s.contact.quadrature);
-    seen.insert(s.time.integrator);
-    seen.insert(s.friction.medium);
+    seen.insert(runs::name_of_choice(s.cells.source));
+    seen.insert(runs::name_of_choice(s.contact.quadrature));
+    seen.insert(runs::name_of_choice(s.numerics.integrator));
+    seen.insert(s.friction.liquid ? "liquid" : "ecm");
     seen.insert(std::to_string(type_of(s).dcm.nodes));
-    seen.insert("model " + s.cells.model);
+    seen.insert("model " + runs::name_of_choice(s.cells.model));
     if (s.capsule.enabled) seen.insert("capsule");
     if (!s.walls.empty()) seen.insert("walls");
     if (s.motility.leader_force > 0) seen.insert("leaders");
@@ -199,24 +199,24 @@ TEST(RandomScene, MeetsEveryKindOfLife) {
   int dividing = 0;
   for (const runs::Scene& s : living_scenes()) {
     const runs::CellType& t = type_of(s);
-    seen.insert("by " + t.inhibition.by);
-    seen.insert(t.death.mode);
-    if (t.death.softening < 1) seen.insert("soft");
+    seen.insert("by " + runs::name_of_choice(t.cycle.inhibition.by));
+    seen.insert(t.cycle.death.lysis ? "lysis" : "removal");
+    if (t.softening < 1) seen.insert("soft");
     if (s.life.sleep) seen.insert("sleep");
     seen.insert(s.life.remesh ? "remesh" : "no remesh");
     for (const runs::LifeRuleBlock& r : s.life.rules) {
-      seen.insert(r.action);
-      if (r.region) seen.insert(r.region->kind);
+      seen.insert(r.die ? "die" : "rest");
+      if (r.region) seen.insert(runs::name_of_choice(r.region->kind));
       if (!r.cells.empty()) seen.insert(r.descendants ? "kin" : "one");
-      if (r.share == 1 && !r.until) seen.insert("everybody");
+      if (r.share == 1 && std::isinf(r.until)) seen.insert("everybody");
     }
-    if (!t.cycle.time) continue;
-    seen.insert(t.cycle.axis);
-    seen.insert("start " + t.cycle.start);
-    if (t.cycle.start == "random" || *t.cycle.time < 0.9 * s.time.end) ++dividing;
+    if (t.cycle.time == 0) continue;
+    seen.insert(runs::name_of_choice(t.cycle.axis));
+    seen.insert(std::string("start ") + (t.cycle.random_start ? "random" : "birth"));
+    if (t.cycle.random_start || t.cycle.time < 0.9 * s.time.end) ++dividing;
     if (family_of(s.seed) == Family::kNominal) {
-      EXPECT_GE(*t.cycle.time, 1800) << s.seed;
-      EXPECT_LE(t.cycle.mitosis, 0.2 * *t.cycle.time * (1 + 1e-4)) << s.seed;
+      EXPECT_GE(t.cycle.time, 1800) << s.seed;
+      EXPECT_LE(t.cycle.mitosis, 0.2 * t.cycle.time * (1 + 1e-4)) << s.seed;
     }
   }
   for (const char* what :

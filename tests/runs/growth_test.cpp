@@ -27,7 +27,7 @@ coupling::CellMeasure cell(const Vec3& center, double pressure_kPa, bool deforma
   return c;
 }
 
-Scene scene_of(const std::string& experiment) {
+Scene scene_of(Experiment experiment) {
   Scene scene;
   scene.experiment = experiment;
   return scene;
@@ -49,7 +49,7 @@ Snapshot star() {
 
 TEST(Spheroid, SeriesOfKnownCells) {
   Measures m;
-  sample_experiment(scene_of("spheroid"), coupling::World{}, star(), m);
+  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, star(), m);
   EXPECT_EQ(last(m, "time_s"), 7200);
   EXPECT_EQ(last(m, "cells"), 9);
   EXPECT_NEAR(last(m, "radius_of_gyration_um"), std::sqrt((6 * 900 + 2 * 196) / 9.0),
@@ -68,7 +68,7 @@ TEST(Spheroid, SeriesOfKnownCells) {
 
 TEST(Spheroid, ProfileOfKnownCells) {
   Measures m;
-  sample_experiment(scene_of("spheroid"), coupling::World{}, star(), m);
+  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, star(), m);
   const std::vector<double>&radius = m.at("profile_radius_um"), &p = m.at("pressure_profile_Pa"),
         &density = m.at("density_profile");
   ASSERT_EQ(radius.size(), 10u);
@@ -90,7 +90,7 @@ TEST(Spheroid, ProfileOfKnownCells) {
 
 TEST(Spheroid, SeriesGrowAndProfilesAreOfTheLastFrame) {
   Measures m;
-  const Scene scene = scene_of("spheroid");
+  const Scene scene = scene_of(Experiment::kSpheroid);
   sample_experiment(scene, coupling::World{}, star(), m);
   Snapshot later = star();
   for (coupling::CellMeasure& c : later.cells) c.center *= 2;
@@ -109,12 +109,12 @@ TEST(Spheroid, OneCellHasNoDensityAndNoneHasNothing) {
   Measures m;
   Snapshot s;
   s.cells = {cell(Vec3(1, 2, 3), 0.05)};
-  sample_experiment(scene_of("spheroid"), coupling::World{}, s, m);
+  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_EQ(last(m, "radius_of_gyration_um"), 0);
   EXPECT_NEAR(last(m, "inner_pressure_Pa"), 50, 50 * kRoundOff);
   EXPECT_TRUE(std::isnan(last(m, "inner_density")));
   s.cells.clear();
-  sample_experiment(scene_of("spheroid"), coupling::World{}, s, m);
+  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_EQ(last(m, "cells"), 0);
   EXPECT_TRUE(std::isnan(last(m, "mean_pressure_Pa")));
   EXPECT_EQ(m.at("radius_of_gyration_um").size(), 2u);
@@ -131,7 +131,7 @@ TEST(Spheroid, SphericityIsThatOfTheDeformableCells) {
   s.cells[2].volume = 1;
   s.cells[2].area = 100;
   Measures m;
-  sample_experiment(scene_of("spheroid"), coupling::World{}, s, m);
+  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_NEAR(last(m, "sphericity"), 0.5 * (1 + std::cbrt(kPi / 6)), kRoundOff);
   EXPECT_FALSE(m.contains("height_um")) << "only a monolayer has a height";
 }
@@ -139,7 +139,7 @@ TEST(Spheroid, SphericityIsThatOfTheDeformableCells) {
 TEST(Monolayer, ProfilesAreOfRings) {
   Snapshot s = star();
   Measures m;
-  sample_experiment(scene_of("monolayer"), coupling::World{}, s, m);
+  sample_experiment(scene_of(Experiment::kMonolayer), coupling::World{}, s, m);
   // Two of the six outer cells stand above and below the middle one: r = 0.
   EXPECT_NEAR(last(m, "inner_pressure_Pa"), (400 + 200) / 3.0, 400 * kRoundOff);
   EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kRoundOff);
@@ -176,7 +176,7 @@ struct Outcome {
   Measures measures;                              ///< of the end
 };
 Outcome simulate(Scene scene, double duration) {
-  scene.experiment = "monolayer";
+  scene.experiment = Experiment::kMonolayer;
   BuiltWorld built = build_world(scene, Ranks::serial());
   coupling::World& world = built.world;
   coupling::Workspace work;

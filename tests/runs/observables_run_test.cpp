@@ -43,7 +43,7 @@ TEST_F(ObservablesRun, HaveAColumnForEachAndARowForEachFrame) {
   const io::RunReader r = reader("a");
   const auto table = r.observables();
   std::set<std::string> expected{"time"};
-  for (const Observable& o : known_observables("lobule")) expected.insert(o.name);
+  for (const Observable& o : known_observables(Experiment::kLobule)) expected.insert(o.name);
   for (const char* wall : {"outer", "radial_low", "radial_high", "bottom", "top"})
     for (const Observable& o : wall_observables(wall)) expected.insert(o.name);
   std::set<std::string> found;

@@ -66,7 +66,7 @@ TEST(Study, MakesARunOfEveryVariantAndSeed) {
   EXPECT_EQ(plan.runs[2].scene.motility.grid, 60);
   EXPECT_EQ(plan.runs[2].scene.seed, 2u);
   EXPECT_EQ(plan.runs[2].scene.time.end, 7200);
-  EXPECT_EQ(plan.runs[2].scene.cells.model, "cbm");
+  EXPECT_EQ(plan.runs[2].scene.cells.model, CellModel::kCbm);
   EXPECT_NE(plan.runs[1].identity, plan.runs[2].identity) << "the seed is part of the scene";
 }
 

@@ -94,9 +94,9 @@ struct Open {
   hid_t id;
 };
 
-void write_run(const std::string& path, int n, const char* compression) {
+void write_run(const std::string& path, int n, bool compress) {
   RunFile run =
-      RunFile::create(path, {{"seed", "1"}, {"command", "acinus run x.json"}}, {compression, 64});
+      RunFile::create(path, {{"seed", "1"}, {"command", "acinus run x.json"}}, {compress, 64});
   for (int k = 0; k < n; ++k) {
     const std::vector<SeriesValue> sample{{"time", "s", 1.0 * k}, {"energy", "fJ", 2.0 * k}};
     run.append_series(sample);
@@ -107,7 +107,7 @@ void write_run(const std::string& path, int n, const char* compression) {
 
 TEST(RunFileLayout, EveryDatasetHasItsTypeShapeAndUnit) {
   const test::Folder folder("layout_types");
-  write_run(folder / "run.vtkhdf", 9, "fast");
+  write_run(folder / "run.vtkhdf", 9, true);
   const Open file(folder / "run.vtkhdf");
   std::map<std::string, Dataset> set;
   ASSERT_GE(H5Ovisit(file.id, H5_INDEX_NAME, H5_ITER_INC, visit, &set), 0);
@@ -182,7 +182,7 @@ TEST(RunFileLayout, EveryDatasetHasItsTypeShapeAndUnit) {
 
 TEST(RunFileLayout, HeadersAreWhatVtkCompares) {
   const test::Folder folder("layout_headers");
-  write_run(folder / "run.vtkhdf", 3, "fast");
+  write_run(folder / "run.vtkhdf", 3, true);
   const Open file(folder / "run.vtkhdf");
   EXPECT_EQ(file.attribute("/VTKHDF", "Version"), (std::vector<std::int64_t>{2, 0}));
   EXPECT_EQ(file.attribute("/VTKHDF/Steps", "NSteps"), std::vector<std::int64_t>{3});
@@ -207,7 +207,7 @@ TEST(RunFileLayout, HeadersAreWhatVtkCompares) {
 TEST(RunFileLayout, CompressedFramesStartOnChunks) {
   const test::Folder folder("layout_chunks");
   constexpr int kFrame = 17;
-  write_run(folder / "run.vtkhdf", kFrame, "fast");
+  write_run(folder / "run.vtkhdf", kFrame, true);
   const Open file(folder / "run.vtkhdf");
   const auto read = [&](const std::string& name) { return file.read("/VTKHDF/Steps/" + name); };
   const auto part = read("PartOffsets"), cell = read("CellOffsets");
@@ -255,7 +255,7 @@ TEST(RunFileLayout, CompressedFramesStartOnChunks) {
 
 TEST(RunFileLayout, UncompressedFramesHaveNoPadding) {
   const test::Folder folder("layout_plain");
-  write_run(folder / "run.vtkhdf", 9, "none");
+  write_run(folder / "run.vtkhdf", 9, false);
   const Open file(folder / "run.vtkhdf");
   std::map<std::string, Dataset> set;
   H5Ovisit(file.id, H5_INDEX_NAME, H5_ITER_INC, visit, &set);

@@ -19,7 +19,8 @@ TEST(Xdmf, SampleRunForTheReader) {
   for (const char* compression : {"fast", "none"}) {
     const std::string where = folder + "/" + compression;
     std::filesystem::create_directories(where);
-    RunFile run = RunFile::create(where + "/run.vtkhdf", {}, {compression, 64});
+    RunFile run =
+        RunFile::create(where + "/run.vtkhdf", {}, {std::string(compression) == "fast", 64});
     std::string expected;
     for (int k = 0; k < 17; ++k) {
       const Frame frame = test::changing_frame(k);

@@ -1,0 +1,65 @@
+#pragma once
+/// Values of keys that are one of a few names: their types, and the names in the order of the
+/// values.
+
+#include <cstddef>
+#include <string>
+
+#include "core/contact/surface.hpp"
+#include "coupling/generate/domain.hpp"
+#include "coupling/generate/packing.hpp"
+#include "coupling/world/cycle.hpp"
+#include "coupling/world/world.hpp"
+#include "dcm/contact.hpp"
+
+namespace acinus::runs {
+
+/// What is measured.
+enum class Experiment { kFree, kLobule, kPatch, kCapsule, kRelaxation, kSpheroid, kMonolayer };
+/// kZoom: deformable inside the zoom regions.
+enum class CellModel { kDcm, kCbm, kZoom };
+enum class CellSource { kList, kClump, kBox, kFill, kLobule };
+enum class RegionKind { kNone = -1, kSphere, kBox, kHalfSpace, kAxisDistance, kAll };
+
+template <class E>
+inline constexpr const char* kChoices = nullptr;
+template <>
+inline constexpr const char* kChoices<Experiment> =
+    "free|lobule|patch|capsule|relaxation|spheroid|monolayer";
+template <>
+inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
+template <>
+inline constexpr const char* kChoices<CellSource> = "list|clump|box|fill|lobule";
+template <>
+inline constexpr const char* kChoices<RegionKind> = "sphere|box|half_space|axis_distance|all";
+template <>
+inline constexpr const char* kChoices<coupling::LobuleShape> = "pie|hexagon";
+template <>
+inline constexpr const char* kChoices<contact::Quadrature> = "3-point|nodes|nodes-and-edges";
+template <>
+inline constexpr const char* kChoices<dcm::FrictionForm> = "surface|nodes";
+template <>
+inline constexpr const char* kChoices<coupling::Integrator> =
+    "linearly-implicit|explicit-euler|ros2|newton";
+template <>
+inline constexpr const char* kChoices<coupling::Leaders> = "foremost|front|border|sector|nearest";
+template <>
+inline constexpr const char* kChoices<coupling::DivisionAxis> = "random|plane|given|vessel";
+template <>
+inline constexpr const char* kChoices<coupling::InhibitedBy> = "none|pressure|volume|density";
+template <>
+inline constexpr const char* kChoices<coupling::Lattice> = "fcc|bcc";
+
+/// Part `index` of "dcm|cbm|zoom"; "" beyond its end.
+std::string choice_name(const char* choices, int index);
+
+/// Which part of "dcm|cbm|zoom" a name is; -1: none.
+int choice_index(const char* choices, const std::string& name);
+
+/// The name of a value, as scenes write it.
+template <class E>
+std::string name_of_choice(E value) {
+  return choice_name(kChoices<E>, static_cast<int>(value));
+}
+
+}  // namespace acinus::runs
