@@ -31,6 +31,7 @@ void set_motility(const Scene& scene, coupling::Motility& m) {
   m.seed = scene.seed;
   if (m.leader_slice == 0) m.leader_slice = 2 * scene.cell_types.begin()->second.radius;
   m.axis_point = scene.axis_point;
+  if (scene.lobule) m.axis_radius = scene.lobule->central_vein_radius;
 }
 
 void set_numerics(const Scene& scene, coupling::Numerics& n) {

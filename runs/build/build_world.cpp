@@ -93,7 +93,6 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
 
   std::optional<coupling::Lobule> lobule;
   if (scene.lobule) lobule = build_lobule(scene, built.notes);
-  if (lobule) p.motility.axis_radius = scene.lobule->central_vein_radius;
   add_boundary(scene, lobule ? &*lobule : nullptr, p.boundary);
   built.vessel_length = mesh::total_length(p.boundary.vessels.network);
 
