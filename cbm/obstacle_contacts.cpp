@@ -29,32 +29,6 @@ bool was_touching_vessel(const State& s, const contact::Vessels& vessels, int ce
   return false;
 }
 
-struct MeshGap {
-  double distance;
-  Vec3 normal;
-};
-/// Signed distance of a point to a static mesh within reach; brute force over near triangles.
-MeshGap gap_to_mesh(const contact::SurfaceBody& b, const Vec3& x, double reach) {
-  double best2 = reach * reach;
-  MeshGap gap{reach, Vec3::UnitZ()};
-  for (std::size_t t = 0; t < b.triangle->size(); ++t) {
-    const double far = reach + b.reach[t];
-    if ((x - b.center[t]).squaredNorm() > far * far) continue;
-    const auto& corner = (*b.triangle)[t];
-    const mesh::ClosestPoint c =
-        mesh::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);
-    if (c.squared_distance >= best2) continue;
-    best2 = c.squared_distance;
-    Vec3 out = Vec3::Zero();
-    for (int m = 0; m < 3; ++m) out += c.weight[m] * b.node_normal[corner[m]];
-    out.normalize();
-    const Vec3 apart = x - c.point;
-    const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(best2);
-    gap = {sign * distance, distance > 0 ? Vec3(sign / distance * apart) : out};
-  }
-  return gap;
-}
-
 /// Finds and completes the contacts of spheres with boundary.
 class ObstacleSearch {
  public:
@@ -175,8 +149,8 @@ class ObstacleSearch {
     const contact::StaticMesh& m = in_.boundary.meshes[index];
     const double reach = 2 * radius(i);
     if (!m.body.box.grown(reach).contains(x)) return;
-    const MeshGap g = gap_to_mesh(m.body, x, reach);
-    meet(contact_with(Partner::kMesh, i, static_cast<int>(index), g.distance, g.normal),
+    const contact::Gap g = contact::gap_to_mesh(m.body, x, reach);
+    meet(contact_with(Partner::kMesh, i, static_cast<int>(index), g.gap, g.normal),
          contact::reduced_pair(body(i), flat(m.material, contact::kFlat),
                                in_.options.adhesion_factor * m.material.adhesion));
   }

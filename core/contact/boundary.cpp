@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/mesh/closest_point.hpp"
 #include "core/time_grid.hpp"
 
 namespace acinus::contact {
@@ -34,6 +35,19 @@ void set_network(Vessels& v, mesh::Network network) {
     for (int n : v.network.segment[s]) v.segments_of_node[n].push_back(static_cast<int>(s));
 }
 
+StaticMesh make_static_mesh(std::string name, mesh::Surface surface, bool inside) {
+  if (inside)
+    for (auto& t : surface.triangle) std::swap(t[1], t[2]);
+  StaticMesh m;
+  m.name = std::move(name);
+  m.inside = inside;
+  m.triangle = std::make_shared<const std::vector<std::array<int, 3>>>(std::move(surface.triangle));
+  m.body.node = std::move(surface.node);
+  m.body.triangle = m.triangle.get();
+  refresh_body(m.body);
+  return m;
+}
+
 Gap gap_to_plane(const Plane& p, const Vec3& x, double time) {
   return {(x - p.point_at(time)).dot(p.normal), p.normal, 0, 0, 0};
 }
@@ -42,6 +56,29 @@ Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time) {
   const Vec3 d = x - c.center;
   const double r = d.norm();
   return {c.radius_at(time) - r, r > 0 ? Vec3(-d / r) : Vec3::UnitZ(), 0, 0, 0};
+}
+
+// Brute force over near triangles.
+Gap gap_to_mesh(const SurfaceBody& b, const Vec3& x, double reach) {
+  double best2 = reach * reach;
+  Gap gap{reach, Vec3::UnitZ(), 0, 0, 0};
+  for (std::size_t t = 0; t < b.triangle->size(); ++t) {
+    const double far = reach + b.reach[t];
+    if ((x - b.center[t]).squaredNorm() > far * far) continue;
+    const auto& corner = (*b.triangle)[t];
+    const mesh::ClosestPoint c =
+        mesh::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);
+    if (c.squared_distance >= best2) continue;
+    best2 = c.squared_distance;
+    Vec3 out = Vec3::Zero();
+    for (int m = 0; m < 3; ++m) out += c.weight[m] * b.node_normal[corner[m]];
+    out.normalize();
+    const Vec3 apart = x - c.point;
+    const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(best2);
+    gap.gap = sign * distance;
+    gap.normal = distance > 0 ? Vec3(sign / distance * apart) : out;
+  }
+  return gap;
 }
 
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/contact/record.hpp"
 #include "core/contact/surface.hpp"
 #include "core/mesh/network.hpp"
+#include "core/mesh/surface.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::contact {
@@ -51,10 +53,12 @@ struct Vessels {
   std::vector<std::vector<int>> segments_of_node;  ///< for finding chains
 };
 
+/// See make_static_mesh.
 struct StaticMesh {
   std::string name;
-  std::vector<std::array<int, 3>> triangle;
-  SurfaceBody body;     ///< body.triangle points at `triangle`
+  /// Owners: the boundaries of a world and of its copies, whose bodies point at it.
+  std::shared_ptr<const std::vector<std::array<int, 3>>> triangle;
+  SurfaceBody body;
   bool inside = false;  ///< cells live inside: triangles are stored facing inward
   Material material;
 };
@@ -69,6 +73,10 @@ struct Boundary {
   }
 };
 
+/// @param surface  closed, outward
+/// @param inside   cells live inside it
+StaticMesh make_static_mesh(std::string name, mesh::Surface surface, bool inside);
+
 void set_network(Vessels& vessels, mesh::Network network);
 
 /// Gap of a point to a surrounding surface.
@@ -81,6 +89,9 @@ struct Gap {
 };
 Gap gap_to_plane(const Plane& p, const Vec3& x, double time);
 Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time);
+
+/// Farther away than `reach` the gap is `reach`, the normal meaningless.
+Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);
 
 /// Exact distance to a capsule whose radius runs linearly from one end to the other (round cone).
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x);

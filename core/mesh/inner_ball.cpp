@@ -15,12 +15,7 @@ namespace {
 
 // Distance to the surface, positive inside.
 double compute_depth(const Surface& surface, const Vec3& point) {
-  double squared = std::numeric_limits<double>::infinity();
-  for (const auto& [a, b, c] : surface.triangle)
-    squared = std::min(squared,
-                       find_closest_point(point, surface.node[a], surface.node[b], surface.node[c])
-                           .squared_distance);
-  const double distance = std::sqrt(squared);
+  const double distance = compute_distance(point, surface.node, surface.triangle);
   return is_inside(point, surface.node, surface.triangle) ? distance : -distance;
 }
 

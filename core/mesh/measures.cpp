@@ -149,6 +149,13 @@ double compute_quality(std::span<const Vec3> node, Triangles triangle) {
   return quality;
 }
 
+double compute_distance(const Vec3& p, std::span<const Vec3> node, Triangles triangle) {
+  double squared = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : triangle)
+    squared = std::min(squared, find_closest_point(p, node[a], node[b], node[c]).squared_distance);
+  return std::sqrt(squared);
+}
+
 double compute_winding_number(const Vec3& p, std::span<const Vec3> node, Triangles triangle) {
   double half_angle = 0;
   for (const auto& t : triangle) {

@@ -49,6 +49,9 @@ double compute_triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c);
 /// Smallest triangle quality of a surface; 1 when there is no triangle.
 double compute_quality(std::span<const Vec3> node, Triangles triangle);
 
+/// Distance of a point to a surface, um. Cost linear.
+double compute_distance(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
+
 /// Winding number of a closed surface about p: 1 inside, 0 outside (round-off about 1e-13), sum of
 /// the solid angles of the triangles / 4 pi [VanOosterom1983, Eq. (8)]. On the surface itself it is
 /// between the two. Cost linear.

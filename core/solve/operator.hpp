@@ -27,6 +27,10 @@ class Operator {
   template <class T>
   using Out = std::type_identity_t<std::span<T>>;
 
+  Operator() = default;
+  Operator(const Operator&) = delete;  // it points at a system beside it
+  Operator& operator=(const Operator&) = delete;
+
   /// Reads the system; call again after its loads changed. Cost: linear in elements and links.
   void prepare(const System& system);
 

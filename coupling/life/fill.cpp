@@ -23,16 +23,6 @@ constexpr int kMostSteps = 150;
 /// Share of the enclosed volume from which a start counts as filling already.
 constexpr double kNearlyFull = 0.9;
 
-contact::StaticMesh make_envelope(const mesh::Surface& surface) {
-  contact::StaticMesh m;
-  m.name = "mother";
-  m.inside = true;
-  m.triangle = surface.triangle;
-  for (auto& t : m.triangle) std::swap(t[1], t[2]);
-  m.body.node = surface.node;
-  return m;
-}
-
 }  // namespace
 
 Filling fill(const World& world, int type, const mesh::Topology& topology,
@@ -48,10 +38,7 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   small.params.dcm_contact.cell_friction = 0;
   small.params.numerics.min_step = 1e-7;
   small.params.numerics.cg = world.params.numerics.cg;
-  small.params.boundary.meshes.push_back(make_envelope(envelope));
-  contact::StaticMesh& m = small.params.boundary.meshes.front();
-  m.body.triangle = &m.triangle;
-  contact::refresh_body(m.body);
+  small.params.boundary.meshes.push_back(contact::make_static_mesh("mother", envelope, true));
 
   const double full = mesh::compute_volume(envelope.node, envelope.triangle);
   const double start = std::min(full, mesh::compute_volume(node, topology.triangle));

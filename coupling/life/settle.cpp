@@ -28,7 +28,8 @@ Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughter
   CellSet born;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (std::ranges::find(daughters, s.dcm.lineage[l]) != daughters.end()) born.dcm.push_back(l);
-  Subworld sub = extract_at_rest(world, born, find_neighbours(world, born, kReach));
+  Subworld sub;
+  extract_at_rest(world, born, find_neighbours(world, born, kReach), sub);
   const Settling settling = relax(sub, kSteps * world.params.numerics.max_step);
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;

@@ -136,8 +136,7 @@ void take_cells(const State& state, CellSet moving, CellSet constrained, Subworl
   size_workspace(sub.world, sub.work);
 }
 
-Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained) {
-  Subworld sub;
+void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Subworld& sub) {
   Params& params = sub.world.params;
   params = world.params;
   stop_walls(params.boundary, time_since_start(world));
@@ -156,7 +155,6 @@ Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained
   s.clock.last_step = 0;
   s.clock.accepted = s.clock.rejected = s.clock.cg_iterations = s.clock.solves = 0;
   s.clock.coarse = false;
-  return sub;
 }
 
 Settling relax(Subworld& sub, double duration) {

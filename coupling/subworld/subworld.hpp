@@ -33,8 +33,7 @@ void take_cells(const State& state, CellSet moving, CellSet constrained, Subworl
 
 /// A subworld in which nothing moves by itself: reference volumes and walls stay what they are at
 /// this moment, no cell is motile, and its clock starts short steps.
-/// @pre `world` outlives it (static meshes are shared)
-Subworld extract_at_rest(const World& world, CellSet moving, CellSet constrained);
+void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Subworld& sub);
 
 /// How a subworld came to rest.
 struct Settling {

@@ -40,20 +40,9 @@ contact::Material wall_material(const WallEntry& w) {
 void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
   for (const StaticMeshEntry& m : scene.static_meshes) {
     for (mesh::Surface& s : mesh::read_closed_surfaces(m.file, m.unit * m.scale)) {
-      contact::StaticMesh body;
-      body.name = m.name;
-      body.triangle = s.triangle;
-      body.inside = m.inside;
-      if (m.inside)
-        for (auto& t : body.triangle) std::swap(t[1], t[2]);
-      body.body.node = s.node;
-      for (Vec3& x : body.body.node) x += m.shift;
-      boundary.meshes.push_back(std::move(body));
+      for (Vec3& x : s.node) x += m.shift;
+      boundary.meshes.push_back(contact::make_static_mesh(m.name, std::move(s), m.inside));
     }
-  }
-  for (contact::StaticMesh& m : boundary.meshes) {  // addresses are final only now
-    m.body.triangle = &m.triangle;
-    contact::refresh_body(m.body);
   }
 }
 

@@ -29,7 +29,7 @@ constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthest = 1e6; 
 
 /// Distance to a rigid surface, negative where cells may not be; no less than `enough` is told
 /// apart.
-double gap_to_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
+double gap_to_static_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
   const std::vector<Vec3>& node = m.body.node;
   if (!m.inside) {
     Vec3 low = node.front(), high = low;
@@ -37,15 +37,10 @@ double gap_to_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
     const double away = (x - x.cwiseMax(low).cwiseMin(high)).norm();
     if (away >= enough) return away;
   }
-  double squared = std::numeric_limits<double>::infinity();
-  for (const auto& t : m.triangle) {
-    const auto corner = [&](int k) { return node[t[k]]; };
-    squared = std::min(
-        squared, mesh::find_closest_point(x, corner(0), corner(1), corner(2)).squared_distance);
-  }
+  const double distance = mesh::compute_distance(x, node, *m.triangle);
   // Triangles of a surface that is lived in face inward: its winding number is -1 inside.
-  const bool within = std::abs(mesh::compute_winding_number(x, node, m.triangle)) > 0.5;
-  return within == m.inside ? std::sqrt(squared) : -std::sqrt(squared);
+  const bool within = std::abs(mesh::compute_winding_number(x, node, *m.triangle)) > 0.5;
+  return within == m.inside ? distance : -distance;
 }
 
 double nearest_gap(const contact::Boundary& boundary, const Vec3& x, std::string* name) {
@@ -64,7 +59,8 @@ double nearest_gap(const contact::Boundary& boundary, const Vec3& x, std::string
     look(contact::gap_to_segment(network, s, x).gap,
          [&] { return fmt::format("vessel segment {}", s); });
   for (const auto& m : boundary.meshes)
-    look(gap_to_mesh(m, x, nearest), [&] { return fmt::format("static mesh \"{}\"", m.name); });
+    look(gap_to_static_mesh(m, x, nearest),
+         [&] { return fmt::format("static mesh \"{}\"", m.name); });
   return nearest;
 }
 

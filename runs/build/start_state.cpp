@@ -67,7 +67,7 @@ bool may_differ_at_start(const Scene& scene, const std::string& pointer) {
 void save_start(const std::string& folder, const Scene& scene, const coupling::State& state) {
   io::CheckpointData data;
   data.put("scene", scene.resolved_json);
-  data.put("scene_sha", scene.sha);
+  data.put("scene_hash", scene.hash);
   data.put("version", ACINUS_VERSION);
   data.put("state_hash", fmt::format("{:016x}", coupling::hash_state(state)));
   put_state(state, data);

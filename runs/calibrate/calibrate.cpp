@@ -143,7 +143,7 @@ calibration::Clump clump_of(const Scene& scene, const Scene& compression,
            {"command_line", options.command_line},
            {"cells", std::to_string(compression.cells.count)},
            {"seed", std::to_string(compression.seed)},
-           {"scene_sha", compression.sha}}};
+           {"scene_hash", compression.hash}}};
 }
 
 }  // namespace

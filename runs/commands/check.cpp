@@ -38,7 +38,7 @@ int check_scene(const CheckArguments& arguments) {
       "vessels, end {:.4g} h, hash {}\n",
       scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
       dcm::count_cells(state.dcm), state.cbm.n_cell(), name_of_choice(scene.cells.source),
-      built.vessel_length, scene.time.end / 3600, scene.sha);
+      built.vessel_length, scene.time.end / 3600, scene.hash);
   for (const std::string& note : notes) fmt::print("{}\n", note);
   return 0;
 }

@@ -240,7 +240,7 @@ struct Scene {
 
   std::string
       resolved_json;        ///< every key with its value, canonical order, as written to provenance
-  std::string sha;          ///< hash of resolved_json
+  std::string hash;         ///< hash of resolved_json
   std::string start_state;  ///< hash of the state in start_up.from; "" = none
 };
 

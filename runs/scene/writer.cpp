@@ -171,7 +171,7 @@ std::string hash_scene(const Scene& scene) {
 
 void set_canonical(Scene& scene) {
   scene.resolved_json = write_resolved(scene);
-  scene.sha = hash_scene(scene);
+  scene.hash = hash_scene(scene);
 }
 
 }  // namespace acinus::runs

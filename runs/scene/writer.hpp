@@ -16,7 +16,7 @@ std::string write_resolved(const Scene& scene);
 /// scene keeps its hash when it is moved to another folder or machine.
 std::string hash_scene(const Scene& scene);
 
-/// Renews resolved_json and sha. Call after the last change to a scene.
+/// Renews resolved_json and hash. Call after the last change to a scene.
 void set_canonical(Scene& scene);
 
 }  // namespace acinus::runs

@@ -151,7 +151,7 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
   for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
   builder.add_surface(vessels.surface.node, vessels.surface.triangle);
   for (const contact::StaticMesh& m : world.params.boundary.meshes)
-    builder.add_surface(m.body.node, m.triangle);
+    builder.add_surface(m.body.node, *m.triangle);
   for (std::size_t k = n_body; k < snapshot.cells.size(); ++k)
     builder.add_sphere(snapshot.cells[k]);
   return builder.finish();
@@ -206,7 +206,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   std::vector<coupling::AuditStatic> statics;
   outward.reserve(boundary.meshes.size());
   for (const contact::StaticMesh& m : boundary.meshes) {
-    outward.push_back(m.triangle);
+    outward.push_back(*m.triangle);
     if (m.inside)
       for (auto& t : outward.back()) std::swap(t[1], t[2]);
     statics.push_back({m.body.node, outward.back(), m.inside});

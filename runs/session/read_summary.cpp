@@ -18,7 +18,7 @@ RunSummary read_summary(const std::string& folder) {
   try {
     const nlohmann::json j = nlohmann::json::parse(text);
     s.scene = j.at("scene");
-    s.sha = j.at("scene_sha");
+    s.hash = j.at("scene_hash");
     s.version = j.at("version");
     s.git = j.at("git");
     s.status = j.at("status");

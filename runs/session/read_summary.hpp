@@ -10,7 +10,7 @@ namespace acinus::runs {
 
 struct RunSummary {
   std::string folder;
-  std::string scene, sha, version, git, status;
+  std::string scene, hash, version, git, status;
   std::string cause;       ///< of a failure or stop; "" = none
   std::string state_hash;  ///< of the final state
   std::string start_hash;  ///< of the state at t = 0 that another run left; "" = its own

@@ -48,7 +48,7 @@ io::RunFileOptions Recorder::file_options() const { return {.compress = scene_.o
 void Recorder::create() {
   file_ = io::RunFile::create(run_file(),
                               {{"scene", scene_.resolved_json},
-                               {"scene_sha", scene_.sha},
+                               {"scene_hash", scene_.hash},
                                {"command_line", options_.command_line},
                                {"version", ACINUS_VERSION},
                                {"git", ACINUS_GIT},

@@ -14,7 +14,7 @@ std::optional<RunSummary> find_run(const Scene& scene, const std::string& folder
   std::error_code code;
   if (!std::filesystem::exists(folder + "/summary.json", code)) return std::nullopt;
   RunSummary s = read_summary(folder);
-  if (s.sha != scene.sha || s.version != ACINUS_VERSION) return std::nullopt;
+  if (s.hash != scene.hash || s.version != ACINUS_VERSION) return std::nullopt;
   return s;
 }
 

@@ -60,7 +60,7 @@ void add_lobule_figures(const Measures& m, Json& measures) {
 void add_run(const SummaryInput& in, Json& j) {
   const coupling::State& s = in.world.state;
   j["scene"] = in.scene.name;
-  j["scene_sha"] = in.scene.sha;
+  j["scene_hash"] = in.scene.hash;
   j["version"] = ACINUS_VERSION;
   j["git"] = ACINUS_GIT;
   j["seed"] = in.scene.seed;

@@ -160,7 +160,7 @@ class Planner {
           set_canonical(scene);
           plan_.runs.push_back({v, scene.seed, fmt::format("{}/seed_{}", variant.name, seed),
                                 fmt::format("runs/{}/seed_{}", variant.folder, seed), scene, -1,
-                                scene.sha});
+                                scene.hash});
         }
       } catch (const Error& error) {
         scene_faults_.push_back(error);
@@ -192,7 +192,7 @@ class Planner {
       std::size_t steps = 0;  // a circle is reported elsewhere
       for (int s = run.source; s >= 0 && ++steps <= plan_.runs.size();) {
         const StudyRun& source = plan_.runs[s];
-        run.identity += "<" + source.scene.sha;
+        run.identity += "<" + source.scene.hash;
         s = source.source;
       }
     }

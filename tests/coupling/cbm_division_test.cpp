@@ -282,17 +282,16 @@ TEST(CbmDivision, AcrossANarrowGapFindsItsBalance) {
 }
 
 TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
-  auto look = [](double strength) {
+  const auto look = [](double strength, Workspace& work) {
     World w = make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}});
     w.params.cbm[0].correction = {{{4000, 4}}, {}, 0.2};
     w.state.cbm.strength[0] = Ramp::constant(strength);
-    Workspace work;
     size_workspace(w, work);
     observe(w, work);
-    return std::pair(std::move(w), std::move(work));
+    return w;
   };
-  const auto [old_world, old] = look(1);
-  const auto [new_world, born] = look(0);
+  Workspace old, born;
+  const World old_world = look(1, old), new_world = look(0, born);
   const InterfaceForce f = interface_forces(old_world, old).at(0),
                        g = interface_forces(new_world, born).at(0);
   EXPECT_GT(f.force.norm(), 0.1);

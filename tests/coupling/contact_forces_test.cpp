@@ -31,20 +31,18 @@ contact::Plane mirror_at(const Vec3& point, const Vec3& normal) {
 struct Observed {
   World world;
   Workspace work;
+  explicit Observed(World w) : world(std::move(w)) {
+    size_workspace(world, work);
+    observe(world, work);
+  }
 };
-Observed observed(World world) {
-  Observed o{std::move(world), {}};
-  size_workspace(o.world, o.work);
-  observe(o.world, o.work);
-  return o;
-}
 
 TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
   World world = make_test_world({{Vec3::Zero(), false}});
   world.params.boundary.planes = {mirror_at(Vec3(-11, 0, 0), Vec3::UnitX()),
                                   mirror_at(Vec3(11.5, 0, 0), -Vec3::UnitX()),
                                   mirror_at(Vec3(0, 0, -20), Vec3::UnitZ())};
-  const Observed o = observed(world);
+  const Observed o(world);
   const Reactions r = find_reactions(o.world, o.work);
   const double young = cbm::young_from_bulk(2.5, 0.47);
   const contact::SphereBody sphere{12, young, o.world.params.cbm[0].poisson};
@@ -63,7 +61,7 @@ TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
 TEST(Reactions, OfAWallOnADeformableCellIsTheSumOverItsPoints) {
   World world = make_test_world({{Vec3::Zero(), true}});
   world.params.boundary.planes = {mirror_at(Vec3(0, 0, -11.6), Vec3::UnitZ())};
-  const Observed o = observed(world);
+  const Observed o(world);
   const Reaction wall = find_reactions(o.world, o.work).plane[0];
   const contact::SurfaceBody& body = o.work.dcm.body[0];
   const dcm::ContactParams& c = o.world.params.dcm_contact;
@@ -127,7 +125,7 @@ TEST(Reactions, OfVesselsAreThoseOfEverySegment) {
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};
   contact::set_network(world.params.boundary.vessels, n);
   world.params.boundary.vessels.material = {0, 0.6, 0.4, false};
-  const Observed o = observed(world);
+  const Observed o(world);
   const Reactions r = find_reactions(o.world, o.work);
   ASSERT_EQ(r.segment.size(), 2U);
   EXPECT_LT(r.segment[0].net.y(), 0) << "the sphere presses down";
@@ -138,12 +136,12 @@ TEST(Reactions, OfVesselsAreThoseOfEverySegment) {
 
 TEST(Touching, PairsAndClustersOfCells) {
   // Three in a row, of both models; a pair; one alone.
-  const Observed o = observed(make_test_world({{Vec3(0, 0, 0), true},
-                                               {Vec3(23.5, 0, 0), false},
-                                               {Vec3(47, 0, 0), true},
-                                               {Vec3(0, 100, 0), false},
-                                               {Vec3(0, 123, 0), false},
-                                               {Vec3(0, 0, 100), false}}));
+  const Observed o(make_test_world({{Vec3(0, 0, 0), true},
+                                    {Vec3(23.5, 0, 0), false},
+                                    {Vec3(47, 0, 0), true},
+                                    {Vec3(0, 100, 0), false},
+                                    {Vec3(0, 123, 0), false},
+                                    {Vec3(0, 0, 100), false}}));
   // Deformable cells come first: 0 and 1 are the ends of the row.
   const Pairs touching = find_touching(o.world, o.work);
   EXPECT_EQ(touching, (Pairs{{0, 2}, {1, 2}, {3, 4}}));
@@ -151,7 +149,7 @@ TEST(Touching, PairsAndClustersOfCells) {
 }
 
 TEST(Interface, ExertsNoNetForceOnBothModelsTogether) {
-  const Observed o = observed(make_test_world(checkered_cube(22.5)));
+  const Observed o(make_test_world(checkered_cube(22.5)));
   ASSERT_FALSE(o.work.contacts.interface().empty());
   EXPECT_LT(interface_residual(o.world, o.work), 1e-14);
 }
@@ -162,7 +160,7 @@ TEST(Reactions, DoNotDependOnTheNumberOfThreads) {
   std::vector<Reaction> of[2];
   for (const int threads : {1, 3}) {
     omp_set_num_threads(threads);
-    const Observed o = observed(world);
+    const Observed o(world);
     of[threads / 2] = find_reactions(o.world, o.work).plane;
   }
   omp_set_num_threads(before);

@@ -18,18 +18,15 @@ struct Observed {
   World world;
   Workspace work;
   std::vector<CellMeasure> cell;
+  explicit Observed(World w) : world(std::move(w)) {
+    size_workspace(world, work);
+    observe(world, work);
+    cell = measure_cells(world, work);
+  }
 };
 
-Observed observe_cells(World world) {
-  Observed o{std::move(world), {}, {}};
-  size_workspace(o.world, o.work);
-  observe(o.world, o.work);
-  o.cell = measure_cells(o.world, o.work);
-  return o;
-}
-
 TEST(ContactForce, OfACellBetweenTwoIsTheSumOfBoth) {
-  const Observed o = observe_cells(
+  const Observed o(
       make_test_world({{Vec3(-22, 0, 0), false}, {Vec3::Zero(), false}, {Vec3(0, 23, 0), false}}));
   double left = 0, top = 0;
   for (const contact::Contact& c : o.work.contacts.sphere()) {
@@ -46,8 +43,7 @@ TEST(ContactForce, OfACellBetweenTwoIsTheSumOfBoth) {
 }
 
 TEST(ContactForce, IsTheSameOnBothModelsAndWhatTheSphereFeels) {
-  const Observed o =
-      observe_cells(make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}}));
+  const Observed o(make_test_world({{Vec3::Zero(), true}, {Vec3(22.5, 2, 1), false}}));
   ASSERT_EQ(o.cell.size(), 2U);
   const Address sphere = cbm::cell_address(cbm_first_row(o.world.state), 0);
   const double felt = load_point(o.work.system.force.data(), sphere).norm();
@@ -58,7 +54,7 @@ TEST(ContactForce, IsTheSameOnBothModelsAndWhatTheSphereFeels) {
 }
 
 TEST(ContactForce, OfTwoDeformableCellsIsTheSame) {
-  const Observed o = observe_cells(make_test_world({{Vec3::Zero(), true}, {Vec3(23, 1, 0), true}}));
+  const Observed o(make_test_world({{Vec3::Zero(), true}, {Vec3(23, 1, 0), true}}));
   EXPECT_GT(o.cell[0].contact_force, 0);
   EXPECT_EQ(o.cell[0].contact_force, o.cell[1].contact_force);
   EXPECT_EQ(o.cell[0].contacts, 1);
@@ -73,10 +69,10 @@ TEST(ContactForce, CountsTheWholeBoundaryAsOnePartner) {
     plane.material.mirror = true;
     world.params.boundary.planes.push_back(plane);
   }
-  const Observed both = observe_cells(world);
+  const Observed both(world);
   world.params.boundary.planes.pop_back();
   world.state.cbm.position = both.world.state.cbm.position;
-  const Observed one = observe_cells(world);
+  const Observed one(world);
   EXPECT_GT(one.cell[0].contact_force, 0);
   // The force also depends on how compressed a sphere is, which is a little more between two walls.
   EXPECT_GE(both.cell[0].contact_force, std::sqrt(2.0) * one.cell[0].contact_force * (1 - 1e-12));

@@ -72,7 +72,8 @@ TEST(Subworld, NothingMovesByItselfThere) {
   w.state.dcm.volume[2] = {7000, 14000, 0, 1000};
   w.state.cbm.volume[2] = {7000, 14000, 0, 1000};
   w.state.cbm.strength[3] = {0, 1, 0, 1000};
-  const Subworld sub = extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}});
+  Subworld sub;
+  extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}}, sub);
   const State& s = sub.world.state;
   EXPECT_EQ(s.clock.time, 500);
   ASSERT_EQ(dcm::count_cells(s.dcm), 3);
@@ -89,7 +90,8 @@ TEST(Subworld, NothingMovesByItselfThere) {
 
 TEST(Subworld, ConstrainedCellsDoNotMove) {
   const World w = make_stepped_block();
-  Subworld sub = extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}});
+  Subworld sub;
+  extract_at_rest(w, kMiddle, {{1, 3}, {1, 3}}, sub);
   const double start = sub.world.state.clock.time;
   const Settling settling = relax(sub, 60);
   ASSERT_TRUE(settling.ok) << settling.cause;
@@ -127,7 +129,8 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
     Workspace whole_work;
     size_workspace(whole, whole_work);
     ASSERT_TRUE(advance(whole, whole_work, step).accepted);
-    Subworld sub = extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3));
+    Subworld sub;
+    extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3), sub);
     sub.world.params.numerics.adaptive = false;
     ASSERT_TRUE(take_step(sub.world, sub.work, step).accepted);
     double largest = 0, difference = 0;
@@ -150,7 +153,8 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
 TEST(Subworld, WriteBackChangesTheMovingCellsOnly) {
   World w = make_stepped_block();
   const State before = w.state;
-  Subworld sub = extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3));
+  Subworld sub;
+  extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3), sub);
   ASSERT_TRUE(relax(sub, 60).ok);
   write_moved(sub, w.state);
   for (std::int64_t id = 0; id < 10; ++id) {
@@ -181,7 +185,8 @@ TEST(Subworld, WriteBackTakesOverContactsMadeAndLost) {
                              {Vec3(46, 0, 0), false},
                              {Vec3(69, 0, 0), false}});
   w.state.cbm.touching = {{0, 1}, {1, 2}, {2, 3}};
-  Subworld sub = extract_at_rest(w, {{}, {1}}, {{}, {0, 2}});
+  Subworld sub;
+  extract_at_rest(w, {{}, {1}}, {{}, {0, 2}}, sub);
   ASSERT_EQ(sub.world.state.cbm.lineage, (std::vector<std::int64_t>{1, 0, 2}));
   sub.world.state.cbm.touching = {{0, ~4}, {0, 2}, {1, 2}};  // 1 lost 0, met a wall; 0 meets 2
   write_moved(sub, w.state);

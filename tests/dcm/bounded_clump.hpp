@@ -32,25 +32,17 @@ inline contact::Boundary make_boundary() {
   n.radius = {{4, 5}, {5, 4}, {4, 4}};
   contact::set_network(s.vessels, n);
   s.vessels.material.adhesion = 0.01;
-  contact::StaticMesh block;
-  block.body.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
-                     {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};
+  mesh::Surface block;
+  block.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
+                {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};
   block.triangle = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 4, 5}, {0, 5, 1},
                     {1, 5, 6}, {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0}};
-  block.material.adhesion = 0.01;
-  s.meshes.push_back(block);
+  s.meshes.push_back(contact::make_static_mesh("block", block, false));
+  s.meshes.back().material.adhesion = 0.01;
   return s;
 }
 
-/// To be called once more after every copy.
-inline void connect_meshes(contact::Boundary& s) {
-  for (contact::StaticMesh& m : s.meshes) {
-    m.body.triangle = &m.triangle;
-    contact::refresh_body(m.body);
-  }
-}
-
-inline Clump make_surrounded_clump(std::uint64_t seed) {
+inline Clump make_bounded_clump(std::uint64_t seed) {
   Clump c = make_clump(seed);
   c.boundary = make_boundary();
   c.params[0].vessel_friction = 0.1;

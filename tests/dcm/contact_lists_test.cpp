@@ -10,8 +10,7 @@ namespace acinus::dcm {
 namespace {
 
 TEST(ContactLists, OldListsGiveWhatNewListsGive) {
-  Clump c = make_surrounded_clump(88);
-  connect_meshes(c.boundary);
+  Clump c = make_bounded_clump(88);
   auto random = reference::stream(89);
   c.find();
   const State start = c.state;
@@ -27,7 +26,6 @@ TEST(ContactLists, OldListsGiveWhatNewListsGive) {
     const auto gap = gaps_of(c);
     const auto force = c.node_force();
     Clump fresh = c;
-    connect_meshes(fresh.boundary);
     fresh.find_afresh();
     EXPECT_EQ(fresh.work.lists.made, fresh.work.lists.pair.size());
     EXPECT_EQ(features, features_of(fresh));
@@ -42,8 +40,7 @@ TEST(ContactLists, OldListsGiveWhatNewListsGive) {
 }
 
 TEST(ContactLists, OnlyListsOfACellThatMovedAreMade) {
-  Clump c = make_surrounded_clump(92);
-  connect_meshes(c.boundary);
+  Clump c = make_bounded_clump(92);
   c.find();
   const auto made = c.work.lists.made;
   for (int i = 0; i < 162; ++i)
@@ -55,15 +52,13 @@ TEST(ContactLists, OnlyListsOfACellThatMovedAreMade) {
   EXPECT_GT(with_it, 0);
   EXPECT_EQ(c.work.lists.made, made + with_it);
   Clump fresh = c;
-  connect_meshes(fresh.boundary);
   fresh.find_afresh();
   EXPECT_EQ(features_of(c), features_of(fresh));
   EXPECT_EQ(gaps_of(c), gaps_of(fresh));
 }
 
 TEST(ContactLists, ListsOutliveNewNumbersOfTheCells) {
-  Clump c = make_surrounded_clump(93);
-  connect_meshes(c.boundary);
+  Clump c = make_bounded_clump(93);
   c.find();
   const auto made = c.work.lists.made;
   const std::vector<CellRef> rest{{&c.state, 3}, {&c.state, 8}, {&c.state, 0}, {&c.state, 2}};
@@ -75,7 +70,6 @@ TEST(ContactLists, ListsOutliveNewNumbersOfTheCells) {
   EXPECT_EQ(c.work.lists.body.size(), 4u);
   EXPECT_EQ(c.work.lists.made, made);
   Clump fresh = c;
-  connect_meshes(fresh.boundary);
   fresh.find_afresh();
   EXPECT_GT(fresh.work.lists.made, 0);
   EXPECT_EQ(features_of(c), features_of(fresh));

@@ -87,8 +87,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
   std::size_t tried = 0;
   std::array<int, 5> kinds{};
   for (std::uint64_t seed = 80; seed < 86; ++seed) {
-    Clump c = make_surrounded_clump(seed);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(seed);
     c.options.quadrature = kAll[seed < 84 ? seed % 2 : 2];
     c.find();
     auto random = reference::stream(seed + 10);
@@ -143,8 +142,7 @@ TEST(ContactLoads, ForceIsMinusEnergyGradient) {
 }
 
 TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
-  Clump c = make_surrounded_clump(85);
-  connect_meshes(c.boundary);
+  Clump c = make_bounded_clump(85);
   c.find();
   const auto gap = gaps_of(c);
   for (std::size_t l = 0; l < c.links.size(); ++l) {
@@ -169,8 +167,7 @@ TEST(ContactLoads, StiffnessIsTheProjectedSecondDerivative) {
 // keeps the torque of rounded weights at zero.
 TEST(ContactLoads, SidesNameThePlacesOfTheContact) {
   for (const auto q : kAll) {
-    Clump c = make_surrounded_clump(94);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(94);
     c.options.quadrature = q;
     c.find();
     const auto gap = gaps_of(c);
@@ -244,8 +241,7 @@ TEST(Contacts, SameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<double>> force;
   for (int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
-    Clump c = make_surrounded_clump(91);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(91);
     c.find();
     force.push_back(c.node_force());
   }
@@ -257,8 +253,7 @@ TEST(Contacts, SameBitsForAnyNumberOfThreads) {
 // With the medium everywhere neighbours take nothing off: the areas make the reference surface.
 TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
   for (const auto q : kAll) {
-    Clump c = make_surrounded_clump(92);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(92);
     c.options.quadrature = q;
     c.options.whole_medium_area = true;
     c.find();
@@ -278,8 +273,7 @@ TEST(ContactAreas, WholeMediumAreaIsTheReferenceSurface) {
 // A point's weight goes chi to its contacts and 1 - chi to the medium.
 TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
   for (const auto q : kAll) {
-    Clump c = make_surrounded_clump(92);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(92);
     c.options.quadrature = q;
     c.find();
     std::vector<double> medium_area;
@@ -325,8 +319,7 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
 }
 
 TEST(ContactLoads, FrictionIsAreaTimesShare) {
-  Clump c = make_surrounded_clump(93);
-  connect_meshes(c.boundary);
+  Clump c = make_bounded_clump(93);
   c.options.friction_factor = 0.5;
   c.find();
   const auto gap = gaps_of(c);

@@ -49,8 +49,7 @@ Pairs expected_pairs(const Clump& c) {
 
 TEST(NodeFriction, JoinsEveryNodeOfAFaceWithEveryNodeOfTheFaceItMeets) {
   for (const auto q : kAll) {
-    Clump c = make_surrounded_clump(97);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(97);
     c.options.quadrature = q;
     c.find();
     const Pairs expected = expected_pairs(c);
@@ -75,8 +74,7 @@ TEST(NodeFriction, JoinsEveryNodeOfAFaceWithEveryNodeOfTheFaceItMeets) {
 }
 
 TEST(NodeFriction, TakesTheFrictionOutOfTheSurfaceContacts) {
-  Clump c = make_surrounded_clump(97);
-  connect_meshes(c.boundary);
+  Clump c = make_bounded_clump(97);
   c.find();
   const solve::Links before = c.links;
   c.options.friction_form = FrictionForm::kNodes;
@@ -191,8 +189,7 @@ TEST(NodeFriction, SameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<solve::PointLink>> links;
   for (int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
-    Clump c = make_surrounded_clump(91);
-    connect_meshes(c.boundary);
+    Clump c = make_bounded_clump(91);
     c.find();
     links.push_back(node_links(c));
   }

@@ -43,7 +43,7 @@ TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
   EXPECT_EQ(names_in("a"), (std::vector<std::string>{"checkpoint.h5", "run.log", "run.vtkhdf",
                                                      "run.xmf", "start.h5", "summary.json"}));
   for (const char* key : {"scene",
-                          "scene_sha",
+                          "scene_hash",
                           "version",
                           "git",
                           "seed",

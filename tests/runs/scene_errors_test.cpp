@@ -443,7 +443,7 @@ TEST(SceneFuzz, MutatedTextsNeverFailOtherwiseThanByError) {
     }
     try {
       const Scene scene = parse_scene(text, "scene.json");
-      EXPECT_EQ(parse_scene(scene.resolved_json, "scene.json").sha, scene.sha) << text;
+      EXPECT_EQ(parse_scene(scene.resolved_json, "scene.json").hash, scene.hash) << text;
       ++n_valid;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()), "");

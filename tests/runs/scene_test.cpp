@@ -169,7 +169,7 @@ TEST(Scene, ModelReplacesTheModelOfAnyScene) {
   EXPECT_EQ(full.cells.model, CellModel::kDcm);
   EXPECT_EQ(full.cells.list[1].model, CellModel::kCbm);
   EXPECT_EQ(full.zoom.size(), 5u);
-  EXPECT_EQ(parse_scene(full.resolved_json, "scene.json").sha, full.sha);
+  EXPECT_EQ(parse_scene(full.resolved_json, "scene.json").hash, full.hash);
 }
 
 TEST(Scene, ResolvedSceneReadsBackToTheSameScene) {
@@ -177,7 +177,7 @@ TEST(Scene, ResolvedSceneReadsBackToTheSameScene) {
     const Scene first = parse_scene(text, "scene.json");
     const Scene second = parse_scene(first.resolved_json, "elsewhere/provenance.json", "/");
     EXPECT_EQ(second.resolved_json, first.resolved_json);
-    EXPECT_EQ(second.sha, first.sha);
+    EXPECT_EQ(second.hash, first.hash);
     EXPECT_EQ(second.name, first.name);
     // Bits, not digits: 7 um/h and 0.01 um/min have no short binary form.
     EXPECT_EQ(second.start_up.speed_tolerance, first.start_up.speed_tolerance);
@@ -213,22 +213,22 @@ TEST(Scene, ResolvedSceneNamesEveryUnconditionalKey) {
 }
 
 TEST(Scene, HashFollowsTheContentsOnly) {
-  const std::string sha = parse_scene(kMinimal, "scene.json").sha;
-  EXPECT_EQ(sha.size(), 16u);
-  EXPECT_EQ(parse_scene(std::string("// note\n") + kMinimal, "scene.json").sha, sha);
-  EXPECT_EQ(parse_scene(minimal("2 h", "120 min"), "scene.json").sha, sha);
-  EXPECT_EQ(parse_scene(with_block(R"("seed": 1)"), "scene.json").sha, sha);
-  EXPECT_NE(parse_scene(with_block(R"("seed": 2)"), "scene.json").sha, sha);
+  const std::string hash = parse_scene(kMinimal, "scene.json").hash;
+  EXPECT_EQ(hash.size(), 16u);
+  EXPECT_EQ(parse_scene(std::string("// note\n") + kMinimal, "scene.json").hash, hash);
+  EXPECT_EQ(parse_scene(minimal("2 h", "120 min"), "scene.json").hash, hash);
+  EXPECT_EQ(parse_scene(with_block(R"("seed": 1)"), "scene.json").hash, hash);
+  EXPECT_NE(parse_scene(with_block(R"("seed": 2)"), "scene.json").hash, hash);
   // The folder of a file does not count, its name does.
   TemporaryFolder folder;
   for (const char* name : {"a/net.txt", "b/net.txt", "b/web.txt"}) folder.write(name, "x");
-  const auto hash = [&](const std::string& name) {
+  const auto hash_with = [&](const std::string& name) {
     return parse_scene(with_block(R"("vessels": {"file": ")" + name + "\"}"), "scene.json",
                        folder.path().string())
-        .sha;
+        .hash;
   };
-  EXPECT_EQ(hash("a/net.txt"), hash("b/net.txt"));
-  EXPECT_NE(hash("b/net.txt"), hash("b/web.txt"));
+  EXPECT_EQ(hash_with("a/net.txt"), hash_with("b/net.txt"));
+  EXPECT_NE(hash_with("b/net.txt"), hash_with("b/web.txt"));
 }
 
 TEST(SceneSet, ReplacesAnyValue) {
@@ -343,7 +343,7 @@ TEST(SceneFiles, PathsStartInTheFolderOfTheirSource) {
   EXPECT_EQ(with_mesh.static_meshes[0].name, "mesh0");
   const Scene again = parse_scene(with_mesh.resolved_json, "x.json", "/");
   EXPECT_EQ(again.resolved_json, with_mesh.resolved_json);
-  EXPECT_EQ(again.sha, with_mesh.sha);
+  EXPECT_EQ(again.hash, with_mesh.hash);
 }
 
 TEST(SceneFiles, UnreadableFilesAreFileErrors) {
@@ -478,7 +478,7 @@ TEST(ShippedScenes, CopiesStandAlone) {
   const std::string target = (folder.path() / "mine").string();
   const std::vector<std::string> written = copy_scene("two_cells", target);
   ASSERT_EQ(written.size(), 1u);
-  EXPECT_EQ(read_scene(written[0]).sha, read_scene(scene_folder() + "/two_cells.json").sha);
+  EXPECT_EQ(read_scene(written[0]).hash, read_scene(scene_folder() + "/two_cells.json").hash);
   EXPECT_THROW(copy_scene("two_cells", target), Error);
   EXPECT_THROW(copy_scene("two_cell", target + "2"), Error);
 }

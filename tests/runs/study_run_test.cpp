@@ -257,7 +257,7 @@ TEST_F(StudyRun, SharedStartsGiveTheSameStateAsStartUp) {
             std::string::npos);
   expect_done(call(words("shared.json", "elsewhere")));
   expect_same_tables("s", "elsewhere");
-  EXPECT_EQ(summary("elsewhere/runs/same/seed_1")["scene_sha"], same["scene_sha"])
+  EXPECT_EQ(summary("elsewhere/runs/same/seed_1")["scene_hash"], same["scene_hash"])
       << "the hash does not depend on folders";
 }
 

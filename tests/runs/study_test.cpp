@@ -220,7 +220,7 @@ TEST(Study, ARunThatOthersStartFromComesFirstAndToEveryTaskThatNeedsIt) {
   ASSERT_EQ(only.size(), 4u);
   EXPECT_FALSE(only[0].own);
   EXPECT_TRUE(only[1].own);
-  EXPECT_EQ(plan.runs[0].identity, plan.runs[0].scene.sha + "<" + plan.runs[2].scene.sha);
+  EXPECT_EQ(plan.runs[0].identity, plan.runs[0].scene.hash + "<" + plan.runs[2].scene.hash);
 }
 
 TEST(Study, ShippedOnesAreSound) {
