@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# Proves the two README commands on a Debian 12 that has nothing but its smallest installation.
+# Proves the two README commands and the Debian package on a Debian 12 that has nothing but its smallest installation.
 set -euo pipefail
 
 usage() {
   cat <<'TEXT'
 usage: tests/debootstrap.sh [--keep] [--packages-only] FOLDER
 
-Makes a minimal Debian 12 root in FOLDER, puts a clean clone of the last commit into it, runs the
-commands of README.md inside and prints how long each took. Needs root, debootstrap and git.
+Makes two minimal Debian 12 roots in FOLDER. In the first it puts a clean clone of the last commit, runs
+the commands of README.md and makes the Debian package. In the second it installs that package, runs
+`acinus run two_cells` in an empty folder, installs what the package suggests and builds and runs
+docs/examples/library. Prints how long each took. Needs root, debootstrap and git.
   --keep            leave FOLDER behind (without anything mounted); a later call with the same
                     FOLDER starts from it instead of from nothing
-  --packages-only   stop when all packages are installed
+  --packages-only   stop when the packages for building are installed
 The mirror is the one this machine's own apt uses.
 TEXT
 }
@@ -32,12 +34,13 @@ for tool in debootstrap git; do
 done
 project=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 mkdir -p -- "$folder"
-root=$(cd -- "$folder" && pwd -P)
-marker=$root/etc/acinus-test-root
-[[ -f $marker || -z $(ls -A -- "$root") ]] || {
-  echo "debootstrap.sh: $root is not empty and was not made by this script" >&2
+folder=$(cd -- "$folder" && pwd -P)
+marker=$folder/made-by-debootstrap.sh
+[[ -f $marker || -z $(ls -A -- "$folder") ]] || {
+  echo "debootstrap.sh: $folder is not empty and was not made by this script" >&2
   exit 2
 }
+touch "$marker"
 
 # Prints "URI" of every apt source of this machine that offers the suite named $1, both notations.
 find_mirrors() {
@@ -65,9 +68,9 @@ clean_up() {
   local i
   for ((i = ${#mounted[@]} - 1; i >= 0; i--)); do umount -- "${mounted[i]}"; done
   if [[ $keep == yes ]]; then
-    echo "debootstrap.sh: $root is kept"
+    echo "debootstrap.sh: $folder is kept"
   else
-    rm -rf --one-file-system -- "$root"
+    rm -rf --one-file-system -- "$folder"
   fi
 }
 trap clean_up EXIT
@@ -81,46 +84,55 @@ timed() {
   return "$status"
 }
 
-make_root() {
-  debootstrap --variant=minbase "$suite" "$root" "$1" >"$root.log" || {
-    tail -n 20 "$root.log" >&2
+run_debootstrap() { # ROOT MIRROR
+  debootstrap --variant=minbase "$suite" "$1" "$2" >"$1.log" || {
+    tail -n 20 "$1.log" >&2
     return 1
   }
-  rm -f -- "$root.log"
+  rm -f -- "$1.log"
 }
 
-inside() { # in the root, with an environment as after a log-in
-  chroot "$root" /usr/bin/env -i HOME=/root TERM=dumb LANG=C.UTF-8 \
+make_root() { # ROOT
+  local root=$1 name source
+  # The file is the last thing written: a root that was cut short is made again.
+  if [[ ! -f $root/etc/acinus-test-root ]]; then
+    rm -rf --one-file-system -- "$root"
+    source=$(first_mirror "$suite")
+    [[ -n $source ]] || { echo "debootstrap.sh: /etc/apt names no source of $suite" >&2; exit 2; }
+    timed "debootstrap minbase, ${root##*/}" run_debootstrap "$root" "$source"
+    : >"$root/etc/apt/sources.list"
+    for name in "$suite" "$suite-updates" "$suite-security"; do
+      source=$(first_mirror "$name")
+      [[ -z $source ]] || echo "deb $source $name main" >>"$root/etc/apt/sources.list"
+    done
+    touch "$root/etc/acinus-test-root"
+  fi
+  cp -L /etc/resolv.conf "$root/etc/resolv.conf"
+  cp -L /etc/hosts "$root/etc/hosts"
+  mount -t proc proc "$root/proc" && mounted+=("$root/proc")
+  mount -t sysfs -o ro sysfs "$root/sys" && mounted+=("$root/sys")
+  mkdir -p "$root/dev/shm" # Open MPI keeps its shared memory there
+  mount -t tmpfs tmpfs "$root/dev/shm" && mounted+=("$root/dev/shm")
+}
+
+inside() { # ROOT COMMAND: in the root, with an environment as after a log-in
+  chroot "$1" /usr/bin/env -i HOME=/root TERM=dumb LANG=C.UTF-8 \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-    ${http_proxy:+http_proxy="$http_proxy"} /bin/bash -c "$1"
+    ${http_proxy:+http_proxy="$http_proxy"} /bin/bash -c "$2"
 }
 
-if [[ ! -f $marker ]]; then
-  mirror=$(first_mirror "$suite")
-  [[ -n $mirror ]] || { echo "debootstrap.sh: /etc/apt names no source of $suite" >&2; exit 2; }
-  timed "debootstrap minbase" make_root "$mirror"
-  : >"$root/etc/apt/sources.list"
-  for name in "$suite" "$suite-updates" "$suite-security"; do
-    source=$(first_mirror "$name")
-    [[ -z $source ]] || echo "deb $source $name main" >>"$root/etc/apt/sources.list"
-  done
-  touch "$marker"
-fi
-cp -L /etc/resolv.conf "$root/etc/resolv.conf"
-cp -L /etc/hosts "$root/etc/hosts"
-mount -t proc proc "$root/proc" && mounted+=("$root/proc")
-mount -t sysfs -o ro sysfs "$root/sys" && mounted+=("$root/sys")
-mkdir -p "$root/dev/shm" # Open MPI keeps its shared memory there
-mount -t tmpfs tmpfs "$root/dev/shm" && mounted+=("$root/dev/shm")
+# ---- first root: the README commands and the package ----------------------------------------
 
-home=$root/root/acinus
+builder=$folder/build-root
+make_root "$builder"
+home=$builder/root/acinus
 rm -rf -- "$home"
 if [[ $packages_only == yes ]]; then
   mkdir -p "$home"
   cp -- "$project/acinus.sh" "$project/packages.txt" "$home/"
-  timed "packages" inside "cd /root/acinus && ./acinus.sh packages"
-  timed "packages again" inside "cd /root/acinus && ./acinus.sh packages"
-  du -sh --one-file-system "$root"
+  timed "packages" inside "$builder" "cd /root/acinus && ./acinus.sh packages"
+  timed "packages again" inside "$builder" "cd /root/acinus && ./acinus.sh packages"
+  du -sh --one-file-system "$builder"
   exit 0
 fi
 git clone --quiet --no-hardlinks -- "$project" "$home"
@@ -132,5 +144,23 @@ mapfile -t commands < <(
   exit 1
 }
 for command in "${commands[@]}"; do
-  timed "$command" inside "cd /root/acinus && $command"
+  timed "$command" inside "$builder" "cd /root/acinus && $command"
 done
+timed "cpack" inside "$builder" "cd /root/acinus/build && cpack -G DEB"
+
+# ---- second root: the package alone ---------------------------------------------------------
+
+user=$folder/user-root
+make_root "$user"
+rm -rf -- "$user/root/acinus_test"
+mkdir -p "$user/root/acinus_test/empty"
+cp -- "$home"/build/acinus_*.deb "$user/root/acinus_test/acinus.deb"
+cp -r -- "$home/docs/examples/library" "$user/root/acinus_test/library"
+apt="DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install"
+timed "install the package" inside "$user" "apt-get -qq update && $apt /root/acinus_test/acinus.deb"
+timed "acinus run two_cells" inside "$user" "cd /root/acinus_test/empty && acinus run two_cells"
+# What the package suggests must be all that the example needs, but for a tool to run the compiler: make.
+timed "install what it suggests" inside "$user" \
+  "$apt make \$(dpkg-deb -f /root/acinus_test/acinus.deb Suggests | tr -d ,)"
+timed "docs/examples/library" inside "$user" \
+  "cd /root/acinus_test/library && cmake -B build && cmake --build build && build/three_cells"

@@ -78,7 +78,7 @@ double InputFile::next_double(std::string_view what) {
     fail(fmt::format("the file ends where {} is expected. It looks truncated.", what));
   double value = 0;
   if (!parse_double(token, value)) {
-    fail(fmt::format("found {} where {}, a number, is expected.", quoted(token), what));
+    fail(fmt::format("found {} where {}, a number, is expected.", in_quotes(token), what));
   }
   return value;
 }
@@ -89,7 +89,7 @@ std::int64_t InputFile::next_integer(std::string_view what) {
     fail(fmt::format("the file ends where {} is expected. It looks truncated.", what));
   std::int64_t value = 0;
   if (!parse_integer(token, value)) {
-    fail(fmt::format("found {} where {}, a whole number, is expected.", quoted(token), what));
+    fail(fmt::format("found {} where {}, a whole number, is expected.", in_quotes(token), what));
   }
   return value;
 }
@@ -144,7 +144,7 @@ bool parse_integer(std::string_view token, std::int64_t& value) {
   return !token.empty() && result.ec == std::errc() && result.ptr == end;
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   std::string text = "\"";
   for (const char c : token.substr(0, 40)) text += (c >= ' ' && c <= '~') ? c : '?';
   return text + (token.size() > 40 ? "...\"" : "\"");

@@ -58,7 +58,7 @@ bool parse_double(std::string_view token, double& value);
 bool parse_integer(std::string_view token, std::int64_t& value);
 
 /// A token in quotes, shortened and with unprintable bytes as '?', fit for a message.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 /// ASCII lower case.
 std::string lower_case(std::string_view text);

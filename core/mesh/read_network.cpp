@@ -26,7 +26,7 @@ std::string list_arrays(const VtkLegacy& vtk) {
   for (const auto& [arrays, section] :
        {std::pair{&vtk.point_data, "POINT_DATA"}, std::pair{&vtk.cell_data, "CELL_DATA"}}) {
     for (const VtkArray& array : *arrays) {
-      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", quoted(array.name), section);
+      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", in_quotes(array.name), section);
     }
   }
   return text.empty() ? "none" : text;
@@ -44,7 +44,7 @@ RadiusArray find_radius(const VtkLegacy& vtk) {
           vtk.file.fail_at(array.place.begin,
                            fmt::format("array {} has {} components; a radius has 1. Save it as a "
                                        "scalar.",
-                                       quoted(array.name), array.components));
+                                       in_quotes(array.name), array.components));
         }
         return {&array, per_point, factor};
       }
@@ -64,7 +64,7 @@ double checked_radius(const VtkLegacy& vtk, const RadiusArray& radius, std::size
         vtk.position(radius.array->place, i),
         fmt::format(
             "{} has {} {}; it must be a finite number above 0. Repair the value or remove the {}.",
-            owner, quoted(radius.array->name), value, radius.per_point ? "node" : "segment"));
+            owner, in_quotes(radius.array->name), value, radius.per_point ? "node" : "segment"));
   }
   return radius.factor * value;
 }
@@ -142,7 +142,7 @@ std::optional<SwcNode> read_swc_line(InputFile& file, Vec3& x) {
           fmt::format(
               "found {} in column {}; an SWC line is \"id type x y z radius parent\", with whole "
               "numbers for id and parent. Repair the line.",
-              quoted(word), n + 1));
+              in_quotes(word), n + 1));
     }
     ++n;
     at = end;
@@ -229,7 +229,7 @@ Network read_network(const std::string& path) {
       fmt::format("{}: vessel networks are read from legacy VTK (.vtk) and SWC (.swc), not {}. "
                   "Convert the file "
                   "or rename it after its format.",
-                  path, quoted(extension)));
+                  path, in_quotes(extension)));
 }
 
 }  // namespace acinus::mesh

@@ -41,10 +41,10 @@ Vec3 parse_node(const InputFile& file, std::size_t place, const std::vector<std:
   for (std::size_t k = 0; k < 3; ++k) {
     const bool good = k + 1 < word.size() && parse_double(word[k + 1], x[static_cast<int>(k)]);
     if (good && x.allFinite()) continue;
-    file.fail_at(place,
-                 fmt::format("coordinate {} of node {} is {}; allowed is \"v x y z\" with "
-                             "finite numbers. Repair the line.",
-                             k + 1, number, k + 1 < word.size() ? quoted(word[k + 1]) : "missing"));
+    file.fail_at(place, fmt::format("coordinate {} of node {} is {}; allowed is \"v x y z\" with "
+                                    "finite numbers. Repair the line.",
+                                    k + 1, number,
+                                    k + 1 < word.size() ? in_quotes(word[k + 1]) : "missing"));
   }
   return x;
 }
@@ -60,7 +60,7 @@ ObjFace parse_face(const InputFile& file, std::size_t place, const std::vector<s
       file.fail_at(place, fmt::format("a face uses node {}; allowed are whole numbers from 1, or "
                                       "negative ones counted back from the last node. Correct the "
                                       "index.",
-                                      quoted(word[k])));
+                                      in_quotes(word[k])));
     }
     face.corner.push_back(static_cast<int>(index - 1));
   }
@@ -84,7 +84,7 @@ Surface read_obj(const std::string& path) {
     } else if (word[0].size() > 40 || word[0][0] < 'A' || word[0][0] > 'z') {
       file.fail_at(place, fmt::format("found {} where an OBJ keyword (v, f, ...) is expected. The "
                                       "file is not OBJ text or is damaged.",
-                                      quoted(word[0])));
+                                      in_quotes(word[0])));
     }
   }
   for (std::size_t f = 0; f < faces.size(); ++f) {

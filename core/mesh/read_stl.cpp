@@ -90,7 +90,7 @@ void read_stl_text(InputFile& file, CornerMerger& merger) {
       file.fail(fmt::format(
           "found {} where an STL keyword (facet, vertex, endsolid, ...) is expected. The file is "
           "damaged.",
-          quoted(token)));
+          in_quotes(token)));
     }
   }
   if (!finished || !corner.empty())

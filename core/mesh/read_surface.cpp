@@ -188,7 +188,7 @@ std::vector<Surface> read_surfaces(const std::string& path, double um_per_unit) 
     throw Error(fmt::format(
         "{}: surfaces are read from .vtk (legacy), .obj and .stl, not {}. Convert the file or "
         "rename it after its format.",
-        path, quoted(extension)));
+        path, in_quotes(extension)));
   }
   check(!bodies.empty(),
         fmt::format("{}: the file holds no faces. Save the surface with its polygons.", path));

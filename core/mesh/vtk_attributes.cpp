@@ -49,7 +49,7 @@ bool VtkParser::attribute(const std::string& keyword) {
   if (kind == std::end(kKinds)) return false;
   VtkArray array;
   array.name = decode_vtk_name(file_.next_token());
-  const std::string what = "array " + quoted(array.name);
+  const std::string what = "array " + in_quotes(array.name);
   const bool table = keyword == "lookup_table";
   const std::uint64_t n = table ? count("the size of " + what) : n_tuple_;
   const auto components = kind->second > 0 ? static_cast<std::uint64_t>(kind->second)
@@ -65,7 +65,7 @@ bool VtkParser::attribute(const std::string& keyword) {
 void VtkParser::scalars() {
   VtkArray array;
   array.name = decode_vtk_name(file_.next_token());
-  const std::string what = "array " + quoted(array.name);
+  const std::string what = "array " + in_quotes(array.name);
   const VtkType& info = type(what);
   const std::string rest(file_.next_line());
   const std::size_t digit = rest.find_first_not_of(" \t");
@@ -74,7 +74,7 @@ void VtkParser::scalars() {
     const std::string number = rest.substr(digit, rest.find_last_not_of(" \t") - digit + 1);
     if (!parse_integer(number, components) || components < 1 || components > 4) {
       file_.fail(fmt::format("{} has {} components as SCALARS; allowed are 1 to 4.", what,
-                             quoted(number)));
+                             in_quotes(number)));
     }
   }
   if (file_.peek_token() == "LOOKUP_TABLE") {
@@ -100,7 +100,7 @@ void VtkParser::field() {
       file_.fail(fmt::format("FIELD announces {} arrays but the file ends after {}.", n_array, a));
     VtkArray array;
     array.name = decode_vtk_name(token);
-    const std::string what = "array " + quoted(array.name);
+    const std::string what = "array " + in_quotes(array.name);
     const std::uint64_t components = count("the number of components of " + what);
     const std::uint64_t n = count("the number of tuples of " + what);
     const VtkType& info = type(what);

@@ -63,7 +63,7 @@ void VtkParser::offset_cells(VtkCells& list, std::uint64_t n_offset, std::uint64
   const std::string_view token = file_.next_token();
   if (token != "CONNECTIVITY") {
     file_.fail(
-        fmt::format("found {} where CONNECTIVITY of {} is expected.", quoted(token), keyword));
+        fmt::format("found {} where CONNECTIVITY of {} is expected.", in_quotes(token), keyword));
   }
   const VtkType& index_type = type(keyword + " CONNECTIVITY");
   start_data();

@@ -21,7 +21,7 @@ const VtkType& VtkParser::type(std::string_view what) {
   file_.fail(fmt::format(
       "{} has data type {}; allowed are float, double, (unsigned_)char, short, int, long, "
       "vtkIdType and vtktypeint64. Save the array with one of these, or leave it out.",
-      what, quoted(token)));
+      what, in_quotes(token)));
 }
 
 std::uint64_t VtkParser::count(std::string_view what) {
@@ -49,7 +49,7 @@ void VtkParser::header(const std::vector<std::string>& allowed, const std::strin
     file_.fail(fmt::format(
         "the first line is {}; a legacy VTK file begins with \"# vtk DataFile Version\". "
         "Check that it is the file you meant.",
-        quoted(file_.next_line())));
+        in_quotes(file_.next_line())));
   }
   file_.next_line();
   file_.next_line();  // title, any text
@@ -57,20 +57,20 @@ void VtkParser::header(const std::vector<std::string>& allowed, const std::strin
   if (lower_case(mode) == "binary") {
     file_.next_line();
   } else if (lower_case(mode) != "ascii") {
-    file_.fail(
-        fmt::format("found {}; line 3 of a legacy VTK file says ASCII or BINARY.", quoted(mode)));
+    file_.fail(fmt::format("found {}; line 3 of a legacy VTK file says ASCII or BINARY.",
+                           in_quotes(mode)));
   }
   const std::string_view keyword = file_.next_token();
   if (lower_case(keyword) != "dataset") {
-    file_.fail(fmt::format("found {} where DATASET is expected.", quoted(keyword)));
+    file_.fail(fmt::format("found {} where DATASET is expected.", in_quotes(keyword)));
   }
   out_.dataset = file_.next_token();
   std::transform(out_.dataset.begin(), out_.dataset.end(), out_.dataset.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   });
   if (std::find(allowed.begin(), allowed.end(), out_.dataset) == allowed.end()) {
-    file_.fail(fmt::format("DATASET {} cannot be used here; allowed: {}. {}", quoted(out_.dataset),
-                           fmt::join(allowed, ", "), remedy));
+    file_.fail(fmt::format("DATASET {} cannot be used here; allowed: {}. {}",
+                           in_quotes(out_.dataset), fmt::join(allowed, ", "), remedy));
   }
   file_.set_binary(lower_case(mode) == "binary");
 }
@@ -99,7 +99,7 @@ void VtkParser::sections() {
           fmt::format("found {} where a section keyword (POINTS, LINES, POINT_DATA, ...) is "
                       "expected. The count of the section before is wrong or the file is "
                       "damaged.",
-                      quoted(token)));
+                      in_quotes(token)));
     }
   }
   if (!seen_points_) file_.fail("the file has no POINTS section. Save it with its points.");

@@ -12,8 +12,6 @@ using program::Outcome;
 using program::Words;
 namespace fs = std::filesystem;
 
-const std::string kShared = ACINUS_SHARED_DIR;
-
 class RunErrors : public program::ProgramTest {
  protected:
   RunErrors() { write("pair.json", program::kPair); }
@@ -317,11 +315,15 @@ TEST_F(RunErrors, StaticMeshesMustBeClosedAndClearOfCells) {
                  {"inside static mesh \"rock\""});
 }
 
-TEST_F(RunErrors, ARealMeshWithAHoleIsRefused) {
-  const std::string file = kShared + "/data/simucell3d/young_laplace_test_geom.vtk";
-  if (!fs::exists(file)) GTEST_SKIP() << file << " is absent";
-  expect_refused({"static_meshes=[{\"file\": \"" + file + "\", \"unit\": \"1 m\"}]"},
-                 {"young_laplace_test_geom.vtk: body 1", "edge"});
+TEST_F(RunErrors, AMeshWithAHoleIsRefused) {
+  const auto refused = [this](const std::string& folder, const std::string& name) {
+    expect_refused({"static_meshes=[{\"file\": \"" + folder + name + "\", \"unit\": \"1 m\"}]"},
+                   {name + ": body 1", "edge"});
+  };
+  refused(ACINUS_TEST_DATA "/files/", "open_body.vtk");
+#ifdef ACINUS_REAL_DATA
+  refused(ACINUS_REAL_DATA "/simucell3d/", "young_laplace_test_geom.vtk");
+#endif
 }
 
 TEST_F(RunErrors, WrongValuesAreNamed) {
@@ -348,7 +350,6 @@ TEST_F(RunErrors, CheckCountsWhatItBuilt) {
 }
 
 TEST_F(RunErrors, EveryShippedSceneFits) {
-  const std::string vessels = kShared + "/data/vascpy/test_smaller_vasculature.vtk";
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(ACINUS_SOURCE_DIR "/runs/scenes")) {
     if (entry.path().extension() != ".json") continue;
@@ -358,11 +359,16 @@ TEST_F(RunErrors, EveryShippedSceneFits) {
     ++scenes;
   }
   EXPECT_GE(scenes, 7);
-  if (!fs::exists(vessels)) GTEST_SKIP() << vessels << " is absent";
-  const Outcome outcome = call({"check", ACINUS_SOURCE_DIR "/runs/scenes/vessel_file.json", "--set",
-                                "vessels.file=" + vessels});
-  EXPECT_EQ(outcome.code, 0) << outcome.text;
-  EXPECT_NE(outcome.text.find("566 um of vessels"), std::string::npos) << outcome.text;
+  const auto expect_vessels = [this](const std::string& file, const std::string& text) {
+    const Outcome outcome = call({"check", ACINUS_SOURCE_DIR "/runs/scenes/vessel_file.json",
+                                  "--set", "vessels.file=" + file});
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find(text), std::string::npos) << outcome.text;
+  };
+  expect_vessels(ACINUS_TEST_DATA "/files/capillaries.vtk", "640 um of vessels");
+#ifdef ACINUS_REAL_DATA
+  expect_vessels(ACINUS_REAL_DATA "/vascpy/test_smaller_vasculature.vtk", "566 um of vessels");
+#endif
 }
 
 }  // namespace

@@ -47,7 +47,6 @@ TEST(Hertz, HandComputedValue) {
 
 TEST(Hertz, MatchesReferenceTable) {
   const auto rows = test::read_reference("jkr_F_delta.csv");
-  if (rows.empty()) GTEST_SKIP() << "no reference tables";
   int compared = 0;
   for (const auto& row : rows) {
     const SpherePair pair = {test::number(row, 6) * test::kMetre,

@@ -24,7 +24,6 @@ TEST(Maugis, ClosureAtLambdaOneAndRadiusOne) {
 
 TEST(Maugis, PullOffMatchesReference) {
   const auto rows = test::read_reference("maugis_pulloff.csv");
-  if (rows.empty()) GTEST_SKIP() << "no reference tables";
   double worst_load = 0.0, worst_a = 0.0, worst_m = 0.0;
   for (const auto& row : rows) {
     const MaugisState state = maugis_pull_off(number(row, 0));
@@ -44,7 +43,6 @@ TEST(Maugis, PullOffMatchesReference) {
 
 TEST(Maugis, StressProfileMatchesReference) {
   const auto rows = test::read_reference("maugis_stress_profile.csv");
-  if (rows.empty()) GTEST_SKIP() << "no reference tables";
   double worst = 0.0;
   for (const auto& row : rows) {
     const double r = number(row, 0) * kMetre;

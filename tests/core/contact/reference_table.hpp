@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,11 @@ inline Row split_row(const std::string& line) {
   return row;
 }
 
-/// Rows without the header; empty if the file is not there, which tests answer by GTEST_SKIP.
+/// Rows of tests/data/reference/`name` without the header.
 inline std::vector<Row> read_reference(const std::string& name) {
-  std::ifstream file(std::string(ACINUS_SHARED_DIR) + "/reference/" + name);
+  const std::string path = ACINUS_TEST_DATA "/reference/" + name;
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + " cannot be read");
   std::vector<Row> rows;
   std::string line;
   std::getline(file, line);

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <random>
@@ -15,7 +14,7 @@
 namespace acinus::mesh {
 namespace {
 
-const std::string kData = ACINUS_SHARED_DIR "/data/vascpy/";
+const std::string kData = ACINUS_TEST_DATA "/files/";
 const std::string kHeader = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\n";
 const std::string kPoints = "POINTS 4 float\n0 0 0 1 0 0\n2 0 0 2 1 0\n";  // lines 5 to 7
 const std::string kLines = "LINES 2 7\n3 0 1 2\n2 2 3\n";                  // lines 8 to 10
@@ -25,26 +24,26 @@ std::string refusal(const std::string& path) {
   return message_of([&] { read_network(path); });
 }
 
-TEST(ReadNetwork, SmallVasculatureEqualsItsDecodedCopy) {
-  const std::string path = kData + "test_smaller_vasculature";
-  if (!std::filesystem::exists(path + ".vtk")) GTEST_SKIP() << path << " is not there";
+/// `path`.vtk holds what `path`.csv holds as text.
+void expect_equal_to_decoded_copy(const std::string& path, std::size_t n_node,
+                                  std::size_t n_segment) {
   const Network network = read_network(path + ".vtk");
   std::ifstream csv(path + ".csv");
   std::string line;
   std::getline(csv, line);  // comment
   std::getline(csv, line);
-  ASSERT_EQ(line, "NODES 912");
-  ASSERT_EQ(network.node.size(), 912u);
-  for (std::size_t i = 0; i < 912; ++i) {
+  ASSERT_EQ(line, fmt::format("NODES {}", n_node));
+  ASSERT_EQ(network.node.size(), n_node);
+  for (std::size_t i = 0; i < n_node; ++i) {
     std::getline(csv, line);
     const Vec3& x = network.node[i];
     EXPECT_EQ(line, fmt::format("{},{:.4f},{:.4f},{:.4f}", i, x.x(), x.y(), x.z()));
   }
   std::getline(csv, line);
-  ASSERT_EQ(line, "EDGES 897");
-  ASSERT_EQ(network.segment.size(), 897u);
-  ASSERT_EQ(network.radius.size(), 897u);
-  for (std::size_t s = 0; s < 897; ++s) {
+  ASSERT_EQ(line, fmt::format("EDGES {}", n_segment));
+  ASSERT_EQ(network.segment.size(), n_segment);
+  ASSERT_EQ(network.radius.size(), n_segment);
+  for (std::size_t s = 0; s < n_segment; ++s) {
     std::getline(csv, line);
     const auto& [a, b] = network.segment[s];
     EXPECT_EQ(line, fmt::format("{},{},{:.5f}", a, b, network.radius[s][0]));
@@ -52,12 +51,17 @@ TEST(ReadNetwork, SmallVasculatureEqualsItsDecodedCopy) {
   }
 }
 
-TEST(ReadNetwork, PenetratingArteryHasDiametersAtItsNodes) {
-  const std::string path = kData + "penetrating_artery_standardized.vtk";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+/// What an artery traced with a diameter at every node measures.
+struct Artery {
+  std::size_t n_node = 0;
+  double low = 0, high = 0, first = 0;  ///< radius, um
+  double length = 0;                    ///< um
+};
+
+void expect_artery(const std::string& path, const Artery& expected) {
   const Network network = read_network(path);
-  EXPECT_EQ(network.node.size(), 1274u);
-  EXPECT_EQ(network.segment.size(), 1273u);
+  EXPECT_EQ(network.node.size(), expected.n_node);
+  EXPECT_EQ(network.segment.size(), expected.n_node - 1);
   double low = 1e9, high = 0;
   for (const auto& [ra, rb] : network.radius) {
     low = std::min({low, ra, rb});
@@ -65,11 +69,30 @@ TEST(ReadNetwork, PenetratingArteryHasDiametersAtItsNodes) {
   }
   const double length = total_length(network);
   std::printf("length %.1f um, radius %.2f..%.2f um\n", length, low, high);
-  EXPECT_NEAR(low, 10.5, 0.05);
-  EXPECT_NEAR(high, 14.1, 0.05);
-  EXPECT_NEAR(length, 1255, 1);
-  EXPECT_DOUBLE_EQ(network.radius[0][0], 22.772800446 / 2);
+  EXPECT_NEAR(low, expected.low, 0.05);
+  EXPECT_NEAR(high, expected.high, 0.05);
+  EXPECT_NEAR(length, expected.length, 1);
+  EXPECT_DOUBLE_EQ(network.radius[0][0], expected.first);
 }
+
+TEST(ReadNetwork, CapillariesEqualTheirDecodedCopy) {
+  expect_equal_to_decoded_copy(kData + "capillaries", 354, 348);
+}
+
+TEST(ReadNetwork, ArteryHasDiametersAtItsNodes) {
+  expect_artery(kData + "artery.vtk", {420, 10.5, 14.1, 10.5, 421.8});
+}
+
+#ifdef ACINUS_REAL_DATA
+TEST(ReadNetwork, SmallVasculatureEqualsItsDecodedCopy) {
+  expect_equal_to_decoded_copy(ACINUS_REAL_DATA "/vascpy/test_smaller_vasculature", 912, 897);
+}
+
+TEST(ReadNetwork, PenetratingArteryHasDiametersAtItsNodes) {
+  expect_artery(ACINUS_REAL_DATA "/vascpy/penetrating_artery_standardized.vtk",
+                {1274, 10.5, 14.1, 22.772800446 / 2, 1255});
+}
+#endif
 
 TEST(ReadNetwork, PolylinesAreSplitAndRadiiMayStandAnywhere) {
   const TempFolder folder;

@@ -15,8 +15,6 @@
 namespace acinus::mesh {
 namespace {
 
-const std::string kData = ACINUS_SHARED_DIR "/data/simucell3d/";
-
 std::string points_text(const Surface& surface) {
   std::string text = fmt::format("POINTS {} double\n", surface.node.size());
   for (const Vec3& x : surface.node) text += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
@@ -31,9 +29,8 @@ std::string refusal(const std::string& path) {
   return message_of([&] { read_closed_surfaces(path, 1); });
 }
 
-TEST(ReadSurface, EmbryoHasTheVolumesAndAreasOfItsFile) {
-  const std::string path = kData + "embryo_5.vtk";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+/// 16 bodies with the volumes and areas that the file gives beside them.
+void expect_measures_of_file(const std::string& path) {
   const std::vector<Surface> bodies = read_closed_surfaces(path, 1e6);
   ASSERT_EQ(bodies.size(), 16u);
   const VtkLegacy vtk = read_vtk_legacy(path, {"UNSTRUCTURED_GRID"}, "");
@@ -62,16 +59,33 @@ TEST(ReadSurface, EmbryoHasTheVolumesAndAreasOfItsFile) {
   for (const Surface& body : bodies) EXPECT_NO_THROW(make_topology(body));
 }
 
-TEST(ReadSurface, YoungLaplaceBodyOneIsRefused) {
-  const std::string path = kData + "young_laplace_test_geom.vtk";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+/// The first of two bodies is closed, the second is not and gets named.
+void expect_second_body_refused(const std::string& path) {
   std::vector<Surface> bodies = read_surfaces(path, 1e6);
   ASSERT_EQ(bodies.size(), 2u);
   EXPECT_NO_THROW(check_closed(bodies[0], "body 0"));
   const std::string text = message_of([&] { read_closed_surfaces(path, 1e6); });
   std::printf("%s\n", text.c_str());
-  EXPECT_CONTAINS(text, "young_laplace_test_geom.vtk: body 1: ");
+  EXPECT_CONTAINS(text, std::filesystem::path(path).filename().string() + ": body 1: ");
 }
+
+TEST(ReadSurface, AggregateHasTheVolumesAndAreasOfItsFile) {
+  expect_measures_of_file(ACINUS_TEST_DATA "/files/aggregate.vtk");
+}
+
+TEST(ReadSurface, ABodyWithAHoleIsRefused) {
+  expect_second_body_refused(ACINUS_TEST_DATA "/files/open_body.vtk");
+}
+
+#ifdef ACINUS_REAL_DATA
+TEST(ReadSurface, EmbryoHasTheVolumesAndAreasOfItsFile) {
+  expect_measures_of_file(ACINUS_REAL_DATA "/simucell3d/embryo_5.vtk");
+}
+
+TEST(ReadSurface, YoungLaplaceBodyOneIsRefused) {
+  expect_second_body_refused(ACINUS_REAL_DATA "/simucell3d/young_laplace_test_geom.vtk");
+}
+#endif
 
 TEST(ReadSurface, PolydataQuadsBecomeTriangles) {
   const TempFolder folder;

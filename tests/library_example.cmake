@@ -1,0 +1,16 @@
+# cmake -DBUILD=FOLDER -DEXAMPLE=FOLDER -P library_example.cmake
+# Installs the build to a folder of its own, builds the example against what was installed there, and runs it.
+set(folder ${BUILD}/tests/library_example)
+file(REMOVE_RECURSE ${folder})
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${folder}/prefix)
+run(${CMAKE_COMMAND} -S ${EXAMPLE} -B ${folder}/build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${folder}/prefix)
+run(${CMAKE_COMMAND} --build ${folder}/build)
+execute_process(COMMAND ${folder}/build/three_cells OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+message("${text}")
+if(NOT text MATCHES "cell 0.*cell 1.*cell 2")
+  message(FATAL_ERROR "the example did not print its three cells")
+endif()
+file(REMOVE_RECURSE ${folder})
