@@ -107,6 +107,28 @@ const PrecisionOutcome* find_longest_step(const std::vector<PrecisionOutcome>& o
   return longest;
 }
 
+constexpr int kTurns = 3;
+
+/// CPU rates of explicit Euler over those of the linearly implicit step that is as good, and of its
+/// usual step, timed in turns; sorted.
+std::pair<std::vector<double>, std::vector<double>> time_in_turns(WarmScene& scene,
+                                                                  const PrecisionOutcome& slow,
+                                                                  const PrecisionOutcome& fast,
+                                                                  const PrecisionOutcome& usual) {
+  const auto rate = [&](const PrecisionOutcome& e) {
+    return scene.run(e.setting, e.window, 1).cpu / e.window;
+  };
+  std::vector<double> ratio, usual_ratio;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const double explicit_rate = rate(slow);
+    ratio.push_back(explicit_rate / rate(fast));
+    usual_ratio.push_back(explicit_rate / rate(usual));
+  }
+  std::ranges::sort(ratio);
+  std::ranges::sort(usual_ratio);
+  return {ratio, usual_ratio};
+}
+
 /// What the linearly implicit method saves against explicit Euler at the same error. Explicit Euler
 /// takes too long for the long window, so CPU times per simulated time are compared, each method
 /// with its cheapest setting over the window it was measured on; the two are timed in turns.
@@ -115,7 +137,6 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                                  const std::vector<PrecisionOutcome>& short_window,
                                  CaseReport& report) {
   constexpr double kError = 0.02;
-  constexpr int kTurns = 3;
   const auto explicits = of_method(short_window, coupling::Integrator::kExplicitEuler);
   const auto implicits = of_method(long_window, coupling::Integrator::kLinearlyImplicit);
   const auto brief = of_method(short_window, coupling::Integrator::kLinearlyImplicit);
@@ -131,17 +152,7 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
     return e.setting.step == PrecisionSetting{}.step &&
            e.setting.cg_tolerance == PrecisionSetting{}.cg_tolerance;
   });
-  auto rate = [&](const PrecisionOutcome& e) {
-    return scene.run(e.setting, e.window, 1).cpu / e.window;
-  };
-  std::vector<double> ratio, usual_ratio;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    const double explicit_rate = rate(*slow);
-    ratio.push_back(explicit_rate / rate(*fast));
-    usual_ratio.push_back(explicit_rate / rate(usual));
-  }
-  std::ranges::sort(ratio);
-  std::ranges::sort(usual_ratio);
+  const auto [ratio, usual_ratio] = time_in_turns(scene, *slow, *fast, usual);
   const double middle = ratio[kTurns / 2], usual_middle = usual_ratio[kTurns / 2];
   say(report,
       fmt::format("\nCPU time per simulated time, explicit Euler over linearly implicit, pressure "
