@@ -118,6 +118,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   runs.say("fitting the law");
   found.attempts = fit_law(cells, clump.sphere, options.fit);
   found.law = make_law(clump, found.attempts.back());
+  runs.say("compressing corrected spheres");
   found.exit = fit_wall_recess(clump, cells, options.fit.highest, runs, found);
   if (found.exit != 0) return found;
   found.error_plain = relative_error(found.dcm, found.plain, options.fit.highest);

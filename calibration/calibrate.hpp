@@ -34,7 +34,8 @@ enum class ClumpModel { kDeformable, kSpheres, kCorrectedSpheres };
 /// How the clump was compressed as cells of one model.
 struct CompressionRun {
   int exit = 0;  ///< exit code of a run that was stopped or failed, else 0
-  /// Empty if the run was stopped. A run that could not go on has those it got to.
+  /// Empty if the run was stopped, or plain spheres could not go on. Other runs that could not go
+  /// on have those they got to.
   std::vector<ClumpSnapshot> snapshots;
   std::vector<ClumpSample> central;  ///< the central cell in each snapshot
 };

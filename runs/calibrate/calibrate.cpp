@@ -82,27 +82,34 @@ class Folders {
   }
 
  private:
+  struct How {
+    bool quiet = false, fresh = false;
+    bool whole = false;  ///< a run that could not go on is of no use
+  };
+
   CompressionRun compress(ClumpModel model, const calibration::Law& law) const {
     if (model == ClumpModel::kDeformable) {
       say(fmt::format("compressing {} deformable cells ({})", compression_.cells.count,
                       path(kDeformable)));
-      return run(compression_, kDeformable, options_.quiet, options_.fresh);
+      return run(compression_, kDeformable, {options_.quiet, options_.fresh});
     }
     if (model == ClumpModel::kSpheres) {
       say("compressing spheres without correction");
-      return run(as_spheres(compression_, "none"), "compression_cbm", true, options_.fresh);
+      return run(as_spheres(compression_, "none"), "compression_cbm",
+                 {.quiet = true, .fresh = options_.fresh, .whole = true});
     }
-    say("compressing corrected spheres");
     calibration::write_law(law, path("law.json"));
     // Another law may stand in the file of an earlier attempt.
-    return run(as_spheres(compression_, path("law.json")), "compression_corrected", true, true);
+    return run(as_spheres(compression_, path("law.json")), "compression_corrected",
+               {.quiet = true, .fresh = true});
   }
 
-  CompressionRun run(const Scene& scene, const char* name, bool quiet, bool fresh) const {
+  CompressionRun run(const Scene& scene, const char* name, const How& how) const {
     CompressionRun out;
-    out.exit =
-        run_stage(scene, {path(name), options_.threads, quiet, fresh, options_.command_line});
-    if (out.exit != 0 && out.exit != static_cast<int>(Exit::kCannotContinue)) return out;
+    out.exit = run_stage(
+        scene, {path(name), options_.threads, how.quiet, how.fresh, options_.command_line});
+    const bool cut_short = out.exit == static_cast<int>(Exit::kCannotContinue);
+    if (out.exit != 0 && (how.whole || !cut_short)) return out;
     const RunSummary summary = read_summary(path(name));
     out.snapshots = read_snapshots(summary);
     out.central = read_central(summary);

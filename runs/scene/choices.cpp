@@ -1,24 +1,33 @@
 #include "runs/scene/choices.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 namespace acinus::runs {
 
+std::vector<std::string> split_choices(const char* choices) {
+  std::vector<std::string> names;
+  std::string name;
+  for (const char* c = choices; *c != '\0'; ++c) {
+    if (*c == '|') {
+      names.push_back(name);
+      name.clear();
+    } else {
+      name += *c;
+    }
+  }
+  if (!name.empty()) names.push_back(name);
+  return names;
+}
+
 std::string choice_name(const char* choices, int index) {
-  std::string_view rest = choices;
-  for (int k = 0; k < index && !rest.empty(); ++k)
-    rest.remove_prefix(std::min(rest.size(), rest.find('|')) +
-                       (rest.find('|') == rest.npos ? 0 : 1));
-  return index < 0 ? "" : std::string(rest.substr(0, rest.find('|')));
+  const std::vector<std::string> names = split_choices(choices);
+  return index >= 0 && index < static_cast<int>(names.size()) ? names[index] : "";
 }
 
 int choice_index(const char* choices, const std::string& name) {
-  if (name.empty()) return -1;
-  std::string part;
-  for (int k = 0; !(part = choice_name(choices, k)).empty(); ++k)
-    if (part == name) return k;
-  return -1;
+  const std::vector<std::string> names = split_choices(choices);
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
 }  // namespace acinus::runs

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "core/contact/surface.hpp"
 #include "coupling/generate/domain.hpp"
@@ -49,6 +50,9 @@ template <>
 inline constexpr const char* kChoices<coupling::InhibitedBy> = "none|pressure|volume|density";
 template <>
 inline constexpr const char* kChoices<coupling::Lattice> = "fcc|bcc";
+
+/// The parts of "dcm|cbm|zoom".
+std::vector<std::string> split_choices(const char* choices);
 
 /// Part `index` of "dcm|cbm|zoom"; "" beyond its end.
 std::string choice_name(const char* choices, int index);

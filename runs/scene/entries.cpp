@@ -27,20 +27,7 @@ std::string range_text(const Range& range, Dimension dimension, const char* unit
   return "";
 }
 
-std::vector<std::string> choices_of(const Key& key) {
-  std::vector<std::string> choices;
-  std::string part;
-  for (const char* c = key.choices; *c != '\0'; ++c) {
-    if (*c == '|') {
-      choices.push_back(part);
-      part.clear();
-    } else {
-      part += *c;
-    }
-  }
-  if (!part.empty()) choices.push_back(part);
-  return choices;
-}
+std::vector<std::string> choices_of(const Key& key) { return split_choices(key.choices); }
 
 namespace {
 
