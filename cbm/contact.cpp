@@ -38,7 +38,8 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
 /// Adds the coupling of its cells to the stiffness of every contact.
 void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
                   std::vector<solve::PointLink>& link) {
-  std::vector<double> contacts(work.coupling.size(), 0.0);
+  std::vector<double>& contacts = work.scratch;
+  contacts.assign(work.coupling.size(), 0.0);
   for (const auto& [a, b] : work.touching) {
     if (b < 0) continue;
     ++contacts[a];
@@ -67,7 +68,8 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   const CellData& cells = in.cells;
   const std::span<const double> radius = cells.radius;
   work.overlap_sum.assign(s.n_cell(), 0.0);
-  std::vector<double> relative(work.pair.size());
+  std::vector<double>& relative = work.scratch;
+  relative.resize(work.pair.size());
 #pragma omp parallel for schedule(static) if (relative.size() > 10000)
   for (std::size_t k = 0; k < relative.size(); ++k) {
     const std::size_t i = work.pair[k].first, j = work.pair[k].second;

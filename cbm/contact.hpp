@@ -33,6 +33,12 @@ struct ContactInput {
   std::size_t first_row = 0;  ///< where the CBM rows start in the system
 };
 
+/// What contacts of two spheres need of the type of each.
+struct TypeFactors {
+  double softness = 1;       ///< 1 - nu^2
+  double root_adhesion = 0;  ///< sqrt(W), nN/um to the power 1/2
+};
+
 /// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
 /// cells of its own range only and works out pairs that cross into it once more.
 struct ContactWorkspace {
@@ -41,7 +47,9 @@ struct ContactWorkspace {
   std::vector<double> list_position, list_radius;
   std::vector<double> force;  ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
-  std::vector<double> contact_area;           ///< [n_cell] um^2, sum over all contacts
+  std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
+  std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
+  std::vector<double> contact_area;       ///< [n_cell] um^2, sum over all contacts
   /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
   /// find_overlaps; the DCM-CBM interface adds its own. Empty: not wanted.
   std::vector<double> overlap_sum;
@@ -49,6 +57,7 @@ struct ContactWorkspace {
   /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
   /// grows with all its overlaps, C_i; written by: find_contacts. Empty: no law corrects.
   std::vector<double> coupling;
+  std::vector<double> scratch;  ///< of one function at a time
   int list_builds = 0;
   std::int64_t searches = 0;               ///< calls of find_contacts
   std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
@@ -101,7 +110,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, solve::System& system);
 
-/// Appends the touching pairs of the last search one by one.
+/// Appends the touching pairs of the last search one by one. @pre find_contacts
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,
                 contact::ContactList& contacts);
 

@@ -53,20 +53,11 @@ void weaken(const double (&share)[kLanes], Batch& p) {
   }
 }
 
-/// What the pairs need of the types.
-struct TypeTable {
-  std::vector<double> softness;  ///< 1 - nu^2
-  std::vector<double> root;      ///< sqrt(W)
-  std::vector<const StiffnessLaw*> law;
-};
-TypeTable make_table(std::span<const Params> params, double adhesion_factor) {
-  TypeTable t;
-  for (const Params& p : params) {
-    t.softness.push_back(1 - p.poisson * p.poisson);
-    t.root.push_back(std::sqrt(adhesion_factor * p.adhesion));
-    t.law.push_back(&p.correction);
-  }
-  return t;
+void find_type_factors(std::span<const Params> params, double adhesion_factor,
+                       std::vector<TypeFactors>& factors) {
+  factors.clear();
+  for (const Params& p : params)
+    factors.push_back({1 - p.poisson * p.poisson, std::sqrt(adhesion_factor * p.adhesion)});
 }
 
 /// What one side of a pair does, by its own overlap or its crowd.
@@ -74,23 +65,23 @@ struct CrowdedFace {
   Modulus modulus;
   bool own = false;  ///< by its own overlap
 };
-CrowdedFace face_toward(const State& s, const TypeTable& table, const ContactWorkspace& work,
-                        std::size_t cell, double overlap) {
+CrowdedFace face_toward(const ContactInput& in, const ContactWorkspace& work, std::size_t cell,
+                        double overlap) {
   const Modulus& crowd = work.modulus[cell];
   if (work.coupling.empty()) return {crowd};  // no type has a law
-  const StiffnessLaw& law = *table.law[s.type[cell]];
-  const Modulus m = modulus_toward(law, s.young[cell], crowd, overlap);
+  const StiffnessLaw& law = in.params[in.state.type[cell]].correction;
+  const Modulus m = modulus_toward(law, in.state.young[cell], crowd, overlap);
   return {m, m.value > crowd.value};
 }
 
 /// One thread's cells [first, last): all pairs that have a side among them.
 class RangeSearch {
  public:
-  RangeSearch(const ContactInput& in, const TypeTable& table,
-              std::pair<std::size_t, std::size_t> range, ContactWorkspace& work,
-              std::vector<solve::PointLink>& link, std::vector<std::pair<int, int>>& touching)
-      : s_(in.state),
-        table_(table),
+  RangeSearch(const ContactInput& in, std::pair<std::size_t, std::size_t> range,
+              ContactWorkspace& work, std::vector<solve::PointLink>& link,
+              std::vector<std::pair<int, int>>& touching)
+      : in_(in),
+        s_(in.state),
         friction_(in.options.friction_factor * in.options.cell_friction),
         cells_(in.cells),
         first_row_(in.first_row),
@@ -149,13 +140,13 @@ class RangeSearch {
     const Modulus *of_a = &work_.modulus[i], *of_b = &work_.modulus[j];
     if (!work_.coupling.empty()) {  // a law corrects
       const double overlap = overlap_now();
-      face_[n_] = {face_toward(s_, table_, work_, i, overlap),
-                   face_toward(s_, table_, work_, j, overlap)};
+      face_[n_] = {face_toward(in_, work_, i, overlap), face_toward(in_, work_, j, overlap)};
       of_a = &face_[n_][0].modulus;
       of_b = &face_[n_][1].modulus;
     }
-    batch_.compliance[n_] = table_.softness[ta] / of_a->value + table_.softness[tb] / of_b->value;
-    batch_.adhesion[n_] = table_.root[ta] * table_.root[tb];
+    const TypeFactors &of_ta = work_.type_factors[ta], &of_tb = work_.type_factors[tb];
+    batch_.compliance[n_] = of_ta.softness / of_a->value + of_tb.softness / of_b->value;
+    batch_.adhesion[n_] = of_ta.root_adhesion * of_tb.root_adhesion;
     batch_.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
     if (++n_ == kLanes) flush();
   }
@@ -226,7 +217,7 @@ class RangeSearch {
   /// How much stiffer a contact is because the modulus of a side grows with its overlap. dF/dE^ is
   /// (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
   double by_modulus(std::size_t cell, const Modulus& m, std::size_t l) const {
-    const double softness = table_.softness[s_.type[cell]];
+    const double softness = work_.type_factors[s_.type[cell]].softness;
     const double by_own = 2.0 / 3 * std::max(batch_.overlap[l], 0.0) * batch_.stiffness[l] *
                           softness / (batch_.compliance[l] * m.value * m.value);
     return by_own * m.slope / (batch_.radius_a[l] + batch_.radius_b[l]);
@@ -251,8 +242,8 @@ class RangeSearch {
   }
 
   static constexpr std::size_t kUnset = -1;
+  const ContactInput& in_;
   const State& s_;
-  const TypeTable& table_;
   double friction_;
   const CellData& cells_;
   std::size_t first_row_;
@@ -275,27 +266,27 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   work.force.resize(in.state.position.size());
   link.resize(work.pair.size());
   work.contact_area.resize(n);
-  const TypeTable table = make_table(in.params, in.options.adhesion_factor);
+  find_type_factors(in.params, in.options.adhesion_factor, work.type_factors);
   const std::size_t n_part =
       n > kParallelCells ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
-  std::vector<std::vector<std::pair<int, int>>> touching(n_part - 1);
+  work.touching_part.resize(n_part - 1);
 #pragma omp parallel for schedule(static, 1) if (n_part > 1)
   for (std::size_t k = 0; k < n_part; ++k) {
     auto boundary = [&](std::size_t part) {  // whole rows: no two threads share one
       return part == n_part ? n : part * n / n_part / kLanes * kLanes;
     };
-    RangeSearch(in, table, {boundary(k), boundary(k + 1)}, work, link,
-                k == 0 ? work.touching : touching[k - 1])
+    RangeSearch(in, {boundary(k), boundary(k + 1)}, work, link,
+                k == 0 ? work.touching : work.touching_part[k - 1])
         .run();
   }
-  for (const auto& t : touching) work.touching.insert(work.touching.end(), t.begin(), t.end());
+  for (const auto& t : work.touching_part)
+    work.touching.insert(work.touching.end(), t.begin(), t.end());
 }
 
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,
                 contact::ContactList& contacts) {
   const State& s = in.state;
   const std::span<const double> radius = in.cells.radius;
-  const TypeTable table = make_table(in.params, in.options.adhesion_factor);
   for (const auto& [a, b] : work.touching) {
     if (b < 0) continue;  // boundary
     const std::size_t i = a, j = b;
@@ -304,11 +295,12 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
     const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
     const double sum = radius[i] + radius[j];
     auto softness = [&](std::size_t cell, std::size_t type) {
-      return table.softness[type] / face_toward(s, table, work, cell, overlap / sum).modulus.value;
+      return work.type_factors[type].softness /
+             face_toward(in, work, cell, overlap / sum).modulus.value;
     };
-    const contact::SpherePair pair{radius[i] * radius[j] / sum,
-                                   1 / (softness(i, ta) + softness(j, tb)),
-                                   table.root[ta] * table.root[tb]};
+    const contact::SpherePair pair{
+        radius[i] * radius[j] / sum, 1 / (softness(i, ta) + softness(j, tb)),
+        work.type_factors[ta].root_adhesion * work.type_factors[tb].root_adhesion};
     const contact::SphereForce law =
         weaken(contact::jkr_force(pair, overlap, true), in.cells.pair_share(i, j));
     const double area = kPi * law.contact_radius * law.contact_radius;

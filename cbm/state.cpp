@@ -56,16 +56,26 @@ State compose(std::span<const CellRef> cells) {
 }
 
 std::vector<double> radii_at(const State& s, double time) {
-  std::vector<double> r(s.n_cell());
-  for (std::size_t c = 0; c < r.size(); ++c) r[c] = sphere_radius(s.volume[c].at(time));
-  return r;
+  std::vector<double> radius;
+  find_radii(s, time, radius);
+  return radius;
+}
+
+void find_radii(const State& s, double time, std::vector<double>& radius) {
+  radius.resize(s.n_cell());
+  for (std::size_t c = 0; c < radius.size(); ++c) radius[c] = sphere_radius(s.volume[c].at(time));
 }
 
 std::vector<double> strengths_at(const State& s, double time) {
-  if (std::ranges::all_of(s.strength, [&](const Ramp& r) { return r.at(time) == 1; })) return {};
-  std::vector<double> share(s.n_cell());
-  for (std::size_t c = 0; c < share.size(); ++c) share[c] = s.strength[c].at(time);
-  return share;
+  std::vector<double> strength;
+  find_strengths(s, time, strength);
+  return strength;
+}
+
+void find_strengths(const State& s, double time, std::vector<double>& strength) {
+  strength.clear();
+  if (std::ranges::all_of(s.strength, [&](const Ramp& r) { return r.at(time) == 1; })) return;
+  for (std::size_t c = 0; c < s.n_cell(); ++c) strength.push_back(s.strength[c].at(time));
 }
 
 std::vector<solve::Block> make_blocks(const State& s) {

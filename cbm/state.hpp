@@ -68,9 +68,11 @@ inline Vec3 center_of(const State& s, std::size_t cell) {
 
 /// Radii from the intrinsic volumes at a time, um.
 std::vector<double> radii_at(const State& state, double time);
+void find_radii(const State& state, double time, std::vector<double>& radius);
 
 /// Strengths at a time; empty when all are 1, so that nothing needs to look at them.
 std::vector<double> strengths_at(const State& state, double time);
+void find_strengths(const State& state, double time, std::vector<double>& strength);
 
 /// What contacts need of the cells at one time: that of the end of the step.
 struct CellData {

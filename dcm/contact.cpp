@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "core/threads.hpp"
 #include "dcm/vessel_wall.hpp"
@@ -29,20 +29,35 @@ struct VesselContact {
   double radius = 0;  ///< um, of the vessel at the closest point
 };
 
+/// Scratch of the search around one body.
+struct VesselScratch {
+  std::vector<VesselContact> found;
+  std::vector<VesselContact> guard;             ///< [guard]
+  std::vector<int> list_of_node;                ///< -1: none
+  std::vector<std::pair<int, double>> deepest;  ///< segment, um
+};
+
 /// Gives the contacts of a body with vessels the stiffness that follows from the deepest of them
 /// with the same segment, and adds those that push where the wall yields no more.
 void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
-                        std::vector<VesselContact>& found) {
-  std::map<int, double> deepest;
+                        VesselScratch& scratch) {
+  std::vector<VesselContact>& found = scratch.found;
+  std::vector<std::pair<int, double>>& deepest = scratch.deepest;
+  deepest.clear();
+  const auto depth_at = [&](int segment) -> double& {
+    auto at = std::ranges::find(deepest, segment, &std::pair<int, double>::first);
+    if (at == deepest.end()) at = deepest.insert(at, {segment, 0.0});
+    return at->second;
+  };
   for (const VesselContact& v : found) {
-    double& depth = deepest.try_emplace(v.contact.b, 0.0).first->second;
+    double& depth = depth_at(v.contact.b);
     depth = std::max(depth, -v.contact.gap);
   }
   for (std::size_t k = 0, n = found.size(); k < n; ++k) {
     Contact& o = found[k].contact;
     // No deeper than contacts are looked for, with room for what pushes behind it.
     const double limit = std::min(yield_limit(wall, found[k].radius), c.max_depth / 2);
-    const double k_bed = wall_stiffness(c.repulsion, wall, found[k].radius, deepest[o.b]);
+    const double k_bed = wall_stiffness(c.repulsion, wall, found[k].radius, depth_at(o.b));
     if (o.guard) {
       o.stiffness = c.repulsion;
       o.onset = kGuardGap + (1 - k_bed / c.repulsion) * limit;
@@ -62,21 +77,29 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
 class VesselSearch {
  public:
   VesselSearch(const contact::SurfaceBody& body, int number, const ContactParams& c, double range,
-               const SegmentCandidates& list, const contact::Vessels& vessels)
-      : b_(body), number_(number), c_(c), range_(range), list_(list), vessels_(vessels) {}
+               const SegmentCandidates& list, const contact::Vessels& vessels,
+               VesselScratch& scratch)
+      : b_(body),
+        number_(number),
+        c_(c),
+        range_(range),
+        list_(list),
+        vessels_(vessels),
+        scratch_(scratch) {}
 
-  /// One contact per point, with the nearest segment of the network, then those of the guards.
-  std::vector<VesselContact> find() {
+  /// Finds one contact per point, with the nearest segment of the network, then those of the
+  /// guards.
+  void find() {
+    scratch_.found.clear();
     find_points();
-    guard_.assign(n_guards(b_), {});
+    scratch_.guard.assign(n_guards(b_), {});
     if (contact::has_face_sites(c_.quadrature))
       find_guards_of_faces();
     else
       find_guards_between_nodes();
-    for (const VesselContact& v : guard_)
-      if (v.contact.guard) found_.push_back(v);
-    set_wall_stiffness(c_, vessels_.material, found_);
-    return std::move(found_);
+    for (const VesselContact& v : scratch_.guard)
+      if (v.contact.guard) scratch_.found.push_back(v);
+    set_wall_stiffness(c_, vessels_.material, scratch_);
   }
 
  private:
@@ -102,7 +125,7 @@ class VesselSearch {
         const int p = list_.site[s] * per_site + q;
         const VesselContact best = nearest(
             s, p, contact::point_position(b_, contact::point_stencil(b_, c_.quadrature, p)));
-        if (best.contact.b >= 0) found_.push_back(best);
+        if (best.contact.b >= 0) scratch_.found.push_back(best);
       }
   }
 
@@ -111,10 +134,10 @@ class VesselSearch {
     const std::size_t i = number;
     const Vec3& x = i < b_.node.size() ? b_.node[i] : b_.center[i - b_.node.size()];
     const VesselContact best = nearest(site, number, x);
-    if (best.contact.b < 0 || best.contact.gap >= std::min(guard_[i].contact.gap, -kGuardGap))
-      return;
-    guard_[i] = best;
-    guard_[i].contact.guard = true;
+    VesselContact& guard = scratch_.guard[i];
+    if (best.contact.b < 0 || best.contact.gap >= std::min(guard.contact.gap, -kGuardGap)) return;
+    guard = best;
+    guard.contact.guard = true;
   }
 
   void find_guards_of_faces() {
@@ -129,7 +152,8 @@ class VesselSearch {
   /// between the points.
   void find_guards_between_nodes() {
     const int n_node = static_cast<int>(b_.node.size());
-    std::vector<int> list_of_node(b_.node.size(), -1);
+    std::vector<int>& list_of_node = scratch_.list_of_node;
+    list_of_node.assign(b_.node.size(), -1);
     for (std::size_t s = 0; s < list_.site.size() && list_.site[s] < n_node; ++s)
       list_of_node[list_.site[s]] = static_cast<int>(s);
     for (std::size_t f = 0; f < b_.triangle->size(); ++f)
@@ -143,17 +167,17 @@ class VesselSearch {
   double range_;
   const SegmentCandidates& list_;
   const contact::Vessels& vessels_;
-  std::vector<VesselContact> found_, guard_;
+  VesselScratch& scratch_;
 };
 
-/// Contacts of one body with planes, capsules and vessels.
-std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, double range,
-                                            const ContactWorkspace& work) {
+/// Appends the contacts of one body with planes, capsules and vessels.
+void find_obstacle_contacts(const ContactInput& in, int number, double range,
+                            ContactWorkspace& work) {
   const contact::SurfaceBody& b = work.body[number];
   const SegmentCandidates& list = work.lists.segment[number];
   const ContactParams& c = in.options;
   const contact::Boundary& boundary = in.boundary;
-  std::vector<Contact> out;
+  std::vector<Contact>& out = work.obstacle[number];
   const int n_point = static_cast<int>(contact::n_points(b, c.quadrature));
   const Vec3 middle = 0.5 * (b.box.low + b.box.high);
   const double half = 0.5 * (b.box.high - b.box.low).norm();
@@ -178,10 +202,10 @@ std::vector<Contact> find_obstacle_contacts(const ContactInput& in, int number, 
   for (std::size_t i = 0; i < boundary.capsules.size(); ++i)
     probe(Partner::kCapsule, i,
           [&](const Vec3& x) { return contact::gap_to_capsule(boundary.capsules[i], x, in.time); });
-  if (list.site.empty()) return out;
-  for (const VesselContact& v : VesselSearch(b, number, c, range, list, boundary.vessels).find())
-    out.push_back(v.contact);
-  return out;
+  if (list.site.empty()) return;
+  thread_local VesselScratch scratch;
+  VesselSearch(b, number, c, range, list, boundary.vessels, scratch).find();
+  for (const VesselContact& v : scratch.found) out.push_back(v.contact);
 }
 
 /// Area on the unit rest shape that a point stands for.
@@ -270,14 +294,14 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
 }
 
 void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
-  std::vector<std::int64_t> lineage;
-  std::vector<std::uint8_t> constrained;
+  work.lineage_of_body.clear();
+  work.body_constrained.clear();
   for (std::size_t lane : work.lane_of_body) {
-    lineage.push_back(in.state.lineage[lane]);
-    if (!work.constrained.empty()) constrained.push_back(work.constrained[lane]);
+    work.lineage_of_body.push_back(in.state.lineage[lane]);
+    if (!work.constrained.empty()) work.body_constrained.push_back(work.constrained[lane]);
   }
-  refresh_lists({work.body, work.fixed, lineage, constrained, in.boundary.vessels.network,
-                 search_options(in)},
+  refresh_lists({work.body, work.fixed, work.lineage_of_body, work.body_constrained,
+                 in.boundary.vessels.network, search_options(in)},
                 work.lists);
 }
 
@@ -308,12 +332,14 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   for (const auto& f : work.found) all.insert(all.end(), f.begin(), f.end());
   contacts.surface_end = all.size();
 
-  std::vector<std::vector<Contact>> obstacle(work.body.size());
+  work.obstacle.resize(work.body.size());
 #pragma omp parallel for schedule(dynamic, 2) if (worth_threads(in.state.n_row()))
-  for (std::size_t k = 0; k < work.body.size(); ++k)
+  for (std::size_t k = 0; k < work.body.size(); ++k) {
+    work.obstacle[k].clear();
     if (work.constrained.empty() || work.constrained[work.lane_of_body[k]] == 0)
-      obstacle[k] = find_obstacle_contacts(in, static_cast<int>(k), options.range, work);
-  for (const auto& o : obstacle) all.insert(all.end(), o.begin(), o.end());
+      find_obstacle_contacts(in, static_cast<int>(k), options.range, work);
+  }
+  for (const auto& o : work.obstacle) all.insert(all.end(), o.begin(), o.end());
   contacts.obstacle_end = contacts.interface_end = contacts.sphere_obstacle_end = all.size();
   find_shares(in, contacts, work);
 }

@@ -82,11 +82,15 @@ double guard_area(const mesh::Topology& t, int point, double radius);
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
-  std::vector<std::size_t> lane_of_body;             ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> body;            ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> fixed;           ///< static meshes
-  ContactLists lists;                                ///< written by: refresh_lists
-  std::vector<std::vector<contact::Contact>> found;  ///< scratch of one search
+  std::vector<std::size_t> lane_of_body;       ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> body;      ///< written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;     ///< static meshes
+  ContactLists lists;                          ///< written by: refresh_lists
+  std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
+  std::vector<std::uint8_t> body_constrained;  ///< empty: all move; written by: refresh_lists
+  std::vector<std::vector<contact::Contact>>
+      found;  ///< [other threads than the first] by: find_contacts
+  std::vector<std::vector<contact::Contact>> obstacle;  ///< [body] with boundary; by: find_contacts
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;

@@ -151,20 +151,22 @@ int add_snapshot(const contact::SurfaceBody& now, ListedBody& body) {
   return static_cast<int>(place);
 }
 
-/// Segments within reach of every site of a body.
-SegmentCandidates find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& o,
-                                const mesh::Network& network) {
-  SegmentCandidates list;
-  list.start.push_back(0);
+/// Finds the segments within reach of every site of a body.
+void find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& o,
+                   const mesh::Network& network, SegmentCandidates& list) {
+  list.site.clear();
+  list.segment.clear();
+  list.start.assign(1, 0);
   const double margin = std::max(o.range, o.max_depth) + o.skin;
-  std::vector<int> near;
+  thread_local std::vector<int> near;
+  near.clear();
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
     Box box;
     for (int n : network.segment[s]) box.include(network.node[n]);
     const double r = std::max(network.radius[s][0], network.radius[s][1]);
     if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
   }
-  if (near.empty()) return list;
+  if (near.empty()) return;
   // A node also finds what may stand in the middle of its faces; an edge need not as well.
   const double widest = *std::ranges::max_element(b.reach);
   for (std::size_t site = 0; site < contact::n_sites(b, o.quadrature); ++site) {
@@ -178,7 +180,6 @@ SegmentCandidates find_segments(const contact::SurfaceBody& b, const contact::Se
     list.site.push_back(static_cast<int>(site));
     list.start.push_back(static_cast<std::uint32_t>(list.segment.size()));
   }
-  return list;
 }
 
 }  // namespace
@@ -203,11 +204,13 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
       if (s.lists > 0) find_motion(in.body[k], s);
 
   const double range = in.options.range, skin = in.options.skin;
-  std::vector<std::size_t> expired;
+  ListScratch& scratch = lists.scratch;
+  std::vector<std::size_t>&expired = scratch.expired, &segments_expired = scratch.segments_expired;
+  expired.clear();
+  segments_expired.clear();
   for (std::size_t k = 0; k < lists.pair.size(); ++k)
     if (!lists.age[k].made() || relative_motion(lists, k) + range - lists.age[k].range > skin)
       expired.push_back(k);
-  std::vector<std::size_t> segments_expired;
   if (!in.network.segment.empty())
     for (std::size_t k = 0; k < n_body; ++k) {
       if (is_constrained(in, k)) continue;
@@ -220,26 +223,27 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   lists.made += static_cast<std::int64_t>(expired.size());
   if (expired.empty() && segments_expired.empty()) return;
 
-  std::vector<int> latest(n_body, -1);  // the snapshot of this moment
+  std::vector<int>& latest = scratch.latest;
+  latest.assign(n_body, -1);
   const auto snapshot_now = [&](std::size_t body) {
     if (body >= n_body) return -1;
     if (latest[body] < 0) latest[body] = add_snapshot(in.body[body], lists.body[body]);
     return latest[body];
   };
-  std::vector<contact::Candidates*> to_fill;
+  scratch.to_fill.clear();
   for (std::size_t k : expired) {
     contact::Candidates& list = lists.pair[k];
     const int a = snapshot_now(list.body_a), b = snapshot_now(list.body_b);
     lists.age[k] = {a, b, range};
-    to_fill.push_back(&list);
+    scratch.to_fill.push_back(&list);
   }
   for (std::size_t k : segments_expired) lists.segment_age[k] = {snapshot_now(k), -1, range};
   count_lists(lists);
-  contact::fill_candidates(in.body, in.fixed, in.options, to_fill);
+  contact::fill_candidates(in.body, in.fixed, in.options, scratch.to_fill);
 #pragma omp parallel for schedule(dynamic, 4) if (threads)
   for (std::size_t e = 0; e < segments_expired.size(); ++e) {
     const std::size_t k = segments_expired[e];
-    lists.segment[k] = find_segments(in.body[k], in.options, in.network);
+    find_segments(in.body[k], in.options, in.network, lists.segment[k]);
   }
 }
 

@@ -45,6 +45,13 @@ struct ListAge {
   bool made() const { return a >= 0; }
 };
 
+/// Scratch of refresh_lists.
+struct ListScratch {
+  std::vector<std::size_t> expired, segments_expired;
+  std::vector<int> latest;  ///< [body] the snapshot of this moment, -1: none
+  std::vector<contact::Candidates*> to_fill;
+};
+
 struct ContactLists {
   contact::SearchOptions options;  ///< they were made with; the range is the latest
   std::size_t n_fixed = 0;
@@ -54,6 +61,7 @@ struct ContactLists {
   std::vector<SegmentCandidates> segment;  ///< [body]
   std::vector<ListAge> segment_age;        ///< [body]
   std::int64_t checked = 0, made = 0;      ///< how often a list was looked at, and made
+  ListScratch scratch;
 };
 
 /// The bodies of this moment. The spans outlive the call.

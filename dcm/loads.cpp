@@ -32,10 +32,20 @@ void fill_lane(std::vector<double>& group, const std::vector<double>& ratio, dou
 }  // namespace
 
 LaneData make_lane_data(const State& state, double time) {
+  LaneData data;
+  find_lane_data(state, time, data);
+  return data;
+}
+
+void find_lane_data(const State& state, double time, LaneData& data) {
   const std::size_t n = state.n_lane();
-  LaneData data{reference_radii(state, time), std::vector<double>(n, 1.0),
-                std::vector<std::vector<double>>(state.group.size()),
-                std::vector<std::vector<double>>(state.group.size()), std::vector<double>(n, 0.0)};
+  find_reference_radii(state, time, data.radius);
+  data.area.assign(n, 1.0);
+  data.active.assign(n, 0.0);
+  for (auto* factors : {&data.edge, &data.triangle}) {
+    factors->resize(state.group.size());
+    for (std::vector<double>& of_group : *factors) of_group.clear();
+  }
   for (std::size_t l = 0; l < n; ++l) {
     data.active[l] = state.active(l) ? 1.0 : 0.0;
     const BirthShape& birth = state.birth[l];
@@ -45,7 +55,6 @@ LaneData make_lane_data(const State& state, double time) {
     fill_lane(data.edge[l / kLanes], birth.edge, weight, l % kLanes);
     fill_lane(data.triangle[l / kLanes], birth.triangle, weight, l % kLanes);
   }
-  return data;
 }
 
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& s,

@@ -21,6 +21,7 @@ struct LaneData {
   std::vector<double> active;  ///< [n_lane] 1 or 0
 };
 LaneData make_lane_data(const State& state, double time);
+void find_lane_data(const State& state, double time, LaneData& data);
 
 /// The view of one group. Blocks of the deformable cells come first in the system.
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& system,

@@ -87,10 +87,15 @@ int count_cells(const State& s) {
 }
 
 std::vector<double> reference_radii(const State& s, double time) {
-  std::vector<double> r(s.n_lane(), 1.0);
-  for (std::size_t l = 0; l < r.size(); ++l)
-    if (s.active(l)) r[l] = sphere_radius(s.volume[l].at(time));
-  return r;
+  std::vector<double> radius;
+  find_reference_radii(s, time, radius);
+  return radius;
+}
+
+void find_reference_radii(const State& s, double time, std::vector<double>& radius) {
+  radius.assign(s.n_lane(), 1.0);
+  for (std::size_t l = 0; l < radius.size(); ++l)
+    if (s.active(l)) radius[l] = sphere_radius(s.volume[l].at(time));
 }
 
 Vec3 cell_center(const State& s, std::size_t lane) {

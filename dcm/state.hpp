@@ -70,6 +70,7 @@ int count_cells(const State& state);
 
 /// Reference radius (3 V0 / 4 pi)^(1/3) of every lane, um. Empty lanes: 1.
 std::vector<double> reference_radii(const State& state, double time);
+void find_reference_radii(const State& state, double time, std::vector<double>& radius);
 
 /// Address of a node in arrays that start with the DCM rows.
 inline Address node_address(const State& state, std::size_t lane, int node) {

@@ -14,8 +14,11 @@ using CellIndex = std::array<std::int64_t, 3>;
 /// range.
 class BoxGrid {
  public:
-  BoxGrid(std::span<const Box> boxes, double width, const Vec3& origin)
-      : width_(width), origin_(origin) {
+  using Item = std::pair<Key, int>;
+  /// @param item  scratch that outlives the grid
+  BoxGrid(std::span<const Box> boxes, double width, const Vec3& origin, std::vector<Item>& item)
+      : width_(width), origin_(origin), item_(item) {
+    item_.clear();
     item_.reserve(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
       item_.emplace_back(key(cell(boxes[i])), static_cast<int>(i));
@@ -48,7 +51,7 @@ class BoxGrid {
   }
   double width_;
   Vec3 origin_;
-  std::vector<std::pair<Key, int>> item_;
+  std::vector<Item>& item_;
 };
 
 double widest(std::span<const Box> boxes) {
@@ -62,7 +65,8 @@ double widest(std::span<const Box> boxes) {
 std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double margin) {
   std::vector<std::pair<int, int>> pairs;
   if (boxes.size() < 2) return pairs;
-  const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low);
+  std::vector<BoxGrid::Item> item;
+  const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low, item);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box reach = boxes[i].grown(margin);
     const std::size_t first = pairs.size();
@@ -78,8 +82,16 @@ std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double m
 std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std::span<const Box> b,
                                                     double margin) {
   std::vector<std::pair<int, int>> pairs;
-  if (a.empty() || b.empty()) return pairs;
-  const BoxGrid grid(b, std::max(widest(a), widest(b)) + margin, b[0].low);
+  find_pairs_between(a, b, margin, pairs);
+  return pairs;
+}
+
+void find_pairs_between(std::span<const Box> a, std::span<const Box> b, double margin,
+                        std::vector<std::pair<int, int>>& pairs) {
+  pairs.clear();
+  if (a.empty() || b.empty()) return;
+  thread_local std::vector<BoxGrid::Item> item;
+  const BoxGrid grid(b, std::max(widest(a), widest(b)) + margin, b[0].low, item);
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Box reach = a[i].grown(margin);
     const std::size_t first = pairs.size();
@@ -88,7 +100,6 @@ std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std:
     });
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
   }
-  return pairs;
 }
 
 }  // namespace acinus::contact

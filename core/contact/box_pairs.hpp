@@ -16,5 +16,7 @@ std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double m
 /// All pairs (i of a, j of b) closer than `margin`; ascending order.
 std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std::span<const Box> b,
                                                     double margin);
+void find_pairs_between(std::span<const Box> a, std::span<const Box> b, double margin,
+                        std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace acinus::contact

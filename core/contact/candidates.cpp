@@ -97,7 +97,7 @@ double find_margin(const SearchOptions& o) { return std::max(o.range, o.max_dept
 /// Makes lists, one after the other.
 class ListBuilder {
  public:
-  explicit ListBuilder(const SearchOptions& o) : o_(o) {}
+  void start(const SearchOptions& o) { o_ = o; }
 
   void fill(const SurfaceBody& a, const SurfaceBody& b, bool self, Candidates& list) {
     a_ = &a;
@@ -290,7 +290,7 @@ class ListBuilder {
     n_wide_ = 0;
   }
 
-  const SearchOptions& o_;
+  SearchOptions o_;
   // of the list being made:
   const SurfaceBody *a_ = nullptr, *b_ = nullptr;
   Candidates* list_ = nullptr;
@@ -349,8 +349,9 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
   constexpr std::size_t kWorthThreads = 64;
 #pragma omp parallel if (lists.size() >= kWorthThreads)
   {
-    Candidates scratch;  // grows as needed; what is kept is copied to measure
-    ListBuilder builder(o);
+    thread_local Candidates scratch;  // grows as needed; what is kept is copied to measure
+    thread_local ListBuilder builder;
+    builder.start(o);
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t k = 0; k < lists.size(); ++k) {
       const SurfaceBody& a = body_at(bodies, fixed, lists[k]->body_a);

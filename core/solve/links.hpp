@@ -71,6 +71,11 @@ struct Links {
 
   std::size_t size() const { return link.size(); }
   void resize(std::size_t n) {
+    if (n >
+        link.capacity()) {  // with room: a few more each step must not mean new memory each step
+      link.reserve(n + n / 8);
+      load.reserve(n + n / 8);
+    }
     link.resize(n);
     load.resize(n);
     closed.clear();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
+#include <utility>
 
 #include "core/threads.hpp"
 
@@ -18,83 +20,11 @@ bool is_same(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
   return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
 }
 
-/// A single point has the third weight, whatever is stored.
-std::array<float, 3> weights_of(const Side& s) {
-  if (s.is_single()) return {0, 0, 1};
-  return {s.weight[0], s.weight[1], 1 - s.weight[0] - s.weight[1]};
-}
-
-ACINUS_INLINE void add_scaled(SymBlock& to, float w, const SymBlock& m) {
-  for (std::size_t k = 0; k < m.size(); ++k) to[k] += w * m[k];
-}
-
-/// Where the points of a cell are: number k of the cell is point first + k * kLanes.
-struct CellPoints {
-  Point first = 0;
-  std::size_t n = 0;
-};
 CellPoints points_of(const System& s, std::uint64_t cell) {
   const Block& b = s.block[cell / kLanes];
   return {static_cast<Point>(b.first_row * kLanes + cell % kLanes),
           static_cast<std::size_t>(b.pattern->n_point)};
 }
-
-/// Pairs of points of one pair of cells.
-class PointPairTable {
- public:
-  /// Starts anew.
-  void start(CellPoints a, CellPoints b) {
-    for (const auto& p : pair_) slot_[p[0] * b_.n + p[1]] = 0;
-    pair_.clear();
-    block_.clear();
-    a_ = a;
-    b_ = b;
-    if (slot_.size() < a.n * b.n) slot_.resize(a.n * b.n, 0);
-  }
-  void add(const Side& a, const Side& b, const SymBlock& m) {
-    const auto w = weights_of(a), v = weights_of(b);
-    const std::size_t first_a = a.is_single() ? 2 : 0, first_b = b.is_single() ? 2 : 0;
-    for (std::size_t i = first_a; i < 3; ++i) {
-      const std::uint32_t at_a = (a.point[i] - a_.first) / kLanes;
-      for (std::size_t j = first_b; j < 3; ++j) {
-        const std::uint32_t at_b = (b.point[j] - b_.first) / kLanes;
-        std::uint32_t& slot = slot_[at_a * b_.n + at_b];
-        if (slot == 0) {
-          pair_.push_back({at_a, at_b});
-          block_.push_back({});
-          slot = static_cast<std::uint32_t>(pair_.size());
-        }
-        add_scaled(block_[slot - 1], w[i] * v[j], m);
-      }
-    }
-  }
-  /// Appends what was found, row by row.
-  void emit(PointPairs& out) {
-    next_.assign(a_.n + 1, 0);
-    for (const auto& p : pair_) ++next_[p[0] + 1];
-    next_[0] = static_cast<std::uint32_t>(out.b.size());
-    for (std::size_t i = 0; i < a_.n; ++i) {
-      const std::uint32_t n = next_[i + 1];
-      next_[i + 1] += next_[i];
-      if (n > 0)
-        out.row.push_back({static_cast<Point>(a_.first + i * kLanes), next_[i], next_[i + 1]});
-    }
-    out.b.resize(out.b.size() + pair_.size());
-    out.block.resize(out.b.size());
-    for (std::size_t k = 0; k < pair_.size(); ++k) {
-      const std::uint32_t to = next_[pair_[k][0]]++;
-      out.b[to] = b_.first + pair_[k][1] * kLanes;
-      out.block[to] = block_[k];
-    }
-  }
-
- private:
-  CellPoints a_, b_;
-  std::vector<std::uint32_t> slot_;  ///< [n_a][n_b] 1 + number of the pair; 0: none
-  std::vector<std::array<std::uint32_t, 2>> pair_;
-  std::vector<SymBlock> block_;
-  std::vector<std::uint32_t> next_;
-};
 
 /// The springs between the points of a face, 01 02 12, and which face that is.
 struct FaceSprings {
@@ -159,7 +89,7 @@ void LinkMerger::find_runs(const System& s, const std::vector<int>& block_of_row
       run_.push_back({cells, i, i + 1, a > b});
     open = true;
   }
-  std::ranges::stable_sort(run_, {}, &LinkRun::cells);
+  std::ranges::sort(run_, {}, [](const LinkRun& r) { return std::pair(r.cells, r.first); });
   group_.clear();
   for (std::size_t k = 0; k < run_.size(); ++k)
     if (k == 0 || run_[k].cells != run_[k - 1].cells) group_.push_back(k);
@@ -169,12 +99,13 @@ void LinkMerger::find_runs(const System& s, const std::vector<int>& block_of_row
 void LinkMerger::add_across(const System& s, PointPairs& pairs) {
   const std::size_t n_part = count_threads(s.n_row), n_group = group_.size() - 1;
   part_.resize(n_part - 1);
+  table_.resize(std::max(table_.size(), n_part));
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
 #pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
   for (std::size_t part = 0; part < n_part; ++part) {
     PointPairs& out = part == 0 ? pairs : part_[part - 1];
     out.clear();
-    PointPairTable table;
+    PointPairTable& table = table_[part];
     for (std::size_t g = part * n_group / n_part; g < (part + 1) * n_group / n_part; ++g) {
       const std::uint64_t cells = run_[group_[g]].cells;
       table.start(points_of(s, cells >> 32), points_of(s, cells & 0xffffffff));
@@ -203,13 +134,16 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
     end_.push_back({static_cast<std::uint32_t>(low / kLanes), k, run_[k].swapped});
     end_.push_back({static_cast<std::uint32_t>(high / kLanes), k, !run_[k].swapped});
   }
-  std::ranges::stable_sort(end_, {}, &RunEnd::block);
+  // The order of summation follows from the contacts alone.
+  std::ranges::sort(end_, {}, [&](const RunEnd& e) {
+    return std::tuple(e.block, e.run, e.is_b != run_[e.run].swapped);
+  });
 
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   const std::size_t n_part = count_threads(s.n_row);
 #pragma omp parallel num_threads(static_cast <int>(n_part)) if (n_part > 1)
   {
-    std::vector<SymBlock> sum;
+    thread_local std::vector<SymBlock> sum;
 #pragma omp for schedule(static)
     for (std::size_t b = 0; b < n_block; ++b) {
       const Block& block = s.block[b];

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/solve/link_kernels.hpp"
+#include "core/solve/point_pair_table.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::solve {
@@ -50,10 +51,11 @@ class LinkMerger {
   void add_across(const System& system, PointPairs& pairs);
   void add_within(const System& system, std::vector<float>& edge);
 
-  std::vector<LinkRun> run_;        ///< by pair of cells
-  std::vector<std::size_t> group_;  ///< where in run_ each pair of cells starts
-  std::vector<RunEnd> end_;         ///< by block
-  std::vector<PointPairs> part_;    ///< [thread]
+  std::vector<LinkRun> run_;           ///< by pair of cells
+  std::vector<std::size_t> group_;     ///< where in run_ each pair of cells starts
+  std::vector<RunEnd> end_;            ///< by block
+  std::vector<PointPairs> part_;       ///< [other threads than the first]
+  std::vector<PointPairTable> table_;  ///< [thread]
 };
 
 }  // namespace acinus::solve

@@ -125,7 +125,7 @@ void Operator::compute_inverse() {
     });
     add_diagonal(links_of(range), scales, diagonal_blocks);
     add_diagonal(point_links_of(range), scales, diagonal_blocks);
-    std::vector<double> d;
+    thread_local std::vector<double> d;
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t n) {
       d.resize(n * kSymStride);
       const SymBlock* from = diagonal_blocks + row * kLanes;

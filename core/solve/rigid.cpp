@@ -10,34 +10,7 @@
 namespace acinus::solve {
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Map3x6 = Eigen::Matrix<double, 3, 6>;
-
-struct RigidGroup {
-  Vec3 center = Vec3::Zero();
-  Vec3 sum = Vec3::Zero();  ///< um, of the positions
-  double n_point = 0;
-  double squared_reach = 0;  ///< um^2, farthest point from the centre
-  double mass = 0;           ///< of medium friction, and its moments about the centre
-  Vec3 first_moment = Vec3::Zero();
-  Mat3 second_moment = Mat3::Zero();
-  Vec6 residual = Vec6::Zero();
-  Mat6 matrix = Mat6::Zero();
-  Vec6 motion = Vec6::Zero();
-  bool correct = false;
-
-  void add(const RigidGroup& o) {
-    sum += o.sum;
-    n_point += o.n_point;
-    squared_reach = std::max(squared_reach, o.squared_reach);
-    mass += o.mass;
-    first_moment += o.first_moment;
-    second_moment += o.second_moment;
-    residual += o.residual;
-    matrix += o.matrix;
-  }
-};
 
 int find_root(std::vector<int>& parent, int i) {
   while (parent[i] != i) {
@@ -129,16 +102,16 @@ void for_each_point(const System& s, const std::vector<int>& group, F f) {
 
 /// f(address, its group's part) for every point; parts are added to the groups in order.
 template <class F>
-void sum_over_points(const System& s, const std::vector<int>& group,
-                     std::vector<RigidGroup>& groups, F f) {
-  const std::size_t n_part = count_parts(s, groups.size());
-  std::vector<std::vector<RigidGroup>> part(n_part, std::vector<RigidGroup>(groups.size()));
+void sum_over_points(const System& s, RigidWorkspace& work, F f) {
+  std::vector<RigidGroup>& groups = work.groups;
+  const std::size_t n_group = groups.size(), n_part = count_parts(s, n_group);
+  work.part.assign(n_part * n_group, {});
 #pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
   for (std::size_t k = 0; k < n_part; ++k)
-    for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
-                   [&](Address a, std::size_t g) { f(a, groups[g], part[k][g]); });
-  for (const auto& p : part)
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].add(p[g]);
+    for_each_point(s, work.group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
+                   [&](Address a, std::size_t g) { f(a, groups[g], work.part[k * n_group + g]); });
+  for (std::size_t k = 0; k < n_part; ++k)
+    for (std::size_t g = 0; g < n_group; ++g) groups[g].add(work.part[k * n_group + g]);
 }
 
 Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
@@ -153,11 +126,8 @@ Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
 class RigidModes {
  public:
   RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
-      : op_(op),
-        s_(op.system()),
-        position_(cells.position),
-        work_(work),
-        groups_(number_groups(s_, cells.active, work)) {
+      : op_(op), s_(op.system()), position_(cells.position), work_(work), groups_(work.groups) {
+    groups_.assign(number_groups(s_, cells.active, work), {});
     sum([&](Address a, const RigidGroup&, RigidGroup& part) {
       part.sum += at(a);
       part.n_point += 1;
@@ -243,7 +213,7 @@ class RigidModes {
   }
   template <class F>
   void sum(F f) {
-    sum_over_points(s_, work_.group, groups_, f);
+    sum_over_points(s_, work_, f);
   }
   void tie(const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
            double friction) {
@@ -266,7 +236,7 @@ class RigidModes {
   const System& s_;
   std::span<const double> position_;
   RigidWorkspace& work_;
-  std::vector<RigidGroup> groups_;
+  std::vector<RigidGroup>& groups_;
 };
 
 }  // namespace

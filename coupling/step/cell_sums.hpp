@@ -18,11 +18,16 @@ constexpr std::size_t kPartRows = 64;
 template <class Part, class F>
 Part sum_over_cells(const Workspace& w, bool unconstrained_only, F f) {
   const auto& block = w.system.block;
-  std::vector<std::size_t> start{0};
+  // Of this thread, so that their memory stays; other threads of the loop write to them.
+  thread_local std::vector<std::size_t> kept_start;
+  thread_local std::vector<Part> kept_part;
+  std::vector<std::size_t>& start = kept_start;
+  std::vector<Part>& part = kept_part;
+  start.assign(1, 0);
   for (std::size_t b = 0; b < block.size(); ++b)
     if (block[b].first_row - block[start.back()].first_row >= kPartRows) start.push_back(b);
   start.push_back(block.size());
-  std::vector<Part> part(start.size() - 1);
+  part.assign(start.size() - 1, {});
 #pragma omp parallel for schedule(static) if (worth_threads(w.system.n_row))
   for (std::size_t k = 0; k < part.size(); ++k)
     for (std::size_t b = start[k]; b < start[k + 1]; ++b)

@@ -43,9 +43,9 @@ InterfaceInput input_of(const World& world, const PhaseParams& phase, double wal
 
 /// Growth is tracked to the end of the step, so that slow motion leaves no lag.
 void find_references(const State& s, double end, Workspace& w) {
-  w.lanes = dcm::make_lane_data(s.dcm, end);
-  w.cbm_radius = cbm::radii_at(s.cbm, end);
-  w.cbm_strength = cbm::strengths_at(s.cbm, end);
+  dcm::find_lane_data(s.dcm, end, w.lanes);
+  cbm::find_radii(s.cbm, end, w.cbm_radius);
+  cbm::find_strengths(s.cbm, end, w.cbm_strength);
   w.cbm_mother.clear();
   if (w.cbm_strength.empty() || s.cycle.empty()) return;
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
@@ -71,9 +71,9 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   dcm::find_contacts(in.dcm, w.dcm, w.contacts);
   w.cbm.overlap_sum.clear();
   if (cbm::has_correction(in.cbm.params)) cbm::find_overlaps(in.cbm, w.cbm);
-  const InterfaceAreas areas = find_interface(in, w.dcm, w.cbm, w.contacts);
+  find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
   cbm::find_contacts(in.cbm, w.cbm, w.contacts, w.system.point_links);
-  add_interface_areas(areas, w.cbm);
+  add_interface_areas(w.interface, w.cbm);
 }
 
 /// Friction of every cell with the medium as a whole, nN s/um.

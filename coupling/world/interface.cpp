@@ -35,15 +35,15 @@ PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
 }
 
 /// Contacts of one surface with one sphere.
-std::vector<Contact> find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
-                               std::pair<int, int> pair, double range) {
+void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+               std::pair<int, int> pair, double range, std::vector<Contact>& found) {
   const contact::SurfaceBody& b = dcm_work.body[pair.first];
   const contact::Quadrature q = in.dcm.options.quadrature;
   const std::size_t sphere = pair.second;
   const Vec3 center = cbm::center_of(in.cbm.state, sphere);
   const double radius = in.cbm.cells.radius[sphere];
   const int per_site = contact::points_per_site(q);
-  std::vector<Contact> found;
+  found.clear();
   for (std::size_t site = 0; site < contact::n_sites(b, q); ++site) {
     const Vec3 at = contact::site_place(b, q, site);
     const double far = radius + range + contact::site_reach(b, q, site);
@@ -66,17 +66,17 @@ std::vector<Contact> find_pair(const InterfaceInput& in, const dcm::ContactWorks
   double depth = 0;
   for (const Contact& k : found) depth = std::max(depth, -k.gap);
   for (Contact& k : found) k.depth = depth;
-  return found;
 }
 
 /// Pairs of surfaces and spheres that may touch.
-std::vector<std::pair<int, int>> find_near(const InterfaceInput& in,
-                                           const dcm::ContactWorkspace& dcm_work, double range) {
-  std::vector<Box> bodies, spheres;
-  for (const contact::SurfaceBody& b : dcm_work.body) bodies.push_back(b.box);
+void find_near(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work, double range,
+               InterfaceWorkspace& work) {
+  work.body.clear();
+  work.sphere.clear();
+  for (const contact::SurfaceBody& b : dcm_work.body) work.body.push_back(b.box);
   for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i)
-    spheres.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
-  return contact::find_pairs_between(bodies, spheres, range);
+    work.sphere.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
+  contact::find_pairs_between(work.body, work.sphere, range, work.near);
 }
 
 }  // namespace
@@ -96,21 +96,23 @@ Compliance find_compliance(double repulsion, const SphereSurface& sphere, double
   return {together, yields * yields * per_modulus * modulus.slope / sphere.radius};
 }
 
-InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
-                              cbm::ContactWorkspace& cbm_work, contact::ContactList& contacts) {
-  InterfaceAreas areas;
-  if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return areas;
+void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
+                    cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
+                    contact::ContactList& contacts) {
+  work.area.clear();
+  if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
   const dcm::ContactParams& c = in.dcm.options;
   const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
   double range = 0;
   for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
     range = std::max(
         range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
-  const auto pairs = find_near(in, dcm_work, range);
-  std::vector<std::vector<Contact>> found(pairs.size());
+  find_near(in, dcm_work, range, work);
+  const auto& pairs = work.near;
+  auto& found = work.found;
+  if (found.size() < pairs.size()) found.resize(pairs.size());
 #pragma omp parallel for schedule(dynamic, 2)
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    found[p] = find_pair(in, dcm_work, pairs[p], range);
+  for (std::size_t p = 0; p < pairs.size(); ++p) find_pair(in, dcm_work, pairs[p], range, found[p]);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [body, sphere] = pairs[p];
     const std::size_t k = body, i = sphere;
@@ -122,7 +124,7 @@ InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& d
       area +=
           share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, radius[lane]);
     }
-    if (area > 0) areas.emplace_back(sphere, area);
+    if (area > 0) work.area.emplace_back(sphere, area);
     // A deformable neighbour counts in the sphere's overlap with its reference radius, by the
     // distance of the centres alone: whether surfaces touch changes from step to step, and with it
     // the modulus would.
@@ -136,11 +138,10 @@ InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& d
     contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
   }
   contacts.interface_end = contacts.sphere_obstacle_end = contacts.all.size();
-  return areas;
 }
 
-void add_interface_areas(const InterfaceAreas& areas, cbm::ContactWorkspace& cbm_work) {
-  for (const auto& [sphere, area] : areas) cbm_work.contact_area[sphere] += area;
+void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work) {
+  for (const auto& [sphere, area] : work.area) cbm_work.contact_area[sphere] += area;
 }
 
 solve::Side sphere_side(const InterfaceInput& in, const Contact& k) {

@@ -31,8 +31,13 @@ struct InterfaceForce {
   double gap = 0;             ///< um, smallest
 };
 
-/// (sphere, um^2) of every pair of cells in touch.
-using InterfaceAreas = std::vector<std::pair<int, double>>;
+/// Scratch of the interface.
+struct InterfaceWorkspace {
+  std::vector<Box> body, sphere;
+  std::vector<std::pair<int, int>> near;             ///< bodies and spheres that may touch
+  std::vector<std::vector<contact::Contact>> found;  ///< of each such pair; may be longer
+  std::vector<std::pair<int, double>> area;          ///< (sphere, um^2) of every pair in touch
+};
 
 /// What a deformable cell presses on.
 struct SphereSurface {
@@ -71,11 +76,12 @@ struct InterfaceInput {
 /// Appends all interface contacts. Adds their touching shares to the surface points and, if
 /// overlaps are counted, theirs to the spheres, young ones too: a deformable cell is a neighbour of
 /// full strength. @pre the deformable cells' find_contacts, the spheres' find_overlaps if any
-InterfaceAreas find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
-                              cbm::ContactWorkspace& cbm_work, contact::ContactList& contacts);
+void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
+                    cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
+                    contact::ContactList& contacts);
 
 /// Adds the areas in touch to the spheres. @pre find_interface, then the spheres' find_contacts
-void add_interface_areas(const InterfaceAreas& areas, cbm::ContactWorkspace& cbm_work);
+void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work);
 
 /// Side b of a contact of the interface.
 solve::Side sphere_side(const InterfaceInput& in, const contact::Contact& contact);

@@ -9,6 +9,7 @@
 #include "core/solve/rigid.hpp"
 #include "core/timing.hpp"
 #include "coupling/world/constraint.hpp"
+#include "coupling/world/interface.hpp"
 #include "coupling/world/migration.hpp"
 #include "coupling/world/world.hpp"
 
@@ -34,6 +35,7 @@ struct Workspace {
   solve::CoarseSpace coarse;
   dcm::ContactWorkspace dcm;
   cbm::ContactWorkspace cbm;
+  InterfaceWorkspace interface;          ///< written by: find_all_contacts
   contact::ContactList contacts;         ///< written by: find_all_contacts, completed by: assemble
   dcm::LaneData lanes;                   ///< written by: find_references
   std::vector<double> cbm_radius;        ///< written by: find_references
