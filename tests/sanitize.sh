@@ -9,7 +9,7 @@ usage: tests/sanitize.sh [memory] [threads] [asserts]
 
 memory    the quick suite under AddressSanitizer and UndefinedBehaviorSanitizer (gcc, preset dev)
 threads   the tests that compare numbers of threads, and a hybrid scene with two threads, under
-          ThreadSanitizer (clang 14 with its own OpenMP library: packages clang-14, libomp-14-dev)
+          ThreadSanitizer (clang 16 with its own OpenMP library: packages clang-16, libomp-16-dev)
 asserts   the golden scenes with internal checks on (preset audit); their hashes may differ
 Without arguments all three. Each part also runs planted faults and fails if one is not found.
 Builds in build-dev, build-tsan and build-audit. Exit code 1 if anything was found.
@@ -49,11 +49,11 @@ check_memory() {
 }
 
 check_threads() {
-  local clang=clang++-14 archer
+  local clang=clang++-16 archer
   command -v "$clang" >/dev/null || { fail "threads: needs $clang"; return; }
   archer=$("$clang" -print-file-name=libarcher.so)
   [[ -f $archer ]] || archer=$(dirname -- "$(readlink -f -- "$(command -v "$clang")")")/../lib/libarcher.so
-  [[ -f $archer ]] || { fail "threads: libarcher.so of libomp-14-dev is missing"; return; }
+  [[ -f $archer ]] || { fail "threads: libarcher.so of libomp-16-dev is missing"; return; }
   cmake -G Ninja -B build-tsan -DCMAKE_CXX_COMPILER="$clang" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DACINUS_SANITIZE_THREADS=ON -DACINUS_PLANTED=ON -DACINUS_PRECOMPILE=OFF -DACINUS_BENCH=OFF >/dev/null
   cmake --build build-tsan -j "$jobs"
