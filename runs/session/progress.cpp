@@ -92,4 +92,10 @@ void Progress::note(const std::string& text) {
   std::fflush(stdout);
 }
 
+void Progress::warn(const std::string& text) {
+  spdlog::warn(text);
+  finish();
+  fmt::print(stderr, "acinus: warning: {}\n", text);
+}
+
 }  // namespace acinus::runs

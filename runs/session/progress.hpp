@@ -19,6 +19,8 @@ class Progress {
   void finish();
   /// A message of its own line, also to the log.
   void note(const std::string& text);
+  /// A warning: to stderr, also of a quiet run, and to the log.
+  void warn(const std::string& text);
 
  private:
   void print(const coupling::World& world);

@@ -68,6 +68,7 @@ class SceneRun {
   bool events_over();
   void end_phase(const std::string& what);
   bool frame_is_due() const;
+  void write_frame(bool last);
   bool is_last() const;
   int loop();
   void close(const std::string& status, const std::string& cause);
@@ -133,9 +134,23 @@ void SceneRun::end_phase(const std::string& what) {
   recorder_.add_event("start_up", what);
 }
 
+/// Overlaps of the first frame are told at once: hours later the run may stop because of them.
+void SceneRun::write_frame(bool last) {
+  const bool first = !recorder_.has_frame();
+  excess_ = recorder_.write_frame(last);
+  const Excess& start = recorder_.excess();
+  if (!first || start.depth_um <= 0) return;
+  const std::string warning = fmt::format(
+      "the scene starts with overlaps: {}. Until contact has pushed them apart, forces and "
+      "pressures mean nothing; if they do not shrink from frame to frame, the run stops. {}",
+      start.cause, advise_start(scene_, world(), start));
+  progress_.warn(warning);
+  recorder_.add_note("warning: " + warning);
+}
+
 /// Frames, checkpoints and reasons to stop, once the events after a step are over.
 bool SceneRun::events_over() {
-  if (frame_is_due()) excess_ = recorder_.write_frame(time() >= end_ - kSameTime);
+  if (frame_is_due()) write_frame(time() >= end_ - kSameTime);
   if (excess_.depth_um > 0) return false;
   if (is_last() && simulation_.is_running()) return false;
   was_running_ = simulation_.is_running();
@@ -198,8 +213,7 @@ void SceneRun::stop(const std::string& why) {
 
 int SceneRun::loop() {
   was_running_ = simulation_.is_running();
-  if (!options_.resume && (was_running_ || scene_.output.start_up))
-    excess_ = recorder_.write_frame(false);
+  if (!options_.resume && (was_running_ || scene_.output.start_up)) write_frame(false);
   return finish(excess_.depth_um > 0 ? coupling::LoopResult{}
                                      : simulation_.run_until(end_, observer()));
 }
