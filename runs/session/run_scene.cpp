@@ -23,6 +23,7 @@
 #include "runs/session/progress.hpp"
 #include "runs/session/recorder.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
 #include "runs/session/stop_signals.hpp"
 
@@ -43,17 +44,9 @@ struct LoggerKept {
 
 /// What to type to go on: the same scene, changes and folder.
 std::string resume_command(const RunOptions& options) {
-  const auto quoted = [](const std::string& text) {
-    constexpr const char* kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=-+,:";
-    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-    std::string inside;
-    for (char c : text) inside += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return "'" + inside + "'";
-  };
-  std::string command =
-      "acinus run " + quoted(options.scene_file) + " --resume --out " + quoted(options.out);
-  for (const std::string& change : options.set) command += " --set " + quoted(change);
+  std::string command = "acinus run " + quote_for_shell(options.scene_file) + " --resume --out " +
+                        quote_for_shell(options.out);
+  for (const std::string& change : options.set) command += " --set " + quote_for_shell(change);
   return command;
 }
 
@@ -206,7 +199,8 @@ int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>&
 void SceneRun::stop(const std::string& why) {
   recorder_.add_event("stopped", "stopped by " + why);
   close("stopped", "stopped by " + why);
-  progress_.note(fmt::format("stopped by {}; continue with: {}", why, resume_command(options_)));
+  progress_.note(fmt::format("stopped by {}", why) +
+                 (options_.is_part ? "" : "; continue with: " + resume_command(options_)));
   // Obeyed; left there it would stop the resumed run too.
   std::filesystem::remove(options_.out + "/STOP");
 }

@@ -106,13 +106,19 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
 }
 
 TEST_F(Calibrate, GoesOnWhereItWasStopped) {
-  program::Process process(path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads",
-                                      "1", "--no-relaxation"});
+  program::Process process(
+      path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads", "1", "--fresh",
+                 "--no-relaxation", "--set", "capsule.speed=3 um/h"});
   ASSERT_TRUE(process.await("skipped:"));
   process.send(SIGTERM);
   const Outcome stopped = process.wait();
   EXPECT_EQ(stopped.code, 75) << stopped.text;
   EXPECT_FALSE(fs::exists(path("law.json")));
+  EXPECT_TRUE(has(stopped,
+                  "acinus calibrate clump.json --out law.json --threads 1 "
+                  "--no-relaxation --set 'capsule.speed=3 um/h'"))
+      << stopped.text;
+  EXPECT_FALSE(has(stopped, "--resume")) << stopped.text;
   const Outcome again = calibrate({"--no-relaxation"});
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_TRUE(has(again, "resumed at")) << again.text;
