@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/reliability.hpp"
 #include "calibration/wall.hpp"
 #include "core/error.hpp"
 
@@ -123,6 +124,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   if (found.exit != 0) return found;
   found.error_plain = relative_error(found.dcm, found.plain, options.fit.highest);
   found.error_corrected = relative_error(found.dcm, found.corrected, options.fit.highest);
+  found.law.warnings = list_warnings(found.inner, found.error_corrected);
   if (options.relaxation) {
     try {
       relax(options, runs, found);

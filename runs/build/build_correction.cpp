@@ -54,6 +54,8 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
                       name));
     const calibration::Law law = calibration::read_law(file);
     notes.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    for (const std::string& warning : law.warnings)
+      notes.push_back(fmt::format("warning: {}: {}", file, warning));
     const LawParameters here = law_parameters(scene, type);
     const std::vector<std::string> differences =
         calibration::list_differences(law, here.dcm, here.cbm);
