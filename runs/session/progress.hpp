@@ -5,6 +5,7 @@
 
 #include "coupling/world/world.hpp"
 #include "runs/session/run_scene.hpp"
+#include "runs/session/time_left.hpp"
 
 namespace acinus::runs {
 
@@ -27,7 +28,8 @@ class Progress {
 
   const RunOptions& options_;
   double end_, started_, last_ = -1e300;
-  double first_time_ = 0;  ///< s simulated before this start of the program
+  coupling::Phase phase_ = coupling::Phase::kRun;
+  TimeLeft left_;  ///< of the phase
   bool terminal_, line_open_ = false;
 };
 
