@@ -78,8 +78,8 @@ class SceneRun {
   double vessel_length_;            ///< um
   coupling::Simulation simulation_;
   Recorder recorder_;
+  double end_;  ///< s
   Progress progress_;
-  double end_;
   double started_ = wall_seconds(), last_save_ = wall_seconds();
   double extra_frame_ = 0;    ///< s, the next frame that an opening asks for
   bool was_running_ = false;  ///< before this step
@@ -94,8 +94,8 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
       vessel_length_(built.vessel_length),
       simulation_(std::move(built.world)),
       recorder_(scene, options, simulation_),
-      progress_(options, std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
-      end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))) {}
+      end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
+      progress_(options, end_) {}
 
 std::string SceneRun::reason_to_stop() const {
   if (const int signal = stop_signal(); signal != 0) return fmt::format("signal {}", signal);
