@@ -49,7 +49,7 @@ TEST_F(StartOverlap, IsAWarningWithAdviceThatWorks) {
 constexpr const char* kFilled = R"({
   "time": {"end": "30 s", "step": "30 s"},
   "cell_types": {"hepatocyte": {"dcm": {"nodes": 42}}},
-  "cells": {"source": "fill", "model": "dcm", "count": 8, "min_distance": "14.4 um",
+  "cells": {"source": "fill", "model": "dcm", "count": 6, "min_distance": "14.4 um",
             "low": ["0 um", "0 um", "0 um"], "high": ["20 um", "20 um", "20 um"]},
   "motility": {"random": false}, "output": {"every": "30 s"}
 })";
@@ -60,8 +60,8 @@ TEST_F(StartOverlap, AdviceFollowsHowCellsArePlaced) {
   EXPECT_NE(outcome.text.find("cells.count, cells.min_distance"), std::string::npos)
       << outcome.text;
   EXPECT_EQ(outcome.text.find("cycle.start"), std::string::npos) << outcome.text;
-  for (const Words& advice :
-       {Words{"--set", "cells.count=1"}, Words{"--set", "cell_types.hepatocyte.radius=7 um"}}) {
+  for (const Words& advice : {Words{"--set", "cells.count=2", "--set", "cells.min_distance=22 um"},
+                              Words{"--set", "cell_types.hepatocyte.radius=7 um"}}) {
     Words words = run_words("filled.json", "b", advice);
     words.emplace_back("--overwrite");
     const Outcome better = call(words);
