@@ -18,10 +18,9 @@ namespace {
 
 void check_name(const std::string& name, const std::vector<std::string>& names) {
   if (std::ranges::find(names, name) != names.end()) return;
-  const std::string hint = nearest_name(name, names);
-  throw Error(fmt::format("no benchmark \"{}\". {}Known: {}", name,
-                          hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint),
-                          fmt::join(names, ", ")));
+  const std::string known = fmt::format("Known: {}", fmt::join(names, ", "));
+  throw Error(fmt::format("no benchmark \"{}\". {}", name,
+                          did_you_mean_and(nearest_name(name, names), known)));
 }
 
 int run(int argc, char** argv) {

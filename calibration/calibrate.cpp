@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/reliability.hpp"
 #include "calibration/wall.hpp"
 #include "core/error.hpp"
 
@@ -17,10 +18,8 @@ constexpr double kWorthFitting = 0.15;
 constexpr int kCannotContinue = static_cast<int>(Exit::kCannotContinue);
 
 /// Whether a compression that could not go on reached overlaps that are worth a fit.
-bool got_far(const CompressionRun& run, const Vec3& center, const Runs& runs) {
-  if (run.exit != kCannotContinue) return false;
-  const double reached =
-      force_curve(run.snapshots, find_inner_cells(run.snapshots, center)).overlap.back();
+bool got_far(const ForceCurve& curve, const Runs& runs) {
+  const double reached = curve.overlap.back();
   if (reached < kWorthFitting) return false;
   runs.say(fmt::format("the compression ended early, at d = {:.3f}: the law is fitted up to there",
                        reached));
@@ -99,17 +98,16 @@ Law make_law(const Clump& clump, const FitAttempt& attempt) {
 Calibration calibrate(const Clump& clump, const Options& options, const Runs& runs) {
   Calibration found;
   const CompressionRun deformable = runs.compress(ClumpModel::kDeformable, {});
-  if (deformable.exit != 0 && !got_far(deformable, clump.center, runs)) {
-    found.exit = deformable.exit;
-    return found;
-  }
-  const CompressionRun plain = runs.compress(ClumpModel::kSpheres, {});
-  found.exit = plain.exit;
-  if (found.exit != 0) return found;
+  found.exit = deformable.exit;
+  if (found.exit != 0 && found.exit != kCannotContinue) return found;
   const Compression cells{deformable.snapshots,
                           find_inner_cells(deformable.snapshots, clump.center)};
   found.inner = static_cast<int>(cells.inner.size());
   found.dcm = force_curve(cells.snapshots, cells.inner);
+  if (found.exit != 0 && !got_far(found.dcm, runs)) return found;
+  const CompressionRun plain = runs.compress(ClumpModel::kSpheres, {});
+  found.exit = plain.exit;
+  if (found.exit != 0) return found;
   found.plain = force_curve(plain.snapshots, cells.inner);
   found.contacts_first = deformable.central.front().contacts;
   found.contacts_last = deformable.central.back().contacts;
@@ -123,6 +121,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
   if (found.exit != 0) return found;
   found.error_plain = relative_error(found.dcm, found.plain, options.fit.highest);
   found.error_corrected = relative_error(found.dcm, found.corrected, options.fit.highest);
+  found.law.warnings = list_warnings(found.inner, found.error_corrected);
   if (options.relaxation) {
     try {
       relax(options, runs, found);

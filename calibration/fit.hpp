@@ -31,7 +31,7 @@ struct FitAttempt {
 /// good_enough, a table of moduli. rms_relative is the rms of the difference over the rms of the
 /// force; the interval of a1 is that of least squares at 95 %, from the scatter about the first
 /// form. Law::jkr_underestimation is for the snapshots that are compressed most. Law::dcm, cbm and
-/// provenance are left empty.
+/// provenance are left empty, warnings too.
 /// @param sphere  constants of the spheres; young is a0
 /// @return all forms taken, the one to use last
 /// @throws Error(kCannotContinue) where the compression hardly presses, or no law with a positive

@@ -31,6 +31,7 @@ struct Law {
   double jkr_underestimation =
       0;                ///< force of deformable cells over that of plain spheres, end of range
   Parameters dcm, cbm;  ///< what it was found for
+  std::vector<std::string> warnings;  ///< what speaks against using it (reliability.hpp)
   std::map<std::string, std::string> provenance;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All that is hashed: everything but the hash itself and where the law came from.
+/// All that is hashed: everything but the hash itself, warnings and where the law came from.
 Json numbers_of(const Law& law) {
   Json j;
   j["schema_version"] = kLawSchema;
@@ -132,6 +132,7 @@ std::string law_text(const Law& law) {
   check(bad.empty(), "the law has a number that is not finite at " + bad + " and is not written",
         Exit::kCannotContinue);
   j["hash"] = hash_of(j);
+  j["warnings"] = law.warnings;
   j["provenance"] = law.provenance;
   return j.dump(2) + "\n";
 }
@@ -175,6 +176,9 @@ Law read_law(const std::string& path) {
     check(cbm::corrected_modulus(whole, law.a0, d).value > 0,
           fmt::format("{}: the modulus is not positive at d = {:.3g}", path, d));
   }
+  if (j.contains("warnings") && j["warnings"].is_array())
+    for (const Json& text : j["warnings"])
+      if (text.is_string()) law.warnings.push_back(text.get<std::string>());
   if (j.contains("provenance") && j["provenance"].is_object())
     for (const auto& [name, value] : j["provenance"].items())
       if (value.is_string()) law.provenance[name] = value.get<std::string>();

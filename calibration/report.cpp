@@ -78,6 +78,7 @@ std::string calibration_table(const Calibration& c) {
                        100 * c.error_plain));
   t += row("corrected spheres compressed by themselves",
            fmt::format("{:.1f} %", 100 * c.error_corrected));
+  t += row("fit for other scenes", c.law.warnings.empty() ? "yes" : "no, see the warnings");
   t += row(
       "at walls they leave out",
       fmt::format("{:.3f} of their radius; for the same force the capsule is then {:.2f} um wider",
@@ -111,6 +112,7 @@ void write_curves(const Calibration& c, const std::string& folder) {
   j["error_corrected"] = c.error_corrected;
   j["contacts"] = {c.contacts_first, c.contacts_last};
   j["inner_cells"] = c.inner;
+  j["warnings"] = c.law.warnings;
   j["wall_recess"] = c.law.wall_recess;
   j["capsule_excess_um"] = c.capsule_excess;
   j["forms"] = Json::array();

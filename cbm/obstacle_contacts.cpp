@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/mesh/measures.hpp"
 
 namespace acinus::cbm {
@@ -16,8 +17,19 @@ bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
 
+/// Kinds of obstacles: Partner names them before the cells.
+constexpr int kObstacleKinds =
+    std::min(static_cast<int>(Partner::kSurface), static_cast<int>(Partner::kSphere));
+static_assert(static_cast<int>(Partner::kPlane) < kObstacleKinds &&
+              static_cast<int>(Partner::kCapsule) < kObstacleKinds &&
+              static_cast<int>(Partner::kVessel) < kObstacleKinds &&
+              static_cast<int>(Partner::kMesh) < kObstacleKinds);
+
 /// A key for a part of the boundary that cannot be a cell number.
-int boundary_key(Partner kind, int index) { return ~(index * 4 + static_cast<int>(kind)); }
+int boundary_key(Partner kind, int index) {
+  ACINUS_ASSERT(static_cast<int>(kind) < kObstacleKinds);
+  return ~(index * kObstacleKinds + static_cast<int>(kind));
+}
 
 /// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact
 /// that slides past a joint is still the same contact.

@@ -54,4 +54,15 @@ inline std::string nearest_name(std::string_view word, const std::vector<std::st
   return best;
 }
 
+/// `Did you mean "radius"?`, or what else to say where there is no hint.
+/// @param hint  of nearest_name
+inline std::string did_you_mean(const std::string& hint, const std::string& otherwise = "") {
+  return hint.empty() ? otherwise : "Did you mean \"" + hint + "\"?";
+}
+
+/// The same before what is said with and without a hint.
+inline std::string did_you_mean_and(const std::string& hint, const std::string& more) {
+  return hint.empty() ? more : did_you_mean(hint) + " " + more;
+}
+
 }  // namespace acinus

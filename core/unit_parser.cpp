@@ -142,8 +142,7 @@ class UnitParser {
       if (name == unit.symbol) return {unit.dimension, unit.ten, unit.seconds, 1};
     }
     const std::string hint = nearest_unit(name);
-    fail(hint.empty() ? fmt::format("unknown unit \"{}\"", name)
-                      : fmt::format("unknown unit \"{}\". Did you mean \"{}\"?", name, hint));
+    fail(fmt::format("unknown unit \"{}\"{}", name, hint.empty() ? "" : ". " + did_you_mean(hint)));
   }
 
   int power() {

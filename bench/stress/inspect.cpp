@@ -84,6 +84,7 @@ struct StartOfCell {
   double friction = 0;  ///< nN s/um with the medium, at least
   double pull = 0;      ///< nN
 };
+
 std::map<std::int64_t, StartOfCell> origins(const coupling::World& start,
                                             const Pedigree& pedigree) {
   std::map<std::int64_t, StartOfCell> all;
@@ -181,7 +182,7 @@ void Inspection::inspect_shapes() {
   }
 }
 
-/// As runs themselves have it (runs/soundness.hpp), of the cells of this frame.
+/// As runs themselves have it (runs/session/soundness.hpp), of the cells of this frame.
 double Inspection::deepest_overlap() const {
   double radius = 0;
   for (const Mesh& m : meshes_) radius = std::max(radius, sphere_radius(rest_.at(m.id)));
@@ -275,6 +276,7 @@ void Inspection::inspect_places() {
 struct VolumeOfCell {
   double volume = 0, rest = 0;
 };
+
 std::map<std::int64_t, VolumeOfCell> loads_of(const io::Frame& f) {
   const std::map<std::int64_t, double> rest = rest_volumes(f);
   std::map<std::int64_t, VolumeOfCell> all;

@@ -142,9 +142,12 @@ std::array<double, 2> span_radius(const Chain& chain, const ChainSums& sums, std
 std::vector<std::size_t> kept_nodes(const Network& network, const Chain& chain,
                                     const ChainSums& sums) {
   const std::size_t last = chain.node.size() - 1;
+  // Judged by the radius the span will have: span_radius may raise it above the mean.
   const auto is_long = [&](std::size_t from, std::size_t to) {
     const double chord = (at(network, chain.node[to]) - at(network, chain.node[from])).norm();
-    return chord >= mean_radius(sums, from, to) / 2;
+    if (chord < mean_radius(sums, from, to) / 2) return false;  // the same for less work
+    const auto& [start, end] = span_radius(chain, sums, from, to);
+    return chord >= (start + end) / 4;
   };
   std::vector<std::size_t> kept = {0};
   for (std::size_t k = 1; k < last; ++k) {

@@ -26,10 +26,11 @@ Network crop_network(const Network& network, const std::array<Vec3, 2>& box);
 
 /// Removes needless short segments. Nodes with equal coordinates become one; segments of no length
 /// and repeated ones disappear. Then, along each chain between nodes that are not of degree 2, a
-/// node is dropped when it is nearer than half the mean radius to the last one kept. Branch points
-/// and ends stay where they are, so a whole chain shorter than that stays as one segment; every
-/// dropped node lies within half a radius of a kept one. A merged segment takes the outer radii of
-/// its parts, shifted so that its mean radius is their mean weighted by length.
+/// node is dropped when the segment from the last one kept would be shorter than half its mean
+/// radius. Branch points and ends stay where they are, so a whole chain shorter than that stays as
+/// one segment; every dropped node lies within half a radius of a kept one. A merged segment takes
+/// the outer radii of its parts, shifted so that its mean radius is their mean weighted by length;
+/// where that would put an end below all its parts, their smallest, and the mean is larger.
 /// Networks without short segments keep their segments, in the order of the chains.
 Network resample_network(const Network& network);
 

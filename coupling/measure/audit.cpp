@@ -242,10 +242,13 @@ void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, Audit
     for (const AuditPlane& p : frame.planes) keep(s.radius - (s.center - p.point).dot(p.normal));
     for (const AuditCapsule& c : frame.capsules)
       keep((s.center - c.center).norm() + s.radius - c.radius);
-    for (std::size_t f = 0; f < bodies.fixed.size(); ++f)
-      keep(depth_in_fixed(
+    for (std::size_t f = 0; f < bodies.fixed.size(); ++f) {
+      const double depth = depth_in_fixed(
           s, bodies.fixed[f],
-          frame.statics[f].inside ? mesh::Location::kOutside : mesh::Location::kInside));
+          frame.statics[f].inside ? mesh::Location::kOutside : mesh::Location::kInside);
+      keep(depth);
+      keep_worst(result.center_in_static, depth - s.radius, s.id, static_cast<std::int64_t>(f));
+    }
   }
 }
 

@@ -78,6 +78,7 @@ struct AuditResult {
   WorstPair cbm_cbm;               ///< sphere ids
   WorstPair cbm_vessel;            ///< sphere id, vessel segment
   WorstPair cbm_wall;              ///< sphere id, index as of dcm_wall
+  WorstPair center_in_static;      ///< sphere id, static: how far its centre is where none may be
   double min_triangle_quality =
       1;  ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0 flat
   std::int64_t worst_triangle_cell = -1;

@@ -25,6 +25,7 @@ SEQUENTIAL = [(0.33, 0.33, 0.66), (0.22, 0.55, 0.74), (0.35, 0.74, 0.66), (0.75,
               (0.98, 0.79, 0.28)]
 DIVERGING = [(0.13, 0.30, 0.62), (0.49, 0.68, 0.84), (0.95, 0.95, 0.93), (0.95, 0.63, 0.45),
              (0.70, 0.09, 0.17)]
+STRIP = 0.16  # of the width, for the colour bar
 # Direction from the picture's centre to the camera, and what is up.
 CAMERA = {"iso": ((1.0, -1.35, 0.85), (0, 0, 1)), "top": ((0, 0, 1), (0, 1, 0)),
           "side": ((0, -1, 0), (0, 0, 1))}
@@ -66,12 +67,36 @@ def cell_color(cell_id):
     return colorsys.hsv_to_rgb((0.61803398875 * (int(cell_id) + 1)) % 1.0, 0.42, 0.92)
 
 
+def color_table(low, high):
+    """Colours of the values from low to high. Where zero lies between them it is white, and values
+    as far from it are as strong: of the map of both signs only that part is used."""
+    import vtk
+
+    def table_of(points):
+        table = vtk.vtkColorTransferFunction()
+        table.SetColorSpaceToLab()
+        for value, color in points:
+            table.AddRGBPoint(value, *color)
+        return table
+
+    def spread(colors, first, last):
+        return [(first + (last - first) * i / (len(colors) - 1), color)
+                for i, color in enumerate(colors)]
+
+    if not low < 0 < high:
+        return table_of(spread(SEQUENTIAL, low, high))
+    largest = max(-low, high)
+    points = spread(DIVERGING, -largest, largest)
+    whole = table_of(points)
+    inside = [(value, color) for value, color in points if low < value < high]
+    return table_of([(low, whole.GetColor(low)), *inside, (high, whole.GetColor(high))])
+
+
 class Painter:
     """Turns field values into colours, the same for every body."""
 
     def __init__(self, frame, name, limits):
         import numpy as np
-        import vtk
         self.frame, self.name, self.table = frame, name, None
         if name in ("kind", "cell"):
             return
@@ -85,11 +110,7 @@ class Painter:
             low, high = -max(-low, high), max(-low, high)
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
             low, high = low - 0.5, high + 0.5
-        stops = DIVERGING if low < 0 < high else SEQUENTIAL
-        self.table = vtk.vtkColorTransferFunction()
-        self.table.SetColorSpaceToLab()
-        for i, color in enumerate(stops):
-            self.table.AddRGBPoint(low + (high - low) * i / (len(stops) - 1), *color)
+        self.table = color_table(low, high)
 
     def paint(self, poly, row, points):
         """Colours a body that comes from frame row `row`; `points` are its frame points."""
@@ -332,6 +353,35 @@ def style_text(text, size, bold=False):
     text.SetBold(bold)
 
 
+def add_background(renderer):
+    renderer.SetBackground(0.86, 0.88, 0.91)
+    renderer.SetBackground2(1.0, 1.0, 1.0)
+    renderer.GradientBackgroundOn()
+
+
+def add_bar(window, painter, height):
+    """The colour bar on a strip of its own at the right, so that it covers no cell."""
+    import textwrap
+    import vtk
+    strip = vtk.vtkRenderer()
+    strip.SetViewport(1 - STRIP, 0, 1, 1)
+    add_background(strip)
+    bar = vtk.vtkScalarBarActor()
+    bar.SetLookupTable(painter.table)
+    name = textwrap.fill(painter.name.replace("_", " "), 14)
+    bar.SetTitle(f"{name}\n[{painter.unit}]\n ")
+    bar.SetNumberOfLabels(5)
+    bar.SetLabelFormat("%-#.3g")
+    bar.UnconstrainedFontSizeOn()
+    style_text(bar.GetTitleTextProperty(), height // 42)
+    style_text(bar.GetLabelTextProperty(), height // 48)
+    bar.SetPosition(0.27, 0.28)
+    bar.SetWidth(0.46)
+    bar.SetHeight(0.48)
+    strip.AddActor2D(bar)
+    window.AddRenderer(strip)
+
+
 def add_labels(renderer, frame, painter, height):
     import vtk
     label = vtk.vtkTextActor()
@@ -342,20 +392,7 @@ def add_labels(renderer, frame, painter, height):
     label.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     label.SetPosition(0.03, 0.93)
     renderer.AddActor2D(label)
-    if painter.table is not None:
-        bar = vtk.vtkScalarBarActor()
-        bar.SetLookupTable(painter.table)
-        bar.SetTitle(f"{painter.name.replace('_', ' ')} [{painter.unit}]\n ")
-        bar.SetNumberOfLabels(5)
-        bar.SetLabelFormat("%-#.3g")
-        bar.UnconstrainedFontSizeOn()
-        style_text(bar.GetTitleTextProperty(), height // 42)
-        style_text(bar.GetLabelTextProperty(), height // 48)
-        bar.SetPosition(0.855, 0.28)
-        bar.SetWidth(0.07)
-        bar.SetHeight(0.44)
-        renderer.AddActor2D(bar)
-    elif painter.name == "kind":
+    if painter.name == "kind":
         import numpy as np
         shown = [k for k in (DCM, CBM) if np.any(frame.kind == k)]
         for i, k in enumerate(shown):
@@ -383,7 +420,21 @@ def shade_corners(renderer, frame):
     renderer.SetPass(occlusion)
 
 
-def place_camera(renderer, arguments):
+def reach_across(renderer):
+    """How far the bodies reach to either side: 1 is the rim of the window, as it is placed now."""
+    bounds = [actor.GetBounds() for actor in renderer.GetActors()]
+    reach = 0.0
+    for b in bounds:
+        for i in range(8):
+            renderer.SetWorldPoint(b[i & 1], b[2 + (i >> 1 & 1)], b[4 + (i >> 2)], 1)
+            renderer.WorldToView()
+            reach = max(reach, abs(renderer.GetViewPoint()[0]))
+    return reach
+
+
+def place_camera(renderer, arguments, strip):
+    """The bodies in the middle of what a strip at the right leaves of the window, and where need be
+    smaller by as much as it takes away."""
     direction, up = CAMERA[arguments.camera]
     camera = renderer.GetActiveCamera()
     camera.SetFocalPoint(0, 0, 0)
@@ -392,6 +443,9 @@ def place_camera(renderer, arguments):
     camera.SetViewAngle(24)
     renderer.ResetCamera()
     camera.Zoom(1.45 * arguments.zoom)
+    if strip > 0:
+        camera.Zoom(min(1.0, max(1 - strip, (1 - strip) / max(reach_across(renderer), 1e-9))))
+        camera.SetWindowCenter(strip, 0)
     renderer.ResetCameraClippingRange()
 
 
@@ -406,9 +460,7 @@ def draw(arguments):
     painter = Painter(frame, color, arguments.range)
     plane = clip_plane(frame, arguments.clip, arguments.camera) if arguments.clip else None
     renderer = vtk.vtkRenderer()
-    renderer.SetBackground(0.86, 0.88, 0.91)
-    renderer.SetBackground2(1.0, 1.0, 1.0)
-    renderer.GradientBackgroundOn()
+    add_background(renderer)
     add_bodies(renderer, frame, painter, plane)
     add_vessels(renderer, frame, plane)
     shade_corners(renderer, frame)
@@ -425,9 +477,12 @@ def draw(arguments):
     renderer.SetUseDepthPeeling(1)
     renderer.SetMaximumNumberOfPeels(8)
     renderer.SetOcclusionRatio(0.01)
-    place_camera(renderer, arguments)
+    has_bar = painter.table is not None and not arguments.no_labels
+    place_camera(renderer, arguments, STRIP if has_bar else 0)
     if not arguments.no_labels:
         add_labels(renderer, frame, painter, 2 * height)
+    if has_bar:
+        add_bar(window, painter, 2 * height)
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)

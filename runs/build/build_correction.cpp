@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "runs/build/build_params.hpp"
 #include "runs/build/build_world.hpp"
+#include "runs/build/cell_constants.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -23,18 +24,13 @@ std::string describe(const calibration::Law& law) {
 }  // namespace
 
 LawParameters law_parameters(const Scene& scene, const CellType& type) {
-  const DcmBlock& d = type.dcm;
   const cbm::Params sphere = make_cbm_params(scene, type);
-  return {{{"nodes", d.nodes},
-           {"radius_um", type.radius},
-           {"adhesion_nN_per_um", type.adhesion},
-           {"cortex_young_kPa", d.cortex_young},
-           {"cortex_thickness_um", d.cortex_thickness},
-           {"cortex_poisson", d.cortex_poisson},
-           {"area_modulus_nN_per_um", d.area_modulus},
-           {"local_area_modulus_nN_per_um", d.local_area_modulus},
-           {"bulk_modulus_kPa", d.bulk_modulus},
-           {"contact_repulsion_kPa_per_um", scene.contact.repulsion}},
+  calibration::Parameters cell = term_constants(type.dcm);
+  cell.insert({{"nodes", type.dcm.nodes},
+               {"radius_um", type.radius},
+               {"adhesion_nN_per_um", type.adhesion},
+               {"contact_repulsion_kPa_per_um", scene.contact.repulsion}});
+  return {cell,
           {{"young_kPa", sphere.young},
            {"poisson", sphere.poisson},
            {"radius_um", type.radius},
@@ -54,6 +50,8 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
                       name));
     const calibration::Law law = calibration::read_law(file);
     notes.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    for (const std::string& warning : law.warnings)
+      notes.push_back(fmt::format("warning: {}: {}", file, warning));
     const LawParameters here = law_parameters(scene, type);
     const std::vector<std::string> differences =
         calibration::list_differences(law, here.dcm, here.cbm);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runs/build/build_params.hpp"
+#include "runs/build/cell_constants.hpp"
 #include "runs/build/place_cells.hpp"
 
 namespace acinus::runs {
@@ -39,16 +41,12 @@ void build_life(const Scene& scene, coupling::Params& p, std::vector<std::string
   std::size_t k = 0;
   for (const auto& [name, type] : scene.cell_types) {
     coupling::DeathParams& death = p.life.type[k].death;
-    const double soft = type.softening;
-    if (death.lysis && soft < 1) {
+    if (death.lysis && type.softening < 1) {
       death.type = static_cast<int>(p.dcm.size());
-      dcm::Params shell = p.dcm[k];
-      for (double* value : {&shell.spring_stiffness, &shell.bending_stiffness, &shell.bulk_modulus,
-                            &shell.adhesion})
-        *value *= soft;
-      cbm::Params sphere = p.cbm[k];
-      sphere.adhesion *= soft;
-      p.dcm.push_back(shell);
+      const CellType soft = softened(type);
+      cbm::Params sphere = p.cbm[k];  // its modulus may be that of a law
+      sphere.adhesion = soft.adhesion;
+      p.dcm.push_back(make_dcm_params(scene, soft));
       p.cbm.push_back(sphere);
       p.life.type.push_back({});
       type_names.push_back(name + " (dissolving)");

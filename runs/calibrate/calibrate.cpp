@@ -166,6 +166,9 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   calibration::write_law(found.law, options.out);
   if (!options.quiet)
     fmt::print("{}law file: {}\n", calibration::calibration_table(found), options.out);
+  std::fflush(stdout);
+  for (const std::string& warning : found.law.warnings)
+    fmt::print(stderr, "acinus: warning: {}: {}\n", options.out, warning);
   return 0;
 }
 

@@ -19,6 +19,14 @@ struct CalibrateArguments {
   std::string check_friction, relaxation_time;
 };
 
+/// Without --fresh, which would throw away what there is.
+std::string command_to_go_on(std::string command_line) {
+  const std::string fresh = " --fresh";
+  if (const auto at = command_line.find(fresh); at != std::string::npos)
+    command_line.erase(at, fresh.size());
+  return command_line;
+}
+
 int run(CalibrateArguments& arguments) {
   CalibrateOptions& options = arguments.options;
   if (!arguments.check_friction.empty())
@@ -29,7 +37,9 @@ int run(CalibrateArguments& arguments) {
     options.calibration.relaxation_time =
         flag_value("--relaxation-time", arguments.relaxation_time,
                    [](const std::string& text) { return parse_quantity(text, kTime); });
-  return calibrate(read_scene(find_scene_file(arguments.scene_file), arguments.set), options);
+  const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
+  return tell_how_to_go_on(calibrate(scene, options), command_to_go_on(options.command_line),
+                           options.quiet);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "runs/commands/command.hpp"
+#include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
 
@@ -24,7 +25,7 @@ int run_cli(int argc, const char* const* argv) {
       "4 disk or file error, 5 compared runs beyond a tolerance, 75 stopped with a checkpoint "
       "written");
   std::string command_line;
-  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + quote_for_shell(argv[i]);
   const Command commands[] = {add_run(app, command_line),
                               add_check(app),
                               add_schema(app),

@@ -51,7 +51,16 @@ double flag_value(const char* flag, const std::string& text, Parse parse) {
   }
 }
 
-/// @param command_line  as typed, for the provenance of what is written; lives as long as the app
+/// Says how to go on with a job that was stopped and is taken up where it was by the same command.
+/// @return the exit code of that job
+inline int tell_how_to_go_on(int code, const std::string& command_line, bool quiet) {
+  if (code == static_cast<int>(Exit::kStopped) && !quiet)
+    fmt::print("stopped; continue with: {}\n", command_line);
+  return code;
+}
+
+/// @param command_line  as typed but in a shell's quotes, for the provenance of what is written;
+///                      lives as long as the app
 Command add_bench(CLI::App& app);
 Command add_calibrate(CLI::App& app, const std::string& command_line);
 Command add_check(CLI::App& app);

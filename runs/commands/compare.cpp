@@ -43,7 +43,8 @@ int run(CompareArguments& arguments) {
     CompareScenes& options = arguments.scenes;
     const Scene scene = read_scene(find_scene_file(arguments.scene), arguments.set);
     if (options.folder.empty()) options.folder = scene.name + ".compare";
-    if (const int stop = run_models(scene, options, folders)) return stop;
+    if (const int stop = run_models(scene, options, folders))
+      return tell_how_to_go_on(stop, options.command_line, options.quiet);
     if (arguments.out.empty()) arguments.out = options.folder + "/compare.json";
   }
   const Comparison comparison = compare_runs(folders, tolerance);

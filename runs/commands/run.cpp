@@ -31,7 +31,8 @@ int run(RunArguments& arguments) {
   run.progress_json = arguments.progress == "json";
   Scene scene = read_scene(find_scene_file(run.scene_file), run.set);
   if (run.out.empty()) run.out = scene.name + ".run";
-  if (const int stop = resolve_corrections(scene, run.threads, run.quiet)) return stop;
+  if (const int stop = resolve_corrections(scene, run.threads, run.quiet))
+    return tell_how_to_go_on(stop, run.command_line, run.quiet);
   return run_scene(scene, run);
 }
 

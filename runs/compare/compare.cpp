@@ -186,11 +186,10 @@ void check_names(const std::map<std::string, double>& tolerance) {
   std::vector<std::string> known;
   for (const auto& [name, meaning] : comparable_quantities()) known.push_back(name);
   for (const auto& [name, value] : tolerance) {
-    const std::string hint = nearest_name(name, known);
+    const std::string all = fmt::format("Known: {}", fmt::join(known, ", "));
     check(comparable_quantities().contains(name),
-          fmt::format("--tolerance {}: no such quantity. {}Known: {}", name,
-                      hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint),
-                      fmt::join(known, ", ")));
+          fmt::format("--tolerance {}: no such quantity. {}", name,
+                      did_you_mean_and(nearest_name(name, known), all)));
     check(std::isfinite(value) && value >= 0,
           fmt::format("--tolerance {}={}: must be a number >= 0", name, value));
   }

@@ -129,9 +129,9 @@ std::string explain_key(const std::string& query, const std::vector<Entry>& entr
     const std::vector<std::string> parts = parts_of(query);
     if (hint.empty() && !parts.empty()) hint = nearest_name(parts.back(), last_parts);
     const bool study = query.starts_with("study.");
-    throw Error(fmt::format(
-        "no {} key \"{}\". {}`acinus explain{}` lists all", study ? "study" : "scene", query,
-        hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint), study ? " study" : ""));
+    const std::string all = fmt::format("`acinus explain{}` lists all", study ? " study" : "");
+    throw Error(fmt::format("no {} key \"{}\". {}", study ? "study" : "scene", query,
+                            did_you_mean_and(hint, all)));
   }
   std::string text;
   for (const Entry* entry : found) text += (text.empty() ? "" : "\n") + described(*entry, entries);

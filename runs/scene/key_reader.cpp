@@ -94,7 +94,7 @@ class KeyReader final : public Visitor {
                         hint.empty()
                             ? fmt::format("must be one of \"{}\"{}", fmt::join(choices, "\", \""),
                                           key.automatic[0] ? ", \"auto\"" : "")
-                            : fmt::format("unknown choice. Did you mean \"{}\"?", hint));
+                            : "unknown choice. " + did_you_mean(hint));
     } else if (key.is_name && !is_name(node->text)) {
       report_.add_value(*node, pointer, kNameRule);
     } else if (key.is_label && !is_label(node->text)) {
@@ -258,8 +258,8 @@ class KeyReader final : public Visitor {
       const std::string hint = nearest_name(member.name, frame_.known);
       std::string message = "unknown key. ";
       if (!hint.empty()) {
-        message += fmt::format("Did you mean \"{0}\"? (acinus explain {1}{2}{0})", hint, prefix_,
-                               frame_.short_path);
+        message += did_you_mean(hint) +
+                   fmt::format(" (acinus explain {}{}{})", prefix_, frame_.short_path, hint);
       } else {
         message += fmt::format("Known here: {}", fmt::join(frame_.known, ", "));
       }

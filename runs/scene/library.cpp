@@ -83,12 +83,9 @@ std::string find_document(const std::string& name, const std::string& kind,
     names.push_back(document.name);
   }
   if (fs::exists(given)) return name;  // a folder: reading it says so
-  const std::string hint = nearest_name(name, names);
-  throw Error(
-      fmt::format("{}: no such file, and no shipped {} of that name. {}`acinus list` names "
-                  "them",
-                  name, kind, hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint)),
-      Exit::kFileError);
+  throw Error(fmt::format("{}: no such file, and no shipped {} of that name. {}", name, kind,
+                          did_you_mean_and(nearest_name(name, names), "`acinus list` names them")),
+              Exit::kFileError);
 }
 
 std::vector<ShippedScene> list_documents(const std::string& folder) {
@@ -118,10 +115,9 @@ std::vector<std::string> copy_scene(const std::string& name, const std::string& 
     names.push_back(shipped.name);
     if (shipped.name == stem) scene = shipped;
   }
-  const std::string hint = nearest_name(stem, names);
   check(scene.has_value(),
-        fmt::format("no shipped scene \"{}\". {}`acinus list` names them", name,
-                    hint.empty() ? "" : fmt::format("Did you mean \"{}\"? ", hint)));
+        fmt::format("no shipped scene \"{}\". {}", name,
+                    did_you_mean_and(nearest_name(stem, names), "`acinus list` names them")));
   const fs::path from = fs::path(scene->file).parent_path();
   std::vector<fs::path> needed;
   collect(from, fs::path(scene->file).filename(), needed);

@@ -105,11 +105,9 @@ void check_type_name(const Scene& scene, const std::string& type, const std::str
                      Report& report) {
   const std::vector<std::string> names = type_names(scene);
   if (type.empty() || names.empty() || scene.cell_types.contains(type)) return;
-  const std::string hint = nearest_name(type, names);
+  const std::string known = fmt::format("Known: {}", fmt::join(names, ", "));
   report.add_relation({pointer, "/cell_types"}, "",
-                      hint.empty()
-                          ? fmt::format("unknown cell type. Known: {}", fmt::join(names, ", "))
-                          : fmt::format("unknown cell type. Did you mean \"{}\"?", hint));
+                      "unknown cell type. " + did_you_mean(nearest_name(type, names), known));
 }
 
 void check_list(const Scene& scene, Report& report) {

@@ -1,8 +1,10 @@
 #include "runs/session/advice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "coupling/life/density.hpp"
 #include "coupling/world/cell.hpp"
@@ -25,6 +27,25 @@ std::string advise_if_full(const coupling::World& world, std::span<const std::in
                 : "Start with fewer or smaller cells, enlarge the room, or end its compression "
                   "earlier.";
   return text;
+}
+
+/// How the cells of a scene come to stand farther apart. Clumps and boxes are laid out in diameters
+/// of their cells, so neither fewer nor smaller cells do it there.
+std::string how_to_part(const Scene& scene) {
+  switch (scene.cells.source) {
+    case CellSource::kList:
+      return "move them apart or give them a smaller radius (cells.list)";
+    case CellSource::kClump:
+    case CellSource::kBox:
+      return "place them farther apart (cells.spacing)";
+    case CellSource::kFill:
+      return "place fewer of them farther apart (cells.count, cells.min_distance), or take smaller "
+             "ones (radius of the cell type)";
+    case CellSource::kLobule:
+      break;
+  }
+  return "place fewer of them farther apart (lobule.cells, lobule.min_distance), or take smaller "
+         "ones (radius of the cell type)";
 }
 
 bool has_shells(const coupling::World& world) { return !world.state.dcm.group.empty(); }
@@ -66,6 +87,22 @@ std::string advise(const coupling::World& world, const Excess& excess) {
            "cbm.stiffness_correction), or lower load or adhesion.";
   return "Start the cells farther apart or small (start_up), raise contact.max_depth or "
          "contact.repulsion, take a finer mesh, or lower load or adhesion.";
+}
+
+std::string advise_start(const Scene& scene, const coupling::World& world, const Excess& excess) {
+  if (scene.start_up.enabled) return advise(world, excess);
+  std::vector<std::string> ways{"Let the cells grow from small ones first (start_up.enabled)"};
+  const auto has_any_age = [](const auto& type) {
+    return type.second.cycle.time > 0 && type.second.cycle.random_start;
+  };
+  if (std::ranges::any_of(scene.cell_types, has_any_age))
+    ways.emplace_back(
+        "start them just born (cycle.start = birth; random ones have up to twice the "
+        "volume)");
+  constexpr std::size_t kPair = 2;
+  ways.push_back(excess.cells.size() == kPair ? how_to_part(scene)
+                                              : "place them elsewhere or take smaller ones");
+  return fmt::format("{}.", fmt::join(ways, ", or "));
 }
 
 }  // namespace acinus::runs

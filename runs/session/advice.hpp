@@ -8,6 +8,7 @@
 
 #include "coupling/step/controller.hpp"
 #include "coupling/world/world.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/session/soundness.hpp"
 
 namespace acinus::runs {
@@ -27,5 +28,8 @@ std::string advise(const coupling::World& world, const coupling::StepResult& ste
 
 /// The same for overlaps that contact cannot mend.
 std::string advise(const coupling::World& world, const Excess& excess);
+
+/// What to change in the scene when its first frame already has such overlaps.
+std::string advise_start(const Scene& scene, const coupling::World& world, const Excess& excess);
 
 }  // namespace acinus::runs

@@ -4,8 +4,10 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
 
 #include "core/timing.hpp"
 
@@ -32,6 +34,24 @@ const char* phase_name(coupling::Phase p) {
   return "running";
 }
 
+/// Simulated time at which the present phase ends, on the clock of the state; infinite where that
+/// depends on how the tissue settles.
+double end_of_phase(const coupling::World& world, double end) {
+  const coupling::Clock& clock = world.state.clock;
+  const coupling::StartUp& start_up = world.params.start_up;
+  switch (clock.phase) {
+    case coupling::Phase::kGrow:
+      return clock.phase_start + start_up.growth_time;
+    case coupling::Phase::kAdhere:
+      return clock.phase_start + start_up.adhesion_ramp;
+    case coupling::Phase::kSettle:
+      return std::numeric_limits<double>::infinity();
+    case coupling::Phase::kRun:
+      break;
+  }
+  return clock.origin + end;
+}
+
 }  // namespace
 
 Progress::Progress(const RunOptions& options, double end)
@@ -41,13 +61,19 @@ Progress::Progress(const RunOptions& options, double end)
       terminal_(isatty(STDOUT_FILENO) != 0) {}
 
 void Progress::begin(const coupling::World& world) {
-  first_time_ = world.state.clock.time;
   started_ = wall_seconds();
+  phase_ = world.state.clock.phase;
+  left_.begin(started_, world.state.clock.time);
 }
 
 void Progress::step(const coupling::World& world) {
   if (options_.quiet) return;
+  const coupling::Clock& clock = world.state.clock;
+  // A phase of the start-up says nothing about how fast the next one goes.
+  if (clock.phase != phase_) left_.restart();
+  phase_ = clock.phase;
   const double now = wall_seconds(), every = options_.progress_json ? 1 : terminal_ ? 0.2 : 60;
+  left_.add(now, clock.time);
   if (now - last_ < every) return;
   last_ = now;
   print(world);
@@ -55,23 +81,25 @@ void Progress::step(const coupling::World& world) {
 
 void Progress::print(const coupling::World& world) {
   const coupling::State& s = world.state;
+  const bool running = s.clock.phase == coupling::Phase::kRun;
   const double time = coupling::time_since_start(world), wall = wall_seconds() - started_;
-  const double done = std::max(s.clock.time - first_time_, 1e-9);
-  const double left =
-      s.clock.phase == coupling::Phase::kRun ? end_ - time : end_ - std::min(time, 0.0);
-  const double eta = wall / done * std::max(left, 0.0);
+  const double end = end_of_phase(world, end_);
+  const std::optional<double> left = std::isfinite(end) ? left_.until(end) : std::nullopt;
   const int dcm = dcm::count_cells(s.dcm), cbm = static_cast<int>(s.cbm.n_cell());
   if (options_.progress_json) {
     fmt::print(
         "{{\"phase\":\"{}\",\"time_s\":{},\"end_s\":{},\"dcm\":{},\"cbm\":{},\"dt_s\":{},\"wall_"
         "s\":{},\"eta_s\":{}}}\n",
-        phase_name(s.clock.phase), time, end_, dcm, cbm, s.clock.last_step, wall, eta);
+        phase_name(s.clock.phase), time, end_, dcm, cbm, s.clock.last_step, wall,
+        running && left ? fmt::format("{}", *left) : "null");
   } else {
     const std::string line = fmt::format(
-        "{}  {} of {}  {} DCM + {} CBM cells  dt {:.3g} s  {:.0f}x real time  about {} left",
-        phase_name(s.clock.phase),
-        short_time(s.clock.phase == coupling::Phase::kRun ? time : s.clock.time), short_time(end_),
-        dcm, cbm, s.clock.last_step, done / std::max(wall, 1e-9), short_time(eta));
+        "{}  {} of {}  {} DCM + {} CBM cells  dt {:.3g} s  {:.0f}x real time{}",
+        phase_name(s.clock.phase), short_time(running ? time : s.clock.time),
+        running ? short_time(end_) : "at most " + short_time(s.clock.time - time), dcm, cbm,
+        s.clock.last_step, left_.rate(),
+        left ? fmt::format("  about {}{} left", short_time(*left), running ? "" : " of this phase")
+             : "");
     fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line, terminal_ ? "" : "\n");
     line_open_ = terminal_;
   }
@@ -90,6 +118,12 @@ void Progress::note(const std::string& text) {
   finish();
   fmt::print("{}\n", text);
   std::fflush(stdout);
+}
+
+void Progress::warn(const std::string& text) {
+  spdlog::warn(text);
+  finish();
+  fmt::print(stderr, "acinus: warning: {}\n", text);
 }
 
 }  // namespace acinus::runs

@@ -5,6 +5,7 @@
 
 #include "coupling/world/world.hpp"
 #include "runs/session/run_scene.hpp"
+#include "runs/session/time_left.hpp"
 
 namespace acinus::runs {
 
@@ -19,13 +20,16 @@ class Progress {
   void finish();
   /// A message of its own line, also to the log.
   void note(const std::string& text);
+  /// A warning: to stderr, also of a quiet run, and to the log.
+  void warn(const std::string& text);
 
  private:
   void print(const coupling::World& world);
 
   const RunOptions& options_;
   double end_, started_, last_ = -1e300;
-  double first_time_ = 0;  ///< s simulated before this start of the program
+  coupling::Phase phase_ = coupling::Phase::kRun;
+  TimeLeft left_;  ///< of the phase
   bool terminal_, line_open_ = false;
 };
 

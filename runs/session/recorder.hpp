@@ -45,6 +45,7 @@ class Recorder {
   void close(const std::string& status, const std::string& cause);
 
   double last_frame() const { return last_frame_; }  ///< s since t = 0
+  bool has_frame() const { return last_frame_ > kNoFrame; }
   /// What was wrong with the last frame.
   const Excess& excess() const { return excess_; }
   double wall_s() const { return wall_before_ + wall_seconds() - started_; }  ///< with resumes
@@ -65,7 +66,8 @@ class Recorder {
   std::vector<std::string> notes_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues
-  double last_frame_ = -1e300;
+  static constexpr double kNoFrame = -1e300;
+  double last_frame_ = kNoFrame;
   /// The first frame may overlap: contact is given a chance.
   Excess excess_{std::numeric_limits<double>::infinity(), {}, {}};
 };

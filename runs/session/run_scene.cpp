@@ -23,6 +23,7 @@
 #include "runs/session/progress.hpp"
 #include "runs/session/recorder.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
 #include "runs/session/stop_signals.hpp"
 
@@ -43,17 +44,9 @@ struct LoggerKept {
 
 /// What to type to go on: the same scene, changes and folder.
 std::string resume_command(const RunOptions& options) {
-  const auto quoted = [](const std::string& text) {
-    constexpr const char* kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=-+,:";
-    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-    std::string inside;
-    for (char c : text) inside += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return "'" + inside + "'";
-  };
-  std::string command =
-      "acinus run " + quoted(options.scene_file) + " --resume --out " + quoted(options.out);
-  for (const std::string& change : options.set) command += " --set " + quoted(change);
+  std::string command = "acinus run " + quote_for_shell(options.scene_file) + " --resume --out " +
+                        quote_for_shell(options.out);
+  for (const std::string& change : options.set) command += " --set " + quote_for_shell(change);
   return command;
 }
 
@@ -68,6 +61,7 @@ class SceneRun {
   bool events_over();
   void end_phase(const std::string& what);
   bool frame_is_due() const;
+  void write_frame(bool last);
   bool is_last() const;
   int loop();
   void close(const std::string& status, const std::string& cause);
@@ -84,8 +78,8 @@ class SceneRun {
   double vessel_length_;            ///< um
   coupling::Simulation simulation_;
   Recorder recorder_;
+  double end_;  ///< s
   Progress progress_;
-  double end_;
   double started_ = wall_seconds(), last_save_ = wall_seconds();
   double extra_frame_ = 0;    ///< s, the next frame that an opening asks for
   bool was_running_ = false;  ///< before this step
@@ -100,8 +94,8 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
       vessel_length_(built.vessel_length),
       simulation_(std::move(built.world)),
       recorder_(scene, options, simulation_),
-      progress_(options, std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
-      end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))) {}
+      end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
+      progress_(options, end_) {}
 
 std::string SceneRun::reason_to_stop() const {
   if (const int signal = stop_signal(); signal != 0) return fmt::format("signal {}", signal);
@@ -133,9 +127,23 @@ void SceneRun::end_phase(const std::string& what) {
   recorder_.add_event("start_up", what);
 }
 
+/// Overlaps of the first frame are told at once: hours later the run may stop because of them.
+void SceneRun::write_frame(bool last) {
+  const bool first = !recorder_.has_frame();
+  excess_ = recorder_.write_frame(last);
+  const Excess& start = recorder_.excess();
+  if (!first || start.depth_um <= 0) return;
+  const std::string warning = fmt::format(
+      "the scene starts with overlaps: {}. Until contact has pushed them apart, forces and "
+      "pressures mean nothing; if they do not shrink from frame to frame, the run stops. {}",
+      start.cause, advise_start(scene_, world(), start));
+  progress_.warn(warning);
+  recorder_.add_note("warning: " + warning);
+}
+
 /// Frames, checkpoints and reasons to stop, once the events after a step are over.
 bool SceneRun::events_over() {
-  if (frame_is_due()) excess_ = recorder_.write_frame(time() >= end_ - kSameTime);
+  if (frame_is_due()) write_frame(time() >= end_ - kSameTime);
   if (excess_.depth_um > 0) return false;
   if (is_last() && simulation_.is_running()) return false;
   was_running_ = simulation_.is_running();
@@ -191,15 +199,15 @@ int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>&
 void SceneRun::stop(const std::string& why) {
   recorder_.add_event("stopped", "stopped by " + why);
   close("stopped", "stopped by " + why);
-  progress_.note(fmt::format("stopped by {}; continue with: {}", why, resume_command(options_)));
+  progress_.note(fmt::format("stopped by {}", why) +
+                 (options_.is_part ? "" : "; continue with: " + resume_command(options_)));
   // Obeyed; left there it would stop the resumed run too.
   std::filesystem::remove(options_.out + "/STOP");
 }
 
 int SceneRun::loop() {
   was_running_ = simulation_.is_running();
-  if (!options_.resume && (was_running_ || scene_.output.start_up))
-    excess_ = recorder_.write_frame(false);
+  if (!options_.resume && (was_running_ || scene_.output.start_up)) write_frame(false);
   return finish(excess_.depth_um > 0 ? coupling::LoopResult{}
                                      : simulation_.run_until(end_, observer()));
 }

@@ -23,7 +23,8 @@ struct RunOptions {
   bool timings = false;                  ///< print the time of each stage at the end
   bool quiet = false;                    ///< no progress, warnings and errors only
   bool progress_json = false;            ///< progress as one JSON object a line
-  std::string command_line;              ///< for the provenance
+  bool is_part = false;      ///< of a larger job, which says itself how to go on when it is stopped
+  std::string command_line;  ///< for the provenance
 };
 
 /// Runs a scene until its end, a signal, a wall-time limit or a failure.

@@ -21,7 +21,8 @@ double radius_of(const coupling::State& s, std::int64_t id) {
 }
 
 /// The sphere whose centre is deepest inside its boundary.
-Excess find_lost_sphere(const coupling::World& world, const coupling::Workspace& work) {
+Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::World& world,
+                        const coupling::Workspace& work) {
   const cbm::State& s = world.state.cbm;
   const contact::Boundary& boundary = world.params.boundary;
   const double time = std::max(0.0, coupling::time_since_start(world));
@@ -45,6 +46,15 @@ Excess find_lost_sphere(const coupling::World& world, const coupling::Workspace&
     look(k, contact::gap_to_segment(boundary.vessels.network, segment, cbm::center_of(s, k)),
          [&, at = segment] { return fmt::format("vessel segment {}", at); });
   }
+  // Contact sees meshes from near only, and not which side is which from far inside: the audit
+  // does.
+  if (const coupling::WorstPair& lost = audit.center_in_static; lost.depth_um > worst.depth_um) {
+    const contact::StaticMesh& mesh = boundary.meshes[static_cast<std::size_t>(lost.ids[1])];
+    worst = {lost.depth_um,
+             fmt::format("CBM cell {} has its centre {:.3g} um {} static mesh {}", lost.ids[0],
+                         lost.depth_um, mesh.inside ? "outside" : "inside", mesh.name),
+             {lost.ids[0]}};
+  }
   return worst;
 }
 
@@ -62,7 +72,7 @@ double deepest_overlap(const coupling::World& world) {
 
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,
                    const coupling::Workspace& work) {
-  Excess worst = find_lost_sphere(world, work);
+  Excess worst = find_lost_sphere(audit, world, work);
   const auto look = [&](const coupling::WorstPair& pair, double limit, const char* what,
                         std::size_t n_cell) {
     if (pair.depth_um - limit <= worst.depth_um) return;

@@ -26,6 +26,7 @@ int run_stage(const Scene& scene, const StageOptions& options) {
   run.quiet = options.quiet;
   run.command_line = options.command_line;
   run.checkpoint_every_s = 60;
+  run.is_part = true;
   if (const std::optional<RunSummary> before = find_run(scene, options.folder);
       before && !options.fresh) {
     if (before->status == "completed") return static_cast<int>(Exit::kDone);

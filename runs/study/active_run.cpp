@@ -48,18 +48,22 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
   return {index, std::move(claim), Child(words, child), folder};
 }
 
+RunProgress parse_progress(const std::string& line) {
+  RunProgress progress;
+  const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
+  if (!j.is_object()) return progress;
+  progress.time_s = j.value("time_s", 0.0);
+  progress.end_s = j.value("end_s", 0.0);
+  progress.wall_s = j.value("wall_s", 0.0);
+  if (j.contains("eta_s") && j["eta_s"].is_number()) progress.left_s = j["eta_s"].get<double>();
+  progress.starting = j.value("phase", "") != "running";
+  return progress;
+}
+
 RunProgress read_progress(const ActiveRun& run) {
   constexpr std::uintmax_t kLongest = 1 << 16;  // bytes
   const std::string file = run.folder + "/progress.txt";
-  RunProgress progress;
-  const std::string line = last_line(file);
-  const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
-  if (j.is_object()) {
-    progress.time_s = j.value("time_s", 0.0);
-    progress.end_s = j.value("end_s", 0.0);
-    progress.left_s = j.value("eta_s", 0.0);
-    progress.starting = j.value("phase", "") != "running";
-  }
+  const RunProgress progress = parse_progress(last_line(file));
   std::error_code code;
   const std::uintmax_t size = fs::file_size(file, code);
   if (!code && size > kLongest) fs::resize_file(file, 0, code);  // the run appends

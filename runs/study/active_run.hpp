@@ -13,7 +13,8 @@ namespace acinus::runs {
 /// What a running simulation last said about itself.
 struct RunProgress {
   double time_s = 0, end_s = 0;  ///< simulated
-  double left_s = 0;             ///< wall time, by its own estimate
+  double wall_s = 0;             ///< since it was started or resumed
+  std::optional<double> left_s;  ///< wall time, by its own estimate
   bool starting = true;          ///< not yet at t = 0, or nothing said
 };
 
@@ -36,6 +37,9 @@ struct ActiveRun {
 /// @throws Error(kFileError)
 ActiveRun start_run(const StudyPlan& plan, std::size_t run, const std::string& root,
                     io::FileLock claim, bool resume, const ChildRunOptions& options);
+
+/// One line of --progress json; what it does not say has the default.
+RunProgress parse_progress(const std::string& line);
 
 /// Nothing said yet gives the default. Keeps the file that is read small.
 RunProgress read_progress(const ActiveRun& run);

@@ -48,10 +48,8 @@ class Checker {
     if (plan_.units.contains(name)) return true;
     std::vector<std::string> names;
     for (const auto& [known, unit] : plan_.units) names.push_back(known);
-    const std::string hint = nearest_name(name, names);
-    add(pointer, fmt::format("unknown observable. {}",
-                             hint.empty() ? fmt::format("Known: {}", fmt::join(names, ", "))
-                                          : fmt::format("Did you mean \"{}\"?", hint)));
+    const std::string known = fmt::format("Known: {}", fmt::join(names, ", "));
+    add(pointer, "unknown observable. " + did_you_mean(nearest_name(name, names), known));
     return false;
   }
 

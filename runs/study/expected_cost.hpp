@@ -2,8 +2,11 @@
 /// What the runs of a study are expected to cost: what others of the same variant did; else the
 /// rough estimate times what the others with cells of the same model took of theirs.
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "runs/study/plan.hpp"
 
@@ -16,6 +19,10 @@ class ExpectedCosts {
 
   void add(const StudyRun& run, double cpu_s);  ///< one more that is done
   bool is_measured(const StudyRun& run) const { return measured_.contains(run.variant); }
+  /// Whether any run that says something about this one is done.
+  bool has_basis(const StudyRun& run) const {
+    return is_measured(run) || ratio_.contains(run.scene.cells.model);
+  }
   double cpu_s(const StudyRun& run) const;
 
  private:
@@ -28,5 +35,18 @@ class ExpectedCosts {
   std::map<std::size_t, Sum> measured_;  ///< by variant
   std::map<CellModel, Sum> ratio_;       ///< measured over estimated, by model
 };
+
+/// One that is running.
+struct RunningCost {
+  std::size_t run = 0;           ///< index into the plan's runs
+  double wall_s = 0;             ///< so far
+  std::optional<double> left_s;  ///< by its own estimate
+};
+
+/// Wall time until all these runs are done, s. Nothing while it would rest on rough estimates.
+/// @param jobs  runs at once
+std::optional<double> estimate_time_left(const StudyPlan& plan, const ExpectedCosts& costs,
+                                         const std::vector<std::size_t>& waiting,
+                                         const std::vector<RunningCost>& running, int jobs);
 
 }  // namespace acinus::runs

@@ -68,11 +68,9 @@ std::string find_scene(const Study& study, const Document& document, Report& rep
     if (scene.name == study.scene) return scene.file;
     names.push_back(scene.name);
   }
-  const std::string hint = nearest_name(study.scene, names);
   report.add_value(*node, "/scene",
-                   fmt::format("no such file, and no shipped scene of that name. {}",
-                               hint.empty() ? "`acinus list` names them"
-                                            : fmt::format("Did you mean \"{}\"?", hint)));
+                   "no such file, and no shipped scene of that name. " +
+                       did_you_mean(nearest_name(study.scene, names), "`acinus list` names them"));
   return {};
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "core/timing.hpp"
 
@@ -29,24 +29,21 @@ void StudyProgress::show(const StudyCounts& counts, const std::vector<ActiveRun>
   const double now = wall_seconds();
   if (quiet_ || now - last_ < (terminal_ ? 1 : 60)) return;
   last_ = now;
-  double left = 0, longest = 0;
-  for (std::size_t k : counts.waiting) left += costs_.cpu_s(plan_.runs[k]);
-  std::string running;
+  std::vector<RunningCost> running;
+  std::string text;
   for (const ActiveRun& a : active) {
     const RunProgress p = read_progress(a);
-    const StudyRun& run = plan_.runs[a.run];
-    const double rest = p.left_s > 0 ? p.left_s : costs_.cpu_s(run);
-    left += rest;
-    longest = std::max(longest, rest);
-    running += fmt::format(
-        "  {} {}", run.name,
+    running.push_back({a.run, p.wall_s, p.left_s});
+    text += fmt::format(
+        "  {} {}", plan_.runs[a.run].name,
         p.starting ? "starting"
                    : fmt::format("{} of {}", short_duration(p.time_s), short_duration(p.end_s)));
   }
   std::string line = fmt::format("{} of {} done", counts.done, counts.all);
   if (counts.failed > 0) line += fmt::format(", {} failed", counts.failed);
-  line += fmt::format("; about {} left;{}", short_duration(std::max(left / jobs_, longest)),
-                      active.empty() ? " waiting for other processes" : running);
+  if (const auto left = estimate_time_left(plan_, costs_, counts.waiting, running, jobs_))
+    line += fmt::format("; about {} left", short_duration(*left));
+  line += ";" + (active.empty() ? " waiting for other processes" : text);
   fmt::print("{}{}{}", terminal_ ? "\r\x1b[K" : "", line, terminal_ ? "" : "\n");
   line_open_ = terminal_;
   std::fflush(stdout);

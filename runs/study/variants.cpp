@@ -37,6 +37,12 @@ TextPlace place_of(const Report& report, const std::string& pointer, const char*
   return node != nullptr ? node->origin : TextPlace{};
 }
 
+std::string no_variant(const std::string& name, const std::vector<std::string>& names) {
+  return fmt::format(
+      "no variant \"{}\". {}", name,
+      did_you_mean(nearest_name(name, names), fmt::format("Known: {}", fmt::join(names, ", "))));
+}
+
 /// Settings of a variant and of those it extends, oldest first.
 /// @param chain  names on the way, to notice circles
 void collect(const Study& study, const std::string& name, std::vector<std::string> chain,
@@ -49,11 +55,7 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
     if (!study.variants.contains(variant.extends)) {
       std::vector<std::string> names;
       for (const auto& [other, unused] : study.variants) names.push_back(other);
-      const std::string hint = nearest_name(variant.extends, names);
-      report.add(origin, pointer + "/extends",
-                 fmt::format("no variant \"{}\". {}", variant.extends,
-                             hint.empty() ? fmt::format("Known: {}", fmt::join(names, ", "))
-                                          : fmt::format("Did you mean \"{}\"?", hint)));
+      report.add(origin, pointer + "/extends", no_variant(variant.extends, names));
     } else if (std::ranges::find(chain, variant.extends) != chain.end()) {
       report.add(origin, pointer + "/extends",
                  fmt::format("variants extend each other in a circle: {}, {}",
@@ -226,10 +228,7 @@ std::vector<std::size_t> find_variants(const std::vector<Variant>& variants,
 std::string unknown_variant(const std::vector<Variant>& variants, const std::string& name) {
   std::vector<std::string> names;
   for (const Variant& v : variants) names.push_back(v.name);
-  const std::string hint = nearest_name(name, names);
-  return fmt::format("no variant \"{}\". {}", name,
-                     hint.empty() ? fmt::format("Known: {}", fmt::join(names, ", "))
-                                  : fmt::format("Did you mean \"{}\"?", hint));
+  return no_variant(name, names);
 }
 
 }  // namespace acinus::runs

@@ -26,6 +26,7 @@ Law make_law() {
   law.jkr_underestimation = 5.5;
   law.dcm = {{"bulk_modulus_kPa", 2.5}, {"cortex_young_kPa", 1}};
   law.cbm = {{"young_kPa", 0.45}, {"poisson", 0.47}};
+  law.warnings = {"only 5 of the cells"};
   law.provenance = {{"version", "0.1.0"}};
   return law;
 }
@@ -63,6 +64,7 @@ TEST_F(LawFile, IsReadAsItWasWritten) {
   EXPECT_EQ(law_text(read), law_text(law));
   EXPECT_EQ(read.a1, law.a1);
   EXPECT_EQ(read.provenance, law.provenance);
+  EXPECT_EQ(read.warnings, law.warnings);
   const cbm::StiffnessLaw s = stiffness_law(read);
   EXPECT_TRUE(s.term.empty());
   ASSERT_EQ(s.table.size(), 3u);

@@ -271,6 +271,26 @@ TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
       frame);  // one reaches 12 - (25 - 15.7) into the block, the other 12 - 9 out of the room
   EXPECT_NEAR(r.cbm_wall.depth_um, 3, 1e-13);
   EXPECT_EQ(r.cbm_wall.ids, (Ids{8, 1}));
+  EXPECT_TRUE(r.center_in_static.ids.empty()) << "both centres are where they may be";
+}
+
+TEST(Audit, CentresOnTheWrongSideOfStaticMeshesAreTold) {
+  const Surface block = brick({0, 0, 0}, {50, 50, 50}), room = brick({-9, -9, -9}, {90, 90, 90});
+  const std::vector<AuditStatic> statics{{block.node, block.triangle, false},
+                                         {room.node, room.triangle, true}};
+  AuditFrame frame;
+  frame.statics = statics;
+  // The large one reaches deeper into the block, but the small one's centre is in it.
+  std::vector<AuditSphere> spheres{{7, {25, 25, 51}, 12}, {8, {25, 25, 47}, 5}};
+  frame.spheres = spheres;
+  auto r = audit(frame);
+  EXPECT_NEAR(r.center_in_static.depth_um, 3, 1e-13);
+  EXPECT_EQ(r.center_in_static.ids, (Ids{8, 0}));
+  spheres = {{7, {70, 70, 120}, 12}};  // far from any triangle, outside the room
+  frame.spheres = spheres;
+  r = audit(frame);
+  EXPECT_NEAR(r.center_in_static.depth_um, 30, 1e-13);
+  EXPECT_EQ(r.center_in_static.ids, (Ids{7, 1}));
 }
 
 /// Radius 10: sisters are born 5.2 um apart, and 4.1 um are what is left of it in radii when they

@@ -81,7 +81,7 @@ def artery(folder, rng):
     for i in range(n_node):
         bend = (math.sin(i / 60), math.cos(i / 75), 1.2)
         at = add(at, unit(bend), 1.0)
-        node.append(tuple(x + 0.1 * rng.uniform(-1, 1) for x in at))
+        node.append(tuple(x + 0.2 * rng.uniform(-1, 1) for x in at))
     node[0], node[1] = node[1], node[0]
     edge = [(0, 1), (0, 2)] + [(i, i + 1) for i in range(2, n_node - 1)]
     diameter = [21.0 + 7.2 * (i // 30) / ((n_node - 1) // 30) for i in range(n_node)]

@@ -62,6 +62,12 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   EXPECT_GT(law["a1_kPa"], 0);
   EXPECT_GE(law["wall_recess"], 0);
   EXPECT_NEAR(law["cbm"]["young_kPa"].get<double>(), 0.45, 1e-12);
+  // One inner cell of 15: told on the terminal, in the report and in the law.
+  for (const char* part : {"acinus: warning: law.json: only 1 of the cells", "--cells 59",
+                           "fit for other scenes                         no"})
+    EXPECT_TRUE(has(first, part)) << part << "\n" << first.text;
+  EXPECT_FALSE(law["warnings"].empty());
+  EXPECT_EQ(read("law.calibration/curves.json")["warnings"], law["warnings"]);
   for (const char* file : {"curves.json", "force.svg", "relaxation.svg"})
     EXPECT_TRUE(fs::exists(path(std::string("law.calibration/") + file))) << file;
 
@@ -78,7 +84,8 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
   const Outcome used = call(words);
   EXPECT_EQ(used.code, 0) << used.text;
   EXPECT_TRUE(has(used, "kPa d^4")) << used.text;
-  EXPECT_FALSE(has(used, "warning")) << used.text;
+  EXPECT_TRUE(has(used, "warning: law.json: only 1 of the cells")) << used.text;
+  EXPECT_FALSE(has(used, "the law holds for")) << used.text;
   EXPECT_EQ(summary("used")["state_hash"],
             summary("law.calibration/compression_corrected")["state_hash"]);
 
@@ -106,13 +113,19 @@ TEST_F(Calibrate, WritesALawThatScenesUseAndRunsThatCompare) {
 }
 
 TEST_F(Calibrate, GoesOnWhereItWasStopped) {
-  program::Process process(path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads",
-                                      "1", "--no-relaxation"});
+  program::Process process(
+      path(""), {"calibrate", "clump.json", "--out", "law.json", "--threads", "1", "--fresh",
+                 "--no-relaxation", "--set", "capsule.speed=3 um/h"});
   ASSERT_TRUE(process.await("skipped:"));
   process.send(SIGTERM);
   const Outcome stopped = process.wait();
   EXPECT_EQ(stopped.code, 75) << stopped.text;
   EXPECT_FALSE(fs::exists(path("law.json")));
+  EXPECT_TRUE(has(stopped,
+                  "acinus calibrate clump.json --out law.json --threads 1 "
+                  "--no-relaxation --set 'capsule.speed=3 um/h'"))
+      << stopped.text;
+  EXPECT_FALSE(has(stopped, "--resume")) << stopped.text;
   const Outcome again = calibrate({"--no-relaxation"});
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_TRUE(has(again, "resumed at")) << again.text;

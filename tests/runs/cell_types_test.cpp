@@ -7,7 +7,10 @@
 #include <cmath>
 #include <map>
 
+#include "runs/build/build_correction.hpp"
+#include "runs/build/build_params.hpp"
 #include "runs/build/build_world.hpp"
+#include "runs/build/cell_constants.hpp"
 #include "runs/build/place_cells.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -110,6 +113,37 @@ TEST(CellTypes, LobulesHaveThemToo) {
   }
   EXPECT_GT(n[0], 0);
   EXPECT_GT(n[1], 0);
+}
+
+TEST(CellTypes, SofterOnesDifferInWhatSoftensAndInNothingElse) {
+  const Scene scene = make_scene(R"("source": "clump", "count": 2)");
+  CellType type = scene.cell_types.at("large");
+  type.softening = 0.3;
+  const CellType soft = softened(type);
+  const dcm::Params before = make_dcm_params(scene, type), after = make_dcm_params(scene, soft);
+  EXPECT_DOUBLE_EQ(after.spring_stiffness, 0.3 * before.spring_stiffness);
+  EXPECT_DOUBLE_EQ(after.bending_stiffness, 0.3 * before.bending_stiffness);
+  EXPECT_DOUBLE_EQ(after.bulk_modulus, 0.3 * before.bulk_modulus);
+  EXPECT_DOUBLE_EQ(after.adhesion, 0.3 * before.adhesion);
+  EXPECT_EQ(after.area_modulus, before.area_modulus);
+  EXPECT_EQ(after.cortex_thickness, before.cortex_thickness);
+  EXPECT_EQ(after.medium_friction, before.medium_friction);
+}
+
+TEST(CellTypes, LawsDependOnTheConstantsOfEveryTerm) {
+  const Scene scene = make_scene(R"("source": "clump", "count": 2)");
+  const CellType& type = scene.cell_types.at("large");
+  const LawParameters whole = law_parameters(scene, type);
+  EXPECT_EQ(whole.dcm.size(), 10u);
+  for (double DcmBlock::*value : {&DcmBlock::cortex_young, &DcmBlock::cortex_poisson,
+                                  static_cast<double DcmBlock::*>(&DcmBlock::cortex_thickness),
+                                  static_cast<double DcmBlock::*>(&DcmBlock::area_modulus),
+                                  static_cast<double DcmBlock::*>(&DcmBlock::local_area_modulus),
+                                  static_cast<double DcmBlock::*>(&DcmBlock::bulk_modulus)}) {
+    CellType other = type;
+    other.dcm.*value += 0.01;
+    EXPECT_NE(law_parameters(scene, other).dcm, whole.dcm);
+  }
 }
 
 }  // namespace

@@ -26,19 +26,43 @@ def draw(frame, out, *options):
     return subprocess.run(command, stderr=subprocess.PIPE, text=True)
 
 
+
+def pixels_of(out):
+    """[row][column][colour]"""
+    reader = vtkPNGReader()
+    reader.SetFileName(out)
+    reader.Update()
+    assert reader.GetOutput().GetDimensions()[:2] == (320, 240)
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(240, 320, -1)
+
+
 for frame, options in (("0", []), ("last", ["--clip", "y", "--camera", "side"]),
                        ("3", ["--color", "kind"]), ("2", ["--camera", "top", "--color", "force"])):
     out = os.path.join(sample, f"frame_{frame}.png")
     done = draw(frame, out, *options)
     assert done.returncode == 0, done.stderr
-    reader = vtkPNGReader()
-    reader.SetFileName(out)
-    reader.Update()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    assert reader.GetOutput().GetDimensions()[:2] == (320, 240)
-    spread = pixels.astype(float).std()
+    spread = pixels_of(out).astype(float).std()
     print(f"frame {frame}: standard deviation of the pixels {spread:.1f}")
     assert spread > 5, f"frame {frame} looks empty"
+
+# However near the camera comes, no cell stands where the colour bar is.
+strips, pictures = [], []
+for zoom in ("0.5", "3"):
+    out = os.path.join(sample, "zoomed.png")
+    done = draw("2", out, "--camera", "side", "--zoom", zoom)
+    assert done.returncode == 0, done.stderr
+    pictures.append(pixels_of(out))
+    strips.append(pictures[-1][:, int(0.85 * 320):])
+assert (pictures[0] != pictures[1]).any() and strips[0].std() > 5
+assert (strips[0] == strips[1]).all(), "the cells reach into the colour bar"
+
+# Zero is white in a range that is not symmetric, and values as far from it are as strong.
+sys.path.insert(0, os.path.dirname(script))
+from render import color_table  # noqa: E402
+uneven, even = color_table(-1, 3), color_table(-3, 3)
+for value in (-1, -0.5, 0, 1, 2.9):
+    assert max(abs(a - b) for a, b in zip(uneven.GetColor(value), even.GetColor(value))) < 1e-3  # a byte is 4e-3
+assert min(uneven.GetColor(0)) > 0.9 and tuple(uneven.GetRange()) == (-1, 3)
 
 for frame, options, part in (("99", [], "no frame 99"), ("x", [], "must be a number"),
                              ("0", ["--color", "none"], "has no such field")):

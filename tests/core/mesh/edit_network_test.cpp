@@ -122,6 +122,18 @@ TEST(ResampleNetwork, MergesShortSegmentsAndKeepsTheTaper) {
   EXPECT_EQ(anchors(out), anchors(chain));
 }
 
+TEST(ResampleNetwork, JudgesByTheRadiusThatIsKept) {
+  Network chain;
+  for (const double x : {0.0, 0.45, 0.66, 5.66, 10.66}) chain.node.push_back(Vec3(x, 0, 0));
+  chain.segment = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+  // The mean over the first two is 1.32, but with no end below 1 the merged segment has 1.66.
+  chain.radius = {{1, 1}, {1, 3}, {3, 3}, {3, 3}};
+  const Network out = resample_network(chain);
+  ASSERT_EQ(out.segment.size(), 2u);
+  for (std::size_t s = 0; s < out.segment.size(); ++s)
+    EXPECT_GE(length_of(out, s), mean_radius(out, s) / 2);
+}
+
 TEST(ResampleNetwork, KeepsBranchPointsAndShortBranches) {
   Network network = make_chain(20, 0.2, 2);
   network.node.push_back(Vec3(2, 0.3, 0));  // a twig shorter than r / 2 at node 10

@@ -1,0 +1,53 @@
+/// Which frames a run must not go on from.
+
+#include "runs/session/soundness.hpp"
+
+#include <gtest/gtest.h>
+
+#include "runs/build/build_world.hpp"
+#include "runs/experiments/snapshot.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/session/frame.hpp"
+#include "tests/reference/brick.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// What is found about one sphere of 12 um at the origin beside a closed mesh.
+Excess find_at(mesh::Surface surface, bool inside) {
+  const Scene scene = parse_scene(R"({
+  "time": {"end": "1 h"}, "motility": {"random": false},
+  "cells": {"source": "list", "model": "cbm", "list": [{"position": ["0 um", "0 um", "0 um"]}]}
+})",
+                                  "scene.json");
+  coupling::World world = build_world(scene, Ranks::serial()).world;
+  world.params.boundary.meshes.push_back(
+      contact::make_static_mesh("rock", std::move(surface), inside));
+  coupling::Workspace work;
+  coupling::size_workspace(world, work);
+  const Snapshot snapshot = take_snapshot(world, work);
+  return find_excess(audit_world(world, work, snapshot), world, work);
+}
+
+TEST(Soundness, ASphereMayLeanOnAStaticMesh) {
+  EXPECT_EQ(find_at(reference::brick({-100, -100, -100}, {100, 100, -3}), false).depth_um, 0);
+  EXPECT_EQ(find_at(reference::brick({-100, -100, -3}, {100, 100, 100}), true).depth_um, 0);
+}
+
+TEST(Soundness, ASphereInsideAStaticMeshIsLost) {
+  const Excess near = find_at(reference::brick({-100, -100, -100}, {100, 100, 2}), false);
+  EXPECT_NEAR(near.depth_um, 2, 1e-12);
+  EXPECT_EQ(near.cause, "CBM cell 0 has its centre 2 um inside static mesh rock");
+  EXPECT_EQ(near.cells, std::vector<std::int64_t>{0});
+  const Excess deep = find_at(reference::brick({-100, -100, -100}, {100, 100, 100}), false);
+  EXPECT_NEAR(deep.depth_um, 100, 1e-12) << "farther from any triangle than contact looks";
+}
+
+TEST(Soundness, ASphereOutsideTheMeshItLivesInIsLost) {
+  const Excess out = find_at(reference::brick({-100, -100, 40}, {100, 100, 100}), true);
+  EXPECT_NEAR(out.depth_um, 40, 1e-12);
+  EXPECT_EQ(out.cause, "CBM cell 0 has its centre 40 um outside static mesh rock");
+}
+
+}  // namespace
+}  // namespace acinus::runs
