@@ -228,10 +228,9 @@ void Inspection::inspect_overlaps() {
 void Inspection::inspect_spheres() {
   for (const coupling::AuditSphere& s : spheres_) {
     double gap = std::numeric_limits<double>::infinity();
-    for (const contact::Plane& p : boundary_.planes)
-      gap = std::min(gap, contact::gap_to_plane(p, s.center, time()).gap);
-    for (const contact::Capsule& c : boundary_.capsules)
-      gap = std::min(gap, contact::gap_to_capsule(c, s.center, time()).gap);
+    contact::for_each_wall(boundary_, [&](auto, auto, const auto& wall) {
+      gap = std::min(gap, contact::gap_to_wall(wall, s.center, time()).gap);
+    });
     for (std::size_t k = 0; k < boundary_.vessels.network.segment.size(); ++k)
       gap = std::min(
           gap,

@@ -110,8 +110,7 @@ std::vector<std::string> wall_names(const contact::Boundary& boundary) {
     if (std::ranges::find(names, name_in_columns(name)) == names.end())
       names.push_back(name_in_columns(name));
   };
-  for (const contact::Plane& p : boundary.planes) add(p.name);
-  for (const contact::Capsule& c : boundary.capsules) add(c.name);
+  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) { add(wall.name); });
   for (const contact::StaticMesh& b : boundary.meshes) add(b.name);
   return names;
 }
