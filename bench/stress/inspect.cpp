@@ -192,17 +192,12 @@ void Inspection::inspect_overlaps() {
   const double deepest = deepest_overlap();
   std::vector<coupling::AuditMesh> meshes;
   for (const Mesh& m : meshes_) meshes.push_back({m.id, m.node, m.triangle});
-  std::vector<coupling::AuditPlane> planes;
-  for (const contact::Plane& p : boundary_.planes) planes.push_back({p.point_at(time()), p.normal});
-  std::vector<coupling::AuditCapsule> capsules;
-  for (const contact::Capsule& c : boundary_.capsules)
-    capsules.push_back({c.center, c.radius_at(time())});
+  const std::vector<coupling::AuditWall> walls = coupling::make_audit_walls(boundary_, time());
   coupling::AuditFrame seen;
   seen.meshes = meshes;
   seen.spheres = spheres_;
   seen.vessels = &boundary_.vessels.network;
-  seen.planes = planes;
-  seen.capsules = capsules;
+  seen.walls = walls;
   const coupling::AuditResult audit = coupling::audit(seen);
   if (audit.n_self_intersecting > 0)
     add(Defect::kCrossed, fmt::format("{} cells cross themselves", audit.n_self_intersecting));
