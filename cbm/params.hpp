@@ -21,6 +21,12 @@ struct Params {
   StiffnessLaw correction;
 };
 
+/// Constants of a sphere in lysis: adhesion times a factor.
+inline Params soften(Params p, double factor) {
+  p.adhesion *= factor;
+  return p;
+}
+
 /// Young's modulus that matches a deformable cell's bulk modulus, E = 3 K_V (1 - 2 nu), kPa.
 /// [VanLiedekerke2020, section 2.3, whose printed form is inverted: this one gives Table 1's 450
 /// Pa]

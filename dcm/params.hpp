@@ -23,6 +23,13 @@ struct Params {
   double cortex_thickness = 0;    ///< um; rims of daughters are rounded to it
 };
 
+/// Constants of a cell in lysis: what keeps it in shape and makes it adhere, times a factor.
+inline Params soften(Params p, double factor) {
+  for (double* value : {&p.spring_stiffness, &p.bending_stiffness, &p.bulk_modulus, &p.adhesion})
+    *value *= factor;
+  return p;
+}
+
 /// Cortex spring constant of a triangular spring net, k_s = (sqrt 3 / 2) E h.
 /// [VanLiedekerke2020, Eq. (7), inverted there: a net with constant k has the 2D modulus (2/sqrt 3)
 /// k]

@@ -42,14 +42,8 @@ void build_life(const Scene& scene, coupling::Params& p, std::vector<std::string
     const double soft = type.softening;
     if (death.lysis && soft < 1) {
       death.type = static_cast<int>(p.dcm.size());
-      dcm::Params shell = p.dcm[k];
-      for (double* value : {&shell.spring_stiffness, &shell.bending_stiffness, &shell.bulk_modulus,
-                            &shell.adhesion})
-        *value *= soft;
-      cbm::Params sphere = p.cbm[k];
-      sphere.adhesion *= soft;
-      p.dcm.push_back(shell);
-      p.cbm.push_back(sphere);
+      p.dcm.push_back(dcm::soften(p.dcm[k], soft));
+      p.cbm.push_back(cbm::soften(p.cbm[k], soft));
       p.life.type.push_back({});
       type_names.push_back(name + " (dissolving)");
     }
