@@ -88,10 +88,9 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
       count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
                     cells.strength_of(i));
     };
-    for (const contact::Plane& p : in.boundary.planes)
-      count(contact::gap_to_plane(p, center_of(s, i), in.time).gap);
-    for (const contact::Capsule& c : in.boundary.capsules)
-      count(contact::gap_to_capsule(c, center_of(s, i), in.time).gap);
+    contact::for_each_wall(in.boundary, [&](auto, auto, const auto& wall) {
+      count(contact::gap_to_wall(wall, center_of(s, i), in.time).gap);
+    });
   }
 }
 
@@ -100,7 +99,9 @@ double largest_separation(const State& s, std::span<const Params> params,
   if (s.n_cell() == 0) return 0;
   double adhesion = boundary.vessels.material.adhesion;
   for (const Params& p : params) adhesion = std::max(adhesion, p.adhesion);
-  for (const auto& p : boundary.planes) adhesion = std::max(adhesion, p.material.adhesion);
+  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
+    adhesion = std::max(adhesion, wall.material.adhesion);
+  });
   for (const auto& m : boundary.meshes) adhesion = std::max(adhesion, m.material.adhesion);
   if (adhesion <= 0) return 0;
   double softest = *std::ranges::min_element(s.young);

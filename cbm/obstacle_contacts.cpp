@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/mesh/measures.hpp"
 
 namespace acinus::cbm {
@@ -17,18 +16,9 @@ bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
 
-/// Kinds of obstacles: Partner names them before the cells.
-constexpr int kObstacleKinds =
-    std::min(static_cast<int>(Partner::kSurface), static_cast<int>(Partner::kSphere));
-static_assert(static_cast<int>(Partner::kPlane) < kObstacleKinds &&
-              static_cast<int>(Partner::kCapsule) < kObstacleKinds &&
-              static_cast<int>(Partner::kVessel) < kObstacleKinds &&
-              static_cast<int>(Partner::kMesh) < kObstacleKinds);
-
 /// A key for a part of the boundary that cannot be a cell number.
 int boundary_key(Partner kind, int index) {
-  ACINUS_ASSERT(static_cast<int>(kind) < kObstacleKinds);
-  return ~(index * kObstacleKinds + static_cast<int>(kind));
+  return ~(index * contact::kObstacleKinds + static_cast<int>(kind));
 }
 
 /// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact
@@ -49,13 +39,11 @@ class ObstacleSearch {
 
   void run() {
     const contact::Boundary& boundary = in_.boundary;
-    if (boundary.planes.empty() && boundary.capsules.empty() && boundary.meshes.empty() &&
-        work_.segment.empty())
-      return;
+    if (boundary.empty()) return;
     for (std::size_t i = 0; i < in_.state.n_cell(); ++i) {
       const Vec3 x = center_of(in_.state, i);
-      for (std::size_t k = 0; k < boundary.planes.size(); ++k) meet_plane(i, k, x);
-      for (std::size_t k = 0; k < boundary.capsules.size(); ++k) meet_capsule(i, k, x);
+      contact::for_each_wall(
+          boundary, [&](Partner kind, int k, const auto& wall) { meet_wall(kind, i, k, wall, x); });
       for (std::size_t k = 0; k < boundary.meshes.size(); ++k) meet_mesh(i, k, x);
     }
     for (auto [cell, segment] : work_.segment) meet_vessel(cell, segment);
@@ -111,7 +99,7 @@ class ObstacleSearch {
     add(k, law, params_of(i).vessel_friction, slope);
   }
 
-  void meet_wall(const Contact& k, const contact::Material& material, double shape) {
+  void meet_face(const Contact& k, const contact::Material& material, double shape) {
     const std::size_t i = k.a;
     const WallFace face =
         wall_face(params_of(i).correction, in_.state.young[i], work_.modulus[i].value);
@@ -135,26 +123,20 @@ class ObstacleSearch {
             .gap = -(radius(i) - gap)};
   }
 
-  void meet_plane(std::size_t i, std::size_t index, const Vec3& x) {
-    const contact::Plane& p = in_.boundary.planes[index];
-    const contact::Gap g = contact::gap_to_plane(p, x, in_.time);
-    const Contact k = contact_with(Partner::kPlane, i, static_cast<int>(index), g.gap, g.normal);
-    if (!p.material.mirror) {
-      meet_wall(k, p.material, contact::kFlat);
+  template <class Wall>
+  void meet_wall(Partner kind, std::size_t i, int index, const Wall& wall, const Vec3& x) {
+    const double shape = contact::shape_radius(wall, in_.time);
+    if (shape < 0 && -shape <= radius(i)) return;  // a hollow that the sphere does not fit in
+    const contact::Gap g = contact::gap_to_wall(wall, x, in_.time);
+    if (!std::isfinite(g.gap)) return;  // it is gone
+    const Contact k = contact_with(kind, i, index, g.gap, g.normal);
+    if (!wall.material.mirror) {
+      meet_face(k, wall.material, shape);
       return;
     }
     const double share = in_.cells.strength_of(i);
     if (g.gap >= radius(i) || share <= 0) return;
     add(k, weaken(contact::mirror_wall_force(body(i), g.gap), share), 0, 1);
-  }
-
-  void meet_capsule(std::size_t i, std::size_t index, const Vec3& x) {
-    const contact::Capsule& shell = in_.boundary.capsules[index];
-    const double r = shell.radius_at(in_.time);
-    if (r <= radius(i) || !std::isfinite(r)) return;
-    const contact::Gap g = contact::gap_to_capsule(shell, x, in_.time);
-    meet_wall(contact_with(Partner::kCapsule, i, static_cast<int>(index), g.gap, g.normal),
-              shell.material, -r);
   }
 
   void meet_mesh(std::size_t i, std::size_t index, const Vec3& x) {

@@ -21,11 +21,9 @@ constexpr double kFirstFreeStep = 0.1;
 /// The next moment after `time` at which a wall or a capsule opens, s; infinite if none does.
 double next_opening(const contact::Boundary& boundary, double time) {
   double next = kNever;
-  const auto look = [&](double opens) {
-    if (opens > time + kSameTime) next = std::min(next, opens);
-  };
-  for (const contact::Plane& p : boundary.planes) look(p.opens);
-  for (const contact::Capsule& c : boundary.capsules) look(c.opens);
+  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
+    if (wall.opens > time + kSameTime) next = std::min(next, wall.opens);
+  });
   return next;
 }
 

@@ -170,7 +170,7 @@ class VesselSearch {
   VesselScratch& scratch_;
 };
 
-/// Appends the contacts of one body with planes, capsules and vessels.
+/// Appends the contacts of one body with walls and vessels.
 void find_obstacle_contacts(const ContactInput& in, int number, double range,
                             ContactWorkspace& work) {
   const contact::SurfaceBody& b = work.body[number];
@@ -181,7 +181,7 @@ void find_obstacle_contacts(const ContactInput& in, int number, double range,
   const int n_point = static_cast<int>(contact::n_points(b, c.quadrature));
   const Vec3 middle = 0.5 * (b.box.low + b.box.high);
   const double half = 0.5 * (b.box.high - b.box.low).norm();
-  auto probe = [&](Partner kind, std::size_t index, auto gap_of) {
+  auto probe = [&](Partner kind, int index, auto gap_of) {
     if (gap_of(middle).gap - half >= range) return;
     for (int p = 0; p < n_point; ++p) {
       const contact::Gap g =
@@ -189,19 +189,16 @@ void find_obstacle_contacts(const ContactInput& in, int number, double range,
       if (g.gap < range)
         out.push_back({.a = number,
                        .point = p,
-                       .b = static_cast<int>(index),
+                       .b = index,
                        .partner = kind,
                        .stiffness = c.repulsion,
                        .normal = g.normal,
                        .gap = g.gap});
     }
   };
-  for (std::size_t i = 0; i < boundary.planes.size(); ++i)
-    probe(Partner::kPlane, i,
-          [&](const Vec3& x) { return contact::gap_to_plane(boundary.planes[i], x, in.time); });
-  for (std::size_t i = 0; i < boundary.capsules.size(); ++i)
-    probe(Partner::kCapsule, i,
-          [&](const Vec3& x) { return contact::gap_to_capsule(boundary.capsules[i], x, in.time); });
+  contact::for_each_wall(boundary, [&](Partner kind, int index, const auto& wall) {
+    probe(kind, index, [&](const Vec3& x) { return contact::gap_to_wall(wall, x, in.time); });
+  });
   if (list.site.empty()) return;
   thread_local VesselScratch scratch;
   VesselSearch(b, number, c, range, list, boundary.vessels, scratch).find();

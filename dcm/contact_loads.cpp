@@ -11,23 +11,6 @@ namespace {
 
 using contact::Contact, contact::Partner;
 
-const contact::Material& material_of(const contact::Boundary& boundary, Partner kind, int index) {
-  const std::size_t i = index;
-  switch (kind) {
-    case Partner::kPlane:
-      return boundary.planes[i].material;
-    case Partner::kCapsule:
-      return boundary.capsules[i].material;
-    case Partner::kMesh:
-      return boundary.meshes[i].material;
-    case Partner::kVessel:
-    case Partner::kSurface:
-    case Partner::kSphere:
-      break;
-  }
-  return boundary.vessels.material;
-}
-
 /// Share of its area with which a point rubs on a partner at this gap.
 double touching_share(const ContactParams& c, const ContactWorkspace& work, int body, int point,
                       double gap) {
@@ -85,7 +68,7 @@ struct Completion {
     const double whole = area(k.a, k.point);
     const double share = touching_share(in.options, work, k.a, k.point, k.gap);
     k.touching = whole * share;
-    const contact::Material& m = material_of(in.boundary, k.partner, k.b);
+    const contact::Material& m = contact::material_of(in.boundary, k.partner, k.b);
     const double stiffness = k.partner == Partner::kMesh ? in.options.repulsion : k.stiffness;
     return {whole, cohesive(k.a, m.adhesion, stiffness),
             m.mirror ? 0 : share * params_of(k.a).vessel_friction, k.gap};

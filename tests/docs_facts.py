@@ -36,6 +36,8 @@ class Facts:
         self.top_path = re.compile(rf"(?<![\w./<>~*-])(?:{top})/[\w./*<>{{}}$-]*" if top else r"(?!)")
         sources = [read(os.path.join(root, p)) for p in sorted(self.files) if p.endswith(SOURCE_ENDINGS)]
         self.literals = "\n".join("\n".join(LITERAL.findall(text)) for text in sources)
+        code = sources + [read(os.path.join(root, p)) for p in sorted(self.files) if p.endswith((".txt", ".json"))]
+        self.words = {word for text in code for word in re.findall(r"\w+", text)}
         session = [p for p in self.files if p.startswith("runs/session/") and p.endswith(".cpp")]
         self.summary = {word for p in session for word in LITERAL.findall(read(os.path.join(root, p)))}
         self.scenes, self.studies = self.stems("runs/scenes"), self.stems("runs/studies")

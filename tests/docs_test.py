@@ -2,10 +2,10 @@
 
 usage: docs_test.py ROOT [ACINUS [ACINUS_BENCH]]
 
-Looked up: links and their anchors, files and folders, shipped scenes and studies, ctest names and labels, presets of
-CMake and, with the programs, commands, their options, benchmarks and scene keys. CHANGELOG.md tells the past and may
-name what is gone. The rules are first tried on a temporary tree that breaks each of them once; then ROOT is looked
-at. Prints file:line and what is wrong; exit code 1 if anything is.
+Looked up: links and their anchors, files and folders, names of code on pages about it, shipped scenes and studies, ctest
+names and labels, presets of CMake and, with the programs, commands, their options, benchmarks and scene keys. CHANGELOG.md
+tells the past and may name what is gone. The rules are first tried on a temporary tree that breaks each of them once
+(docs_planted.py); then ROOT is looked at. Prints file:line and what is wrong; exit code 1 if anything is.
 """
 
 import json
@@ -17,12 +17,15 @@ import tempfile
 
 sys.dont_write_bytecode = True  # nothing is written into the source tree
 from docs_facts import FILE_NAME, SKIPPED, SOURCE_ENDINGS, Facts, read
+from docs_planted import FAKE_PROGRAM, TREE, WRONG
 
 FOLDER = re.compile(r"(?:[\w.-]+/)+")
 SPAN = re.compile(r"(`+)(.+?)\1")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 PLACEHOLDER = re.compile(r"[A-Z][A-Z_.=]*$|.*[<>{}$]")
 OURS = re.compile(r"(?:^|\s)(?:\S*/)?acinus(?:\.sh|-bench)?(?:\s|$)")
+IDENTIFIER = re.compile(r"[A-Z][a-z]\w*|[a-z]\w*_\w*[a-z]|k[A-Z]\w+")
+ABOUT_CODE = re.compile(r".+/README\.md|docs/howto/.*|docs/architecture\.md")
 DOTTED = re.compile(r"\.?[a-z_]+(?:\.(?:[a-z_]+|<\w+>|\*|[0-9]+))+|\.[a-z_]+")
 JSON_TOKEN = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.S)
 
@@ -155,6 +158,9 @@ class Page:
             yield from self.check_settings(span.split())
         elif os.path.basename(word) in ("acinus", "acinus.sh", "acinus-bench", "ctest", "cmake"):
             yield from self.check_commands(span)
+        elif IDENTIFIER.fullmatch(span) and ABOUT_CODE.fullmatch(self.path):
+            if span not in facts.words and span not in facts.names:
+                yield f"{span}: no source has this name"
         elif facts.program and DOTTED.fullmatch(word) and not FILE_NAME.fullmatch(word):
             yield from self.check_key(word, last_key)
 
@@ -268,96 +274,11 @@ def check_tree(facts):
     return [f"{path}:{line}: {message}" for path in facts.pages for line, message in Page(facts, path).check()]
 
 
-FAKE_PROGRAM = r'''#!{python}
-import sys
-words = sys.argv[1:]
-scene = {{"properties": {{"time": {{"properties": {{"end": {{}}}}, "additionalProperties": False}},
-                         "walls": {{"items": {{"properties": {{"opens": {{}}}}}}}}, "cells": {{}}}},
-         "additionalProperties": False}}
-if words == ["bench"]:
-    print("fast")
-elif words[0] == "schema":
-    import json
-    print(json.dumps({{"properties": {{"scene": {{}}}}}} if "--study" in words else scene))
-elif words[0] == "explain":
-    print("study.sweep.key  none" if words[1:] == ["study"] else "time.end  1 h\nwall.opens  auto")
-elif words == ["--help"]:
-    print("Options:\n  --quiet  less\nSubcommands:\n  run    a scene\n  study  a study\n  bench  measure")
-else:
-    print("Options:\n  -h,--help  help\n  --out DIR  folder\n  --set PATH=VALUE  change\n  --quiet    less")
-'''
-
-RIGHT = r"""# Top
-
-[a](docs/a.md) [b](docs/a.md#some-words-twice-1) [c](#top) [d](https://x.y/z.md)
-
-See `core/x.hpp`, core/x, `docs/*.md`, `core/`, `x.hpp`, `out.csv`, `plots/` and `runs/<name>/y.json`.
-The scene `clump`, the study `grow`, the test `golden_b`, label `slow`, `--quiet`, key `end`, `cells.dead`.
-`time.end`, `wall.opens`, `walls.opens`, `walls.0.opens`, `time.*`, `time.end=3 h`, `h5py.File`, `.end`.
-`acinus run clump --set time.end=1 --out x.run`, `acinus bench fast`, `ctest -L slow`, `cmake --preset dev`.
-
-    ./acinus.sh run clump --quiet && ./acinus.sh test -R golden_a  # --no-such is said here
-    tool --foreign x | acinus study grow \
-      --out y
-
-So `--foreign` is known.
-
-    { "time": { "end": "1 h" },  // no "ned"
-      "cells": {} }
-"""
-
-WRONG = [  # one line each, with a part of what is to be said about it
-    ("[a](docs/b.md)", "no such file"),
-    ("[a](docs/a.md#no-words)", "no such heading"),
-    ("[a](#no-top)", "no such heading"),
-    ("`core/y.hpp`", "no such file"),
-    ("see core/y for it", "no such file"),
-    ("`docs/*.txt`", "no such file"),
-    ("`y.hpp`", "no source writes one"),
-    ("`gone/`", "no such folder"),
-    ("`gone/y.cpp`", "no such file"),
-    ("| gone/ | job |", "no such folder"),
-    ("the scene `lump`", "no such scene"),
-    ("the study `clump`", "no such study"),
-    ("the test `golden_c`", "no such test"),
-    ("label `fast`", "no such label"),
-    ("the key `ned`", "no such key"),
-    ("`--loud`", "no program has"),
-    ("`time.ned`", "no such scene key"),
-    ("`wall.shuts`", "no such scene key"),
-    ("`walls.0.1.opens`", "no such scene key"),
-    ("`acinus walk`", "no such command"),
-    ("`acinus run lump`", "no such scene ships"),
-    ("`acinus study clump`", "no such study ships"),
-    ("`acinus run clump --loud`", "no such option"),
-    ("`acinus run clump --set time.ned=1`", "no such scene key"),
-    ("`acinus bench slow`", "no such benchmark"),
-    ("`ctest -L fast`", "no test has"),
-    ("`ctest -R golden_c`", "no such test"),
-    ("`cmake --preset fast`", "preset fast"),
-    ('\n    { "time": { "ned": "1 h" }, "cells": {} }\n', "/time/ned: no such key"),
-    ("\n    tool x \\\n      | acinus walk\n", "no such command"),
-]
-
-TREE = {
-    "core/x.hpp": 'const char* name = "out.csv"; auto folder = root + "/plots";\n',
-    "docs/a.md": "# Some words\n\n## Some words twice\n\n## Some words twice\n",
-    "runs/scenes/clump.json": "{}",
-    "runs/studies/grow.json": "{}",
-    "runs/session/summary.cpp": 'j["cells"] = {"dead", 1};\n',
-    "CMakePresets.json": '{"configurePresets": [{"name": "dev"}]}',
-    "tests/CMakeLists.txt": "foreach(case a b)\n  add_test(NAME golden_${case} COMMAND x)\nendforeach()\n"
-                            "set_tests_properties(golden_a PROPERTIES LABELS slow)\n",
-    "acinus.sh": "case $1 in\n  test) ;;\nesac\n",
-    "CHANGELOG.md": "`core/gone.hpp`\n",
-    "build/gone.md": "`core/gone.hpp`\n",
-    "right.md": RIGHT,
-}
-
-
 def test_rules():
     """What is right must pass, each violation must be found; returns what went wrong."""
-    files = TREE | {f"wrong_{k:02}.md": f"# Top\n\n{line}\n" for k, (line, _) in enumerate(WRONG)}
+    place = {"no source has": "docs/howto/"}  # a page about code
+    pages = [f"{place.get(said, '')}wrong_{k:02}.md" for k, (_, said) in enumerate(WRONG)]
+    files = TREE | {page: f"# Top\n\n{line}\n" for page, (line, _) in zip(pages, WRONG)}
     with tempfile.TemporaryDirectory() as root:
         for path, content in files.items():
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
@@ -368,9 +289,9 @@ def test_rules():
             file.write(FAKE_PROGRAM.format(python=sys.executable))
         os.chmod(program, 0o755)
         findings = check_tree(Facts(root, program, program))
-    wrong = [f"self-test: found without cause: {f}" for f in findings if not f.startswith("wrong_")]
-    for k, (line, said) in enumerate(WRONG):
-        found = [f for f in findings if f.startswith(f"wrong_{k:02}.md:")]
+    wrong = [f"self-test: found without cause: {f}" for f in findings if "wrong_" not in f]
+    for page, (line, said) in zip(pages, WRONG):
+        found = [f for f in findings if f.startswith(f"{page}:")]
         if not any(said in f for f in found):
             wrong.append(f"self-test: not found: {line.strip()}")
         wrong += [f"self-test: found besides: {f}" for f in found if said not in f]

@@ -193,17 +193,12 @@ void Inspection::inspect_overlaps() {
   const double deepest = deepest_overlap();
   std::vector<coupling::AuditMesh> meshes;
   for (const Mesh& m : meshes_) meshes.push_back({m.id, m.node, m.triangle});
-  std::vector<coupling::AuditPlane> planes;
-  for (const contact::Plane& p : boundary_.planes) planes.push_back({p.point_at(time()), p.normal});
-  std::vector<coupling::AuditCapsule> capsules;
-  for (const contact::Capsule& c : boundary_.capsules)
-    capsules.push_back({c.center, c.radius_at(time())});
+  const std::vector<coupling::AuditWall> walls = coupling::make_audit_walls(boundary_, time());
   coupling::AuditFrame seen;
   seen.meshes = meshes;
   seen.spheres = spheres_;
   seen.vessels = &boundary_.vessels.network;
-  seen.planes = planes;
-  seen.capsules = capsules;
+  seen.walls = walls;
   const coupling::AuditResult audit = coupling::audit(seen);
   if (audit.n_self_intersecting > 0)
     add(Defect::kCrossed, fmt::format("{} cells cross themselves", audit.n_self_intersecting));
@@ -229,10 +224,9 @@ void Inspection::inspect_overlaps() {
 void Inspection::inspect_spheres() {
   for (const coupling::AuditSphere& s : spheres_) {
     double gap = std::numeric_limits<double>::infinity();
-    for (const contact::Plane& p : boundary_.planes)
-      gap = std::min(gap, contact::gap_to_plane(p, s.center, time()).gap);
-    for (const contact::Capsule& c : boundary_.capsules)
-      gap = std::min(gap, contact::gap_to_capsule(c, s.center, time()).gap);
+    contact::for_each_wall(boundary_, [&](auto, auto, const auto& wall) {
+      gap = std::min(gap, contact::gap_to_wall(wall, s.center, time()).gap);
+    });
     for (std::size_t k = 0; k < boundary_.vessels.network.segment.size(); ++k)
       gap = std::min(
           gap,

@@ -27,7 +27,7 @@ inline constexpr double kMostDivisionChange = 1.5;
 /// - tunnelled: a deformable cell, newborn or not, deeper in a cell, wall or vessel than contact
 ///   points look: nothing drives such an overlap apart any more. Spheres overlap by their law;
 ///   between a sphere and its neighbour the limit is the sphere's centre, beyond which the force no
-///   longer separates them. Sisters start in each other (coupling/audit.hpp).
+///   longer separates them. Sisters start in each other (coupling/measure/audit.hpp).
 /// - volume: of a deformable cell, see kLeastVolume, next to its rest volume of that time; and
 ///   rest volumes that growth or lysis cannot have made (pedigree.hpp).
 /// - lost: a centre farther from where its founder started than all active forces together could

@@ -1,10 +1,14 @@
 #include "core/contact/boundary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/contact/hertz.hpp"
+#include "core/error.hpp"
 #include "core/mesh/closest_point.hpp"
 #include "core/time_grid.hpp"
 
@@ -28,6 +32,12 @@ double Capsule::radius_at(double time) const {
   return std::max(min_radius, radius - speed * std::max(time, 0.0));
 }
 
+bool Boundary::empty() const {
+  bool none = vessels.network.segment.empty() && meshes.empty();
+  for_each_wall(*this, [&](auto, auto, const auto&) { none = false; });
+  return none;
+}
+
 void set_network(Vessels& v, mesh::Network network) {
   v.network = std::move(network);
   v.segments_of_node.assign(v.network.node.size(), {});
@@ -48,15 +58,46 @@ StaticMesh make_static_mesh(std::string name, mesh::Surface surface, bool inside
   return m;
 }
 
-Gap gap_to_plane(const Plane& p, const Vec3& x, double time) {
+const Material& material_of(const Boundary& boundary, Partner obstacle, int index) {
+  const std::size_t mesh = index;
+  if (obstacle == Partner::kVessel) return boundary.vessels.material;
+  if (obstacle == Partner::kMesh) return boundary.meshes[mesh].material;
+  const Material* found = nullptr;
+  for_each_wall(boundary, [&](Partner kind, int i, const auto& wall) {
+    if (kind == obstacle && i == index) found = &wall.material;
+  });
+  ACINUS_ASSERT(found != nullptr);
+  return *found;
+}
+
+Gap gap_to_wall(const Plane& p, const Vec3& x, double time) {
   return {(x - p.point_at(time)).dot(p.normal), p.normal, 0, 0, 0};
 }
 
-Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time) {
+Gap gap_to_wall(const Capsule& c, const Vec3& x, double time) {
   const Vec3 d = x - c.center;
   const double r = d.norm();
   return {c.radius_at(time) - r, r > 0 ? Vec3(-d / r) : Vec3::UnitZ(), 0, 0, 0};
 }
+
+double shape_radius(const Plane&, double) { return kFlat; }
+
+double shape_radius(const Capsule& c, double time) { return -c.radius_at(time); }
+
+void stop_wall(Plane& p, double time) {
+  p.point = p.point_at(time);  // far away if it is gone
+  p.opens = Plane{}.opens;
+  p.speed = 0;
+}
+
+void stop_wall(Capsule& c, double time) {
+  c.radius = c.radius_at(time);
+  c.speed = 0;  // and one that is open has an infinite radius
+}
+
+std::string wall_label(const Plane& p) { return fmt::format("wall \"{}\"", p.name); }
+
+std::string wall_label(const Capsule& c) { return "the wall of the " + c.name; }
 
 // Brute force over near triangles.
 Gap gap_to_mesh(const SurfaceBody& b, const Vec3& x, double reach) {

@@ -24,6 +24,10 @@ struct Material {
   bool mirror = false;  ///< stands for an equal cell on the other side: no adhesion, no friction
 };
 
+// Walls: obstacles given by a formula, that have a name and may move and vanish. A kind of wall is
+// a struct with name, material and opens, a Partner, its line in for_each_wall and one of each of
+// the functions below; all that meets walls goes through these.
+
 /// Cells stay where (x - point).normal >= 0. It may move along its normal and, in the end, vanish.
 struct Plane {
   std::string name;
@@ -68,10 +72,20 @@ struct Boundary {
   std::vector<Capsule> capsules;
   Vessels vessels;
   std::vector<StaticMesh> meshes;
-  bool empty() const {
-    return planes.empty() && capsules.empty() && vessels.network.segment.empty() && meshes.empty();
-  }
+  bool empty() const;
 };
+
+/// Calls visit(partner, index, wall) for every wall, kind by kind.
+template <class AnyBoundary, class Visit>
+void for_each_wall(AnyBoundary& boundary, Visit visit) {
+  const auto each = [&](Partner kind, auto& walls) {
+    for (std::size_t i = 0; i < walls.size(); ++i) visit(kind, static_cast<int>(i), walls[i]);
+  };
+  each(Partner::kPlane, boundary.planes);
+  each(Partner::kCapsule, boundary.capsules);
+}
+
+const Material& material_of(const Boundary& boundary, Partner obstacle, int index);
 
 /// @param surface  closed, outward
 /// @param inside   cells live inside it
@@ -87,8 +101,21 @@ struct Gap {
   double radius = 0;            ///< vessels: um, radius at the closest point
   double parameter = 0;         ///< vessels: 0..1 along the segment
 };
-Gap gap_to_plane(const Plane& p, const Vec3& x, double time);
-Gap gap_to_capsule(const Capsule& c, const Vec3& x, double time);
+Gap gap_to_wall(const Plane& p, const Vec3& x, double time);
+Gap gap_to_wall(const Capsule& c, const Vec3& x, double time);
+
+/// um, of the body whose contact with a sphere stands for that with the wall: kFlat, or negative
+/// for one that is seen from inside.
+double shape_radius(const Plane& p, double time);
+double shape_radius(const Capsule& c, double time);
+
+/// Lets it stay for ever where it is at this moment.
+void stop_wall(Plane& p, double time);
+void stop_wall(Capsule& c, double time);
+
+/// As messages name it.
+std::string wall_label(const Plane& p);
+std::string wall_label(const Capsule& c);
 
 /// Farther away than `reach` the gap is `reach`, the normal meaningless.
 Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);

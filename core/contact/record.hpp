@@ -11,8 +11,9 @@
 
 namespace acinus::contact {
 
-/// What stands on side b.
+/// What stands on side b: a kind of obstacle, or of cell.
 enum class Partner : std::uint8_t { kPlane, kCapsule, kVessel, kMesh, kSurface, kSphere };
+inline constexpr int kObstacleKinds = static_cast<int>(Partner::kSurface);  ///< they come first
 inline bool is_cell(Partner p) { return p == Partner::kSurface || p == Partner::kSphere; }
 
 /// The point of a side that has only one: a sphere.

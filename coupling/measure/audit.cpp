@@ -202,7 +202,7 @@ void audit_shapes(const AuditFrame& frame, const Bodies& bodies, AuditResult& re
   }
 }
 
-/// Planes, capsules and envelopes: every cell has to be on their good side, near or not.
+/// Walls and envelopes: every cell has to be on their good side, near or not.
 void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
     const AuditMesh& cell = frame.meshes[c];
@@ -211,12 +211,8 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
       keep_worst(result.dcm_wall, depth, cell.id, wall);
       keep_penetration(result, depth, cell.newborn);
     };
-    for (const AuditPlane& plane : frame.planes) {
-      for (const Vec3& x : cell.node) keep(-(x - plane.point).dot(plane.normal));
-      ++wall;
-    }
-    for (const AuditCapsule& capsule : frame.capsules) {
-      for (const Vec3& x : cell.node) keep((x - capsule.center).norm() - capsule.radius);
+    for (const AuditWall& w : frame.walls) {
+      for (const Vec3& x : cell.node) keep(depth_behind(w, x, 0));
       ++wall;
     }
     for (std::size_t f = 0; f < bodies.fixed.size(); ++f, ++wall)
@@ -239,9 +235,7 @@ void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, Audit
   for (const AuditSphere& s : frame.spheres) {
     std::int64_t wall = 0;
     const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s.id, wall++); };
-    for (const AuditPlane& p : frame.planes) keep(s.radius - (s.center - p.point).dot(p.normal));
-    for (const AuditCapsule& c : frame.capsules)
-      keep((s.center - c.center).norm() + s.radius - c.radius);
+    for (const AuditWall& w : frame.walls) keep(depth_behind(w, s.center, s.radius));
     for (std::size_t f = 0; f < bodies.fixed.size(); ++f) {
       const double depth = depth_in_fixed(
           s, bodies.fixed[f],
@@ -347,7 +341,7 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
       keep_penetration(result, pair.depth, newborn);
       return keep_worst(result.dcm_vessel, pair.depth, frame.meshes[pair.a].id, other);
     case Pair::PairKind::kCellFixed: {
-      const auto before = static_cast<std::int64_t>(frame.planes.size() + frame.capsules.size());
+      const auto before = static_cast<std::int64_t>(frame.walls.size());
       keep_penetration(result, pair.depth, newborn);
       return keep_worst(result.dcm_wall, pair.depth, frame.meshes[pair.a].id, before + other);
     }

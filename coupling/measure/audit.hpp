@@ -10,6 +10,7 @@
 
 #include "core/mesh/network.hpp"
 #include "core/vec.hpp"
+#include "coupling/measure/audit_walls.hpp"
 
 namespace acinus::coupling {
 
@@ -31,14 +32,6 @@ struct KnownIndentation {
   std::int64_t mesh_id = 0, sphere_id = 0;
   double depth = 0;  ///< um
 };
-struct AuditPlane {  ///< cells stay where (x - point) . normal >= 0; normal of length 1
-  Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();
-};
-struct AuditCapsule {  ///< cells live inside this sphere
-  Vec3 center = Vec3::Zero();
-  double radius = 0;
-};
 struct AuditStatic {  ///< a closed mesh that does not move
   std::span<const Vec3> node;
   std::span<const std::array<int, 3>> triangle;
@@ -51,8 +44,7 @@ struct AuditFrame {
   std::span<const AuditSphere> spheres;
   std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
   const mesh::Network* vessels = nullptr;
-  std::span<const AuditPlane> planes;
-  std::span<const AuditCapsule> capsules;
+  std::span<const AuditWall> walls;
   std::span<const AuditStatic> statics;
 };
 
@@ -70,7 +62,7 @@ struct AuditResult {
   double max_penetration_grown_um = 0;
   WorstPair dcm_dcm;     ///< ids of the cells
   WorstPair dcm_vessel;  ///< cell id, vessel segment
-  WorstPair dcm_wall;    ///< cell id, index counted through planes, capsules, statics
+  WorstPair dcm_wall;    ///< cell id, index counted through walls, then statics
   WorstPair dcm_cbm;     ///< mesh cell id, sphere id: geometric depth in the round sphere
   WorstPair
       dcm_cbm_beyond_indentation;  ///< the same, less the indentation the pair's force explains
@@ -95,11 +87,11 @@ struct AuditResult {
 /// - cell in vessel: depth of its surface in the round cone (the balls along the axis); where the
 /// axis
 ///   itself runs inside the cell, radius + distance to the cell's surface.
-/// - cell behind a plane or outside a capsule: the farthest node.
+/// - cell behind a wall: the farthest node.
 /// - two spheres: Ri + Rj - distance. Sisters deeper in each other than to the centre count only
 /// when
 ///   their forces have full strength and they are nearer than at birth: until then they come apart.
-/// - sphere in vessel, plane, capsule or closed mesh: radius less the centre's distance from the
+/// - sphere in vessel, wall or closed mesh: radius less the centre's distance from the
 /// surface. By their law spheres yield there: it is told and no penetration.
 /// - cell and sphere: radius - distance to the cell's surface, or radius + distance if the centre
 /// is inside. Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel,

@@ -45,25 +45,6 @@ struct Places {
   }
 };
 
-/// The part of the boundary a contact is with.
-template <class AnyReactions>
-auto& part_of(AnyReactions& reactions, const ContactForce& c) {
-  const std::size_t i = c.index;
-  switch (c.kind) {
-    case contact::Partner::kPlane:
-      return reactions.plane[i];
-    case contact::Partner::kCapsule:
-      return reactions.capsule[i];
-    case contact::Partner::kMesh:
-      return reactions.mesh[i];
-    case contact::Partner::kVessel:
-    case contact::Partner::kSurface:
-    case contact::Partner::kSphere:
-      break;
-  }
-  return reactions.segment[i];
-}
-
 }  // namespace
 
 void visit_contacts(const World& world, const Workspace& w,
@@ -95,13 +76,17 @@ void visit_contacts(const World& world, const Workspace& w,
 Reactions find_reactions(const World& world, const Workspace& w) {
   const contact::Boundary& boundary = world.params.boundary;
   Reactions r;
-  r.plane.resize(boundary.planes.size());
-  r.capsule.resize(boundary.capsules.size());
-  r.mesh.resize(boundary.meshes.size());
-  r.segment.resize(boundary.vessels.network.segment.size());
+  const auto part_of = [&r](contact::Partner kind) -> std::vector<Reaction>& {
+    return r.part[static_cast<std::size_t>(kind)];
+  };
+  contact::for_each_wall(
+      boundary, [&](contact::Partner kind, auto, const auto&) { part_of(kind).emplace_back(); });
+  part_of(contact::Partner::kMesh).resize(boundary.meshes.size());
+  part_of(contact::Partner::kVessel).resize(boundary.vessels.network.segment.size());
   visit_contacts(world, w, [&](const ContactForce& c) {
     if (c.b != kNoCell) return;
-    Reaction& part = part_of(r, c);
+    const std::size_t at = c.index;
+    Reaction& part = part_of(c.kind)[at];
     part.net -= c.force;
     part.normal += c.force.dot(c.normal);
     part.area += c.area;

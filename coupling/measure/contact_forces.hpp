@@ -1,6 +1,7 @@
 #pragma once
 /// The contacts of an assembled state one by one: what presses on what, how hard and where.
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -48,9 +49,12 @@ struct Reaction {
   }
 };
 
-/// Of each plane, capsule and mesh in the order of Boundary, and of each vessel segment.
+/// Of every obstacle, in the order of Boundary; of vessels: of each segment.
 struct Reactions {
-  std::vector<Reaction> plane, capsule, mesh, segment;
+  std::array<std::vector<Reaction>, contact::kObstacleKinds> part;  ///< [kind][index]
+  const std::vector<Reaction>& of(contact::Partner kind) const {
+    return part[static_cast<std::size_t>(kind)];
+  }
 };
 Reactions find_reactions(const World& world, const Workspace& work);
 

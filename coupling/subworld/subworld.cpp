@@ -22,19 +22,6 @@ Box box_of(const State& s, std::size_t lane) {
   return box;
 }
 
-/// Walls stay where they are at this moment.
-void stop_walls(contact::Boundary& boundary, double time) {
-  for (contact::Plane& p : boundary.planes) {
-    p.point = p.point_at(time);  // far away if it is gone
-    p.opens = contact::Plane{}.opens;
-    p.speed = 0;
-  }
-  for (contact::Capsule& c : boundary.capsules) {
-    c.radius = c.radius_at(time);
-    c.speed = 0;  // and one that is open has an infinite radius
-  }
-}
-
 Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
 
 /// Whether a workspace made for one of two states serves the other.
@@ -139,7 +126,9 @@ void take_cells(const State& state, CellSet moving, CellSet constrained, Subworl
 void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Subworld& sub) {
   Params& params = sub.world.params;
   params = world.params;
-  stop_walls(params.boundary, time_since_start(world));
+  contact::for_each_wall(params.boundary, [&](auto, auto, auto& wall) {
+    contact::stop_wall(wall, time_since_start(world));
+  });
   params.motility.random = false;
   params.motility.leader_force = 0;
   params.numerics.adaptive = true;

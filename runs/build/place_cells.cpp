@@ -50,10 +50,9 @@ double nearest_gap(const contact::Boundary& boundary, const Vec3& x, std::string
     nearest = gap;
     if (name) *name = label();
   };
-  for (const auto& p : boundary.planes)
-    look(contact::gap_to_plane(p, x, 0).gap, [&] { return fmt::format("wall \"{}\"", p.name); });
-  for (const auto& c : boundary.capsules)
-    look(contact::gap_to_capsule(c, x, 0).gap, [&] { return std::string("the capsule"); });
+  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
+    look(contact::gap_to_wall(wall, x, 0).gap, [&] { return contact::wall_label(wall); });
+  });
   const auto& network = boundary.vessels.network;
   for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)
     look(contact::gap_to_segment(network, s, x).gap,

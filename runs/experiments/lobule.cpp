@@ -129,7 +129,7 @@ void sample_sinusoids(const ObservedFrame& frame, Observables& o) {
   const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
   double area = 0;
   for (std::size_t s = 0; s < room.sinusoid.size(); ++s)
-    if (room.sinusoid[s] != 0) area += r.segment[s].area;
+    if (room.sinusoid[s] != 0) area += r.of(contact::Partner::kVessel)[s].area;
   std::vector<Vec3> centers;
   for (const CellMeasure& c : frame.snapshot.cells) centers.push_back(c.center);
   o.measures["sinusoid_contact_area_um2"].push_back(area);

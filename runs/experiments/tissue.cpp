@@ -24,15 +24,14 @@ void sample_reactions(const ObservedFrame& frame, Measures& m) {
   const contact::Boundary& boundary = frame.world.params.boundary;
   const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
   std::map<std::string, Reaction> wall;
-  for (std::size_t k = 0; k < boundary.planes.size(); ++k)
-    wall[name_in_columns(boundary.planes[k].name)] += r.plane[k];
-  for (std::size_t k = 0; k < boundary.capsules.size(); ++k)
-    wall[name_in_columns(boundary.capsules[k].name)] += r.capsule[k];
+  contact::for_each_wall(boundary, [&](contact::Partner kind, std::size_t k, const auto& w) {
+    wall[name_in_columns(w.name)] += r.of(kind)[k];
+  });
   for (std::size_t k = 0; k < boundary.meshes.size(); ++k)
-    wall[name_in_columns(boundary.meshes[k].name)] += r.mesh[k];
+    wall[name_in_columns(boundary.meshes[k].name)] += r.of(contact::Partner::kMesh)[k];
   for (const auto& [name, reaction] : wall) add_reaction("wall_" + name, reaction, m);
   Reaction vessels;
-  for (const Reaction& segment : r.segment) vessels += segment;
+  for (const Reaction& segment : r.of(contact::Partner::kVessel)) vessels += segment;
   add_reaction("vessels", vessels, m);
 }
 
@@ -110,8 +109,7 @@ std::vector<std::string> wall_names(const contact::Boundary& boundary) {
     if (std::ranges::find(names, name_in_columns(name)) == names.end())
       names.push_back(name_in_columns(name));
   };
-  for (const contact::Plane& p : boundary.planes) add(p.name);
-  for (const contact::Capsule& c : boundary.capsules) add(c.name);
+  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) { add(wall.name); });
   for (const contact::StaticMesh& b : boundary.meshes) add(b.name);
   return names;
 }

@@ -197,11 +197,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k)
     spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
                        snapshot.cells[k].strength, snapshot.cells[k].parent});
-  std::vector<coupling::AuditPlane> planes;
-  for (const contact::Plane& p : boundary.planes) planes.push_back({p.point_at(time), p.normal});
-  std::vector<coupling::AuditCapsule> capsules;
-  for (const contact::Capsule& c : boundary.capsules)
-    capsules.push_back({c.center, c.radius_at(time)});
+  const std::vector<coupling::AuditWall> walls = coupling::make_audit_walls(boundary, time);
   std::vector<std::vector<std::array<int, 3>>> outward;
   std::vector<coupling::AuditStatic> statics;
   outward.reserve(boundary.meshes.size());
@@ -218,8 +214,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
       explained_indentations(world, snapshot);
   frame.indentations = indentations;
   frame.vessels = &boundary.vessels.network;
-  frame.planes = planes;
-  frame.capsules = capsules;
+  frame.walls = walls;
   frame.statics = statics;
   return coupling::audit(frame);
 }

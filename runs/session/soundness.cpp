@@ -36,10 +36,9 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
   };
   for (std::size_t k = 0; k < s.n_cell(); ++k) {
     const Vec3 x = cbm::center_of(s, k);
-    for (const contact::Plane& p : boundary.planes)
-      look(k, contact::gap_to_plane(p, x, time), [&] { return "wall " + p.name; });
-    for (const contact::Capsule& c : boundary.capsules)
-      look(k, contact::gap_to_capsule(c, x, time), [&] { return "the wall of the " + c.name; });
+    contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
+      look(k, contact::gap_to_wall(wall, x, time), [&] { return contact::wall_label(wall); });
+    });
   }
   for (const auto& [cell, segment] : work.cbm.segment) {
     const std::size_t k = cell;

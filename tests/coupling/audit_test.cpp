@@ -184,13 +184,13 @@ TEST(Audit, ThinVesselsBetweenTheSamplesAreSeen) {
 TEST(Audit, PlanesAndCapsulesCountTheFarthestNode) {
   const Surface cell = brick({0, 0, -0.5}, {4, 4, 6});
   AuditFrame frame;
-  const AuditPlane planes[] = {{{9, 0, 0}, {-1, 0, 0}}, {{0, 0, 0}, {0, 0, 1}}};
-  frame.planes = planes;
+  std::vector<AuditWall> walls{AuditPlane{{9, 0, 0}, {-1, 0, 0}}, AuditPlane{}};
+  frame.walls = walls;
   auto r = audit_bodies({cell}, frame);
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 0.5);
   EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 1}));
-  const AuditCapsule capsule[] = {{{2, 2, 2.75}, 3}};
-  frame.capsules = capsule;
+  walls.push_back(AuditCapsule{{2, 2, 2.75}, 3});
+  frame.walls = walls;
   r = audit_bodies({cell}, frame);
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, std::sqrt(4 + 4 + 3.25 * 3.25) - 3);
   EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 2}));
@@ -251,21 +251,20 @@ TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
   EXPECT_NEAR(r.cbm_vessel.depth_um, 1.5, 1e-13);
   EXPECT_EQ(r.cbm_vessel.ids, (Ids{8, 1}));
   EXPECT_EQ(r.max_penetration_um, 0);
-  const AuditPlane plane[] = {{{0, 0, 10}, {0, 0, 1}}};
-  frame.planes = plane;  // 2 um of the lower sphere lie behind it
-  const AuditCapsule capsule[] = {{{0, 0, 40}, 33}};
-  frame.capsules = capsule;  // 5.1 um of the upper one: |(15.2, 20)| + 12 - 33
+  // 2 um of the lower sphere lie behind the plane, 5.1 um of the upper one: |(15.2, 20)| + 12 - 33
+  const AuditWall walls[] = {AuditPlane{{0, 0, 10}, {0, 0, 1}}, AuditCapsule{{0, 0, 40}, 33}};
+  frame.walls = walls;
   r = audit(frame);
   EXPECT_NEAR(r.cbm_wall.depth_um, std::hypot(15.7, 20) + 12 - 33, 1e-13);
   EXPECT_EQ(r.cbm_wall.ids, (Ids{7, 1}));
-  frame.capsules = {};
+  frame.walls = std::span(walls).first(1);
   r = audit(frame);
   EXPECT_NEAR(r.cbm_wall.depth_um, 2, 1e-13);
   EXPECT_EQ(r.cbm_wall.ids, (Ids{7, 0}));
   const Surface block = brick({25, -20, 0}, {60, 20, 40}), room = brick({-9, -30, 0}, {60, 30, 90});
   const std::vector<AuditStatic> statics{{block.node, block.triangle, false},
                                          {room.node, room.triangle, true}};
-  frame.planes = {};
+  frame.walls = {};
   frame.statics = statics;
   r = audit(
       frame);  // one reaches 12 - (25 - 15.7) into the block, the other 12 - 9 out of the room

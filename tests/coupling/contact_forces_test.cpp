@@ -18,6 +18,7 @@
 namespace acinus::coupling {
 namespace {
 
+using contact::Partner;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 contact::Plane mirror_at(const Vec3& point, const Vec3& normal) {
@@ -48,21 +49,22 @@ TEST(Reactions, OfWallsOnASphereAreThoseOfItsLaw) {
   const contact::SphereBody sphere{12, young, o.world.params.cbm[0].poisson};
   const double deep = contact::mirror_wall_force(sphere, 11).force,
                shallow = contact::mirror_wall_force(sphere, 11.5).force;
-  ASSERT_EQ(r.plane.size(), 3U);
+  ASSERT_EQ(r.of(Partner::kPlane).size(), 3U);
   // Round-off of the sphere's radius, which comes from its volume.
-  EXPECT_NEAR(r.plane[0].normal, deep, 1e-12 * deep);
-  EXPECT_NEAR(r.plane[1].normal, shallow, 1e-12 * deep);
-  EXPECT_NEAR(r.plane[0].net.x(), -deep, 1e-12 * deep) << "the wall is pushed outward";
-  EXPECT_NEAR(r.plane[1].net.x(), shallow, 1e-12 * deep);
-  EXPECT_EQ(r.plane[2].normal, 0);
-  EXPECT_EQ(r.plane[2].net, Vec3(Vec3::Zero()));
+  EXPECT_NEAR(r.of(Partner::kPlane)[0].normal, deep, 1e-12 * deep);
+  EXPECT_NEAR(r.of(Partner::kPlane)[1].normal, shallow, 1e-12 * deep);
+  EXPECT_NEAR(r.of(Partner::kPlane)[0].net.x(), -deep, 1e-12 * deep)
+      << "the wall is pushed outward";
+  EXPECT_NEAR(r.of(Partner::kPlane)[1].net.x(), shallow, 1e-12 * deep);
+  EXPECT_EQ(r.of(Partner::kPlane)[2].normal, 0);
+  EXPECT_EQ(r.of(Partner::kPlane)[2].net, Vec3(Vec3::Zero()));
 }
 
 TEST(Reactions, OfAWallOnADeformableCellIsTheSumOverItsPoints) {
   World world = make_test_world({{Vec3::Zero(), true}});
   world.params.boundary.planes = {mirror_at(Vec3(0, 0, -11.6), Vec3::UnitZ())};
   const Observed o(world);
-  const Reaction wall = find_reactions(o.world, o.work).plane[0];
+  const Reaction wall = find_reactions(o.world, o.work).of(Partner::kPlane)[0];
   const contact::SurfaceBody& body = o.work.dcm.body[0];
   const dcm::ContactParams& c = o.world.params.dcm_contact;
   double expected = 0;
@@ -107,13 +109,13 @@ TEST(Reactions, OfOppositeWallsAgreeWhenTheCellsAreAtRest) {
   // surfaces of four cells of each model with Table 1's friction, at the largest speed there is.
   const double medium = 4 * 4 * kPi * 144 * (0.1 + 0.5);
   for (std::size_t k = 0; k < 6; k += 2) {
-    const Vec3 net = r.plane[k].net + r.plane[k + 1].net;
+    const Vec3 net = r.of(Partner::kPlane)[k].net + r.of(Partner::kPlane)[k + 1].net;
     std::printf("axis %zu: %.6f and %.6f nN, differ by %.2g, drag at most %.2g\n", k / 2,
-                r.plane[k].normal, r.plane[k + 1].normal, std::abs(net[static_cast<int>(k / 2)]),
-                medium * speed);
-    EXPECT_GT(r.plane[k].normal, 1);
+                r.of(Partner::kPlane)[k].normal, r.of(Partner::kPlane)[k + 1].normal,
+                std::abs(net[static_cast<int>(k / 2)]), medium * speed);
+    EXPECT_GT(r.of(Partner::kPlane)[k].normal, 1);
     EXPECT_LE(net.norm(), medium * speed);
-    EXPECT_LE(net.norm(), 0.01 * r.plane[k].normal);
+    EXPECT_LE(net.norm(), 0.01 * r.of(Partner::kPlane)[k].normal);
   }
 }
 
@@ -127,11 +129,12 @@ TEST(Reactions, OfVesselsAreThoseOfEverySegment) {
   world.params.boundary.vessels.material = {0, 0.6, 0.4, false};
   const Observed o(world);
   const Reactions r = find_reactions(o.world, o.work);
-  ASSERT_EQ(r.segment.size(), 2U);
-  EXPECT_LT(r.segment[0].net.y(), 0) << "the sphere presses down";
-  EXPECT_GT(r.segment[1].net.y(), 0) << "the deformable cell presses up";
-  EXPECT_NEAR(r.segment[0].normal, -r.segment[0].net.y(), 1e-12 * r.segment[0].normal);
-  EXPECT_GT(r.segment[1].area, 0);
+  ASSERT_EQ(r.of(Partner::kVessel).size(), 2U);
+  EXPECT_LT(r.of(Partner::kVessel)[0].net.y(), 0) << "the sphere presses down";
+  EXPECT_GT(r.of(Partner::kVessel)[1].net.y(), 0) << "the deformable cell presses up";
+  EXPECT_NEAR(r.of(Partner::kVessel)[0].normal, -r.of(Partner::kVessel)[0].net.y(),
+              1e-12 * r.of(Partner::kVessel)[0].normal);
+  EXPECT_GT(r.of(Partner::kVessel)[1].area, 0);
 }
 
 TEST(Touching, PairsAndClustersOfCells) {

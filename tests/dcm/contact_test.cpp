@@ -67,12 +67,7 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
   if (k.partner == contact::Partner::kSurface) {
     weight = 0.5;  // the other side probes as well
   } else {
-    const contact::Partner kind = k.partner;
-    const std::size_t index = k.b;
-    if (kind == contact::Partner::kPlane) adhesion = c.boundary.planes[index].material.adhesion;
-    if (kind == contact::Partner::kCapsule) adhesion = c.boundary.capsules[index].material.adhesion;
-    if (kind == contact::Partner::kVessel) adhesion = c.boundary.vessels.material.adhesion;
-    if (kind == contact::Partner::kMesh) adhesion = c.boundary.meshes[0].material.adhesion;
+    adhesion = contact::material_of(c.boundary, k.partner, k.b).adhesion;
   }
   const double area = rest_share(t, c.options.quadrature, point);
   return weight * area * radius * radius *

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,19 @@ Outcome call(const std::string& arguments) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
 }
 
+/// The commands, as the program's help lists them.
+std::vector<std::string> command_names() {
+  std::istringstream help(call("--help").text);
+  std::vector<std::string> names;
+  bool listed = false;
+  for (std::string line; std::getline(help, line) && !(listed && line.empty());) {
+    if (listed && line.size() > 2 && line[2] != ' ')
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    listed = listed || line == "Subcommands:";
+  }
+  return names;
+}
+
 const std::string kScene = ACINUS_SOURCE_DIR "/runs/scenes/two_cells.json";
 
 TEST(Cli, WallTimes) {
@@ -44,15 +58,14 @@ TEST(Cli, WallTimes) {
 }
 
 TEST(Cli, HelpOfEveryCommandHasAnExample) {
-  for (const std::string& command :
-       std::vector<std::string>{"run", "check", "schema", "explain", "list", "new", "bench"}) {
+  const std::vector<std::string> commands = command_names();
+  EXPECT_GE(commands.size(), 10U);
+  for (const std::string& command : commands) {
     const Outcome outcome = call(command + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_NE(outcome.text.find("Example: acinus " + command), std::string::npos) << outcome.text;
   }
-  const Outcome all = call("--help");
-  EXPECT_EQ(all.code, 0);
-  EXPECT_NE(all.text.find("explain"), std::string::npos);
+  EXPECT_EQ(call("--help").code, 0);
 }
 
 TEST(Cli, UsageErrorsExitWithTwo) {

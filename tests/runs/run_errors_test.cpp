@@ -262,7 +262,7 @@ TEST_F(RunErrors, CellsThatDoNotFitAreNamedWithTheirPlace) {
   expect_refused({R"(walls=[{"name": "floor", "point": ["0 um", "0 um", "5 um"]}])"},
                  {"/cells/list/1", "17 um inside wall \"floor\"", "at most 0.3 um", "Move"});
   expect_refused({R"(capsule={"radius": "20 um"})"},
-                 {"/cells/list/1", "15.5 um inside the capsule", "Move"});
+                 {"/cells/list/1", "15.5 um inside the wall of the capsule", "Move"});
   expect_refused({R"(cells.list.1.position=["1 um", "0 um", "0 um"])"},
                  {"/cells/list/0 and /cells/list/1", "1 um apart", "half a radius, 6 um", "Move"});
   expect_refused({R"(cells.list.1.position=["0 um", "0 um", "0 um"])"},

@@ -209,15 +209,15 @@ TEST(Plane, GapAndMotion) {
   Plane p;
   p.point = {1, 2, 3};
   p.normal = Vec3(1, 2, 2) / 3;
-  EXPECT_NEAR(gap_to_plane(p, Vec3(1, 2, 3) + 4 * p.normal, 100).gap, 4, 1e-14);
-  EXPECT_EQ(gap_to_plane(p, {0, 0, 0}, 0).normal, p.normal);
+  EXPECT_NEAR(gap_to_wall(p, Vec3(1, 2, 3) + 4 * p.normal, 100).gap, 4, 1e-14);
+  EXPECT_EQ(gap_to_wall(p, {0, 0, 0}, 0).normal, p.normal);
   p.speed = 0.5;
   p.travel = 3;
-  EXPECT_NEAR(gap_to_plane(p, Vec3(1, 2, 3), 2).gap, -1, 1e-14);
-  EXPECT_NEAR(gap_to_plane(p, Vec3(1, 2, 3), 1e6).gap, -3, 1e-14);
-  EXPECT_NEAR(gap_to_plane(p, Vec3(1, 2, 3), -50).gap, 0, 1e-14);  // start-up: not yet moving
+  EXPECT_NEAR(gap_to_wall(p, Vec3(1, 2, 3), 2).gap, -1, 1e-14);
+  EXPECT_NEAR(gap_to_wall(p, Vec3(1, 2, 3), 1e6).gap, -3, 1e-14);
+  EXPECT_NEAR(gap_to_wall(p, Vec3(1, 2, 3), -50).gap, 0, 1e-14);  // start-up: not yet moving
   p.speed = -0.5;
-  EXPECT_NEAR(gap_to_plane(p, Vec3(1, 2, 3), 2).gap, 1, 1e-14);
+  EXPECT_NEAR(gap_to_wall(p, Vec3(1, 2, 3), 2).gap, 1, 1e-14);
 }
 
 TEST(Capsule, IsGoneOnceItOpens) {
@@ -227,9 +227,8 @@ TEST(Capsule, IsGoneOnceItOpens) {
   c.min_radius = 20;
   c.opens = 1000;
   // A step that ends as it opens still meets it.
-  EXPECT_NEAR(gap_to_capsule(c, Vec3(0, 0, 30), 1000).gap, 50 - 10 - 30, 1e-12);
-  EXPECT_EQ(gap_to_capsule(c, Vec3(0, 0, 30), 1000.001).gap,
-            std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(gap_to_wall(c, Vec3(0, 0, 30), 1000).gap, 50 - 10 - 30, 1e-12);
+  EXPECT_EQ(gap_to_wall(c, Vec3(0, 0, 30), 1000.001).gap, std::numeric_limits<double>::infinity());
 }
 
 TEST(Plane, IsGoneOnceItOpens) {
@@ -238,9 +237,9 @@ TEST(Plane, IsGoneOnceItOpens) {
   p.speed = 0.01;
   p.travel = 5;
   p.opens = 1000;
-  EXPECT_NEAR(gap_to_plane(p, 3 * p.normal, 100).gap, 2, 1e-12);
-  EXPECT_NEAR(gap_to_plane(p, 3 * p.normal, 1000).gap, -2, 1e-12);
-  EXPECT_GT(gap_to_plane(p, 3 * p.normal, 1000.001).gap, 1e8);
+  EXPECT_NEAR(gap_to_wall(p, 3 * p.normal, 100).gap, 2, 1e-12);
+  EXPECT_NEAR(gap_to_wall(p, 3 * p.normal, 1000).gap, -2, 1e-12);
+  EXPECT_GT(gap_to_wall(p, 3 * p.normal, 1000.001).gap, 1e8);
 }
 
 TEST(Capsule, GapAndShrinking) {
@@ -249,12 +248,70 @@ TEST(Capsule, GapAndShrinking) {
   c.radius = 100;
   c.speed = 0.1;
   c.min_radius = 80;
-  EXPECT_NEAR(gap_to_capsule(c, {91, 0, 0}, 0).gap, 10, 1e-13);
-  EXPECT_NEAR(gap_to_capsule(c, {91, 0, 0}, 50).gap, 5, 1e-13);
-  EXPECT_NEAR(gap_to_capsule(c, {91, 0, 0}, 1e6).gap, -10, 1e-13);
-  EXPECT_NEAR(gap_to_capsule(c, {91, 0, 0}, -1e6).gap, 10, 1e-13);
-  EXPECT_LT((gap_to_capsule(c, {91, 0, 0}, 0).normal - Vec3(-1, 0, 0)).norm(), 1e-15);
-  EXPECT_NEAR(gap_to_capsule(c, c.center, 0).normal.norm(), 1, 1e-15);
+  EXPECT_NEAR(gap_to_wall(c, {91, 0, 0}, 0).gap, 10, 1e-13);
+  EXPECT_NEAR(gap_to_wall(c, {91, 0, 0}, 50).gap, 5, 1e-13);
+  EXPECT_NEAR(gap_to_wall(c, {91, 0, 0}, 1e6).gap, -10, 1e-13);
+  EXPECT_NEAR(gap_to_wall(c, {91, 0, 0}, -1e6).gap, 10, 1e-13);
+  EXPECT_LT((gap_to_wall(c, {91, 0, 0}, 0).normal - Vec3(-1, 0, 0)).norm(), 1e-15);
+  EXPECT_NEAR(gap_to_wall(c, c.center, 0).normal.norm(), 1, 1e-15);
+}
+
+/// One wall of each kind, all of them moving.
+Boundary make_walls() {
+  Plane plane;
+  plane.name = "floor";
+  plane.normal = Vec3(0, 0.6, 0.8);
+  plane.speed = 0.1;
+  plane.travel = 100;
+  plane.material.adhesion = 1;
+  Capsule capsule;
+  capsule.name = "capsule";
+  capsule.center = Vec3(1, 2, 3);
+  capsule.radius = 50;
+  capsule.speed = 0.1;
+  capsule.material.adhesion = 2;
+  Boundary b;
+  b.planes = {Plane{}, plane};
+  b.capsules = {capsule};
+  return b;
+}
+
+TEST(EveryWall, NormalIsTheGradientOfItsGap) {
+  const Boundary boundary = make_walls();
+  const Vec3 x(3, -4, 12);
+  const double h = 1e-3;  // um: h^2 times the third derivative and kEps gap / h are below 1e-8
+  for_each_wall(boundary, [&](auto, auto, const auto& wall) {
+    const Vec3 normal = gap_to_wall(wall, x, 7).normal;
+    EXPECT_NEAR(normal.norm(), 1, 1e-15);
+    for (int k = 0; k < 3; ++k) {
+      const double more = gap_to_wall(wall, x + h * Vec3::Unit(k), 7).gap,
+                   less = gap_to_wall(wall, x - h * Vec3::Unit(k), 7).gap;
+      EXPECT_NEAR((more - less) / (2 * h), normal[k], 1e-8) << wall_label(wall);
+    }
+  });
+}
+
+TEST(EveryWall, StaysWhereItIsStopped) {
+  Boundary boundary = make_walls();
+  const Vec3 x(3, -4, 12);
+  for_each_wall(boundary, [&](auto, auto, auto& wall) {
+    const double gap = gap_to_wall(wall, x, 70).gap;
+    stop_wall(wall, 70);
+    EXPECT_EQ(gap_to_wall(wall, x, 70).gap, gap) << wall_label(wall);
+    EXPECT_EQ(gap_to_wall(wall, x, 1e6).gap, gap) << wall_label(wall);
+  });
+}
+
+TEST(EveryWall, IsVisitedWithItsKindAndPlace) {
+  const Boundary boundary = make_walls();
+  std::vector<std::string> labels;
+  for_each_wall(boundary, [&](Partner kind, int index, const auto& wall) {
+    EXPECT_EQ(&material_of(boundary, kind, index), &wall.material);
+    labels.push_back(wall_label(wall));
+  });
+  EXPECT_EQ(labels,
+            (std::vector<std::string>{"wall \"\"", "wall \"floor\"", "the wall of the capsule"}));
+  EXPECT_EQ(&material_of(boundary, Partner::kVessel, 3), &boundary.vessels.material);
 }
 
 }  // namespace
