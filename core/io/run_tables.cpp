@@ -37,13 +37,21 @@ void check_sample(std::span<const SeriesValue> sample, const RowNames& names,
                   const std::string& group) {
   for (const SeriesValue& value : sample)
     check_finite(value.value, group + " \"" + value.name + "\"");
-  bool same = sample.size() == names.name.size();
-  for (std::size_t i = 0; same && i < sample.size(); ++i)
-    same = sample[i].name == names.name[i] && sample[i].unit == names.unit[i];
-  check(same,
-        "internal error: a sample of " + group +
-            " has other names, units or order than the first one",
-        Exit::kInternal);
+  std::size_t same = 0;
+  while (same < sample.size() && same < names.name.size() &&
+         sample[same].name == names.name[same] && sample[same].unit == names.unit[same])
+    ++same;
+  if (same == sample.size() && same == names.name.size()) return;
+  const auto quoted = [same](std::size_t n, auto name_of) {
+    return same < n ? "\"" + name_of(same) + "\"" : std::string("no more");
+  };
+  throw Error(
+      fmt::format("{}: the file has {} where this program records {}: the run was begun by "
+                  "another version. Continue it with that version, or run the scene anew "
+                  "in another folder (--out)",
+                  group, quoted(names.name.size(), [&](std::size_t k) { return names.name[k]; }),
+                  quoted(sample.size(), [&](std::size_t k) { return sample[k].name; })),
+      Exit::kCannotContinue);
 }
 
 void create_samples(File& file, const std::string& group) {

@@ -187,7 +187,9 @@ TEST(RunFile, RefusesObservablesThatAreNotFiniteOrChange) {
   expect_error(Exit::kInternal, "\"cells\" is inf", [&] { run.append(make_frame(2, 1, 1), bad); });
   bad = observed(2);
   bad.pop_back();
-  expect_error(Exit::kInternal, "other names", [&] { run.append(make_frame(2, 1, 1), bad); });
+  // The columns of a file are those of the version that began it.
+  expect_error(Exit::kCannotContinue, "has \"area\" where this program records no more",
+               [&] { run.append(make_frame(2, 1, 1), bad); });
   run.append(make_frame(2, 1, 1), observed(2));
   const RunReader reader(path);
   EXPECT_EQ(reader.n_frame(), 2);
@@ -273,7 +275,8 @@ TEST(RunFile, FramesMustFitTogether) {
   run.append(make_frame(1, 1, 1));
   run.append_series(sample(0));
   const std::vector<SeriesValue> other{{"time", "s", 1}};
-  expect_error(Exit::kInternal, "other names", [&] { run.append_series(other); });
+  expect_error(Exit::kCannotContinue, "begun by another version",
+               [&] { run.append_series(other); });
 }
 
 TEST(RunFile, LongMessagesAreMarkedAsCut) {
