@@ -57,8 +57,9 @@ assert (pictures[0] != pictures[1]).any() and strips[0].std() > 5
 assert (strips[0] == strips[1]).all(), "the cells reach into the colour bar"
 
 # Zero is white in a range that is not symmetric, and values as far from it are as strong.
+sys.dont_write_bytecode = True  # no __pycache__ in the source tree
 sys.path.insert(0, os.path.dirname(script))
-from render import color_table  # noqa: E402
+from painter import color_table  # noqa: E402
 uneven, even = color_table(-1, 3), color_table(-3, 3)
 for value in (-1, -0.5, 0, 1, 2.9):
     assert max(abs(a - b) for a, b in zip(uneven.GetColor(value), even.GetColor(value))) < 1e-3  # a byte is 4e-3
