@@ -164,7 +164,7 @@ TEST(Reactions, DoNotDependOnTheNumberOfThreads) {
   for (const int threads : {1, 3}) {
     omp_set_num_threads(threads);
     const Observed o(world);
-    of[threads / 2] = find_reactions(o.world, o.work).plane;
+    of[threads / 2] = find_reactions(o.world, o.work).of(Partner::kPlane);
   }
   omp_set_num_threads(before);
   for (std::size_t k = 0; k < 6; ++k) {
