@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coupling/step/stages.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/experiments/snapshot.hpp"
 #include "runs/scene/reader.hpp"
