@@ -9,10 +9,11 @@ namespace acinus::calibration {
 std::vector<std::string> list_warnings(int n_inner, double error) {
   std::vector<std::string> warnings;
   if (n_inner < kFewestInner)
-    warnings.push_back(fmt::format(
-        "only {} of the cells are not at the capsule, their mean knows the modulus to a factor of "
-        "{:.1f} at best; {} or more are needed. Take a larger clump (--cells 59)",
-        n_inner, std::exp2(1 / std::sqrt(n_inner)), kFewestInner));
+    warnings.push_back(
+        fmt::format("cells that are not at the capsule: {}; at least {} are needed. Their mean "
+                    "knows the modulus "
+                    "to a factor of {:.1f} at best. Take a larger clump (--cells 59)",
+                    n_inner, kFewestInner, std::exp2(1 / std::sqrt(n_inner))));
   if (!std::isfinite(error)) {
     warnings.emplace_back(
         "spheres with this law, compressed by themselves, never come to the overlaps of the "

@@ -26,7 +26,7 @@ Law make_law() {
   law.jkr_underestimation = 5.5;
   law.dcm = {{"bulk_modulus_kPa", 2.5}, {"cortex_young_kPa", 1}};
   law.cbm = {{"young_kPa", 0.45}, {"poisson", 0.47}};
-  law.warnings = {"only 5 of the cells"};
+  law.warnings = {"cells that are not at the capsule: 5"};
   law.provenance = {{"version", "0.1.0"}};
   return law;
 }

@@ -15,7 +15,7 @@ TEST(Reliability, ClumpsThatStandForTissueGiveNoWarning) {
 TEST(Reliability, FewInnerCellsAreToldWithWhatTheyKnow) {
   const std::vector<std::string> five = list_warnings(5, 0.06);
   ASSERT_EQ(five.size(), 1u) << "27 cells: a small error by chance";
-  EXPECT_NE(five[0].find("only 5 of the cells"), std::string::npos) << five[0];
+  EXPECT_NE(five[0].find("cells that are not at the capsule: 5;"), std::string::npos) << five[0];
   EXPECT_NE(five[0].find("a factor of 1.4"), std::string::npos) << five[0];
   EXPECT_NE(five[0].find("--cells 59"), std::string::npos) << five[0];
   EXPECT_EQ(list_warnings(kFewestInner - 1, 0).size(), 1u);

@@ -116,7 +116,7 @@ TEST(CellTypes, LobulesHaveThemToo) {
 }
 
 TEST(CellTypes, SofterOnesDifferInWhatSoftensAndInNothingElse) {
-  const Scene scene = make_scene(R"("source": "clump", "count": 2)");
+  const Scene scene = make_scene(R"("source": "clump", "count": 2, "types": [{"type": "large"}])");
   CellType type = scene.cell_types.at("large");
   type.softening = 0.3;
   const CellType soft = softened(type);
@@ -131,7 +131,7 @@ TEST(CellTypes, SofterOnesDifferInWhatSoftensAndInNothingElse) {
 }
 
 TEST(CellTypes, LawsDependOnTheConstantsOfEveryTerm) {
-  const Scene scene = make_scene(R"("source": "clump", "count": 2)");
+  const Scene scene = make_scene(R"("source": "clump", "count": 2, "types": [{"type": "large"}])");
   const CellType& type = scene.cell_types.at("large");
   const LawParameters whole = law_parameters(scene, type);
   EXPECT_EQ(whole.dcm.size(), 10u);

@@ -18,6 +18,7 @@ namespace {
 Excess find_at(mesh::Surface surface, bool inside) {
   const Scene scene = parse_scene(R"({
   "time": {"end": "1 h"}, "motility": {"random": false},
+  "cell_types": {"hepatocyte": {}},
   "cells": {"source": "list", "model": "cbm", "list": [{"position": ["0 um", "0 um", "0 um"]}]}
 })",
                                   "scene.json");
