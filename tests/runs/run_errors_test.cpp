@@ -238,7 +238,7 @@ TEST_F(RunErrors, AWallThatOverrunsASphereStopsTheRun) {
        R"( "speed": "2 um/min", "travel": "30 um"}])"}));
   EXPECT_EQ(outcome.code, 3) << outcome.text;
   EXPECT_NE(outcome.text.find("CBM cell 0 has its centre"), std::string::npos) << outcome.text;
-  EXPECT_NE(outcome.text.find("inside wall ram"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("inside wall \"ram\""), std::string::npos) << outcome.text;
 }
 
 TEST_F(RunErrors, AnOverlapOfTheStartThatContactMendsIsNoFailure) {
