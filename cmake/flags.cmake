@@ -7,7 +7,7 @@ target_include_directories(acinus_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOUR
 # errno and trapping are given up so that sqrt and selects vectorise; neither changes a result.
 target_compile_options(acinus_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math "$<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wpedantic>" -Wno-psabi
-  $<BUILD_INTERFACE:-Wno-restrict>)  # gcc 12 sees impossible overlaps in std::string concatenation
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>)  # gcc 12 sees impossible overlaps in std::string concatenation
 if(ACINUS_WERROR)
   target_compile_options(acinus_flags INTERFACE -Werror)
 endif()
@@ -24,6 +24,6 @@ if(ACINUS_SANITIZE_THREADS)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang)
     message(FATAL_ERROR "ACINUS_SANITIZE_THREADS needs clang")
   endif()
-  target_compile_options(acinus_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer -Wno-unknown-warning-option)
+  target_compile_options(acinus_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
   target_link_options(acinus_flags INTERFACE -fsanitize=thread)
 endif()

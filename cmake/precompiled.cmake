@@ -1,6 +1,11 @@
 # Most of the time of a small file goes into the same headers. One precompiled header serves all libraries and programs, since they
 # share their flags; tests have another, with GoogleTest.
-option(ACINUS_PRECOMPILE "Precompiled headers" OFF)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  set(acinus_precompile_default ON)
+else()
+  set(acinus_precompile_default OFF)  # saves time, and is tried, with gcc only
+endif()
+option(ACINUS_PRECOMPILE "Precompiled headers" ${acinus_precompile_default})
 # Not <filesystem>: it brings std::quoted, which calls of a function of that name would then find through their arguments.
 set(acinus_common_headers
   <Eigen/Core> <Eigen/Geometry> <fmt/format.h>

@@ -13,8 +13,9 @@
 
 #include "core/vec.hpp"
 
+// Clang passes no vectors between functions compiled for different processors.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__OPTIMIZE__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
 #define ACINUS_KERNEL __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define ACINUS_KERNEL

@@ -110,7 +110,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
   for (std::size_t p = 0; p < n_part; ++p) {
     NodePairs table;
     for (std::size_t g = p * n_group / n_part; g < (p + 1) * n_group / n_part; ++g) {
-      const auto [a, b] = runs[group[g]].body;
+      const int a = runs[group[g]].body[0], b = runs[group[g]].body[1];
       const auto& body_a = work.body[a];
       const auto& body_b = work.body[b];
       table.start(body_a.node.size(), body_b.node.size());
