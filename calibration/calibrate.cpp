@@ -126,6 +126,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
     try {
       relax(options, runs, found);
     } catch (const Error& error) {  // the law does not depend on it
+      if (error.code() == Exit::kStopped) throw;
       found.relaxation.clear();
       runs.say(fmt::format("no relaxation time: {}", error.what()));
     }

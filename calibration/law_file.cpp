@@ -1,12 +1,15 @@
 #include "calibration/law_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
@@ -85,6 +88,13 @@ class Reader {
       p[name] = number(value, where + "/" + name, -kAny, kAny);
     return p;
   }
+  /// A key that nobody reads is a slip, or of another program.
+  void has_only(const std::vector<std::string>& known) const {
+    for (const auto& [name, unused] : json_.items())
+      check(std::ranges::find(known, name) != known.end(),
+            fmt::format("{}: has an unknown key \"{}\"; known are {}. Calibrate again", where_,
+                        name, fmt::join(known, ", ")));
+  }
   static double number(const Json& v, const std::string& where, double low, double high) {
     check(v.is_number(), fmt::format("{}: expected a number, found {}", where, v.dump()));
     const double x = v.get<double>();
@@ -105,6 +115,7 @@ std::vector<TableEntry> read_table(const Json& json, const std::string& where) {
   std::vector<TableEntry> table;
   for (std::size_t k = 0; k < json.size(); ++k) {
     const Reader entry(json[k], fmt::format("{}/{}", where, k));
+    entry.has_only({"overlap", "modulus_kPa"});
     table.push_back({entry.number("overlap", 0, 0.5), entry.number("modulus_kPa", 1e-12)});
     check(k == 0 || table[k - 1].overlap < table[k].overlap,
           fmt::format("{}/{}: overlaps must rise from one entry to the next", where, k));
@@ -121,6 +132,8 @@ Json parse(const std::string& path) {
     const auto line = 1 + std::count(text.begin(), text.begin() + end, '\n');
     throw Error(fmt::format(
         "{}:{}: not JSON (NaN and infinity are not numbers there). Calibrate again", path, line));
+  } catch (const Json::out_of_range&) {
+    throw Error(path + ": has a number too large for this machine. Calibrate again");
   }
 }
 
@@ -166,7 +179,11 @@ Law read_law(const std::string& path) {
   law.jkr_underestimation = r.number("jkr_underestimation", 0);
   law.dcm = r.parameters("dcm");
   law.cbm = r.parameters("cbm");
-  check(r.at("hash") == hash_of(numbers_of(law)),
+  const Json numbers = numbers_of(law);
+  std::vector<std::string> known{"hash", "warnings", "provenance"};
+  for (const auto& [name, unused] : numbers.items()) known.push_back(name);
+  r.has_only(known);
+  check(r.at("hash") == hash_of(numbers),
         path +
             "/hash: does not belong to these numbers: the file was changed by hand or damaged. "
             "Calibrate again");

@@ -9,6 +9,7 @@
 
 #include "calibration/clump.hpp"
 #include "core/error.hpp"
+#include "core/stop.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/step/stages.hpp"
@@ -136,6 +137,7 @@ Relaxation relax_clump(coupling::World world, double scale) {
   look(0);
   for (double time = 0, next = kFirstLook * scale;; next *= kGrowth) {
     const coupling::LoopResult steps = simulation.run_until(simulation.time() + (next - time));
+    check(!steps.last.interrupted, "relaxation: stopped by " + describe_stop(), Exit::kStopped);
     check(
         steps.ok,
         fmt::format("relaxation: a step fails {:.4g} h after the release: {}. Cells concerned: {}",

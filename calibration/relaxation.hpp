@@ -31,7 +31,8 @@ struct Relaxation {
 /// brings less than 1 % of the way.
 /// @param world   compressed; its capsules are taken away, motion of its own is off
 /// @param friction_scale  expected slow-down over Table 1 friction: times and steps scale with it
-/// @throws Error(kCannotContinue) if a step fails or the clump does not come to rest
+/// @throws Error(kCannotContinue) if a step fails or the clump does not come to rest,
+///         Error(kStopped) if the process was asked to stop
 Relaxation relax_clump(coupling::World world, double friction_scale);
 
 /// Multiplies every friction coefficient of a run. All times scale with the factor exactly.

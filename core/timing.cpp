@@ -43,6 +43,11 @@ double wall_seconds() { return read_clock(CLOCK_MONOTONIC); }
 double cpu_seconds() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
 double thread_cpu_seconds() { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
 
+std::uint64_t rss_bytes() {
+  const std::string entry = read_entry("/proc/self/status", "VmRSS");
+  return entry.empty() ? 0 : 1024 * std::stoull(entry);
+}
+
 std::uint64_t peak_rss_bytes() {
   // getrusage comes second: its peak survives exec, so it may be that of the starting shell.
   const std::string entry = read_entry("/proc/self/status", "VmHWM");

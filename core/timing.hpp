@@ -17,6 +17,9 @@ double cpu_seconds();
 /// CPU seconds of the calling thread.
 double thread_cpu_seconds();
 
+/// Resident memory of this process.
+std::uint64_t rss_bytes();
+
 /// Largest resident memory of this process so far.
 std::uint64_t peak_rss_bytes();
 

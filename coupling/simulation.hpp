@@ -43,8 +43,9 @@ class Simulation {
   void resize();
 
   /// Steps with all events until `end`, s since t = 0, through start-up where there is one.
-  /// Not ok: a step could not be accepted; the state is the last good one. A step that fails at
-  /// cells that dissolve removes them and is taken again.
+  /// Not ok: a step could not be accepted, or was interrupted as the process was asked to stop; the
+  /// state is the last good one. A step that fails at cells that dissolve removes them and is taken
+  /// again.
   LoopResult run_until(double end, const Observer& observer = {});
 
  private:

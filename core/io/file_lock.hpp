@@ -7,14 +7,16 @@
 
 namespace acinus::io {
 
-/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile.
+/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile. The file says
+/// who took it last. Over a network file system it holds between machines where the file system has
+/// locks (NFS 3 with a lock service, NFS 4).
 class FileLock {
  public:
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();
 
-  /// Makes the file if needed; its content is left alone.
+  /// Makes the file if needed, and writes into it who holds it now.
   /// @param patience_s  how long to try: is_locked() of others holds the lock for a moment
   /// @return nothing while another process (or another FileLock of this one) holds it
   /// @throws Error(kFileError) if the file cannot be opened. On file systems without locks nothing
@@ -25,10 +27,14 @@ class FileLock {
 
  private:
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  void sign() const;
   int descriptor_ = -1;
 };
 
 /// Whether someone else holds the lock of a file; false if there is no such file.
 bool is_locked(const std::string& path);
+
+/// Who took the lock last, "process 4711 on host since 2026-01-31 12:00:00 UTC".
+std::string name_holder(const std::string& path);
 
 }  // namespace acinus::io

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/stop.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
@@ -36,7 +37,7 @@ double apply_distributed(const Operator& op, std::span<float> x, std::span<float
 /// A squared norm: a number, and not negative.
 bool is_size(double rho) { return std::isfinite(rho) && rho >= 0; }
 
-enum class PassEnd { kReached, kBrokeDown, kOutOfIterations };
+enum class PassEnd { kReached, kBrokeDown, kOutOfIterations, kAskedToStop };
 
 /// What a pass starts from and where it ends.
 struct PassPlan {
@@ -66,6 +67,7 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
   for_each_number(n, [&](std::size_t k) { v.direction[k] = v.preconditioned[k]; });
   while (std::sqrt(size2) > plan.goal) {
     if (iterations >= plan.max_iterations) return PassEnd::kOutOfIterations;
+    if (stop_requested()) return PassEnd::kAskedToStop;
     ++iterations;
     if (std::is_same_v<T, float> && iterations == kMergeAfter) op.merge_links();
     const double curvature = apply_distributed(op, v.direction, v.product);
@@ -145,6 +147,7 @@ CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
     const PassPlan plan{size, mixed ? std::max(goal, kFloatGain) : goal, options.max_iterations,
                         coarse};
     const PassEnd end = improve(op, mixed, plan, work, x, result.iterations);
+    if (end == PassEnd::kAskedToStop) return fail(result, "asked to stop");
     stopped = end == PassEnd::kOutOfIterations;
     if (end != PassEnd::kBrokeDown) continue;
     if (!mixed) return fail(result, kIndefinite);

@@ -48,7 +48,7 @@ struct CgWorkspace {
 /// solve for a correction of x; each starts from the true residual in double, which also confirms
 /// the stop. A pass in float that breaks down or gains nothing is followed by one in double; when
 /// that gains nothing either, rounding has the last word: the result is ok if the residual is below
-/// 1e-3 and says what it is.
+/// 1e-3 and says what it is. Fails when the process is asked to stop.
 /// @param op  its contacts are merged when passes in float turn out long
 /// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
 ///                The stop is measured with the diagonal blocks either way.

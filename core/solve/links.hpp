@@ -71,8 +71,8 @@ struct Links {
 
   std::size_t size() const { return link.size(); }
   void resize(std::size_t n) {
-    if (n >
-        link.capacity()) {  // with room: a few more each step must not mean new memory each step
+    // With room: a few more each step must not mean new memory each step.
+    if (n > link.capacity()) {
       link.reserve(n + n / 8);
       load.reserve(n + n / 8);
     }

@@ -25,6 +25,7 @@ struct CellPoints {
   Point first = 0;
   std::size_t n = 0;
 };
+
 /// Pairs of points of one pair of cells.
 class PointPairTable {
  public:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "coupling/generate/buckets.hpp"
@@ -118,10 +119,7 @@ class Builder {
     }
   }
   bool joined(const Edge& e) { return root(e.a) == root(e.b); }
-  bool taken(const Edge& e) const {
-    return std::find(out_.segment.begin(), out_.segment.end(), std::array{e.a, e.b}) !=
-           out_.segment.end();
-  }
+  bool taken(const Edge& e) const { return taken_.contains({e.a, e.b}); }
   bool at_wall(const Edge& e) const { return vein_of_[e.a] >= 0 || vein_of_[e.b] >= 0; }
   /// A wall node takes one sinusoid; others fewer than `limit`.
   bool room(const Edge& e, int limit) const {
@@ -130,6 +128,7 @@ class Builder {
   }
   void take(const Edge& e) {
     out_.segment.push_back({e.a, e.b});
+    taken_.insert({e.a, e.b});
     out_.length += e.length;
     ++degree_[e.a];
     ++degree_[e.b];
@@ -143,6 +142,7 @@ class Builder {
   }
   const std::vector<int>& vein_of_;
   Sinusoids& out_;
+  std::set<std::array<int, 2>> taken_;
   std::vector<int> degree_, parent_;
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/stop.hpp"
 #include "core/threads.hpp"
 #include "coupling/step/acceptance.hpp"
 #include "coupling/step/attempt.hpp"
@@ -107,6 +108,10 @@ StepResult take_step(World& world, Workspace& w, double limit) {
       result.step = step;
       result.error = a.error;
       result.max_move = a.max_move;
+      return result;
+    }
+    if (stop_requested()) {
+      result.interrupted = true;
       return result;
     }
     ++result.rejections;

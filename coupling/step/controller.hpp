@@ -13,6 +13,7 @@ namespace acinus::coupling {
 /// What came of a step.
 struct StepResult {
   bool accepted = false;
+  bool interrupted = false;         ///< not accepted because the process was asked to stop
   double step = 0;                  ///< s, length of the accepted step
   double error = 0;                 ///< um, its estimated error
   double max_move = 0;              ///< um
@@ -23,7 +24,8 @@ struct StepResult {
 
 /// Advances all cells by one accepted step no longer than `limit`, with as many shorter retries as
 /// it takes; constrained cells go as the constraint says.
-/// Not accepted: a step of min_step was still rejected; State is the last good one.
+/// Not accepted: a step of min_step was still rejected, or the process was asked to stop
+/// meanwhile; State is the last good one.
 StepResult take_step(World& world, Workspace& work, double limit);
 
 }  // namespace acinus::coupling

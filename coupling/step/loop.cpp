@@ -12,7 +12,7 @@ LoopResult run_loop(const StepLoop& loop) {
     const double event = loop.time_to_event ? loop.time_to_event() : left;
     result.last = loop.advance(std::min(left, event));
     if (!result.last.accepted) {
-      if (loop.recover && loop.recover(result.last)) continue;
+      if (!result.last.interrupted && loop.recover && loop.recover(result.last)) continue;
       result.ok = false;
       break;
     }

@@ -23,7 +23,7 @@ struct StepLoop {
 
 /// How a loop over steps ended.
 struct LoopResult {
-  bool ok = true;  ///< false: a step could not be accepted
+  bool ok = true;  ///< false: a step could not be accepted, or was interrupted
   int steps = 0;   ///< accepted
   StepResult last;
 };

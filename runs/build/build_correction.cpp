@@ -37,8 +37,7 @@ LawParameters law_parameters(const Scene& scene, const CellType& type) {
            {"adhesion_nN_per_um", type.adhesion}}};
 }
 
-void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
-                       std::vector<std::string>& notes) {
+void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes) {
   std::size_t k = 0;
   for (const auto& [name, type] : scene.cell_types) {
     cbm::Params& p = params[k++];
@@ -49,15 +48,15 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
                       "Calibrate first and name the law file.",
                       name));
     const calibration::Law law = calibration::read_law(file);
-    notes.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    notes.said.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
     for (const std::string& warning : law.warnings)
-      notes.push_back(fmt::format("warning: {}: {}", file, warning));
+      notes.warned.push_back(fmt::format("{}: {}", file, warning));
     const LawParameters here = law_parameters(scene, type);
     const std::vector<std::string> differences =
         calibration::list_differences(law, here.dcm, here.cbm);
     if (!differences.empty())
-      notes.push_back(
-          fmt::format("warning: {} is the law of other cells than {}: {}. Calibrate for "
+      notes.warned.push_back(
+          fmt::format("{} is the law of other cells than {}: {}. Calibrate for "
                       "these cells, or set stiffness_correction to \"auto\"",
                       file, name, fmt::join(differences, "; ")));
     p.young = law.a0;

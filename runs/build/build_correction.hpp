@@ -6,6 +6,7 @@
 
 #include "calibration/law.hpp"
 #include "coupling/world/world.hpp"
+#include "runs/build/notes.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -20,7 +21,6 @@ LawParameters law_parameters(const Scene& scene, const CellType& type);
 /// Notes say which law, and warn where it was found for other cells.
 /// @throws Error for a law file that cannot be used, and for "auto" (calibrated before, see
 /// calibrate.hpp)
-void build_corrections(const Scene& scene, std::vector<cbm::Params>& params,
-                       std::vector<std::string>& notes);
+void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes);
 
 }  // namespace acinus::runs

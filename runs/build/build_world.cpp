@@ -59,13 +59,13 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
 }
 
 /// The lobule of a scene that has one, with what is to be said about it.
-coupling::Lobule build_lobule(const Scene& scene, std::vector<std::string>& notes) {
+coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   const LobuleBlock& b = *scene.lobule;
   UniformStream stream(scene.seed, Purpose::kNetwork, 0);
   coupling::Lobule lobule =
       coupling::make_lobule(lobule_parameters(scene), [&stream] { return stream.uniform(); });
   if (static_cast<int>(lobule.seeds.size()) < b.cells)
-    notes.push_back(
+    notes.warned.push_back(
         fmt::format("room for {} of the {} cells asked for", lobule.seeds.size(), b.cells));
   double cells = 0;
   for (std::size_t k = 0; k < lobule.seeds.size(); ++k)
@@ -75,7 +75,7 @@ coupling::Lobule build_lobule(const Scene& scene, std::vector<std::string>& note
   const double lesion = b.shape == coupling::LobuleShape::kPie
                             ? kPi * b.lesion_radius * b.lesion_radius / 6
                             : kPi * b.lesion_radius * b.lesion_radius;
-  notes.push_back(
+  notes.said.push_back(
       fmt::format("lobule {}: height {} um, {} cells at least {} um apart fill {:.2f} of the "
                   "volume outside the lesion",
                   name_of_choice(b.shape), b.height, lobule.seeds.size(), b.min_distance,
@@ -105,7 +105,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   build_life(scene, p, built.type_names);
   set_params(scene, p);
   if (!scene.start_up.from.empty()) {
-    built.notes.push_back(take_start(scene, world.state));
+    built.notes.said.push_back(take_start(scene, world.state));
     coupling::begin_life(world);
     return built;
   }

@@ -6,6 +6,7 @@
 
 #include "core/mesh/network.hpp"
 #include "coupling/world/world.hpp"
+#include "runs/build/notes.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -14,8 +15,8 @@ namespace acinus::runs {
 struct BuiltWorld {
   coupling::World world;
   std::vector<std::string> type_names;  ///< of the type index
-  std::vector<std::string> notes;       ///< for the log
-  double vessel_length = 0;             ///< um
+  Notes notes;
+  double vessel_length = 0;  ///< um
 };
 
 /// Generates or reads the geometry, places the cells and checks that they fit.

@@ -239,4 +239,12 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
                                             "start_up block (acinus explain start_up.enabled)."));
 }
 
+double count_wanted_cells(const Scene& scene) {
+  const CellsBlock& c = scene.cells;
+  if (c.source == CellSource::kList) return static_cast<double>(c.list.size());
+  if (c.source == CellSource::kBox) return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
+  if (c.source == CellSource::kLobule && scene.lobule) return scene.lobule->cells;
+  return c.count;
+}
+
 }  // namespace acinus::runs

@@ -41,4 +41,7 @@ bool in_zoom(const Scene& scene, const Vec3& x);
 void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
                   const contact::Boundary& boundary);
 
+/// How many cells a scene asks for at its start; there may be room for fewer.
+double count_wanted_cells(const Scene& scene);
+
 }  // namespace acinus::runs

@@ -11,6 +11,7 @@
 #include "calibration/report.hpp"
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
+#include "core/stop.hpp"
 #include "runs/build/build_correction.hpp"
 #include "runs/build/build_params.hpp"
 #include "runs/build/build_world.hpp"
@@ -156,6 +157,7 @@ calibration::Clump clump_of(const Scene& scene, const Scene& compression,
 }  // namespace
 
 int calibrate(const Scene& scene, const CalibrateOptions& options) {
+  const StopSignals signals;
   const Scene compression = compression_scene(scene, options.clump);
   const Folders folders(compression, options);
   if (options.threads > 0) omp_set_num_threads(options.threads);

@@ -10,9 +10,9 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "core/io/file_lock.hpp"
+#include "core/stop.hpp"
 #include "runs/build/build_correction.hpp"
 #include "runs/calibrate/calibrate.hpp"
-#include "runs/session/stop_signals.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -40,7 +40,7 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   std::fflush(stdout);
   constexpr double kLook = 0.2;  // s between looks at signals
   const StopSignals signals;
-  while (stop_signal() == 0)
+  while (!stop_requested())
     if (auto held = io::FileLock::try_take(lock, kLook)) return held;
   return {};
 }

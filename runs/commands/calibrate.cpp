@@ -4,8 +4,10 @@
 
 #include <memory>
 
+#include "core/stop.hpp"
 #include "core/units.hpp"
 #include "runs/commands/command.hpp"
+#include "runs/commands/wall_time.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -16,7 +18,7 @@ struct CalibrateArguments {
   CalibrateOptions options;
   std::string scene_file = "calibration";
   std::vector<std::string> set;
-  std::string check_friction, relaxation_time;
+  std::string check_friction, relaxation_time, max_walltime;
 };
 
 /// Without --fresh, which would throw away what there is.
@@ -29,6 +31,7 @@ std::string command_to_go_on(std::string command_line) {
 
 int run(CalibrateArguments& arguments) {
   CalibrateOptions& options = arguments.options;
+  const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   if (!arguments.check_friction.empty())
     options.calibration.check_friction =
         flag_value("--check-friction", arguments.check_friction,
@@ -91,6 +94,7 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
                    "also look for the cell-cell friction with which the relaxation's exponential "
                    "fit has this time, e.g. \"5 h\" (see docs/calibration.md first)")
       ->type_name("TIME");
+  add_wall_time_limit(*command, arguments->max_walltime);
   command->add_flag("--fresh", o.fresh, "do not go on from what an earlier attempt left");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
   add_threads(*command, o.threads);

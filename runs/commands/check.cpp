@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "runs/build/build_world.hpp"
+#include "runs/build/memory_need.hpp"
 #include "runs/commands/command.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
@@ -19,15 +20,17 @@ struct CheckArguments {
 int check_scene(const CheckArguments& arguments) {
   const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
   Scene plain = scene;
-  std::vector<std::string> notes;
+  std::vector<std::string> later;
   for (auto& [name, type] : plain.cell_types) {
     if (type.cbm.stiffness_correction != "auto") continue;
     type.cbm.stiffness_correction = "none";
-    notes.push_back(name + ": calibrated when the scene runs, if that was not done before");
+    later.push_back(name + ": calibrated when the scene runs, if that was not done before");
   }
+  check_memory(plain, machine_memory());
   const BuiltWorld built =
       build_world(plain, Ranks::serial());  // throws for geometry that does not fit
-  notes.insert(notes.begin(), built.notes.begin(), built.notes.end());
+  for (const std::string& warning : built.notes.warned)
+    fmt::print(stderr, "acinus: warning: {}\n", warning);
   if (arguments.resolved) {
     fmt::print("{}", scene.resolved_json);
     return 0;
@@ -39,7 +42,8 @@ int check_scene(const CheckArguments& arguments) {
       scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
       dcm::count_cells(state.dcm), state.cbm.n_cell(), name_of_choice(scene.cells.source),
       built.vessel_length, scene.time.end / 3600, scene.hash);
-  for (const std::string& note : notes) fmt::print("{}\n", note);
+  for (const std::string& note : built.notes.said) fmt::print("{}\n", note);
+  for (const std::string& note : later) fmt::print("{}\n", note);
   return 0;
 }
 

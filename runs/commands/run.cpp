@@ -1,21 +1,36 @@
 /// acinus run
 
+#include <charconv>
 #include <memory>
 
+#include "core/stop.hpp"
 #include "core/units.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/commands/command.hpp"
 #include "runs/commands/wall_time.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/session/run_folder.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace acinus::runs {
 namespace {
 
+/// Bytes of "16GB", "500 MB".
+double parse_memory(const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string unit(end, text.data() + text.size());
+  std::erase(unit, ' ');
+  const double scale = unit == "TB" ? 1e12 : unit == "GB" ? 1e9 : unit == "MB" ? 1e6 : 0;
+  check(code == std::errc() && scale > 0,
+        fmt::format("\"{}\": a size of memory is written like 16GB or \"500 MB\"", text));
+  return scale * value;
+}
+
 struct RunArguments {
   RunOptions run;
-  std::string until, checkpoint_every, max_walltime, progress;
+  std::string until, checkpoint_every, max_walltime, max_memory, progress;
 };
 
 int run(RunArguments& arguments) {
@@ -26,12 +41,14 @@ int run(RunArguments& arguments) {
   if (!arguments.checkpoint_every.empty())
     run.checkpoint_every_s =
         flag_value("--checkpoint-every", arguments.checkpoint_every, parse_wall_time);
-  if (!arguments.max_walltime.empty())
-    run.max_walltime_s = flag_value("--max-walltime", arguments.max_walltime, parse_wall_time);
+  const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
+  if (!arguments.max_memory.empty())
+    run.max_memory = flag_value("--max-memory", arguments.max_memory, parse_memory);
   run.progress_json = arguments.progress == "json";
   Scene scene = read_scene(find_scene_file(run.scene_file), run.set);
   if (run.out.empty()) run.out = scene.name + ".run";
-  if (const int stop = resolve_corrections(scene, run.threads, run.quiet))
+  check_folder(run.out, run);  // not after hours of calibration
+  if (const int stop = resolve_corrections(scene, run.threads, run.quiet || run.progress_json))
     return tell_how_to_go_on(stop, run.command_line, run.quiet);
   return run_scene(scene, run);
 }
@@ -58,10 +75,12 @@ Command add_run(CLI::App& app, const std::string& command_line) {
       ->add_option("--checkpoint-every", arguments->checkpoint_every,
                    "wall time between checkpoints (default: 10min)")
       ->type_name("WALL");
+  add_wall_time_limit(*command, arguments->max_walltime);
   command
-      ->add_option("--max-walltime", arguments->max_walltime,
-                   "stop with a checkpoint after this wall time, e.g. 23h30m")
-      ->type_name("WALL");
+      ->add_option("--max-memory", arguments->max_memory,
+                   "stop with a checkpoint when more is in use, e.g. 16GB (default: 95 % of the "
+                   "machine's)")
+      ->type_name("SIZE");
   command->add_flag("--timings", run.timings, "print the time of each stage at the end");
   command->add_flag("--quiet", run.quiet, "warnings and errors only");
   command->add_option("--progress", arguments->progress, "form of the progress lines")

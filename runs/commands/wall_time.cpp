@@ -5,8 +5,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
+#include "runs/commands/command.hpp"
 
 namespace acinus::runs {
 
@@ -49,6 +51,18 @@ double parse_wall_time(const std::string& text) {
   if (!any) fail("is empty");
   if (!std::isfinite(sum)) fail("too long");
   return sum;
+}
+
+void add_wall_time_limit(CLI::App& command, std::string& text) {
+  command
+      .add_option("--max-walltime", text,
+                  "stop after this wall time, e.g. 23h30m, with a checkpoint to go on from")
+      ->type_name("WALL");
+}
+
+double read_wall_time_limit(const std::string& text) {
+  if (text.empty()) return std::numeric_limits<double>::infinity();
+  return flag_value("--max-walltime", text, parse_wall_time);
 }
 
 }  // namespace acinus::runs

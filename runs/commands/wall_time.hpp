@@ -1,6 +1,7 @@
 #pragma once
 /// Wall times of the command line.
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 namespace acinus::runs {
@@ -8,5 +9,10 @@ namespace acinus::runs {
 /// Wall-clock time such as "10min", "23h30m", "600 s", "1d" in s. Here m means minutes.
 /// @throws Error naming the text
 double parse_wall_time(const std::string& text);
+
+/// The flag --max-walltime.
+void add_wall_time_limit(CLI::App& command, std::string& text);
+/// Its value in s; infinite if it was not given.   @throws Error naming the flag
+double read_wall_time_limit(const std::string& text);
 
 }  // namespace acinus::runs

@@ -30,6 +30,12 @@ std::string without_prefix(const std::string& message, const std::string& text) 
   return pointer_path(message.starts_with(prefix) ? message.substr(prefix.size()) : message);
 }
 
+/// Sizes in base units (um, s, nN) beyond which a quantity is no tissue's but a slip of the unit.
+/// Within them squares and cubes stay numbers, in the single precision of the run file too.
+Range possible_sizes(Dimension dimension) {
+  return {.low = 1e-15, .high = dimension == kLength ? 1e6 : 1e12};
+}
+
 }  // namespace
 
 bool ValueReader::is_object(const Node& node, const std::string& pointer) const {
@@ -75,6 +81,15 @@ bool ValueReader::read_real(const Key& key, const Node& node, const std::string&
   }
   if (!key.range.contains(number)) {
     report_.add_value(node, pointer, "must be " + range_text(key.range, key.dimension, key.unit));
+    return false;
+  }
+  const Range sizes = possible_sizes(key.dimension);
+  if (key.unit[0] != '\0' && number != 0 && !sizes.contains(std::abs(number))) {
+    report_.add_value(
+        node, pointer,
+        fmt::format("is no size of tissue: from {0:g} to {1:g} {2} is allowed, and 0. "
+                    "Check its unit",
+                    sizes.low, sizes.high, base_unit(key.dimension)));
     return false;
   }
   value = number;

@@ -62,7 +62,7 @@ void Recorder::create() {
                               file_options());
 }
 
-std::string Recorder::resume() {
+Notes Recorder::resume() {
   const io::LoadedCheckpoint loaded = io::load_checkpoint(options_.out);
   const io::CheckpointData& data = loaded.data;
   check_same_scene(data, scene_);
@@ -78,8 +78,11 @@ std::string Recorder::resume() {
   io::RunFileCounts counts;
   visit(counts, [&](const char* name, std::int64_t& n) { n = data.count(name); });
   file_ = io::RunFile::open_for_append(run_file(), counts, file_options());
-  return (loaded.warning.empty() ? "" : loaded.warning + "\n") +
-         fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file);
+  Notes notes;
+  notes.said.push_back(
+      fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file));
+  if (!loaded.warning.empty()) notes.warned.push_back(loaded.warning);
+  return notes;
 }
 
 Excess Recorder::write_frame(bool last) {

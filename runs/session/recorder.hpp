@@ -12,6 +12,7 @@
 #include "core/timing.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/build/notes.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/session/run_scene.hpp"
 #include "runs/session/soundness.hpp"
@@ -26,8 +27,8 @@ class Recorder {
 
   void create();  ///< A new run file. @throws Error(kFileError)
   /// Goes on with an older one: the world gets the state of the checkpoint.
-  /// @return what was done, for the log   @throws Error(kBadInput, kFileError)
-  std::string resume();
+  /// @return what was done   @throws Error(kBadInput, kFileError)
+  Notes resume();
 
   /// @param last  no frame is to come in which an overlap could be gone
   /// @return why the run must not go on from this frame, with depth_um = 0 if it may: overlaps of
@@ -37,7 +38,9 @@ class Recorder {
   void add_event(const std::string& code, const std::string& message,
                  const std::vector<std::int64_t>& cells = {});
   void add_life(const coupling::LifeReport& report);
-  void add_note(const std::string& note) { notes_.push_back(note); }  ///< for the summary
+  /// For the summary.
+  void add_note(const std::string& note) { notes_.said.push_back(note); }
+  void add_warning(const std::string& warning) { notes_.warned.push_back(warning); }
 
   void save();  ///< Writes a checkpoint. @throws Error(kFileError)
   /// Checkpoint, run file and summary in their last form.
@@ -63,7 +66,7 @@ class Recorder {
   RunTotals totals_;
   LifeTotals life_;
   Observables observables_;
-  std::vector<std::string> notes_;
+  Notes notes_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues
   static constexpr double kNoFrame = -1e300;

@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -21,8 +20,11 @@ namespace fs = std::filesystem;
 constexpr std::array kResultFiles{"run.vtkhdf",         "run.xmf",  "summary.json", "checkpoint.h5",
                                   "checkpoint.prev.h5", "start.h5", "run.log"};
 
-/// Held while a run writes in the folder. Every run has it, and it stays the same file.
-constexpr const char* kLockedFile = "run.log";
+/// Held while a run writes in the folder. It is never removed, else two processes could hold two
+/// files of that name.
+constexpr const char* kLockedFile = "run.lock";
+
+std::string lock_file(const std::string& folder) { return folder + "/" + kLockedFile; }
 
 /// Keys that a resumed run may change.
 bool may_change(const std::string& pointer) {
@@ -30,30 +32,45 @@ bool may_change(const std::string& pointer) {
          pointer == "/start_up/from" || pointer.starts_with("/output");
 }
 
-}  // namespace
-
-bool is_being_written(const std::string& folder) {
-  return io::is_locked(folder + "/" + kLockedFile);
-}
-
-io::FileLock prepare_folder(const std::string& folder, const RunOptions& options) {
+/// Whether the folder may be used: it holds what the run needs, and nothing that it may not
+/// replace.
+void check_use(const std::string& folder, const RunOptions& options) {
   std::error_code failed;
-  const bool exists = fs::exists(folder, failed);
-  check(!exists || fs::is_directory(folder),
+  check(!fs::exists(folder, failed) || fs::is_directory(folder),
         fmt::format("--out {}: is a file; a folder is needed.", folder));
-  const bool results = std::ranges::any_of(
-      kResultFiles, [&](const char* f) { return fs::exists(fs::path(folder) / f); });
   if (options.resume) {
     check(io::has_checkpoint(folder),
           fmt::format("--resume: {} holds no checkpoint. Run without --resume to start anew.",
                       folder));
-  } else {
-    check(!results || options.overwrite,
-          fmt::format(
-              "--out {}: holds the results of an earlier run, which are never replaced unasked. "
-              "Choose another --out, continue it with --resume, or replace it with --overwrite.",
-              folder));
+    return;
   }
+  const bool results = std::ranges::any_of(
+      kResultFiles, [&](const char* f) { return fs::exists(fs::path(folder) / f); });
+  check(!results || options.overwrite,
+        fmt::format(
+            "--out {}: holds the results of an earlier run, which are never replaced unasked. "
+            "Choose another --out, continue it with --resume, or replace it with --overwrite.",
+            folder));
+}
+
+Error being_written(const std::string& folder) {
+  return Error(fmt::format(
+      "--out {}: {} is writing in this folder. Wait until it ends, or choose another --out.",
+      folder, io::name_holder(lock_file(folder))));
+}
+
+}  // namespace
+
+bool is_being_written(const std::string& folder) { return io::is_locked(lock_file(folder)); }
+
+void check_folder(const std::string& folder, const RunOptions& options) {
+  if (is_being_written(folder)) throw being_written(folder);
+  check_use(folder, options);
+}
+
+io::FileLock prepare_folder(const std::string& folder, const RunOptions& options) {
+  std::error_code failed;
+  if (options.resume || !fs::is_directory(folder, failed)) check_use(folder, options);
   fs::create_directories(folder, failed);
   check(!failed,
         fmt::format("--out {}: the folder cannot be made ({}). Choose another --out.", folder,
@@ -62,15 +79,12 @@ io::FileLock prepare_folder(const std::string& folder, const RunOptions& options
   check(::access(folder.c_str(), W_OK) == 0,
         fmt::format("--out {}: the folder cannot be written. Choose another --out.", folder),
         Exit::kFileError);
-  std::optional<io::FileLock> lock = io::FileLock::try_take(folder + "/" + kLockedFile, 1);
-  check(lock.has_value(),
-        fmt::format("--out {}: another process is writing in this folder. Wait until it ends, or "
-                    "choose another --out.",
-                    folder),
-        Exit::kFileError);
-  if (results && options.overwrite && !options.resume)
-    for (const char* f : kResultFiles)
-      if (f != std::string_view(kLockedFile)) fs::remove(fs::path(folder) / f, failed);
+  // Before the folder is looked at: what another process is about to put there counts.
+  std::optional<io::FileLock> lock = io::FileLock::try_take(lock_file(folder), 1);
+  if (!lock) throw being_written(folder);
+  check_use(folder, options);
+  if (options.overwrite)
+    for (const char* f : kResultFiles) fs::remove(fs::path(folder) / f, failed);
   return std::move(*lock);
 }
 

@@ -14,9 +14,11 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "core/stop.hpp"
 #include "core/time_grid.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/build/build_world.hpp"
+#include "runs/build/memory_need.hpp"
 #include "runs/build/start_state.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/session/advice.hpp"
@@ -25,7 +27,6 @@
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
-#include "runs/session/stop_signals.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -50,6 +51,11 @@ std::string resume_command(const RunOptions& options) {
   return command;
 }
 
+double memory_limit(const RunOptions& options) {
+  constexpr double kShare = 0.95;
+  return options.max_memory.value_or(kShare * machine_memory());
+}
+
 /// One run from its first to its last step.
 class SceneRun {
  public:
@@ -60,6 +66,9 @@ class SceneRun {
   coupling::Observer observer();
   bool events_over();
   void end_phase(const std::string& what);
+  void note(const std::string& text);
+  void warn(const std::string& text);
+  void tell(const Notes& notes);
   bool frame_is_due() const;
   void write_frame(bool last);
   bool is_last() const;
@@ -68,19 +77,22 @@ class SceneRun {
   void stop(const std::string& why);
   int finish(const coupling::LoopResult& steps);
   int give_up(const std::string& cause, const std::vector<std::int64_t>& cells);
-  std::string reason_to_stop() const;
+  bool uses_too_much_memory();
+  std::string reason_to_stop();
   const coupling::World& world() const { return simulation_.world(); }
   double time() const { return simulation_.time(); }
 
   const Scene& scene_;
   const RunOptions& options_;
-  std::vector<std::string> notes_;  ///< of the geometry
-  double vessel_length_;            ///< um
+  Notes notes_;           ///< of the geometry
+  double vessel_length_;  ///< um
   coupling::Simulation simulation_;
   Recorder recorder_;
   double end_;  ///< s
   Progress progress_;
-  double started_ = wall_seconds(), last_save_ = wall_seconds();
+  double last_save_ = wall_seconds();
+  double memory_limit_;       ///< bytes
+  double next_look_ = 0;      ///< at the memory in use, on the clock of wall_seconds()
   double extra_frame_ = 0;    ///< s, the next frame that an opening asks for
   bool was_running_ = false;  ///< before this step
   std::string stopped_by_;    ///< empty: it was not
@@ -95,12 +107,20 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
       simulation_(std::move(built.world)),
       recorder_(scene, options, simulation_),
       end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
-      progress_(options, end_) {}
+      progress_(options, end_),
+      memory_limit_(memory_limit(options)) {}
 
-std::string SceneRun::reason_to_stop() const {
-  if (const int signal = stop_signal(); signal != 0) return fmt::format("signal {}", signal);
-  if (options_.max_walltime_s && wall_seconds() - started_ > *options_.max_walltime_s)
-    return "the wall-time limit";
+bool SceneRun::uses_too_much_memory() {
+  constexpr double kLook = 0.5;  // s between looks: steps of small scenes are shorter than one
+  const double now = wall_seconds();
+  if (now < next_look_) return false;
+  next_look_ = now + kLook;
+  return static_cast<double>(rss_bytes()) > memory_limit_;
+}
+
+std::string SceneRun::reason_to_stop() {
+  if (const std::string asked = describe_stop(); !asked.empty()) return asked;
+  if (uses_too_much_memory()) return "the memory limit";
   if (std::filesystem::exists(options_.out + "/STOP")) return "the file STOP";
   return {};
 }
@@ -121,9 +141,18 @@ bool SceneRun::frame_is_due() const {
          (was_running_ && time() > extra_frame_ - kSameTime);
 }
 
+void SceneRun::note(const std::string& text) {
+  progress_.note(text);
+  recorder_.add_note(text);
+}
+
+void SceneRun::warn(const std::string& text) {
+  progress_.warn(text);
+  recorder_.add_warning(text);
+}
+
 void SceneRun::end_phase(const std::string& what) {
-  progress_.note(what);
-  recorder_.add_note(what);
+  note(what);
   recorder_.add_event("start_up", what);
 }
 
@@ -137,8 +166,7 @@ void SceneRun::write_frame(bool last) {
       "the scene starts with overlaps: {}. Until contact has pushed them apart, forces and "
       "pressures mean nothing; if they do not shrink from frame to frame, the run stops. {}",
       start.cause, advise_start(scene_, world(), start));
-  progress_.warn(warning);
-  recorder_.add_note("warning: " + warning);
+  warn(warning);
 }
 
 /// Frames, checkpoints and reasons to stop, once the events after a step are over.
@@ -175,11 +203,9 @@ coupling::Observer SceneRun::observer() {
 
 void SceneRun::close(const std::string& status, const std::string& cause) {
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
-    const std::string note = fmt::format(
+    note(fmt::format(
         "the stiffness of spheres was asked beyond the range of its law in {:.2g} % of cases",
-        100 * static_cast<double>(spheres.beyond) / static_cast<double>(spheres.corrected));
-    recorder_.add_note(note);
-    progress_.note(note);
+        100 * static_cast<double>(spheres.beyond) / static_cast<double>(spheres.corrected)));
   }
   if (const auto skipped = list_skipped_work(world(), simulation_.work()); !skipped.empty())
     progress_.note(fmt::format("also skipped: {}", fmt::join(skipped, ", ")));
@@ -213,7 +239,8 @@ int SceneRun::loop() {
 }
 
 int SceneRun::finish(const coupling::LoopResult& steps) {
-  if (!steps.ok) {
+  if (steps.last.interrupted) stopped_by_ = reason_to_stop();
+  if (!steps.ok && stopped_by_.empty()) {
     const coupling::StepResult& step = steps.last;
     return give_up(
         fmt::format(
@@ -239,9 +266,14 @@ int SceneRun::finish(const coupling::LoopResult& steps) {
   return static_cast<int>(Exit::kDone);
 }
 
+void SceneRun::tell(const Notes& notes) {
+  for (const std::string& text : notes.warned) warn(text);
+  for (const std::string& text : notes.said) note(text);
+}
+
 int SceneRun::go() {
   if (options_.resume) {
-    progress_.note(recorder_.resume());
+    tell(recorder_.resume());
   } else {
     recorder_.create();
   }
@@ -249,10 +281,7 @@ int SceneRun::go() {
   progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {} threads",
                              scene_.name, dcm::count_cells(s.dcm), s.cbm.n_cell(), vessel_length_,
                              options_.threads));
-  for (const std::string& note : notes_) {
-    progress_.note(note);
-    recorder_.add_note(note);
-  }
+  tell(notes_);
   if (const auto skipped = list_skipped(world()); !skipped.empty())
     progress_.note(fmt::format("skipped: {}", fmt::join(skipped, ", ")));
   progress_.begin(world());
@@ -277,7 +306,11 @@ int run_scene(const Scene& scene, const RunOptions& asked) {
   RunOptions options = asked;
   if (options.threads <= 0) options.threads = omp_get_num_procs();
   omp_set_num_threads(options.threads);
-  BuiltWorld built = build_world(scene, Ranks::world());
+  BuiltWorld built = [&] {
+    const ExitAtLimit nothing_to_save;
+    check_memory(scene, memory_limit(options));
+    return build_world(scene, Ranks::world());
+  }();
   check(built.world.ranks.size() == 1,
         "this version runs on one rank; start it without mpirun and use --threads.");
   const io::FileLock writing = prepare_folder(options.out, options);

@@ -147,7 +147,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   j["vessel_length_um"] = number(mesh::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
-  j["notes"] = in.notes;
+  j["notes"] = in.notes.said;
+  j["warnings"] = in.notes.warned;
   Json timings = Json::object();
   for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
   j["timings"] = timings;

@@ -6,6 +6,7 @@
 
 #include "core/timing.hpp"
 #include "coupling/world/world.hpp"
+#include "runs/build/notes.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_scene.hpp"
@@ -22,7 +23,7 @@ struct SummaryInput {
   const Measures& measures;
   const Timings& timings;
   const std::vector<std::string>& skipped;
-  const std::vector<std::string>& notes;
+  const Notes& notes;
   std::string status;  ///< completed | stopped | failed
   std::string cause;   ///< why it stopped or failed
   int threads = 1;

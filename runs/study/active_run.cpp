@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 void clear_run(const std::string& folder) {
   std::error_code code;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-    if (entry.path().filename() != "claim.lock" && entry.path().filename() != "run.log")
+    if (entry.path().filename() != "claim.lock" && entry.path().filename() != "run.lock")
       fs::remove_all(entry.path(), code);
 }
 
@@ -37,7 +37,7 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
   const std::vector<std::string> words{
       "run", folder + "/scene.json", "--out", folder, "--threads", std::to_string(options.threads),
       "--progress", "json", "--checkpoint-every", fmt::format("{} s", options.checkpoint_every_s),
-      // without: run.log, which holds the lock, stays there
+      // nothing of an earlier run is left, but a killed process may have got as far as its log
       resume ? "--resume" : "--overwrite"};
   std::error_code ignored;
   fs::remove(folder + "/progress.txt", ignored);

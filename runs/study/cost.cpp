@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runs/build/place_cells.hpp"
+
 namespace acinus::runs {
 namespace {
 
@@ -15,14 +17,10 @@ double cell_step(const Scene& scene, int nodes) {
   return at_162 * nodes / 162 * (scene.numerics.adaptive ? kSolves : 1);
 }
 
-double count_cells(const Scene& scene) {
-  const CellsBlock& c = scene.cells;
+double count_final_cells(const Scene& scene) {
   if (scene.life.proliferation && scene.life.proliferation->cells > 0)
     return scene.life.proliferation->cells;
-  if (c.source == CellSource::kList) return static_cast<double>(c.list.size());
-  if (c.source == CellSource::kBox) return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
-  if (c.source == CellSource::kLobule && scene.lobule) return scene.lobule->cells;
-  return c.count;
+  return count_wanted_cells(scene);
 }
 
 /// Share of deformable cells; of zoomed scenes half, where they lie is not looked at.
@@ -41,7 +39,7 @@ double estimate_cost(const Scene& scene, bool shared_start) {
     time += scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_settle;
   const double deformable = share_deformable(scene);
   const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphere;
-  return std::max(0.1, time / scene.numerics.max_step * count_cells(scene) * one);
+  return std::max(0.1, time / scene.numerics.max_step * count_final_cells(scene) * one);
 }
 
 }  // namespace acinus::runs

@@ -11,8 +11,8 @@
 
 #include "core/error.hpp"
 #include "core/io/file_lock.hpp"
+#include "core/stop.hpp"
 #include "runs/session/run_folder.hpp"
-#include "runs/session/stop_signals.hpp"
 #include "runs/study/active_run.hpp"
 #include "runs/study/run_status.hpp"
 #include "runs/study/study_laws.hpp"

@@ -85,6 +85,8 @@ TEST_F(LawFile, BadOnesAreRefusedWithTheReason) {
   };
   expect("\"schema_version\": 3", "\"schema_version\": 7", "another version");
   expect("0.45", "NaN", "not JSON");
+  expect("0.45", "1e999", "too large");
+  expect("\"power\"", "\"colour\": 1, \"power\"", "unknown key \"colour\"");
   expect("0.45", "null", "expected a number");
   expect("0.45", "-0.45", "not allowed");
   expect("0.45", "\"450 Pa\"", "expected a number");

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "core/stop.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -71,6 +72,28 @@ TEST_P(Resume, IsBitForBitWithTheCoarseSpaceOn) {
   size_workspace(forgetful, other);
   EXPECT_GE(take_steps(forgetful, other, kSteps / 2), 0);
   EXPECT_NE(hash_state(forgetful.state), hash_state(through.state));
+}
+
+TEST_P(Resume, AStepThatIsInterruptedChangesNothing) {
+  World through = packed_cells(GetParam());
+  Workspace work;
+  size_workspace(through, work);
+  ASSERT_GE(take_steps(through, work, 2), 0);
+  World stopped = packed_cells(GetParam());
+  stopped.state = through.state;
+  Workspace other;
+  size_workspace(stopped, other);
+  {
+    const WallTimeLimit passed(0);
+    const StepResult result = advance(stopped, other, kStep);
+    EXPECT_FALSE(result.accepted);
+    EXPECT_TRUE(result.interrupted);
+  }
+  EXPECT_EQ(hash_state(stopped.state), hash_state(through.state));
+  ASSERT_GE(take_steps(through, work, 1), 0);
+  ASSERT_GE(take_steps(stopped, other, 1), 0);
+  EXPECT_EQ(hash_state(stopped.state), hash_state(through.state));
+  EXPECT_EQ(stopped.state.clock.rejected, through.state.clock.rejected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Resume,

@@ -71,6 +71,7 @@ class Process {
     return true;
   }
   void send(int signal) const { kill(id_, signal); }
+  pid_t id() const { return id_; }
   Outcome wait() {
     while (read_some()) continue;
     close(output_);

@@ -98,9 +98,11 @@ TEST_F(RunErrors, ResumeNeedsACheckpointThatCanBeRead) {
   EXPECT_EQ(cut.code, 4) << cut.text;
   EXPECT_NE(cut.text.find("b/checkpoint.h5"), std::string::npos) << cut.text;
   fs::copy(path("a/checkpoint.h5"), path("b/checkpoint.prev.h5"));
-  const Outcome previous = call({"run", "pair.json", "--resume", "--out", "b"});
+  const Outcome previous = call(run_words("pair.json", "b", {"--resume"}));
   EXPECT_EQ(previous.code, 0) << previous.text;
   EXPECT_NE(previous.text.find("checkpoint.prev.h5"), std::string::npos) << previous.text;
+  EXPECT_NE(summary("b")["warnings"].dump().find("checkpoint.prev.h5"), std::string::npos)
+      << "also with --quiet";
   ASSERT_EQ(call(run_words("pair.json", "a", {"--resume"})).code, 0);
   EXPECT_EQ(summary("a")["state_hash"], summary("b")["state_hash"]);
 }
@@ -267,10 +269,25 @@ TEST_F(RunErrors, CellsThatDoNotFitAreNamedWithTheirPlace) {
                  {"/cells/list/0 and /cells/list/1", "1 um apart", "half a radius, 6 um", "Move"});
   expect_refused({R"(cells.list.1.position=["0 um", "0 um", "0 um"])"},
                  {"/cells/list/0 and /cells/list/1", "0 um apart"});
-  expect_refused({"cells.list.0.radius=1e100 um"}, {"/cells/list/0", "1e+100 um", "unit"});
+  expect_refused({"cells.list.0.radius=1e100 um"}, {"/cells/list/0", "1e100 um", "unit"});
   expect_refused({"cells.list.0.radius=1e-9 um"}, {"/cells/list/0", "1e-09 um", "unit"});
   expect_refused({R"(cells.list.1.position=["1e9 um", "0 um", "0 um"])"},
-                 {"/cells/list/1", "1e+09", "unit"});
+                 {"/cells/list/1", "1e9 um", "unit"});
+}
+
+TEST_F(RunErrors, MemoryIsEstimatedBeforeAnythingIsPlacedAndWatchedThen) {
+  const Outcome outcome = call(
+      {"run", "clump13", "--set", "cells.count=100000", "--max-memory", "500 MB", "--out", "a"});
+  EXPECT_EQ(outcome.code, 2) << outcome.text;
+  for (const char* part :
+       {"at least 7.29 GB", "0.5 GB are allowed", "1e+05 cells", "dcm.nodes", "--max-memory"})
+    EXPECT_NE(outcome.text.find(part), std::string::npos) << part << "\n" << outcome.text;
+  EXPECT_FALSE(fs::exists(path("a")));
+  // An estimate knows nothing of what grows.
+  const Outcome stopped = call({"run", "two_cells", "--max-memory", "2MB", "--out", "b"});
+  EXPECT_EQ(stopped.code, 75) << stopped.text;
+  EXPECT_EQ(summary("b")["cause"], "stopped by the memory limit");
+  EXPECT_EQ(call({"run", "two_cells", "--max-memory", "2", "--out", "c"}).code, 2);
 }
 
 TEST_F(RunErrors, VesselFilesMustBeUsable) {

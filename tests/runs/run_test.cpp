@@ -1,5 +1,7 @@
 #include "runs/session/run_scene.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <random>
 
@@ -40,8 +42,9 @@ class Run : public program::ProgramTest {
 TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
   write("pair.json", program::kGrowing);
   const Json s = finish({"run", "pair.json", "--out", "a"}, "a");
-  EXPECT_EQ(names_in("a"), (std::vector<std::string>{"checkpoint.h5", "run.log", "run.vtkhdf",
-                                                     "run.xmf", "start.h5", "summary.json"}));
+  EXPECT_EQ(names_in("a"),
+            (std::vector<std::string>{"checkpoint.h5", "run.lock", "run.log", "run.vtkhdf",
+                                      "run.xmf", "start.h5", "summary.json"}));
   for (const char* key : {"scene",
                           "scene_hash",
                           "version",
@@ -173,21 +176,44 @@ TEST_F(Run, AnEarlierEndAndResumedWithALaterOneIsTheWholeRun) {
 TEST_F(Run, OneStepPerProcessIsTheWholeRun) {
   write("pair.json", program::kGrowing);
   finish(run_words("pair.json", "whole"), "whole");
-  Words words = run_words("pair.json", "steps", {"--max-walltime", "0.000001s"});
+  Words words = run_words("pair.json", "steps");
+  const auto call_with_stop = [&] {
+    fs::create_directories(path("steps"));
+    std::ofstream(path("steps/STOP"));
+    return call(words);
+  };
   int starts = 1;
-  Outcome outcome = call(words);
+  Outcome outcome = call_with_stop();
   words.emplace_back("--resume");
   for (; outcome.code == 75 && starts < 500; ++starts) {
     if (starts == 1) {
       EXPECT_EQ(summary("steps")["status"], "stopped");
-      EXPECT_EQ(summary("steps")["cause"], "stopped by the wall-time limit");
+      EXPECT_EQ(summary("steps")["cause"], "stopped by the file STOP");
     }
-    outcome = call(words);
+    outcome = call_with_stop();
   }
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_GE(starts, summary("whole")["steps"]["accepted"]) << "a process made more than one step";
   expect_same("whole", "steps");
   RecordProperty("starts", starts);
+}
+
+TEST_F(Run, TheWallTimeLimitHoldsWhileTheSceneIsPrepared) {
+  // CPU time: a busy machine may let the program wait.
+  const auto cpu_of_children = [] {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+  };
+  const double before = cpu_of_children();
+  // A lobule 30 cm high: most of a minute of work.
+  const Outcome outcome = call({"run", "lobule_hybrid", "--set", "lobule.height=3e5 um",
+                                "--threads", "1", "--max-walltime", "1s", "--out", "p"});
+  EXPECT_EQ(outcome.code, 75) << outcome.text;
+  EXPECT_NE(outcome.text.find("stopped by the wall-time limit"), std::string::npos) << outcome.text;
+  EXPECT_LT(cpu_of_children() - before, 5);  // s
+  EXPECT_FALSE(fs::exists(path("p")));
 }
 
 TEST_F(Run, StopsOnSignalsAndOnTheStopFileAndGoesOn) {

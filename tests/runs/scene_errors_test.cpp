@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,6 +32,16 @@ TEST(SceneErrors, UnknownKeyHasPlaceAndHint) {
   EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
             "scene.json:2:26 /time/quux: unknown key. Known here: end, step, min_step, adaptive, "
             "tolerance, max_move, integrator, extrapolate, with_contacts, until_cells");
+}
+
+TEST(SceneErrors, QuantitiesThatNoTissueHasAreSlipsOfTheUnit) {
+  for (const char* key : {R"("adhesion": "1e95 J/m^2")", R"("adhesion": "1e-40 J/m^2")",
+                          R"("radius": "2 m")", R"("dcm": {"bulk_modulus": "1e20 Pa"})"}) {
+    const std::string text =
+        failure(minimal("\"hepatocyte\": {}", fmt::format("\"hepatocyte\": {{{}}}", key)));
+    EXPECT_NE(text.find("is no size of tissue: from 1e-15 to 1e"), std::string::npos) << text;
+    EXPECT_NE(text.find("Check its unit"), std::string::npos) << text;
+  }
 }
 
 TEST(SceneErrors, AllMistakesAreReportedAtOnceInOrder) {

@@ -29,7 +29,8 @@ TEST_F(StartOverlap, IsAWarningWithAdviceThatWorks) {
   write("any_age.json", kAnyAge);
   const Outcome outcome = call(run_words("any_age.json", "a"));
   EXPECT_NE(outcome.text.find("acinus: warning"), std::string::npos) << "also with --quiet";
-  for (const std::string& told : {outcome.text, text("a/run.log"), summary("a")["notes"].dump()}) {
+  for (const std::string& told :
+       {outcome.text, text("a/run.log"), summary("a")["warnings"].dump()}) {
     for (const char* part : {"starts with overlaps: DCM cells", "start_up.enabled",
                              "cycle.start = birth", "cells.spacing"})
       EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;

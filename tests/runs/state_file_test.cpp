@@ -90,14 +90,16 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
                               "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
     for (bool missing : {true, false}) {
       io::CheckpointData data;
-      for (const auto& [name, value] : sound.all())
+      for (const auto& entry : sound.all()) {
+        const std::string& name = entry.first;
         std::visit(
             [&](auto v) {
               if constexpr (requires { v.pop_back(); })
                 if (name == damaged && !v.empty()) v.pop_back();
               if (name != damaged || !missing) data.put(name, v);
             },
-            value);
+            entry.second);
+      }
       coupling::State state;
       try {
         get_state(data, state);

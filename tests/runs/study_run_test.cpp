@@ -218,8 +218,9 @@ TEST_F(StudyRun, ARunFolderIsWrittenByOneProcessOnly) {
   for (const char* how : {"--overwrite", "--resume"}) {
     if (!fs::exists(path("a/checkpoint.h5")) && std::string(how) == "--resume") continue;
     const Outcome second = call({"run", "pair.json", "--out", "a", how});
-    EXPECT_EQ(second.code, 4) << second.text;
-    EXPECT_TRUE(has(second, "another process is writing in this folder")) << second.text;
+    EXPECT_EQ(second.code, 2) << second.text;
+    EXPECT_TRUE(has(second, "process " + std::to_string(first.id()) + " on ")) << second.text;
+    EXPECT_TRUE(has(second, "is writing in this folder")) << second.text;
   }
   first.send(SIGTERM);
   EXPECT_EQ(first.wait().code, 75);

@@ -5,11 +5,9 @@
 #include <unistd.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/io/disk.hpp"
-#include "core/io/file_lock.hpp"
 #include "core/io/hdf5.hpp"
 
 namespace acinus::io {
@@ -35,26 +33,6 @@ TEST(TidyTable, MayBeEmpty) {
   write_tidy_table(path("empty"), {{"run", "", std::vector<std::string>{}},
                                    {"value", "um", std::vector<double>{}}});
   EXPECT_EQ(h5::File::open(path("empty"), h5::Access::kRead).n_row("/value"), 0);
-}
-
-TEST(FileLock, IsHeldByOne) {
-  const std::string file = path("lock");
-  EXPECT_FALSE(is_locked(file)) << "no such file";
-  {
-    const auto held = FileLock::try_take(file);
-    ASSERT_TRUE(held.has_value());
-    EXPECT_TRUE(is_locked(file));
-    EXPECT_FALSE(FileLock::try_take(file));
-  }
-  EXPECT_FALSE(is_locked(file));
-  EXPECT_TRUE(FileLock::try_take(file).has_value());
-}
-
-TEST(FileLock, MovesWithItsOwner) {
-  const std::string file = path("moved");
-  FileLock a = FileLock::take(file);
-  const FileLock b = std::move(a);
-  EXPECT_TRUE(is_locked(file));
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#pragma once
+/// What asks a process to stop: signals and a limit on its wall time. Both reach the process as a
+/// whole, so this is the one state that is not passed around; long computations look at it.
+
+#include <string>
+
+namespace acinus {
+
+/// While one of these lives SIGTERM, SIGINT and SIGUSR1 are counted and do nothing else. They nest:
+/// what a run within a study was asked, the study was asked too.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+};
+
+/// How many came since the outermost StopSignals was made.
+int count_stop_signals();
+
+/// A limit on the wall time, from its making on, in force while it lives. They nest: the earliest
+/// counts.
+class WallTimeLimit {
+ public:
+  /// @param limit_s  infinite: none
+  explicit WallTimeLimit(double limit_s);
+  ~WallTimeLimit();
+  WallTimeLimit(const WallTimeLimit&) = delete;
+  WallTimeLimit& operator=(const WallTimeLimit&) = delete;
+
+ private:
+  double before_;
+};
+
+/// Whether a signal was counted or the limit has passed: what goes on must come to an end, and what
+/// is there be saved.
+bool stop_requested();
+/// "signal 15", "the wall-time limit"; empty: none.
+std::string describe_stop();
+
+/// While one of these lives, and there is nothing to save yet, the program ends at the limit with
+/// exit code 75, whatever it is busy with.
+class ExitAtLimit {
+ public:
+  ExitAtLimit();
+  ~ExitAtLimit();
+  ExitAtLimit(const ExitAtLimit&) = delete;
+  ExitAtLimit& operator=(const ExitAtLimit&) = delete;
+};
+
+}  // namespace acinus
