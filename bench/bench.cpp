@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -22,6 +21,7 @@
 #include "bench/tissue/sleep.hpp"
 #include "bench/work_precision/work_precision.hpp"
 #include "core/error.hpp"
+#include "core/threads.hpp"
 #include "core/timing.hpp"
 
 namespace acinus::bench {
@@ -65,8 +65,8 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   const auto found = benches().find(name);
   check(found != benches().end(), fmt::format("bench {}: no such benchmark; there are: {}", name,
                                               fmt::join(list_benches(), ", ")));
-  const int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
-  omp_set_num_threads(threads);
+  const int threads = options.threads > 0 ? options.threads : processor_count();
+  set_threads(threads);
   const Machine machine = describe_machine();
   fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
              ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);

@@ -7,6 +7,7 @@
 #include "cbm/pair_kernel.hpp"
 #include "core/contact/box_pairs.hpp"
 #include "core/contact/neighbours.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::cbm {
 namespace {
@@ -70,11 +71,10 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   work.overlap_sum.assign(s.n_cell(), 0.0);
   std::vector<double>& relative = work.scratch;
   relative.resize(work.pair.size());
-#pragma omp parallel for schedule(static) if (relative.size() > 10000)
-  for (std::size_t k = 0; k < relative.size(); ++k) {
+  for_each_index(relative.size(), relative.size() > 10000, [&](std::size_t k) {
     const std::size_t i = work.pair[k].first, j = work.pair[k].second;
     relative[k] = 1 - (center_of(s, i) - center_of(s, j)).norm() / (radius[i] + radius[j]);
-  }
+  });
   for (std::size_t k = 0; k < relative.size(); ++k) {
     if (!(relative[k] > 0)) continue;
     const auto [a, b] = work.pair[k];

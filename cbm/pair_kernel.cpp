@@ -1,12 +1,11 @@
 #include "cbm/pair_kernel.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/contact/jkr_lanes.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::cbm {
 namespace {
@@ -267,18 +266,16 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
   link.resize(work.pair.size());
   work.contact_area.resize(n);
   find_type_factors(in.params, in.options.adhesion_factor, work.type_factors);
-  const std::size_t n_part =
-      n > kParallelCells ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
+  const std::size_t n_part = n > kParallelCells ? static_cast<std::size_t>(thread_count()) : 1;
   work.touching_part.resize(n_part - 1);
-#pragma omp parallel for schedule(static, 1) if (n_part > 1)
-  for (std::size_t k = 0; k < n_part; ++k) {
+  for_each_part(n_part, [&](std::size_t k) {
     auto boundary = [&](std::size_t part) {  // whole rows: no two threads share one
       return part == n_part ? n : part * n / n_part / kLanes * kLanes;
     };
     RangeSearch(in, {boundary(k), boundary(k + 1)}, work, link,
                 k == 0 ? work.touching : work.touching_part[k - 1])
         .run();
-  }
+  });
   for (const auto& t : work.touching_part)
     work.touching.insert(work.touching.end(), t.begin(), t.end());
 }

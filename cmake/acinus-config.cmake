@@ -1,7 +1,6 @@
 # What core to calibration need.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
-find_dependency(OpenMP COMPONENTS CXX)
 find_dependency(MPI COMPONENTS CXX)
 find_dependency(fmt)
 find_dependency(nlohmann_json)

@@ -1,6 +1,5 @@
 # All from Debian 12 (packages.txt).
 find_package(Eigen3 3.4 REQUIRED)
-find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

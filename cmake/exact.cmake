@@ -2,6 +2,6 @@
 # files (and no others) are compiled with -frounding-math and keep trapping semantics: either would slow the kernels.
 function(acinus_exact_library name)
   add_library(${name} OBJECT ${ARGN})
-  target_link_libraries(${name} PRIVATE acinus_flags Eigen3::Eigen fmt::fmt OpenMP::OpenMP_CXX CGAL::CGAL)
+  target_link_libraries(${name} PRIVATE acinus_flags Eigen3::Eigen fmt::fmt CGAL::CGAL)
   target_compile_options(${name} PRIVATE -ftrapping-math)
 endfunction()

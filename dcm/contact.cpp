@@ -1,6 +1,7 @@
 #include "dcm/contact.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -234,8 +235,7 @@ void find_shares(const ContactInput& in, const contact::ContactList& contacts,
                  ContactWorkspace& work) {
   const double range = in.options.friction_range;
   work.share.resize(work.body.size());
-#pragma omp parallel for schedule(static) if (worth_threads(in.state.n_row()))
-  for (std::size_t k = 0; k < work.body.size(); ++k) {
+  for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
     std::vector<double>& share = work.share[k];
     const auto number = static_cast<int>(k);
     share.assign(contact::n_points(work.body[k], in.options.quadrature), 0.0);
@@ -243,7 +243,7 @@ void find_shares(const ContactInput& in, const contact::ContactList& contacts,
       if (!s.is_fold()) share[s.point] += contact::contact_share(s.gap, range);
     for (const Contact& o : std::ranges::equal_range(contacts.obstacle(), number, {}, &Contact::a))
       if (!o.only_pushes()) share[o.point] += contact::contact_share(o.gap, range);
-  }
+  });
 }
 
 }  // namespace
@@ -280,14 +280,13 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
     for (std::size_t l = 0; l < state.n_lane(); ++l)
       if (state.active(l)) work.lane_of_body.push_back(l);
   }
-#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
-  for (std::size_t k = 0; k < n; ++k) {
+  for_each_index(n, worth_threads(state.n_row()), [&](std::size_t k) {
     contact::SurfaceBody& b = work.body[k];
     b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
     b.triangle = &b.topology->triangle;
     copy_nodes(state, work.lane_of_body[k], b.node);
     contact::refresh_body(b);
-  }
+  });
 }
 
 void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
@@ -309,9 +308,8 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   std::vector<Contact>& all = contacts.all;
   const std::size_t n_part = count_threads(in.state.n_row());
   work.found.resize(n_part - 1);
-  std::int64_t listed = 0, seen = 0;
-#pragma omp parallel for schedule(static, 1) reduction(+ : listed, seen) if (n_part > 1)
-  for (std::size_t part = 0; part < n_part; ++part) {
+  std::atomic<std::int64_t> listed = 0, seen = 0;
+  for_each_part(n_part, [&](std::size_t part) {
     auto& found = part == 0 ? all : work.found[part - 1];
     const std::size_t before = found.size();
     found.clear();
@@ -322,7 +320,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
       seen += static_cast<std::int64_t>(contact::find_contacts(
           pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
     }
-  }
+  });
   work.searches += 1;
   work.points_listed += listed;
   work.points_seen += seen;
@@ -330,12 +328,11 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   contacts.surface_end = all.size();
 
   work.obstacle.resize(work.body.size());
-#pragma omp parallel for schedule(dynamic, 2) if (worth_threads(in.state.n_row()))
-  for (std::size_t k = 0; k < work.body.size(); ++k) {
+  for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
     work.obstacle[k].clear();
     if (work.constrained.empty() || work.constrained[work.lane_of_body[k]] == 0)
       find_obstacle_contacts(in, static_cast<int>(k), options.range, work);
-  }
+  });
   for (const auto& o : work.obstacle) all.insert(all.end(), o.begin(), o.end());
   contacts.obstacle_end = contacts.interface_end = contacts.sphere_obstacle_end = all.size();
   find_shares(in, contacts, work);
@@ -346,8 +343,7 @@ void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
   const State& state = in.state;
   const ContactParams& c = in.options;
   medium_area.assign(state.n_row() * kLanes, 0.0);
-#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
-  for (std::size_t k = 0; k < work.body.size(); ++k) {
+  for_each_index(work.body.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     const std::size_t lane = work.lane_of_body[k];
     const contact::SurfaceBody& b = work.body[k];
     const std::size_t first = state.group[lane / kLanes].first_row;
@@ -359,7 +355,7 @@ void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
       for (int m = 0; m < s.n; ++m)
         medium_area[(first + s.node[m]) * kLanes + lane % kLanes] += s.weight[m] * area;
     }
-  }
+  });
 }
 
 }  // namespace acinus::dcm

@@ -196,12 +196,12 @@ double relative_motion(const ContactLists& lists, std::size_t pair) {
 void refresh_lists(const ListInput& in, ContactLists& lists) {
   if (!made_alike(lists, in) || !pairs_hold(in, lists)) renew_pairs(in, lists);
   const std::size_t n_body = in.body.size();
-  const bool threads =
+  const bool shared =
       n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
-#pragma omp parallel for schedule(static) if (threads)
-  for (std::size_t k = 0; k < n_body; ++k)
+  for_each_index(n_body, shared, [&](std::size_t k) {
     for (ListSnapshot& s : lists.body[k].snapshot)
       if (s.lists > 0) find_motion(in.body[k], s);
+  });
 
   const double range = in.options.range, skin = in.options.skin;
   ListScratch& scratch = lists.scratch;
@@ -240,11 +240,10 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   for (std::size_t k : segments_expired) lists.segment_age[k] = {snapshot_now(k), -1, range};
   count_lists(lists);
   contact::fill_candidates(in.body, in.fixed, in.options, scratch.to_fill);
-#pragma omp parallel for schedule(dynamic, 4) if (threads)
-  for (std::size_t e = 0; e < segments_expired.size(); ++e) {
+  for_each_index(segments_expired.size(), shared, [&](std::size_t e) {
     const std::size_t k = segments_expired[e];
     find_segments(in.body[k], in.options, in.network, lists.segment[k]);
-  }
+  });
 }
 
 }  // namespace acinus::dcm

@@ -122,9 +122,9 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   const Completion completion{in, work};
   const std::size_t first = links.size(), n = contacts.obstacle_end;
   links.resize(first + n);
-#pragma omp parallel for schedule(static) if (worth_threads(in.state.n_row()))
-  for (std::size_t k = 0; k < n; ++k)
+  for_each_index(n, worth_threads(in.state.n_row()), [&](std::size_t k) {
     completion.complete(contacts.all[k], links.link[first + k], links.load[first + k]);
+  });
 }
 
 }  // namespace acinus::dcm

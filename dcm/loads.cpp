@@ -87,9 +87,8 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
                std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& s) {
   const bool volume = any_volume(params), area = any_area(params);
-#pragma omp parallel for schedule(static) if (worth_threads(state.n_row()))
-  for (std::size_t k = 0; k < state.group.size(); ++k) {
-    if (s.block[k].still) continue;
+  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
+    if (s.block[k].still) return;
     const GroupView g = view_group(state, lanes, s, k);
     const Params& p = params[state.group[k].type];
     if (p.spring_stiffness > 0 || p.nodal_friction > 0) add_cortex(p, g, s);
@@ -99,7 +98,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
     if (area) add_area(p, g, s, s.rank_one[volume ? 1 : 0]);
     add_medium(p, g, medium_area.data() + g.first_row * kLanes, s);
     add_body_load(g, cell_force.subspan(k * kLanes, kLanes), s);
-  }
+  });
 }
 
 std::vector<std::string> skipped_terms(std::span<const Params> params) {

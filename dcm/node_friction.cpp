@@ -106,8 +106,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
   group.push_back(runs.size());
   const std::size_t n_group = group.size() - 1, n_part = count_threads(in.state.n_row());
   std::vector<std::vector<solve::PointLink>> part(n_part);
-#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
-  for (std::size_t p = 0; p < n_part; ++p) {
+  for_each_part(n_part, [&](std::size_t p) {
     NodePairs table;
     for (std::size_t g = p * n_group / n_part; g < (p + 1) * n_group / n_part; ++g) {
       const int a = runs[group[g]].body[0], b = runs[group[g]].body[1];
@@ -123,7 +122,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
         part[p].push_back({point(a, i), point(b, j), {}, 0, static_cast<float>(friction)});
       });
     }
-  }
+  });
   for (const auto& found : part) links.insert(links.end(), found.begin(), found.end());
 }
 

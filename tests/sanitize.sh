@@ -12,7 +12,7 @@ threads   the tests that compare numbers of threads, and a hybrid scene with two
           ThreadSanitizer
 asserts   the golden scenes with internal checks on (gcc, preset audit); their hashes may differ
 Without arguments all three. Each part also runs planted faults and fails if one is not found.
-memory and threads need clang 16: packages clang-16, libclang-rt-16-dev, libomp-16-dev.
+memory and threads need clang 16: packages clang-16, libclang-rt-16-dev, llvm-16.
 Builds in build-asan, build-tsan and build-audit. Exit code 1 if anything was found.
 Environment: ACINUS_JOBS   compile jobs (default: number of processors)
 TEXT
@@ -40,7 +40,7 @@ must_find() {
   fi
 }
 
-# build_with_clang FOLDER OPTION...: everything with a sanitizer. Threads need clang; for the others it takes half of gcc's time.
+# build_with_clang FOLDER OPTION...: everything with a sanitizer. It takes half of gcc's time.
 build_with_clang() {
   local folder=$1
   shift
@@ -52,21 +52,17 @@ build_with_clang() {
 
 check_memory() {
   build_with_clang build-asan -DACINUS_SANITIZE=ON -DACINUS_ASSERTS=ON || return 0
+  export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.txt:print_suppressions=0
   export ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
   must_find index "heap-buffer-overflow" build-asan/tests/planted_index
   must_find "NaN in a force" "refused: |internal error: " build-asan/tests/planted_nan
   ctest --test-dir build-asan --output-on-failure -LE 'slow|golden' || fail "the quick suite under ASan and UBSan"
-  unset ASAN_OPTIONS UBSAN_OPTIONS
+  unset LSAN_OPTIONS ASAN_OPTIONS UBSAN_OPTIONS
 }
 
 check_threads() {
-  local archer
   build_with_clang build-tsan -DACINUS_SANITIZE_THREADS=ON -DACINUS_BENCH=OFF || return 0
-  archer=$("$clang" -print-file-name=libarcher.so)
-  [[ -f $archer ]] || archer=$(dirname -- "$(readlink -f -- "$(command -v "$clang")")")/../lib/libarcher.so
-  [[ -f $archer ]] || { fail "threads: libarcher.so of libomp-16-dev is missing"; return; }
-  # Without the tool, or with libraries that are not instrumented taken at their word, all is noise.
-  export OMP_TOOL_LIBRARIES=$archer TSAN_OPTIONS=ignore_noninstrumented_modules=1:exitcode=66
+  export TSAN_OPTIONS=exitcode=66
   must_find "data race" "WARNING: ThreadSanitizer: data race" build-tsan/tests/planted_race
   build-tsan/tests/planted_race clean || fail "a sum without a race is told as one"
   # The tests whose names speak of threads, each in its own process.
@@ -90,7 +86,7 @@ check_threads() {
   build-tsan/acinus run lobule_hybrid --set start_up.growth_time="30 min" --until "5 min" --threads 2 \
     --out "$out/hybrid" --quiet || fail "threads: hybrid scene"
   rm -rf -- "$out"
-  unset OMP_TOOL_LIBRARIES TSAN_OPTIONS
+  unset TSAN_OPTIONS
 }
 
 check_asserts() {

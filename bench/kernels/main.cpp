@@ -1,16 +1,16 @@
 /// Entry point of every kernel benchmark: Google Benchmark on one thread.
 
 #include <benchmark/benchmark.h>
-#include <omp.h>
 
 #include <string>
 
 #include "acinus_version.hpp"
+#include "core/threads.hpp"
 #include "core/timing.hpp"
 
 int main(int argc, char** argv) {
   // A kernel is what one thread does; the CPU time reported is that of the calling thread alone.
-  omp_set_num_threads(1);
+  acinus::set_threads(1);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   const acinus::Machine machine = acinus::describe_machine();

@@ -1,12 +1,12 @@
 #include "bench/step/step_cost.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 
 #include "bench/step/packed_clump.hpp"
 #include "bench/step/step_runner.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -97,14 +97,14 @@ BenchTable bench_threads(const BenchOptions&) {
   BenchTable table;
   for (const StepCase& c :
        {dcm_case(216, "3-point", 20), dcm_case(216, "nodes", 20), cbm_case(100000, 5, 1)}) {
-    omp_set_num_threads(1);
+    set_threads(1);
     StepRunner runner(c);
     std::vector<double> ratio;
     bool same = true;
     for (int r = 0; r < 5; ++r) {
-      omp_set_num_threads(1);
+      set_threads(1);
       const StepSample one = runner.measure();
-      omp_set_num_threads(2);
+      set_threads(2);
       const StepSample two = runner.measure();
       ratio.push_back(one.wall / two.wall);
       same = same && one.hash == two.hash;

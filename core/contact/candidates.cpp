@@ -11,6 +11,7 @@
 #include "core/contact/discs.hpp"
 #include "core/lanes.hpp"
 #include "core/mesh/closest_point.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::contact {
 namespace {
@@ -346,23 +347,19 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
   const auto may_touch = [&](const SurfaceBody& a, const SurfaceBody& b) {
     return &a == &b ? may_fold(a) : a.box.grown(margin).overlaps(b.box);
   };
-  constexpr std::size_t kWorthThreads = 64;
-#pragma omp parallel if (lists.size() >= kWorthThreads)
-  {
+  constexpr std::size_t kWorthThreads = 4;
+  for_each_index(lists.size(), lists.size() >= kWorthThreads, [&](std::size_t k) {
     thread_local Candidates scratch;  // grows as needed; what is kept is copied to measure
     thread_local ListBuilder builder;
     builder.start(o);
-#pragma omp for schedule(dynamic, 4)
-    for (std::size_t k = 0; k < lists.size(); ++k) {
-      const SurfaceBody& a = body_at(bodies, fixed, lists[k]->body_a);
-      const SurfaceBody& b = body_at(bodies, fixed, lists[k]->body_b);
-      scratch.clear();
-      scratch.body_a = lists[k]->body_a;
-      scratch.body_b = lists[k]->body_b;
-      if (may_touch(a, b)) builder.fill(a, b, &a == &b, scratch);
-      *lists[k] = scratch;
-    }
-  }
+    const SurfaceBody& a = body_at(bodies, fixed, lists[k]->body_a);
+    const SurfaceBody& b = body_at(bodies, fixed, lists[k]->body_b);
+    scratch.clear();
+    scratch.body_a = lists[k]->body_a;
+    scratch.body_b = lists[k]->body_b;
+    if (may_touch(a, b)) builder.fill(a, b, &a == &b, scratch);
+    *lists[k] = scratch;
+  });
 }
 
 }  // namespace acinus::contact

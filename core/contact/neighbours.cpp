@@ -1,7 +1,5 @@
 #include "core/contact/neighbours.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "core/contact/box_pairs.hpp"
 #include "core/lanes.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::contact {
 namespace {
@@ -98,10 +97,9 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
     });
     return pairs;
   }
-  const std::size_t n_part = omp_get_max_threads();
+  const auto n_part = static_cast<std::size_t>(thread_count());
   std::vector<Pairs> part(n_part);
-#pragma omp parallel for schedule(static, 1)
-  for (std::size_t k = 0; k < n_part; ++k) {
+  for_each_part(n_part, [&](std::size_t k) {
     // A packed sphere has 12 neighbours, half of them its own.
     part[k].reserve(7 * radius.size() / n_part);
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
@@ -121,7 +119,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
         }
       std::sort(part[k].begin() + static_cast<std::ptrdiff_t>(first), part[k].end());
     }
-  }
+  });
   Pairs pairs = std::move(part[0]);
   for (std::size_t k = 1; k < n_part; ++k)
     pairs.insert(pairs.end(), part[k].begin(), part[k].end());

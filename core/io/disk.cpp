@@ -105,6 +105,10 @@ const char* disk_advice(int error) {
       return "Check the path: the folder or file does not exist";
     case EISDIR:
       return "Give a file, not a folder";
+    case EBADMSG:
+      return "The file is damaged: `acinus run --resume` keeps what is left of a run, other "
+             "commands "
+             "need an intact copy";
     case EIO:
       return "The disk reports a fault; choose another one";
     default:

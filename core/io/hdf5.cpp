@@ -60,6 +60,10 @@ Handle access_list() {
   return access;
 }
 
+int first_error(const StagedState& state) {
+  return state.error != 0 ? state.error : state.read_error;
+}
+
 std::string trim(const char* begin, std::size_t width) { return {begin, strnlen(begin, width)}; }
 
 }  // namespace
@@ -81,7 +85,7 @@ File::File(std::string path, std::unique_ptr<StagedState> state, Handle handle, 
 File File::create(const std::string& path, Format format) {
   const Handle access = access_list();
   auto state = std::make_unique<StagedState>();
-  use_staged_driver(access.id(), state.get());
+  use_staged_driver(access.id(), state.get(), format == Format::kEarliest);
   const auto version = format == Format::kEarliest ? H5F_LIBVER_EARLIEST : H5F_LIBVER_V110;
   const auto newest = format == Format::kEarliest ? H5F_LIBVER_LATEST : H5F_LIBVER_V110;
   H5Pset_libver_bounds(access.id(), version, newest);
@@ -94,11 +98,15 @@ File File::open(const std::string& path, Access mode) {
   const Handle access = access_list();
   auto state = std::make_unique<StagedState>();
   const bool writing = mode == Access::kAppend;
-  use_staged_driver(access.id(), state.get());
+  use_staged_driver(access.id(), state.get(), false);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+  // A reader takes each row once. Without a cache of chunks it also leaves alone what stands beside
+  // the rows, which may be damaged.
+  if (!writing) H5Pset_cache(access.id(), 0, 0, 0, 0);
   Handle handle(H5Fopen(path.c_str(), writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id()),
                 H5Fclose);
-  if (!handle.valid()) fail(path, writing ? "open for writing" : "open for reading", state->error);
+  if (!handle.valid())
+    fail(path, writing ? "open for writing" : "open for reading", first_error(*state));
   return {path, std::move(state), std::move(handle), writing};
 }
 
@@ -107,7 +115,9 @@ File::~File() {
   if (writing_) state_->discard = true;
 }
 
-void File::fail_here(const std::string& attempted) const { fail(path_, attempted, state_->error); }
+void File::fail_here(const std::string& attempted) const {
+  fail(path_, attempted, first_error(*state_));
+}
 
 void File::flush() {
   if (H5Fflush(id(), H5F_SCOPE_GLOBAL) < 0 || state_->error != 0) fail_here("write to disk");
@@ -335,50 +345,6 @@ void File::write_array(const std::string& name, std::span<const T> value) {
       H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) {
     fail_here("write dataset " + name);
   }
-}
-
-void File::copy_object_from(const File& source, const std::string& name) {
-  if (H5Ocopy(source.id(), name.c_str(), id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
-    fail_here("copy " + name + " from " + source.path());
-  }
-}
-
-void File::copy_rows_from(const File& source, const std::string& name, std::int64_t n) {
-  auto dims = source.shape(name);
-  const std::string attempted = "copy dataset " + name + " from " + source.path();
-  if (n < 0 || static_cast<hsize_t>(n) > dims[0]) fail_here(attempted + " (it has too few rows)");
-  const Handle from = source.open_dataset(name);
-  const Handle type(H5Dget_type(from.id()), H5Tclose);
-  const Handle list(H5Dget_create_plist(from.id()), H5Pclose);
-  hsize_t chunk[2] = {0, 0};
-  const int rank = static_cast<int>(dims.size());
-  if (H5Pget_chunk(list.id(), rank, chunk) != rank) fail_here(attempted);
-  hsize_t limit[2] = {H5S_UNLIMITED, rank == 2 ? dims[1] : 0};
-  dims[0] = static_cast<hsize_t>(n);
-  const Handle space(H5Screate_simple(rank, dims.data(), limit), H5Sclose);
-  Handle to(
-      H5Dcreate2(id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
-      H5Dclose);
-  if (!to.valid()) fail_here(attempted);
-  std::vector<char> buffer;
-  for (hsize_t row = 0; row < dims[0]; row += chunk[0]) {
-    const hsize_t corner[2] = {row, 0};
-    hsize_t size = 0;
-    std::uint32_t skipped_filters = 0;
-    haddr_t address = HADDR_UNDEF;
-    if (H5Dget_chunk_info_by_coord(from.id(), corner, &skipped_filters, &address, &size) < 0) {
-      source.fail_here("read dataset " + name);
-    }
-    if (address == HADDR_UNDEF) continue;  // padding that was never written
-    buffer.resize(size);
-    if (H5Dread_chunk(from.id(), H5P_DEFAULT, corner, &skipped_filters, buffer.data()) < 0) {
-      source.fail_here("read dataset " + name);
-    }
-    if (H5Dwrite_chunk(to.id(), H5P_DEFAULT, skipped_filters, corner, size, buffer.data()) < 0)
-      fail_here(attempted);
-  }
-  if (to.close() < 0 || state_->error != 0) fail_here(attempted);
-  write_attribute(name, "unit", source.read_text_attribute(name, "unit"));
 }
 
 #define ACINUS_H5_INSTANTIATE(T)                                                             \

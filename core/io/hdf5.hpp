@@ -53,8 +53,10 @@ Handle text_type(std::size_t width, H5T_cset_t set);
 
 enum class Access { kRead, kAppend };
 enum class Format {
-  kEarliest,  ///< readable by everything; survives a kill (no "open for write" mark)
-  kChecked    ///< HDF5 1.10 format with checksums over its own indices
+  /// Readable by everything; survives a kill (no "open for write" mark). With checksums of its
+  /// pages beside it.
+  kEarliest,
+  kChecked  ///< HDF5 1.10 format with checksums over its own indices
 };
 
 /// How a new dataset is stored. Rows are the first, unlimited dimension.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
@@ -29,7 +30,9 @@ void fail(const std::string& file, const std::string& attempted, int error) {
   Stack stack;  // downward: from the call made here to the innermost one, which knows the cause
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, visit, &stack);
   if (error == 0) error = stack.error;
-  std::string reason = error != 0 ? std::strerror(error) : stack.deepest;
+  std::string reason = error == EBADMSG ? "the bytes there are not those that were written"
+                       : error != 0     ? std::strerror(error)
+                                        : stack.deepest;
   if (reason.empty()) reason = "unknown cause";
   H5Eclear2(H5E_DEFAULT);
   throw Error(fmt::format("{}: cannot {}: {}. {}.", file, attempted, reason, disk_advice(error)),

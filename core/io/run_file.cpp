@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/page_sums.hpp"
 #include "core/io/run_rows.hpp"
 #include "core/io/xdmf.hpp"
 
@@ -18,10 +19,6 @@ using h5::File;
 using h5::Format;
 
 constexpr std::int64_t kSchemaVersion[2] = {1, 1};
-
-std::string sidecar_of(const std::string& path) {
-  return std::filesystem::path(path).replace_extension(".xmf").string();
-}
 
 File create_skeleton(const std::string& path, bool filtered) {
   File file = File::create(path, Format::kEarliest);
@@ -70,6 +67,7 @@ RunFile RunFile::create(const std::string& path,
 
 RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& keep,
                                  const RunFileOptions& options) {
+  if (h5::is_damaged(path)) return recover(path, keep, options);
   RunFile run(path, options);
   const std::string partial = path + ".tmp";
   const RemoveUnlessMoved cleanup{partial};
@@ -106,8 +104,7 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
     fresh.close();
   }
   run.written_ = keep;
-  sync_file(partial);
-  replace_file(partial, path);
+  replace_run_file(partial, path);
   if (!run.frame_.empty()) write_xdmf(sidecar_of(path), path, run.frame_, run.layout_);
   return run;
 }

@@ -54,8 +54,10 @@ class RunFile {
                         const RunFileOptions& options = {});
 
   /// Continues a file cut back to the given counts. The kept part is copied to a new file that then
-  /// takes the old one's place, so a file damaged past its finished frames is mended. Cost: one
-  /// copy of the file.
+  /// takes the old one's place, so a file damaged past its finished frames is mended. Every byte of
+  /// it is looked at first; where bytes are not those that were written, all that can still be read
+  /// is kept, the rest is in lost(), and the damaged file stays under the ending `.damaged`. Cost:
+  /// two readings and a copy of the file.
   static RunFile open_for_append(const std::string& path, const RunFileCounts& keep,
                                  const RunFileOptions& options = {});
 
@@ -77,12 +79,17 @@ class RunFile {
   void close();
 
   int n_frame() const { return static_cast<int>(frame_.size()); }
+  /// What open_for_append() could not keep of a damaged file, e.g. "frame 3 at 0.5 h", or "nothing"
+  /// where only unused bytes were damaged. Empty: the file was as written.
+  const std::vector<std::string>& lost() const { return lost_; }
   /// Including buffered rows: flush() before a checkpoint stores them.
   RunFileCounts counts() const;
   const std::string& path() const { return path_; }
 
  private:
   RunFile(std::string path, const RunFileOptions& options);
+  static RunFile recover(const std::string& path, const RunFileCounts& keep,
+                         const RunFileOptions& options);
   /// Returns the rows of /events/cell_id afterwards. Changes nothing in memory.
   std::int64_t write_rows_of_buffers(h5::File& file);
   void keep_buffers_written(const RunFileCounts& after, std::int64_t event_cell);
@@ -99,6 +106,7 @@ class RunFile {
   RowNames observable_;                ///< of the first row; datasets exist if there are any
   std::vector<double> series_buffer_;  ///< [row][n_series]
   std::vector<Event> event_buffer_;
+  std::vector<std::string> lost_;
 };
 
 }  // namespace acinus::io

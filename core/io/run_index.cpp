@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/error.hpp"
+#include "core/io/disk.hpp"
+#include "core/io/page_sums.hpp"
 #include "core/io/run_rows.hpp"
 
 namespace acinus::io {
@@ -40,6 +43,18 @@ std::vector<std::string> table_datasets(const TableInfo& info, const std::string
 }
 
 }  // namespace
+
+std::string sidecar_of(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".xmf").string();
+}
+
+void replace_run_file(const std::string& from, const std::string& to) {
+  sync_file(from);
+  // In between the file has no sums: whoever looks then takes it as it is.
+  h5::PageSums::remove(to);
+  replace_file(from, to);
+  replace_file(h5::sums_of(from), h5::sums_of(to));
+}
 
 void check_run_schema(const File& file) {
   const bool known =

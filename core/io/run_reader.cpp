@@ -110,19 +110,7 @@ std::map<std::string, std::string> RunReader::observable_unit() const {
 }
 
 std::vector<Event> RunReader::events() const {
-  const File file = File::open(path_, Access::kRead);
-  const std::int64_t n = counts_.event;
-  const auto time = file.read_rows<double>("/events/time", 0, n);
-  const auto code = file.read_text_rows("/events/code", 0, n);
-  const auto message = file.read_text_rows("/events/message", 0, n);
-  const auto offset = file.read_rows<std::int64_t>("/events/cell_offset", 0, n + 1);
-  const auto cell = file.read_rows<std::int64_t>("/events/cell_id", 0, offset.back());
-  std::vector<Event> event;
-  for (std::size_t i = 0; i < time.size(); ++i) {
-    event.push_back(
-        {time[i], code[i], {cell.begin() + offset[i], cell.begin() + offset[i + 1]}, message[i]});
-  }
-  return event;
+  return read_events(File::open(path_, Access::kRead), 0, counts_.event);
 }
 
 std::map<std::string, std::string> RunReader::provenance() const {

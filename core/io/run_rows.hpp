@@ -35,6 +35,11 @@ inline constexpr char kSeries[] = "/series", kObservables[] = "/observables";
 void create_samples(h5::File& file, const std::string& group);
 void create_sample_rows(h5::File& file, const std::string& group, const RowNames& names);
 
+/// The XDMF file beside a run file.
+std::string sidecar_of(const std::string& path);
+/// Puts a complete new run file, with the checksums of its pages, in the place of an old one.
+void replace_run_file(const std::string& from, const std::string& to);
+
 /// One frame on its way into the file.
 struct FrameWrite {
   h5::File& file;
@@ -73,6 +78,8 @@ RowNames read_sample_names(const h5::File& file, const std::string& group);
 std::map<std::string, std::vector<double>> read_samples(const h5::File& file,
                                                         const std::string& group,
                                                         std::int64_t n_row);
+
+std::vector<Event> read_events(const h5::File& file, std::int64_t first, std::int64_t n);
 
 /// Copies into a file without /VTKHDF, /cells, /interface; sets NSteps.
 void copy_frames(const h5::File& from, h5::File& to, const RunLayout& layout,

@@ -109,6 +109,21 @@ void copy_samples(const File& from, File& to, const std::string& group, std::int
   to.write_attribute(group, "n_row", std::span<const std::int64_t>(&n_row, 1));
 }
 
+std::vector<Event> read_events(const File& file, std::int64_t first, std::int64_t n) {
+  const auto time = file.read_rows<double>("/events/time", first, n);
+  const auto code = file.read_text_rows("/events/code", first, n);
+  const auto message = file.read_text_rows("/events/message", first, n);
+  const auto offset = file.read_rows<std::int64_t>("/events/cell_offset", first, n + 1);
+  const auto cell = file.read_rows<std::int64_t>("/events/cell_id", offset.front(),
+                                                 offset.back() - offset.front());
+  std::vector<Event> event;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const auto at = [&](std::size_t k) { return cell.begin() + (offset[k] - offset.front()); };
+    event.push_back({time[i], code[i], {at(i), at(i + 1)}, message[i]});
+  }
+  return event;
+}
+
 void create_event_rows(File& file) {
   const h5::Storage small{.chunk_rows = kIndexChunkRows};
   const std::int64_t zero = 0;

@@ -5,14 +5,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/io/disk.hpp"
 #include "core/io/journal.hpp"
+#include "core/io/page_sums.hpp"
 
 namespace acinus::io::h5 {
 namespace {
@@ -21,6 +24,7 @@ constexpr haddr_t kMaxAddress = (haddr_t{1} << 62) - 1;
 
 struct DriverInfo {
   StagedState* state;
+  bool sums;  ///< of a file that is made; one that is opened has them or not
 };
 
 struct StagedFile : H5FD_t {
@@ -33,6 +37,9 @@ struct StagedFile : H5FD_t {
   haddr_t end_of_file = 0;  ///< as HDF5 sees it
   haddr_t committed = 0;    ///< bytes below are part of the last good state
   Journal staged;           ///< new content of bytes below `committed`
+  bool has_sums = false;
+  PageSums sums;
+  std::vector<bool> checked;  ///< pages that were found as written
   StagedState* state = nullptr;
 };
 
@@ -62,6 +69,60 @@ bool read_all(int descriptor, std::byte* data, haddr_t size, haddr_t address) {
   return true;
 }
 
+/// Whether a page of the file holds the bytes that were written. A reader beside a writer may see
+/// a new page and an old sum: it looks again before it believes in damage.
+bool is_as_written(StagedFile* file, std::uint64_t page) {
+  constexpr int kLooks = 4;
+  constexpr useconds_t kBetween = 20'000;  // us
+  if (page < file->checked.size() && file->checked[page]) return true;
+  std::array<std::byte, kPage> content;
+  for (int look = 0; look < kLooks; ++look) {
+    if (look > 0) {
+      if (file->writable) break;
+      usleep(kBetween);
+      file->sums = PageSums::read(file->path);
+    }
+    const std::uint64_t size = file->sums.size_of(page);
+    if (!read_all(file->descriptor, content.data(), size, page * kPage)) return false;
+    if (!file->sums.matches(page, {content.data(), size})) continue;
+    if (file->checked.size() <= page) file->checked.resize(page + 1, false);
+    file->checked[page] = true;
+    return true;
+  }
+  errno = EBADMSG;
+  return false;
+}
+
+/// The same of all pages of a range that are not waiting to be replaced.
+bool are_as_written(StagedFile* file, haddr_t begin, haddr_t end) {
+  if (!file->has_sums) return true;
+  end = std::min<haddr_t>(end, file->sums.end());
+  // The last page of a session that was killed while it replaced pages may be new or old.
+  if (!file->staged.page.empty()) end = std::min<haddr_t>(end, file->staged.end / kPage * kPage);
+  for (std::uint64_t page = begin / kPage; page * kPage < end; ++page)
+    if (!file->staged.page.contains(page) && !is_as_written(file, page)) return false;
+  return true;
+}
+
+/// Sums of the pages that are new or were replaced. Called when the file is as it is to be.
+bool renew_sums(StagedFile* file) {
+  if (!file->has_sums) return true;
+  const std::uint64_t end = file->committed, first_new = file->sums.end() / kPage;
+  file->sums.set_end(end);
+  std::vector<std::byte> content(kPage);
+  const auto renew = [&](std::uint64_t page) {
+    const std::uint64_t size = file->sums.size_of(page);
+    if (!read_all(file->descriptor, content.data(), size, page * kPage)) return false;
+    file->sums.set(page, {content.data(), size});
+    return true;
+  };
+  for (const auto& [index, page] : file->staged.page)
+    if (index < first_new && !renew(index)) return false;
+  for (std::uint64_t page = first_new; page * kPage < end; ++page)
+    if (!renew(page)) return false;
+  return file->sums.write(file->path);
+}
+
 /// Writes the waiting pages, which are in the journal, and drops it.
 bool overwrite(StagedFile* file) {
   if (file->staged.page.empty()) return true;
@@ -70,13 +131,14 @@ bool overwrite(StagedFile* file) {
     const haddr_t size = std::min<haddr_t>(kPage, file->staged.end - begin);
     if (!write_all(file->descriptor, page.data(), size, begin)) return false;
   }
+  if (!renew_sums(file)) return false;
   file->staged.page.clear();
   remove_journal(file->path);
   return true;
 }
 
-H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t max_address) {
-  const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(access));
+H5FD_t* open_file(const char* name, unsigned flags, hid_t list, haddr_t max_address) {
+  const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(list));
   if (info == nullptr || info->state == nullptr || max_address == 0) return nullptr;
   int mode = (flags & H5F_ACC_RDWR) != 0 ? O_RDWR : O_RDONLY;
   if ((flags & H5F_ACC_TRUNC) != 0) mode |= O_TRUNC;
@@ -85,9 +147,14 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t max_ad
   auto file = std::make_unique<StagedFile>();
   file->state = info->state;
   file->path = name;
+  file->has_sums =
+      (flags & H5F_ACC_TRUNC) != 0 ? info->sums : access(sums_of(name).c_str(), F_OK) == 0;
   *file->state = {};  // HDF5 tries a plain open before it creates; that failure does not count
   errno = 0;
-  if ((flags & H5F_ACC_TRUNC) != 0) remove_journal(name);  // it belongs to what is replaced
+  if ((flags & H5F_ACC_TRUNC) != 0) {  // they belong to what is replaced
+    remove_journal(name);
+    PageSums::remove(name);
+  }
   file->descriptor = open(name, mode | O_CLOEXEC, 0666);
   struct stat status {};
   if (file->descriptor < 0 || fstat(file->descriptor, &status) != 0) {
@@ -102,7 +169,8 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t max_ad
   file->state->discard = !file->writable;  // a reader never writes, not even to mend a length
   try {
     file->staged = read_journal(name);  // of a session that was killed; else empty
-  } catch (...) {                       // exceptions must not cross the C library
+    file->sums = PageSums::read(name);
+  } catch (...) {  // exceptions must not cross the C library
     errno = EIO;
     fail(file.get());
   }
@@ -121,8 +189,10 @@ bool commit(StagedFile* file) {
     file->end_of_file = file->end_of_allocation;
   }
   if (!file->staged.page.empty() && !write_journal(file->path, file->staged)) return false;
+  // What is new must not hide damage to the page that it begins in.
+  if (!are_as_written(file, file->committed / kPage * kPage, file->committed)) return false;
   file->committed = file->end_of_file;
-  return overwrite(file);
+  return file->staged.page.empty() ? renew_sums(file) : overwrite(file);
 }
 
 herr_t close_file(H5FD_t* handle) {
@@ -166,7 +236,16 @@ herr_t read_bytes(H5FD_t* handle, H5FD_mem_t, hid_t, haddr_t address, std::size_
                   void* buffer) {
   StagedFile* file = self(handle);
   auto* out = static_cast<std::byte*>(buffer);
-  if (!read_all(file->descriptor, out, size, address)) return -1;
+  errno = 0;
+  try {
+    if (!are_as_written(file, address, address + size) ||
+        !read_all(file->descriptor, out, size, address)) {
+      file->state->read_error = errno;
+      return -1;
+    }
+  } catch (...) {  // exceptions must not cross the C library
+    return -1;
+  }
   const haddr_t end = address + size;
   const Pages& staged = file->staged.page;
   for (auto it = staged.lower_bound(address / kPage); it != staged.end(); ++it) {
@@ -190,6 +269,7 @@ bool stage(StagedFile* file, const std::byte* data, haddr_t begin, haddr_t end) 
     if (it == staged.end()) {
       it = staged.emplace(index, Page{}).first;
       const haddr_t known = std::min<haddr_t>(kPage, file->committed - page_begin);
+      if (!are_as_written(file, page_begin, page_begin + known)) return false;
       if (!read_all(file->descriptor, it->second.data(), known, page_begin)) return false;
     }
     const haddr_t from = std::max(begin, page_begin);
@@ -263,10 +343,10 @@ H5FD_class_t make_driver() {
 
 }  // namespace
 
-herr_t use_staged_driver(hid_t access, StagedState* state) {
+herr_t use_staged_driver(hid_t access, StagedState* state, bool sums) {
   static const H5FD_class_t driver = make_driver();
   static const hid_t id = H5FDregister(&driver);
-  const DriverInfo info{state};
+  const DriverInfo info{state, sums};
   return id < 0 ? -1 : H5Pset_driver(access, id, &info);
 }
 

@@ -8,6 +8,8 @@
 /// written down in a journal beside the file and then put in place in one short burst. A kill in
 /// that burst costs nothing: the next open takes them from the journal. A session that fails or is
 /// abandoned is cut back to the old length: the file is then what it was before, byte for byte.
+///
+/// Where a file has checksums of its pages, every page is looked at before HDF5 gets its bytes.
 
 #include <hdf5.h>
 
@@ -18,13 +20,15 @@ namespace acinus::io::h5 {
 /// Outcome of one session, owned by the caller, which keeps it alive until the file is closed.
 struct StagedState {
   int error = 0;         ///< errno of the first failed write, 0 = none
+  int read_error = 0;    ///< of the last failed read; EBADMSG: not the bytes that were written
   bool discard = false;  ///< set by the caller or by a failure: nothing more is written, close
                          ///< restores the file
 };
 
 /// Makes a file access property list use the staged driver.
 /// @param access  H5P_FILE_ACCESS list
+/// @param sums    a file that is made with it gets checksums of its pages, see page_sums.hpp
 /// @return        negative when HDF5 refuses
-herr_t use_staged_driver(hid_t access, StagedState* state);
+herr_t use_staged_driver(hid_t access, StagedState* state, bool sums);
 
 }  // namespace acinus::io::h5

@@ -165,7 +165,13 @@ void CoarseSpace::add_links(std::span<const double> position) {
     const auto from = column_.begin() + start_[row], to = column_.begin() + start_[row + 1];
     return static_cast<std::size_t>(std::lower_bound(from, to, std::min(a, b)) - column_.begin());
   };
-  auto add = [&](int a, const Vec3& at_a, int b, const Vec3& at_b, const auto& l) {
+  // Every part looks at all links and adds to the rows of its own cells, in their order.
+  const std::size_t n_part = std::min(count_threads(s.n_row), center_.size());
+  const auto owner = [&](int c) { return static_cast<std::size_t>(c) % n_part; };
+  auto add = [&](std::size_t part, int a, int b, const auto& place_a, const auto& place_b,
+                 const auto& l) {
+    const bool mine_a = owner(a) == part, mine_b = b >= 0 && owner(b) == part;
+    if (!mine_a && !mine_b) return;
     const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
                  static_cast<double>(l.normal[2]));
     const double k = s.stiffness_scale * static_cast<double>(l.stiffness);
@@ -183,26 +189,27 @@ void CoarseSpace::add_links(std::span<const double> position) {
       m.bottomRightCorner<3, 3>() -= g * cross_matrix(p) * cross_matrix(q);
       return m;
     };
-    const Vec3 p = arm(a, at_a);
-    block_[slot(a, a)] += respond(p, p);
+    const Vec3 p = arm(a, place_a());
+    if (mine_a) block_[slot(a, a)] += respond(p, p);
     if (b < 0) return;
-    const Vec3 q = arm(b, at_b);
-    block_[slot(b, b)] += respond(q, q);
+    const Vec3 q = arm(b, place_b());
+    if (mine_b) block_[slot(b, b)] += respond(q, q);
     if (a == b)
       block_[slot(a, a)] -= respond(p, q) + respond(q, p);
-    else
+    else if (owner(std::max(a, b)) == part)
       block_[slot(a, b)] -= a > b ? respond(p, q) : respond(q, p);
   };
-  for (const Link& l : s.links.link) {
-    const bool pair = l.b.exists();
-    add(cell_of(l.a.point[0]), place(l.a), pair ? cell_of(l.b.point[0]) : -1,
-        pair ? place(l.b) : Vec3::Zero(), l);
-  }
-  for (const PointLink& l : s.point_links) {
-    const bool pair = l.b != kNowhere;
-    add(cell_of(l.a), load_point(position.data(), address_of(l.a)), pair ? cell_of(l.b) : -1,
-        pair ? load_point(position.data(), address_of(l.b)) : Vec3::Zero(), l);
-  }
+  for_each_part(n_part, [&](std::size_t part) {
+    for (const Link& l : s.links.link)
+      add(
+          part, cell_of(l.a.point[0]), l.b.exists() ? cell_of(l.b.point[0]) : -1,
+          [&] { return place(l.a); }, [&] { return place(l.b); }, l);
+    const auto at = [&](Point k) { return load_point(position.data(), address_of(k)); };
+    for (const PointLink& l : s.point_links)
+      add(
+          part, cell_of(l.a), l.b != kNowhere ? cell_of(l.b) : -1, [&] { return at(l.a); },
+          [&] { return at(l.b); }, l);
+  });
 }
 
 /// Incomplete block Cholesky, E ~ L L^T with the pattern of E.
@@ -271,31 +278,28 @@ template <class T>
 double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const System& s = *system_;
   small_.resize(center_.size());
-  const auto n_block = static_cast<std::ptrdiff_t>(s.block.size());
-#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
-  for (std::ptrdiff_t k = 0; k < n_block; ++k) {
-    const std::size_t b = k;
+  const std::size_t n_block = s.block.size();
+  const bool shared = worth_threads(s.n_row);
+  for_each_index(n_block, shared, [&](std::size_t b) {
     const std::size_t at = s.block[b].first_row * kPointStride;
     double out[6 * kLanes];
     restrict_block(s.block[b].pattern->n_point, arm_.data() + at, r.data() + at, out);
     for (std::size_t l = 0; l < kLanes; ++l)
       if (const int c = cell_[b * kLanes + l]; c >= 0)
         for (int m = 0; m < 6; ++m) small_[c][m] = out[m * kLanes + l];
-  }
+  });
   double product = 0;
   const std::vector<Vec6> load = small_;
   solve(small_);
   for (std::size_t c = 0; c < load.size(); ++c) product += load[c].dot(small_[c]);
-#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
-  for (std::ptrdiff_t k = 0; k < n_block; ++k) {
-    const std::size_t b = k;
+  for_each_index(n_block, shared, [&](std::size_t b) {
     const std::size_t at = s.block[b].first_row * kPointStride;
     double in[6 * kLanes] = {};
     for (std::size_t l = 0; l < kLanes; ++l)
       if (const int c = cell_[b * kLanes + l]; c >= 0)
         for (int m = 0; m < 6; ++m) in[m * kLanes + l] = small_[c][m];
     prolong_block(s.block[b].pattern->n_point, arm_.data() + at, in, z.data() + at);
-  }
+  });
   return product;
 }
 

@@ -101,8 +101,7 @@ void LinkMerger::add_across(const System& s, PointPairs& pairs) {
   part_.resize(n_part - 1);
   table_.resize(std::max(table_.size(), n_part));
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
-#pragma omp parallel for schedule(static, 1) num_threads(static_cast <int>(n_part)) if (n_part > 1)
-  for (std::size_t part = 0; part < n_part; ++part) {
+  for_each_part(n_part, [&](std::size_t part) {
     PointPairs& out = part == 0 ? pairs : part_[part - 1];
     out.clear();
     PointPairTable& table = table_[part];
@@ -121,7 +120,7 @@ void LinkMerger::add_across(const System& s, PointPairs& pairs) {
         }
       table.emit(out);
     }
-  }
+  });
   for (const PointPairs& p : part_) pairs.append(p);
 }
 
@@ -140,33 +139,27 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
   });
 
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
-  const std::size_t n_part = count_threads(s.n_row);
-#pragma omp parallel num_threads(static_cast <int>(n_part)) if (n_part > 1)
-  {
+  for_each_index(n_block, worth_threads(s.n_row), [&](std::size_t b) {
     thread_local std::vector<SymBlock> sum;
-#pragma omp for schedule(static)
-    for (std::size_t b = 0; b < n_block; ++b) {
-      const Block& block = s.block[b];
-      sum.assign(block.pattern->spring.size() * kLanes, {});
-      FaceSprings face;
-      for (const RunEnd& end : std::ranges::equal_range(end_, b, {}, &RunEnd::block))
-        for (std::uint32_t k = run_[end.run].first; k < run_[end.run].last; ++k) {
-          const Link& l = s.links.link[k];
-          const Side& side = end.is_b ? l.b : l.a;
-          if (side.is_single() || !has_matrix(l, s.stiffness_scale)) continue;
-          face.find(*block.pattern, block.first_row, side.point);
-          const SymBlock m = matrix_of(l, scales);
-          const auto w = weights_of(side);
-          const std::size_t lane = side.point[0] % kLanes;
-          add_scaled(sum[face.spring[0] * kLanes + lane], -w[0] * w[1], m);
-          add_scaled(sum[face.spring[1] * kLanes + lane], -w[0] * w[2], m);
-          add_scaled(sum[face.spring[2] * kLanes + lane], -w[1] * w[2], m);
-        }
-      write_edges(block.pattern->spring.size(),
-                  s.spring.data() + block.first_spring * kSpringStride, sum.data(),
-                  edge.data() + block.first_spring * kEdgeStride);
-    }
-  }
+    const Block& block = s.block[b];
+    sum.assign(block.pattern->spring.size() * kLanes, {});
+    FaceSprings face;
+    for (const RunEnd& end : std::ranges::equal_range(end_, b, {}, &RunEnd::block))
+      for (std::uint32_t k = run_[end.run].first; k < run_[end.run].last; ++k) {
+        const Link& l = s.links.link[k];
+        const Side& side = end.is_b ? l.b : l.a;
+        if (side.is_single() || !has_matrix(l, s.stiffness_scale)) continue;
+        face.find(*block.pattern, block.first_row, side.point);
+        const SymBlock m = matrix_of(l, scales);
+        const auto w = weights_of(side);
+        const std::size_t lane = side.point[0] % kLanes;
+        add_scaled(sum[face.spring[0] * kLanes + lane], -w[0] * w[1], m);
+        add_scaled(sum[face.spring[1] * kLanes + lane], -w[0] * w[2], m);
+        add_scaled(sum[face.spring[2] * kLanes + lane], -w[1] * w[2], m);
+      }
+    write_edges(block.pattern->spring.size(), s.spring.data() + block.first_spring * kSpringStride,
+                sum.data(), edge.data() + block.first_spring * kEdgeStride);
+  });
 }
 
 void LinkMerger::merge(const System& s, const std::vector<int>& block_of_row, MergedLinks& out) {

@@ -24,15 +24,11 @@ SymBlock* Operator::diagonal() const { return reinterpret_cast<SymBlock*>(scratc
 
 template <class F>
 void Operator::for_each_range(F f) {
-  const auto n = static_cast<int>(range_.size());
-#pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
-  for (int k = 0; k < n; ++k) f(range_[k]);
+  for_each_part(range_.size(), [&](std::size_t k) { f(range_[k]); });
 }
 template <class F>
 void Operator::for_each_range(F f) const {
-  const auto n = static_cast<int>(range_.size());
-#pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
-  for (int k = 0; k < n; ++k) f(range_[k]);
+  for_each_part(range_.size(), [&](std::size_t k) { f(range_[k]); });
 }
 
 template <class F>
@@ -54,10 +50,14 @@ void Operator::divide() {
   const std::size_t n_block = s.block.size();
   const std::size_t n = std::max<std::size_t>(1, std::min(count_threads(s.n_row), n_block));
   range_.resize(n);
+  // By the middle of a block: there may be no more than two or three to a thread.
+  const auto middle = [&](std::size_t b) {
+    return s.block[b].first_row + s.block[b].pattern->n_point / 2;
+  };
   std::size_t b = 0;
   for (std::size_t k = 0; k < n; ++k) {
     range_[k].first_block = b;
-    while (b < n_block && (k + 1 == n || s.block[b].first_row < (k + 1) * s.n_row / n)) ++b;
+    while (b < n_block && (k + 1 == n || middle(b) < (k + 1) * s.n_row / n)) ++b;
     range_[k].last_block = b;
   }
 }

@@ -95,9 +95,9 @@ std::size_t count_parts(const System& s, std::size_t n_group) {
 template <class F>
 void for_each_point(const System& s, const std::vector<int>& group, F f) {
   const std::size_t n_part = count_parts(s, 1);
-#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
-  for (std::size_t k = 0; k < n_part; ++k)
+  for_each_index(n_part, worth_threads(s.n_row), [&](std::size_t k) {
     for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part, f);
+  });
 }
 
 /// f(address, its group's part) for every point; parts are added to the groups in order.
@@ -106,10 +106,10 @@ void sum_over_points(const System& s, RigidWorkspace& work, F f) {
   std::vector<RigidGroup>& groups = work.groups;
   const std::size_t n_group = groups.size(), n_part = count_parts(s, n_group);
   work.part.assign(n_part * n_group, {});
-#pragma omp parallel for schedule(static) if (worth_threads(s.n_row))
-  for (std::size_t k = 0; k < n_part; ++k)
+  for_each_index(n_part, worth_threads(s.n_row), [&](std::size_t k) {
     for_each_point(s, work.group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
                    [&](Address a, std::size_t g) { f(a, groups[g], work.part[k * n_group + g]); });
+  });
   for (std::size_t k = 0; k < n_part; ++k)
     for (std::size_t g = 0; g < n_group; ++g) groups[g].add(work.part[k * n_group + g]);
 }
@@ -151,14 +151,18 @@ class RigidModes {
       group.second_moment += m * d * d.transpose();
     });
     for (RigidGroup& g : groups_) g.matrix = medium_matrix(g);
-    for (const Link& l : s_.links.link)
-      if (!l.b.exists())
-        tie(stencil_of(l), l.normal, static_cast<double>(l.stiffness),
-            static_cast<double>(l.friction));
-    for (const PointLink& l : s_.point_links)
-      if (l.b == kNowhere)
-        tie({1, {address_of(l.a)}, {1}}, l.normal, static_cast<double>(l.stiffness),
-            static_cast<double>(l.friction));
+    // Every part looks at all links and ties its own groups, in their order.
+    const std::size_t n_part = std::min(count_threads(s_.n_row), groups_.size());
+    for_each_part(n_part, [&](std::size_t part) {
+      const auto is_mine = [&](Address a) {
+        const int g = group_of(a);
+        return g >= 0 && static_cast<std::size_t>(g) % n_part == part;
+      };
+      for (const Link& l : s_.links.link)
+        if (!l.b.exists() && is_mine(address_of(l.a.point[0]))) tie(stencil_of(l), l);
+      for (const PointLink& l : s_.point_links)
+        if (l.b == kNowhere && is_mine(address_of(l.a))) tie({1, {address_of(l.a)}, {1}}, l);
+    });
   }
 
   /// Chooses the groups whose rigid error may be larger, um.
@@ -215,20 +219,21 @@ class RigidModes {
   void sum(F f) {
     sum_over_points(s_, work_, f);
   }
-  void tie(const Stencil& stencil, const std::array<float, 3>& normal, double stiffness,
-           double friction) {
-    const Address first = stencil.address[0];
-    const std::size_t cell =
-        work_.block_of_row[first / kPointStride] * kLanes + static_cast<int>(first % kPointStride);
-    if (work_.group[cell] < 0) return;
-    RigidGroup& group = groups_[work_.group[cell]];
+  /// Number of the group that a point belongs to; -1: none.
+  int group_of(Address a) const {
+    const std::size_t block = work_.block_of_row[a / kPointStride];
+    return work_.group[block * kLanes + a % kPointStride];
+  }
+  template <class L>
+  void tie(const Stencil& stencil, const L& l) {
+    RigidGroup& group = groups_[group_of(stencil.address[0])];
     Vec3 place = Vec3::Zero();
     for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
     const Map3x6 z = unit_motions(place - group.center);
-    const Vec3 n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
-                 static_cast<double>(normal[2]));
-    const Mat3 m = s_.stiffness_scale * stiffness * n * n.transpose() +
-                   s_.friction_scale * friction * Mat3::Identity();
+    const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
+                 static_cast<double>(l.normal[2]));
+    const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
+                   s_.friction_scale * static_cast<double>(l.friction) * Mat3::Identity();
     group.matrix += z.transpose() * m * z;
   }
 

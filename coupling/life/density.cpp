@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sphere.hpp"
+#include "core/threads.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
@@ -44,14 +45,13 @@ std::vector<double> sum_around(const World& world, Amount amount) {
     cells.push_back({center_of(s, c), amount(c)});
   });
   const std::vector<Contribution> all = with_images(world, cells);
-#pragma omp parallel for schedule(static) if (cells.size() > 200)
-  for (std::size_t k = 0; k < cells.size(); ++k) {
+  for_each_index(cells.size(), cells.size() > 200, [&](std::size_t k) {
     double here = 0;
     for (const Contribution& other : all)
       if ((other.center - cells[k].center).squaredNorm() <= kDensityReach * kDensityReach)
         here += other.amount;
     sum[index[k]] = here / sphere_volume(kDensityReach);
-  }
+  });
   return sum;
 }
 

@@ -9,6 +9,7 @@
 
 #include "cbm/division.hpp"
 #include "core/sphere.hpp"
+#include "core/threads.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
@@ -134,14 +135,13 @@ void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born
   std::vector<DaughterMeshes> daughters(mothers.size());
   std::vector<std::string> why(mothers.size());
   std::vector<std::uint8_t> done(mothers.size(), 0);
-#pragma omp parallel for schedule(dynamic, 1) if (mothers.size() > 1)
-  for (std::size_t k = 0; k < mothers.size(); ++k) {
-    try {  // an exception must not leave a loop of threads
+  for_each_part(mothers.size(), [&](std::size_t k) {
+    try {  // one that fails does not keep the others from dividing
       done[k] = split_shell(world, mothers[k].at, daughters[k], why[k]) ? 1 : 0;
     } catch (const std::exception& e) {
       why[k] = e.what();
     }
-  }
+  });
   for (std::size_t k = 0; k < mothers.size(); ++k) {
     State& s = world.state;
     if (done[k] != 0) {

@@ -77,19 +77,15 @@ std::string describe(const dcm::Mended& m) {
 std::vector<std::size_t> find_suspicious(const State& s) {
   const std::size_t n = s.dcm.n_lane();
   std::vector<std::uint8_t> suspicious(n, 0);
-#pragma omp parallel if (worth_threads(s.dcm.n_row()))
-  {
-    std::vector<Vec3> node;
-#pragma omp for schedule(static)
-    for (std::size_t l = 0; l < n; ++l) {
-      if (!s.dcm.active(l)) continue;
-      dcm::copy_nodes(s.dcm, l, node);
-      suspicious[l] =
-          dcm::is_suspicious(dcm::measure_health(topology_of(s, l), node, reference_radius(s, l)))
-              ? 1
-              : 0;
-    }
-  }
+  for_each_index(n, worth_threads(s.dcm.n_row()), [&](std::size_t l) {
+    if (!s.dcm.active(l)) return;
+    thread_local std::vector<Vec3> node;
+    dcm::copy_nodes(s.dcm, l, node);
+    suspicious[l] =
+        dcm::is_suspicious(dcm::measure_health(topology_of(s, l), node, reference_radius(s, l)))
+            ? 1
+            : 0;
+  });
   std::vector<std::size_t> lanes;
   for (std::size_t l = 0; l < n; ++l)
     if (suspicious[l] != 0) lanes.push_back(l);
@@ -103,12 +99,11 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   const std::vector<std::size_t> lanes = find_suspicious(s);
   if (lanes.empty()) return;
   std::vector<dcm::Mended> mended(lanes.size());
-#pragma omp parallel for schedule(dynamic, 1) if (lanes.size() > 1)
-  for (std::size_t k = 0; k < lanes.size(); ++k) {
+  for_each_part(lanes.size(), [&](std::size_t k) {
     std::vector<Vec3> node;
     dcm::copy_nodes(s.dcm, lanes[k], node);
     mended[k] = dcm::mend_mesh(topology_of(s, lanes[k]), node, reference_radius(s, lanes[k]));
-  }
+  });
   std::vector<std::int64_t> changed;
   for (std::size_t k = 0; k < lanes.size(); ++k) {
     const std::int64_t lineage = s.dcm.lineage[lanes[k]];

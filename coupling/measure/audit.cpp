@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/mesh/audit_body.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -187,10 +188,9 @@ Bodies prepare(const AuditFrame& frame) {
 }
 
 void audit_shapes(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
-  const int n = static_cast<int>(bodies.cell.size());
   std::vector<char> crosses(bodies.cell.size());
-#pragma omp parallel for schedule(dynamic)
-  for (int c = 0; c < n; ++c) crosses[c] = bodies.cell[c].self_intersects();
+  for_each_part(crosses.size(),
+                [&](std::size_t c) { crosses[c] = bodies.cell[c].self_intersects(); });
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
     const mesh::AuditBody& cell = bodies.cell[c];
     result.n_inverted += cell.volume <= 0;
@@ -362,12 +362,8 @@ AuditResult audit(const AuditFrame& frame) {
   audit_walls(frame, bodies, result);
   audit_spheres_at_walls(frame, bodies, result);
   std::vector<Pair> pairs = find_pairs(frame, bodies);
-  const auto n = static_cast<std::ptrdiff_t>(pairs.size());
-#pragma omp parallel for schedule(dynamic, 8)
-  for (std::ptrdiff_t k = 0; k < n; ++k) {
-    Pair& pair = pairs[k];
-    pair.depth = pair_depth(frame, bodies, pair);
-  }
+  for_each_part(pairs.size(),
+                [&](std::size_t k) { pairs[k].depth = pair_depth(frame, bodies, pairs[k]); });
   for (const Pair& pair : pairs)
     keep_pair(frame, pair, result);  // in list order, whoever computed it
   result.max_overlap_cbm_um = result.cbm_cbm.depth_um;

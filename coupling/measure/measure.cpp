@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "core/sphere.hpp"
@@ -53,11 +54,17 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   m.cytosol_pressure = dcm::cytosol_pressure(world.params.dcm[m.type].bulk_modulus, m.volume,
                                              sphere_volume(m.radius));
   m.migration_force = w.forces.dcm[lane].norm();
+  // Points stand for shares of the reference surface; what is measured is the present one.
   const std::vector<double>& share = w.dcm.share[body];
-  for (std::size_t p = 0; p < share.size(); ++p)
-    m.contact_area += std::min(1.0, share[p]) * dcm::point_area(*w.dcm.body[body].topology,
-                                                                world.params.dcm_contact.quadrature,
-                                                                static_cast<int>(p), m.radius);
+  double touching = 0, whole = 0;
+  for (std::size_t p = 0; p < share.size(); ++p) {
+    const double area =
+        dcm::point_area(*w.dcm.body[body].topology, world.params.dcm_contact.quadrature,
+                        static_cast<int>(p), m.radius);
+    touching += std::min(1.0, share[p]) * area;
+    whole += area;
+  }
+  m.contact_area = whole > 0 ? std::min(1.0, touching / whole) * m.area : 0;
   return m;
 }
 
@@ -84,13 +91,14 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
-  /// nN, of every pair in contact, on the first; and of all boundary on each cell
+  /// nN, of every pair in contact, on the first; and of each part of the boundary on each cell
   std::map<std::pair<std::size_t, std::size_t>, Vec3> pair_force;
-  std::vector<Vec3> wall_force(cells.size(), Vec3::Zero());
+  std::map<std::tuple<std::size_t, contact::Partner, int>, Vec3> boundary_force;
   visit_contacts(world, w, [&](const ContactForce& c) {
     press(c.a, c.force, c.arm_a);
     if (c.b == kNoCell) {
-      wall_force[c.a] += c.force;
+      boundary_force.try_emplace({c.a, c.kind, c.index}, Vec3::Zero()).first->second += c.force;
+      cells[c.a].normal_force += c.force.dot(c.normal);
       return;
     }
     press(c.b, -c.force, c.arm_b);
@@ -99,7 +107,8 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
                     .first->second;
     sum += c.a < c.b ? c.force : Vec3(-c.force);
   });
-  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].contact_force = wall_force[k].norm();
+  for (const auto& [part, force] : boundary_force)
+    cells[std::get<0>(part)].contact_force += force.norm();
   for (const auto& [pair, force] : pair_force) {
     const double normal =
         force.dot((cells[pair.first].center - cells[pair.second].center).normalized());

@@ -24,13 +24,14 @@ struct CellMeasure {
   double pressure = 0;
   double cytosol_pressure = 0;     ///< kPa, -K_V ln(V/V0); a sphere has none: its pressure again
   std::array<double, 6> stress{};  ///< kPa, xx xy xz yy yz zz of (1/V0) sum f (x) (x_contact - c)
-  double contact_area = 0;         ///< um^2
+  double contact_area = 0;         ///< um^2, of `area`, in touch with anything
   double strength = 1;             ///< of a new sphere, see cbm::CellData
   bool newborn = false;            ///< in the first ten minutes after a division
-  /// nN, sum over partners of the size of the force with each; all boundary are one partner.
+  /// nN, sum over partners of the size of the force with each. Partners are cells, walls, static
+  /// meshes and segments of vessels.
   double contact_force = 0;
-  /// nN, sum over partner cells of the force along the line between the centres, positive where
-  /// they press.
+  /// nN, sum over partners of the force along the normal, positive where they press: with a cell
+  /// along the line between the centres, with boundary along its own normal at each contact.
   double normal_force = 0;
   int contacts = 0;            ///< cells in contact
   double migration_force = 0;  ///< nN, active force on the cell

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
+#include "coupling/step/clearance.hpp"
 #include "coupling/step/closing.hpp"
 #include "coupling/step/error_estimate.hpp"
 
@@ -92,6 +94,23 @@ struct Moves {
   }
 };
 
+/// The farthest a node moves beside the move of its cell as a whole, where that meets nothing: a
+/// cell in liquid may be carried any distance in a step. um
+double largest_deformation(const World& world, const Workspace& w, std::size_t lane, Address first,
+                           int n_point, double largest) {
+  const auto move = [&](int i) {
+    return load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
+  };
+  Vec3 mean = Vec3::Zero();
+  for (int i = 0; i < n_point; ++i) mean += move(i) / n_point;
+  const auto body = std::ranges::lower_bound(w.dcm.lane_of_body, lane);
+  if (!is_clear(world, w, static_cast<std::size_t>(body - w.dcm.lane_of_body.begin()), largest))
+    return largest;
+  double deformation = 0;
+  for (int i = 0; i < n_point; ++i) deformation = std::max(deformation, (move(i) - mean).norm());
+  return deformation;
+}
+
 Moves find_moves(const World& world, const Workspace& w) {
   const State& s = world.state;
   return sum_over_cells<Moves>(
@@ -111,9 +130,12 @@ Moves find_moves(const World& world, const Workspace& w) {
         Moves own;
         own.largest = largest;
         if (!finite) own.infinite = lane;
-        own.excess = largest / move_limit(world.params.numerics.max_move, edge);
+        const double limit = move_limit(world.params.numerics.max_move, edge);
         own.too_far = lane;
-        own.distance = largest;
+        own.distance = finite && deformable && largest > limit
+                           ? largest_deformation(world, w, lane, first, n_point, largest)
+                           : largest;
+        own.excess = own.distance / limit;
         if (finite && deformable && turns_over(s.dcm, lane, w.move)) own.turned = lane;
         part.add(own);
       });
@@ -139,10 +161,12 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
 /// The first contact that is driven deep; the number of contacts if none is.
 std::size_t find_deep_contact(const World& world, const Workspace& w) {
   const std::size_t n = w.system.links.size();
-  std::size_t first = n;
-#pragma omp parallel for schedule(static) reduction(min : first) if (worth_threads(w.system.n_row))
-  for (std::size_t l = 0; l < n; ++l)
-    if (depth_after(world, w, l) > 0) first = std::min(first, l);
+  std::atomic<std::size_t> first = n;
+  for_each_index(n, worth_threads(w.system.n_row), [&](std::size_t l) {
+    if (!(depth_after(world, w, l) > 0)) return;
+    for (std::size_t found = first; l < found && !first.compare_exchange_weak(found, l);) {
+    }
+  });
   return first;
 }
 

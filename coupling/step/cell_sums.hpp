@@ -28,14 +28,14 @@ Part sum_over_cells(const Workspace& w, bool unconstrained_only, F f) {
     if (block[b].first_row - block[start.back()].first_row >= kPartRows) start.push_back(b);
   start.push_back(block.size());
   part.assign(start.size() - 1, {});
-#pragma omp parallel for schedule(static) if (worth_threads(w.system.n_row))
-  for (std::size_t k = 0; k < part.size(); ++k)
+  for_each_index(part.size(), worth_threads(w.system.n_row), [&](std::size_t k) {
     for (std::size_t b = start[k]; b < start[k + 1]; ++b)
       for (int l = 0; l < kLanes; ++l) {
         const std::size_t lane = b * kLanes + l;
         if (w.active[lane] && !(unconstrained_only && w.constraint.holds(lane)))
           f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[k]);
       }
+  });
   Part total;
   for (const Part& p : part) total.add(p);
   return total;

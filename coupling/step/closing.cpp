@@ -1,5 +1,7 @@
 #include "coupling/step/closing.hpp"
 
+#include <atomic>
+
 #include "core/threads.hpp"
 
 namespace acinus::coupling {
@@ -45,20 +47,19 @@ bool activate_closing(Workspace& w) {
   solve::Links& links = w.system.links;
   // 1: closes, 2: is active and opens
   std::vector<std::uint8_t> change(links.size(), 0);
-  bool wrong = false;
-#pragma omp parallel for schedule(static) reduction(|| : wrong) if (worth_threads(w.system.n_row))
-  for (std::size_t l = 0; l < links.size(); ++l) {
+  std::atomic<bool> wrong = false;
+  for_each_index(links.size(), worth_threads(w.system.n_row), [&](std::size_t l) {
     const solve::LinkLoad& load = links.load[l];
-    if (!(load.closed_stiffness > 0) || load.clearance <= 0) continue;
+    if (!(load.closed_stiffness > 0) || load.clearance <= 0) return;
     const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], load);
     if (links.is_closed(l)) {
       change[l] = end > 0 ? 2 : 0;
-      wrong = wrong || end > kOpen;
+      if (end > kOpen) wrong = true;
     } else if (end < -kShallow) {
       change[l] = 1;
-      wrong = wrong || end < -kControlledDepth;
+      if (end < -kControlledDepth) wrong = true;
     }
-  }
+  });
   if (!wrong) return false;
   links.closed.resize(links.size(), 0);
   for (std::size_t l = 0; l < links.size(); ++l) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/contact/box_pairs.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -111,8 +112,8 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
   const auto& pairs = work.near;
   auto& found = work.found;
   if (found.size() < pairs.size()) found.resize(pairs.size());
-#pragma omp parallel for schedule(dynamic, 2)
-  for (std::size_t p = 0; p < pairs.size(); ++p) find_pair(in, dcm_work, pairs[p], range, found[p]);
+  for_each_index(pairs.size(), true,
+                 [&](std::size_t p) { find_pair(in, dcm_work, pairs[p], range, found[p]); });
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [body, sphere] = pairs[p];
     const std::size_t k = body, i = sphere;

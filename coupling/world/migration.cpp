@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/random.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -50,21 +51,19 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
     if (m.in_plane) force.z() = 0;
     return force;
   };
-#pragma omp parallel for schedule(static) if (s.dcm.n_lane() > kParallelCells)
-  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
-    if (!s.dcm.active(l)) continue;
+  for_each_index(s.dcm.n_lane(), s.dcm.n_lane() > kParallelCells, [&](std::size_t l) {
+    if (!s.dcm.active(l)) return;
     const dcm::Params& p = world.params.dcm[s.dcm.group[l / kLanes].type];
     forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
     if (m.leader_force > 0 && leader[l])
       forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
-  }
-#pragma omp parallel for schedule(static) if (s.cbm.n_cell() > kParallelCells)
-  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) {
+  });
+  for_each_index(s.cbm.n_cell(), s.cbm.n_cell() > kParallelCells, [&](std::size_t c) {
     const cbm::Params& p = world.params.cbm[s.cbm.type[c]];
     forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
     if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
       forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
-  }
+  });
 }
 
 }  // namespace acinus::coupling

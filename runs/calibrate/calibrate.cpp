@@ -1,7 +1,6 @@
 #include "runs/calibrate/calibrate.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/stop.hpp"
+#include "core/threads.hpp"
 #include "runs/build/build_correction.hpp"
 #include "runs/build/build_params.hpp"
 #include "runs/build/build_world.hpp"
@@ -160,7 +160,7 @@ int calibrate(const Scene& scene, const CalibrateOptions& options) {
   const StopSignals signals;
   const Scene compression = compression_scene(scene, options.clump);
   const Folders folders(compression, options);
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  set_threads(options.threads > 0 ? options.threads : processor_count());
   const calibration::Calibration found = calibration::calibrate(
       clump_of(scene, compression, options), options.calibration, folders.runs());
   if (found.exit != 0) return found.exit;

@@ -65,6 +65,24 @@ bool may_touch(const Scene& scene) {
          !scene.vessels.file.empty() || scene.lobule;
 }
 
+/// What says how a network is read needs one to read.
+void check_vessels(const Scene& scene, Report& report) {
+  if (!scene.vessels.file.empty() || scene.lobule) return;
+  const VesselBlock given = scene.vessels, plain;
+  const std::pair<const char*, bool> keys[] = {
+      {"unit", given.unit != plain.unit},
+      {"scale", given.scale != plain.scale},
+      {"radius_scale", given.radius_scale != plain.radius_scale},
+      {"shift", given.shift != plain.shift},
+      {"center", given.center != plain.center},
+      {"crop", given.crop.has_value()}};
+  for (const auto& [key, changed] : keys)
+    if (changed)
+      report.add_relation({fmt::format("/vessels/{}", key), "/vessels/file"}, "",
+                          "is for a network that is read, and none is: give /vessels/file, on the "
+                          "command line --set vessels.file=my_network.vtk");
+}
+
 void check_integrator(const Scene& scene, Report& report) {
   if (scene.numerics.integrator != coupling::Integrator::kRos2 || scene.time.with_contacts ||
       !may_touch(scene))
@@ -284,6 +302,7 @@ void check_region(const Region& region, const std::string& pointer, Report& repo
 void check_rules(const Scene& scene, Report& report) {
   check_time(scene, report);
   check_relaxation(scene, report);
+  check_vessels(scene, report);
   check_integrator(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);

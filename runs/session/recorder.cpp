@@ -1,6 +1,7 @@
 #include "runs/session/recorder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <ctime>
@@ -82,6 +83,11 @@ Notes Recorder::resume() {
   notes.said.push_back(
       fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file));
   if (!loaded.warning.empty()) notes.warned.push_back(loaded.warning);
+  if (!file_->lost().empty())
+    notes.warned.push_back(fmt::format(
+        "{}: some of its bytes are not those that were written. Lost: {}. The rest is kept and the "
+        "run goes on; the damaged file is {}.damaged",
+        run_file(), fmt::join(file_->lost(), ", "), run_file()));
   return notes;
 }
 

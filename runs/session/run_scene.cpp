@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <omp.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
@@ -15,6 +14,7 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "core/stop.hpp"
+#include "core/threads.hpp"
 #include "core/time_grid.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/build/build_world.hpp"
@@ -304,8 +304,8 @@ int SceneRun::go() {
 
 int run_scene(const Scene& scene, const RunOptions& asked) {
   RunOptions options = asked;
-  if (options.threads <= 0) options.threads = omp_get_num_procs();
-  omp_set_num_threads(options.threads);
+  if (options.threads <= 0) options.threads = processor_count();
+  set_threads(options.threads);
   BuiltWorld built = [&] {
     const ExitAtLimit nothing_to_save;
     check_memory(scene, memory_limit(options));

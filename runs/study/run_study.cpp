@@ -1,12 +1,12 @@
 #include "runs/study/run_study.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/threads.hpp"
 #include "runs/study/expected_cost.hpp"
 #include "runs/study/library.hpp"
 #include "runs/study/run_status.hpp"
@@ -71,7 +71,7 @@ int run_study(StudyOptions options) {
   const StudyPlan plan = read_study(find_study(options.file));
   if (options.out.empty()) options.out = plan.study.name + ".study";
   options.out = fs::absolute(options.out).lexically_normal().string();
-  if (options.jobs <= 0) options.jobs = std::max(1, omp_get_num_procs() / options.child.threads);
+  if (options.jobs <= 0) options.jobs = std::max(1, processor_count() / options.child.threads);
   const std::vector<ChosenRun> chosen = choose_runs(plan, choice);
   check_study_folder(options.out, plan);
   if (options.dry_run) {

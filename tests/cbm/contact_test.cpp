@@ -1,7 +1,6 @@
 #include "cbm/contact.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "coupling/measure/audit.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/mesh/surface.hpp"
 #include "core/mesh/topology.hpp"
+#include "core/threads.hpp"
 #include "tests/reference/brick.hpp"
 
 namespace acinus::coupling {
@@ -367,13 +367,13 @@ TEST(Audit, HundredTouchingCellsGiveTheSameOnAnyThreadsAndPrintTheirTime) {
   frame.vessels = &net;
   AuditResult result[2];
   for (const int threads : {1, 2}) {
-    const int before = omp_get_max_threads();
-    omp_set_num_threads(threads);
+    const int before = thread_count();
+    set_threads(threads);
     const std::clock_t cpu = std::clock();
     const auto start = std::chrono::steady_clock::now();
     result[threads - 1] = audit_bodies(cells, frame);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    omp_set_num_threads(before);
+    set_threads(before);
     std::printf(
         "100 cells, 150 vessel segments, %d thread(s): %.3f s (CPU %.3f s), deepest %.3f um, in "
         "vessels %.3f "

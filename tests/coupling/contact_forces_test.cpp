@@ -3,7 +3,6 @@
 #include "coupling/measure/contact_forces.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "core/contact/hertz.hpp"
+#include "core/threads.hpp"
 #include "coupling/measure/measure.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -159,14 +159,14 @@ TEST(Interface, ExertsNoNetForceOnBothModelsTogether) {
 
 TEST(Reactions, DoNotDependOnTheNumberOfThreads) {
   const World world = compressed_box();
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   std::vector<Reaction> of[2];
   for (const int threads : {1, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     const Observed o(world);
     of[threads / 2] = find_reactions(o.world, o.work).of(Partner::kPlane);
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_EQ(of[0][k].net, of[1][k].net);
     EXPECT_EQ(of[0][k].normal, of[1][k].normal);

@@ -3,11 +3,11 @@
 #include "coupling/world/interface.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <cstdio>
 
+#include "core/threads.hpp"
 #include "coupling/step/stages.hpp"
 #include "tests/coupling/partitioned.hpp"
 #include "tests/coupling/worlds.hpp"
@@ -158,7 +158,7 @@ TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) 
 TEST(Step, SameBitsForOneAndTwoThreads) {
   std::uint64_t hash[2];
   for (int threads : {1, 2}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     World world = make_test_world(checkered_cube());
     world.params.motility.random = true;
     world.params.numerics.adaptive = true;

@@ -1,7 +1,6 @@
 /// Division of cells of both models, alone, in crowds and against walls.
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "core/mesh/audit_body.hpp"
 #include "core/mesh/measures.hpp"
+#include "core/threads.hpp"
 #include "coupling/measure/measure.hpp"
 #include "tests/coupling/lives.hpp"
 
@@ -205,9 +205,9 @@ TEST(Division, OfManyNeighboursInOneStep) {
 
 TEST(Division, HasTheSameBitsForOneAndTwoThreads) {
   std::vector<std::uint64_t> hash;
-  const int threads = omp_get_max_threads();
+  const int threads = thread_count();
   for (int n : {1, 2}) {
-    omp_set_num_threads(n);
+    set_threads(n);
     World w = make_crowd();
     Workspace work;
     size_workspace(w, work);
@@ -218,7 +218,7 @@ TEST(Division, HasTheSameBitsForOneAndTwoThreads) {
     EXPECT_EQ(w.state.divisions, 5);
     hash.push_back(hash_state(w.state));
   }
-  omp_set_num_threads(threads);
+  set_threads(threads);
   EXPECT_EQ(hash[0], hash[1]);
 }
 

@@ -60,8 +60,39 @@ TEST(ContactForce, OfTwoDeformableCellsIsTheSame) {
   EXPECT_EQ(o.cell[0].contacts, 1);
 }
 
-TEST(ContactForce, CountsTheWholeBoundaryAsOnePartner) {
-  // In a corner of two equal walls: the resultant is sqrt 2 times the force of one.
+World between_plates(const std::vector<TestCell>& cells, double distance) {
+  World world = make_test_world(cells);
+  for (const double side : {-1.0, 1.0}) {
+    contact::Plane plane;
+    plane.point = Vec3(0, 0, 0.5 * side * distance);
+    plane.normal = Vec3(0, 0, -side);
+    plane.material.mirror = true;
+    world.params.boundary.planes.push_back(plane);
+  }
+  return world;
+}
+
+// What both plates press with, though their forces cancel.
+TEST(ContactForce, OfACellBetweenPlatesIsThatOfBoth) {
+  for (const bool deformable : {false, true}) {
+    const Observed both(between_plates({{Vec3::Zero(), deformable}}, 22));
+    World half = both.world;
+    half.params.boundary.planes.pop_back();
+    const Observed one(half);
+    const CellMeasure &b = both.cell[0], &o = one.cell[0];
+    EXPECT_GT(o.contact_force, 0) << deformable;
+    EXPECT_EQ(b.contacts, 0);
+    // The force also depends on how compressed a sphere is, which is a little more between two.
+    EXPECT_GE(b.contact_force, 2 * o.contact_force * (1 - 1e-6)) << deformable;
+    EXPECT_LT(b.contact_force, 2.5 * o.contact_force) << deformable;
+    // Along the normals of the plates it is all of it.
+    EXPECT_NEAR(b.normal_force, b.contact_force, 1e-6 * b.contact_force) << deformable;
+    EXPECT_GT(b.pressure, 0);
+  }
+}
+
+TEST(ContactForce, CountsEveryWallAsAPartner) {
+  // In a corner of two walls: the sum of both, not their resultant.
   World world = make_test_world({{Vec3(11.5, 11.5, 0), false}});
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
     contact::Plane plane;
@@ -71,13 +102,35 @@ TEST(ContactForce, CountsTheWholeBoundaryAsOnePartner) {
   }
   const Observed both(world);
   world.params.boundary.planes.pop_back();
-  world.state.cbm.position = both.world.state.cbm.position;
   const Observed one(world);
   EXPECT_GT(one.cell[0].contact_force, 0);
-  // The force also depends on how compressed a sphere is, which is a little more between two walls.
-  EXPECT_GE(both.cell[0].contact_force, std::sqrt(2.0) * one.cell[0].contact_force * (1 - 1e-12));
-  EXPECT_LT(both.cell[0].contact_force, 2 * one.cell[0].contact_force);
-  EXPECT_EQ(both.cell[0].contacts, 0);
+  EXPECT_GE(both.cell[0].contact_force, 2 * one.cell[0].contact_force * (1 - 1e-12));
+  EXPECT_LT(both.cell[0].contact_force, 2.5 * one.cell[0].contact_force);
+}
+
+TEST(ContactForce, OfAPairIsTheForceAlongTheLineOfCentres) {
+  const Observed o(make_test_world({{Vec3(-11, 0, 0), false}, {Vec3(11, 0, 0), false}}));
+  EXPECT_GT(o.cell[0].normal_force, 0);
+  EXPECT_NEAR(o.cell[0].normal_force, o.cell[0].contact_force, 1e-12 * o.cell[0].contact_force);
+  EXPECT_EQ(o.cell[0].normal_force, o.cell[1].normal_force);
+}
+
+// A cell that is pressed flat has another surface than at rest.
+TEST(ContactArea, IsAPartOfThePresentSurface) {
+  World world = between_plates({{Vec3::Zero(), true}}, 23);
+  dcm::State& s = world.state.dcm;
+  for (const double scale : {0.8, 1.0}) {
+    World scaled = world;
+    for (int i = 0; i < scaled.state.dcm.group[0].topology->n_node; ++i) {
+      const Address a = dcm::node_address(s, 0, i);
+      store_point(scaled.state.dcm.position.data(), a, scale * load_point(s.position.data(), a));
+    }
+    // Everything within reach of the plates.
+    scaled.params.dcm_contact.friction_range = 100;
+    const Observed o(scaled);
+    EXPECT_GT(o.cell[0].contact_area, 0.5 * o.cell[0].area);
+    EXPECT_LE(o.cell[0].contact_area, o.cell[0].area);
+  }
 }
 
 }  // namespace

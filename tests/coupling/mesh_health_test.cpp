@@ -3,7 +3,6 @@
 #include "coupling/life/mesh_health.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "core/mesh/audit_body.hpp"
 #include "core/mesh/measures.hpp"
+#include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/rules.hpp"
@@ -308,13 +308,13 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
 TEST(MeshHealth, CellsInAPackedClumpAreMendedInPlaceForAnyNumberOfThreads) {
   const World packed = make_packed();
   for (const auto& [share, name] : {std::pair{0.97, "collapsed edges"}, std::pair{1.6, "folds"}}) {
-    omp_set_num_threads(1);
+    set_threads(1);
     const std::uint64_t one = mend_in_clump(packed, share, name);
-    omp_set_num_threads(2);
+    set_threads(2);
     const std::uint64_t two = mend_in_clump(packed, share, name);
     EXPECT_EQ(one, two) << name;
   }
-  omp_set_num_threads(1);
+  set_threads(1);
 }
 
 /// One cell grows to eight; whatever growth and division do to meshes is no reason to mend them.

@@ -3,12 +3,12 @@
 #include "dcm/contact.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "core/threads.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"
@@ -232,15 +232,15 @@ TEST(ContactLoads, TurnWithTheCells) {
 }
 
 TEST(Contacts, SameBitsForAnyNumberOfThreads) {
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   std::vector<std::vector<double>> force;
   for (int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Clump c = make_bounded_clump(91);
     c.find();
     force.push_back(c.node_force());
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   EXPECT_EQ(force[0], force[1]);
   EXPECT_EQ(force[0], force[2]);
 }

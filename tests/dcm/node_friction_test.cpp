@@ -3,13 +3,13 @@
 #include "dcm/node_friction.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <utility>
 
+#include "core/threads.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"
@@ -185,15 +185,15 @@ TEST(NodeFriction, HoldsBackSurfacesThatStretchTogetherAsTheEdgeSquared) {
 }
 
 TEST(NodeFriction, SameBitsForAnyNumberOfThreads) {
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   std::vector<std::vector<solve::PointLink>> links;
   for (int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Clump c = make_bounded_clump(91);
     c.find();
     links.push_back(node_links(c));
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   for (const std::size_t k : {1u, 2u}) {
     ASSERT_EQ(links[k].size(), links[0].size());
     for (std::size_t l = 0; l < links[0].size(); ++l) {

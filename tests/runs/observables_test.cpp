@@ -3,13 +3,13 @@
 #include "runs/experiments/observables.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/threads.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/tissue.hpp"
@@ -359,17 +359,17 @@ TEST(Lesion, ClosesBetweenTwoFrames) {
 }
 
 TEST(Observables, DoNotDependOnTheNumberOfThreads) {
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   std::vector<io::SeriesValue> row[2];
   for (const int threads : {1, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     std::vector<coupling::TestCell> cells = ring(60);
     for (std::size_t k = 0; k < cells.size(); k += 2) cells[k].deformable = true;
     Watched w(lobule_scene(), coupling::make_test_world(cells, 60, 42));
     w.look();
     row[threads / 2] = w.row;
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   for (std::size_t k = 0; k < row[0].size(); ++k)
     EXPECT_EQ(row[0][k].value, row[1][k].value) << row[0][k].name;
 }

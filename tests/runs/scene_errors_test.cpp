@@ -194,6 +194,8 @@ TEST(SceneErrors, RulesOfLife) {
             at + "68 " + type +
                 R"(cycle/axis = "vessel": needs vessels: give /vessels/file or a )"
                 "lobule block");
+  EXPECT_NE(failure(R"({"vessels": {"center": true}})").find("give /vessels/file"),
+            std::string::npos);
   EXPECT_EQ(failure(cell(R"("inhibition": {"by": "pressure"})")),
             at + "47 " + type +
                 "inhibition/pressure_threshold: is missing: contact pressure that "

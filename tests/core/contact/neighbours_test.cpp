@@ -1,13 +1,13 @@
 #include "core/contact/neighbours.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <vector>
 
 #include "core/lanes.hpp"
+#include "core/threads.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::contact {
@@ -60,12 +60,12 @@ Cloud random_cloud(std::uint64_t seed, int n, double half_width, double least, d
 /// Runs f with 1, 2 and 3 threads.
 template <class F>
 void with_each_number_of_threads(F f) {
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   for (const int n : {1, 2, 3}) {
-    omp_set_num_threads(n);
+    set_threads(n);
     f(n);
   }
-  omp_set_num_threads(before);
+  set_threads(before);
 }
 
 TEST(FindSpherePairs, FindsWhatTryingEveryPairFinds) {

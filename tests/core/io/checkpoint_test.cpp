@@ -12,11 +12,6 @@
 #include "core/io/hdf5.hpp"
 #include "tests/core/io/sample.hpp"
 
-#ifdef __SANITIZE_ADDRESS__
-/// HDF5 1.10 forgets some 400 bytes each time it refuses a damaged file; that is not ours to mend.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
-#endif
-
 namespace acinus::io {
 namespace {
 

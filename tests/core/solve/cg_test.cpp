@@ -1,12 +1,12 @@
 #include "core/solve/cg.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "core/threads.hpp"
 #include "tests/core/solve/systems.hpp"
 
 namespace acinus::solve {
@@ -251,14 +251,14 @@ TEST(Cg, ZeroRightHandSideGivesZero) {
 }
 
 TEST(Cg, SameBitsForAnyNumberOfThreads) {
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   const System system = make_system(6, 80);  // 567 rows: threads do start
   const auto rhs = random_vector_of(system, 7);
   for (const Precision precision : kBoth) {
     std::vector<std::vector<double>> x, residual;
     std::vector<int> iterations;
     for (int threads : {1, 2, 3}) {
-      omp_set_num_threads(threads);
+      set_threads(threads);
       Operator op;
       op.prepare(system);
       CgWorkspace work;
@@ -268,7 +268,7 @@ TEST(Cg, SameBitsForAnyNumberOfThreads) {
       residual.push_back(work.residual);
       iterations.push_back(result.iterations);
     }
-    omp_set_num_threads(before);
+    set_threads(before);
     for (std::size_t k : {1, 2}) {
       EXPECT_EQ(x[0], x[k]);
       EXPECT_EQ(residual[0], residual[k]);

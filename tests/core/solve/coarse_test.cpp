@@ -1,11 +1,11 @@
 #include "core/solve/coarse.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cstdio>
 
 #include "core/solve/cg.hpp"
+#include "core/threads.hpp"
 #include "tests/core/solve/systems.hpp"
 
 namespace acinus::solve {
@@ -147,10 +147,10 @@ TEST(CoarseSpace, SameBitsForAnyNumberOfThreads) {
   for (double& x : position) x = random.uniform(-3, 3);
   const std::vector<std::uint8_t> active(s.block.size() * kLanes, 1);
   const auto r = random_vector_of<float>(s, 92);
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   std::vector<std::vector<float>> seen;
   for (int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Operator op;
     op.prepare(s);
     CoarseSpace coarse;
@@ -159,7 +159,7 @@ TEST(CoarseSpace, SameBitsForAnyNumberOfThreads) {
     coarse.add(r, z);
     seen.push_back(z);
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   EXPECT_EQ(seen[0], seen[1]);
   EXPECT_EQ(seen[0], seen[2]);
 }

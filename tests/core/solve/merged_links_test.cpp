@@ -1,7 +1,6 @@
 #include "core/solve/merged_links.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -318,18 +317,18 @@ TEST(MergedProduct, SameBitsForAnyNumberOfThreads) {
   const System s = make_tissue(77, 20);
   ASSERT_TRUE(worth_threads(s.n_row));
   const auto x = random_vector_of<float>(s, 78);
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   std::vector<MergedLinks> merged;
   std::vector<std::vector<float>> y;
   for (int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     merged.push_back(merge(s));
     Operator op;
     op.prepare(s);
     op.merge_links();
     y.push_back(product(op, x));
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   EXPECT_GT(merged[0].pairs.b.size(), 1000u);
   for (std::size_t k : {1, 2}) {
     EXPECT_EQ(y[k], y[0]);

@@ -3,13 +3,13 @@
 #include "core/solve/kernels.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 #include <limits>
 #include <type_traits>
 
+#include "core/threads.hpp"
 #include "tests/core/solve/tissue.hpp"
 
 namespace acinus::solve {
@@ -332,7 +332,7 @@ std::vector<std::vector<T>> run_all(const System& s, std::vector<double>& number
 
 TEST(Operator, SameBitsForAnyNumberOfThreads) {
   const System s = make_system(9, 80);  // 567 rows: threads do start
-  const int before = omp_get_max_threads();
+  const int before = thread_count();
   struct Seen {
     std::vector<std::vector<double>> full;
     std::vector<std::vector<float>> single;
@@ -341,7 +341,7 @@ TEST(Operator, SameBitsForAnyNumberOfThreads) {
   };
   std::vector<Seen> seen;
   for (int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    set_threads(threads);
     Seen now;
     now.full = run_all<double>(s, now.number);
     now.single = run_all<float>(s, now.number);
@@ -355,7 +355,7 @@ TEST(Operator, SameBitsForAnyNumberOfThreads) {
     now.external_force = loaded.external_force;
     seen.push_back(now);
   }
-  omp_set_num_threads(before);
+  set_threads(before);
   EXPECT_TRUE(seen[0] == seen[1]);
   EXPECT_TRUE(seen[0] == seen[2]);
   for (const auto& v : {seen[0].external, seen[0].force, seen[0].external_force})

@@ -1,0 +1,122 @@
+#include "core/io/page_sums.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "core/io/disk.hpp"
+
+namespace acinus::io::h5 {
+namespace {
+
+/// magic, end, sum of the last page, hash of these, then the entries.
+constexpr std::uint64_t kMagic = 0x3153'4d55'534e'4341;  // "ACNSUMS1"
+constexpr std::size_t kWord = sizeof(std::uint64_t), kHead = 4;
+
+std::uint64_t make_entry(std::span<const std::byte> content) {
+  const auto sum = static_cast<std::uint32_t>(XXH3_64bits(content.data(), content.size()));
+  return std::uint64_t{sum} << 32 | static_cast<std::uint32_t>(~sum);
+}
+
+bool is_entry(std::uint64_t e) {
+  return static_cast<std::uint32_t>(e >> 32) == static_cast<std::uint32_t>(~e);
+}
+
+using Head = std::array<std::uint64_t, kHead>;
+
+Head make_head(std::uint64_t end, std::uint64_t tail) {
+  Head head{kMagic, end, tail, 0};
+  head[3] = XXH3_64bits(head.data(), 3 * kWord);
+  return head;
+}
+
+}  // namespace
+
+std::string sums_of(const std::string& path) { return path + ".sums"; }
+
+PageSums PageSums::read(const std::string& path) {
+  PageSums sums;
+  if (access(sums_of(path).c_str(), F_OK) != 0) return sums;
+  const std::string bytes = read_text_file(sums_of(path));
+  std::vector<std::uint64_t> word(bytes.size() / kWord);
+  std::memcpy(word.data(), bytes.data(), word.size() * kWord);
+  if (word.size() < kHead ||
+      !std::ranges::equal(make_head(word[1], word[2]), std::span(word).first(kHead)))
+    return sums;
+  sums.end_ = word[1];
+  sums.tail_ = word[2];
+  sums.entry_.assign(word.begin() + kHead, word.end());
+  return sums;
+}
+
+void PageSums::remove(const std::string& path) { unlink(sums_of(path).c_str()); }
+
+std::uint64_t PageSums::size_of(std::uint64_t page) const {
+  const std::uint64_t begin = page * kPage;
+  return begin < end_ ? std::min(kPage, end_ - begin) : 0;
+}
+
+bool PageSums::matches(std::uint64_t page, std::span<const std::byte> content) const {
+  const std::uint64_t entry =
+      content.size() < kPage ? tail_ : (page < entry_.size() ? entry_[page] : 0);
+  return content.empty() || !is_entry(entry) || entry == make_entry(content);
+}
+
+void PageSums::set_end(std::uint64_t end) {
+  end_ = end;
+  entry_.resize(std::max<std::size_t>(entry_.size(), end / kPage));
+}
+
+void PageSums::set(std::uint64_t page, std::span<const std::byte> content) {
+  if (content.size() < kPage) {
+    tail_ = make_entry(content);
+    return;
+  }
+  entry_[page] = make_entry(content);
+  if (first_changed_ == last_changed_) first_changed_ = last_changed_ = page;
+  first_changed_ = std::min(first_changed_, page);
+  last_changed_ = std::max(last_changed_, page + 1);
+}
+
+bool PageSums::write(const std::string& path) {
+  const int descriptor = open(sums_of(path).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) return false;
+  const auto put = [&](const std::uint64_t* word, std::size_t n, std::uint64_t at) {
+    return write_all(descriptor, reinterpret_cast<const std::byte*>(word), n * kWord, at * kWord);
+  };
+  const bool written =
+      put(entry_.data() + first_changed_, last_changed_ - first_changed_, kHead + first_changed_) &&
+      put(make_head(end_, tail_).data(), kHead, 0);
+  const int error = errno;
+  if (::close(descriptor) != 0 && written) return false;
+  errno = error;
+  first_changed_ = last_changed_ = 0;
+  return written;
+}
+
+bool is_damaged(const std::string& path) {
+  const PageSums sums = PageSums::read(path);
+  const Journal journal = read_journal(path);
+  // A session that was killed while it replaced pages: those are taken from its journal.
+  const std::uint64_t end =
+      journal.page.empty() ? sums.end() : std::min(sums.end(), journal.end / kPage * kPage);
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  bool damaged = false;
+  std::array<std::byte, kPage> content;
+  for (std::uint64_t page = 0; page * kPage < end && !damaged; ++page) {
+    if (journal.page.contains(page)) continue;
+    const std::uint64_t size = sums.size_of(page);
+    const ssize_t n = pread(descriptor, content.data(), size, static_cast<off_t>(page * kPage));
+    damaged = n != static_cast<ssize_t>(size) || !sums.matches(page, {content.data(), size});
+  }
+  ::close(descriptor);
+  return damaged;
+}
+
+}  // namespace acinus::io::h5
