@@ -44,7 +44,7 @@ TEST_F(Run, LeavesEveryFileAndEveryKeyThatScriptsRelyOn) {
   const Json s = finish({"run", "pair.json", "--out", "a"}, "a");
   EXPECT_EQ(names_in("a"),
             (std::vector<std::string>{"checkpoint.h5", "run.lock", "run.log", "run.vtkhdf",
-                                      "run.xmf", "start.h5", "summary.json"}));
+                                      "run.vtkhdf.sums", "run.xmf", "start.h5", "summary.json"}));
   for (const char* key : {"scene",
                           "scene_hash",
                           "version",
@@ -163,6 +163,37 @@ TEST_F(Run, ToHalfAndResumedIsTheWholeRun) {
   EXPECT_EQ(reader("parts").n_frame(), 3);
   finish(run_words("pair.json", "parts", {"--resume"}), "parts");
   expect_same("whole", "parts");
+}
+
+// Each place of the file in turn: told on stderr and in the summary, and the end is the same.
+TEST_F(Run, FindsDamageToItsFileWhenItIsResumed) {
+  write("pair.json", program::kPair);
+  finish(run_words("pair.json", "whole"), "whole");
+  finish(run_words("pair.json", "half", {"--until", "4 min"}), "half");
+  const std::uintmax_t size = fs::file_size(path("half/run.vtkhdf"));
+  for (const double place : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.999}) {
+    fs::remove_all(path("parts"));
+    fs::copy(path("half"), path("parts"), fs::copy_options::recursive);
+    {
+      std::fstream file(path("parts/run.vtkhdf"), std::ios::in | std::ios::out | std::ios::binary);
+      const auto at = static_cast<std::streamoff>(place * static_cast<double>(size));
+      file.seekg(at);
+      const int was = file.get();
+      file.seekp(at);
+      file.put(static_cast<char>(was ^ 4));
+    }
+    Words words = run_words("pair.json", "parts", {"--resume", "--quiet"});
+    const Outcome outcome = call(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("not those that were written. Lost: "), std::string::npos)
+        << place << outcome.text;
+    EXPECT_EQ(summary("parts")["warnings"].size(), 1U);
+    EXPECT_EQ(summary("parts")["state_hash"], summary("whole")["state_hash"]);
+    EXPECT_TRUE(fs::exists(path("parts/run.vtkhdf.damaged")));
+    const io::RunReader kept = reader("parts");
+    for (int k = 0; k < kept.n_frame(); ++k) kept.frame(k);
+    EXPECT_GE(kept.n_frame(), 1);
+  }
 }
 
 TEST_F(Run, AnEarlierEndAndResumedWithALaterOneIsTheWholeRun) {

@@ -351,7 +351,8 @@ TEST(SceneErrors, RulesBetweenKeys) {
       {"wall names", wall(R"({"name": "a"}, {"name": "a"})"),
        R"(scene.json:1:37 /walls/1/name = "a": another wall has this name)"},
       {"crop",
-       with_block(R"("vessels": {"crop": [["0 um", "3 um", "0 um"], ["1 um", "2 um", "3 um"]]})"),
+       with_block(R"("vessels": {"crop": [["0 um", "3 um", "0 um"], ["1 um", "2 um", "3 um"]], )"
+                  R"("file": ")" ACINUS_TEST_DATA R"(/files/capillaries.vtk"})"),
        R"(scene.json:1:33 /vessels/crop/0/1 = "3 um": must be below )"
        R"(/vessels/crop/1/1 = "2 um")"},
       {"half a crop", with_block(R"("vessels": {"crop": [1]})"),
