@@ -1,0 +1,123 @@
+#include "tests/fuzz/targets.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "core/io/checkpoint.hpp"
+#include "core/io/run_file.hpp"
+#include "core/io/run_reader.hpp"
+#include "core/mesh/read_network.hpp"
+#include "core/mesh/read_surface.hpp"
+#include "runs/scene/reader.hpp"
+#include "tests/core/io/sample.hpp"
+
+namespace acinus::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+void copy_all(const fs::path& from, const std::string& ending, const std::string& to) {
+  for (const auto& entry : fs::directory_iterator(from))
+    if (entry.path().extension() == ending)
+      fs::copy_file(entry.path(), fs::path(to) / entry.path().filename(),
+                    fs::copy_options::overwrite_existing);
+}
+
+void read_scene(const std::string& path) {
+  const runs::Scene scene = runs::read_scene(path);
+  // What a run writes down must be the scene it ran.
+  const runs::Scene again =
+      runs::parse_scene(scene.resolved_json, path, fs::path(path).parent_path().string());
+  if (again.hash != scene.hash) throw std::logic_error("the resolved scene is another one");
+}
+void write_scenes(const std::string& folder) {
+  copy_all(ACINUS_SOURCE_DIR "/runs/scenes", ".json", folder);
+}
+
+void read_law(const std::string& path) { calibration::read_law(path); }
+void write_laws(const std::string& folder) {
+  calibration::Law law;
+  law.a0 = 0.4;
+  law.a1 = 2;
+  law.power = 3;
+  law.overlap_range = {0, 0.1};
+  law.a1_interval = {1, 3};
+  law.r_squared = 0.99;
+  calibration::write_law(law, folder + "/law.json");
+}
+
+void read_network(const std::string& path) { mesh::read_network(path); }
+void read_surface(const std::string& path) { mesh::read_closed_surfaces(path, 1); }
+void write_vtk(const std::string& folder) { copy_all(ACINUS_TEST_DATA "/files", ".vtk", folder); }
+
+void read_checkpoint(const std::string& path) { io::load_state_file(path); }
+void write_checkpoints(const std::string& folder) {
+  io::CheckpointData data;
+  data.put("dcm/position", std::vector<double>(300, 1.5));
+  data.put("cell/lineage", std::vector<std::int64_t>{1, 2, 3});
+  data.put_number("time", 60);
+  io::save_state_file(folder + "/state.h5", data);
+}
+
+void read_run_file(const std::string& path) {
+  const io::RunReader reader(path);
+  for (int k = 0; k < reader.n_frame(); ++k) reader.frame(k);
+  reader.series();
+  reader.observables();
+  reader.events();
+  reader.provenance();
+}
+void write_run_files(const std::string& folder) {
+  io::RunFile run = io::RunFile::create(folder + "/run.vtkhdf", {{"seed", "1"}});
+  for (int k = 0; k < 2; ++k) {
+    run.append(io::test::make_frame(k, 1, 1));
+    run.append_event({60.0 * k, "note", {k}, "event"});
+  }
+  run.close();
+}
+
+const std::vector<Target>& all_targets() {
+  static const std::vector<Target> all{
+      {"scene", {".json"}, read_scene, write_scenes},
+      {"law", {".json"}, read_law, write_laws},
+      {"network", {".vtk", ".swc"}, read_network, write_vtk},
+      {"surface", {".vtk", ".obj", ".stl"}, read_surface, write_vtk},
+      {"checkpoint", {".h5"}, read_checkpoint, write_checkpoints},
+      {"run_file", {".vtkhdf"}, read_run_file, write_run_files}};
+  return all;
+}
+
+}  // namespace
+
+std::span<const Target> targets() { return all_targets(); }
+
+const Target& find_target(const std::string& name) {
+  std::string known;
+  for (const Target& target : all_targets()) {
+    if (target.name == name) return target;
+    known += " " + target.name;
+  }
+  throw std::invalid_argument("no target " + name + "; there are:" + known);
+}
+
+bool try_bytes(const Target& target, const std::string& folder, std::span<const char> bytes) {
+  bool accepted = false;
+  for (const std::string& ending : target.endings) {
+    const std::string path = folder + "/input" + ending;
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    try {
+      target.read(path);
+      accepted = true;
+    } catch (const Error& error) {
+      if (std::string(error.what()).empty()) throw std::logic_error("an error that says nothing");
+      if (error.code() == Exit::kInternal) throw std::logic_error(error.what());
+    }
+  }
+  return accepted;
+}
+
+}  // namespace acinus::fuzz
