@@ -21,6 +21,14 @@ namespace {
 
 thread_local bool t_within_part = false;
 
+/// Work that is shared already is not shared again.
+struct WithinPart {
+  WithinPart() { t_within_part = true; }
+  ~WithinPart() { t_within_part = false; }
+  WithinPart(const WithinPart&) = delete;
+  WithinPart& operator=(const WithinPart&) = delete;
+};
+
 void pause() {
 #if defined(__x86_64__)
   _mm_pause();
@@ -93,7 +101,7 @@ Team& team() {
 }
 
 void Team::take_parts(const Job& job, std::size_t number) {
-  t_within_part = true;
+  const WithinPart within;
   try {
     for (std::size_t k = 0; k < job.n_thread; ++k) {
       Run& run = run_[(number + k) % job.n_thread];
@@ -103,7 +111,6 @@ void Team::take_parts(const Job& job, std::size_t number) {
     const std::scoped_lock lock(failed_);
     failure_ = std::current_exception();
   }
-  t_within_part = false;
 }
 
 void Team::help(std::size_t number) {
@@ -156,8 +163,10 @@ void Team::share(std::size_t n_part, Job job) {
   const std::size_t n = std::min(static_cast<std::size_t>(size()), n_part);
   if (n < 2) return work_alone(n_part, job);
   const std::unique_lock lock(in_use_, std::try_to_lock);
-  if (!lock.owns_lock() || (alone_until_ > 0 && read_clock(CLOCK_MONOTONIC) < alone_until_))
+  if (!lock.owns_lock() || (alone_until_ > 0 && read_clock(CLOCK_MONOTONIC) < alone_until_)) {
+    const WithinPart within;
     return work_alone(n_part, job);
+  }
   alone_until_ = 0;
   job.n_thread = n;
   if (run_.size() < n) run_ = std::vector<Run>(n);
