@@ -57,9 +57,11 @@ Samples choose_samples(const Compression& compression, const cbm::Params& sphere
 struct LeadingTerm {
   double modulus = 0, highest = 0, power = 4;
   /// The factor is what the term adds at the end of the range, over the modulus.
+  /// A trial of the solver below -1 would leave no modulus at `highest`.
+  static constexpr double kSoftest = -0.99;
   cbm::StiffnessLaw::Term at(const Eigen::VectorXd& x) const {
     const double p = x.size() > 1 ? kLeastPower + (power - kLeastPower) * std::exp(x[1]) : power;
-    return {x[0] * modulus / std::pow(highest, p), p};
+    return {std::max(x[0], kSoftest) * modulus / std::pow(highest, p), p};
   }
 };
 

@@ -78,7 +78,8 @@ TEST_F(LifeResume, IsBitForBitWithSleepersRulesAndDeath) {
     const Json end = finish(whole, model, more);
     std::printf("%s: %s\n", model.c_str(), end["cells"].dump().c_str());
     double asleep = 0;
-    for (double n : reader(whole).series().at("asleep")) asleep = std::max(asleep, n);
+    const auto series = reader(whole).series();
+    for (const double n : series.at("asleep")) asleep = std::max(asleep, n);
     EXPECT_GT(asleep, 0) << "the scene keeps everybody awake";
     Words first = more, next = more, last = more;
     first.insert(first.end(), {"--until", "200 min"});
