@@ -67,7 +67,7 @@ TEST_F(LifeResume, IsBitForBitWithSleepersRulesAndDeath) {
   const Words more{"--set",
                    "life.sleep=true",
                    "--set",
-                   R"(life.rules=[{"do": "rest", "share": 0.5, "from": "130 min"},)"
+                   R"(life.rules=[{"do": "rest", "share": 0.5, "from": "190 min"},)"
                    R"({"do": "die", "share": 0.4, "from": "260 min"}])",
                    "--set",
                    "motility.random=false",
