@@ -67,6 +67,26 @@ bool PageSums::matches(std::uint64_t page, std::span<const std::byte> content) c
   return content.empty() || !is_entry(entry) || entry == make_entry(content);
 }
 
+bool PageSums::is_as_written(int descriptor, std::uint64_t page) const {
+  std::array<std::byte, kPage> content;
+  const std::uint64_t size = size_of(page);
+  for (std::uint64_t done = 0; done < size;) {
+    const ssize_t n = pread(descriptor, content.data() + done, size - done,
+                            static_cast<off_t>(page * kPage + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    if (n == 0) break;  // cut short
+    done += static_cast<std::uint64_t>(n);
+    if (done == size && matches(page, {content.data(), size})) return true;
+  }
+  errno = EBADMSG;
+  return size == 0;
+}
+
+std::uint64_t PageSums::covered_end(const Journal& pending) const {
+  return pending.page.empty() ? end_ : std::min(end_, pending.end / kPage * kPage);
+}
+
 void PageSums::set_end(std::uint64_t end) {
   end_ = end;
   entry_.resize(std::max<std::size_t>(entry_.size(), end / kPage));
@@ -102,19 +122,12 @@ bool PageSums::write(const std::string& path) {
 bool is_damaged(const std::string& path) {
   const PageSums sums = PageSums::read(path);
   const Journal journal = read_journal(path);
-  // A session that was killed while it replaced pages: those are taken from its journal.
-  const std::uint64_t end =
-      journal.page.empty() ? sums.end() : std::min(sums.end(), journal.end / kPage * kPage);
+  const std::uint64_t end = sums.covered_end(journal);
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
   bool damaged = false;
-  std::array<std::byte, kPage> content;
-  for (std::uint64_t page = 0; page * kPage < end && !damaged; ++page) {
-    if (journal.page.contains(page)) continue;
-    const std::uint64_t size = sums.size_of(page);
-    const ssize_t n = pread(descriptor, content.data(), size, static_cast<off_t>(page * kPage));
-    damaged = n != static_cast<ssize_t>(size) || !sums.matches(page, {content.data(), size});
-  }
+  for (std::uint64_t page = 0; page * kPage < end && !damaged; ++page)
+    damaged = !journal.page.contains(page) && !sums.is_as_written(descriptor, page);
   ::close(descriptor);
   return damaged;
 }

@@ -30,8 +30,12 @@ class PageSums {
   std::uint64_t end() const { return end_; }
   /// How many bytes of a page are covered.
   std::uint64_t size_of(std::uint64_t page) const;
-  /// @param content  the first size_of(page) bytes
-  bool matches(std::uint64_t page, std::span<const std::byte> content) const;
+  /// Whether an open file holds the bytes of a page that were written. False, with errno set, too
+  /// where it cannot be read or ends before.
+  bool is_as_written(int descriptor, std::uint64_t page) const;
+  /// Pages from here on are not covered. The last one of a session that was killed while it
+  /// replaced pages may be new or old.
+  std::uint64_t covered_end(const Journal& pending) const;
 
   void set_end(std::uint64_t end);
   void set(std::uint64_t page, std::span<const std::byte> content);
@@ -39,6 +43,8 @@ class PageSums {
   bool write(const std::string& path);
 
  private:
+  bool matches(std::uint64_t page, std::span<const std::byte> content) const;
+
   std::uint64_t end_ = 0;
   /// Of whole pages. Each holds its sum twice, once inverted: a damaged entry is known to be one.
   std::vector<std::uint64_t> entry_;

@@ -58,7 +58,7 @@ std::map<std::string, std::string> read_provenance(const File& file, DamagedRead
   return provenance;
 }
 
-/// SampleRows in the order of their rows: [row][column].
+/// Samples in the order of their rows: [row][column].
 struct SampleRows {
   RowNames names;
   std::vector<double> value;

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -75,30 +74,20 @@ bool is_as_written(StagedFile* file, std::uint64_t page) {
   constexpr int kLooks = 4;
   constexpr useconds_t kBetween = 20'000;  // us
   if (page < file->checked.size() && file->checked[page]) return true;
-  std::array<std::byte, kPage> content;
-  for (int look = 0; look < kLooks; ++look) {
-    if (look > 0) {
-      if (file->writable) break;
-      usleep(kBetween);
-      file->sums = PageSums::read(file->path);
-    }
-    const std::uint64_t size = file->sums.size_of(page);
-    if (!read_all(file->descriptor, content.data(), size, page * kPage)) return false;
-    if (!file->sums.matches(page, {content.data(), size})) continue;
-    if (file->checked.size() <= page) file->checked.resize(page + 1, false);
-    file->checked[page] = true;
-    return true;
+  for (int look = 0; !file->sums.is_as_written(file->descriptor, page); ++look) {
+    if (errno != EBADMSG || file->writable || look == kLooks - 1) return false;
+    usleep(kBetween);
+    file->sums = PageSums::read(file->path);
   }
-  errno = EBADMSG;
-  return false;
+  if (file->checked.size() <= page) file->checked.resize(page + 1, false);
+  file->checked[page] = true;
+  return true;
 }
 
 /// The same of all pages of a range that are not waiting to be replaced.
 bool are_as_written(StagedFile* file, haddr_t begin, haddr_t end) {
   if (!file->has_sums) return true;
-  end = std::min<haddr_t>(end, file->sums.end());
-  // The last page of a session that was killed while it replaced pages may be new or old.
-  if (!file->staged.page.empty()) end = std::min<haddr_t>(end, file->staged.end / kPage * kPage);
+  end = std::min<haddr_t>(end, file->sums.covered_end(file->staged));
   for (std::uint64_t page = begin / kPage; page * kPage < end; ++page)
     if (!file->staged.page.contains(page) && !is_as_written(file, page)) return false;
   return true;

@@ -1,7 +1,5 @@
 #include "coupling/step/clearance.hpp"
 
-#include <algorithm>
-
 namespace acinus::coupling {
 
 bool is_clear(const World& world, const Workspace& w, std::size_t body, double distance) {

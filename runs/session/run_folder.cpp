@@ -17,9 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kResultFiles{
-    "run.vtkhdf",   "run.vtkhdf.sums", "run.vtkhdf.journal", "run.vtkhdf.damaged", "run.xmf",
-    "summary.json", "checkpoint.h5",   "checkpoint.prev.h5", "start.h5",           "run.log"};
+constexpr std::array kResultFiles{"run.vtkhdf",
+                                  "run.vtkhdf.sums",
+                                  "run.vtkhdf.journal",
+                                  "run.vtkhdf.damaged",
+                                  "run.vtkhdf.damaged.sums",
+                                  "run.xmf",
+                                  "summary.json",
+                                  "checkpoint.h5",
+                                  "checkpoint.prev.h5",
+                                  "start.h5",
+                                  "run.log"};
 
 /// Held while a run writes in the folder. It is never removed, else two processes could hold two
 /// files of that name.
