@@ -1,16 +1,18 @@
 #include "core/threads.hpp"
 
 #include <pthread.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "core/timing.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -46,12 +48,6 @@ bool changes_soon(const std::atomic<std::uint32_t>& number, std::uint32_t old) {
     pause();
   }
   return false;
-}
-
-double read_clock(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 /// The parts that one thread begins with. Others take of them when theirs are done, so that each
@@ -152,9 +148,9 @@ void Team::wait_for_helpers() {
   for (std::uint32_t n; (n = at_work()) != 0 && changes_soon(inside_, n);) {
   }
   if (at_work() == 0) return;
-  const double start = read_clock(CLOCK_MONOTONIC), worked = helper_seconds();
+  const double start = wall_seconds(), worked = helper_seconds();
   for (std::uint32_t n; (n = at_work()) != 0;) inside_.wait(n);
-  const double now = read_clock(CLOCK_MONOTONIC);
+  const double now = wall_seconds();
   const double lost = now - start - (helper_seconds() - worked);
   if (lost > 0.5 * (now - start)) alone_until_ = now + kRest * lost;
 }
@@ -163,7 +159,7 @@ void Team::share(std::size_t n_part, Job job) {
   const std::size_t n = std::min(static_cast<std::size_t>(size()), n_part);
   if (n < 2) return work_alone(n_part, job);
   const std::unique_lock lock(in_use_, std::try_to_lock);
-  if (!lock.owns_lock() || (alone_until_ > 0 && read_clock(CLOCK_MONOTONIC) < alone_until_)) {
+  if (!lock.owns_lock() || (alone_until_ > 0 && wall_seconds() < alone_until_)) {
     const WithinPart within;
     return work_alone(n_part, job);
   }
@@ -188,7 +184,13 @@ void Team::share(std::size_t n_part, Job job) {
 
 void set_threads(int n) { team().resize(n); }
 int thread_count() { return team().size(); }
-int processor_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+int processor_count() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 std::size_t count_threads(std::size_t n_row) {
   return worth_threads(n_row) && !t_within_part ? static_cast<std::size_t>(thread_count()) : 1;

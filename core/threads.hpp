@@ -3,7 +3,6 @@
 /// numbers, and sums are added in the order of the parts.
 
 #include <cstddef>
-#include <type_traits>
 
 #include "core/lanes.hpp"
 

@@ -1,22 +1,16 @@
 #include "core/timing.hpp"
 
-#include <sched.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <ctime>
 #include <fstream>
-#include <thread>
+
+#include "core/threads.hpp"
 
 namespace acinus {
 
 namespace {
-
-double read_clock(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // First value of "key : value" in a text file of the system, or an empty string.
 std::string read_entry(const char* path, std::string_view key) {
@@ -30,14 +24,13 @@ std::string read_entry(const char* path, std::string_view key) {
   return {};
 }
 
-int usable_cores() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 }  // namespace
+
+double read_clock(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 double wall_seconds() { return read_clock(CLOCK_MONOTONIC); }
 double cpu_seconds() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
@@ -103,7 +96,7 @@ Machine describe_machine() {
   Machine machine;
   machine.cpu_model = read_entry("/proc/cpuinfo", "model name");
   if (machine.cpu_model.empty()) machine.cpu_model = "unknown";
-  machine.cores = usable_cores();
+  machine.cores = processor_count();
   machine.instruction_set = best_instruction_set();
   return machine;
 }

@@ -2,11 +2,15 @@
 /// Where the time went, how much memory was used, and on which machine.
 
 #include <cstdint>
+#include <ctime>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace acinus {
+
+/// Seconds of a clock of the system.
+double read_clock(clockid_t clock);
 
 /// Seconds of a clock that never jumps; only differences mean something.
 double wall_seconds();
