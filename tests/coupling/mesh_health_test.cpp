@@ -55,8 +55,7 @@ void spoil(const mesh::Topology& t, Damage damage, double noise, std::vector<Vec
   }
   if (damage == Damage::kNoise)
     for (Vec3& x : d)
-      x += 0.5 * noise * t.mean_rest_length *
-           Vec3(random.normal(), random.normal(), random.normal());
+      x += 0.5 * noise * t.mean_rest_length * reference::normal_vector(random);
   for (Vec3& x : d) x.normalize();
 }
 

@@ -13,10 +13,17 @@ inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 /// Random numbers of one test.
 inline UniformStream stream(std::uint64_t test) { return UniformStream(20, Purpose::kTest, test); }
 
+/// Three normal numbers. Arguments of one call would be drawn in an order that each compiler
+/// chooses.
+inline Vec3 normal_vector(UniformStream& random) {
+  const double z = random.normal(), y = random.normal();
+  return {random.normal(), y, z};
+}
+
 /// Uniform over all rotations.
 inline Mat3 random_rotation(UniformStream& random) {
-  Eigen::Quaterniond q(random.normal(), random.normal(), random.normal(), random.normal());
-  return q.normalized().toRotationMatrix();
+  const Vec3 v = normal_vector(random);
+  return Eigen::Quaterniond(random.normal(), v.x(), v.y(), v.z()).normalized().toRotationMatrix();
 }
 
 inline Vec3 random_vector(UniformStream& random, double half_width) {

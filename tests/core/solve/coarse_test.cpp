@@ -44,7 +44,9 @@ struct Chain {
                      ? Side{{point_of(c, k), point_of(c, k + 1), point_of(c, k + 2)}, {0.25f, 0.5f}}
                      : Side::at(point_of(c, 0));
         link.b = Side::at(point_of(c + 1, k));
-        set_law(random.uniform(1, 3), random.uniform(1, 3), 0, random.unit_vector(), link);
+        const Vec3 normal = random.unit_vector();
+        const double friction = random.uniform(1, 3), stiffness = random.uniform(1, 3);
+        set_law(stiffness, friction, 0, normal, link);
         system.links.link.push_back(link);
         system.links.load.emplace_back();
       }
