@@ -65,31 +65,44 @@ bool Simulation::remove_dying(const StepResult& failed, const Observer& observer
   return !removed.events.empty();
 }
 
+/// The events after a step. @return false: the simulation is to end here
+bool Simulation::end_step(const Observer& observer) {
+  const LifeReport report = live(world_, work_);
+  if (observer.life) observer.life(report);
+  return !report.interrupted && (!observer.events_over || observer.events_over());
+}
+
 LoopResult Simulation::run_until(double end, const Observer& observer) {
   bool was_running = false;
   double opening = 0;
-  return run_loop(
-      {.time_left = [&] { return is_running() ? end - time() : kNever; },
-       .advance =
-           [&](double limit) {
-             was_running = is_running();
-             opening = next_opening(world_.params.boundary, time());
-             return coupling::advance(world_, work_, limit);
-           },
-       .time_to_event = [&] { return time_to_event(observer); },
-       .after =
-           [&](const StepResult& step) {
-             if (observer.step) observer.step(step);
-             if (!was_running) {
+  const EventsDue& due = world_.state.clock.due;
+  LoopResult result;
+  if (due == EventsDue::kNone || end_step(observer))
+    result = run_loop(
+        {.time_left = [&] { return is_running() ? end - time() : kNever; },
+         .advance =
+             [&](double limit) {
+               was_running = is_running();
+               opening = next_opening(world_.params.boundary, time());
+               return coupling::advance(world_, work_, limit);
+             },
+         .time_to_event = [&] { return time_to_event(observer); },
+         .after =
+             [&](const StepResult& step) {
+               if (observer.step) observer.step(step);
+               if (was_running) {
+                 if (time() > opening - kSameTime) start_anew(world_.state.clock);
+                 return end_step(observer);
+               }
                end_step_of_start_up(observer);
-             } else {
-               if (time() > opening - kSameTime) start_anew(world_.state.clock);
-               const LifeReport report = live(world_, work_);
-               if (observer.life) observer.life(report);
-             }
-             return !observer.events_over || observer.events_over();
-           },
-       .recover = [&](const StepResult& failed) { return remove_dying(failed, observer); }});
+               return !observer.events_over || observer.events_over();
+             },
+         .recover = [&](const StepResult& failed) { return remove_dying(failed, observer); }});
+  if (due != EventsDue::kNone) {
+    result.ok = false;
+    result.last.interrupted = true;
+  }
+  return result;
 }
 
 }  // namespace acinus::coupling

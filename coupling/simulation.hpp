@@ -51,6 +51,7 @@ class Simulation {
  private:
   double time_to_event(const Observer& observer) const;
   void end_step_of_start_up(const Observer& observer);
+  bool end_step(const Observer& observer);
   bool remove_dying(const StepResult& failed, const Observer& observer);
 
   World world_;

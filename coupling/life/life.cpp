@@ -9,6 +9,7 @@
 
 #include "cbm/division.hpp"
 #include "core/sphere.hpp"
+#include "core/stop.hpp"
 #include "core/threads.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
@@ -136,6 +137,7 @@ void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born
   std::vector<std::string> why(mothers.size());
   std::vector<std::uint8_t> done(mothers.size(), 0);
   for_each_part(mothers.size(), [&](std::size_t k) {
+    if (stop_requested()) return;
     try {  // one that fails does not keep the others from dividing
       done[k] = split_shell(world, mothers[k].at, daughters[k], why[k]) ? 1 : 0;
     } catch (const std::exception& e) {
@@ -182,10 +184,17 @@ void replace_cells(World& world, const std::vector<std::uint8_t>& gone,
   world.state = compose(shells, spheres, s);
 }
 
-/// Division and death.
+LifeReport undo(State& before, State& s) {
+  s = std::move(before);
+  return {.interrupted = true};
+}
+
+/// Division and death. Interrupted: nothing happened.
 LifeReport turn_over(World& world, Workspace& work) {
   LifeReport report;
   if (world.state.cycle.empty()) return report;
+  State before;
+  if (has_doubled_shell(world.state)) before = world.state;
   Plan plan = make_plan(world, work);
   if (plan.empty()) return report;
   const auto scope = work.timings.scope("life");
@@ -213,6 +222,7 @@ LifeReport turn_over(World& world, Workspace& work) {
     bear_spheres(world, c, born, report);
   }
   divide_shells(world, shells, born, gone, report);
+  if (!shells.empty() && stop_requested()) return undo(before, s);
   s.divisions += std::ssize(born.shell) / 2 + std::ssize(born.sphere) / 2;
   const State newborn = make_state(born, s.clock.time);
   replace_cells(world, gone, dissolves, newborn);
@@ -224,6 +234,7 @@ LifeReport turn_over(World& world, Workspace& work) {
     std::vector<std::int64_t> daughters;
     for (const dcm::NewCell& c : born.shell) daughters.push_back(c.lineage);
     const Settled settled = settle_daughters(world, daughters);
+    if (!settled.ok && stop_requested()) return undo(before, s);
     for (std::size_t k = 0; k < report.divisions.size(); ++k)
       add_settling(settled, {daughters[2 * k], daughters[2 * k + 1]}, report.divisions[k]);
     if (!settled.ok) report.events.push_back({"settling_failed", daughters, settled.cause});
@@ -235,9 +246,16 @@ LifeReport turn_over(World& world, Workspace& work) {
 }  // namespace
 
 LifeReport live(World& world, Workspace& work) {
-  LifeReport report = turn_over(world, work);
-  update_sleep(world, work);
+  Clock& clock = world.state.clock;
+  LifeReport report;
+  if (clock.due != EventsDue::kMeshes) {
+    report = turn_over(world, work);
+    clock.due = EventsDue::kAll;
+    if (report.interrupted) return report;
+    update_sleep(world, work);
+  }
   mend_meshes(world, work, report);
+  clock.due = report.interrupted ? EventsDue::kMeshes : EventsDue::kNone;
   return report;
 }
 

@@ -22,6 +22,9 @@ struct LifeEvent {
 struct LifeReport {
   std::vector<LifeEvent> events;
   std::vector<DivisionFigures> divisions;  ///< of deformable cells
+  /// The process was asked to stop meanwhile: what was begun is undone, Clock::due says what is
+  /// left to do. live() is to be called again before the next step.
+  bool interrupted = false;
 };
 
 /// Stage 5 of a step: applies rules and inhibition on their time grid, then divides what has

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
+#include "core/stop.hpp"
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
 #include "coupling/step/stages.hpp"
@@ -98,25 +102,34 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   const auto scope = work.timings.scope("mesh health");
   const std::vector<std::size_t> lanes = find_suspicious(s);
   if (lanes.empty()) return;
+  State before = s;
   std::vector<dcm::Mended> mended(lanes.size());
   for_each_part(lanes.size(), [&](std::size_t k) {
     std::vector<Vec3> node;
     dcm::copy_nodes(s.dcm, lanes[k], node);
     mended[k] = dcm::mend_mesh(topology_of(s, lanes[k]), node, reference_radius(s, lanes[k]));
   });
+  LifeReport mending;
   std::vector<std::int64_t> changed;
   for (std::size_t k = 0; k < lanes.size(); ++k) {
     const std::int64_t lineage = s.dcm.lineage[lanes[k]];
-    report.events.push_back(
+    mending.events.push_back(
         {mended[k].ok ? "remeshed" : "mesh_degenerate", {lineage}, describe(mended[k])});
     if (!mended[k].ok) continue;
     replace_mesh(s, lanes[k], mended[k].node);
     changed.push_back(lineage);
   }
-  if (changed.empty()) return;
-  const Settled settled = settle_daughters(world, changed);
-  if (!settled.ok) report.events.push_back({"settling_failed", changed, settled.cause});
-  size_workspace(world, work);
+  if (!changed.empty()) {
+    const Settled settled = settle_daughters(world, changed);
+    if (!settled.ok && stop_requested()) {
+      s = std::move(before);
+      report.interrupted = true;
+      return;
+    }
+    if (!settled.ok) mending.events.push_back({"settling_failed", changed, settled.cause});
+    size_workspace(world, work);
+  }
+  std::ranges::move(mending.events, std::back_inserter(report.events));
 }
 
 }  // namespace acinus::coupling

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double kDoubled = 1 - 1e-9;  ///< share of twice the birth volume that counts as reached
 
+bool has_doubled(const State& s, const Cell& c) {
+  return volume_of(s, c).at(s.clock.time) >= 2 * s.cycle[c.index].birth_volume * kDoubled;
+}
+
 bool applies(const LifeParams& p, std::size_t number, const State& s, const Cell& c) {
   const LifeRule& r = p.rule[number];
   const double t = time_of(s);
@@ -103,11 +107,9 @@ void look_at_clocks(const World& world, Plan& plan) {
   for_each_cell(s, [&](const Cell& c) {
     if (dies[c.index] != 0) return;  // a rule took it just now: it does not divide any more
     const Cycle& cycle = s.cycle[c.index];
-    const Ramp& volume = volume_of(s, c);
-    if (cycle.fate == Fate::kGrow && t >= cycle.wait_until &&
-        volume.at(t) >= 2 * cycle.birth_volume * kDoubled)
+    if (cycle.fate == Fate::kGrow && t >= cycle.wait_until && has_doubled(s, c))
       plan.divide.push_back(c);
-    if (cycle.fate == Fate::kLyse && t >= volume.end) plan.remove.push_back(c);
+    if (cycle.fate == Fate::kLyse && t >= volume_of(s, c).end) plan.remove.push_back(c);
   });
 }
 
@@ -116,6 +118,14 @@ void look_at_clocks(const World& world, Plan& plan) {
 bool has_life(const Params& p) {
   return !p.life.rule.empty() ||
          std::ranges::any_of(p.life.type, [](const CycleParams& c) { return c.time > 0; });
+}
+
+bool has_doubled_shell(const State& s) {
+  bool any = false;
+  for_each_cell(s, [&](const Cell& c) {
+    any = any || (c.deformable && s.cycle[c.index].duration > 0 && has_doubled(s, c));
+  });
+  return any;
 }
 
 void set_growth(const Params& p, State& s, const Cell& c, double factor) {

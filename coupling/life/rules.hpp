@@ -22,6 +22,9 @@ double time_to_life_event(const World& world);
 /// @param factor  of growth_factor
 void set_growth(const Params& params, State& state, const Cell& cell, double factor);
 
+/// Whether a deformable cell is as large as those that divide, whatever rules say about it.
+bool has_doubled_shell(const State& state);
+
 /// What is to happen to cells now.
 struct Plan {
   std::vector<Cell> divide, remove, lyse;

@@ -90,6 +90,10 @@ struct Params {
   contact::Boundary boundary;
 };
 
+/// Events after the last step that are still to come. A step and its events are one unless the
+/// process is asked to stop while cells divide, or while new meshes settle.
+enum class EventsDue : std::uint8_t { kNone, kAll, kMeshes };
+
 struct Clock {
   double time = 0;    ///< s since the beginning of start-up
   double origin = 0;  ///< s, time of t = 0; meaningful in Phase::kRun
@@ -100,6 +104,7 @@ struct Clock {
   std::int64_t accepted = 0, rejected = 0, cg_iterations = 0;
   bool coarse = false;      ///< the solver's coarse space is on: chosen from how hard steps were
   std::int64_t solves = 0;  ///< linear systems of accepted and rejected steps
+  EventsDue due = EventsDue::kNone;
 };
 
 /// Largest |sum| / sum |.| over all steps.

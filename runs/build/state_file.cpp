@@ -232,6 +232,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   put_life(s, d);
   d.put_count("clock/phase", static_cast<std::int64_t>(s.clock.phase));
   d.put_count("clock/coarse", s.clock.coarse ? 1 : 0);
+  d.put_count("clock/events_due", static_cast<std::int64_t>(s.clock.due));
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double value) { d.put_number(name, value); });
   visit_counts(s.clock, [&](const char* name, std::int64_t value) { d.put_count(name, value); });
@@ -248,6 +249,8 @@ void get_state(const io::CheckpointData& d, coupling::State& s) {
   get_life(d, s);
   s.clock.phase = static_cast<coupling::Phase>(d.count("clock/phase"));
   s.clock.coarse = d.count("clock/coarse") != 0;
+  if (d.contains("clock/events_due"))  // files of 0.1.0 have none
+    s.clock.due = static_cast<coupling::EventsDue>(d.count("clock/events_due"));
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double& value) { value = d.number(name); });
   visit_counts(s.clock, [&](const char* name, auto& value) { value = d.count(name); });

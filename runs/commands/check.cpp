@@ -2,9 +2,11 @@
 
 #include <memory>
 
+#include "core/stop.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/build/memory_need.hpp"
 #include "runs/commands/command.hpp"
+#include "runs/commands/wall_time.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -14,10 +16,13 @@ namespace {
 struct CheckArguments {
   std::string scene_file;
   std::vector<std::string> set;
+  std::string max_walltime;
   bool resolved = false;  ///< print the scene with every default
 };
 
 int check_scene(const CheckArguments& arguments) {
+  const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
+  const ExitAtLimit nothing_to_save;
   const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
   Scene plain = scene;
   std::vector<std::string> later;
@@ -57,6 +62,7 @@ Command add_check(CLI::App& app) {
   command->add_option("SCENE", arguments->scene_file, "scene file, or the name of a shipped scene")
       ->required();
   add_set(*command, arguments->set);
+  add_wall_time_limit(*command, arguments->max_walltime, "end after this wall time with exit 75");
   command->add_flag("--resolved", arguments->resolved, "print the scene with every default");
   return {command, [arguments] { return check_scene(*arguments); }};
 }

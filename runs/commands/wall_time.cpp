@@ -53,11 +53,8 @@ double parse_wall_time(const std::string& text) {
   return sum;
 }
 
-void add_wall_time_limit(CLI::App& command, std::string& text) {
-  command
-      .add_option("--max-walltime", text,
-                  "stop after this wall time, e.g. 23h30m, with a checkpoint to go on from")
-      ->type_name("WALL");
+void add_wall_time_limit(CLI::App& command, std::string& text, const char* help) {
+  command.add_option("--max-walltime", text, help)->type_name("WALL");
 }
 
 double read_wall_time_limit(const std::string& text) {

@@ -11,7 +11,9 @@ namespace acinus::runs {
 double parse_wall_time(const std::string& text);
 
 /// The flag --max-walltime.
-void add_wall_time_limit(CLI::App& command, std::string& text);
+void add_wall_time_limit(
+    CLI::App& command, std::string& text,
+    const char* help = "stop after this wall time, e.g. 23h30m, with a checkpoint to go on from");
 /// Its value in s; infinite if it was not given.   @throws Error naming the flag
 double read_wall_time_limit(const std::string& text);
 

@@ -93,7 +93,6 @@ class SceneRun {
   double last_save_ = wall_seconds();
   double memory_limit_;       ///< bytes
   double next_look_ = 0;      ///< at the memory in use, on the clock of wall_seconds()
-  double extra_frame_ = 0;    ///< s, the next frame that an opening asks for
   bool was_running_ = false;  ///< before this step
   std::string stopped_by_;    ///< empty: it was not
   Excess excess_;             ///< why a frame ended the run, if its depth is > 0
@@ -138,7 +137,8 @@ bool SceneRun::frame_is_due() const {
   const double part = time() / scene_.output.every;
   return starts || is_last() ||
          std::abs(part - std::round(part)) * scene_.output.every < kSameTime ||
-         (was_running_ && time() > extra_frame_ - kSameTime);
+         (was_running_ &&
+          next_frame_of_opening(scene_, time() - 2 * kSameTime) < time() + kSameTime);
 }
 
 void SceneRun::note(const std::string& text) {
@@ -186,9 +186,9 @@ bool SceneRun::events_over() {
 coupling::Observer SceneRun::observer() {
   return {.next_moment =
               [this](double time) {
-                extra_frame_ = next_frame_of_opening(scene_, time);
                 const double every = scene_.output.every;
-                return std::min((std::floor((time + kSameTime) / every) + 1) * every, extra_frame_);
+                return std::min((std::floor((time + kSameTime) / every) + 1) * every,
+                                next_frame_of_opening(scene_, time));
               },
           .step =
               [this](const coupling::StepResult& step) {

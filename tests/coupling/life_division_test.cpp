@@ -31,7 +31,7 @@ double volume_of_mesh(const State& s, std::int64_t id) {
                               s.dcm.group[index_cells(s).at(id).at / kLanes].topology->triangle);
 }
 
-/// Steps as a run does; all must be accepted, and nobody may cross himself afterwards.
+/// Steps as a run does; all must be accepted, and no cell may cross itself afterwards.
 void expect_to_go_on(World& w, double duration) {
   Workspace work;
   size_workspace(w, work);
