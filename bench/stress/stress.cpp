@@ -1,19 +1,19 @@
 #include "bench/stress/stress.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/stress/inspect.hpp"
 #include "bench/stress/random_scene.hpp"
+#include "bench/stress/verdict.hpp"
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
 #include "runs/build/build_world.hpp"
@@ -30,37 +30,10 @@ using Json = nlohmann::json;
 constexpr double kRunTime = 60, kHangTime = 300;
 constexpr std::size_t kAtATime = 2;
 
-enum class TrialOutcome {
-  kClean,      ///< completed, nothing found
-  kNamed,      ///< completed; what was found, the run told as an event
-  kStopped,    ///< exit 3 with a cause and a checkpoint that opens
-  kTimeLimit,  ///< stopped by its own wall-time limit, nothing found
-  kRefused,    ///< exit 2: the generator's fault
-  kCrashed,
-  kHung,
-  kNotFinite,
-  kUnnoticed,  ///< the run found nothing wrong, the inspection did
-};
-constexpr std::array kOutcomes{
-    TrialOutcome::kClean,     TrialOutcome::kNamed,     TrialOutcome::kStopped,
-    TrialOutcome::kTimeLimit, TrialOutcome::kRefused,   TrialOutcome::kCrashed,
-    TrialOutcome::kHung,      TrialOutcome::kNotFinite, TrialOutcome::kUnnoticed};
-const char* name_of(TrialOutcome outcome) {
-  constexpr std::array kNames{"clean",   "named", "stopped",    "time_limit", "refused",
-                              "crashed", "hung",  "not_finite", "unnoticed"};
-  return kNames[static_cast<std::size_t>(outcome)];
+std::string hash_of_file(const std::string& path) {
+  const std::string bytes = io::read_text_file(path);
+  return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
-bool is_failure(TrialOutcome o) { return o >= TrialOutcome::kRefused; }
-
-/// What came of one scene.
-struct RunVerdict {
-  std::uint64_t seed = 0;
-  TrialOutcome outcome = TrialOutcome::kClean;
-  std::string cause;
-  int cells = 0;
-  double cpu_s = 0;
-  std::map<std::string, int> events;  ///< how often each was told
-};
 
 /// Whether the run told of a finding itself, in the frame that shows it.
 bool names(const std::vector<io::Event>& events, const Finding& f) {
@@ -225,48 +198,25 @@ RunVerdict RandomRun::inspect() {
   return settle(TrialOutcome::kClean, "");
 }
 
-/// What happened in scenes with life, as counted in the table.
-constexpr std::array kLifeEvents{"division", "division_waits", "settling_failed", "death",
-                                 "lysis",    "remeshed",       "mesh_degenerate"};
-
-BenchRow row_of(Family family, bool life, const std::vector<RunVerdict>& all) {
-  BenchRow row{name_of(family), 0, {}};
-  std::map<TrialOutcome, int> count;
-  std::map<std::string, int> event;
-  int n = 0;
-  double cpu = 0;
-  for (const RunVerdict& j : all) {
-    if (family_of(j.seed) != family) continue;
-    ++n;
-    ++count[j.outcome];
-    cpu += j.cpu_s;
-    for (const auto& [code, times] : j.events) event[code] += times;
-    row.cells += j.cells;
-    row.passed = row.passed && !is_failure(j.outcome);
-  }
-  row.value.emplace_back("scenes", n);
-  for (const TrialOutcome o : kOutcomes) row.value.emplace_back(name_of(o), count[o]);
-  if (life)
-    for (const char* code : kLifeEvents) row.value.emplace_back(code, event[code]);
-  row.value.emplace_back("cpu_s", cpu);
-  return row;
-}
-
 }  // namespace
 
 BenchTable bench_stress(const BenchOptions& options) {
   const Workplace place(options.folder);
-  std::ofstream list;
-  if (!options.folder.empty()) list.open(place.path() / "scenes.csv");
-  list << "seed,family,outcome,cells,cpu_s,cause\n";
+  const std::string program = hash_of_file(runs::program_beside("acinus"));
+  VerdictFile file(options.folder.empty() ? "" : (place.path() / "verdicts.jsonl").string(),
+                   program, options.life);
   const std::size_t most = options.threads == 1 ? 1 : kAtATime;
   const auto first = static_cast<std::uint64_t>(options.first);
   const std::uint64_t end = first + static_cast<std::uint64_t>(options.seeds);
   std::vector<RunVerdict> all;
   std::vector<RandomRun> running;
+  for (const auto& [seed, verdict] : file.before())
+    if (seed >= first && seed < end) all.push_back(verdict);
+  if (!all.empty()) fmt::print("{} scenes were judged before\n", all.size());
   for (std::uint64_t seed = first; seed < end || !running.empty();) {
-    while (running.size() < most && seed < end)
-      running.emplace_back(seed++, options.life, place.path());
+    for (; running.size() < most && seed < end; ++seed)
+      if (!file.before().contains(seed)) running.emplace_back(seed, options.life, place.path());
+    if (running.empty()) break;
     std::vector<const runs::Child*> children;
     for (const RandomRun& trial : running) children.push_back(&trial.child());
     const auto done = running.begin() + static_cast<std::ptrdiff_t>(*runs::wait_for_any(children));
@@ -274,9 +224,7 @@ BenchTable bench_stress(const BenchOptions& options) {
     if (j.outcome == TrialOutcome::kClean) done->remove();
     running.erase(done);
     all.push_back(j);
-    list << fmt::format("{},{},{},{},{:.2f},\"{}\"\n", j.seed, name_of(family_of(j.seed)),
-                        name_of(j.outcome), j.cells, j.cpu_s, j.cause)
-         << std::flush;
+    file.add(j);
   }
   std::ranges::sort(all, {}, &RunVerdict::seed);
   BenchTable table;

@@ -60,8 +60,8 @@ bool is_utf8(std::string_view text, std::size_t* wrong_byte) {
 
 std::string pointer_part(std::string_view name) {
   constexpr std::size_t kLongest = 80;
-  const std::string cut =
-      name.size() > kLongest ? std::string(name.substr(0, kLongest)) + "..." : std::string(name);
+  std::string cut(name.substr(0, kLongest));
+  if (name.size() > kLongest) cut += "...";
   const std::string quoted =
       nlohmann::json(cut).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string part;

@@ -98,7 +98,7 @@ class KeyReader final : public Visitor {
     } else if (key.is_name && !is_name(node->text)) {
       report_.add_value(*node, pointer, kNameRule);
     } else if (key.is_label && !is_label(node->text)) {
-      report_.add_value(*node, pointer, std::string(kNameRule) + ", with spaces inside if wanted");
+      report_.add_value(*node, pointer, fmt::format("{}, with spaces inside if wanted", kNameRule));
     } else {
       value = node->text;
     }
