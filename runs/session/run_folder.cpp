@@ -47,14 +47,16 @@ void check_use(const std::string& folder, const RunOptions& options) {
   std::error_code failed;
   check(!fs::exists(folder, failed) || fs::is_directory(folder),
         fmt::format("--out {}: is a file; a folder is needed.", folder));
-  if (options.resume) {
-    check(io::has_checkpoint(folder),
-          fmt::format("--resume: {} holds no checkpoint. Run without --resume to start anew.",
-                      folder));
-    return;
-  }
   const bool results = std::ranges::any_of(
       kResultFiles, [&](const char* f) { return fs::exists(fs::path(folder) / f); });
+  if (options.resume) {
+    check(io::has_checkpoint(folder),
+          fmt::format("--resume: {} holds no checkpoint{}.", folder,
+                      results ? "; the run ended before the first was written. Run with "
+                                "--overwrite in place of --resume to start anew"
+                              : ". Run without --resume to start anew"));
+    return;
+  }
   check(!results || options.overwrite,
         fmt::format(
             "--out {}: holds the results of an earlier run, which are never replaced unasked. "

@@ -108,7 +108,7 @@ TEST(Units, MalformedTextIsRefused) {
                            "12 um \x01", "1 ((((((((((((um))))))))))))"}) {
     EXPECT_NE(failure(text, kLength), "") << text;
   }
-  EXPECT_NE(failure(std::string(100000, '9') + " um", kLength), "");
+  EXPECT_NE(failure(std::string(100000, '9').append(" um"), kLength), "");
   EXPECT_NE(failure("1 " + std::string(100, 'm'), kLength), "");
 }
 

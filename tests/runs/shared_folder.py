@@ -16,31 +16,11 @@ import sys
 import tempfile
 import time
 
-import h5py
+import run_files
 
 WORDS = ["run", "two_cells", "--threads", "1", "--quiet", "--out", "r"]
 WHOLE = ["--set", "time.end=30 h"]
 HALF = ["--set", "time.end=30 h", "--until", "10 h"]
-FILES = ["run.vtkhdf", "checkpoint.h5"]
-# Of the process, not of the cells: when it ran, and for how long.
-MAY_DIFFER = re.compile(r"provenance/(start|end|command_line)|.*(wall|cpu)_s(@.*)?|@digest")
-
-
-def read(path):
-    found = {}
-
-    def keep(name, item):
-        for key, value in item.attrs.items():
-            found[f"{name}@{key}"] = str(value)
-        if isinstance(item, h5py.Dataset):
-            value = item[()]
-            found[name] = value.tobytes() if hasattr(value, "tobytes") else value
-
-    with h5py.File(path, "r") as file:
-        file.visititems(keep)
-        for key, value in file.attrs.items():
-            found[f"@{key}"] = str(value)
-    return {name: value for name, value in found.items() if not MAY_DIFFER.fullmatch(name)}
 
 
 def finish(program, folder, words):
@@ -58,15 +38,6 @@ def contend(program, folder, words, count, moments):
                              stderr=subprocess.PIPE, text=True))
         time.sleep(moments.uniform(0, 0.05 / count))
     return [(p.pid, p.communicate()[1], p.returncode) for p in processes]
-
-
-def compare(reference, folder):
-    differing = []
-    for name in FILES:
-        here = read(os.path.join(folder, "r", name))
-        there = reference[name]
-        differing += [f"{name}:{key}" for key in sorted({*here, *there}) if here.get(key) != there.get(key)]
-    return differing
 
 
 def judge(outcomes, differing):
@@ -95,13 +66,13 @@ def main():
         alone = os.path.join(base, "alone")
         os.mkdir(alone)
         finish(program, alone, WHOLE)
-        reference = {"whole": {name: read(os.path.join(alone, "r", name)) for name in FILES}}
+        reference = {"whole": run_files.read_run(os.path.join(alone, "r"))}
         # A resumed run tells of its resumption, so its reference is one that was stopped at the same time.
         stopped = os.path.join(base, "stopped")
         os.mkdir(stopped)
         finish(program, stopped, HALF)
         finish(program, stopped, [*WHOLE, "--resume"])
-        reference["resumed"] = {name: read(os.path.join(stopped, "r", name)) for name in FILES}
+        reference["resumed"] = run_files.read_run(os.path.join(stopped, "r"))
         for k in range(rounds):
             count, way = (2, 4, 8)[k % 3], ("new", "--resume", "--overwrite")[k // 3 % 3]
             folder = os.path.join(base, str(k))
@@ -110,7 +81,8 @@ def main():
                 finish(program, folder, HALF if way == "--resume" else [*WHOLE, "--set", "seed=7"])
             words = WHOLE if way == "new" else [*WHOLE, way]
             outcomes = contend(program, folder, words, count, moments)
-            differing = compare(reference["resumed" if way == "--resume" else "whole"], folder)
+            differing = run_files.differences(reference["resumed" if way == "--resume" else "whole"],
+                                              run_files.read_run(os.path.join(folder, "r")))
             faults = judge(outcomes, differing)
             refused += sum(code == 2 for _, _, code in outcomes)
             failed += bool(faults)
