@@ -186,7 +186,9 @@ void replace_cells(World& world, const std::vector<std::uint8_t>& gone,
 
 LifeReport undo(State& before, State& s) {
   s = std::move(before);
-  return {.interrupted = true};
+  LifeReport nothing;
+  nothing.interrupted = true;
+  return nothing;
 }
 
 /// Division and death. Interrupted: nothing happened.
