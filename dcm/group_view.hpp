@@ -16,6 +16,8 @@ struct GroupView {
   const double* area;      ///< [lane] reference surface over that of a sphere (BirthShape)
   const double* edge;      ///< [n_edge][lane] reference lengths, likewise; null: all 1
   const double* triangle;  ///< [n_triangle][lane] reference areas, likewise; null: all 1
+  const double* tension;   ///< [n_edge][lane] nN (EdgeTension) at the start of the step; null: none
+  const double* length;    ///< [n_edge][lane] um, likewise
   const double* active;    ///< [lane] 1 where a cell is, 0 in empty lanes
 };
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "core/threads.hpp"
+#include "dcm/tensions.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/body_load.hpp"
 #include "dcm/terms/cortex.hpp"
 #include "dcm/terms/local_area.hpp"
 #include "dcm/terms/medium.hpp"
+#include "dcm/terms/series_spring.hpp"
 #include "dcm/terms/volume.hpp"
 
 namespace acinus::dcm {
@@ -29,6 +31,24 @@ void fill_lane(std::vector<double>& group, const std::vector<double>& ratio, dou
     group[k * kLanes + lane] = 1 + weight * (ratio[k] - 1);
 }
 
+/// Tensions of one cell among those of its group, of which others may not have any yet.
+void fill_tension(const State& s, std::size_t lane, LaneData& data) {
+  const EdgeTension& t = s.tension[lane];
+  if (t.is_new()) return;
+  const std::size_t k = lane / kLanes, n = t.force.size();
+  std::vector<double>&tension = data.tension[k], &length = data.length[k];
+  if (tension.empty()) {
+    tension.assign(n * kLanes, 0.0);
+    length.resize(n * kLanes);
+    for (std::size_t l = k * kLanes; l < (k + 1) * kLanes; ++l)
+      for (std::size_t e = 0; e < n; ++e) length[e * kLanes + l % kLanes] = edge_length(s, l, e);
+  }
+  for (std::size_t e = 0; e < n; ++e) {
+    tension[e * kLanes + lane % kLanes] = t.force[e];
+    length[e * kLanes + lane % kLanes] = t.length[e];
+  }
+}
+
 }  // namespace
 
 LaneData make_lane_data(const State& state, double time) {
@@ -42,12 +62,13 @@ void find_lane_data(const State& state, double time, LaneData& data) {
   find_reference_radii(state, time, data.radius);
   data.area.assign(n, 1.0);
   data.active.assign(n, 0.0);
-  for (auto* factors : {&data.edge, &data.triangle}) {
+  for (auto* factors : {&data.edge, &data.triangle, &data.tension, &data.length}) {
     factors->resize(state.group.size());
     for (std::vector<double>& of_group : *factors) of_group.clear();
   }
   for (std::size_t l = 0; l < n; ++l) {
     data.active[l] = state.active(l) ? 1.0 : 0.0;
+    fill_tension(state, l, data);
     const BirthShape& birth = state.birth[l];
     if (birth.is_forgotten(time)) continue;
     const double weight = birth.weight.at(time);
@@ -72,6 +93,8 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
           lanes.area.data() + k * kLanes,
           lanes.edge[k].empty() ? nullptr : lanes.edge[k].data(),
           lanes.triangle[k].empty() ? nullptr : lanes.triangle[k].data(),
+          lanes.tension[k].empty() ? nullptr : lanes.tension[k].data(),
+          lanes.length[k].empty() ? nullptr : lanes.length[k].data(),
           lanes.active.data() + k * kLanes};
 }
 
@@ -91,7 +114,10 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
     if (s.block[k].still) return;
     const GroupView g = view_group(state, lanes, s, k);
     const Params& p = params[state.group[k].type];
-    if (p.spring_stiffness > 0 || p.nodal_friction > 0) add_cortex(p, g, s);
+    if (p.series_friction > 0)
+      add_series_springs(p, g, s);
+    else if (p.spring_stiffness > 0 || p.nodal_friction > 0)
+      add_cortex(p, g, s);
     if (p.bending_stiffness > 0) add_bending(p, g, s);
     if (p.local_area_modulus > 0) add_local_area(p, g, s);
     if (volume) add_volume(p, g, s, s.rank_one[0]);
@@ -108,6 +134,7 @@ std::vector<std::string> skipped_terms(std::span<const Params> params) {
   };
   unless("dcm cortex springs", [](const Params& p) { return p.spring_stiffness > 0; });
   unless("dcm nodal friction", [](const Params& p) { return p.nodal_friction > 0; });
+  unless("dcm series dashpots", [](const Params& p) { return p.series_friction > 0; });
   unless("dcm bending", [](const Params& p) { return p.bending_stiffness > 0; });
   unless("dcm volume", [](const Params& p) { return p.bulk_modulus > 0; });
   unless("dcm global area", [](const Params& p) { return p.area_modulus > 0; });

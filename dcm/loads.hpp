@@ -18,6 +18,8 @@ struct LaneData {
   std::vector<double> area;    ///< [n_lane] reference surface over that of a sphere
   /// [group] reference lengths and areas over those of a sphere, [element][lane]; empty: all 1
   std::vector<std::vector<double>> edge, triangle;
+  /// [group] tensions of edges, nN, and their lengths when that was, um; empty: none
+  std::vector<std::vector<double>> tension, length;
   std::vector<double> active;  ///< [n_lane] 1 or 0
 };
 LaneData make_lane_data(const State& state, double time);

@@ -15,6 +15,8 @@ struct Params {
   double bulk_modulus = 0;        ///< kPa, K_V
   double nodal_friction = 0;      ///< nN s/um, gamma_int per edge
   bool axial_friction = false;    ///< dashpots along the edge only (objective) instead of isotropic
+  double series_friction = 0;     ///< nN s/um, dashpot in series with each spring; 0: none, the
+                                  ///< springs remember their length at rest
   double medium_friction = 0;     ///< nN s/um^3, per surface area; used unless viscosity > 0
   double viscosity = 0;           ///< nN s/um^2, Stokes drag 6 pi eta R spread over the surface
   double diffusion = 0;           ///< um^2/s, random motility D

@@ -34,6 +34,7 @@ class Grouping {
     s.lineage.resize(n, kEmptyLane);
     s.volume.resize(n, Ramp::constant(4.0 / 3 * kPi));
     s.birth.resize(n);
+    s.tension.resize(n);
     s.pull.resize(n, Vec3::Zero());
     s.position.resize((first + topology->n_node) * kPointStride, 0.0);
     for (std::size_t l = lane; l < n; ++l)
@@ -73,6 +74,7 @@ State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane) {
     s.lineage[to] = from.lineage[c.lane];
     s.volume[to] = from.volume[c.lane];
     s.birth[to] = from.birth[c.lane];
+    s.tension[to] = from.tension[c.lane];
     s.pull[to] = from.pull[c.lane];
     for (int i = 0; i < g.topology->n_node; ++i)
       store_point(s.position.data(), node_address(s, to, i),

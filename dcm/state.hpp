@@ -14,6 +14,7 @@
 #include "core/solve/system.hpp"
 #include "core/vec.hpp"
 #include "dcm/birth_shape.hpp"
+#include "dcm/edge_tension.hpp"
 #include "dcm/params.hpp"
 
 namespace acinus::dcm {
@@ -33,7 +34,8 @@ struct State {
   std::vector<std::int64_t> lineage;  ///< kEmptyLane where no cell is
   std::vector<Ramp> volume;  ///< um^3, reference volume V0(t); Eq. (18) is its linear growth
   std::vector<BirthShape> birth;
-  std::vector<Vec3> pull;  ///< nN, constant load spread over the cell
+  std::vector<EdgeTension> tension;  ///< of cells whose springs have a dashpot in series
+  std::vector<Vec3> pull;            ///< nN, constant load spread over the cell
 
   std::size_t n_lane() const { return lineage.size(); }
   std::size_t n_row() const { return position.size() / kPointStride; }

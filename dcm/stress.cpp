@@ -6,6 +6,15 @@
 
 namespace acinus::dcm {
 
+namespace {
+
+double edge_force(const Params& p, const GroupView& g, std::size_t edge, int lane, double length) {
+  if (p.series_friction > 0) return g.tension ? g.tension[edge * kLanes + lane] : 0;
+  return p.spring_stiffness * (length - rest_length(g, edge, lane));
+}
+
+}  // namespace
+
 std::vector<double> compute_node_tension(const Params& p, const GroupView& g, int lane) {
   const mesh::Topology& t = *g.topology;
   std::vector<double> tension(t.n_node, 0.0);
@@ -14,7 +23,7 @@ std::vector<double> compute_node_tension(const Params& p, const GroupView& g, in
     const double length = (load_point(g.position, make_address(j, lane)) -
                            load_point(g.position, make_address(i, lane)))
                               .norm();
-    const double pull = p.spring_stiffness * (length - rest_length(g, e, lane)) / length;
+    const double pull = edge_force(p, g, e, lane, length) / length;
     tension[i] += pull;
     tension[j] += pull;
   }

@@ -43,11 +43,10 @@ PageSums PageSums::read(const std::string& path) {
   PageSums sums;
   if (access(sums_of(path).c_str(), F_OK) != 0) return sums;
   const std::string bytes = read_text_file(sums_of(path));
+  if (bytes.size() < kHead * kWord) return sums;
   std::vector<std::uint64_t> word(bytes.size() / kWord);
   std::memcpy(word.data(), bytes.data(), word.size() * kWord);
-  if (word.size() < kHead ||
-      !std::ranges::equal(make_head(word[1], word[2]), std::span(word).first(kHead)))
-    return sums;
+  if (!std::ranges::equal(make_head(word[1], word[2]), std::span(word).first(kHead))) return sums;
   sums.end_ = word[1];
   sums.tail_ = word[2];
   sums.entry_.assign(word.begin() + kHead, word.end());

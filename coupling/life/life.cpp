@@ -16,6 +16,7 @@
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/world/population.hpp"
+#include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -28,6 +29,7 @@ struct Newborn {
   std::vector<dcm::NewCell> shell;
   std::vector<std::vector<Vec3>> node;
   std::vector<double> stretch;
+  std::vector<double> tension;  ///< nN, mean of the mother's edges
   std::vector<double> mitosis;  ///< s
   std::vector<Cycle> shell_cycle;
   std::vector<cbm::NewCell> sphere;
@@ -85,6 +87,7 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
                           s.dcm.pull[mother.at], Mat3::Identity()});
     born.node.push_back(node);
     born.stretch.push_back(daughters.stretch);
+    born.tension.push_back(dcm::mean_tension(s.dcm.tension[mother.at]));
     born.mitosis.push_back(cycle_of(world.params, s, mother).mitosis);
   }
   const DivisionFigures& f = daughters.figures;
@@ -112,6 +115,9 @@ State make_state(const Newborn& born, double time) {
     s.dcm.birth[lane] =
         dcm::make_birth_shape(*born.shell[k].topology, born.node[k], born.shell[k].radius,
                               born.stretch[k], {1, 0, time, time + born.mitosis[k]});
+    if (born.tension[k] != 0)
+      s.dcm.tension[lane] =
+          dcm::make_tension(*born.shell[k].topology, born.node[k], born.tension[k]);
     s.cycle[lane] = born.shell_cycle[k];
   }
   for (std::size_t k = 0; k < born.sphere.size(); ++k)

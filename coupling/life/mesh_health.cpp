@@ -16,6 +16,7 @@
 #include "coupling/step/stages.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/mesh_remedy.hpp"
+#include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -54,6 +55,9 @@ void replace_mesh(State& s, std::size_t lane, const std::vector<Vec3>& node) {
   const double stretch = find_stretch(s, lane, old), t = s.clock.time;
   s.dcm.birth[lane] = dcm::make_birth_shape(topology_of(s, lane), node, reference_radius(s, lane),
                                             stretch, {1, 0, t, t + kForget});
+  dcm::EdgeTension& tension = s.dcm.tension[lane];
+  if (!tension.is_new())
+    tension = dcm::make_tension(topology_of(s, lane), node, dcm::mean_tension(tension));
   const bool moved = has_last_move(s);
   for (std::size_t i = 0; i < node.size(); ++i) {
     const Address a = dcm::node_address(s.dcm, lane, static_cast<int>(i));

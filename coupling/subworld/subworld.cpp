@@ -159,6 +159,8 @@ void write_positions(const Subworld& sub, State& to) {
   for_each_moving_point(sub, to, [&](Address a, Address b) {
     store_point(position_of(to, b), 0, load_point(position_of(from, a), 0));
   });
+  for (std::size_t k = 0; k < sub.moving.dcm.size(); ++k)
+    to.dcm.tension[sub.moving.dcm[k]] = from.dcm.tension[sub.lane[k]];
   if (!sub.moving.cbm.empty()) write_touching(sub, to.cbm);
 }
 

@@ -107,6 +107,10 @@ std::uint64_t hash_state(const State& s) {
     add(b.triangle);
     if (!b.edge.empty()) add(std::array{b.area, b.weight.start, b.weight.end});
   }
+  for (const dcm::EdgeTension& t : s.dcm.tension) {
+    add(t.force);
+    add(t.length);
+  }
   add(std::array{s.clock.time, s.clock.origin, s.clock.step, s.clock.last_step});
   add(std::array{static_cast<std::int64_t>(s.clock.phase), s.clock.accepted,
                  static_cast<std::int64_t>(s.clock.coarse ? 1 : 0), s.leader_interval,

@@ -83,6 +83,37 @@ void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
   }
 }
 
+/// Cells that have tensions: lane, then forces and lengths of their edges.
+void put_tensions(const dcm::State& s, io::CheckpointData& d) {
+  std::vector<std::int64_t> lane;
+  std::vector<double> numbers;
+  for (std::size_t l = 0; l < s.n_lane(); ++l) {
+    const dcm::EdgeTension& t = s.tension[l];
+    if (t.is_new()) continue;
+    lane.push_back(static_cast<std::int64_t>(l));
+    numbers.insert(numbers.end(), t.force.begin(), t.force.end());
+    numbers.insert(numbers.end(), t.length.begin(), t.length.end());
+  }
+  d.put("dcm/tension_lane", lane);
+  d.put("dcm/tension", numbers);
+}
+
+void get_tensions(const io::CheckpointData& d, dcm::State& s) {
+  s.tension.assign(s.n_lane(), {});
+  if (!d.contains("dcm/tension_lane")) return;  // written before there were any
+  const std::vector<double>& numbers = d.numbers("dcm/tension");
+  auto at = numbers.begin();
+  for (std::int64_t lane : d.integers("dcm/tension_lane")) {
+    const std::size_t l = lane;
+    check_same(d, "dcm/tension_lane", l < s.n_lane() ? 1 : 0, 1);
+    const auto n = std::ssize(s.group[l / kLanes].topology->edge);
+    check_same(d, "dcm/tension", numbers.end() - at >= 2 * n ? 1 : 0, 1);
+    s.tension[l].force.assign(at, at + n);
+    s.tension[l].length.assign(at + n, at + 2 * n);
+    at += 2 * n;
+  }
+}
+
 void get_shells(const io::CheckpointData& d, dcm::State& s) {
   s = {};
   const std::vector<std::int64_t>& group = d.integers("dcm/group");
@@ -101,6 +132,7 @@ void get_shells(const io::CheckpointData& d, dcm::State& s) {
   check_same(d, "dcm/lineage", s.lineage.size(), n);
   check_same(d, "dcm/volume", s.volume.size(), n);
   get_birth_shapes(d, s);
+  get_tensions(d, s);
   check_same(d, "dcm/pull", s.pull.size(), n);
 }
 
@@ -218,6 +250,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   d.put("dcm/lineage", s.dcm.lineage);
   d.put("dcm/volume", flatten(s.dcm.volume));
   put_birth_shapes(s.dcm, d);
+  put_tensions(s.dcm, d);
   d.put("dcm/pull", flatten(s.dcm.pull));
   d.put("cbm/position", s.cbm.position);
   d.put("cbm/lineage", s.cbm.lineage);

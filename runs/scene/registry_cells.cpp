@@ -65,6 +65,15 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
        .meaning = "isotropic resists any relative motion of two nodes, axial only along the edge",
        .choices = "isotropic|axial"},
       b.axial_friction);
+  v.real(
+      {.name = "series_friction",
+       .meaning = "dashpot in series with the springs of the cortex, which then flow and have no "
+                  "length at rest; 0 = none",
+       .dimension = kFriction,
+       .unit = "N s/m",
+       .range = kNotNegative,
+       .symbol = "gamma_ME"},
+      b.series_friction);
   v.real({.name = "ecm_friction",
           .meaning = "friction of a DCM cell with the matrix, per area",
           .dimension = kFrictionPerArea,

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "dcm/tensions.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -123,6 +124,42 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                                          std::pair(Integrator::kExplicitEuler, 1.0),
                                          std::pair(Integrator::kNewton, 1.0),
                                          std::pair(Integrator::kRos2, 2.0)));
+
+/// The stretched cell with springs in series with dashpots, let go: the edges were stretched for so
+/// long a time that half of their tension is there.
+std::vector<Vec3> flowed(Integrator integrator, double step) {
+  World w = stretched_cell(integrator, step);
+  w.params.dcm[0].series_friction = 0.05;
+  const mesh::Topology& t = mesh::shared_icosphere(42);
+  dcm::EdgeTension& tension = w.state.dcm.tension[0];
+  for (std::size_t e = 0; e < t.edge.size(); ++e) {
+    const double length = dcm::edge_length(w.state.dcm, 0, e);
+    tension.length.push_back(length);
+    tension.force.push_back(0.5 * w.params.dcm[0].spring_stiffness *
+                            (length - 12 * t.rest_length[e]));
+  }
+  Workspace work;
+  size_workspace(w, work);
+  EXPECT_TRUE(run_until(w, work, kEnd)) << name_of(integrator);
+  return nodes_of(w);
+}
+
+TEST(SeriesDashpots, EveryIntegratorFollowsThemAtFirstOrder) {
+  const std::vector<Vec3> fine = flowed(Integrator::kNewton, std::ldexp(kStep, -7));
+  for (const Integrator i :
+       {Integrator::kLinearlyImplicit, Integrator::kExplicitEuler, Integrator::kNewton}) {
+    double before = 0;
+    for (int halvings = 0; halvings < 4; ++halvings) {
+      const double error = distance(flowed(i, std::ldexp(kStep, -halvings)), fine);
+      std::printf("%s, step %.2e s: %.2e um\n", name_of(i).c_str(), std::ldexp(kStep, -halvings),
+                  error);
+      if (before > 0) {
+        EXPECT_NEAR(std::log2(before / error), 1, 0.25) << name_of(i);
+      }
+      before = error;
+    }
+  }
+}
 
 TEST(ExplicitEuler, IsToldAboveItsStabilityLimit) {
   for (const double step : {0.016, 0.02, 0.1, 1.0, 1e3, 1e300}) {

@@ -54,8 +54,7 @@ void spoil(const mesh::Topology& t, Damage damage, double noise, std::vector<Vec
     d[kNode] = 0.01 * here + 0.99 * side;
   }
   if (damage == Damage::kNoise)
-    for (Vec3& x : d)
-      x += 0.5 * noise * t.mean_rest_length * reference::normal_vector(random);
+    for (Vec3& x : d) x += 0.5 * noise * t.mean_rest_length * reference::normal_vector(random);
   for (Vec3& x : d) x.normalize();
 }
 

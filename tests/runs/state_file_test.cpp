@@ -49,6 +49,9 @@ coupling::State living() {
                     std::vector<double>(static_cast<std::size_t>(t.n_edge), 1.1),
                     std::vector<double>(static_cast<std::size_t>(t.n_triangle), 1.3)};
   s.dcm.birth[0].edge[5] = 0.7;
+  s.dcm.tension[1] = {std::vector<double>(s.dcm.group[0].topology->edge.size(), 0.2),
+                      std::vector<double>(s.dcm.group[0].topology->edge.size(), 3.1)};
+  s.dcm.tension[1].force[4] = -0.3;
   s.dcm.birth[0].triangle[6] = 0.8;
   s.dcm.volume[0] = {7000, 14000, 10, 86010};
   return s;
@@ -81,13 +84,17 @@ TEST(StateFile, KeepsLives) {
     EXPECT_EQ(s.dcm.volume[0].at(time), saved.dcm.volume[0].at(time));
   }
   EXPECT_TRUE(s.dcm.birth.at(1).edge.empty());
+  EXPECT_EQ(s.dcm.tension.at(1).force, saved.dcm.tension[1].force);
+  EXPECT_EQ(s.dcm.tension.at(1).length, saved.dcm.tension[1].length);
+  EXPECT_TRUE(s.dcm.tension.at(0).is_new());
 }
 
 TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
   io::CheckpointData sound;
   put_state(living(), sound);
-  for (const char* damaged : {"cbm/strength", "dcm/birth_shape", "life/parent", "life/birth",
-                              "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
+  for (const char* damaged :
+       {"cbm/strength", "dcm/birth_shape", "dcm/tension", "life/parent", "life/birth",
+        "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
     for (bool missing : {true, false}) {
       io::CheckpointData data;
       for (const auto& entry : sound.all()) {

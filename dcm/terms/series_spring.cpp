@@ -1,0 +1,57 @@
+#include "dcm/terms/series_spring.hpp"
+
+#include "dcm/edge_tension.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const SeriesStep& step,
+                                 double stiffness_scale, double friction_scale, double* force,
+                                 float* element) {
+  const mesh::Topology& t = *g.topology;
+  const Lane active = load(g.active);
+  const Lane k = (step.share * p.spring_stiffness) * active;
+  const Lane kept = step.kept * active;
+  const Lane friction = (p.nodal_friction * friction_scale) * active;
+  for (int e = 0; e < t.n_edge; ++e) {
+    const int i = t.edge[e][0], j = t.edge[e][1];
+    const Lane3 d = load3(g.position + j * kPointStride) - load3(g.position + i * kPointStride);
+    const Lane length = lane_sqrt(dot(d, d));
+    const Lane inverse = 1.0 / length;
+    const Lane3 u = inverse * d;
+    Lane tension = 0.0 * length;
+    if (g.tension)
+      tension = kept * load(g.tension + e * kLanes) + k * (length - load(g.length + e * kLanes));
+    const Lane3 f = tension * u;
+    add3(force + i * kPointStride, f);
+    add3(force + j * kPointStride, -f);
+
+    const Lane geometric = stiffness_scale * lane_max0(tension * inverse);
+    const Lane across = p.axial_friction ? geometric : geometric + friction;
+    const Lane along = stiffness_scale * k + friction;
+    solve::add_spring(element, u, along - across, across);
+    element += solve::kSpringStride;
+  }
+}
+
+}  // namespace
+
+void add_series_springs(const Params& p, const GroupView& g, solve::System& s) {
+  // An explicit step knows the tension at its start only.
+  const double step = s.stiffness_scale > 0 ? 1 / s.friction_scale : 0;
+  series_kernel(p, g, series_step(p.spring_stiffness, p.series_friction, step), s.stiffness_scale,
+                s.friction_scale, s.force.data() + g.first_row * kPointStride,
+                s.spring.data() + g.first_spring * solve::kSpringStride);
+}
+
+double series_spring_energy(const Params& p, const GroupView& g, int lane) {
+  if (!g.tension) return 0;
+  double energy = 0;
+  for (int e = 0; e < g.topology->n_edge; ++e) {
+    const double f = g.tension[e * kLanes + lane];
+    energy += f * f / (2 * p.spring_stiffness);
+  }
+  return g.active[lane] * energy;
+}
+
+}  // namespace acinus::dcm
