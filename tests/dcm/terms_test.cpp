@@ -16,10 +16,10 @@ using reference::kEps;
 
 class EveryTerm : public testing::TestWithParam<Term> {
  protected:
-  const Params params = table_one();
-  void add(Cells& c) const { GetParam().add(params, c.view(), c.system); }
+  const Params params_ = table_one();
+  void add(Cells& c) const { GetParam().add(params_, c.view(), c.system); }
   double energy(const Cells& c, std::size_t lane) const {
-    return GetParam().energy(params, c.view(), static_cast<int>(lane));
+    return GetParam().energy(params_, c.view(), static_cast<int>(lane));
   }
 };
 
@@ -34,7 +34,7 @@ TEST_P(EveryTerm, EnergyIsThatOfThePlainTwin) {
   double worst = 0;
   for (std::size_t l = 0; l < kLanes; ++l) {
     if (l == kNoCell) continue;
-    const double plain = GetParam().plain(params, c.plain(l));
+    const double plain = GetParam().plain(params_, c.plain(l));
     EXPECT_GT(plain, 0);
     worst = std::max(worst, std::abs(energy(c, l) - plain) / plain);
   }
@@ -189,7 +189,7 @@ Eigen::MatrixXd force_differences(Cells& c, const Term& term, const Params& p, s
 // At rest every dropped piece is multiplied by zero, so the matrix is the true Hessian there.
 TEST_P(EveryTerm, StiffnessIsTheHessianAtRest) {
   Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
-  const Eigen::MatrixXd differences = force_differences(c, GetParam(), params, 1);
+  const Eigen::MatrixXd differences = force_differences(c, GetParam(), params_, 1);
   add(c);
   const Eigen::MatrixXd k = lane_matrices(c)[1];
   const double worst = (k - differences).cwiseAbs().maxCoeff() / k.cwiseAbs().maxCoeff();
@@ -212,7 +212,7 @@ TEST_P(EveryTerm, RestShapeOfAnyRadiusHasNoForce) {
     EXPECT_LT(largest_force(c, l), 100 * kEps * largest_force(rough, l) / 0.01) << radii[l];
     // 1 - cos theta0 rounds: kEps per hinge; the others square a strain of kEps.
     EXPECT_LT(std::abs(energy(c, l)),
-              1e4 * kEps * (1 + params.bulk_modulus * radii[l] * radii[l] * radii[l]));
+              1e4 * kEps * (1 + params_.bulk_modulus * radii[l] * radii[l] * radii[l]));
   }
 }
 
