@@ -15,6 +15,8 @@
 namespace acinus {
 namespace {
 
+constexpr Dimension kAmount{0, 0, 0, 0, 1};
+
 struct Unit {
   const char* symbol;
   Dimension dimension;
@@ -33,27 +35,17 @@ constexpr std::array kUnits{
     Unit{"MPa", kStress, 3},      Unit{"GPa", kStress, 6},       Unit{"J", kEnergy, 15},
     Unit{"mJ", kEnergy, 12},      Unit{"uJ", kEnergy, 9},        Unit{"nJ", kEnergy, 6},
     Unit{"pJ", kEnergy, 3},       Unit{"fJ", kEnergy, 0},        Unit{"aJ", kEnergy, -3},
+    Unit{"kJ", kEnergy, 18},      Unit{"W", kPower, 15},         Unit{"mW", kPower, 12},
+    Unit{"uW", kPower, 9},        Unit{"K", kTemperature, 0},    Unit{"mol", kAmount, 0},
     Unit{"%", kDimensionless, -2}};
 
 /// Words people write for a symbol; used for hints only, so that every scene is spelled alike.
-constexpr std::array<std::pair<const char*, const char*>, 18> kWords{{{"sec", "s"},
-                                                                      {"second", "s"},
-                                                                      {"seconds", "s"},
-                                                                      {"minute", "min"},
-                                                                      {"minutes", "min"},
-                                                                      {"hr", "h"},
-                                                                      {"hrs", "h"},
-                                                                      {"hour", "h"},
-                                                                      {"hours", "h"},
-                                                                      {"micron", "um"},
-                                                                      {"microns", "um"},
-                                                                      {"meter", "m"},
-                                                                      {"metre", "m"},
-                                                                      {"newton", "N"},
-                                                                      {"pascal", "Pa"},
-                                                                      {"joule", "J"},
-                                                                      {"percent", "%"},
-                                                                      {"micrometer", "um"}}};
+constexpr std::array<std::pair<const char*, const char*>, 20> kWords{
+    {{"sec", "s"},       {"second", "s"},  {"seconds", "s"},  {"minute", "min"},
+     {"minutes", "min"}, {"hr", "h"},      {"hrs", "h"},      {"hour", "h"},
+     {"hours", "h"},     {"micron", "um"}, {"microns", "um"}, {"meter", "m"},
+     {"metre", "m"},     {"newton", "N"},  {"pascal", "Pa"},  {"joule", "J"},
+     {"watt", "W"},      {"kelvin", "K"},  {"percent", "%"},  {"micrometer", "um"}}};
 
 constexpr int kLargestPower = 9;  ///< keeps every product of factors far inside a double
 
@@ -65,6 +57,8 @@ void multiply(Scale& scale, const Scale& factor, int power) {
   add(scale.dimension.length, factor.dimension.length);
   add(scale.dimension.time, factor.dimension.time);
   add(scale.dimension.force, factor.dimension.force);
+  add(scale.dimension.temperature, factor.dimension.temperature);
+  add(scale.dimension.amount, factor.dimension.amount);
   add(scale.ten, factor.ten);
   for (int i = 0; i < std::abs(power); ++i) {
     scale.numerator *= power > 0 ? factor.numerator : factor.denominator;

@@ -9,7 +9,7 @@ namespace acinus {
 
 struct UnitScale {
   Dimension dimension;
-  double in_base = 1;  ///< one of the unit in base units (um, s, nN)
+  double in_base = 1;  ///< one of the unit in base units (um, s, nN, K, mol)
 };
 
 /// @param unit  "kPa", "1/um^3", "d"; "" and "1" are dimensionless

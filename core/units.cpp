@@ -35,7 +35,10 @@ constexpr std::array kNames{NamedDimension{kLength, "a length", "12 um"},
                             NamedDimension{kStiffnessPerArea, "a stress per length", "5 kPa/um"},
                             NamedDimension{kFriction, "a friction coefficient", "1e-4 N s/m"},
                             NamedDimension{kFrictionPerArea, "a friction per area", "5e10 N s/m^3"},
-                            NamedDimension{kViscosity, "a viscosity", "1e-3 Pa s"}};
+                            NamedDimension{kViscosity, "a viscosity", "1e-3 Pa s"},
+                            NamedDimension{kPower, "a power", "1.1 W"},
+                            NamedDimension{kTemperature, "a temperature", "310 K"},
+                            NamedDimension{kMolarEnergy, "an energy per amount", "55 kJ/mol"}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -236,6 +239,8 @@ std::string base_unit(Dimension dimension) {
   append("nN", dimension.force);
   append("s", dimension.time);
   append("um", dimension.length);
+  append("K", dimension.temperature);
+  append("mol", dimension.amount);
   return above.empty() && !below.empty() ? "1" + below : above + below;
 }
 
@@ -252,6 +257,8 @@ std::string dimension_formula(Dimension dimension) {
   append("force", dimension.force);
   append("time", dimension.time);
   append("length", dimension.length);
+  append("temperature", dimension.temperature);
+  append("amount", dimension.amount);
   if (above.empty() && below.empty()) return "a plain number";
   return above.empty() ? "1" + below : above + below;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Quantities with units. The program computes in um, s, nN; text carries any unit of the table.
-/// This is the only place where units are converted.
+/// Quantities with units. The program computes in um, s, nN, K, mol; text carries any unit of the
+/// table. This is the only place where units are converted.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@ namespace acinus {
 
 /// Exponents of length, time and force. Mass never appears: overdamped tissue has no inertia.
 struct Dimension {
-  int length = 0, time = 0, force = 0;
+  int length = 0, time = 0, force = 0, temperature = 0, amount = 0;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
@@ -29,9 +29,13 @@ inline constexpr Dimension kStiffnessPerArea{-3, 0, 1};  ///< stress per length
 inline constexpr Dimension kFriction{-1, 1, 1};          ///< force per speed
 inline constexpr Dimension kFrictionPerArea{-3, 1, 1};
 inline constexpr Dimension kViscosity{-2, 1, 1};
+inline constexpr Dimension kPower{1, -1, 1};
+inline constexpr Dimension kTemperature{0, 0, 0, 1, 0};
+inline constexpr Dimension kMolarEnergy{1, 0, 1, 0, -1};
 
-/// Reads "5e10 N s/m^3" and returns the value in base units (um, s, nN).
-/// Units: m dm cm mm um nm, d h min s ms us, N mN uN nN pN, Pa kPa MPa GPa, J mJ uJ nJ pJ fJ aJ, %.
+/// Reads "5e10 N s/m^3" and returns the value in base units (um, s, nN, K, mol).
+/// Units: m dm cm mm um nm, d h min s ms us, N mN uN nN pN, Pa kPa MPa GPa, kJ J mJ uJ nJ pJ fJ aJ,
+/// W mW uW, K, mol, %.
 /// Products by space or *, quotients by /, powers by ^, parentheses; evaluated from left to right,
 /// so that "J/m^2/s" = "J/(m^2 s)". Powers of ten enter the decimal exponent before the one
 /// rounding to double, so "1e8 N s/m^3" is exactly 0.1; minutes, hours and days cost one more

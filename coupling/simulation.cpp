@@ -15,14 +15,16 @@ namespace acinus::coupling {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// s, longest step after a wall or a capsule opened: what was before says nothing about it.
-constexpr double kFirstFreeStep = 0.1;
+/// s, longest step after such a change: what was before says nothing about it.
+constexpr double kFirstStep = 0.1;
 
-/// The next moment after `time` at which a wall or a capsule opens, s; infinite if none does.
-double next_opening(const contact::Boundary& boundary, double time) {
-  double next = kNever;
-  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
-    if (wall.opens > time + kSameTime) next = std::min(next, wall.opens);
+/// The next moment after `time` at which what acts on the cells changes at once, s; infinite if
+/// nothing does: a wall or a capsule opens, beams go on or off, the course of temperature bends.
+double next_change(const Params& p, double time) {
+  const double later = time + kSameTime;
+  double next = std::min(next_switch(p.stretcher, later), p.temperature.course.next(later));
+  contact::for_each_wall(p.boundary, [&](auto, auto, const auto& wall) {
+    if (wall.opens > later) next = std::min(next, wall.opens);
   });
   return next;
 }
@@ -30,7 +32,7 @@ double next_opening(const contact::Boundary& boundary, double time) {
 /// The next step is a first one.
 void start_anew(Clock& clock) {
   clock.last_step = 0;
-  clock.step = std::min(clock.step, kFirstFreeStep);
+  clock.step = std::min(clock.step, kFirstStep);
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ void Simulation::resize() { size_workspace(world_, work_); }
 double Simulation::time_to_event(const Observer& observer) const {
   if (!is_running()) return time_to_phase_event(world_);
   const double t = time();
-  double left = next_opening(world_.params.boundary, t) - t;
+  double left = next_change(world_.params, t) - t;
   if (observer.next_moment) left = std::min(left, observer.next_moment(t) - t);
   left = std::min(left, coupling::time_to_event(world_));
   const Motility& m = world_.params.motility;
@@ -74,7 +76,7 @@ bool Simulation::end_step(const Observer& observer) {
 
 LoopResult Simulation::run_until(double end, const Observer& observer) {
   bool was_running = false;
-  double opening = 0;
+  double change = 0;
   const EventsDue& due = world_.state.clock.due;
   LoopResult result;
   if (due == EventsDue::kNone || end_step(observer))
@@ -83,7 +85,7 @@ LoopResult Simulation::run_until(double end, const Observer& observer) {
          .advance =
              [&](double limit) {
                was_running = is_running();
-               opening = next_opening(world_.params.boundary, time());
+               change = next_change(world_.params, time());
                return coupling::advance(world_, work_, limit);
              },
          .time_to_event = [&] { return time_to_event(observer); },
@@ -91,7 +93,7 @@ LoopResult Simulation::run_until(double end, const Observer& observer) {
              [&](const StepResult& step) {
                if (observer.step) observer.step(step);
                if (was_running) {
-                 if (time() > opening - kSameTime) start_anew(world_.state.clock);
+                 if (time() > change - kSameTime) start_anew(world_.state.clock);
                  return end_step(observer);
                }
                end_step_of_start_up(observer);

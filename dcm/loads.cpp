@@ -127,6 +127,13 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
   });
 }
 
+void add_stretch_loads(const State& state, const LaneData& lanes, const StretchLoad& load,
+                       solve::System& s) {
+  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
+    if (!s.block[k].still) add_stretch_load(view_group(state, lanes, s, k), load, s);
+  });
+}
+
 std::vector<std::string> skipped_terms(std::span<const Params> params) {
   std::vector<std::string> skipped;
   auto unless = [&](const char* name, auto used) {

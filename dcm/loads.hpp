@@ -9,6 +9,7 @@
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
+#include "dcm/terms/stretch_load.hpp"
 
 namespace acinus::dcm {
 
@@ -38,6 +39,10 @@ void size_rank_one(const State& state, std::span<const Params> params, solve::Sy
 void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
                std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& system);
+
+/// Adds what an optical stretcher does to every cell.
+void add_stretch_loads(const State& state, const LaneData& lanes, const StretchLoad& load,
+                       solve::System& system);
 
 /// Names of the terms that no type of cell uses.
 std::vector<std::string> skipped_terms(std::span<const Params> params);

@@ -14,15 +14,16 @@ struct Params {
   double local_area_modulus = 0;  ///< nN/um, K_A of each triangle
   double bulk_modulus = 0;        ///< kPa, K_V
   double nodal_friction = 0;      ///< nN s/um, gamma_int per edge
-  bool axial_friction = false;    ///< dashpots along the edge only (objective) instead of isotropic
-  double series_friction = 0;     ///< nN s/um, dashpot in series with each spring; 0: none, the
-                                  ///< springs remember their length at rest
-  double medium_friction = 0;     ///< nN s/um^3, per surface area; used unless viscosity > 0
-  double viscosity = 0;           ///< nN s/um^2, Stokes drag 6 pi eta R spread over the surface
-  double diffusion = 0;           ///< um^2/s, random motility D
-  double adhesion = 0;            ///< nN/um, W of this type with itself
-  double vessel_friction = 0;     ///< nN s/um^3
-  double cortex_thickness = 0;    ///< um; rims of daughters are rounded to it
+  double friction_across = 1;   ///< nodal friction across an edge over that along it: 1 isotropic,
+                                ///< 0 along the edge only (objective)
+  double series_friction = 0;   ///< nN s/um, dashpot in series with each spring; 0: none, the
+                                ///< springs remember their length at rest
+  double medium_friction = 0;   ///< nN s/um^3, per surface area; used unless viscosity > 0
+  double viscosity = 0;         ///< nN s/um^2, Stokes drag 6 pi eta R spread over the surface
+  double diffusion = 0;         ///< um^2/s, random motility D
+  double adhesion = 0;          ///< nN/um, W of this type with itself
+  double vessel_friction = 0;   ///< nN s/um^3
+  double cortex_thickness = 0;  ///< um; rims of daughters are rounded to it
 };
 
 /// Cortex spring constant of a triangular spring net, k_s = (sqrt 3 / 2) E h.

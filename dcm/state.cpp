@@ -126,11 +126,18 @@ std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> pa
     const Params& p = params[g.type];
     block.pattern = block.still ? &shared_point_pattern(g.topology->n_node)
                                 : &shared_mesh_pattern(*g.topology, p);
-    block.dashpot = p.nodal_friction;
-    block.axial = p.axial_friction;
     blocks.push_back(block);
   }
+  set_dashpots(s, params, blocks);
   return blocks;
+}
+
+void set_dashpots(const State& s, std::span<const Params> params, std::span<solve::Block> block) {
+  for (std::size_t k = 0; k < s.group.size(); ++k) {
+    const Params& p = params[s.group[k].type];
+    block[k].dashpot = p.nodal_friction;
+    block[k].dashpot_across = p.friction_across;
+  }
 }
 
 }  // namespace acinus::dcm

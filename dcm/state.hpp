@@ -92,4 +92,9 @@ void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
 std::vector<solve::Block> make_blocks(const State& state, std::span<const Params> params,
                                       std::span<const std::uint8_t> constrained = {});
 
+/// Gives the blocks the dashpots of these parameters.
+/// @param block  of these cells, and perhaps others after them
+void set_dashpots(const State& state, std::span<const Params> params,
+                  std::span<solve::Block> block);
+
 }  // namespace acinus::dcm

@@ -184,7 +184,7 @@ BlockView view_block(const System& s, std::size_t b, const float* edge) {
                  s.face.data() + block.first_face * kFaceStride,
                  s.friction_scale,
                  block.dashpot,
-                 block.axial,
+                 block.dashpot_across,
                  0,
                  {},
                  {}};
@@ -218,9 +218,10 @@ ACINUS_KERNEL void multiply_friction(const BlockView& b, const double* x,
     const int i = first * kPointStride, j = second * kPointStride;
     const Lane3 r = load3(x + j) - load3(x + i);
     Lane3 f = friction * r;
-    if (b.axial) {
+    if (b.dashpot_across != 1) {
       const Lane3 u = load3(e);
-      f = (friction * dot(u, r)) * u;
+      const double s = b.dashpot_across;
+      f = (s * friction) * r + ((1 - s) * friction * dot(u, r)) * u;
     }
     add3(y + j, f);
     add3(y + i, -f);

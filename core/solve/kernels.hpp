@@ -18,8 +18,8 @@ struct BlockView {
   const float* hinge;
   const float* face;
   double friction_scale;
-  double dashpot;  ///< nN s/um
-  bool axial;
+  double dashpot;         ///< nN s/um
+  double dashpot_across;  ///< over that along the spring
   std::size_t n_family = 0;
   std::array<const double*, kMaxFamilies> vector{};       ///< [n_point][3][lane]
   std::array<const double*, kMaxFamilies> coefficient{};  ///< [lane]

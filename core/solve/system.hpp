@@ -60,9 +60,9 @@ struct Block {
   const BlockPattern* pattern = nullptr;
   std::size_t first_row = 0;  ///< first point row
   std::size_t first_spring = 0, first_hinge = 0, first_face = 0;
-  bool still = false;  ///< cells that do not move: their rank-one terms are not looked at
-  double dashpot = 0;  ///< nN s/um, friction among what the matrix of each spring holds
-  bool axial = false;  ///< along the spring only
+  bool still = false;         ///< cells that do not move: their rank-one terms are not looked at
+  double dashpot = 0;         ///< nN s/um, friction among what the matrix of each spring holds
+  double dashpot_across = 1;  ///< that across the spring over that along it
 };
 
 /// One vector per cell with a non-negative coefficient: adds c g g^T. Covers blocks [0, n_block).

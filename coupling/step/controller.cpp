@@ -74,9 +74,9 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
   const bool moves = w.constraint.prescribed_velocity;
   place_constrained(
       moves ? std::span<const double>(w.linearisation.move) : std::span<const double>{}, w);
-  dcm::begin_tensions(world.params.dcm, s.dcm);
+  dcm::begin_tensions(w.dcm_params, s.dcm);
   move_points(s, w.move);
-  dcm::advance_tensions(world.params.dcm, step, s.dcm);
+  dcm::advance_tensions(w.dcm_params, step, s.dcm);
   std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;

@@ -97,6 +97,21 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
                                                     w.cbm_radius[c], w.cbm.contact_area[c]);
 }
 
+/// The time of a step whose middle decides what holds in it, s since t = 0.
+double middle_of(const World& world, double step) { return time_since_start(world) + 0.5 * step; }
+
+/// Steps end where the temperature jumps, so its value in their middle is of second order.
+void find_params(const World& world, double step, Workspace& w) {
+  w.dcm_params = world.params.dcm;
+  set_temperature(world.params.temperature, middle_of(world, step), w.dcm_params);
+  dcm::set_dashpots(world.state.dcm, w.dcm_params, w.system.block);
+}
+
+void add_stretch(const World& world, double step, Workspace& w) {
+  const dcm::StretchLoad load = stretch_at(world.params.stretcher, middle_of(world, step));
+  if (load.stress > 0) dcm::add_stretch_loads(world.state.dcm, w.lanes, load, w.system);
+}
+
 }  // namespace
 
 void size_workspace(const World& world, Workspace& w) {
@@ -149,7 +164,9 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   compute_cell_forces(world, controls_at(s.clock, p.start_up), step, w.medium_friction, w.leader,
                       w.forces);
 
-  dcm::add_loads(s.dcm, p.dcm, w.lanes, w.medium_area, w.forces.dcm, w.system);
+  find_params(world, step, w);
+  dcm::add_loads(s.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
+  add_stretch(world, step, w);
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);

@@ -41,6 +41,7 @@ struct Workspace {
   std::vector<double> cbm_radius;        ///< written by: find_references
   std::vector<double> cbm_strength;      ///< empty: all 1; written by: find_references
   std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
+  std::vector<dcm::Params> dcm_params;   ///< of the step; written by: assemble
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
   MediumFriction medium_friction;        ///< written by: assemble
   CellForces forces;                     ///< written by: assemble

@@ -14,6 +14,8 @@
 #include "core/solve/cg.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/interface.hpp"
+#include "coupling/world/stretcher.hpp"
+#include "coupling/world/temperature.hpp"
 #include "dcm/contact.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
@@ -88,6 +90,8 @@ struct Params {
   Sleep sleep;
   Numerics numerics;
   contact::Boundary boundary;
+  Temperature temperature;
+  Stretcher stretcher;
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the

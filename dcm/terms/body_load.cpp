@@ -12,18 +12,4 @@ void add_body_load(const GroupView& g, std::span<const Vec3> cell_force, solve::
   }
 }
 
-void add_surface_load(const GroupView& g, int lane, std::span<const Vec3> traction,
-                      solve::System& s) {
-  const double r2 = g.radius[lane] * g.radius[lane];
-  for (std::size_t i = 0; i < traction.size(); ++i)
-    add_point(s.external_force.data(), make_address(g.first_row + i, lane),
-              g.topology->rest_node_area[i] * r2 * traction[i]);
-}
-
-void add_nodal_load(const GroupView& g, int lane, std::span<const Vec3> node_force,
-                    solve::System& s) {
-  for (std::size_t i = 0; i < node_force.size(); ++i)
-    add_point(s.external_force.data(), make_address(g.first_row + i, lane), node_force[i]);
-}
-
 }  // namespace acinus::dcm

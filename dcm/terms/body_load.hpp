@@ -1,6 +1,6 @@
 #pragma once
 /// Forces on a cell as a whole, spread over its surface: migration, random motility, a prescribed
-/// pull; and prescribed loads on single nodes.
+/// pull.
 
 #include <span>
 
@@ -13,16 +13,5 @@ namespace acinus::dcm {
 /// it. [VanLiedekerke2020, Eq. (1), term 9]
 /// @param cell_force [kLanes] nN
 void add_body_load(const GroupView& g, std::span<const Vec3> cell_force, solve::System& system);
-
-/// Adds a traction per rest area, kPa, times each node's rest area (an optical stretcher, for
-/// example).
-/// @param traction [n_node] kPa on the nodes of one lane
-void add_surface_load(const GroupView& g, int lane, std::span<const Vec3> traction,
-                      solve::System& system);
-
-/// Adds forces on the nodes of one lane.
-/// @param node_force [n_node] nN
-void add_nodal_load(const GroupView& g, int lane, std::span<const Vec3> node_force,
-                    solve::System& system);
 
 }  // namespace acinus::dcm

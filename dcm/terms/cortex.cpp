@@ -24,9 +24,9 @@ ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double sti
     add3(force + i * kPointStride, f);
     add3(force + j * kPointStride, -f);
 
-    // along u: stiffness and dashpot; across: tension's geometric part and, if isotropic, dashpot
+    // along u: stiffness and dashpot; across: tension's geometric part and dashpot
     const Lane geometric = stiffness_scale * lane_max0(k * (1.0 - l0 * inverse));
-    const Lane across = p.axial_friction ? geometric : geometric + friction;
+    const Lane across = geometric + p.friction_across * friction;
     const Lane along = stiffness_scale * k + friction;
     solve::add_spring(element, u, along - across, across);
     element += solve::kSpringStride;

@@ -27,7 +27,7 @@ ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const Seri
     add3(force + j * kPointStride, -f);
 
     const Lane geometric = stiffness_scale * lane_max0(tension * inverse);
-    const Lane across = p.axial_friction ? geometric : geometric + friction;
+    const Lane across = geometric + p.friction_across * friction;
     const Lane along = stiffness_scale * k + friction;
     solve::add_spring(element, u, along - across, across);
     element += solve::kSpringStride;

@@ -71,6 +71,8 @@ void set_params(const Scene& scene, coupling::Params& p) {
   p.start_up = scene.start_up;
   set_motility(scene, p.motility);
   set_numerics(scene, p.numerics);
+  if (scene.stretcher) p.stretcher = *scene.stretcher;
+  if (scene.temperature) p.temperature = *scene.temperature;
 }
 
 }  // namespace acinus::runs

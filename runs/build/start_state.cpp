@@ -39,7 +39,7 @@ constexpr std::array kFreeOfType{"/cycle",
                                  "/death",
                                  "/diffusion",
                                  "/dcm/nodal_friction",
-                                 "/dcm/nodal_friction_kind",
+                                 "/dcm/nodal_friction_across",
                                  "/dcm/ecm_friction",
                                  "/cbm/ecm_friction"};
 

@@ -12,6 +12,8 @@ void sample_experiment(const Scene& scene, const coupling::World& world, const S
     sample_relaxation(scene, world, snapshot, measures);
   if (scene.experiment == Experiment::kSpheroid || scene.experiment == Experiment::kMonolayer)
     sample_growth(scene, world, snapshot, measures);
+  if (scene.experiment == Experiment::kOpticalStretcher)
+    sample_stretcher(scene, world, snapshot, measures);
 }
 
 }  // namespace acinus::runs

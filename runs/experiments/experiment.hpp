@@ -74,4 +74,12 @@ void sample_relaxation(const Scene& scene, const coupling::World& world, const S
 void sample_growth(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
                    Measures& measures);
 
+/// A deformable cell in an optical stretcher: long_axis_um, its extent along the beams, and
+/// short_axis_um, across them (mean over 36 directions); long_axis_strain and short_axis_strain,
+/// their growth since the first frame relative to what they were there; stress_Pa on the surface
+/// where the axis of the beams meets it, and cortex_friction_factor, that of the temperature.
+/// [VanLiedekerke2020, Fig. 5 and 13]
+void sample_stretcher(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
+                      Measures& measures);
+
 }  // namespace acinus::runs

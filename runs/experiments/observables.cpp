@@ -120,6 +120,15 @@ List growth(bool flat) {
   return list;
 }
 
+List stretcher() {
+  return {{"long_axis_um", "um", "extent of the cell along the beams"},
+          {"short_axis_um", "um", "mean extent across them"},
+          {"long_axis_strain", "1", "growth of the former since the first frame, relative"},
+          {"short_axis_strain", "1", "the same of the latter"},
+          {"stress_Pa", "Pa", "stress where the axis of the beams meets the cell"},
+          {"cortex_friction_factor", "1", "friction of the cortex over that of the cell type"}};
+}
+
 List lesion() {
   List list{{"lesion_radius_um", "um", "as lesion_radius_slices_centre_um"},
             {"lesion_area_relative", "1", "as lesion_area_slices_centre_floor"},
@@ -191,6 +200,9 @@ std::vector<Observable> known_observables(Experiment experiment) {
     case Experiment::kSpheroid:
     case Experiment::kMonolayer:
       append(list, growth(experiment == Experiment::kMonolayer));
+      break;
+    case Experiment::kOpticalStretcher:
+      append(list, stretcher());
       break;
   }
   return list;

@@ -16,7 +16,16 @@
 namespace acinus::runs {
 
 /// What is measured.
-enum class Experiment { kFree, kLobule, kPatch, kCapsule, kRelaxation, kSpheroid, kMonolayer };
+enum class Experiment {
+  kFree,
+  kLobule,
+  kPatch,
+  kCapsule,
+  kRelaxation,
+  kSpheroid,
+  kMonolayer,
+  kOpticalStretcher
+};
 /// kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
 enum class CellSource { kList, kClump, kBox, kFill, kLobule };
@@ -26,7 +35,7 @@ template <class E>
 inline constexpr const char* kChoices = nullptr;
 template <>
 inline constexpr const char* kChoices<Experiment> =
-    "free|lobule|patch|capsule|relaxation|spheroid|monolayer";
+    "free|lobule|patch|capsule|relaxation|spheroid|monolayer|optical_stretcher";
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>

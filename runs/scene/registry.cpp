@@ -358,6 +358,15 @@ void describe(Visitor& v, Scene& s) {
   blocks(v,
          {.name = "static_meshes", .meaning = "rigid surfaces from files", .item = "static_mesh"},
          s.static_meshes, describe_static_mesh);
+  optional_block(v,
+                 {.name = "stretcher",
+                  .meaning = "two laser beams that pull at deformable cells; null = none"},
+                 s.stretcher, describe_stretcher);
+  optional_block(v,
+                 {.name = "temperature",
+                  .meaning = "temperature over time, on which the friction within the cortex of "
+                             "deformable cells depends; null = none"},
+                 s.temperature, describe_temperature);
   block(v, {.name = "output", .meaning = "what is written"}, s.output, describe_output);
 }
 

@@ -59,12 +59,11 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .range = kNotNegative,
           .symbol = "gamma_int"},
          b.nodal_friction);
-  choice(
-      v,
-      {.name = "nodal_friction_kind",
-       .meaning = "isotropic resists any relative motion of two nodes, axial only along the edge",
-       .choices = "isotropic|axial"},
-      b.axial_friction);
+  v.real({.name = "nodal_friction_across",
+          .meaning = "that friction across the edge of two nodes over that along it; 1 = the same "
+                     "in all directions, 0 = only along, which lets a cell turn freely",
+          .range = kNotNegative},
+         b.friction_across);
   v.real(
       {.name = "series_friction",
        .meaning = "dashpot in series with the springs of the cortex, which then flow and have no "

@@ -92,21 +92,6 @@ void check_integrator(const Scene& scene, Report& report) {
                       "\"linearly-implicit\", or set /time/with_contacts to true");
 }
 
-/// What knows nothing of tensions that depend on the past.
-void check_series_friction(const Scene& scene, Report& report) {
-  for (const auto& [name, type] : scene.cell_types) {
-    if (!(type.dcm.series_friction > 0)) continue;
-    const std::string pointer = "/cell_types/" + name + "/dcm/series_friction";
-    if (scene.numerics.integrator == coupling::Integrator::kRos2)
-      report.add_relation({pointer, "/time/integrator"}, "",
-                          "is not for \"ros2\". Choose \"linearly-implicit\"");
-    if (scene.life.sleep)
-      report.add_relation({pointer, "/life/sleep"}, "",
-                          "is not for cells that may sleep: tensions go on falling while a cell is "
-                          "in balance. Set /life/sleep to false");
-  }
-}
-
 void check_start_up(const Scene& scene, Report& report) {
   if (!scene.start_up.enabled) {
     if (!scene.start_up.from.empty())
@@ -319,7 +304,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_relaxation(scene, report);
   check_vessels(scene, report);
   check_integrator(scene, report);
-  check_series_friction(scene, report);
+  check_single_cell(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);
   check_zoom(scene, report);

@@ -236,6 +236,8 @@ struct Scene {
   std::vector<WallEntry> walls;
   CapsuleEntry capsule;
   std::vector<StaticMeshEntry> static_meshes;
+  std::optional<coupling::Stretcher> stretcher;
+  std::optional<coupling::Temperature> temperature;
   OutputBlock output;
 
   std::string

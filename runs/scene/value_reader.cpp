@@ -33,7 +33,9 @@ std::string without_prefix(const std::string& message, const std::string& text) 
 /// Sizes in base units (um, s, nN) beyond which a quantity is no tissue's but a slip of the unit.
 /// Within them squares and cubes stay numbers, in the single precision of the run file too.
 Range possible_sizes(Dimension dimension) {
-  return {.low = 1e-15, .high = dimension == kLength ? 1e6 : 1e12};
+  // Light and chemistry are of other sizes than the mechanics of cells.
+  const bool large = dimension == kPower || dimension == kMolarEnergy;
+  return {.low = 1e-15, .high = dimension == kLength ? 1e6 : large ? 1e24 : 1e12};
 }
 
 }  // namespace

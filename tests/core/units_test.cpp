@@ -56,6 +56,8 @@ TEST(Units, EveryUnitHasItsValue) {
   is("1 GPa", kStress, 1e6);
   is("1 J", kEnergy, 1e15), is("1 mJ", kEnergy, 1e12), is("1 uJ", kEnergy, 1e9);
   is("1 nJ", kEnergy, 1e6), is("1 pJ", kEnergy, 1e3), is("1 fJ", kEnergy, 1);
+  is("1 kJ", kEnergy, 1e18), is("1 W", kPower, 1e15), is("900 mW", kPower, 9e14);
+  is("1 uW", kPower, 1e9), is("310 K", kTemperature, 310), is("55 kJ/mol", kMolarEnergy, 55e18);
   is("1 aJ", kEnergy, 1e-3), is("50 %", kDimensionless, 0.5), is("0.5", kDimensionless, 0.5);
 }
 

@@ -275,9 +275,9 @@ TEST(Ros2, ErrorEstimateFallsWithTheSquareOfTheStep) {
 
 // The matrix holds friction and stiffness in one; what is friction in it is worked out apart.
 TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
-  for (const bool axial : {false, true}) {
+  for (const double across : {1.0, 0.3, 0.0}) {
     World w = make_test_world(checkered_cube(23.5), 60, 42);
-    for (dcm::Params& p : w.params.dcm) p.axial_friction = axial;
+    for (dcm::Params& p : w.params.dcm) p.friction_across = across;
     contact::Capsule shell;
     shell.center = Vec3::Constant(11.75);
     shell.radius = 32;

@@ -143,12 +143,25 @@ TEST(Cortex, AxialDashpotsResistStretchOnly) {
   Blown b(1);
   Params p;
   p.nodal_friction = 0.1;
-  p.axial_friction = true;
+  p.friction_across = 0;
   add_cortex(p, b.c.view(), b.c.system);
   const auto k = lane_matrices(b.c)[0];
   const Vec3 u = (b.c.node(0, 1) - b.c.node(0, 0)).normalized();
   const Mat3 expected = -0.1 * u * u.transpose();
   EXPECT_LT((k.block<3, 3>(0, 3) - expected).norm(), 0.1 * 2e-7);  // a u u^T of floats
+}
+
+TEST(Cortex, FrictionAcrossAnEdgeIsAShareOfThatAlongIt) {
+  Blown b(1);
+  Params p;
+  p.nodal_friction = 0.1;
+  p.friction_across = 0.3;
+  add_cortex(p, b.c.view(), b.c.system);
+  const auto k = lane_matrices(b.c)[0];
+  const Vec3 u = (b.c.node(0, 1) - b.c.node(0, 0)).normalized();
+  const Mat3 along = u * u.transpose();
+  const Mat3 expected = -0.1 * (along + 0.3 * (Mat3::Identity() - along));
+  EXPECT_LT((k.block<3, 3>(0, 3) - expected).norm(), 0.1 * 2e-7);
 }
 
 // Rotational drag 4.1e-13 N m s of a free cell (R 12 um, nodes on the sphere, 1e-4 N s/m): what
@@ -159,7 +172,7 @@ TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
     Cells c = make_rest_cells(mesh::shared_icosphere(162), {radius});
     Params p;
     p.nodal_friction = 0.1;
-    p.axial_friction = is_axial;
+    p.friction_across = is_axial ? 0 : 1;
     add_cortex(p, c.view(), c.system);
     solve::Operator op;
     op.prepare(c.system);
@@ -309,19 +322,6 @@ TEST(BodyLoad, MovesTheCellWithoutDistortion) {
     }
     EXPECT_LT((total - (l == kNoCell ? Vec3::Zero() : Vec3(force[l]))).norm(), 256 * kEps * 10);
   }
-}
-
-TEST(BodyLoad, SurfaceAndNodalLoadsAddUp) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), {5, 10});
-  add_surface_load(c.view(), 1, std::vector<Vec3>(42, Vec3(0, 0, 0.01)), c.system);
-  Vec3 total = Vec3::Zero();
-  for (int i = 0; i < 42; ++i)
-    total += load_point(c.system.external_force.data(), node_address(c.state, 1, i));
-  EXPECT_NEAR(total.z(), 0.01 * 100 * mesh::shared_icosphere(42).rest_area, 1e-12);
-  std::vector<Vec3> load(42, Vec3::Zero());
-  load[3] = {1, 2, 3};
-  add_nodal_load(c.view(), 0, load, c.system);
-  EXPECT_EQ(load_point(c.system.external_force.data(), node_address(c.state, 0, 3)), Vec3(1, 2, 3));
 }
 
 }  // namespace

@@ -78,9 +78,10 @@ void move_inward(Snapshot& s, double by) {
   }
 }
 
-constexpr Experiment kExperiments[] = {
-    Experiment::kFree,       Experiment::kLobule,   Experiment::kPatch,    Experiment::kCapsule,
-    Experiment::kRelaxation, Experiment::kSpheroid, Experiment::kMonolayer};
+constexpr Experiment kExperiments[] = {Experiment::kFree,       Experiment::kLobule,
+                                       Experiment::kPatch,      Experiment::kCapsule,
+                                       Experiment::kRelaxation, Experiment::kSpheroid,
+                                       Experiment::kMonolayer,  Experiment::kOpticalStretcher};
 
 TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
   for (const Experiment experiment : kExperiments) {

@@ -32,7 +32,7 @@ inline constexpr const char* kFull = R"({
   "start_up": {"enabled": true, "initial_radius": "3 um", "growth_time": "1 h"},
   "cell_types": {
     "old": {"radius": "11.3 um", "adhesion": "2.5e-5 J/m^2",
-            "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_kind": "axial"},
+            "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_across": 0},
             "cycle": {"time": "23.7 h", "spread": 0.07, "mitosis": "50 min", "force_ramp": 0.2,
                       "axis": "given", "direction": [0, 1, 1], "start": "random"},
             "inhibition": {"by": "pressure", "pressure_threshold": "210 Pa", "power": 3},
@@ -65,6 +65,8 @@ inline constexpr const char* kFull = R"({
             {"name": "floor", "mirror": false, "adhesion": "1e-5 J/m^2", "young": "600 Pa",
              "poisson": 0.4}],
   "capsule": {"radius": "100 um", "speed": "10 um/h", "min_radius": "60 um"},
+  "stretcher": {"power": "900 mW", "pulses": [{"from": "1 s", "to": "3 s"}]},
+  "temperature": {"course": [{"time": "1 s", "value": "300 K"}]},
   "output": {"every": "7 min", "compression": "none", "start_up": true}
   /* the end */
 })";

@@ -1,0 +1,46 @@
+#include "dcm/terms/stretch_load.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace acinus::dcm {
+namespace {
+
+/// Six times dV/dx of every node of a lane.
+void find_gradients(const mesh::Topology& t, const std::vector<Vec3>& arm,
+                    std::vector<Vec3>& gradient) {
+  gradient.assign(arm.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : t.triangle) {
+    gradient[a] += arm[b].cross(arm[c]);
+    gradient[b] += arm[c].cross(arm[a]);
+    gradient[c] += arm[a].cross(arm[b]);
+  }
+}
+
+}  // namespace
+
+void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System& s) {
+  const mesh::Topology& t = *g.topology;
+  std::vector<Vec3> arm(t.n_node), force;
+  for (int l = 0; l < kLanes; ++l) {
+    if (g.active[l] == 0) continue;
+    Vec3 center = Vec3::Zero();
+    for (int i = 0; i < t.n_node; ++i) {
+      arm[i] = load_point(g.position, make_address(i, l));
+      center += t.rest_node_area[i] / t.rest_area * arm[i];
+    }
+    for (Vec3& a : arm) a -= center;
+    find_gradients(t, arm, force);
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < t.n_node; ++i) {
+      const double cosine = std::abs(arm[i].dot(load.axis)) / arm[i].norm();
+      force[i] *= load.stress / 6 * std::pow(cosine, load.exponent);
+      sum += force[i];
+    }
+    for (int i = 0; i < t.n_node; ++i)
+      add_point(s.external_force.data(), make_address(g.first_row + i, l),
+                force[i] - t.rest_node_area[i] / t.rest_area * sum);
+  }
+}
+
+}  // namespace acinus::dcm
