@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <utility>
@@ -32,11 +34,35 @@ bool lock(int descriptor, int how) {
   return true;
 }
 
-std::string describe_this_process() {
+constexpr double kWait = 0.02;  // s, between two looks
+
+void wait_a_moment() { usleep(static_cast<useconds_t>(1e6 * kWait)); }
+
+std::string this_host() {
   std::array<char, 256> host{};
   if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
-  return fmt::format("process {} on {} since {:%Y-%m-%d %H:%M:%S} UTC", getpid(), host.data(),
+  return host.data();
+}
+
+std::string describe_this_process() {
+  return fmt::format("process {} on {} since {:%Y-%m-%d %H:%M:%S} UTC", getpid(), this_host(),
                      fmt::gmtime(std::time(nullptr)));
+}
+
+std::string first_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+/// Whether the line names a process that may hold something: not one of this machine that ended
+/// without letting go, killed for example.
+bool names_a_process(const std::string& line) {
+  pid_t process = 0;
+  if (std::sscanf(line.c_str(), "process %d on ", &process) != 1 || process <= 0) return false;
+  if (line.find(" on " + this_host() + " since ") == std::string::npos) return true;
+  return kill(process, 0) == 0 || errno != ESRCH;
 }
 
 }  // namespace
@@ -56,17 +82,23 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 }
 
 FileLock::~FileLock() {
-  if (descriptor_ >= 0) close(descriptor_);
+  if (descriptor_ < 0) return;
+  // The next one to ask must not read the name of one that holds it no more.
+  [[maybe_unused]] const int failed = ftruncate(descriptor_, 0);
+  close(descriptor_);
 }
 
 std::optional<FileLock> FileLock::try_take(const std::string& path, double patience_s) {
-  constexpr double kWait = 0.02;  // s
-  FileLock held(open_file(path));
-  while (!lock(held.descriptor_, LOCK_EX | LOCK_NB)) {
-    if (patience_s <= 0) return std::nullopt;
+  const int descriptor = open_file(path);
+  while (!lock(descriptor, LOCK_EX | LOCK_NB)) {
+    if (patience_s <= 0) {
+      close(descriptor);
+      return std::nullopt;
+    }
     patience_s -= kWait;
-    usleep(static_cast<useconds_t>(1e6 * kWait));
+    wait_a_moment();
   }
+  FileLock held(descriptor);
   held.sign();
   return held;
 }
@@ -86,11 +118,14 @@ bool is_locked(const std::string& path) {
   return !free;
 }
 
-std::string name_holder(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  return line.starts_with("process ") ? line : "another process";
+std::string name_holder(const std::string& path, double patience_s) {
+  while (true) {
+    const std::string line = first_line(path);
+    if (names_a_process(line)) return line;
+    if (patience_s <= 0) return "another process";
+    patience_s -= kWait;
+    wait_a_moment();
+  }
 }
 
 }  // namespace acinus::io

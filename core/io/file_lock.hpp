@@ -7,8 +7,8 @@
 
 namespace acinus::io {
 
-/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile. The file says
-/// who took it last. Over a network file system it holds between machines where the file system has
+/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile. The file names
+/// the process while it holds. Over a network file system it holds between machines where the file system has
 /// locks (NFS 3 with a lock service, NFS 4).
 class FileLock {
  public:
@@ -34,7 +34,9 @@ class FileLock {
 /// Whether someone else holds the lock of a file; false if there is no such file.
 bool is_locked(const std::string& path);
 
-/// Who took the lock last, "process 4711 on host since 2026-01-31 12:00:00 UTC".
-std::string name_holder(const std::string& path);
+/// Which process holds the lock, "process 4711 on host since 2026-01-31 12:00:00 UTC"; "another
+/// process" if the file does not say.
+/// @param patience_s  how long to look: a process that has just taken the lock has not signed yet
+std::string name_holder(const std::string& path, double patience_s = 0);
 
 }  // namespace acinus::io

@@ -19,8 +19,9 @@ import time
 import run_files
 
 WORDS = ["run", "two_cells", "--threads", "1", "--quiet", "--out", "r"]
-WHOLE = ["--set", "time.end=30 h"]
-HALF = ["--set", "time.end=30 h", "--until", "10 h"]
+# Long enough that all have asked before one is done.
+WHOLE = ["--set", "time.end=90 h"]
+HALF = ["--set", "time.end=90 h", "--until", "30 h"]
 
 
 def finish(program, folder, words):
