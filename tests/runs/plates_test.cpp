@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupling/simulation.hpp"
+#include "coupling/step/stages.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/experiments/single_cell.hpp"
 #include "runs/scene/reader.hpp"
@@ -40,7 +41,7 @@ TEST(PlatesScene, ForceIsThatOfTheMembrane) {
   for (const auto& [nodes, tolerance] : {std::pair(162, 0.10), {642, 0.04}}) {
     const Scene scene = read_scene(ACINUS_SOURCE_DIR "/runs/scenes/plates.json",
                                    {"cell_types.suspended.dcm.nodes=" + std::to_string(nodes)});
-    coupling::Simulation simulation(build_world(scene, {}).world);
+    coupling::Simulation simulation(build_world(scene, Ranks::serial()).world);
     coupling::Workspace work;
     Measures m;
     for (const double time : {500.0, 600.0}) {

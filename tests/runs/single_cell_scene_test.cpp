@@ -99,9 +99,9 @@ TEST(PipetteScene, SuctionIsForDeformableCells) {
   const std::string block =
       std::string(R"("experiment": "free", "pipette": {"radius": "5 um")") + kSuction + "}";
   EXPECT_TRUE(says(failure(changed(with_block(block), "\"dcm\"", "\"cbm\"")),
-                   "/pipette/suction: is for deformable cells"));
+                   "/pipette/suction = [{...}]: is for deformable cells"));
   EXPECT_TRUE(says(failure(with_block(block + R"(, "life": {"sleep": true})")),
-                   "/pipette/suction: is not for cells that may sleep"));
+                   "/pipette/suction = [{...}]: is not for cells that may sleep"));
 }
 
 TEST(PlatesScene, NeedsTwoPlatesAndOneCell) {
