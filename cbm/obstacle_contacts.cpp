@@ -16,9 +16,13 @@ bool was_touching(const State& s, int a, int b) {
   return std::ranges::binary_search(s.touching, std::pair(a, b));
 }
 
-/// A key for a part of the boundary that cannot be a cell number.
+/// A key for a part of the boundary that cannot be a cell number. Checkpoints hold it: kinds that
+/// came later than the first four have a range of their own.
 int boundary_key(Partner kind, int index) {
-  return ~(index * contact::kObstacleKinds + static_cast<int>(kind));
+  constexpr int kFirstKinds = 4, kLater = 1 << 28;
+  const int number = static_cast<int>(kind);
+  if (number < kFirstKinds) return ~(index * kFirstKinds + number);
+  return ~((number - kFirstKinds + 1) * kLater + index);
 }
 
 /// Whether a cell adheres to this segment or to one that shares an end with it: a stretched contact

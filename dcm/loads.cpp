@@ -8,6 +8,7 @@
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/body_load.hpp"
 #include "dcm/terms/cortex.hpp"
+#include "dcm/terms/cortex_tension.hpp"
 #include "dcm/terms/local_area.hpp"
 #include "dcm/terms/medium.hpp"
 #include "dcm/terms/series_spring.hpp"
@@ -119,6 +120,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
     else if (p.spring_stiffness > 0 || p.nodal_friction > 0)
       add_cortex(p, g, s);
     if (p.bending_stiffness > 0) add_bending(p, g, s);
+    if (p.cortex_tension > 0) add_cortex_tension(p, g, s);
     if (p.local_area_modulus > 0) add_local_area(p, g, s);
     if (volume) add_volume(p, g, s, s.rank_one[0]);
     if (area) add_area(p, g, s, s.rank_one[volume ? 1 : 0]);
@@ -134,6 +136,13 @@ void add_stretch_loads(const State& state, const LaneData& lanes, const StretchL
   });
 }
 
+void add_suction_loads(const State& state, const LaneData& lanes, const SuctionLoad& load,
+                       solve::System& s) {
+  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
+    if (!s.block[k].still) add_suction_load(view_group(state, lanes, s, k), load, s);
+  });
+}
+
 std::vector<std::string> skipped_terms(std::span<const Params> params) {
   std::vector<std::string> skipped;
   auto unless = [&](const char* name, auto used) {
@@ -143,6 +152,7 @@ std::vector<std::string> skipped_terms(std::span<const Params> params) {
   unless("dcm nodal friction", [](const Params& p) { return p.nodal_friction > 0; });
   unless("dcm series dashpots", [](const Params& p) { return p.series_friction > 0; });
   unless("dcm bending", [](const Params& p) { return p.bending_stiffness > 0; });
+  unless("dcm cortex tension", [](const Params& p) { return p.cortex_tension > 0; });
   unless("dcm volume", [](const Params& p) { return p.bulk_modulus > 0; });
   unless("dcm global area", [](const Params& p) { return p.area_modulus > 0; });
   unless("dcm local area", [](const Params& p) { return p.local_area_modulus > 0; });

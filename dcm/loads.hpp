@@ -10,6 +10,7 @@
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/stretch_load.hpp"
+#include "dcm/terms/suction_load.hpp"
 
 namespace acinus::dcm {
 
@@ -42,6 +43,10 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
 
 /// Adds what an optical stretcher does to every cell.
 void add_stretch_loads(const State& state, const LaneData& lanes, const StretchLoad& load,
+                       solve::System& system);
+
+/// Adds the suction of a pipette on every cell.
+void add_suction_loads(const State& state, const LaneData& lanes, const SuctionLoad& load,
                        solve::System& system);
 
 /// Names of the terms that no type of cell uses.

@@ -12,6 +12,7 @@ struct Params {
   double bending_stiffness = 0;   ///< nN um, k_b
   double area_modulus = 0;        ///< nN/um, K_A of the whole surface
   double local_area_modulus = 0;  ///< nN/um, K_A of each triangle
+  double cortex_tension = 0;      ///< nN/um, active tension T of the surface
   double bulk_modulus = 0;        ///< kPa, K_V
   double nodal_friction = 0;      ///< nN s/um, gamma_int per edge
   double friction_across = 1;   ///< nodal friction across an edge over that along it: 1 isotropic,

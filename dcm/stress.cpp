@@ -27,10 +27,10 @@ std::vector<double> compute_node_tension(const Params& p, const GroupView& g, in
     tension[i] += pull;
     tension[j] += pull;
   }
-  double membrane = 0;
+  double membrane = p.cortex_tension;
   if (p.area_modulus > 0) {
     const double a0 = rest_area(g, lane);
-    membrane = p.area_modulus * (compute_areas(g)[lane] - a0) / a0;
+    membrane += p.area_modulus * (compute_areas(g)[lane] - a0) / a0;
   }
   for (std::size_t i = 0; i < tension.size(); ++i) {
     const int neighbours = t.ring_start[i + 1] - t.ring_start[i];

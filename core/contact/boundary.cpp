@@ -80,9 +80,34 @@ Gap gap_to_wall(const Capsule& c, const Vec3& x, double time) {
   return {c.radius_at(time) - r, r > 0 ? Vec3(-d / r) : Vec3::UnitZ(), 0, 0, 0};
 }
 
+Gap gap_to_wall(const Pipette& p, const Vec3& x, double time) {
+  if (time > p.opens + kSameTime)
+    return {std::numeric_limits<double>::infinity(), Vec3::UnitZ(), 0, 0, 0};
+  const Vec3 d = x - p.mouth;
+  const double along = d.dot(p.axis);
+  const Vec3 across = d - along * p.axis;
+  const double r = across.norm();
+  // From the middle of the rectangle, and from the sides of the smaller one that the corners go
+  // round.
+  const double u = r - p.radius - 0.5 * p.thickness, v = along - 0.5 * p.length;
+  const double side = std::abs(u) - 0.5 * p.thickness + p.lip,
+               end = std::abs(v) - 0.5 * p.length + p.lip;
+  const Vec3 to_side =
+      std::copysign(1.0, u) * (r > 0 ? Vec3(across / r) : Vec3(p.axis.unitOrthogonal()));
+  const Vec3 to_end = std::copysign(1.0, v) * p.axis;
+  if (side > 0 && end > 0) {
+    const double distance = std::hypot(side, end);
+    return {distance - p.lip, (side * to_side + end * to_end) / distance, 0, 0, 0};
+  }
+  if (side > end) return {side - p.lip, to_side, 0, 0, 0};
+  return {end - p.lip, to_end, 0, 0, 0};
+}
+
 double shape_radius(const Plane&, double) { return kFlat; }
 
 double shape_radius(const Capsule& c, double time) { return -c.radius_at(time); }
+
+double shape_radius(const Pipette&, double) { return kFlat; }
 
 void stop_wall(Plane& p, double time) {
   p.point = p.point_at(time);  // far away if it is gone
@@ -95,9 +120,16 @@ void stop_wall(Capsule& c, double time) {
   c.speed = 0;  // and one that is open has an infinite radius
 }
 
+void stop_wall(Pipette& p, double time) {
+  if (time > p.opens + kSameTime) p.mouth = Vec3::Constant(kGone);
+  p.opens = Pipette{}.opens;
+}
+
 std::string wall_label(const Plane& p) { return fmt::format("wall \"{}\"", p.name); }
 
 std::string wall_label(const Capsule& c) { return "the wall of the " + c.name; }
+
+std::string wall_label(const Pipette& p) { return "the wall of the " + p.name; }
 
 // Brute force over near triangles.
 Gap gap_to_mesh(const SurfaceBody& b, const Vec3& x, double reach) {

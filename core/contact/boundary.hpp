@@ -1,6 +1,6 @@
 #pragma once
 /// What stands around the cells and has no unknowns of its own, by name: planes, a capsule,
-/// vessels, static meshes.
+/// pipettes, vessels, static meshes.
 
 #include <cstdint>
 #include <limits>
@@ -51,6 +51,20 @@ struct Capsule {
   double radius_at(double time) const;  ///< infinite once it is open
 };
 
+/// A rigid tube with a rounded rim at both ends; cells meet its inside, its outside and its rims.
+/// Cut along the axis its wall is a rectangle with round corners.
+struct Pipette {
+  std::string name;
+  Vec3 mouth = Vec3::Zero();  ///< centre of the plane in which the tube begins
+  Vec3 axis = Vec3::UnitZ();  ///< unit, from the mouth into the tube
+  double radius = 0;          ///< um, inner
+  double thickness = 0;       ///< um, of the wall
+  double lip = 0;             ///< um, radius of the rims; at most half the thickness and the length
+  double length = 0;          ///< um, along the axis
+  double opens = std::numeric_limits<double>::infinity();  ///< s, after that it is gone
+  Material material;
+};
+
 struct Vessels {
   mesh::Network network;
   Material material;
@@ -70,6 +84,7 @@ struct StaticMesh {
 struct Boundary {
   std::vector<Plane> planes;
   std::vector<Capsule> capsules;
+  std::vector<Pipette> pipettes;
   Vessels vessels;
   std::vector<StaticMesh> meshes;
   bool empty() const;
@@ -83,6 +98,7 @@ void for_each_wall(AnyBoundary& boundary, Visit visit) {
   };
   each(Partner::kPlane, boundary.planes);
   each(Partner::kCapsule, boundary.capsules);
+  each(Partner::kPipette, boundary.pipettes);
 }
 
 const Material& material_of(const Boundary& boundary, Partner obstacle, int index);
@@ -103,19 +119,23 @@ struct Gap {
 };
 Gap gap_to_wall(const Plane& p, const Vec3& x, double time);
 Gap gap_to_wall(const Capsule& c, const Vec3& x, double time);
+Gap gap_to_wall(const Pipette& p, const Vec3& x, double time);
 
 /// um, of the body whose contact with a sphere stands for that with the wall: kFlat, or negative
 /// for one that is seen from inside.
 double shape_radius(const Plane& p, double time);
 double shape_radius(const Capsule& c, double time);
+double shape_radius(const Pipette& p, double time);
 
 /// Lets it stay for ever where it is at this moment.
 void stop_wall(Plane& p, double time);
 void stop_wall(Capsule& c, double time);
+void stop_wall(Pipette& p, double time);
 
 /// As messages name it.
 std::string wall_label(const Plane& p);
 std::string wall_label(const Capsule& c);
+std::string wall_label(const Pipette& p);
 
 /// Farther away than `reach` the gap is `reach`, the normal meaningless.
 Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);

@@ -12,7 +12,7 @@
 namespace acinus::contact {
 
 /// What stands on side b: a kind of obstacle, or of cell.
-enum class Partner : std::uint8_t { kPlane, kCapsule, kVessel, kMesh, kSurface, kSphere };
+enum class Partner : std::uint8_t { kPlane, kCapsule, kVessel, kMesh, kPipette, kSurface, kSphere };
 inline constexpr int kObstacleKinds = static_cast<int>(Partner::kSurface);  ///< they come first
 inline bool is_cell(Partner p) { return p == Partner::kSurface || p == Partner::kSphere; }
 

@@ -112,6 +112,11 @@ void add_stretch(const World& world, double step, Workspace& w) {
   if (load.stress > 0) dcm::add_stretch_loads(world.state.dcm, w.lanes, load, w.system);
 }
 
+void add_suction(const World& world, double step, Workspace& w) {
+  const dcm::SuctionLoad load = suction_at(world.params.suction, middle_of(world, step));
+  if (load.pressure > 0) dcm::add_suction_loads(world.state.dcm, w.lanes, load, w.system);
+}
+
 }  // namespace
 
 void size_workspace(const World& world, Workspace& w) {
@@ -167,6 +172,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   find_params(world, step, w);
   dcm::add_loads(s.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
   add_stretch(world, step, w);
+  add_suction(world, step, w);
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);

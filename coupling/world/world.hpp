@@ -15,6 +15,7 @@
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/interface.hpp"
 #include "coupling/world/stretcher.hpp"
+#include "coupling/world/suction.hpp"
 #include "coupling/world/temperature.hpp"
 #include "dcm/contact.hpp"
 #include "dcm/params.hpp"
@@ -92,6 +93,7 @@ struct Params {
   contact::Boundary boundary;
   Temperature temperature;
   Stretcher stretcher;
+  Suction suction;
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the

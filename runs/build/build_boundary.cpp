@@ -24,6 +24,7 @@ mesh::Network read_vessels(const VesselBlock& v) {
 }
 
 constexpr const char* kCapsuleName = "capsule";
+constexpr const char* kPipetteName = "pipette";
 
 contact::Material mirror() {
   contact::Material m;
@@ -88,6 +89,16 @@ void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::B
                                  scene.capsule.min_radius,
                                  scene.capsule.opens.value_or(contact::Capsule{}.opens),
                                  {}});
+  if (const auto& p = scene.pipette)
+    boundary.pipettes.push_back({kPipetteName,
+                                 p->mouth,
+                                 p->axis.normalized(),
+                                 p->radius,
+                                 p->thickness,
+                                 p->lip,
+                                 p->length,
+                                 contact::Pipette{}.opens,
+                                 {}});
   add_static_meshes(scene, boundary);
 }
 
@@ -98,6 +109,7 @@ std::vector<std::string> boundary_names(const Scene& scene) {
       names.push_back(p.name);
   for (const WallEntry& w : scene.walls) names.push_back(w.name);
   if (scene.capsule.enabled) names.emplace_back(kCapsuleName);
+  if (scene.pipette) names.emplace_back(kPipetteName);
   for (const StaticMeshEntry& m : scene.static_meshes) names.push_back(m.name);
   return names;
 }

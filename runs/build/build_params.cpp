@@ -72,6 +72,8 @@ void set_params(const Scene& scene, coupling::Params& p) {
   set_motility(scene, p.motility);
   set_numerics(scene, p.numerics);
   if (scene.stretcher) p.stretcher = *scene.stretcher;
+  if (const auto& t = scene.pipette)
+    p.suction = {t->mouth, t->axis.normalized(), t->radius + 0.5 * t->thickness, t->suction};
   if (scene.temperature) p.temperature = *scene.temperature;
 }
 

@@ -16,6 +16,7 @@ constexpr TermConstant kTermConstants[] = {
     {"cortex_poisson", &DcmBlock::cortex_poisson, false},
     {"area_modulus_nN_per_um", &DcmBlock::area_modulus, false},
     {"local_area_modulus_nN_per_um", &DcmBlock::local_area_modulus, false},
+    {"cortex_tension_nN_per_um", &DcmBlock::cortex_tension, true},
     {"bulk_modulus_kPa", &DcmBlock::bulk_modulus, true}};
 
 }  // namespace

@@ -129,6 +129,30 @@ List stretcher() {
           {"cortex_friction_factor", "1", "friction of the cortex over that of the cell type"}};
 }
 
+List plates() {
+  return {
+      {"gap_um", "um", "distance of the plates"},
+      {"force_nN", "nN", "normal force on a plate, mean of the two"},
+      {"contact_radius_um", "um",
+       "radius of a circle as large as the area in touch with a plate, mean of the two"},
+      {"cytosol_pressure_Pa", "Pa", "pressure within the cell"},
+      {"shell_force_nN", "nN", "force on a thin shell that keeps its volume, at this distance"}};
+}
+
+List aspiration() {
+  return {{"suction_Pa", "Pa", "by how much the pressure in the pipette is below that outside"},
+          {"aspirated_length_um", "um", "how far the cell reaches beyond the pipette's mouth"}};
+}
+
+List narrow_gap() {
+  return {{"position_um", "um", "the cell's centre along the axis of the hole, from its mouth"},
+          {"length_um", "um", "extent of the cell along the axis"},
+          {"width_um", "um", "mean extent across it"},
+          {"waist_um", "um",
+           "diameter of a circle as large as the cell's section halfway through the hole"},
+          {"passed", "1", "1 once all of the cell is beyond the hole"}};
+}
+
 List lesion() {
   List list{{"lesion_radius_um", "um", "as lesion_radius_slices_centre_um"},
             {"lesion_area_relative", "1", "as lesion_area_slices_centre_floor"},
@@ -203,6 +227,15 @@ std::vector<Observable> known_observables(Experiment experiment) {
       break;
     case Experiment::kOpticalStretcher:
       append(list, stretcher());
+      break;
+    case Experiment::kPlates:
+      append(list, plates());
+      break;
+    case Experiment::kAspiration:
+      append(list, aspiration());
+      break;
+    case Experiment::kNarrowGap:
+      append(list, narrow_gap());
       break;
   }
   return list;

@@ -8,6 +8,7 @@
 #include "coupling/world/lesion_layers.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observables.hpp"
+#include "runs/experiments/single_cell.hpp"
 #include "runs/experiments/tissue.hpp"
 
 namespace acinus::runs {
@@ -61,6 +62,9 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observabl
   sample_experiment(frame.scene, frame.world, frame.snapshot, m);
   sample_tissue(frame, m);
   if (frame.scene.experiment == Experiment::kLobule) sample_lobule(frame, observables);
+  if (frame.scene.experiment == Experiment::kPlates) sample_plates(frame, m);
+  if (frame.scene.experiment == Experiment::kAspiration) sample_aspiration(frame, m);
+  if (frame.scene.experiment == Experiment::kNarrowGap) sample_narrow_gap(frame, m);
   observables.last_time = frame.snapshot.time;
   observables.track.clear();
   for (const coupling::CellMeasure& c : frame.snapshot.cells)

@@ -24,7 +24,10 @@ enum class Experiment {
   kRelaxation,
   kSpheroid,
   kMonolayer,
-  kOpticalStretcher
+  kOpticalStretcher,
+  kPlates,
+  kAspiration,
+  kNarrowGap
 };
 /// kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
@@ -35,7 +38,8 @@ template <class E>
 inline constexpr const char* kChoices = nullptr;
 template <>
 inline constexpr const char* kChoices<Experiment> =
-    "free|lobule|patch|capsule|relaxation|spheroid|monolayer|optical_stretcher";
+    "free|lobule|patch|capsule|relaxation|spheroid|monolayer|optical_stretcher|plates|aspiration|"
+    "narrow_gap";
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>

@@ -358,6 +358,12 @@ void describe(Visitor& v, Scene& s) {
   blocks(v,
          {.name = "static_meshes", .meaning = "rigid surfaces from files", .item = "static_mesh"},
          s.static_meshes, describe_static_mesh);
+  optional_block(
+      v,
+      {.name = "pipette",
+       .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
+                  "through; null = none"},
+      s.pipette, describe_pipette);
   optional_block(v,
                  {.name = "stretcher",
                   .meaning = "two laser beams that pull at deformable cells; null = none"},

@@ -45,6 +45,13 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .unit = "N/m",
           .range = kNotNegative},
          b.local_area_modulus);
+  v.real({.name = "cortex_tension",
+          .meaning = "active tension of the whole surface, which does not depend on its area; 0 = "
+                     "none",
+          .dimension = kTension,
+          .unit = "N/m",
+          .range = kNotNegative},
+         b.cortex_tension);
   v.real({.name = "bulk_modulus",
           .meaning = "resistance of the cell to volume change",
           .dimension = kStress,

@@ -61,8 +61,8 @@ void check_relaxation(const Scene& scene, Report& report) {
 bool may_touch(const Scene& scene) {
   const bool single = (scene.cells.source == CellSource::kList && scene.cells.list.size() == 1) ||
                       (scene.cells.source == CellSource::kClump && scene.cells.count == 1);
-  return !single || !scene.walls.empty() || !scene.static_meshes.empty() || scene.capsule.enabled ||
-         !scene.vessels.file.empty() || scene.lobule;
+  return !single || scene.pipette || !scene.walls.empty() || !scene.static_meshes.empty() ||
+         scene.capsule.enabled || !scene.vessels.file.empty() || scene.lobule;
 }
 
 /// What says how a network is read needs one to read.
@@ -305,6 +305,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_vessels(scene, report);
   check_integrator(scene, report);
   check_single_cell(scene, report);
+  check_pipette(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);
   check_zoom(scene, report);

@@ -17,6 +17,9 @@ void check_life(const Scene& scene, Report& report);
 /// The part about experiments on single cells and what only they use. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 
+/// The part about plates and pipettes. @pre called by check_rules
+void check_pipette(const Scene& scene, Report& report);
+
 /// The part about one region, which stands at `pointer`.
 void check_region(const Region& region, const std::string& pointer, Report& report);
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cbm/params.hpp"
+#include "core/schedule.hpp"
 #include "core/vec.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact.hpp"
@@ -204,6 +205,16 @@ struct StaticMeshEntry {
   bool inside = false;  ///< true: cells live inside it (normals are flipped)
 };
 
+struct PipetteBlock {  ///< a rigid tube; see contact::Pipette
+  Vec3 mouth = Vec3::Zero();
+  Vec3 axis = Vec3::UnitZ();  ///< into the tube, any length > 0
+  double radius = 0;          ///< um, inner
+  double thickness = 3;       ///< um
+  double lip = 1;             ///< um
+  double length = 100;        ///< um
+  Schedule suction;           ///< kPa
+};
+
 struct OutputBlock {
   double every = 1800;  ///< s
   /// Further frames when a wall or the capsule opens, so many for every factor ten of the time
@@ -236,6 +247,7 @@ struct Scene {
   std::vector<WallEntry> walls;
   CapsuleEntry capsule;
   std::vector<StaticMeshEntry> static_meshes;
+  std::optional<PipetteBlock> pipette;
   std::optional<coupling::Stretcher> stretcher;
   std::optional<coupling::Temperature> temperature;
   OutputBlock output;

@@ -10,6 +10,7 @@
 #include "core/io/disk.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/experiments/lobule.hpp"
+#include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -54,6 +55,20 @@ void add_lobule_figures(const Measures& m, Json& measures) {
   }
   measures["closed_d"] = by_area.value(closing_areas().front(), Json(nullptr));
   measures["closed_d_by_area"] = by_area;
+}
+
+/// Pressure at which the cell is drawn in, beside that of a surface with the tension of its type.
+void add_aspiration_figures(const Scene& scene, const Measures& m, Json& measures) {
+  const CellType& type = scene.cell_types.begin()->second;
+  const std::optional<double> found = critical_suction(*scene.pipette, m);
+  measures["critical_pressure_Pa"] = found ? number(1e3 * *found) : Json(nullptr);
+  measures["closed_form_critical_pressure_Pa"] = number(
+      1e3 * closed_form_suction(type.dcm.cortex_tension, scene.pipette->radius, type.radius));
+}
+
+void add_passage_figures(const Measures& m, Json& measures) {
+  const std::optional<double> hours = passage_time(m);
+  measures["passage_h"] = hours ? number(*hours) : Json(nullptr);
 }
 
 /// What was run and how it ended.
@@ -133,6 +148,9 @@ Json list_measures(const SummaryInput& in) {
   if (!in.world.params.boundary.vessels.network.segment.empty())
     measures["max_overlap_with_vessels_um"] =
         number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
+  if (in.scene.experiment == Experiment::kAspiration)
+    add_aspiration_figures(in.scene, in.measures, measures);
+  if (in.scene.experiment == Experiment::kNarrowGap) add_passage_figures(in.measures, measures);
   if (in.scene.experiment == Experiment::kLobule) add_lobule_figures(in.measures, measures);
   return measures;
 }

@@ -196,6 +196,21 @@ TEST(Audit, PlanesAndCapsulesCountTheFarthestNode) {
   EXPECT_EQ(r.dcm_wall.ids, (Ids{100, 2}));
 }
 
+TEST(Audit, PipettesCountTheFarthestNode) {
+  // A tube along x from x = 1 on: inner radius 2, outer 5, rims rounded with 1.
+  const AuditPipette tube{{1, 0, 0}, {1, 0, 0}, 3, 4, 1, 19, 1};
+  EXPECT_DOUBLE_EQ(depth_behind(tube, {10, 0, 0}, 0), -2);
+  EXPECT_DOUBLE_EQ(depth_behind(tube, {10, 0, 1}, 1.5), 0.5);
+  EXPECT_DOUBLE_EQ(depth_behind(tube, {10, 3.5, 0}, 0), 1.5);
+  EXPECT_DOUBLE_EQ(depth_behind(tube, {2 - 3, 0, 4 + 4}, 0), -4);
+  EXPECT_DOUBLE_EQ(depth_behind(tube, {0.5, 3.5, 0}, 2), 1.5);
+  AuditFrame frame;
+  const std::vector<AuditWall> walls{tube};
+  frame.walls = walls;
+  const auto r = audit_bodies({brick({5, -1, -1}, {9, 1, 2.25})}, frame);
+  EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, std::hypot(1, 2.25) - 2);
+}
+
 TEST(Audit, StaticMeshesFromOutsideAndInside) {
   const Surface block = brick({0, 0, 0}, {50, 50, 10}), room = brick({-9, -9, -9}, {60, 60, 60});
   AuditFrame frame;

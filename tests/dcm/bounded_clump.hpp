@@ -26,6 +26,14 @@ inline contact::Boundary make_boundary() {
   shell.radius = 26.8;  // its lowest point lies where the floor is touched
   shell.material.adhesion = 0.01;
   s.capsules = {shell};
+  contact::Pipette tube;
+  tube.mouth = {16.8, 0.6, 27};  // its lip meets the top of a cell
+  tube.radius = 5;
+  tube.thickness = 3;
+  tube.lip = 1;
+  tube.length = 20;
+  tube.material.adhesion = 0.01;
+  s.pipettes = {tube};
   mesh::Network n;
   n.node = {{36.6, -20, 0}, {41, 1, 6}, {38, 12, 4}, {45, 30, 10}};
   n.segment = {{0, 1}, {1, 2}, {2, 3}};

@@ -134,10 +134,11 @@ TEST(CellTypes, LawsDependOnTheConstantsOfEveryTerm) {
   const Scene scene = make_scene(R"("source": "clump", "count": 2, "types": [{"type": "large"}])");
   const CellType& type = scene.cell_types.at("large");
   const LawParameters whole = law_parameters(scene, type);
-  EXPECT_EQ(whole.dcm.size(), 10u);
+  EXPECT_EQ(whole.dcm.size(), 11u);
   for (double DcmBlock::*value : {&DcmBlock::cortex_young, &DcmBlock::cortex_poisson,
                                   static_cast<double DcmBlock::*>(&DcmBlock::cortex_thickness),
                                   static_cast<double DcmBlock::*>(&DcmBlock::area_modulus),
+                                  static_cast<double DcmBlock::*>(&DcmBlock::cortex_tension),
                                   static_cast<double DcmBlock::*>(&DcmBlock::local_area_modulus),
                                   static_cast<double DcmBlock::*>(&DcmBlock::bulk_modulus)}) {
     CellType other = type;

@@ -78,10 +78,11 @@ void move_inward(Snapshot& s, double by) {
   }
 }
 
-constexpr Experiment kExperiments[] = {Experiment::kFree,       Experiment::kLobule,
-                                       Experiment::kPatch,      Experiment::kCapsule,
-                                       Experiment::kRelaxation, Experiment::kSpheroid,
-                                       Experiment::kMonolayer,  Experiment::kOpticalStretcher};
+constexpr Experiment kExperiments[] = {
+    Experiment::kFree,       Experiment::kLobule,           Experiment::kPatch,
+    Experiment::kCapsule,    Experiment::kRelaxation,       Experiment::kSpheroid,
+    Experiment::kMonolayer,  Experiment::kOpticalStretcher, Experiment::kPlates,
+    Experiment::kAspiration, Experiment::kNarrowGap};
 
 TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
   for (const Experiment experiment : kExperiments) {

@@ -65,6 +65,7 @@ inline constexpr const char* kFull = R"({
             {"name": "floor", "mirror": false, "adhesion": "1e-5 J/m^2", "young": "600 Pa",
              "poisson": 0.4}],
   "capsule": {"radius": "100 um", "speed": "10 um/h", "min_radius": "60 um"},
+  "pipette": {"radius": "5 um", "suction": [{"time": "1 s", "pressure": "20 Pa"}]},
   "stretcher": {"power": "900 mW", "pulses": [{"from": "1 s", "to": "3 s"}]},
   "temperature": {"course": [{"time": "1 s", "value": "300 K"}]},
   "output": {"every": "7 min", "compression": "none", "start_up": true}

@@ -56,6 +56,67 @@ TEST(TemperatureScene, SaysWhatIsWrong) {
            R"(course/1/time = "2 s": must not be before /temperature/course/0/time)"));
 }
 
+constexpr const char* kSuction = R"(, "suction": [{"time": "9 s", "pressure": "40 Pa"}])";
+
+std::string pipette(const std::string& keys, const std::string& experiment = "aspiration") {
+  return failure(with_block(R"("experiment": ")" + experiment + R"(", "pipette": {)" + keys + "}"));
+}
+
+TEST(PipetteScene, SaysWhatIsWrong) {
+  const std::string sucks = std::string(R"("radius": "5 um")") + kSuction;
+  EXPECT_EQ(pipette(sucks), "");
+  EXPECT_EQ(pipette(sucks, "free"), "");
+  EXPECT_TRUE(says(pipette(std::string(R"("radius": "12 um")") + kSuction),
+                   R"(/pipette/radius = "12 um": must be below /cell_types/hepatocyte/radius = )"
+                   R"("12 um": the cell would slip through)"));
+  EXPECT_EQ(pipette(std::string(R"("radius": "12 um")") + kSuction, "free"), "");
+  EXPECT_TRUE(
+      says(pipette(sucks + R"(, "thickness": "1.5 um")"),
+           R"(/pipette/lip = "1 um": must be at most half of /pipette/thickness = "1.5 um")"));
+  EXPECT_TRUE(says(pipette(sucks + R"(, "length": "1 um")"),
+                   R"(/pipette/lip = "1 um": must be at most half of /pipette/length = "1 um")"));
+  EXPECT_TRUE(
+      says(pipette(R"("radius": "5 um")"), "/pipette/suction: needs a pressure above 0 Pa"));
+  EXPECT_TRUE(says(pipette(R"("radius": "5 um", "suction": [{"pressure": "0 Pa"}])"),
+                   "needs a pressure above 0 Pa"));
+  EXPECT_TRUE(says(pipette(sucks + R"(, "axis": [0, 0, 0])"), "/pipette/axis = [0, 0, 0]: has no"));
+  EXPECT_TRUE(
+      says(pipette(R"("radius": "5 um", "suction": [{"time": "9 s", "pressure": "1 Pa"},
+                              {"time": "8 s", "pressure": "1 Pa"}])"),
+           R"(suction/1/time = "8 s": must not be before /pipette/suction/0/time = "9 s")"));
+  EXPECT_TRUE(says(failure(with_block(R"("experiment": "aspiration")")), "needs a pipette block"));
+}
+
+TEST(PipetteScene, NarrowGapNeedsSomethingThatDrivesTheCell) {
+  EXPECT_TRUE(says(pipette(R"("radius": "5 um")", "narrow_gap"),
+                   R"(/experiment = "narrow_gap": needs something that drives the cell)"));
+  EXPECT_EQ(pipette(std::string(R"("radius": "5 um")") + kSuction, "narrow_gap"), "");
+  EXPECT_TRUE(
+      says(pipette(std::string(R"("radius": "13 um")") + kSuction, "narrow_gap"), "must be below"));
+}
+
+TEST(PipetteScene, SuctionIsForDeformableCells) {
+  const std::string block =
+      std::string(R"("experiment": "free", "pipette": {"radius": "5 um")") + kSuction + "}";
+  EXPECT_TRUE(says(failure(changed(with_block(block), "\"dcm\"", "\"cbm\"")),
+                   "/pipette/suction = [{...}]: is for deformable cells"));
+  EXPECT_TRUE(says(failure(with_block(block + R"(, "life": {"sleep": true})")),
+                   "/pipette/suction = [{...}]: is not for cells that may sleep"));
+}
+
+TEST(PlatesScene, NeedsTwoPlatesAndOneCell) {
+  const auto plates = [](const std::string& second) {
+    return with_block(R"("experiment": "plates", "walls": [{"normal": [0, 0, 2]}, {"normal": )" +
+                      second + "}]");
+  };
+  EXPECT_EQ(failure(plates("[0, 0, -1]")), "");
+  const std::string needs = R"(/experiment = "plates": needs two walls with opposite normals)";
+  EXPECT_TRUE(says(failure(plates("[0, 1, -1]")), needs)) << failure(plates("[0, 1, -1]"));
+  EXPECT_TRUE(says(failure(with_block(R"("experiment": "plates")")), needs));
+  EXPECT_TRUE(says(failure(changed(plates("[0, 0, -1]"), "\"dcm\"", "\"cbm\"")),
+                   "is for deformable cells"));
+}
+
 TEST(SeriesFriction, IsNotForEveryScene) {
   const auto with = [](const std::string& block) {
     return failure(changed(with_block(block), R"("hepatocyte": {})",

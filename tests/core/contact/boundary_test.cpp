@@ -256,7 +256,33 @@ TEST(Capsule, GapAndShrinking) {
   EXPECT_NEAR(gap_to_wall(c, c.center, 0).normal.norm(), 1, 1e-15);
 }
 
-/// One wall of each kind, all of them moving.
+// A tube along z that begins at z = 0: inner radius 5, outer 8, rims rounded with 1.
+TEST(Pipette, GapByHand) {
+  Pipette p;
+  p.radius = 5;
+  p.thickness = 3;
+  p.lip = 1;
+  p.length = 40;
+  const auto gap = [&](double r, double z) { return gap_to_wall(p, Vec3(0, r, z), 0).gap; };
+  EXPECT_DOUBLE_EQ(gap(0, 20), 5);
+  EXPECT_DOUBLE_EQ(gap(4, 20), 1);
+  EXPECT_DOUBLE_EQ(gap(10, 20), 2);
+  EXPECT_DOUBLE_EQ(gap(6.5, -3), 3);
+  EXPECT_DOUBLE_EQ(gap(6.5, 44), 4);
+  EXPECT_DOUBLE_EQ(gap(6 - 3, 1 - 4), 4);   // 5 from the middle of the lip's ring
+  EXPECT_DOUBLE_EQ(gap(7 + 4, 39 + 3), 4);  // and of that at the other end, outside
+  EXPECT_DOUBLE_EQ(gap(6.5, 20), -1.5);
+  EXPECT_DOUBLE_EQ(gap(5.5, 20), -0.5);
+  EXPECT_DOUBLE_EQ(gap(6.5, 0.25), -0.25);
+  EXPECT_LT((gap_to_wall(p, Vec3(0, 4, 20), 0).normal - Vec3(0, -1, 0)).norm(), 1e-15);
+  EXPECT_LT((gap_to_wall(p, Vec3(0, 9, 20), 0).normal - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LT((gap_to_wall(p, Vec3(0, 3, -3), 0).normal - Vec3(0, -0.6, -0.8)).norm(), 1e-15);
+  EXPECT_NEAR(gap_to_wall(p, Vec3(0, 0, 20), 0).normal.norm(), 1, 1e-15) << "on the axis";
+  p.opens = 10;
+  EXPECT_EQ(gap_to_wall(p, Vec3(0, 0, 20), 11).gap, std::numeric_limits<double>::infinity());
+}
+
+/// One wall of each kind, all of them moving that can.
 Boundary make_walls() {
   Plane plane;
   plane.name = "floor";
@@ -273,6 +299,16 @@ Boundary make_walls() {
   Boundary b;
   b.planes = {Plane{}, plane};
   b.capsules = {capsule};
+  Pipette pipette;
+  pipette.name = "pipette";
+  pipette.mouth = Vec3(20, -30, 40);
+  pipette.axis = Vec3(0.48, 0.6, 0.64);
+  pipette.radius = 5;
+  pipette.thickness = 3;
+  pipette.lip = 1;
+  pipette.length = 40;
+  pipette.material.adhesion = 3;
+  b.pipettes = {pipette};
   return b;
 }
 
@@ -310,7 +346,8 @@ TEST(EveryWall, IsVisitedWithItsKindAndPlace) {
     labels.push_back(wall_label(wall));
   });
   EXPECT_EQ(labels,
-            (std::vector<std::string>{"wall \"\"", "wall \"floor\"", "the wall of the capsule"}));
+            (std::vector<std::string>{"wall \"\"", "wall \"floor\"", "the wall of the capsule",
+                                      "the wall of the pipette"}));
   EXPECT_EQ(&material_of(boundary, Partner::kVessel, 3), &boundary.vessels.material);
 }
 

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runs/experiments/single_cell.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Area of the section of a closed surface by the plane through `point` across `axis`, um^2.
+double section_area(std::span<const Vec3> node, const mesh::Topology& t, const Vec3& point,
+                    const Vec3& axis) {
+  double area = 0;
+  for (const auto& corner : t.triangle) {
+    // Every triangle that is cut has one edge through which the plane goes up and one down; from
+    // one to the other the outline runs round the section.
+    Vec3 up = Vec3::Zero(), down = Vec3::Zero();
+    bool cut = false;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = node[corner[k]] - point, b = node[corner[(k + 1) % 3]] - point;
+      const double from = a.dot(axis), to = b.dot(axis);
+      if ((from > 0) == (to > 0)) continue;
+      (from > 0 ? down : up) = a + from / (from - to) * (b - a);
+      cut = true;
+    }
+    if (cut) area += 0.5 * axis.dot(up.cross(down));
+  }
+  return std::abs(area);
+}
+
+}  // namespace
+
+void sample_narrow_gap(const ObservedFrame& f, Measures& m) {
+  const std::vector<Vec3> node = first_cell(f.world);
+  const auto& pipettes = f.world.params.boundary.pipettes;
+  double position = kNone, length = kNone, width = kNone, waist = kNone, passed = kNone;
+  if (!node.empty() && !pipettes.empty()) {
+    const contact::Pipette& hole = pipettes.front();
+    const auto along = [&](const Vec3& x) { return (x - hole.mouth).dot(hole.axis); };
+    const Vec3& last = *std::ranges::min_element(node, {}, along);
+    position = along(dcm::cell_center(f.world.state.dcm, 0));
+    length = extent(node, hole.axis);
+    width = extent_across(node, hole.axis);
+    waist = 2 * std::sqrt(section_area(node, *f.world.state.dcm.group[0].topology,
+                                       hole.mouth + hole.length / 2 * hole.axis, hole.axis) /
+                          kPi);
+    passed = along(last) > hole.length ? 1 : 0;
+  }
+  m["position_um"].push_back(position);
+  m["length_um"].push_back(length);
+  m["width_um"].push_back(width);
+  m["waist_um"].push_back(waist);
+  m["passed"].push_back(passed);
+}
+
+std::optional<double> passage_time(const Measures& m) {
+  const auto at = m.find("position_um"), size = m.find("length_um"), passed = m.find("passed"),
+             time = m.find("time_s");
+  if (at == m.end() || size == m.end() || passed == m.end() || time == m.end()) return {};
+  std::optional<double> enters;
+  for (std::size_t k = 0; k < at->second.size(); ++k) {
+    if (!enters && at->second[k] + size->second[k] / 2 > 0) enters = time->second[k];
+    if (passed->second[k] == 1) return (time->second[k] - enters.value_or(0)) / 3600;
+  }
+  return {};
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "coupling/measure/contact_forces.hpp"
+#include "runs/experiments/single_cell.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double gap_between(const contact::Plane& a, const contact::Plane& b, double time) {
+  return a.normal.dot(b.point_at(time) - a.point_at(time));
+}
+
+}  // namespace
+
+double shell_force(const dcm::Params& cell, double radius, double gap) {
+  const double e = std::max(0.0, 1 - gap / (2 * radius));
+  const double root = std::sqrt(3.0), k = cell.spring_stiffness;
+  const double young = 2 / root * k, modulus = root / 2 * k,
+               bending = root / 2 * cell.bending_stiffness;
+  return 2 * kPi * (modulus + cell.area_modulus) * radius * e * e * e +
+         8 * std::sqrt(young * bending) * e;
+}
+
+void sample_plates(const ObservedFrame& f, Measures& m) {
+  const auto& cells = f.snapshot.cells;
+  const std::vector<contact::Plane>& plane = f.world.params.boundary.planes;
+  const bool there = plane.size() == 2 && !cells.empty() && cells.front().deformable;
+  double gap = kNone, force = kNone, radius = kNone, pressure = kNone, shell = kNone;
+  if (there) {
+    const coupling::CellMeasure& cell = cells.front();
+    const coupling::Reactions reactions = coupling::find_reactions(f.world, f.work);
+    coupling::Reaction both;
+    for (const coupling::Reaction& r : reactions.of(contact::Partner::kPlane)) both += r;
+    gap = gap_between(plane[0], plane[1], f.snapshot.time);
+    force = both.normal / 2;
+    radius = std::sqrt(both.area / 2 / kPi);
+    pressure = 1e3 * cell.cytosol_pressure;
+    shell = shell_force(f.world.params.dcm[cell.type], cell.radius, gap);
+  }
+  m["gap_um"].push_back(gap);
+  m["force_nN"].push_back(force);
+  m["contact_radius_um"].push_back(radius);
+  m["cytosol_pressure_Pa"].push_back(pressure);
+  m["shell_force_nN"].push_back(shell);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,58 @@
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+namespace {
+
+void describe_suction_at(Visitor& v, Schedule::Point& b) {
+  v.real({.name = "time", .meaning = "time after t = 0", .dimension = kTime, .unit = "s"}, b.time);
+  v.real({.name = "pressure",
+          .meaning = "suction then, below the pressure outside; it runs straight from one entry to "
+                     "the next, and two entries of one time are a jump",
+          .dimension = kStress,
+          .unit = "Pa",
+          .range = kNotNegative,
+          .symbol = "dp",
+          .required = true},
+         b.value);
+}
+
+}  // namespace
+
+void describe_pipette(Visitor& v, PipetteBlock& b) {
+  v.vector({.name = "mouth",
+            .meaning = "centre of the plane in which the tube begins",
+            .dimension = kLength,
+            .unit = "um"},
+           b.mouth);
+  v.vector({.name = "axis", .meaning = "direction from the mouth into the tube"}, b.axis);
+  v.real({.name = "radius",
+          .meaning = "inner radius",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_p",
+          .required = true},
+         b.radius);
+  v.real({.name = "thickness",
+          .meaning = "thickness of the wall",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.thickness);
+  v.real({.name = "lip",
+          .meaning = "radius with which the edges at both ends are rounded",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kNotNegative},
+         b.lip);
+  v.real({.name = "length",
+          .meaning = "length along the axis",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.length);
+  blocks(v, {.name = "suction", .meaning = "suction over time; none = 0 Pa", .item = "suction"},
+         b.suction.entry, describe_suction_at);
+}
+
+}  // namespace acinus::runs

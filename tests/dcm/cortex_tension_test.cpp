@@ -1,0 +1,123 @@
+/// Active tension of the cortex. It pulls at rest, so it is not among the terms of terms_test.cpp.
+
+#include "dcm/terms/cortex_tension.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdio>
+
+#include "dcm/stress.hpp"
+#include "tests/dcm/cells.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+using reference::kEps;
+
+Params contractile() {
+  Params p;
+  p.cortex_tension = 0.3;
+  return p;
+}
+
+void add(Cells& c) { add_cortex_tension(contractile(), c.view(), c.system); }
+
+double largest_force(const Cells& c, std::size_t lane) {
+  double f = 0;
+  for (int i = 0; i < c.n_node(); ++i) f = std::max(f, c.force(lane, i).norm());
+  return f;
+}
+
+// E = T A, and the pressure that balances it by virtual work of swelling, sum f . x = -3 p V, is
+// 2 T A / (3 V): 2 T / R, but for the facets, whose A / V is larger than that of the sphere.
+TEST(CortexTension, GivesTheCellLaplacesPressure) {
+  for (const int nodes : {162, 642, 2562}) {
+    Cells c = make_rest_cells(mesh::shared_icosphere(nodes), {12});
+    add(c);
+    double virial = 0, area = 0;
+    for (const double a : c.state.group[0].topology->rest_triangle_area) area += 144 * a;
+    for (int i = 0; i < nodes; ++i) virial += c.force(0, i).dot(c.node(0, i));
+    EXPECT_NEAR(cortex_tension_energy(contractile(), c.view(), 0), 0.3 * area, 1e-12 * area);
+    const double pressure = -virial / (3 * compute_volumes(c.view())[0]);
+    std::printf("%4d nodes: pressure over 2 T / R is 1 + %.1e\n", nodes,
+                pressure / (2 * 0.3 / 12) - 1);
+    // Facets stand off the sphere by l^2 / R^2 of order 14 / nodes, with a prefactor below 1/5.
+    EXPECT_NEAR(pressure / (2 * 0.3 / 12), 1, 3.0 / nodes);
+  }
+}
+
+TEST(CortexTension, IsTheTensionOfTheNodes) {
+  const Cells c = make_deformed_cells();
+  for (const double t : compute_node_tension(contractile(), c.view(), 2)) EXPECT_EQ(t, 0.3);
+}
+
+TEST(CortexTension, ForceIsMinusEnergyGradient) {
+  Cells c = make_deformed_cells(42);
+  add(c);
+  const double h = 1e-4;  // um: h^2 E''' and kEps E / h are both near 1e-8 of the force
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    if (l == kNoCell) continue;
+    for (int i = 0; i < c.n_node(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 x = c.node(l, i);
+        const auto energy = [&](double by) {
+          c.move(l, i, x + by * Vec3::Unit(k));
+          return cortex_tension_energy(contractile(), c.view(), static_cast<int>(l));
+        };
+        const double slope = (energy(h) - energy(-h)) / (2 * h);
+        c.move(l, i, x);
+        EXPECT_NEAR(c.force(l, i)[k], -slope, 1e-6 * largest_force(c, l));
+      }
+  }
+}
+
+TEST(CortexTension, NetForceAndTorqueVanish) {
+  Cells c = make_deformed_cells();
+  add(c);
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    double sum_force = 0, sum_torque = 0;
+    for (int i = 0; i < c.n_node(); ++i) {
+      const Vec3 f = c.force(l, i), x = c.node(l, i);
+      force += f;
+      torque += x.cross(f);
+      sum_force += f.norm();
+      sum_torque += x.norm() * f.norm();
+    }
+    EXPECT_LE(force.norm(), 64 * kEps * sum_force);
+    EXPECT_LE(torque.norm(), 64 * kEps * sum_torque);
+    EXPECT_EQ(sum_force > 0, l != kNoCell) << "an empty lane gets nothing";
+  }
+}
+
+TEST(CortexTension, TurnsWithTheCell) {
+  Cells c = make_deformed_cells(), turned = c;
+  auto random = reference::stream(2);
+  const Mat3 q = reference::random_rotation(random);
+  const Vec3 shift = reference::random_vector(random, 20);
+  for (std::size_t l = 0; l < kLanes; ++l)
+    for (int i = 0; i < c.n_node(); ++i) turned.move(l, i, q * c.node(l, i) + shift);
+  add(c);
+  add(turned);
+  // As for the other terms (terms_test.cpp).
+  for (std::size_t l = 0; l < kLanes; ++l)
+    for (int i = 0; i < c.n_node(); ++i)
+      EXPECT_LE((turned.force(l, i) - q * c.force(l, i)).norm(), 1e4 * kEps * largest_force(c, l));
+}
+
+TEST(CortexTension, StiffnessIsSymmetricAndSemiDefinite) {
+  Cells c = make_deformed_cells();
+  add(c);
+  const Eigen::MatrixXd k = lane_matrices(c)[6];
+  const double scale = k.cwiseAbs().maxCoeff();
+  EXPECT_GT(scale, 0);
+  EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 16 * kEps * scale);
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
+  EXPECT_GE(values.minCoeff(), -1e-12 * values.maxCoeff());
+}
+
+}  // namespace
+}  // namespace acinus::dcm

@@ -1,0 +1,129 @@
+/// What experiments on single cells measure, on worlds whose numbers are known.
+
+#include "runs/experiments/single_cell.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// One deformable cell of 12 um at the origin, and what a frame of it measures.
+struct Watched {
+  Scene scene{};
+  coupling::World world = coupling::make_test_world({{Vec3::Zero(), true}}, 60, 642);
+  coupling::Workspace work{};
+  Measures look(void (*sample)(const ObservedFrame&, Measures&)) {
+    coupling::size_workspace(world, work);
+    const Snapshot snapshot = take_snapshot(world, work);
+    Measures m;
+    sample({scene, world, work, snapshot, {}}, m);
+    return m;
+  }
+};
+
+contact::Pipette hole(double start, double length) {
+  contact::Pipette p;
+  p.mouth = Vec3(start, 0, 0);
+  p.axis = Vec3::UnitX();
+  p.radius = 20;
+  p.thickness = 4;
+  p.length = length;
+  return p;
+}
+
+TEST(Plates, MeasureGapForceAndArea) {
+  Watched w;
+  contact::Plane low, high;
+  low.point = Vec3(0, 0, -11.5);
+  high.point = Vec3(0, 0, 11.5);
+  high.normal = -Vec3::UnitZ();
+  w.world.params.boundary.planes = {low, high};
+  Measures m = w.look(sample_plates);
+  EXPECT_DOUBLE_EQ(m["gap_um"][0], 23);
+  // A ball that was not deformed yet: k_rep pi R d^2 on each plate, d = 0.5 and the 0.3 % by which
+  // the mesh stands out; contact points lie at most 0.07 um within the sphere.
+  const double least = 5 * kPi * 12 * 0.43 * 0.43, most = 5 * kPi * 12 * 0.54 * 0.54;
+  EXPECT_GT(m["force_nN"][0], least);
+  EXPECT_LT(m["force_nN"][0], most);
+  // What is nearer than half the range of friction counts in full, and what is beyond it not.
+  EXPECT_GT(m["contact_radius_um"][0], std::sqrt(2 * 12 * 0.43));
+  EXPECT_LT(m["contact_radius_um"][0], std::sqrt(2 * 12 * (0.54 + 0.3)));
+}
+
+TEST(Plates, ShellForceByHand) {
+  dcm::Params p;
+  p.spring_stiffness = 2 / std::sqrt(3.0);  // K = 1, Y = 4/3
+  p.bending_stiffness = 2 / std::sqrt(3.0);
+  p.area_modulus = 2;
+  EXPECT_EQ(shell_force(p, 10, 20), 0);
+  EXPECT_EQ(shell_force(p, 10, 21), 0) << "not touched";
+  EXPECT_NEAR(shell_force(p, 10, 18), 2 * kPi * 3 * 10 * 1e-3 + 8 * std::sqrt(4.0 / 3) * 0.1,
+              1e-12);
+}
+
+// Wide cells: 2 T / R_p less the pressure of the whole; half a ball of the cell's own radius leaves
+// half a ball, and no pressure.
+TEST(Aspiration, ClosedFormHasItsLimits) {
+  EXPECT_NEAR(closed_form_suction(0.3, 1, 1000), 2 * 0.3 * (1 - 1e-3), 1e-9);
+  EXPECT_NEAR(closed_form_suction(0.3, 5, 12), 2 * 0.3 * (1 / 5.0 - 1 / 12.0), 0.3 * 1e-2);
+  EXPECT_NEAR(closed_form_suction(0.3, 5, 5), 0, 1e-6);
+}
+
+TEST(Aspiration, MeasuresTheLengthBeyondTheMouth) {
+  Watched w;
+  w.world.params.suction = {Vec3(0, 0, 9), Vec3::UnitZ(), 6, {{{0, 0.05}}}};
+  Measures m = w.look(sample_aspiration);
+  EXPECT_NEAR(m["aspirated_length_um"][0], 3, 0.05) << "the mesh stands 0.3 % out";
+  EXPECT_DOUBLE_EQ(m["suction_Pa"][0], 50);
+  w.world.params.suction.mouth.z() = 20;
+  EXPECT_EQ(w.look(sample_aspiration)["aspirated_length_um"][0], 0);
+}
+
+TEST(Aspiration, CriticalPressureIsWhereTheLengthIsRadiusAndLip) {
+  PipetteBlock p;
+  p.radius = 5;
+  p.lip = 1;
+  Measures m;
+  EXPECT_FALSE(critical_suction(p, m));
+  m["suction_Pa"] = {0, 10, 20, 30};
+  m["aspirated_length_um"] = {1, 2, 5, 9};
+  EXPECT_NEAR(*critical_suction(p, m), 0.0225, 1e-15);
+  m["aspirated_length_um"] = {1, 2, 5, 5.9};
+  EXPECT_FALSE(critical_suction(p, m));
+}
+
+TEST(NarrowGap, MeasuresWhereTheCellIs) {
+  Watched w;
+  w.world.params.boundary.pipettes = {hole(-5, 10)};
+  Measures m = w.look(sample_narrow_gap);
+  EXPECT_NEAR(m["position_um"][0], 5, 1e-12);
+  EXPECT_NEAR(m["length_um"][0], 24, 0.1);
+  EXPECT_NEAR(m["width_um"][0], 24, 0.1);
+  EXPECT_NEAR(m["waist_um"][0], 24, 0.1);
+  EXPECT_EQ(m["passed"][0], 0);
+  w.world.params.boundary.pipettes = {hole(1, 10)};
+  EXPECT_NEAR(w.look(sample_narrow_gap)["waist_um"][0], 2 * std::sqrt(144.0 - 36), 0.1);
+  w.world.params.boundary.pipettes = {hole(-30, 10)};
+  m = w.look(sample_narrow_gap);
+  EXPECT_EQ(m["passed"][0], 1);
+  EXPECT_EQ(m["waist_um"][0], 0) << "nothing left of it in the hole";
+}
+
+TEST(NarrowGap, PassageTakesFromTheFirstTouchToTheEnd) {
+  Measures m;
+  EXPECT_FALSE(passage_time(m));
+  m["time_s"] = {0, 3600, 7200, 10800};
+  m["position_um"] = {-20, -11, 0, 30};
+  m["length_um"] = {24, 24, 24, 24};
+  m["passed"] = {0, 0, 0, 0};
+  EXPECT_FALSE(passage_time(m));
+  m["passed"] = {0, 0, 0, 1};
+  EXPECT_NEAR(*passage_time(m), 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace acinus::runs
