@@ -14,7 +14,7 @@
 namespace acinus::bench {
 namespace {
 
-struct Spread {
+struct OrientationSpread {
   double sum = 0, squares = 0;
   int n = 0;
   void add(double x) { sum += x, squares += x * x, ++n; }
@@ -33,7 +33,7 @@ double contact_radius(double area) { return std::sqrt(area / kPi); }
 /// A case with several orientations of the meshes.
 BenchRow measure(const std::string& name, PairCase c, const BenchOptions& options,
                  std::vector<PullOffPoint>& points) {
-  Spread ratio, rigid, radius, distance, last_radius, last_distance, outside, lowest;
+  OrientationSpread ratio, rigid, radius, distance, last_radius, last_distance, outside, lowest;
   for (int k = 0; k < options.seeds; ++k) {
     c.seed = options.first + k;
     const PullOff p = find_pull_off(c);
@@ -65,7 +65,7 @@ BenchRow measure(const std::string& name, PairCase c, const BenchOptions& option
 
 /// Straight line of force over adhesion energy by least squares.
 BenchRow fit(const std::string& name, const std::vector<PullOffPoint>& points, double radius) {
-  Spread x, y;
+  OrientationSpread x, y;
   double product = 0;
   for (const PullOffPoint& p : points) {
     x.add(p.adhesion);
