@@ -17,6 +17,7 @@
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress.hpp"
 #include "bench/tissue/patch.hpp"
+#include "bench/tissue/pull_off.hpp"
 #include "bench/tissue/relaxation.hpp"
 #include "bench/tissue/sleep.hpp"
 #include "bench/work_precision/work_precision.hpp"
@@ -39,6 +40,8 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
       {"patch", bench_patch},
+      {"pull-off", bench_pull_off},
+      {"pull-off-causes", bench_pull_off_causes},
       {"relaxation", bench_relaxation},
       {"skipping", bench_skipping},
       {"sleep", bench_sleep},

@@ -175,6 +175,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
       p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
       p.pull = e.pull;
+      p.oriented = !e.random_orientation;
       p.deformable = is_deformable(scene, e.model.value_or(c.model), e.position);
       cells.push_back(p);
     }

@@ -147,6 +147,10 @@ void describe_cell(Visitor& v, CellEntry& b) {
           .choices = "dcm|cbm",
           .automatic = "as cells.model and zoom say"},
          b.model);
+  v.flag(
+      {.name = "random_orientation",
+       .meaning = "the mesh of a DCM cell is turned at random, as the seed says; false = as it is"},
+      b.random_orientation);
   v.vector({.name = "pull",
             .meaning = "constant force spread over the cell",
             .dimension = kForce,

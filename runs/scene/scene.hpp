@@ -124,11 +124,12 @@ struct LifeBlock {
 };
 
 struct CellEntry {
-  Vec3 position = Vec3::Zero();    ///< um
-  std::string type;                ///< empty = the only type
-  std::optional<double> radius;    ///< um
-  std::optional<CellModel> model;  ///< not kZoom; overrides model and zoom
-  Vec3 pull = Vec3::Zero();        ///< nN, constant force spread over the cell
+  Vec3 position = Vec3::Zero();     ///< um
+  std::string type;                 ///< empty = the only type
+  std::optional<double> radius;     ///< um
+  std::optional<CellModel> model;   ///< not kZoom; overrides model and zoom
+  bool random_orientation = false;  ///< of the mesh of a deformable cell
+  Vec3 pull = Vec3::Zero();         ///< nN, constant force spread over the cell
 };
 
 /// A type that generated cells may be of.

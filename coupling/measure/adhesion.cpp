@@ -1,0 +1,45 @@
+#include "coupling/measure/adhesion.hpp"
+
+#include <algorithm>
+
+namespace acinus::coupling {
+namespace {
+
+/// Range of the cohesive potential of the cell that probes, um.
+double range_of(const World& world, const Workspace& w, int body) {
+  const std::size_t b = body;
+  return world.params.dcm_contact.range_factor * w.dcm.body[b].topology->mean_rest_length *
+         w.lanes.radius[w.dcm.lane_of_body[b]];
+}
+
+bool adheres(const World& world, const Workspace& w, const contact::Contact& k) {
+  return k.partner == contact::Partner::kSurface && !k.is_fold() && k.gap < range_of(world, w, k.a);
+}
+
+}  // namespace
+
+Adhesion find_adhesion(const World& world, const Workspace& w) {
+  const dcm::ContactParams& options = world.params.dcm_contact;
+  std::vector<std::size_t> first{0};
+  for (const contact::SurfaceBody& b : w.dcm.body) first.push_back(first.back() + b.node.size());
+  Adhesion adhesion;
+  adhesion.node.assign(first.back(), 0);
+  for (const contact::Contact& k : w.contacts.surface()) {
+    if (!adheres(world, w, k)) continue;
+    const std::size_t a = k.a;
+    const contact::SurfaceBody& body = w.dcm.body[a];
+    adhesion.area += 0.5 * dcm::point_area(*body.topology, options.quadrature, k.point,
+                                           w.lanes.radius[w.dcm.lane_of_body[a]]);
+    const contact::PointStencil stencil = dcm::stencil_of(options, body, k);
+    for (int m = 0; m < stencil.n; ++m)
+      if (stencil.weight[m] > 0) adhesion.node[first[a] + stencil.node[m]] = 1;
+  }
+  return adhesion;
+}
+
+bool any_adhesion(const World& world, const Workspace& w) {
+  return std::ranges::any_of(w.contacts.surface(),
+                             [&](const contact::Contact& k) { return adheres(world, w, k); });
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,24 @@
+#pragma once
+/// Where deformable cells adhere to each other.
+
+#include <cstdint>
+#include <vector>
+
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
+
+namespace acinus::coupling {
+
+/// The contact of deformable cells with each other. A point is in it while it is within the range
+/// of the cohesive potential of another cell, whether it attracts or presses there.
+struct Adhesion {
+  double area = 0;  ///< um^2 of the reference surfaces, half of it from either side
+  /// [nodes of the deformable cells, body by body] 1: part of a point in contact.
+  std::vector<std::uint8_t> node;
+};
+Adhesion find_adhesion(const World& world, const Workspace& work);  ///< @pre observe
+
+/// Whether any two deformable cells adhere or press, at the contacts that were searched last.
+bool any_adhesion(const World& world, const Workspace& work);
+
+}  // namespace acinus::coupling
