@@ -19,11 +19,15 @@ struct TimeAxis {
   double seconds = 3600;
 };
 
-/// Days for long runs, minutes for short ones.
-TimeAxis time_axis(const StudyData& data) {
+/// Days for long runs, minutes and seconds for short ones.
+TimeAxis time_axis(const StudyPlan& plan, const StudyData& data,
+                   const std::vector<std::size_t>& variants) {
   double end = 0;
-  for (const RunData& d : data) end = std::max(end, d.until);
+  for (std::size_t k = 0; k < data.size(); ++k)
+    if (std::ranges::find(variants, plan.runs[k].variant) != variants.end())
+      end = std::max(end, data[k].until);
   if (end > 3 * 86400) return {"d", 86400};
+  if (end < 120) return {"s", 1};
   if (end < 2 * 3600) return {"min", 60};
   return {};
 }
@@ -150,7 +154,7 @@ io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot
   plot.title = wanted.title.empty() ? wanted.name : wanted.title;
   plot.y_label = wanted.y_label.empty() ? with_unit(wanted.observable, y_unit) : wanted.y_label;
   plot.log_y = wanted.log_y;
-  const TimeAxis axis = time_axis(data);
+  const TimeAxis axis = time_axis(plan, data, variants);
   std::string x_unit = "s";
   double x_scale = axis.seconds;
   if (wanted.over.empty()) {
