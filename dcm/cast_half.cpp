@@ -12,9 +12,9 @@ namespace acinus::dcm {
 
 namespace {
 
-// Parts of an icosahedron edge, 0 if the mesh is no icosphere: 12, 42, 162, 642 or 2562 nodes.
+// Parts of an icosahedron edge, 0 if the mesh is no icosphere.
 int count_edge_parts(const mesh::Topology& topology) {
-  for (int parts = 1; parts <= 16; parts *= 2)
+  for (int parts = 1; parts <= 16; ++parts)
     if (topology.n_node == 10 * parts * parts + 2) return parts;
   return 0;
 }
@@ -131,10 +131,11 @@ Vec3 turn_towards(const Vec3& from, const Vec3& to, double part) {
 
 std::vector<Part> make_parts(const mesh::Topology& topology) {
   const int n_part = count_edge_parts(topology);
-  check(n_part > 0 && topology.ring_start[1] == 5,
-        fmt::format("cells that divide need an icosphere of 12, 42, 162, 642 or 2562 nodes, but "
-                    "this mesh has {} nodes. Choose one of these.",
-                    topology.n_node));
+  check(
+      n_part > 0 && topology.ring_start[1] == 5,
+      fmt::format("cells that divide need an icosphere, as of 42, 162 or 642 nodes, but this mesh "
+                  "has {} nodes. Choose one of these.",
+                  topology.n_node));
   std::vector<Part> out;
   for (const int distance : count_edges_to_pole(topology))
     out.push_back(distance < n_part ? Part::kCap : distance == n_part ? Part::kRim : Part::kShell);

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/mesh/topology.hpp"
@@ -14,15 +15,30 @@ namespace acinus::mesh {
 
 namespace {
 
-constexpr std::array<int, 5> kNodeCounts = {12, 42, 162, 642, 2562};
+/// How an icosphere is made: every edge of the icosahedron is cut into `parts` at once, then every
+/// edge of the result in half, `halvings` times.
+struct Recipe {
+  int n_node;
+  int parts;
+  int halvings;
+};
+constexpr std::array<Recipe, 9> kRecipes{{{12, 1, 0},
+                                          {42, 1, 1},
+                                          {92, 3, 0},
+                                          {162, 1, 2},
+                                          {252, 5, 0},
+                                          {362, 3, 1},
+                                          {642, 1, 3},
+                                          {1442, 3, 2},
+                                          {2562, 1, 4}}};
 
-int level_of(int n_node) {
-  const auto found = std::find(kNodeCounts.begin(), kNodeCounts.end(), n_node);
-  check(
-      found != kNodeCounts.end(),
-      fmt::format("an icosphere of {} nodes does not exist; allowed are 12, 42, 162, 642 and 2562.",
-                  n_node));
-  return static_cast<int>(found - kNodeCounts.begin());
+std::size_t number_of_recipe(int n_node) {
+  const auto found = std::ranges::find(kRecipes, n_node, &Recipe::n_node);
+  check(found != kRecipes.end(),
+        fmt::format("an icosphere of {} nodes does not exist; allowed are 12, 42, 92, 162, 252, "
+                    "362, 642, 1442 and 2562.",
+                    n_node));
+  return found - kRecipes.begin();
 }
 
 // The cyclic permutations of (0, +-1, +-golden ratio): nearest neighbours are 2 apart, and any
@@ -54,6 +70,35 @@ Surface make_icosahedron() {
     }
   }
   for (Vec3& x : out.node) x.normalize();
+  return out;
+}
+
+/// Cuts every edge into n parts and every face into n^2.
+Surface cut_edges(const Surface& coarse, int n) {
+  Surface out;
+  std::map<std::array<std::pair<int, int>, 3>, int> known;  // (parts, corner), ascending
+  const auto node_at = [&](const std::array<int, 3>& corner, int i, int j) {
+    std::array<std::pair<int, int>, 3> key{
+        {{n - i - j, corner[0]}, {i, corner[1]}, {j, corner[2]}}};
+    for (auto& [parts, at] : key) at = parts > 0 ? at : -1;  // the same from both faces
+    std::ranges::sort(key);
+    const auto [entry, is_new] = known.try_emplace(key, static_cast<int>(out.node.size()));
+    if (is_new) {
+      Vec3 x = Vec3::Zero();
+      for (const auto& [parts, at] : key)
+        if (parts > 0) x += parts * coarse.node[at];
+      out.node.push_back(x.normalized());
+    }
+    return entry->second;
+  };
+  for (const auto& corner : coarse.triangle)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j) {
+        const int a = node_at(corner, i, j), b = node_at(corner, i + 1, j),
+                  c = node_at(corner, i, j + 1);
+        out.triangle.push_back({a, b, c});
+        if (i + j + 1 < n) out.triangle.push_back({b, node_at(corner, i + 1, j + 1), c});
+      }
   return out;
 }
 
@@ -108,17 +153,19 @@ Surface order_breadth_first(const Surface& in) {
 }  // namespace
 
 Topology make_icosphere(int n_node) {
+  const Recipe& recipe = kRecipes[number_of_recipe(n_node)];
   Surface surface = make_icosahedron();
-  for (int level = level_of(n_node); level > 0; --level) surface = subdivide(surface);
+  if (recipe.parts > 1) surface = cut_edges(surface, recipe.parts);
+  for (int k = 0; k < recipe.halvings; ++k) surface = subdivide(surface);
   return make_topology(order_breadth_first(surface));
 }
 
 const Topology& shared_icosphere(int n_node) {
-  static std::array<std::optional<Topology>, kNodeCounts.size()> kept;
-  static std::array<std::once_flag, kNodeCounts.size()> made;
-  const std::size_t level = level_of(n_node);
-  std::call_once(made[level], [&] { kept[level] = make_icosphere(n_node); });
-  return *kept[level];
+  static std::array<std::optional<Topology>, kRecipes.size()> kept;
+  static std::array<std::once_flag, kRecipes.size()> made;
+  const std::size_t number = number_of_recipe(n_node);
+  std::call_once(made[number], [&] { kept[number] = make_icosphere(n_node); });
+  return *kept[number];
 }
 
 }  // namespace acinus::mesh

@@ -43,7 +43,8 @@ struct Topology {
 /// connected.
 Topology make_topology(const Surface& surface);
 
-/// The icosphere with 12, 42, 162, 642 or 2562 nodes. Throws Error for another count.
+/// The icosphere with 12, 42, 92, 162, 252, 362, 642, 1442 or 2562 nodes. Throws Error for another
+/// count.
 Topology make_icosphere(int n_node);
 
 /// As make_icosphere, but made once and kept for the life of the program.

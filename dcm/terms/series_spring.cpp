@@ -6,9 +6,11 @@ namespace acinus::dcm {
 namespace {
 
 ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const SeriesStep& step,
-                                 double stiffness_scale, double friction_scale, double* force,
-                                 float* element) {
+                                 solve::System& s) {
   const mesh::Topology& t = *g.topology;
+  const double stiffness_scale = s.stiffness_scale, friction_scale = s.friction_scale;
+  double* const force = s.force.data() + g.first_row * kPointStride;
+  float* element = s.spring.data() + g.first_spring * solve::kSpringStride;
   const Lane active = load(g.active);
   const Lane k = (step.share * p.spring_stiffness) * active;
   const Lane kept = step.kept * active;
@@ -39,9 +41,7 @@ ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const Seri
 void add_series_springs(const Params& p, const GroupView& g, solve::System& s) {
   // An explicit step knows the tension at its start only.
   const double step = s.stiffness_scale > 0 ? 1 / s.friction_scale : 0;
-  series_kernel(p, g, series_step(p.spring_stiffness, p.series_friction, step), s.stiffness_scale,
-                s.friction_scale, s.force.data() + g.first_row * kPointStride,
-                s.spring.data() + g.first_spring * solve::kSpringStride);
+  series_kernel(p, g, series_step(p.spring_stiffness, p.series_friction, step), s);
 }
 
 double series_spring_energy(const Params& p, const GroupView& g, int lane) {

@@ -6,7 +6,7 @@ namespace {
 void describe_cortex(Visitor& v, DcmBlock& b) {
   v.integer({.name = "nodes",
              .meaning = "nodes of the cell's surface mesh",
-             .choices = "42|162|642|2562",
+             .choices = "42|92|162|252|362|642|1442|2562",
              .symbol = "N"},
             b.nodes);
   v.real({.name = "cortex_young",

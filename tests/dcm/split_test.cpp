@@ -46,7 +46,7 @@ std::array<double, 2> edge_range(const mesh::Topology& topology, std::span<const
 }
 
 TEST(Parts, ARingOfMeshEdgesClosesAroundTheCap) {
-  for (const int n_node : {12, 42, 162, 642, 2562}) {
+  for (const int n_node : {12, 42, 92, 162, 252, 362, 642, 1442, 2562}) {
     const mesh::Topology& topology = mesh::shared_icosphere(n_node);
     const std::vector<Part> part = make_parts(topology);
     const long n_side = std::lround(std::sqrt((n_node - 2) / 10.0));
@@ -235,6 +235,10 @@ TEST(SplitCell, ARoundMotherGivesEvenDaughters) {
 
 TEST(SplitCell, WorksOnEveryIcosphereAndLosesLessOnFinerOnes) {
   double last = 1;
+  for (const int n_node : {92, 252, 362}) {
+    const Tally tally = split_many(mesh::shared_icosphere(n_node), reference::cell_shapes()[0], 20);
+    EXPECT_EQ(tally.n_split, tally.n_case) << n_node;
+  }
   for (const int n_node : {42, 162, 642, 2562}) {
     const Tally tally = split_many(mesh::shared_icosphere(n_node), reference::cell_shapes()[0],
                                    n_node < 642 ? 20 : 3);

@@ -398,8 +398,8 @@ TEST(SceneErrors, RulesBetweenKeys) {
        "scene.json:4:12 /cells/high: is missing: high corner of the box that random cells fill, "
        "e.g. \"12 um\" (acinus explain cells.high)"},
       {"nodes", minimal("\"hepatocyte\": {}", R"("hepatocyte": {"dcm": {"nodes": 100}})"),
-       R"(scene.json:3:50 /cell_types/hepatocyte/dcm/nodes = 100: must be one of 42, 162, )"
-       R"(642, 2562)"},
+       R"(scene.json:3:50 /cell_types/hepatocyte/dcm/nodes = 100: must be one of 42, 92, )"
+       R"(162, 252, 362, 642, 1442, 2562)"},
       {"noise grid", with_block(R"("motility": {"grid": "0 s"})"),
        R"(scene.json:1:24 /motility/grid = "0 s": must be > 0 s)"},
       {"capsule radii", with_block(R"("capsule": {"radius": "5 um", "min_radius": "6 um"})"),

@@ -87,7 +87,7 @@ TEST(Icosphere, HasTheConstantsOfTheMeshTable) {
 }
 
 TEST(Icosphere, IsSoundAtEveryLevel) {
-  for (const int n_node : {12, 42, 162, 642, 2562}) {
+  for (const int n_node : {12, 42, 92, 162, 252, 362, 642, 1442, 2562}) {
     const Topology mesh = make_icosphere(n_node);
     EXPECT_EQ(mesh.n_node, n_node);
     EXPECT_EQ(mesh.n_triangle, 2 * n_node - 4);
@@ -97,7 +97,7 @@ TEST(Icosphere, IsSoundAtEveryLevel) {
 
 TEST(Icosphere, NeighboursAreCloseInMemory) {
   // A front of the breadth-first order crosses the sphere once: at most about pi sqrt(n) nodes.
-  for (const int n_node : {162, 642, 2562}) {
+  for (const int n_node : {162, 252, 362, 642, 1442, 2562}) {
     const Topology& mesh = shared_icosphere(n_node);
     int widest = 0;
     for (const auto& [i, j] : mesh.edge) widest = std::max(widest, j - i);
@@ -111,7 +111,7 @@ TEST(Icosphere, IsMadeOnceAndOnlyInKnownSizes) {
   EXPECT_NE(&shared_icosphere(42), &shared_icosphere(162));
   const std::string text = message_of([] { make_icosphere(100); });
   EXPECT_CONTAINS(text, "100");
-  EXPECT_CONTAINS(text, "12, 42, 162, 642 and 2562");
+  EXPECT_CONTAINS(text, "12, 42, 92, 162, 252, 362, 642, 1442 and 2562");
 }
 
 TEST(Hinge, AngleGradientHasTheSignOfTheFormula) {
