@@ -21,7 +21,8 @@ void find_gradients(const mesh::Topology& t, const std::vector<Vec3>& arm,
 
 void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System& s) {
   const mesh::Topology& t = *g.topology;
-  std::vector<Vec3> arm(t.n_node), force;
+  thread_local std::vector<Vec3> arm, force;  // a warmed-up step allocates nothing
+  arm.resize(t.n_node);
   for (int l = 0; l < kLanes; ++l) {
     if (g.active[l] == 0) continue;
     Vec3 center = Vec3::Zero();

@@ -78,6 +78,10 @@ Count count_allocations(World& w, int warm_up, int n) {
 TEST(Allocation, AStepOfAWorldThatWasSteppedBeforeAsksForNone) {
   for (const auto& [deformable, spheres] : {std::pair(true, false), {false, true}, {true, true}}) {
     World w = make_row(deformable, spheres);
+    w.params.stretcher.beams.power = 1e14;
+    w.params.stretcher.pulse = {{0, 1e6}};
+    w.params.temperature.course.entry = {{0, 290}, {1e4, 310}};
+    w.params.suction = {Vec3(60, 0, 8), Vec3::UnitZ(), 5, {{{0, 0}, {1e4, 1e-3}}}};
     const Count c = count_allocations(w, 200, 60);
     EXPECT_GT(c.steps, 10);
     EXPECT_EQ(c.held, 0) << "in " << c.steps << " steps";
