@@ -79,6 +79,11 @@ MaugisState maugis_state(double lambda, double a) {
   return {a, std::sqrt(c2), load, a * a - (4.0 / 3.0) * lambda * h};
 }
 
+double maugis_approach_slope(double lambda, double a) {
+  const Closure f = evaluate_closure(lambda, a, solve_closure(lambda, a));
+  return 2.0 * a + (4.0 / 3.0) * lambda * f.by_a / f.by_h;
+}
+
 MaugisState maugis_pull_off(double lambda) {
   ACINUS_ASSERT(lambda > 0.0);
   // The load falls from A = 0 (slope proportional to -A) and rises beyond JKR's A = (3/2)^(1/3)

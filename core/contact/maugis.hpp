@@ -2,7 +2,7 @@
 /// Adhesive elastic spheres with a cohesive ring of constant stress sigma0 between the radius a of
 /// intimate contact and c [Maugis1992]: Eq. (14) to (17) of the model paper with their misprints
 /// corrected. Covers JKR (large lambda) to DMT (small lambda). A reference law: no step of the
-/// program calls it.
+/// program calls it. By overlap: maugis_overlap.hpp; between triangles: maugis_triangles.hpp.
 ///
 /// Reduced quantities: A = a/a0, C = c/a0, a0 = (3 pi W R^2/(4 E))^(1/3), load = P/(pi W R),
 /// approach = delta R/a0^2. Positive load = repulsive. R and E are the reduced values of the pair.
@@ -34,6 +34,9 @@ struct MaugisState {
 /// Solved for H = A s by bracketed Newton; A = 0 (only the ring holds) is regular in H.
 /// @pre lambda > 0, a >= 0 (asserted)
 MaugisState maugis_state(double lambda, double a);
+
+/// d approach/dA along the curve, where H follows A through Eq. (16).
+double maugis_approach_slope(double lambda, double a);
 
 /// The least load over all A (pull-off under a held load): -2 for lambda -> 0 (DMT), -3/2 for large
 /// (JKR).
