@@ -8,12 +8,14 @@
 
 #include "core/contact/maugis_overlap.hpp"
 #include "core/mesh/topology.hpp"
+#include "tests/core/contact/maugis_spheres.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::contact {
 namespace {
 
 using reference::kEps;
+using test::Body, test::Scatter, test::measure, test::meet;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -30,37 +32,6 @@ Corners equilateral(double side, double z, bool up, double turn) {
 /// Height of the middle of a triangle of this side below the top of its sphere.
 double sagitta(double radius, double side) {
   return radius - std::sqrt(radius * radius - side * side / 3);
-}
-
-struct Body {
-  std::vector<Vec3> node;
-  std::vector<CurvedTriangle> curved;
-};
-
-/// An icosphere whose nodes are on a sphere, turned, with the exact curvature or the estimated one.
-Body make_sphere(const mesh::Topology& t, double radius, const Vec3& center, const Mat3& turn,
-                 bool exact) {
-  Body out;
-  for (const Vec3& x : t.rest) out.node.push_back(center + turn * (radius * x.normalized()));
-  if (!exact) {
-    out.curved = make_curved_triangles(out.node, t.triangle);
-    return out;
-  }
-  for (const auto& c : t.triangle)
-    out.curved.push_back(
-        make_curved_triangle({out.node[c[0]], out.node[c[1]], out.node[c[2]]}, 1 / radius));
-  return out;
-}
-
-SurfaceForces meet(const MaugisLaw& law, const mesh::Topology& t, const Body& a, const Body& b) {
-  return compute_surface_forces(law, {t.n_node, t.triangle, a.curved},
-                                {t.n_node, t.triangle, b.curved}, 1.0);
-}
-
-Vec3 sum(const std::vector<Vec3>& v) {
-  Vec3 out = Vec3::Zero();
-  for (const Vec3& x : v) out += x;
-  return out;
 }
 
 // One small triangle in the middle of a Hertz contact sees its stress at r = 0.
@@ -227,40 +198,6 @@ TEST(MaugisTriangles, ChangingSidesChangesSigns) {
       met += f.contact_area > 0 ? 1 : 0;
     }
   EXPECT_GT(met, 10);
-}
-
-/// Mean and spread over orientations of force / exact force.
-struct Scatter {
-  double mean = 0, deviation = 0;
-};
-struct Setting {
-  int nodes;
-  double modulus;
-  bool exact;
-  int orientations;
-};
-
-Scatter measure(const Setting& s, double overlap) {
-  constexpr double kRadius = 10;
-  const MaugisLaw law = {s.modulus, 0.01, 0.5};
-  const mesh::Topology& t = mesh::shared_icosphere(s.nodes);
-  auto random = reference::stream(s.nodes);
-  const double exact =
-      maugis_at_overlap(make_maugis_curve({{kRadius / 2, law.modulus, law.adhesion}, 0.5}), overlap)
-          .force;
-  Scatter out;
-  double squares = 0;
-  for (int k = 0; k < s.orientations; ++k) {
-    const Body a =
-        make_sphere(t, kRadius, Vec3::Zero(), reference::random_rotation(random), s.exact);
-    const Body b = make_sphere(t, kRadius, Vec3(0, 0, 2 * kRadius - overlap),
-                               reference::random_rotation(random), s.exact);
-    const double ratio = sum(meet(law, t, a, b).on_b).z() / exact;
-    out.mean += ratio / s.orientations;
-    squares += ratio * ratio / s.orientations;
-  }
-  out.deviation = std::sqrt(squares - out.mean * out.mean);
-  return out;
 }
 
 // Polygons tile the contact without gaps if all triangles share one sphere, so the sum is a
