@@ -22,15 +22,15 @@ constexpr double kPlaneCurvature = 1e-6;
 double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
 
 /// The corners of a convex polygon: two triangles share at most six.
-struct SharedPolygon {
+struct SharedArea {
   std::array<Vec2, 8> corner;
   int n = 0;
   void add(const Vec2& x) { corner[n++] = x; }
 };
 
 /// What lies left of the line from p to q [Sutherland1974].
-SharedPolygon cut(const SharedPolygon& in, const Vec2& p, const Vec2& q) {
-  SharedPolygon out;
+SharedArea cut(const SharedArea& in, const Vec2& p, const Vec2& q) {
+  SharedArea out;
   for (int k = 0; k < in.n; ++k) {
     const Vec2 &x = in.corner[k], &y = in.corner[(k + 1) % in.n];
     const double at_x = cross(q - p, x - p), at_y = cross(q - p, y - p);
@@ -41,8 +41,8 @@ SharedPolygon cut(const SharedPolygon& in, const Vec2& p, const Vec2& q) {
 }
 
 /// Both counter-clockwise.
-SharedPolygon intersect(const Triangle2& a, const Triangle2& b) {
-  SharedPolygon shared;
+SharedArea intersect(const Triangle2& a, const Triangle2& b) {
+  SharedArea shared;
   for (const Vec2& x : a) shared.add(x);
   for (int k = 0; k < 3 && shared.n > 0; ++k) shared = cut(shared, b[k], b[(k + 1) % 3]);
   return shared;
@@ -57,7 +57,7 @@ constexpr std::array<RulePoint, 2> kRule = {
 
 /// visit(x, area) at the quadrature points of a polygon, cut into triangles about its middle.
 template <class Visit>
-void for_each_quadrature_point(const SharedPolygon& polygon, Visit visit) {
+void for_each_quadrature_point(const SharedArea& polygon, Visit visit) {
   if (polygon.n < 3) return;
   Vec2 middle = Vec2::Zero();
   for (int k = 0; k < polygon.n; ++k) middle += polygon.corner[k] / polygon.n;
@@ -136,7 +136,7 @@ TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangl
   const PlaneFrame frame = make_frame(meeting, a);
   const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
   // Seen from a, the corners of b run clockwise.
-  const SharedPolygon shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
+  const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
   if (shared.n < 3) return out;
   const MaugisPair pair = make_pair(law, meeting.radius);
   const MaugisPoint state = maugis_at_overlap(make_maugis_curve(pair), meeting.overlap);
