@@ -14,6 +14,9 @@ void check_rules(const Scene& scene, Report& report);
 /// The part about growth, division and death. @pre called by check_rules
 void check_life(const Scene& scene, Report& report);
 
+/// The times of a course, the list at `pointer`, must never fall.
+void check_course(const Schedule& course, const std::string& pointer, Report& report);
+
 /// The part about experiments on single cells and what only they use. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 

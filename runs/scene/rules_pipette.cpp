@@ -9,7 +9,6 @@ namespace acinus::runs {
 namespace {
 
 std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
-std::string seconds(double value) { return "\"" + format_quantity(value, kTime, "s") + "\""; }
 
 bool sucks(const PipetteBlock& p) {
   return std::ranges::any_of(p.suction.entry, [](const auto& e) { return e.value > 0; });
@@ -58,14 +57,7 @@ void check_tube(const Scene& scene, const PipetteBlock& p, Report& report) {
 }
 
 void check_suction(const Scene& scene, const PipetteBlock& p, Report& report) {
-  const auto& entry = p.suction.entry;
-  for (std::size_t k = 1; k < entry.size(); ++k) {
-    const std::string before = fmt::format("/pipette/suction/{}/time", k - 1);
-    if (entry[k].time < entry[k - 1].time)
-      report.add_relation(
-          {fmt::format("/pipette/suction/{}/time", k), before}, seconds(entry[k].time),
-          fmt::format("must not be before {} = {}", before, seconds(entry[k - 1].time)));
-  }
+  check_course(p.suction, "/pipette/suction", report);
   if (!sucks(p)) return;
   if (scene.model.value_or(scene.cells.model) == CellModel::kCbm)
     report.add_relation({"/pipette/suction", "/cells/model"}, "",

@@ -56,20 +56,23 @@ void check_stretcher(const Scene& scene, Report& report) {
 
 void check_temperature(const Scene& scene, Report& report) {
   if (!scene.temperature) return;
-  const std::vector<Schedule::Point>& course = scene.temperature->course.entry;
-  if (course.empty())
+  if (scene.temperature->course.entry.empty())
     report.add_relation({"/temperature/course", "/temperature"}, "",
                         "needs an entry: {\"time\": \"0 s\", \"value\": \"310 K\"}");
-  for (std::size_t k = 1; k < course.size(); ++k) {
-    const std::string before = fmt::format("/temperature/course/{}/time", k - 1);
-    if (course[k].time < course[k - 1].time)
-      report.add_relation(
-          {fmt::format("/temperature/course/{}/time", k), before}, seconds(course[k].time),
-          fmt::format("must not be before {} = {}", before, seconds(course[k - 1].time)));
-  }
+  check_course(scene.temperature->course, "/temperature/course", report);
 }
 
 }  // namespace
+
+void check_course(const Schedule& course, const std::string& pointer, Report& report) {
+  for (std::size_t k = 1; k < course.entry.size(); ++k) {
+    const std::string before = fmt::format("{}/{}/time", pointer, k - 1);
+    if (course.entry[k].time < course.entry[k - 1].time)
+      report.add_relation(
+          {fmt::format("{}/{}/time", pointer, k), before}, seconds(course.entry[k].time),
+          fmt::format("must not be before {} = {}", before, seconds(course.entry[k - 1].time)));
+  }
+}
 
 void check_single_cell(const Scene& scene, Report& report) {
   check_series_friction(scene, report);
