@@ -7,9 +7,9 @@
 
 namespace acinus::io {
 
-/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile. The file names
-/// the process while it holds. Over a network file system it holds between machines where the file system has
-/// locks (NFS 3 with a lock service, NFS 4).
+/// Holds the lock until it is destroyed. Not inherited by programs started meanwhile. The file
+/// names the process while it holds. Over a network file system it holds between machines where the
+/// file system has locks (NFS 3 with a lock service, NFS 4).
 class FileLock {
  public:
   FileLock(FileLock&& other) noexcept;
