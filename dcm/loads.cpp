@@ -99,8 +99,10 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
           lanes.active.data() + k * kLanes};
 }
 
-void size_rank_one(const State& state, std::span<const Params> params, solve::System& s) {
-  s.rank_one.resize((any_volume(params) ? 1 : 0) + (any_area(params) ? 1 : 0));
+void size_rank_one(const State& state, std::span<const Params> params, solve::System& s,
+                   bool pull_springs) {
+  s.rank_one.resize((any_volume(params) ? 1 : 0) + (any_area(params) ? 1 : 0) +
+                    (pull_springs ? 1 : 0));
   for (solve::RankOne& family : s.rank_one) {
     family.vector.resize(state.position.size());
     family.coefficient.resize(state.n_lane());
@@ -141,6 +143,14 @@ void add_suction_loads(const State& state, const LaneData& lanes, const SuctionL
   for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     if (!s.block[k].still) add_suction_load(view_group(state, lanes, s, k), load, s);
   });
+}
+
+void add_pull_spring_loads(const State& state, const LaneData& lanes,
+                           std::span<const PullSpring> spring, solve::System& s) {
+  for (std::size_t k = 0; k < state.group.size(); ++k)
+    if (!s.block[k].still)
+      add_pull_springs(view_group(state, lanes, s, k), spring.subspan(k * kLanes, kLanes), s,
+                       s.rank_one.back());
 }
 
 std::vector<std::string> skipped_terms(std::span<const Params> params) {

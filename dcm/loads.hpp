@@ -9,6 +9,7 @@
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
+#include "dcm/terms/pull_spring.hpp"
 #include "dcm/terms/stretch_load.hpp"
 #include "dcm/terms/suction_load.hpp"
 
@@ -31,8 +32,10 @@ void find_lane_data(const State& state, double time, LaneData& data);
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& system,
                      std::size_t group);
 
-/// Sizes the rank-one families that these parameters need (volume, area); empty when none.
-void size_rank_one(const State& state, std::span<const Params> params, solve::System& system);
+/// Sizes the rank-one families that these parameters need (volume, area, springs that hold cells;
+/// in this order); empty when none.
+void size_rank_one(const State& state, std::span<const Params> params, solve::System& system,
+                   bool pull_springs = false);
 
 /// Adds all terms within cells: cortex, bending, volume, area, medium, body load.
 /// @param medium_area  [n_row][lane] um^2, area of each node that touches the medium
@@ -48,6 +51,12 @@ void add_stretch_loads(const State& state, const LaneData& lanes, const StretchL
 /// Adds the suction of a pipette on every cell.
 void add_suction_loads(const State& state, const LaneData& lanes, const SuctionLoad& load,
                        solve::System& system);
+
+/// Adds springs that hold cells.
+/// @param spring  [n_lane]
+/// @pre the rank-one families were sized for them
+void add_pull_spring_loads(const State& state, const LaneData& lanes,
+                           std::span<const PullSpring> spring, solve::System& system);
 
 /// Names of the terms that no type of cell uses.
 std::vector<std::string> skipped_terms(std::span<const Params> params);

@@ -117,6 +117,13 @@ void add_suction(const World& world, double step, Workspace& w) {
   if (load.pressure > 0) dcm::add_suction_loads(world.state.dcm, w.lanes, load, w.system);
 }
 
+void add_pull_springs(const World& world, double step, Workspace& w) {
+  if (world.state.clock.phase != Phase::kRun || !any_spring(world.params.pulls)) return;
+  const dcm::State& cells = world.state.dcm;
+  find_springs(world.params.pulls, middle_of(world, step), cells, w.pull_spring);
+  dcm::add_pull_spring_loads(cells, w.lanes, w.pull_spring, w.system);
+}
+
 }  // namespace
 
 void size_workspace(const World& world, Workspace& w) {
@@ -126,7 +133,7 @@ void size_workspace(const World& world, Workspace& w) {
   std::vector<solve::Block> blocks = dcm::make_blocks(s.dcm, world.params.dcm, constrained);
   const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
-  dcm::size_rank_one(s.dcm, world.params.dcm, w.system);
+  dcm::size_rank_one(s.dcm, world.params.dcm, w.system, any_spring(world.params.pulls));
   w.system.halo.ranks = world.ranks;
   solve::set_blocks(w.system, std::move(blocks));
   w.active = active_lanes(s);
@@ -173,6 +180,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   dcm::add_loads(s.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
   add_stretch(world, step, w);
   add_suction(world, step, w);
+  add_pull_springs(world, step, w);
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);

@@ -1,6 +1,6 @@
 #pragma once
-/// Active forces on whole cells: random motility, the pull of leaders toward the vein, constant
-/// pulls.
+/// Active forces on whole cells: random motility, the pull of leaders toward the vein, pulls that
+/// are constant or prescribed over time.
 
 #include <cstdint>
 #include <vector>

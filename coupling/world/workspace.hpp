@@ -45,14 +45,15 @@ struct Workspace {
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
   MediumFriction medium_friction;        ///< written by: assemble
   CellForces forces;                     ///< written by: assemble
-  std::vector<double> position;          ///< [n_row][3][lane]; written by: assemble
-  std::vector<std::uint8_t> active;      ///< written by: size_workspace
-  Constraint constraint;                 ///< set by the owner
-  std::vector<double> rhs;               ///< written by: solve_step
-  std::vector<double> move;              ///< displacement of the step; written by: solve_step
-  std::vector<double> rest_of_move;      ///< scratch of solve_step
-  LinearisationPoint linearisation;      ///< written by: attempt_step
-  std::vector<std::uint8_t> leader;      ///< written by: choose_leaders_of_step
+  std::vector<dcm::PullSpring> pull_spring;  ///< [dcm lanes] written by: assemble
+  std::vector<double> position;              ///< [n_row][3][lane]; written by: assemble
+  std::vector<std::uint8_t> active;          ///< written by: size_workspace
+  Constraint constraint;                     ///< set by the owner
+  std::vector<double> rhs;                   ///< written by: solve_step
+  std::vector<double> move;                  ///< displacement of the step; written by: solve_step
+  std::vector<double> rest_of_move;          ///< scratch of solve_step
+  LinearisationPoint linearisation;          ///< written by: attempt_step
+  std::vector<std::uint8_t> leader;          ///< written by: choose_leaders_of_step
   std::int64_t leader_interval = -1;
   /// Where a world with sleepers steps; see sleep/partial_step.hpp.
   std::shared_ptr<Subworld> awake, sleepers;

@@ -14,6 +14,7 @@
 #include "core/solve/cg.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/interface.hpp"
+#include "coupling/world/pull.hpp"
 #include "coupling/world/stretcher.hpp"
 #include "coupling/world/suction.hpp"
 #include "coupling/world/temperature.hpp"
@@ -94,6 +95,7 @@ struct Params {
   Temperature temperature;
   Stretcher stretcher;
   Suction suction;
+  std::vector<Pull> pulls;
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the

@@ -75,6 +75,12 @@ void set_params(const Scene& scene, coupling::Params& p) {
   if (const auto& t = scene.pipette)
     p.suction = {t->mouth, t->axis.normalized(), t->radius + 0.5 * t->thickness, t->suction};
   if (scene.temperature) p.temperature = *scene.temperature;
+  for (const PullEntry& entry : scene.pulls) {
+    coupling::Pull pull = entry;
+    pull.direction.normalize();
+    pull.anchor = scene.cells.list[pull.cell].position.dot(pull.direction);
+    p.pulls.push_back(std::move(pull));
+  }
 }
 
 }  // namespace acinus::runs

@@ -153,6 +153,17 @@ List narrow_gap() {
           {"passed", "1", "1 once all of the cell is beyond the hole"}};
 }
 
+List pull_off() {
+  return {{"pull_force_nN", "nN", "force that pulls the two cells apart, mean of the two"},
+          {"pull_force_relative", "1", "the same over pi W R1 R2 / (R1 + R2), that of vesicles"},
+          {"distance_um", "um", "distance of their centres"},
+          {"contact_area_um2", "um^2", "area in contact, half of it from either cell"},
+          {"contact_radius_um", "um", "radius of a circle as large"},
+          {"tension_outside_mN_m", "mN/m", "mean tension of the surface out of contact"},
+          {"tension_contact_mN_m", "mN/m", "the same in contact; 0 without contact"},
+          {"tension_contact_min_mN_m", "mN/m", "least tension in contact; 0 without contact"}};
+}
+
 List lesion() {
   List list{{"lesion_radius_um", "um", "as lesion_radius_slices_centre_um"},
             {"lesion_area_relative", "1", "as lesion_area_slices_centre_floor"},
@@ -236,6 +247,9 @@ std::vector<Observable> known_observables(Experiment experiment) {
       break;
     case Experiment::kNarrowGap:
       append(list, narrow_gap());
+      break;
+    case Experiment::kPullOff:
+      append(list, pull_off());
       break;
   }
   return list;

@@ -65,6 +65,7 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observabl
   if (frame.scene.experiment == Experiment::kPlates) sample_plates(frame, m);
   if (frame.scene.experiment == Experiment::kAspiration) sample_aspiration(frame, m);
   if (frame.scene.experiment == Experiment::kNarrowGap) sample_narrow_gap(frame, m);
+  if (frame.scene.experiment == Experiment::kPullOff) sample_pull_off(frame, m);
   observables.last_time = frame.snapshot.time;
   observables.track.clear();
   for (const coupling::CellMeasure& c : frame.snapshot.cells)
@@ -78,6 +79,10 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observabl
   }
   for (const Observable& o : columns) row.push_back({o.name, o.unit, latest(m, before, o.name)});
   return row;
+}
+
+bool is_over(Experiment experiment, const Measures& measures) {
+  return experiment == Experiment::kPullOff && has_come_apart(measures);
 }
 
 void observe_births(const Scene& scene, const coupling::World& world,

@@ -1,6 +1,6 @@
 #pragma once
-/// Experiments on one deformable cell that need more than a snapshot: between plates, at a pipette,
-/// in a narrow gap.
+/// Experiments on one or two deformable cells that need more than a snapshot: between plates, at a
+/// pipette, in a narrow gap, pulled apart.
 
 #include <optional>
 #include <span>
@@ -42,6 +42,29 @@ void sample_narrow_gap(const ObservedFrame& frame, Measures& measures);
 
 /// From when the cell first reaches into the hole to when it has passed, h; none if it has not.
 std::optional<double> passage_time(const Measures& measures);
+
+/// Two cells that adhere and are pulled apart (the scene's first two pulls): pull_force_nN (mean of
+/// the two), pull_force_relative (over vesicle_pull_off), distance_um of their centres,
+/// contact_area_um2 and contact_radius_um (coupling/measure/adhesion.hpp), tension_outside_mN_m
+/// (mean over the nodes out of contact), tension_contact_mN_m and tension_contact_min_mN_m (mean
+/// and least of those in contact; none without contact).
+void sample_pull_off(const ObservedFrame& frame, Measures& measures);
+
+/// Reduced radius R1 R2 / (R1 + R2), um, and adhesion energy, nN/um, of the two cells of a scene.
+struct PairOfCells {
+  double reduced_radius = 0, adhesion = 0;
+};
+PairOfCells pair_of(const Scene& scene);
+
+/// Force that parts two vesicles, nN: pi W R^. JKR is 3/2 of it, DMT 2.
+/// [VanLiedekerke2020, Eq. (24)]
+double vesicle_pull_off(const PairOfCells& pair);
+
+/// The largest force that the pair bore, nN, from the series; none if it did not come apart.
+std::optional<double> pull_off_force(const Measures& measures);
+
+/// Whether cells that were in contact have come apart.
+bool has_come_apart(const Measures& measures);
 
 /// Nodes of the first deformable cell; empty if there is none.
 std::vector<Vec3> first_cell(const coupling::World& world);

@@ -27,11 +27,14 @@ enum class Experiment {
   kOpticalStretcher,
   kPlates,
   kAspiration,
-  kNarrowGap
+  kNarrowGap,
+  kPullOff
 };
 /// kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
 enum class CellSource { kList, kClump, kBox, kFill, kLobule };
+/// By a prescribed force, or by a spring whose far end is moved.
+enum class PullBy { kForce, kSpring };
 enum class RegionKind { kNone = -1, kSphere, kBox, kHalfSpace, kAxisDistance, kAll };
 
 template <class E>
@@ -39,11 +42,13 @@ inline constexpr const char* kChoices = nullptr;
 template <>
 inline constexpr const char* kChoices<Experiment> =
     "free|lobule|patch|capsule|relaxation|spheroid|monolayer|optical_stretcher|plates|aspiration|"
-    "narrow_gap";
+    "narrow_gap|pull_off";
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>
 inline constexpr const char* kChoices<CellSource> = "list|clump|box|fill|lobule";
+template <>
+inline constexpr const char* kChoices<PullBy> = "force|spring";
 template <>
 inline constexpr const char* kChoices<RegionKind> = "sphere|box|half_space|axis_distance|all";
 template <>

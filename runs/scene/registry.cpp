@@ -364,6 +364,11 @@ void describe(Visitor& v, Scene& s) {
        .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
                   "through; null = none"},
       s.pipette, describe_pipette);
+  blocks(v,
+         {.name = "pulls",
+          .meaning = "forces on single cells over time, or springs that hold them",
+          .item = "pull"},
+         s.pulls, describe_pull);
   optional_block(v,
                  {.name = "stretcher",
                   .meaning = "two laser beams that pull at deformable cells; null = none"},

@@ -115,6 +115,7 @@ void describe_lobule(Visitor& v, LobuleBlock& b);
 void describe_vessels(Visitor& v, VesselBlock& b);
 void describe_wall(Visitor& v, WallEntry& b);
 void describe_pipette(Visitor& v, PipetteBlock& b);
+void describe_pull(Visitor& v, PullEntry& b);
 void describe_stretcher(Visitor& v, coupling::Stretcher& b);
 void describe_temperature(Visitor& v, coupling::Temperature& b);
 void describe_capsule(Visitor& v, CapsuleEntry& b);

@@ -23,6 +23,9 @@ void check_single_cell(const Scene& scene, Report& report);
 /// The part about plates and pipettes. @pre called by check_rules
 void check_pipette(const Scene& scene, Report& report);
 
+/// The part about pulls on single cells. @pre called by check_rules
+void check_pulls(const Scene& scene, Report& report);
+
 /// The part about one region, which stands at `pointer`.
 void check_region(const Region& region, const std::string& pointer, Report& report);
 

@@ -216,6 +216,12 @@ struct PipetteBlock {  ///< a rigid tube; see contact::Pipette
   Schedule suction;           ///< kPa
 };
 
+/// A force on a single cell over time, or a spring that holds it.
+/// The direction may have any length > 0; build/ finds the anchor.
+struct PullEntry : coupling::Pull {
+  PullBy by = PullBy::kForce;
+};
+
 struct OutputBlock {
   double every = 1800;  ///< s
   /// Further frames when a wall or the capsule opens, so many for every factor ten of the time
@@ -251,6 +257,7 @@ struct Scene {
   std::optional<PipetteBlock> pipette;
   std::optional<coupling::Stretcher> stretcher;
   std::optional<coupling::Temperature> temperature;
+  std::vector<PullEntry> pulls;
   OutputBlock output;
 
   std::string

@@ -71,6 +71,16 @@ void add_passage_figures(const Measures& m, Json& measures) {
   measures["passage_h"] = hours ? number(*hours) : Json(nullptr);
 }
 
+/// The force that took the cells apart, beside that of vesicles.
+void add_pull_off_figures(const Scene& scene, const Measures& m, Json& measures) {
+  const PairOfCells pair = pair_of(scene);
+  const std::optional<double> force = pull_off_force(m);
+  measures["adhesion_energy_J_m2"] = number(1e-3 * pair.adhesion);
+  measures["radius_um"] = number(pair.reduced_radius);
+  measures["pull_off_nN"] = force ? number(*force) : Json(nullptr);
+  measures["ratio_to_piWR"] = force ? number(*force / vesicle_pull_off(pair)) : Json(nullptr);
+}
+
 /// What was run and how it ended.
 void add_run(const SummaryInput& in, Json& j) {
   const coupling::State& s = in.world.state;
@@ -150,6 +160,8 @@ Json list_measures(const SummaryInput& in) {
         number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
   if (in.scene.experiment == Experiment::kAspiration)
     add_aspiration_figures(in.scene, in.measures, measures);
+  if (in.scene.experiment == Experiment::kPullOff)
+    add_pull_off_figures(in.scene, in.measures, measures);
   if (in.scene.experiment == Experiment::kNarrowGap) add_passage_figures(in.measures, measures);
   if (in.scene.experiment == Experiment::kLobule) add_lobule_figures(in.measures, measures);
   return measures;

@@ -82,6 +82,9 @@ TEST(Allocation, AStepOfAWorldThatWasSteppedBeforeAsksForNone) {
     w.params.stretcher.pulse = {{0, 1e6}};
     w.params.temperature.course.entry = {{0, 290}, {1e4, 310}};
     w.params.suction = {Vec3(60, 0, 8), Vec3::UnitZ(), 5, {{{0, 0}, {1e4, 1e-3}}}};
+    w.params.pulls.resize(2);
+    w.params.pulls[0].force.entry = {{0, 0}, {1e4, 1e-3}};
+    w.params.pulls[1].stiffness = 1e-3;
     const Count c = count_allocations(w, 200, 60);
     EXPECT_GT(c.steps, 10);
     EXPECT_EQ(c.held, 0) << "in " << c.steps << " steps";

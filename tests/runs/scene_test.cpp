@@ -201,7 +201,9 @@ TEST(Scene, ResolvedSceneReadsBackToTheSameScene) {
 TEST(Scene, ResolvedSceneNamesEveryUnconditionalKey) {
   const std::string json = parse_scene(kFull, "scene.json").resolved_json;
   for (const Entry& entry : all_entries()) {
-    if (entry.path == "extends" || entry.path.starts_with("static_meshes.")) continue;
+    if (entry.path == "extends" || entry.path.starts_with("static_meshes.") ||
+        entry.path.starts_with("pulls."))
+      continue;
     // kFull has leaders of another kind, no proliferation and cells slowed by other things.
     if (entry.path.starts_with("life.proliferation.") ||
         entry.path.starts_with("motility.leader_c") ||
@@ -468,7 +470,9 @@ TEST(ShippedScenes, EveryModelCanBeChosenFromOutside) {
     for (const char* model : {"dcm", "cbm"}) {
       const std::vector<std::string> set{std::string("model=") + model};
       const Scene read = read_scene(scene.file);
-      const bool deforms = read.stretcher || read.pipette || read.experiment == Experiment::kPlates;
+      const bool deforms = read.stretcher || read.pipette ||
+                           read.experiment == Experiment::kPlates ||
+                           read.experiment == Experiment::kPullOff;
       if (std::string(model) == "cbm" && deforms) {
         EXPECT_NE(file_failure(scene.file, set).find("is for deformable cells"), std::string::npos);
         continue;

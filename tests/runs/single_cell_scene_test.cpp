@@ -126,5 +126,33 @@ TEST(SeriesFriction, IsNotForEveryScene) {
   EXPECT_TRUE(says(with(R"("life": {"sleep": true})"), "is not for cells that may sleep"));
 }
 
+std::string pulls(const std::string& entries, const std::string& experiment = "free") {
+  return failure(
+      with_block(R"("experiment": ")" + experiment + R"(", "pulls": [)" + entries + "]"));
+}
+
+TEST(PullScene, SaysWhatIsWrong) {
+  constexpr const char* kForce = R"("force": [{"time": "9 s", "force": "1 nN"}])";
+  constexpr const char* kSpring = R"("by": "spring", "stiffness": "1e-3 N/m")";
+  EXPECT_EQ(pulls(std::string("{") + kForce + "}"), "");
+  EXPECT_EQ(pulls(std::string("{") + kSpring + "}"), "");
+  EXPECT_TRUE(says(pulls("{}"), "/pulls/0/force: needs an entry"));
+  EXPECT_TRUE(says(pulls(std::string(R"({"cell": 7, )") + kForce + "}"), "/pulls/0/cell = 7"));
+  EXPECT_TRUE(
+      says(pulls(std::string(R"({"direction": [0, 0, 0], )") + kForce + "}"), "has no direction"));
+  EXPECT_TRUE(says(pulls(R"({"by": "spring", "stiffness": "0 N/m"})"), "must be > 0 N/m"));
+  EXPECT_TRUE(says(pulls(R"({"by": "spring"})"), "stiffness"));
+  EXPECT_TRUE(says(pulls(R"({"force": [{"time": "9 s", "force": "1 nN"},
+                            {"time": "8 s", "force": "1 nN"}]})"),
+                   "must not be before /pulls/0/force/0/time"));
+  EXPECT_TRUE(says(pulls(std::string("{") + kForce + "}", "pull_off"), "looks at two cells"));
+}
+
+TEST(PullScene, SpringsAreForDeformableCells) {
+  const std::string text = changed(
+      with_block(R"("pulls": [{"by": "spring", "stiffness": "1e-3 N/m"}])"), "\"dcm\"", "\"cbm\"");
+  EXPECT_TRUE(says(failure(text), "is for deformable cells")) << failure(text);
+}
+
 }  // namespace
 }  // namespace acinus::runs

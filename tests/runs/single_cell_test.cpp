@@ -125,5 +125,20 @@ TEST(NarrowGap, PassageTakesFromTheFirstTouchToTheEnd) {
   EXPECT_NEAR(*passage_time(m), 2, 1e-12);
 }
 
+TEST(PullOff, ForceIsTheLargestThatWasBorne) {
+  Measures m;
+  EXPECT_FALSE(has_come_apart(m));
+  m["pull_force_nN"] = {0, 1, 2, 3};
+  m["contact_area_um2"] = {0, 0, 0, 0};
+  EXPECT_FALSE(has_come_apart(m)) << "they never met";
+  m["contact_area_um2"] = {9, 8, 1, 1};
+  EXPECT_FALSE(pull_off_force(m)) << "they still adhere";
+  m["contact_area_um2"] = {9, 8, 1, 0};
+  EXPECT_TRUE(has_come_apart(m));
+  EXPECT_EQ(*pull_off_force(m), 2);
+  m["pull_force_nN"] = {0, 4, 2, 1};
+  EXPECT_EQ(*pull_off_force(m), 4) << "a spring lets the force fall before the contact is lost";
+}
+
 }  // namespace
 }  // namespace acinus::runs
