@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/contact/jkr.hpp"
+#include "coupling/generate/pipette_surface.hpp"
+#include "coupling/generate/vessel_surface.hpp"
 #include "coupling/step/stages.hpp"
 
 namespace acinus::runs {
@@ -144,12 +146,18 @@ class FrameBuilder {
 
 }  // namespace
 
+mesh::Surface draw_boundary(const contact::Boundary& boundary) {
+  mesh::Surface drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
+  for (const contact::Pipette& p : boundary.pipettes) coupling::add_pipette_surface(p, drawn);
+  return drawn;
+}
+
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
-                     const Snapshot& snapshot, const coupling::VesselSurface& vessels) {
+                     const Snapshot& snapshot, const mesh::Surface& boundary) {
   FrameBuilder builder(snapshot);
   const std::size_t n_body = w.dcm.body.size();
   for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
-  builder.add_surface(vessels.surface.node, vessels.surface.triangle);
+  builder.add_surface(boundary.node, boundary.triangle);
   for (const contact::StaticMesh& m : world.params.boundary.meshes)
     builder.add_surface(m.body.node, *m.triangle);
   for (std::size_t k = n_body; k < snapshot.cells.size(); ++k)

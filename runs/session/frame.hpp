@@ -2,15 +2,19 @@
 /// What a frame of the run file holds of a world, and what the audit sees of it.
 
 #include "core/io/frame.hpp"
-#include "coupling/generate/vessel_surface.hpp"
+#include "core/mesh/surface.hpp"
 #include "coupling/measure/audit.hpp"
 #include "runs/experiments/snapshot.hpp"
 
 namespace acinus::runs {
 
+/// Vessels and pipettes as triangles.
+mesh::Surface draw_boundary(const contact::Boundary& boundary);
+
 /// Fills the arrays of a frame. @pre take_snapshot of the same moment
+/// @param boundary  of draw_boundary
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,
-                     const Snapshot& snapshot, const coupling::VesselSurface& vessels);
+                     const Snapshot& snapshot, const mesh::Surface& boundary);
 
 /// Independent check of overlaps at this moment. @pre take_snapshot of the same moment
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& work,

@@ -39,8 +39,7 @@ Recorder::Recorder(const Scene& scene, const RunOptions& options, coupling::Simu
     : scene_(scene),
       options_(options),
       simulation_(simulation),
-      vessel_surface_(
-          coupling::make_vessel_surface(simulation.world().params.boundary.vessels.network)) {
+      drawn_boundary_(draw_boundary(simulation.world().params.boundary)) {
   life_.start_cells = coupling::count_cells(simulation.world().state);
 }
 
@@ -102,7 +101,7 @@ Excess Recorder::write_frame(bool last) {
   if (simulation_.is_running())
     observables = observe_frame({scene_, world, work, snapshot, audit}, observables_);
   if (world.ranks.is_root())
-    file_->append(make_frame(world, work, snapshot, vessel_surface_), observables);
+    file_->append(make_frame(world, work, snapshot, drawn_boundary_), observables);
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",

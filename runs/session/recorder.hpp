@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/io/run_file.hpp"
+#include "core/mesh/surface.hpp"
 #include "core/timing.hpp"
-#include "coupling/generate/vessel_surface.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/build/notes.hpp"
 #include "runs/experiments/observe.hpp"
@@ -63,7 +63,7 @@ class Recorder {
   const Scene& scene_;
   const RunOptions& options_;
   coupling::Simulation& simulation_;
-  coupling::VesselSurface vessel_surface_;
+  mesh::Surface drawn_boundary_;
   std::optional<io::RunFile> file_;
   RunTotals totals_;
   LifeTotals life_;

@@ -11,6 +11,7 @@
 #include "coupling/generate/buckets.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
+#include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 
 namespace acinus::coupling {
@@ -337,6 +338,38 @@ TEST(VesselSurface, TubesAreClosedOutwardAndHaveTheVolumeOfTenSidedTubes) {
   EXPECT_LT(volume[0], tube + caps);
   EXPECT_GT(volume[1], 0.7 * 4.0 / 3 * kPi * 64);
   EXPECT_NEAR(vessel_volume(net), kPi * std::sqrt(1400.0) * 49 / 3, 1e-9);
+}
+
+TEST(PipetteSurface, IsClosedOutwardAndHasTheVolumeOfA48SidedRing) {
+  for (const double lip : {0.0, 1.5}) {
+    contact::Pipette p;
+    p.mouth = Vec3(1, 2, 3);
+    p.axis = Vec3(2, -1, 2) / 3;
+    p.radius = 5;
+    p.thickness = 4;
+    p.lip = lip;
+    p.length = 30;
+    mesh::Surface s;
+    s.node = {Vec3::Zero()};  // it comes after what is there
+    add_pipette_surface(p, s);
+    std::set<std::pair<int, int>> directed;
+    double volume = 0;
+    for (const auto& [i, j, k] : s.triangle) {
+      for (const auto& e : {std::pair{i, j}, std::pair{j, k}, std::pair{k, i}})
+        EXPECT_TRUE(directed.insert(e).second);
+      volume += s.node[i].dot(s.node[j].cross(s.node[k])) / 6;
+      // Corners lie on the wall (1e-12 of coordinates near 30 um).
+      const double gap = contact::gap_to_wall(p, s.node[i], 0).gap;
+      EXPECT_NEAR(gap, 0, 1e-12);
+    }
+    for (const auto& [i, j] : directed) EXPECT_TRUE(directed.count({j, i}));
+    // Pappus: section times the way of its centre; the section is a rectangle less what four rims
+    // of 16-sided circles leave out, turned about the axis as a 48-sided ring.
+    const double rim = lip * lip * (1 - 2 * std::sin(kPi / 8));
+    const double section = 4 * 30 - 4 * rim;
+    const double ring = 48 / 2 * std::sin(2 * kPi / 48) / kPi;
+    EXPECT_NEAR(volume, ring * section * 2 * kPi * 7, 1e-6 * volume);
+  }
 }
 
 }  // namespace
