@@ -44,7 +44,7 @@ TEST(SceneContactErrors, MaugisDugdaleIsForDeformableCellsAlone) {
                 "is for cells that do not divide. Remove /cell_types/hepatocyte/cycle, or "
                 "choose \"cohesive\"");
   EXPECT_EQ(failure(with_block(R"("contact": {"h0": "20 nm"})")),
-            R"(scene.json:1:22 /contact/h0 = "20 nm": is used only with law = maugis-dugdale. )"
+            R"(scene.json:1:21 /contact/h0 = "20 nm": is used only with law = maugis-dugdale. )"
             "Remove it");
 }
 
