@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "bench/tissue/pulled_pair.hpp"
 #include "core/contact/maugis_triangles.hpp"
@@ -53,8 +54,8 @@ std::vector<LawCase> make_pair_cases() {
       if (nodes != 162 && h0 != 0.02) continue;
       c.h0 = h0;
       const std::string law = name(fmt::format("Maugis-Dugdale, h0 {:g} nm", 1e3 * h0));
-      cases.push_back({law + ", grown", c, false});
-      cases.push_back({law + ", shrunk", c, true});
+      cases.push_back({law, c, false});
+      cases.push_back({law + ", after cohesive", c, true});
     }
   }
   return cases;
@@ -63,7 +64,7 @@ std::vector<LawCase> make_pair_cases() {
 BenchRow measure_pair(const LawCase& l, const BenchOptions& options) {
   const double unit = vesicle_force(l.pair), start = cpu_seconds();
   PairRest free, held;
-  double still = 0, borne = 0, rejected = 0, rigid = 0;
+  double still = 0, borne = 0, rejected = 0;
   for (int k = 0; k < options.seeds; ++k) {
     PairCase c = l.pair;
     c.seed = options.first + k;
@@ -77,7 +78,6 @@ BenchRow measure_pair(const LawCase& l, const BenchOptions& options) {
     still += p.is_still ? 1 : 0;
     borne += p.is_borne ? 1 : 0;
     rejected += static_cast<double>(p.rejected) / static_cast<double>(p.steps);
-    rigid += find_rigid_pull_off(c) / (2 * unit);
   }
   const double n = options.seeds;
   BenchRow row{l.name, 2, {}};
@@ -90,8 +90,26 @@ BenchRow measure_pair(const LawCase& l, const BenchOptions& options) {
                {"held_area_um2", held.area / n},
                {"held_distance_um", held.distance / n},
                {"held_borne", borne / n},
-               {"rigid_ratio_to_2piWR", rigid / n},
                {"cpu_s", (cpu_seconds() - start) / n}};
+  print_row(row);
+  return row;
+}
+
+/// Forces of the pair at rest shape, R = 12 um.
+BenchRow measure_rigid(const LawCase& l, const BenchOptions& options) {
+  double pull = 0, near = 0, nearer = 0;
+  for (int k = 0; k < options.seeds; ++k) {
+    PairCase c = l.pair;
+    c.seed = options.first + k;
+    pull += find_rigid_pull_off(c) / (2 * vesicle_force(c));
+    near += find_rigid_push(c, 23.8);
+    nearer += find_rigid_push(c, 23.4);
+  }
+  const double n = options.seeds;
+  BenchRow row{"rigid " + l.name, 2, {}};
+  row.value = {{"pull_off_ratio_to_2piWR", pull / n},
+               {"push_at_23.8_um_nN", near / n},
+               {"push_at_23.4_um_nN", nearer / n}};
   print_row(row);
   return row;
 }
@@ -177,7 +195,10 @@ BenchRow measure_clump(const std::string& name, ContactLaw law, const BenchOptio
 
 BenchTable bench_contact_laws(const BenchOptions& options) {
   BenchTable table = measure_lifting();
-  for (const LawCase& l : make_pair_cases()) table.push_back(measure_pair(l, options));
+  const std::vector<LawCase> cases = make_pair_cases();
+  for (const LawCase& l : cases)
+    if (!l.after_cohesive) table.push_back(measure_rigid(l, options));
+  for (const LawCase& l : cases) table.push_back(measure_pair(l, options));
   table.push_back(measure_clump("clump13, cohesive", ContactLaw::kCohesive, options));
   table.push_back(measure_clump("clump13, Maugis-Dugdale", ContactLaw::kMaugisDugdale, options));
   return table;

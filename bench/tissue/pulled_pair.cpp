@@ -198,4 +198,8 @@ double find_rigid_pull_off(const PairCase& c) {
   return largest;
 }
 
+double find_rigid_push(const PairCase& c, double distance) {
+  return -PulledPair(c).attraction_at(0.5 * distance);
+}
+
 }  // namespace acinus::bench

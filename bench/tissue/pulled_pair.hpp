@@ -69,4 +69,8 @@ HeldPair hold_pair(const PairCase& c, double force, bool after_cohesive);
 /// rest, nN: 2 pi W R^ by Derjaguin.
 double find_rigid_pull_off(const PairCase& c);
 
+/// Push of the pair on each other with their centres this far apart, um, while both keep their
+/// shape at rest, nN.
+double find_rigid_push(const PairCase& c, double distance);
+
 }  // namespace acinus::bench
