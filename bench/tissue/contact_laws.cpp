@@ -150,6 +150,19 @@ BenchTable measure_lifting() {
   return table;
 }
 
+BenchRow measure_pull_off(const LawCase& l) {
+  const PullOff p = find_pull_off(l.pair);
+  BenchRow row{
+      fmt::format("{}, W {:g} J/m^2, seed {}", l.name, 1e-3 * l.pair.adhesion, l.pair.seed), 2, {}};
+  row.value = {{"ratio_to_piWR", p.force() / vesicle_force(l.pair)},
+               {"pull_off_nN", p.force()},
+               {"area_um2", p.start.area},
+               {"last_area_um2", p.last.area},
+               {"last_distance_um", p.last.distance}};
+  print_row(row);
+  return row;
+}
+
 /// The clump under a law, after two hours.
 BenchRow measure_clump(const std::string& name, ContactLaw law, const BenchOptions& options) {
   runs::Scene scene = runs::read_scene(runs::scene_folder() + "/clump13.json");
@@ -208,19 +221,13 @@ BenchTable bench_contact_laws_pull_off(const BenchOptions& options) {
   BenchTable table;
   for (LawCase& l : make_pair_cases()) {
     if (l.pair.nodes != 162 || l.after_cohesive) continue;
-    for (int k = 0; k < options.seeds; ++k) {
-      l.pair.seed = options.first + k;
-      l.pair.step = PairCase{}.step;
-      const PullOff p = find_pull_off(l.pair);
-      BenchRow row{fmt::format("{}, seed {}", l.name, l.pair.seed), 2, {}};
-      row.value = {{"ratio_to_piWR", p.force() / vesicle_force(l.pair)},
-                   {"pull_off_nN", p.force()},
-                   {"area_um2", p.start.area},
-                   {"last_area_um2", p.last.area},
-                   {"last_distance_um", p.last.distance}};
-      print_row(row);
-      table.push_back(row);
-    }
+    l.pair.step = PairCase{}.step;
+    for (const double adhesion : {0.01, 0.02, 0.05})
+      for (int k = 0; k < options.seeds; ++k) {
+        l.pair.adhesion = adhesion;
+        l.pair.seed = options.first + k;
+        table.push_back(measure_pull_off(l));
+      }
   }
   return table;
 }

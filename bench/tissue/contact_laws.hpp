@@ -17,7 +17,8 @@ namespace acinus::bench {
 /// - 13 cells (scene clump13, spacing 0.99) after 2 h: contacts, area and force of each, pressures.
 BenchTable bench_contact_laws(const BenchOptions& options);
 
-/// Pull-off force of the pair with 162 nodes under both laws, a row for each orientation.
+/// Pull-off force of the pair with 162 nodes under both laws for W from 1e-5 to 5e-5 J/m^2, a row
+/// for each orientation. Forces are held 400 s at most, in steps of 2 s.
 BenchTable bench_contact_laws_pull_off(const BenchOptions& options);
 
 }  // namespace acinus::bench
