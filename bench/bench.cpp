@@ -16,6 +16,7 @@
 #include "bench/step/skipping.hpp"
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress.hpp"
+#include "bench/tissue/contact_laws.hpp"
 #include "bench/tissue/patch.hpp"
 #include "bench/tissue/pull_off.hpp"
 #include "bench/tissue/relaxation.hpp"
@@ -36,6 +37,8 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"cbm100k", bench_cbm100k},
       {"cbm10k", bench_cbm10k},
       {"cbm1m", bench_cbm1m},
+      {"contact-laws", bench_contact_laws},
+      {"contact-laws-pull-off", bench_contact_laws_pull_off},
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},

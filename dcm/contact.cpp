@@ -234,16 +234,45 @@ double rest_share(const mesh::Topology& t, contact::Quadrature q, int point) {
 void find_shares(const ContactInput& in, const contact::ContactList& contacts,
                  ContactWorkspace& work) {
   const double range = in.options.friction_range;
+  const bool points = in.options.law == ContactLaw::kCohesive;
   work.share.resize(work.body.size());
   for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
     std::vector<double>& share = work.share[k];
     const auto number = static_cast<int>(k);
     share.assign(contact::n_points(work.body[k], in.options.quadrature), 0.0);
-    for (const Contact& s : std::ranges::equal_range(contacts.surface(), number, {}, &Contact::a))
+    for (const Contact& s : std::ranges::equal_range(
+             points ? contacts.surface() : std::span<const Contact>{}, number, {}, &Contact::a))
       if (!s.is_fold()) share[s.point] += contact::contact_share(s.gap, range);
     for (const Contact& o : std::ranges::equal_range(contacts.obstacle(), number, {}, &Contact::a))
       if (!o.only_pushes()) share[o.point] += contact::contact_share(o.gap, range);
   });
+  if (!points) add_triangle_shares(contacts, work);
+}
+
+/// Contacts of surfaces with each other and with static meshes, seen from the points.
+void find_point_contacts(const ContactInput& in, const contact::SearchOptions& options,
+                         ContactWorkspace& work, std::vector<Contact>& all) {
+  const std::vector<contact::Candidates>& pair = work.lists.pair;
+  // Each thread takes a run of lists, the first one writes in place: order as with one thread.
+  const std::size_t n_part = count_threads(in.state.n_row());
+  work.found.resize(n_part - 1);
+  std::atomic<std::int64_t> listed = 0, seen = 0;
+  for_each_part(n_part, [&](std::size_t part) {
+    auto& found = part == 0 ? all : work.found[part - 1];
+    const std::size_t before = found.size();
+    found.clear();
+    found.reserve(before + before / 8);  // contacts change little: doubling would waste memory
+    for (std::size_t k = part * pair.size() / n_part; k < (part + 1) * pair.size() / n_part; ++k) {
+      if (pair[k].point.empty()) continue;
+      listed += static_cast<std::int64_t>(pair[k].point.size());
+      seen += static_cast<std::int64_t>(contact::find_contacts(
+          pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
+    }
+  });
+  work.searches += 1;
+  work.points_listed += listed;
+  work.points_seen += seen;
+  for (const auto& f : work.found) all.insert(all.end(), f.begin(), f.end());
 }
 
 }  // namespace
@@ -258,6 +287,13 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
 
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const Contact& o) {
+  if (is_between_triangles(c, o))
+    return {3, (*body.triangle)[o.point], Contact::weights_at(o.place_a())};
+  return probe_stencil(c, body, o);
+}
+
+contact::PointStencil probe_stencil(const ContactParams& c, const contact::SurfaceBody& body,
+                                    const Contact& o) {
   const int n_node = static_cast<int>(body.node.size());
   if (!o.guard) return contact::point_stencil(body, c.quadrature, o.point);
   if (o.point < n_node) return {1, {o.point, 0, 0}, {1, 0, 0}};
@@ -303,28 +339,11 @@ void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
 
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts) {
   const contact::SearchOptions options = search_options(in);
-  const std::vector<contact::Candidates>& pair = work.lists.pair;
-  // Each thread takes a run of lists, the first one writes in place: order as with one thread.
   std::vector<Contact>& all = contacts.all;
-  const std::size_t n_part = count_threads(in.state.n_row());
-  work.found.resize(n_part - 1);
-  std::atomic<std::int64_t> listed = 0, seen = 0;
-  for_each_part(n_part, [&](std::size_t part) {
-    auto& found = part == 0 ? all : work.found[part - 1];
-    const std::size_t before = found.size();
-    found.clear();
-    found.reserve(before + before / 8);  // contacts change little: doubling would waste memory
-    for (std::size_t k = part * pair.size() / n_part; k < (part + 1) * pair.size() / n_part; ++k) {
-      if (pair[k].point.empty()) continue;
-      listed += static_cast<std::int64_t>(pair[k].point.size());
-      seen += static_cast<std::int64_t>(contact::find_contacts(
-          pair[k], work.body, work.fixed, options, relative_motion(work.lists, k), found));
-    }
-  });
-  work.searches += 1;
-  work.points_listed += listed;
-  work.points_seen += seen;
-  for (const auto& f : work.found) all.insert(all.end(), f.begin(), f.end());
+  if (in.options.law == ContactLaw::kMaugisDugdale)
+    find_triangle_contacts(in, work, all);
+  else
+    find_point_contacts(in, options, work, all);
   contacts.surface_end = all.size();
 
   work.obstacle.resize(work.body.size());

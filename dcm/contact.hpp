@@ -15,6 +15,7 @@
 #include "dcm/loads.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
+#include "dcm/triangle_contact.hpp"
 
 namespace acinus::dcm {
 
@@ -24,8 +25,15 @@ enum class FrictionForm {
   kNodes     ///< the nodes of both triangles (node_friction.hpp)
 };
 
+/// How two deformable cells push and pull.
+enum class ContactLaw {
+  kCohesive,      ///< cohesive potential of the gap at contact points (core/contact/cohesive.hpp)
+  kMaugisDugdale  ///< the paper's law between triangles (triangle_contact.hpp)
+};
+
 /// Constants of the surface contact, the same for all cells.
 struct ContactParams {
+  ContactLaw law = ContactLaw::kCohesive;
   contact::Quadrature quadrature = contact::Quadrature::kThreePoint;
   double repulsion = 5;         ///< nN/um^3, k_rep
   double range_factor = 0.3;    ///< cohesive range in mean reference edges of the point's owner
@@ -38,6 +46,10 @@ struct ContactParams {
   double friction_factor = 1;  ///< 0 while cells grow to size
   /// The medium is felt on the whole surface, not only where it touches nothing.
   bool whole_medium_area = false;
+  // Of Maugis-Dugdale alone:
+  double cohesive_range = 0.02;  ///< um, h0
+  double modulus = 10;           ///< kPa, E^
+  double max_radius = 1e3;       ///< um, R^ of surfaces that are flat or fit into each other
 };
 
 /// Folds of one surface are kept this far apart, um.
@@ -68,9 +80,20 @@ struct ContactInput {
 /// more, as far as it is what yields.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
-/// The nodes and weights of a contact's point.
+/// Whether a contact is one of two triangles, whose place on side a is its own, not that of a
+/// point.
+inline bool is_between_triangles(const ContactParams& c, const contact::Contact& k) {
+  return c.law == ContactLaw::kMaugisDugdale && k.partner == contact::Partner::kSurface &&
+         !k.is_fold();
+}
+
+/// The nodes and weights of a contact's point; or of its place between triangles.
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const contact::Contact& contact);
+
+/// The same of a contact that is known to be one of a point.
+contact::PointStencil probe_stencil(const ContactParams& c, const contact::SurfaceBody& body,
+                                    const contact::Contact& contact);
 
 /// Guarding points of a body, and the reference area each stands for, um^2.
 inline std::size_t n_guards(const contact::SurfaceBody& b) {
@@ -94,6 +117,7 @@ struct ContactWorkspace {
   /// [body][point] sum of the touching shares of all contacts of a point; written by:
   /// find_contacts, then added to by the DCM-CBM interface.
   std::vector<std::vector<double>> share;
+  TriangleContactWorkspace triangles;               ///< of Maugis-Dugdale alone
   std::int64_t searches = 0;                        ///< calls of find_contacts
   std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
 };

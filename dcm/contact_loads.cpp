@@ -80,7 +80,7 @@ struct Completion {
     k.force = -law.area * contact::cohesive_traction(law.cohesive, law.clearance);
     k.slope = law.area * contact::cohesive_stiffness(law.cohesive, law.clearance);
     k.friction = static_cast<float>(friction);
-    link.a = side_a(in, work, k);
+    link.a = side_at(in.state, lane_of(k.a), probe_stencil(in.options, body(k.a), k));
     link.b = side_b(in, work, k);
     const double gap = k.is_fold() ? law.clearance : k.gap;
     solve::set_law(k.slope, friction, gap, k.normal, link);
@@ -122,7 +122,18 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   const Completion completion{in, work};
   const std::size_t first = links.size(), n = contacts.obstacle_end;
   links.resize(first + n);
-  for_each_index(n, worth_threads(in.state.n_row()), [&](std::size_t k) {
+  const bool shared = worth_threads(in.state.n_row());
+  if (in.options.law == ContactLaw::kMaugisDugdale) {
+    for_each_index(n, shared, [&](std::size_t k) {
+      Contact& c = contacts.all[k];
+      if (is_between_triangles(in.options, c))
+        complete_triangle_contact(in, work, c, links.link[first + k], links.load[first + k]);
+      else
+        completion.complete(c, links.link[first + k], links.load[first + k]);
+    });
+    return;
+  }
+  for_each_index(n, shared, [&](std::size_t k) {
     completion.complete(contacts.all[k], links.link[first + k], links.load[first + k]);
   });
 }

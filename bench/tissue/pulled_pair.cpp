@@ -26,6 +26,8 @@ runs::Scene make_scene(const PairCase& c) {
   scene.seed = c.seed;
   scene.numerics.max_step = c.step;
   scene.contact.quadrature = c.quadrature;
+  scene.contact.law = c.law;
+  scene.contact.cohesive_range = c.h0;
   scene.contact.cell_friction = c.friction;
   runs::CellType& type = scene.cell_types.begin()->second;
   type.adhesion = c.adhesion;
@@ -71,7 +73,12 @@ class PulledPair {
     coupling::observe(simulation_.world(), simulation_.work());
     const auto adhesion = coupling::find_adhesion(simulation_.world(), simulation_.work());
     const auto nodes = coupling::measure_nodes(simulation_.world(), simulation_.work());
-    PairRest rest{adhesion.area, (center(1) - center(0)).norm(), 0,
+    const auto cells = coupling::measure_cells(simulation_.world(), simulation_.work());
+    PairRest rest{adhesion.area,
+                  (center(1) - center(0)).norm(),
+                  0.5 * (cells[0].cytosol_pressure + cells[1].cytosol_pressure),
+                  0.5 * (cells[0].contact_area + cells[1].contact_area),
+                  0,
                   std::numeric_limits<double>::infinity()};
     int outside = 0;
     for (std::size_t i = 0; i < nodes.tension.size(); ++i) {
@@ -101,6 +108,13 @@ class PulledPair {
     return sum;
   }
 
+  bool is_still() {
+    double largest = 0;
+    for (const double x : state().last_move) largest = std::max(largest, std::abs(x));
+    return largest < kStill * state().clock.last_step;
+  }
+
+  coupling::World& world() { return simulation_.world(); }
   coupling::State& state() { return simulation_.world().state; }
   void restore(const coupling::State& saved) {
     state() = saved;
@@ -113,11 +127,6 @@ class PulledPair {
 
   Vec3 center(int cell) { return dcm::cell_center(state().dcm, kLane[cell]); }
   bool adheres() const { return coupling::any_adhesion(simulation_.world(), simulation_.work()); }
-  bool is_still() {
-    double largest = 0;
-    for (const double x : state().last_move) largest = std::max(largest, std::abs(x));
-    return largest < kStill * state().clock.last_step;
-  }
 
   double hold_;
   coupling::Simulation simulation_;
@@ -156,6 +165,25 @@ PullOff find_pull_off(const PairCase& c) {
   return result;
 }
 
+HeldPair hold_pair(const PairCase& c, double force, bool after_cohesive) {
+  PulledPair pair(c);
+  if (after_cohesive) {
+    pair.world().params.dcm_contact.law = dcm::ContactLaw::kCohesive;
+    check(pair.hold(0), "bench contact-laws: the cells do not adhere", Exit::kCannotContinue);
+    pair.world().params.dcm_contact.law = c.law;
+  }
+  HeldPair result;
+  const coupling::Clock before = pair.state().clock;
+  check(pair.hold(0), "bench contact-laws: the cells let go", Exit::kCannotContinue);
+  result.is_still = pair.is_still();
+  result.free = pair.look();
+  result.steps = pair.state().clock.accepted - before.accepted;
+  result.rejected = pair.state().clock.rejected - before.rejected;
+  result.is_borne = pair.hold(force);
+  result.held = pair.look();
+  return result;
+}
+
 double find_rigid_pull_off(const PairCase& c) {
   PulledPair pair(c);
   const double radius = make_scene(c).cell_types.begin()->second.radius;
@@ -168,6 +196,10 @@ double find_rigid_pull_off(const PairCase& c) {
   const double about = place;
   for (int k = -9; k <= 9; ++k) look(about + 1e-4 * radius * k);
   return largest;
+}
+
+double find_rigid_push(const PairCase& c, double distance) {
+  return -PulledPair(c).attraction_at(0.5 * distance);
 }
 
 }  // namespace acinus::bench

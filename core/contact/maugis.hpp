@@ -1,8 +1,9 @@
 #pragma once
 /// Adhesive elastic spheres with a cohesive ring of constant stress sigma0 between the radius a of
 /// intimate contact and c [Maugis1992]: Eq. (14) to (17) of the model paper with their misprints
-/// corrected. Covers JKR (large lambda) to DMT (small lambda). A reference law: no step of the
-/// program calls it. By overlap: maugis_overlap.hpp; between triangles: maugis_triangles.hpp.
+/// corrected. Covers JKR (large lambda) to DMT (small lambda). A reference law, for
+/// steps by choice of the scene. By overlap: maugis_overlap.hpp; between triangles:
+/// maugis_triangles.hpp.
 ///
 /// Reduced quantities: A = a/a0, C = c/a0, a0 = (3 pi W R^2/(4 E))^(1/3), load = P/(pi W R),
 /// approach = delta R/a0^2. Positive load = repulsive. R and E are the reduced values of the pair.

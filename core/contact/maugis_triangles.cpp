@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/contact/maugis_overlap.hpp"
 
@@ -15,6 +16,10 @@ using Triangle2 = std::array<Vec2, 3>;
 /// Triangles less turned towards the partner than this are seen edge-on: their projection says
 /// nothing about the surface.
 constexpr double kFacing = 0.2;
+
+/// How much deeper than they are two spheres are put to see how their stress grows, um. Not less:
+/// at the rim of the contact the stress rises with an infinite slope.
+constexpr double kDeeper = 0.005;
 
 /// A sphere this flat counts as a plane, 1/um; its centre still keeps nine digits of the overlap.
 constexpr double kPlaneCurvature = 1e-6;
@@ -107,6 +112,42 @@ double stress_at(const MaugisPair& pair, const MaugisPoint& state, double r) {
               : 0.0);
 }
 
+/// The area through which two triangles act on each other, on their contact plane.
+struct PressedArea {
+  TriangleMeeting meeting;
+  Triangle2 flat_a, flat_b;
+  SharedArea shared;
+  MaugisCurve curve;
+  MaugisPoint state;
+};
+
+/// Empty where compute_triangle_forces is zero.
+std::optional<PressedArea> find_pressed_area(const MaugisLaw& law, const CurvedTriangle& a,
+                                             const CurvedTriangle& b) {
+  const TriangleMeeting meeting = meet_triangles(a, b, law.max_radius);
+  if (!(a.normal.dot(meeting.normal) > kFacing && b.normal.dot(meeting.normal) < -kFacing))
+    return {};
+  const PlaneFrame frame = make_frame(meeting, a);
+  const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
+  // Seen from a, the corners of b run clockwise.
+  const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
+  if (shared.n < 3) return {};
+  const MaugisCurve curve = make_maugis_curve(make_pair(law, meeting.radius));
+  const MaugisPoint state = maugis_at_overlap(curve, meeting.overlap);
+  if (state.cohesive_radius == 0.0) return {};
+  return PressedArea{meeting, flat_a, flat_b, shared, curve, state};
+}
+
+/// visit(x, area, stress) at the quadrature points within the radius c; kPa.
+template <class Visit>
+void for_each_stress(const PressedArea& pressed, Visit visit) {
+  for_each_quadrature_point(pressed.shared, [&](const Vec2& x, double area) {
+    const double r = x.norm();
+    if (r <= pressed.state.cohesive_radius)
+      visit(x, area, stress_at(pressed.curve.pair, pressed.state, r));
+  });
+}
+
 }  // namespace
 
 TriangleMeeting meet_triangles(const CurvedTriangle& a, const CurvedTriangle& b,
@@ -130,23 +171,12 @@ TriangleMeeting meet_triangles(const CurvedTriangle& a, const CurvedTriangle& b,
 TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangle& a,
                                        const CurvedTriangle& b) {
   TriangleForces out;
-  const TriangleMeeting meeting = meet_triangles(a, b, law.max_radius);
-  if (!(a.normal.dot(meeting.normal) > kFacing && b.normal.dot(meeting.normal) < -kFacing))
-    return out;
-  const PlaneFrame frame = make_frame(meeting, a);
-  const Triangle2 flat_a = frame.project(a), flat_b = frame.project(b);
-  // Seen from a, the corners of b run clockwise.
-  const SharedArea shared = intersect(flat_a, {flat_b[0], flat_b[2], flat_b[1]});
-  if (shared.n < 3) return out;
-  const MaugisPair pair = make_pair(law, meeting.radius);
-  const MaugisPoint state = maugis_at_overlap(make_maugis_curve(pair), meeting.overlap);
-  if (state.cohesive_radius == 0.0) return out;
+  const std::optional<PressedArea> pressed = find_pressed_area(law, a, b);
+  if (!pressed) return out;
   std::array<double, 3> load_a{}, load_b{};
-  for_each_quadrature_point(shared, [&](const Vec2& x, double area) {
-    const double r = x.norm();
-    if (r > state.cohesive_radius) return;
-    const double force = area * stress_at(pair, state, r);
-    const auto w_a = barycentric(flat_a, x), w_b = barycentric(flat_b, x);
+  for_each_stress(*pressed, [&](const Vec2& x, double area, double stress) {
+    const double force = area * stress;
+    const auto w_a = barycentric(pressed->flat_a, x), w_b = barycentric(pressed->flat_b, x);
     for (int k = 0; k < 3; ++k) {
       load_a[k] -= force * w_a[k];
       load_b[k] += force * w_b[k];
@@ -155,8 +185,32 @@ TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangl
     out.contact_area += area;
   });
   for (int k = 0; k < 3; ++k) {
-    out.on_a[k] = load_a[k] * meeting.normal;
-    out.on_b[k] = load_b[k] * meeting.normal;
+    out.on_a[k] = load_a[k] * pressed->meeting.normal;
+    out.on_b[k] = load_b[k] * pressed->meeting.normal;
+  }
+  return out;
+}
+
+TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
+                                         const CurvedTriangle& b) {
+  TriangleContact out;
+  const std::optional<PressedArea> pressed = find_pressed_area(law, a, b);
+  if (!pressed) return out;
+  out.normal = pressed->meeting.normal;
+  const MaugisPoint deeper = maugis_at_overlap(pressed->curve, pressed->meeting.overlap + kDeeper);
+  for_each_stress(*pressed, [&](const Vec2& x, double area, double stress) {
+    TrianglePart& part = stress > 0.0 ? out.push : out.pull;
+    const double force = area * stress;
+    part.force += force;
+    part.area += area;
+    part.slope += area * (stress_at(pressed->curve.pair, deeper, x.norm()) - stress) / kDeeper;
+    const auto w = barycentric(pressed->flat_a, x);
+    for (int k = 0; k < 3; ++k) part.place_a[k] += force * w[k];
+  });
+  for (TrianglePart* part : {&out.push, &out.pull}) {
+    part->slope = std::max(0.0, part->slope);
+    if (part->force != 0.0)
+      for (double& w : part->place_a) w /= part->force;
   }
   return out;
 }

@@ -2,7 +2,8 @@
 /// The contact law of the model paper between two triangles: Maugis-Dugdale stress of their
 /// spheres, integrated over the area that both share on the contact plane. [VanLiedekerke2020, Eq.
 /// (14) to (17); Odenthal2013]. A reference law, with no energy: the force jumps where the shared
-/// polygon changes its corners. The step uses the cohesive potential instead (cohesive.hpp).
+/// polygon changes its corners. A step uses it only where the scene chooses it
+/// (dcm/triangle_contact.hpp), the cohesive potential otherwise (cohesive.hpp).
 
 #include <array>
 #include <span>
@@ -50,6 +51,23 @@ struct TriangleForces {
 /// farther apart than adhesion reaches.
 TriangleForces compute_triangle_forces(const MaugisLaw& law, const CurvedTriangle& a,
                                        const CurvedTriangle& b);
+
+/// What pushes, or what pulls, of the stress between two triangles: one force at one place.
+struct TrianglePart {
+  double force = 0;                 ///< nN, positive pushes apart
+  double area = 0;                  ///< um^2
+  double slope = 0;                 ///< nN/um, growth of the force with the overlap, not negative
+  std::array<double, 3> place_a{};  ///< barycentric weights of the centre of the force, within a
+};
+
+/// The same forces as those of TriangleForces: stress of one sign acts as one force at its centre,
+/// on b at the place that lies behind it along the normal.
+struct TriangleContact {
+  Vec3 normal = Vec3::Zero();  ///< unit, a to b
+  TrianglePart push, pull;     ///< area 0: there is none
+};
+TriangleContact compute_triangle_contact(const MaugisLaw& law, const CurvedTriangle& a,
+                                         const CurvedTriangle& b);
 
 /// The sum over all pairs of triangles of two surfaces.
 struct SurfaceForces {

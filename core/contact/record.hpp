@@ -3,6 +3,7 @@
 /// in where and how near; a law then says how hard, how stiff and how rough.
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,16 +43,22 @@ struct Contact {
   };
   Vec3 normal = Vec3::Zero();  ///< unit, d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: overlap
-  double onset = 0;            ///< um, how deep inside an obstacle it begins to push
+  /// um, how deep inside an obstacle it begins to push; of two triangles the place on a (place_a)
+  double onset = 0;
   // Written by the law:
   double touching = 0;  ///< um^2 in touch
   double force = 0;     ///< nN, positive pushes apart; without friction
   double slope = 0;     ///< nN/um, its growth with depth, not negative
 
-  std::array<double, 3> weights() const {
+  std::array<double, 3> weights() const { return weights_at(place); }
+  static std::array<double, 3> weights_at(const std::array<float, 2>& place) {
     const double w0 = static_cast<double>(place[0]), w1 = static_cast<double>(place[1]);
     return {w0, w1, 1 - w0 - w1};
   }
+  /// Two triangles (dcm/triangle_contact.hpp): weights of the first two corners of triangle `point`
+  /// of surface a, as `place` has those of b. They stand in `onset`, for lack of room.
+  std::array<float, 2> place_a() const { return std::bit_cast<std::array<float, 2>>(onset); }
+  void set_place_a(const std::array<float, 2>& weight) { onset = std::bit_cast<double>(weight); }
   bool is_fold() const { return partner == Partner::kSurface && a == b; }
   /// A second contact of a point, to push with what the others do not.
   bool only_pushes() const { return guard || onset > 0; }

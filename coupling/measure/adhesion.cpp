@@ -13,7 +13,17 @@ double range_of(const World& world, const Workspace& w, int body) {
 }
 
 bool adheres(const World& world, const Workspace& w, const contact::Contact& k) {
+  if (dcm::is_between_triangles(world.params.dcm_contact, k)) return true;
   return k.partner == contact::Partner::kSurface && !k.is_fold() && k.gap < range_of(world, w, k.a);
+}
+
+/// Area of a contact that adheres, um^2.
+double area_of(const World& world, const Workspace& w, const contact::Contact& k) {
+  const dcm::ContactParams& options = world.params.dcm_contact;
+  if (dcm::is_between_triangles(options, k)) return k.touching;
+  const std::size_t a = k.a;
+  return 0.5 * dcm::point_area(*w.dcm.body[a].topology, options.quadrature, k.point,
+                               w.lanes.radius[w.dcm.lane_of_body[a]]);
 }
 
 }  // namespace
@@ -28,11 +38,13 @@ Adhesion find_adhesion(const World& world, const Workspace& w) {
     if (!adheres(world, w, k)) continue;
     const std::size_t a = k.a;
     const contact::SurfaceBody& body = w.dcm.body[a];
-    adhesion.area += 0.5 * dcm::point_area(*body.topology, options.quadrature, k.point,
-                                           w.lanes.radius[w.dcm.lane_of_body[a]]);
+    adhesion.area += area_of(world, w, k);
     const contact::PointStencil stencil = dcm::stencil_of(options, body, k);
     for (int m = 0; m < stencil.n; ++m)
       if (stencil.weight[m] > 0) adhesion.node[first[a] + stencil.node[m]] = 1;
+    if (!dcm::is_between_triangles(options, k)) continue;  // points of b are seen from b
+    const std::size_t b = k.b;
+    for (const int node : (*w.dcm.body[b].triangle)[k.triangle]) adhesion.node[first[b] + node] = 1;
   }
   return adhesion;
 }

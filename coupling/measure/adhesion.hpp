@@ -10,9 +10,11 @@
 namespace acinus::coupling {
 
 /// The contact of deformable cells with each other. A point is in it while it is within the range
-/// of the cohesive potential of another cell, whether it attracts or presses there.
+/// of the cohesive potential of another cell, whether it attracts or presses there; with the law of
+/// Maugis-Dugdale triangles are, where they push or pull.
 struct Adhesion {
-  double area = 0;  ///< um^2 of the reference surfaces, half of it from either side
+  double area = 0;  ///< um^2 of the reference surfaces, half of it from either side;
+                    ///< Maugis-Dugdale: of the contact planes
   /// [nodes of the deformable cells, body by body] 1: part of a point in contact.
   std::vector<std::uint8_t> node;
 };

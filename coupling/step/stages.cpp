@@ -184,6 +184,8 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);
+  if (phase.dcm.law == dcm::ContactLaw::kMaugisDugdale)
+    dcm::add_place_remainders(in.dcm, w.dcm, w.contacts, w.system.force);
   cbm::add_contact_loads(in.cbm, w.cbm, w.contacts, w.system);
   if (phase.dcm.friction_form == dcm::FrictionForm::kNodes)
     dcm::add_node_friction(in.dcm, w.dcm, w.contacts, w.system.point_links);

@@ -56,6 +56,8 @@ inline constexpr const char* kChoices<coupling::LobuleShape> = "pie|hexagon";
 template <>
 inline constexpr const char* kChoices<contact::Quadrature> = "3-point|nodes|nodes-and-edges";
 template <>
+inline constexpr const char* kChoices<dcm::ContactLaw> = "cohesive|maugis-dugdale";
+template <>
 inline constexpr const char* kChoices<dcm::FrictionForm> = "surface|nodes";
 template <>
 inline constexpr const char* kChoices<coupling::Integrator> =

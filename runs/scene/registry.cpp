@@ -120,35 +120,6 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
          b.from);
 }
 
-void describe_contact(Visitor& v, ContactBlock& b) {
-  choice(v, {.name = "quadrature", .meaning = "contact points of a triangle"}, b.quadrature);
-  v.real({.name = "repulsion",
-          .meaning = "stiffness against overlap, pressure per depth",
-          .dimension = kStiffnessPerArea,
-          .unit = "kPa/um",
-          .range = kPositive},
-         b.repulsion);
-  real_or_auto(v,
-               {.name = "range",
-                .meaning = "range of adhesion in mean reference edge lengths",
-                .range = {.low = 0, .high = 2, .low_open = true},
-                .symbol = "h_0",
-                .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges"},
-               b.range_factor);
-  v.real({.name = "max_depth",
-          .meaning = "deepest overlap a contact point looks for",
-          .dimension = kLength,
-          .unit = "um",
-          .range = kPositive},
-         b.max_depth);
-  v.real({.name = "skin",
-          .meaning = "margin of the neighbour lists",
-          .dimension = kLength,
-          .unit = "um",
-          .range = kPositive},
-         b.skin);
-}
-
 void describe_friction_of_contacts(Visitor& v, Scene& s) {
   FrictionBlock& b = s.friction;
   v.real({.name = "dcm_dcm",

@@ -304,6 +304,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_relaxation(scene, report);
   check_vessels(scene, report);
   check_integrator(scene, report);
+  check_contact_law(scene, report);
   check_single_cell(scene, report);
   check_pipette(scene, report);
   check_pulls(scene, report);

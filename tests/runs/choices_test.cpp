@@ -22,6 +22,8 @@ TEST(Scene, ChoicesAreReadInTheOrderOfTheirValues) {
   EXPECT_EQ(scene("contact.quadrature=nodes").contact.quadrature, Quadrature::kNodes);
   EXPECT_EQ(scene("contact.quadrature=nodes-and-edges").contact.quadrature,
             Quadrature::kNodesAndEdges);
+  EXPECT_EQ(scene("contact.law=cohesive").contact.law, dcm::ContactLaw::kCohesive);
+  EXPECT_EQ(scene("contact.law=maugis-dugdale").contact.law, dcm::ContactLaw::kMaugisDugdale);
   for (const Integrator i :
        {Integrator::kLinearlyImplicit, Integrator::kExplicitEuler, Integrator::kNewton})
     EXPECT_EQ(scene("time.integrator=" + name_of_choice(i)).numerics.integrator, i);

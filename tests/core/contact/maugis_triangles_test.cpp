@@ -53,6 +53,28 @@ TEST(MaugisTriangles, HandValueAtTheMiddleOfAHertzContact) {
   }
 }
 
+// The same triangle: F rises with the root of the overlap, here by 5 nm at once.
+TEST(MaugisTriangles, HandValueOfTheSlope) {
+  const double R = 10, side = 0.1, overlap = 0.2, E = 3, more = 0.005;
+  const double z = 0.5 * overlap - sagitta(R, side);
+  const auto a = make_curved_triangle(equilateral(side, z, true, 0), 1 / R);
+  const auto b = make_curved_triangle(equilateral(side, -z, false, 0), 1 / R);
+  const TriangleContact k = compute_triangle_contact({E, 0, 0}, a, b);
+  const double area = std::sqrt(3.0) / 4 * side * side;
+  const auto force = [&](double delta) {
+    const double radius = std::sqrt(5 * delta);
+    return area * 2 * E / (kPi * 5) * (radius - side * side / 24 / radius);
+  };
+  EXPECT_NEAR(k.push.force, force(overlap), 3.5e-7 * force(overlap));
+  // The term left out, as above, grows as slowly as the force itself.
+  const double expected = (force(overlap + more) - force(overlap)) / more;
+  EXPECT_NEAR(k.push.slope, expected, 1e-6 * expected);
+  EXPECT_EQ(k.pull.area, 0.0);
+  // The contact point lies 10 um from the centres, along a normal good to 1e-12, in sides of 0.1.
+  for (const double w : k.push.place_a) EXPECT_NEAR(w, 1.0 / 3, 1e-10);
+  EXPECT_NEAR((k.normal - Vec3::UnitZ()).norm(), 0, 1e-12);
+}
+
 // The ring pulls with sigma0 wherever a < r < c: here everywhere, with stiff spheres apart.
 TEST(MaugisTriangles, HandValueOfTheRing) {
   const double R = 10, side = 0.1, gap = 0.01, sigma0 = 0.5;
@@ -180,6 +202,35 @@ TEST(MaugisTriangles, TurnsAndShiftsWithTheBodies) {
   // sigma0/h0 by it; with a hundred pairs that is 1e-11 nN of some nN.
   EXPECT_LT(worst, 1e-10 * total);
   EXPECT_NEAR(g.contact_area, f.contact_area, 1e-9 * f.contact_area);
+}
+
+// What pushes and what pulls make up the whole, each at a place within the triangle.
+TEST(MaugisTriangles, PartsMakeUpTheForces) {
+  const RoughPair pair(7);
+  const auto a = make_curved_triangles(pair.a, pair.topology.triangle);
+  const auto b = make_curved_triangles(pair.b, pair.topology.triangle);
+  int both = 0;
+  for (const CurvedTriangle& s : a)
+    for (const CurvedTriangle& t : b) {
+      if ((s.circumcenter - t.circumcenter).norm() > 4) continue;
+      const TriangleForces f = compute_triangle_forces({10, 0.01, 0.5}, s, t);
+      const TriangleContact k = compute_triangle_contact({10, 0.01, 0.5}, s, t);
+      const double size = k.push.force - k.pull.force;  // a hundred points, kEps each
+      EXPECT_GE(k.push.force, 0);
+      EXPECT_LE(k.pull.force, 0);
+      EXPECT_NEAR(k.push.force + k.pull.force, f.normal_force, 1e-13 * size);
+      EXPECT_NEAR(k.push.area + k.pull.area, f.contact_area, 1e-13 * f.contact_area);
+      for (int i = 0; i < 3; ++i) {
+        const double load = k.push.force * k.push.place_a[i] + k.pull.force * k.pull.place_a[i];
+        EXPECT_LE((f.on_a[i] + load * k.normal).norm(), 1e-13 * size);
+        for (const TrianglePart* part : {&k.push, &k.pull}) {
+          EXPECT_GE(part->place_a[i], -1e-13);
+          EXPECT_GE(part->slope, 0);
+        }
+      }
+      both += k.push.area > 0 && k.pull.area > 0 ? 1 : 0;
+    }
+  EXPECT_GT(both, 10);
 }
 
 TEST(MaugisTriangles, ChangingSidesChangesSigns) {

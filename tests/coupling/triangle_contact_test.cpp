@@ -1,0 +1,92 @@
+/// A pair of cells under the law of Maugis-Dugdale, step by step.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "coupling/measure/adhesion.hpp"
+#include "coupling/measure/measure.hpp"
+#include "tests/coupling/worlds.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+constexpr double kApart = 23.9;  ///< um, of the centres; their radius is 12
+
+World make_pair(const Mat3& turn, const Vec3& shift) {
+  World w = make_test_world({{Vec3(-kApart / 2, 0, 0)}, {Vec3(kApart / 2, 0, 0)}}, 2);
+  w.params.dcm_contact.law = dcm::ContactLaw::kMaugisDugdale;
+  w.params.dcm_contact.cell_friction = 0;
+  w.params.dcm[0].medium_friction = 1e-3;
+  w.params.dcm[0].friction_across = 0;  // blind to rotation
+  std::vector<double>& x = w.state.dcm.position;
+  for (std::size_t row = 0; row * kPointStride < x.size(); ++row)
+    for (int l = 0; l < 2; ++l) {
+      const Address a = make_address(row, l);
+      store_point(x.data(), a, turn * load_point(x.data(), a) + shift);
+    }
+  return w;
+}
+
+struct PairAtRest {
+  std::vector<CellMeasure> cell;
+  double area = 0;      ///< um^2
+  double distance = 0;  ///< um
+};
+
+PairAtRest settle(World& world, double time) {
+  Workspace work;
+  size_workspace(world, work);
+  EXPECT_TRUE(run_until(world, work, time));
+  observe(world, work);
+  const std::vector<CellMeasure> cell = measure_cells(world, work);
+  return {cell, find_adhesion(world, work).area, (cell[1].center - cell[0].center).norm()};
+}
+
+TEST(TriangleContactSteps, APairAdheresAndSettlesInOrdinarySteps) {
+  World world = make_pair(Mat3::Identity(), Vec3::Zero());
+  const PairAtRest soon = settle(world, 200), late = settle(world, 400);
+  std::printf(
+      "pair: area %.1f then %.1f um^2, distance %.3f then %.3f um, pressure %.2f Pa; %lld "
+      "steps, %lld rejected; momentum %.1e, torque %.1e\n",
+      soon.area, late.area, soon.distance, late.distance, 1e3 * late.cell[0].cytosol_pressure,
+      static_cast<long long>(world.state.clock.accepted),
+      static_cast<long long>(world.state.clock.rejected), world.state.balance.momentum,
+      world.state.balance.torque);
+  EXPECT_EQ(world.state.clock.accepted, 200);  // of 2 s
+  EXPECT_EQ(world.state.clock.rejected, 0);
+  EXPECT_GT(late.area, 20);
+  EXPECT_LT(late.distance, kApart);
+  EXPECT_NEAR(late.distance, soon.distance, 0.1);
+  EXPECT_GT(late.cell[0].cytosol_pressure, 0);
+  EXPECT_LT(world.state.balance.momentum, 1e-9);  // as of the other law
+  EXPECT_LT(world.state.balance.torque, 1e-9);
+  for (const CellMeasure& m : late.cell) {
+    EXPECT_EQ(m.contacts, 1);
+    // Both see the same contact: its area on the contact planes, less where those are oblique.
+    EXPECT_NEAR(m.contact_area, late.area, 0.05 * late.area);
+    EXPECT_NEAR(m.contact_force, late.cell[0].contact_force, 1e-12);
+  }
+}
+
+// The first steps: later the jumps of the force part what round-off has parted.
+TEST(TriangleContactSteps, TurnAndShiftWithTheCells) {
+  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Vec3 shift(31, -8, 5);
+  World here = make_pair(Mat3::Identity(), Vec3::Zero()), there = make_pair(turn, shift);
+  for (World* w : {&here, &there}) w->params.numerics.cg.tolerance = 1e-10;
+  const PairAtRest p = settle(here, 6), q = settle(there, 6);
+  double worst = 0;
+  for (std::size_t k = 0; k < 2; ++k)
+    worst = std::max(worst, (turn * p.cell[k].center + shift - q.cell[k].center).norm());
+  std::printf("turned and shifted: centres %.1e um, area %.1e um^2\n", worst, q.area - p.area);
+  EXPECT_GT(p.area, 1);
+  // Elements of the matrix are floats and the solve has 1e-10: 1e-7 of moves of 0.1 um a step, with
+  // stresses that grow by sigma0/h0 on the way.
+  EXPECT_LT(worst, 1e-5);
+  EXPECT_NEAR(q.area, p.area, 1e-3 * p.area);
+}
+
+}  // namespace
+}  // namespace acinus::coupling
