@@ -305,6 +305,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_vessels(scene, report);
   check_integrator(scene, report);
   check_single_cell(scene, report);
+  check_inside(scene, report);
   check_pipette(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);

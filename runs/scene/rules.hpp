@@ -20,6 +20,9 @@ void check_course(const Schedule& course, const std::string& pointer, Report& re
 /// The part about experiments on single cells and what only they use. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 
+/// The part about what acts within deformable cells. @pre called by check_rules
+void check_inside(const Scene& scene, Report& report);
+
 /// The part about plates and pipettes. @pre called by check_rules
 void check_pipette(const Scene& scene, Report& report);
 
