@@ -1,6 +1,7 @@
 #include "dcm/nucleus_contact.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 #include "core/contact/closest.hpp"
@@ -9,13 +10,29 @@
 namespace acinus::dcm {
 namespace {
 
+/// Lists of triangles of one thread, so that a warmed-up step allocates nothing.
+struct Scratch {
+  std::vector<int> near;      ///< triangles of the cortex that come into question
+  std::vector<int> nucleus;   ///< all triangles of the nucleus
+  std::vector<int> triangle;  ///< of a block of points, point by point
+  std::vector<float> bound;   ///< um, of each
+};
+
 /// Looks from the nodes of one surface for the nearest places of another.
 class NodeSearch {
  public:
   /// @param near     numbers of the triangles that come into question
   /// @param horizon  um: places as far are not looked for
-  NodeSearch(const contact::SurfaceBody& surface, std::span<const int> near, double horizon)
-      : surface_(surface), near_(near), horizon_(horizon) {}
+  NodeSearch(const contact::SurfaceBody& surface, std::span<const int> near, double horizon,
+             Scratch& scratch)
+      : surface_(surface),
+        near_(near),
+        horizon_(horizon),
+        triangle_(scratch.triangle),
+        bound_(scratch.bound) {
+    triangle_.clear();
+    bound_.clear();
+  }
 
   /// Calls found(node, triangle, weights, normal, gap) for every node within the horizon.
   template <class F>
@@ -70,20 +87,19 @@ class NodeSearch {
   double horizon_;
   contact::PointBlock block_;
   int node_[contact::PointBlock::kSize] = {};
-  std::vector<int> triangle_;
-  std::vector<float> bound_;
+  std::vector<int>& triangle_;
+  std::vector<float>& bound_;
 };
 
 /// Triangles of a surface that come nearer to a point than a distance, um.
-std::vector<int> find_near(const contact::SurfaceBody& b, const Vec3& point, double distance) {
-  std::vector<int> near;
+void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance,
+               std::vector<int>& near) {
+  near.clear();
   for (std::size_t t = 0; t < b.triangle->size(); ++t)
     if ((b.center[t] - point).norm() - b.reach[t] < distance) near.push_back(static_cast<int>(t));
-  return near;
 }
 
 /// Finds the contacts of one cell.
-/// @param horizon  um, beyond which no place is looked for; range: largest gap that is kept
 void find_in_cell(const ContactInput& in, const contact::SurfaceBody& cortex,
                   const contact::SurfaceBody& nucleus, std::size_t lane,
                   std::vector<NucleusContact>& out) {
@@ -93,22 +109,23 @@ void find_in_cell(const ContactInput& in, const contact::SurfaceBody& cortex,
   const Vec3 middle = 0.5 * (nucleus.box.low + nucleus.box.high);
   double reach = 0;
   for (const Vec3& x : nucleus.node) reach = std::max(reach, (x - middle).norm());
-  const std::vector<int> near = find_near(cortex, middle, reach + horizon);
-  if (near.empty()) return;  // most nuclei at most times
+  thread_local Scratch scratch;
+  find_near(cortex, middle, reach + horizon, scratch.near);
+  if (scratch.near.empty()) return;  // most nuclei at most times
 
   const auto keep = [&](NucleusContact c, double between) {
     c.lane = lane;
     c.gap = between - n.gap;
     if (between <= range) out.push_back(c);
   };
-  NodeSearch(cortex, near, horizon)
+  NodeSearch(cortex, scratch.near, horizon, scratch)
       .look(nucleus.node, [&](int i, int triangle, auto weight, const Vec3& normal, double gap) {
         const double area = nucleus.topology->rest_node_area[i] * inner * inner;
         keep({0, true, i, triangle, weight, -normal, 0, 0.5 * area}, -gap);
       });
-  std::vector<int> all(nucleus.triangle->size());
-  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<int>(t);
-  NodeSearch(nucleus, all, horizon)
+  scratch.nucleus.resize(nucleus.triangle->size());
+  std::iota(scratch.nucleus.begin(), scratch.nucleus.end(), 0);
+  NodeSearch(nucleus, scratch.nucleus, horizon, scratch)
       .look(cortex.node, [&](int i, int triangle, auto weight, const Vec3& normal, double gap) {
         const double area = cortex.topology->rest_node_area[i] * outer * outer;
         keep({0, false, i, triangle, weight, normal, 0, 0.5 * area}, gap);

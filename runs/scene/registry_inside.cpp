@@ -39,8 +39,8 @@ void describe_nucleus_shell(Visitor& v, dcm::Nucleus& b) {
           .range = kNotNegative},
          b.area_modulus);
   v.real({.name = "bulk_modulus",
-          .meaning = "resistance to volume change; with this, young, area_modulus and both moduli "
-                     "of the links 0 the nucleus has no effect and is left out",
+          .meaning = "resistance to volume change. With this, young, area_modulus, link_young and "
+                     "link_friction 0 the nucleus has no effect and is left out",
           .dimension = kStress,
           .unit = "Pa",
           .range = kNotNegative},
