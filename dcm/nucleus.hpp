@@ -18,7 +18,7 @@ struct Nucleus {
   double poisson = 0.5;      ///< of its shell
   double area_modulus = 0;   ///< nN/um, of the whole surface
   double bulk_modulus = 5;   ///< kPa
-  double friction = 0.1;     ///< nN s/um^3, with the cytosol, per area of the nucleus
+  double friction = 1e-3;    ///< nN s/um^3, with the cytosol, per area of the nucleus
   double repulsion = 5;      ///< nN/um^3, between nucleus and cortex
   double gap = 0.3;          ///< um, at which that begins
   double link_young = 0;     ///< kPa, of the cytoskeleton between nucleus and cortex

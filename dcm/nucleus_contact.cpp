@@ -1,8 +1,8 @@
 #include "dcm/nucleus_contact.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
+#include <utility>
 
 #include "core/contact/closest.hpp"
 #include "core/threads.hpp"
@@ -10,70 +10,63 @@
 namespace acinus::dcm {
 namespace {
 
-/// Lists of triangles of one thread, so that a warmed-up step allocates nothing.
-struct Scratch {
-  std::vector<int> near;      ///< triangles of the cortex that come into question
-  std::vector<int> nucleus;   ///< all triangles of the nucleus
-  std::vector<int> triangle;  ///< of a block of points, point by point
-  std::vector<float> bound;   ///< um, of each
-};
+constexpr auto kProbes = contact::Quadrature::kThreePoint;
 
-/// Looks from the nodes of one surface for the nearest places of another.
-class NodeSearch {
+/// Looks from points of a cortex for the nearest places of a nucleus.
+class PointSearch {
  public:
-  /// @param near     numbers of the triangles that come into question
   /// @param horizon  um: places as far are not looked for
-  NodeSearch(const contact::SurfaceBody& surface, std::span<const int> near, double horizon,
-             Scratch& scratch)
-      : surface_(surface),
-        near_(near),
-        horizon_(horizon),
-        triangle_(scratch.triangle),
-        bound_(scratch.bound) {
+  PointSearch(const contact::SurfaceBody& cortex, const contact::SurfaceBody& nucleus,
+              double horizon)
+      : cortex_(cortex), nucleus_(nucleus), horizon_(horizon) {
     triangle_.clear();
     bound_.clear();
   }
 
-  /// Calls found(node, triangle, weights, normal, gap) for every node within the horizon.
+  /// Calls found(point, triangle, weights, normal, gap) for every point of these faces that has a
+  /// place within the horizon.
   template <class F>
-  void look(const std::vector<Vec3>& node, F found) {
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      add(static_cast<int>(i), node[i]);
-      if (block_.n == contact::PointBlock::kSize) flush(found);
-    }
+  void look(std::span<const int> faces, F found) {
+    for (const int face : faces)
+      for (int k = 0; k < contact::points_per_site(kProbes); ++k) {
+        add(face * contact::points_per_site(kProbes) + k);
+        if (block_.n == contact::PointBlock::kSize) flush(found);
+      }
     flush(found);
   }
 
  private:
-  void add(int node, const Vec3& x) {
+  void add(int point) {
+    const Vec3 x =
+        contact::point_position(cortex_, contact::point_stencil(cortex_, kProbes, point));
     const std::size_t begin = triangle_.size();
-    for (const int t : near_) {
-      const double bound = (x - surface_.center[t]).norm() - surface_.reach[t];
+    std::size_t likeliest = begin;
+    for (std::size_t t = 0; t < nucleus_.triangle->size(); ++t) {
+      const double bound = (x - nucleus_.center[t]).norm() - nucleus_.reach[t];
       if (bound > horizon_) continue;
-      triangle_.push_back(t);
+      triangle_.push_back(static_cast<int>(t));
       bound_.push_back(static_cast<float>(bound));
+      if (bound_.back() < bound_[likeliest]) likeliest = bound_.size() - 1;
     }
     if (triangle_.size() == begin) return;
-    const auto likeliest = std::ranges::min_element(std::span(bound_).subspan(begin));
-    const auto at = static_cast<std::size_t>(&*likeliest - bound_.data());
-    std::swap(triangle_[begin], triangle_[at]);
-    std::swap(bound_[begin], bound_[at]);
+    std::swap(triangle_[begin], triangle_[likeliest]);
+    std::swap(bound_[begin], bound_[likeliest]);
     const int n = block_.n++;
     for (int m = 0; m < 3; ++m) block_.x[3 * n + m] = x[m];
     block_.begin[n] = static_cast<std::uint32_t>(begin);
     block_.end[n] = static_cast<std::uint32_t>(triangle_.size());
-    node_[n] = node;
+    point_[n] = point;
   }
 
   template <class F>
   void flush(F found) {
     if (block_.n > 0) {
-      contact::find_closest(surface_, {triangle_, bound_}, contact::kRounding, horizon_, block_);
-      contact::find_gaps(surface_, contact::Place::kRounded, block_);
+      contact::find_closest(nucleus_, {triangle_, bound_}, contact::kRounding, horizon_, block_);
+      contact::find_gaps(nucleus_, contact::Place::kRounded, block_);
     }
     for (int i = 0; i < block_.n; ++i) {
       if (block_.triangle[i] < 0) continue;
-      found(node_[i], block_.triangle[i],
+      found(point_[i], block_.triangle[i],
             std::array<float, 2>{block_.rounded[0][i], block_.rounded[1][i]},
             Vec3(block_.normal[0][i], block_.normal[1][i], block_.normal[2][i]), block_.gap[i]);
     }
@@ -82,14 +75,17 @@ class NodeSearch {
     bound_.clear();
   }
 
-  const contact::SurfaceBody& surface_;
-  std::span<const int> near_;
+  const contact::SurfaceBody& cortex_;
+  const contact::SurfaceBody& nucleus_;
   double horizon_;
   contact::PointBlock block_;
-  int node_[contact::PointBlock::kSize] = {};
-  std::vector<int>& triangle_;
-  std::vector<float>& bound_;
+  int point_[contact::PointBlock::kSize] = {};
+  // Candidates of the block, point by point; of this thread: a warmed-up step allocates nothing.
+  static thread_local std::vector<int> triangle_;
+  static thread_local std::vector<float> bound_;
 };
+thread_local std::vector<int> PointSearch::triangle_;
+thread_local std::vector<float> PointSearch::bound_;
 
 /// Triangles of a surface that come nearer to a point than a distance, um.
 void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance,
@@ -105,30 +101,17 @@ void find_in_cell(const ContactInput& in, const contact::SurfaceBody& cortex,
                   std::vector<NucleusContact>& out) {
   const Nucleus& n = *in.params[in.state.group[lane / kLanes].type].nucleus;
   const double range = n.gap + kNucleusAhead, horizon = std::max(range, in.options.max_depth);
-  const double outer = in.lanes.radius[lane], inner = in.lanes.nucleus.radius[lane];
   const Vec3 middle = 0.5 * (nucleus.box.low + nucleus.box.high);
   double reach = 0;
   for (const Vec3& x : nucleus.node) reach = std::max(reach, (x - middle).norm());
-  thread_local Scratch scratch;
-  find_near(cortex, middle, reach + horizon, scratch.near);
-  if (scratch.near.empty()) return;  // most nuclei at most times
-
-  const auto keep = [&](NucleusContact c, double between) {
-    c.lane = lane;
-    c.gap = between - n.gap;
-    if (between <= range) out.push_back(c);
-  };
-  NodeSearch(cortex, scratch.near, horizon, scratch)
-      .look(nucleus.node, [&](int i, int triangle, auto weight, const Vec3& normal, double gap) {
-        const double area = nucleus.topology->rest_node_area[i] * inner * inner;
-        keep({0, true, i, triangle, weight, -normal, 0, 0.5 * area}, -gap);
-      });
-  scratch.nucleus.resize(nucleus.triangle->size());
-  std::iota(scratch.nucleus.begin(), scratch.nucleus.end(), 0);
-  NodeSearch(nucleus, scratch.nucleus, horizon, scratch)
-      .look(cortex.node, [&](int i, int triangle, auto weight, const Vec3& normal, double gap) {
-        const double area = cortex.topology->rest_node_area[i] * outer * outer;
-        keep({0, false, i, triangle, weight, normal, 0, 0.5 * area}, gap);
+  thread_local std::vector<int> near;
+  find_near(cortex, middle, reach + range, near);
+  if (near.empty()) return;  // most nuclei at most times
+  PointSearch(cortex, nucleus, horizon)
+      .look(near, [&](int point, int triangle, auto weight, const Vec3& normal, double distance) {
+        if (distance > range) return;
+        out.push_back({lane, point, triangle, weight, normal, distance - n.gap,
+                       point_area(*cortex.topology, kProbes, point, in.lanes.radius[lane])});
       });
 }
 
@@ -157,8 +140,8 @@ void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& corti
   });
 }
 
-void add_nucleus_contacts(const ContactInput& in, const NucleusWorkspace& work,
-                          solve::Links& links) {
+void add_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortices,
+                          const NucleusWorkspace& work, solve::Links& links) {
   std::size_t at = links.size(), n = at;
   for (std::size_t k = 0; k < work.cortex.size(); ++k) n += work.found[k].size();
   if (n == at) return;
@@ -166,16 +149,15 @@ void add_nucleus_contacts(const ContactInput& in, const NucleusWorkspace& work,
   for (std::size_t k = 0; k < work.cortex.size(); ++k)
     for (const NucleusContact& c : work.found[k]) {
       const Group& g = in.state.group[c.lane / kLanes];
-      const int n_node = g.topology->n_node;
-      const int from = c.probes_cortex ? n_node : 0, to = c.probes_cortex ? 0 : n_node;
-      const auto& corner =
-          (c.probes_cortex ? *g.topology : *g.nucleus.topology).triangle[c.triangle];
+      const int first = g.topology->n_node;
+      const auto& corner = g.nucleus.topology->triangle[c.triangle];
       const double w0 = static_cast<double>(c.weight[0]), w1 = static_cast<double>(c.weight[1]);
       solve::Link& link = links.link[at];
-      link.a = side_at(in.state, c.lane, {1, {from + c.node, 0, 0}, {1, 0, 0}});
-      link.b =
-          side_at(in.state, c.lane,
-                  {3, {to + corner[0], to + corner[1], to + corner[2]}, {w0, w1, 1 - w0 - w1}});
+      link.a = side_at(in.state, c.lane,
+                       contact::point_stencil(cortices.body[work.cortex[k]], kProbes, c.point));
+      link.b = side_at(
+          in.state, c.lane,
+          {3, {first + corner[0], first + corner[1], first + corner[2]}, {w0, w1, 1 - w0 - w1}});
       const double k_closed = in.params[g.type].nucleus->repulsion * c.area;
       const double stiffness = c.gap < 0 ? k_closed : 0;
       solve::set_law(stiffness, 0, c.gap, c.normal, link);

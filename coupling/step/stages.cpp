@@ -122,7 +122,7 @@ void add_nuclei(const dcm::ContactInput& in, Workspace& w) {
   w.first_nucleus_link = w.system.links.size();
   if (!dcm::has_nuclei(in.state)) return;
   dcm::add_nucleus_links(in.state, w.dcm_params, in.lanes, w.system);
-  dcm::add_nucleus_contacts(in, w.nuclei, w.system.links);
+  dcm::add_nucleus_contacts(in, w.dcm, w.nuclei, w.system.links);
 }
 
 void add_suction(const World& world, double step, Workspace& w) {

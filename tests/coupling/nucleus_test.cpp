@@ -6,7 +6,7 @@
 
 #include "core/mesh/audit_body.hpp"
 #include "core/mesh/measures.hpp"
-#include "core/stop.hpp"
+#include "core/threads.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/measure/nuclei.hpp"
@@ -242,6 +242,25 @@ TEST(NucleusInACell, ShrinksInLysis) {
   ASSERT_TRUE(run_until(w, work, 7200));
   EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
   EXPECT_NEAR(nucleus_volume(w.state, 0) / (0.2 * kBirthVolume / 8), 1, 0.05);
+}
+
+TEST(NucleusInACell, HasTheSameBitsForOneAndTwoThreads) {
+  std::vector<std::uint64_t> hash;
+  const int threads = thread_count();
+  for (const int n : {1, 2}) {
+    set_threads(n);
+    std::vector<TestCell> cells;
+    for (int k = 0; k < 12; ++k) cells.push_back({Vec3(23 * (k % 4), 23 * (k / 4), 0)});
+    World w = make_test_world(cells, 60, 162);
+    w.params.dcm[0].nucleus = dcm::Nucleus{.size = 0.75, .link_young = 0.1};
+    give_nuclei(w);
+    Workspace work;
+    size_workspace(w, work);
+    for (int k = 0; k < 5; ++k) ASSERT_TRUE(advance(w, work, 60).accepted);
+    hash.push_back(hash_state(w.state));
+  }
+  set_threads(threads);
+  EXPECT_EQ(hash[0], hash[1]);
 }
 
 TEST(NucleusLeak, IsFoundByCell) {

@@ -65,7 +65,7 @@ struct NucleatedCells {
   void add_links() { add_nucleus_links(state, std::span(&params, 1), lanes, system); }
   void add_contacts() {
     find_contacts();
-    add_nucleus_contacts(input(), nuclei, system.links);
+    add_nucleus_contacts(input(), cortices, nuclei, system.links);
     solve::Operator op;
     op.add_link_forces(system);
   }

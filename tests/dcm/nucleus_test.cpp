@@ -175,21 +175,31 @@ TEST(Nucleus, LinksAreAShellOfThatModulus) {
   EXPECT_NEAR(friction, 3 * form + 0.2 * mesh::shared_icosphere(42).rest_area * 25, 1e-10);
 }
 
-// A node of the nucleus 0.1 um from the cortex, 0.2 less than the gap: f = k a / 2 times that.
+// A face of the cortex put 0.1 um off a face of the nucleus, 0.2 um nearer than the gap: each of
+// its three points pushes with k a / 3 times that.
 TEST(Nucleus, ContactPushesWithItsDepth) {
-  NucleatedCells c = make_nucleated(with_nucleus({.size = 0.5}), {10});
-  const int node = c.n_cortex() + 3;
-  const mesh::Topology& t = *c.state.group[0].topology;
-  // Below the middle of a face of the cortex, along its normal.
-  const auto& corner = t.triangle[7];
-  const Vec3 a = c.point(0, corner[0]), b = c.point(0, corner[1]), d = c.point(0, corner[2]);
-  const Vec3 normal = (b - a).cross(d - a).normalized();
-  c.move(0, node, (a + b + d) / 3 - 0.1 * normal);
+  NucleatedCells c = make_nucleated(with_nucleus({.size = 0.8}), {10});
+  const mesh::Topology &cortex = mesh::shared_icosphere(162), &inner = mesh::shared_icosphere(42);
+  const auto node = [&](int i) { return c.point(0, c.n_cortex() + i); };
+  const auto& corner = inner.triangle[7];
+  const Vec3 a = node(corner[0]), b = node(corner[1]), d = node(corner[2]);
+  const Vec3 normal = (b - a).cross(d - a).normalized(), middle = (a + b + d) / 3;
+  const auto& face = cortex.triangle[3];
+  const Vec3 side[3] = {0.3 * (a - middle), 0.3 * (b - middle), 0.3 * (d - middle)};
+  for (std::size_t k = 0; k < 3; ++k) c.move(0, face[k], middle + side[k] + 0.1 * normal);
   c.reset();
-  c.add_contacts();
-  const double area = mesh::shared_icosphere(42).rest_node_area[3] * 25;
-  EXPECT_NEAR(-c.force(0, node).dot(normal), 5 * 0.5 * area * 0.2, 1e-5);
-  EXPECT_NEAR(c.force(0, node).cross(normal).norm(), 0, 1e-5);
+  c.find_contacts();
+  double force = 0;
+  int n = 0;
+  for (const NucleusContact& k : c.nuclei.found[0]) {
+    if (k.point / 3 != 3) continue;
+    ++n;
+    EXPECT_NEAR(k.gap, -0.2, 1e-6) << "the place is a float";
+    EXPECT_LT((k.normal - normal).norm(), 1e-5);
+    force += -c.params.nucleus->repulsion * k.area * k.gap;
+  }
+  EXPECT_EQ(n, 3);
+  EXPECT_NEAR(force, 5 * cortex.rest_triangle_area[3] * 100 * 0.2, 1e-4);
 }
 
 TEST(Nucleus, InTheMiddleTouchesNothing) {
