@@ -18,9 +18,9 @@ struct Nucleus {
   double poisson = 0.5;      ///< of its shell
   double area_modulus = 0;   ///< nN/um, of the whole surface
   double bulk_modulus = 5;   ///< kPa
-  double friction = 1e-3;    ///< nN s/um^3, with the cytosol, per area of the nucleus
+  double friction = 1e-2;    ///< nN s/um^3, with the cytosol, per area of the nucleus
   double repulsion = 5;      ///< nN/um^3, between nucleus and cortex
-  double gap = 0.3;          ///< um, at which that begins
+  double gap = 0.5;          ///< um, at which that begins
   double link_young = 0;     ///< kPa, of the cytoskeleton between nucleus and cortex
   double link_friction = 0;  ///< kPa s, beside that
 

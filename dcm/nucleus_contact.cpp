@@ -1,6 +1,7 @@
 #include "dcm/nucleus_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -27,30 +28,43 @@ class PointSearch {
   /// place within the horizon.
   template <class F>
   void look(std::span<const int> faces, F found) {
-    for (const int face : faces)
-      for (int k = 0; k < contact::points_per_site(kProbes); ++k) {
-        add(face * contact::points_per_site(kProbes) + k);
-        if (block_.n == contact::PointBlock::kSize) flush(found);
-      }
+    const int kPoints = contact::points_per_site(kProbes);
+    for (const int face : faces) {
+      const std::size_t begin = triangle_.size();
+      list_candidates(face);
+      if (triangle_.size() == begin) continue;
+      for (int k = 0; k < kPoints; ++k) add(face * kPoints + k, begin);
+      if (block_.n + kPoints > contact::PointBlock::kSize) flush(found);
+    }
     flush(found);
   }
 
  private:
-  void add(int point) {
-    const Vec3 x =
-        contact::point_position(cortex_, contact::point_stencil(cortex_, kProbes, point));
-    const std::size_t begin = triangle_.size();
+  /// Lists the triangles that may be nearest to a point of the face, the likeliest first.
+  void list_candidates(int face) {
+    const Vec3& center = cortex_.center[face];
+    const double around = 0.5 * cortex_.reach[face];  // its points are half as far as its corners
+    const std::size_t n = nucleus_.triangle->size(), begin = triangle_.size();
+    squared_.resize(n);
+    for (std::size_t t = 0; t < n; ++t) squared_[t] = (center - nucleus_.center[t]).squaredNorm();
+    const double nearest = std::sqrt(*std::ranges::min_element(squared_));
+    const double farthest = around + std::min(horizon_, nearest + around);
     std::size_t likeliest = begin;
-    for (std::size_t t = 0; t < nucleus_.triangle->size(); ++t) {
-      const double bound = (x - nucleus_.center[t]).norm() - nucleus_.reach[t];
-      if (bound > horizon_) continue;
+    for (std::size_t t = 0; t < n; ++t) {
+      const double limit = farthest + nucleus_.reach[t];
+      if (squared_[t] > limit * limit) continue;
       triangle_.push_back(static_cast<int>(t));
-      bound_.push_back(static_cast<float>(bound));
+      bound_.push_back(static_cast<float>(std::sqrt(squared_[t]) - nucleus_.reach[t] - around));
       if (bound_.back() < bound_[likeliest]) likeliest = bound_.size() - 1;
     }
     if (triangle_.size() == begin) return;
     std::swap(triangle_[begin], triangle_[likeliest]);
     std::swap(bound_[begin], bound_[likeliest]);
+  }
+
+  void add(int point, std::size_t begin) {
+    const Vec3 x =
+        contact::point_position(cortex_, contact::point_stencil(cortex_, kProbes, point));
     const int n = block_.n++;
     for (int m = 0; m < 3; ++m) block_.x[3 * n + m] = x[m];
     block_.begin[n] = static_cast<std::uint32_t>(begin);
@@ -80,12 +94,14 @@ class PointSearch {
   double horizon_;
   contact::PointBlock block_;
   int point_[contact::PointBlock::kSize] = {};
-  // Candidates of the block, point by point; of this thread: a warmed-up step allocates nothing.
+  // Candidates of the block, face by face; of this thread: a warmed-up step allocates nothing.
   static thread_local std::vector<int> triangle_;
-  static thread_local std::vector<float> bound_;
+  static thread_local std::vector<float> bound_;     ///< um, of the distance of each
+  static thread_local std::vector<double> squared_;  ///< um^2, of all triangles from a face
 };
 thread_local std::vector<int> PointSearch::triangle_;
 thread_local std::vector<float> PointSearch::bound_;
+thread_local std::vector<double> PointSearch::squared_;
 
 /// Triangles of a surface that come nearer to a point than a distance, um.
 void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance,

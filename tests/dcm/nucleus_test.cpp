@@ -178,7 +178,7 @@ TEST(Nucleus, LinksAreAShellOfThatModulus) {
 // A face of the cortex put 0.1 um off a face of the nucleus, 0.2 um nearer than the gap: each of
 // its three points pushes with k a / 3 times that.
 TEST(Nucleus, ContactPushesWithItsDepth) {
-  NucleatedCells c = make_nucleated(with_nucleus({.size = 0.8}), {10});
+  NucleatedCells c = make_nucleated(with_nucleus({.size = 0.8, .gap = 0.3}), {10});
   const mesh::Topology &cortex = mesh::shared_icosphere(162), &inner = mesh::shared_icosphere(42);
   const auto node = [&](int i) { return c.point(0, c.n_cortex() + i); };
   const auto& corner = inner.triangle[7];
