@@ -13,6 +13,7 @@
 #include "bench/output/speed_index.hpp"
 #include "bench/output/table.hpp"
 #include "bench/step/assembly.hpp"
+#include "bench/step/nucleus_cost.hpp"
 #include "bench/step/skipping.hpp"
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress.hpp"
@@ -42,6 +43,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm216", bench_dcm216},
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
+      {"nucleus", bench_nucleus},
       {"patch", bench_patch},
       {"pull-off", bench_pull_off},
       {"pull-off-causes", bench_pull_off_causes},

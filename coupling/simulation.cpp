@@ -20,11 +20,13 @@ constexpr double kFirstStep = 0.1;
 
 /// The next moment after `time` at which what acts on the cells changes at once, s; infinite if
 /// nothing does: a wall or a capsule opens, beams go on or off, the course of temperature,
-/// suction or a pull bends.
+/// suction, contraction or a pull bends.
 double next_change(const Params& p, double time) {
   const double later = time + kSameTime;
   double next = std::min(next_switch(p.stretcher, later), p.temperature.course.next(later));
   next = std::min({next, p.suction.pressure.next(later), next_bend(p.pulls, later)});
+  for (const dcm::Params& type : p.dcm)
+    if (type.contraction) next = std::min(next, type.contraction->course.next(later));
   contact::for_each_wall(p.boundary, [&](auto, auto, const auto& wall) {
     if (wall.opens > later) next = std::min(next, wall.opens);
   });

@@ -65,7 +65,7 @@ void begin_start_up(World& world, double initial_radius) {
     const double full = s.dcm.volume[l].to;
     const double shrink = std::cbrt(initial_volume / full);
     const Vec3 center = dcm::cell_center(s.dcm, l);
-    for (int i = 0; i < s.dcm.group[l / kLanes].topology->n_node; ++i) {
+    for (int i = 0; i < s.dcm.group[l / kLanes].n_point(); ++i) {
       const Address a = dcm::node_address(s.dcm, l, i);
       store_point(s.dcm.position.data(), a,
                   center + shrink * (load_point(s.dcm.position.data(), a) - center));

@@ -17,6 +17,7 @@ struct BirthShape {
   double area = 1;                  ///< ratio of the whole surface
   std::vector<double> edge;         ///< [n_edge] ratios of lengths; empty: none
   std::vector<double> triangle;     ///< [n_triangle] ratios of areas; empty: none
+  std::vector<double> link;         ///< [n_node of the nucleus] lengths of its links; empty: all 1
 
   bool is_forgotten(double time) const { return edge.empty() || !(weight.at(time) > 0); }
 };

@@ -11,6 +11,7 @@
 #include "dcm/terms/cortex_tension.hpp"
 #include "dcm/terms/local_area.hpp"
 #include "dcm/terms/medium.hpp"
+#include "dcm/terms/nucleus_shell.hpp"
 #include "dcm/terms/series_spring.hpp"
 #include "dcm/terms/volume.hpp"
 
@@ -22,6 +23,26 @@ bool any_volume(std::span<const Params> params) {
 }
 bool any_area(std::span<const Params> params) {
   return std::ranges::any_of(params, [](const Params& p) { return p.area_modulus > 0; });
+}
+bool any_nucleus(std::span<const Params> params, double Nucleus::*modulus) {
+  return std::ranges::any_of(
+      params, [&](const Params& p) { return p.nucleus && (*p.nucleus).*modulus > 0; });
+}
+
+/// The rank-one families in their order in the system; null: no type needs it.
+struct Families {
+  solve::RankOne *volume = nullptr, *area = nullptr;
+  solve::RankOne *nucleus_volume = nullptr, *nucleus_area = nullptr;
+};
+Families find_families(std::span<const Params> params, solve::System& s) {
+  auto next = s.rank_one.begin();
+  const auto take = [&](bool used) { return used ? &*next++ : nullptr; };
+  Families f;
+  f.volume = take(any_volume(params));
+  f.area = take(any_area(params));
+  f.nucleus_volume = take(any_nucleus(params, &Nucleus::bulk_modulus));
+  f.nucleus_area = take(any_nucleus(params, &Nucleus::area_modulus));
+  return f;
 }
 
 /// Ratios of one cell among those of its group.
@@ -47,6 +68,25 @@ void fill_tension(const State& s, std::size_t lane, LaneData& data) {
   for (std::size_t e = 0; e < n; ++e) {
     tension[e * kLanes + lane % kLanes] = t.force[e];
     length[e * kLanes + lane % kLanes] = t.length[e];
+  }
+}
+
+/// Sizes and links of nuclei.
+void find_nucleus_lanes(const State& s, double time, LaneData& data) {
+  NucleusLanes& n = data.nucleus;
+  if (!has_nuclei(s)) {
+    n = {};
+    return;
+  }
+  n.radius.resize(s.n_lane());
+  n.unit.assign(s.n_lane(), 1.0);
+  n.link.resize(s.group.size());
+  for (std::vector<double>& of_group : n.link) of_group.clear();
+  for (std::size_t l = 0; l < s.n_lane(); ++l) {
+    n.radius[l] = s.group[l / kLanes].nucleus.size * data.radius[l];
+    const BirthShape& birth = s.birth[l];
+    if (!birth.link.empty() && !birth.is_forgotten(time))
+      fill_lane(n.link[l / kLanes], birth.link, birth.weight.at(time), l % kLanes);
   }
 }
 
@@ -77,6 +117,7 @@ void find_lane_data(const State& state, double time, LaneData& data) {
     fill_lane(data.edge[l / kLanes], birth.edge, weight, l % kLanes);
     fill_lane(data.triangle[l / kLanes], birth.triangle, weight, l % kLanes);
   }
+  find_nucleus_lanes(state, time, data);
 }
 
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& s,
@@ -99,10 +140,28 @@ GroupView view_group(const State& state, const LaneData& lanes, const solve::Sys
           lanes.active.data() + k * kLanes};
 }
 
+GroupView view_nuclei(const State& state, const LaneData& lanes, const solve::System& s,
+                      std::size_t k) {
+  const Group& g = state.group[k];
+  const solve::Block block = s.block.empty() ? solve::Block{} : s.block[k];
+  const auto n_edge = static_cast<std::size_t>(g.topology->n_edge);
+  GroupView view = view_group(state, lanes, s, k);
+  view.topology = g.nucleus.topology;
+  view.first_row = g.first_nucleus_row();
+  view.first_spring = block.first_spring + n_edge;
+  view.first_hinge = block.first_hinge + n_edge;
+  view.position = state.position.data() + view.first_row * kPointStride;
+  view.radius = lanes.nucleus.radius.data() + k * kLanes;
+  view.area = lanes.nucleus.unit.data() + k * kLanes;
+  view.edge = view.triangle = view.tension = view.length = nullptr;
+  return view;
+}
+
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& s,
                    bool pull_springs) {
   s.rank_one.resize((any_volume(params) ? 1 : 0) + (any_area(params) ? 1 : 0) +
-                    (pull_springs ? 1 : 0));
+                    (any_nucleus(params, &Nucleus::bulk_modulus) ? 1 : 0) +
+                    (any_nucleus(params, &Nucleus::area_modulus) ? 1 : 0) + (pull_springs ? 1 : 0));
   for (solve::RankOne& family : s.rank_one) {
     family.vector.resize(state.position.size());
     family.coefficient.resize(state.n_lane());
@@ -112,7 +171,7 @@ void size_rank_one(const State& state, std::span<const Params> params, solve::Sy
 void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
                std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& s) {
-  const bool volume = any_volume(params), area = any_area(params);
+  const Families families = find_families(params, s);
   for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     if (s.block[k].still) return;
     const GroupView g = view_group(state, lanes, s, k);
@@ -124,10 +183,13 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
     if (p.bending_stiffness > 0) add_bending(p, g, s);
     if (p.cortex_tension > 0) add_cortex_tension(p, g, s);
     if (p.local_area_modulus > 0) add_local_area(p, g, s);
-    if (volume) add_volume(p, g, s, s.rank_one[0]);
-    if (area) add_area(p, g, s, s.rank_one[volume ? 1 : 0]);
+    if (families.volume) add_volume(p, g, s, *families.volume);
+    if (families.area) add_area(p, g, s, *families.area);
     add_medium(p, g, medium_area.data() + g.first_row * kLanes, s);
     add_body_load(g, cell_force.subspan(k * kLanes, kLanes), s);
+    if (state.group[k].nucleus.exists())
+      add_nucleus_shell(nucleus_shell(p), view_nuclei(state, lanes, s, k), families.nucleus_volume,
+                        families.nucleus_area, s);
   });
 }
 
@@ -166,6 +228,7 @@ std::vector<std::string> skipped_terms(std::span<const Params> params) {
   unless("dcm volume", [](const Params& p) { return p.bulk_modulus > 0; });
   unless("dcm global area", [](const Params& p) { return p.area_modulus > 0; });
   unless("dcm local area", [](const Params& p) { return p.local_area_modulus > 0; });
+  unless("dcm nucleus", [](const Params& p) { return p.nucleus.has_value(); });
   return skipped;
 }
 

@@ -15,6 +15,14 @@
 
 namespace acinus::dcm {
 
+/// What they need of nuclei; all empty where no group has any.
+struct NucleusLanes {
+  std::vector<double> radius;  ///< [n_lane] um, reference radius of the nucleus
+  std::vector<double> unit;    ///< [n_lane] 1: a nucleus has the surface of a sphere
+  /// [group] lengths of links at rest over those of a sphere, [node][lane]; empty: all 1
+  std::vector<std::vector<double>> link;
+};
+
 /// Per-lane numbers the kernels need, made once a step.
 struct LaneData {
   std::vector<double> radius;  ///< [n_lane] um, reference radius at the end of the step; empty: 1
@@ -24,6 +32,7 @@ struct LaneData {
   /// [group] tensions of edges, nN, and their lengths when that was, um; empty: none
   std::vector<std::vector<double>> tension, length;
   std::vector<double> active;  ///< [n_lane] 1 or 0
+  NucleusLanes nucleus;
 };
 LaneData make_lane_data(const State& state, double time);
 void find_lane_data(const State& state, double time, LaneData& data);
@@ -32,12 +41,16 @@ void find_lane_data(const State& state, double time, LaneData& data);
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& system,
                      std::size_t group);
 
-/// Sizes the rank-one families that these parameters need (volume, area, springs that hold cells;
-/// in this order); empty when none.
+/// That of their nuclei, as the terms of a cortex see it. @pre the group has nuclei
+GroupView view_nuclei(const State& state, const LaneData& lanes, const solve::System& system,
+                      std::size_t group);
+
+/// Sizes the rank-one families that are needed (volume, area, the same of nuclei, springs that hold
+/// cells; in this order); empty when none.
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& system,
                    bool pull_springs = false);
 
-/// Adds all terms within cells: cortex, bending, volume, area, medium, body load.
+/// Adds all terms within cells: cortex, bending, volume, area, medium, body load, shells of nuclei.
 /// @param medium_area  [n_row][lane] um^2, area of each node that touches the medium
 /// @param cell_force [n_lane] nN, on the cell as a whole
 void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,

@@ -7,21 +7,34 @@
 
 namespace acinus::dcm {
 
-const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& t, const Params& p) {
-  using Key = std::tuple<const mesh::Topology*, bool, bool>;
+namespace {
+
+/// Edges and, if wanted, hinges of a mesh whose nodes are numbered from `first` on.
+void add_mesh(const mesh::Topology& t, int first, bool hinges, solve::BlockPattern& p) {
+  for (const auto& [i, j] : t.edge) p.spring.push_back({first + i, first + j});
+  // a hinge's third and fourth node are the ends of its edge, in the edge's order
+  if (hinges)
+    for (const auto& h : t.hinge) p.wing.push_back({first + h[0], first + h[1]});
+}
+
+}  // namespace
+
+const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& t, const Params& p,
+                                               const NucleusMesh& nucleus) {
+  using Key = std::tuple<const mesh::Topology*, const mesh::Topology*, bool, bool>;
   static std::mutex mutex;
   static std::map<Key, std::unique_ptr<solve::BlockPattern>> kept;
-  const Key key{&t, p.bending_stiffness > 0, p.local_area_modulus > 0};
+  // The solver wants a hinge about every spring or about none.
+  const bool hinges = p.bending_stiffness > 0 || (nucleus.exists() && p.nucleus->young > 0);
+  const Key key{&t, nucleus.topology, hinges, p.local_area_modulus > 0};
   const std::scoped_lock lock(mutex);
   auto& entry = kept[key];
   if (!entry) {
     entry = std::make_unique<solve::BlockPattern>();
-    entry->n_point = t.n_node;
-    entry->spring = t.edge;
-    // a hinge's third and fourth node are the ends of its edge, in the edge's order
-    if (std::get<1>(key))
-      for (const auto& h : t.hinge) entry->wing.push_back({h[0], h[1]});
-    if (std::get<2>(key)) entry->face = t.triangle;
+    entry->n_point = t.n_node + nucleus.n_node();
+    add_mesh(t, 0, hinges, *entry);
+    if (nucleus.exists()) add_mesh(*nucleus.topology, t.n_node, hinges, *entry);
+    if (p.local_area_modulus > 0) entry->face = t.triangle;
     solve::index_springs(*entry);
   }
   return *entry;

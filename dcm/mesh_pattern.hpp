@@ -8,10 +8,10 @@
 
 namespace acinus::dcm {
 
-/// The elements of a cell of this kind. Kept for the life of the program, keyed by the address of
-/// the topology and by which terms are on.
-const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& topology,
-                                               const Params& params);
+/// The elements of a cell of this kind, those of its nucleus after those of its cortex. Kept for
+/// the life of the program, keyed by the addresses of the topologies and by which terms are on.
+const solve::BlockPattern& shared_mesh_pattern(const mesh::Topology& topology, const Params& params,
+                                               const NucleusMesh& nucleus = {});
 
 /// Points alone, for cells that do not move.
 const solve::BlockPattern& shared_point_pattern(int n_point);

@@ -2,19 +2,23 @@
 /// Mechanical constants of one type of deformable cell. Constant after load.
 
 #include <cmath>
+#include <optional>
 
 #include "core/vec.hpp"
+#include "dcm/contraction.hpp"
+#include "dcm/nucleus.hpp"
 
 namespace acinus::dcm {
 
 struct Params {
-  double spring_stiffness = 0;    ///< nN/um, k_s
-  double bending_stiffness = 0;   ///< nN um, k_b
-  double area_modulus = 0;        ///< nN/um, K_A of the whole surface
-  double local_area_modulus = 0;  ///< nN/um, K_A of each triangle
-  double cortex_tension = 0;      ///< nN/um, active tension T of the surface
-  double bulk_modulus = 0;        ///< kPa, K_V
-  double nodal_friction = 0;      ///< nN s/um, gamma_int per edge
+  double spring_stiffness = 0;             ///< nN/um, k_s
+  double bending_stiffness = 0;            ///< nN um, k_b
+  double area_modulus = 0;                 ///< nN/um, K_A of the whole surface
+  double local_area_modulus = 0;           ///< nN/um, K_A of each triangle
+  double cortex_tension = 0;               ///< nN/um, active tension T of the surface
+  std::optional<Contraction> contraction;  ///< of that tension; empty: constant and uniform
+  double bulk_modulus = 0;                 ///< kPa, K_V
+  double nodal_friction = 0;               ///< nN s/um, gamma_int per edge
   double friction_across = 1;   ///< nodal friction across an edge over that along it: 1 isotropic,
                                 ///< 0 along the edge only (objective)
   double series_friction = 0;   ///< nN s/um, dashpot in series with each spring; 0: none, the
@@ -25,6 +29,7 @@ struct Params {
   double adhesion = 0;          ///< nN/um, W of this type with itself
   double vessel_friction = 0;   ///< nN s/um^3
   double cortex_thickness = 0;  ///< um; rims of daughters are rounded to it
+  std::optional<Nucleus> nucleus;  ///< empty: none
 };
 
 /// Cortex spring constant of a triangular spring net, k_s = (sqrt 3 / 2) E h.

@@ -9,37 +9,49 @@ namespace acinus::dcm {
 
 namespace {
 
-/// Stable grouping: a group is open while it has a free lane and its type and topology match.
+/// Puts the points of a cell where f puts those of the unit cell at rest.
+template <class F>
+void place_points(State& s, std::size_t lane, F f) {
+  const Group& g = s.group[lane / kLanes];
+  const int n = g.topology->n_node;
+  for (int i = 0; i < n; ++i)
+    store_point(s.position.data(), node_address(s, lane, i), f(g.topology->rest[i]));
+  for (int i = 0; i < g.nucleus.n_node(); ++i)
+    store_point(s.position.data(), node_address(s, lane, n + i),
+                f(g.nucleus.size * g.nucleus.topology->rest[i]));
+}
+
+/// Stable grouping: a group is open while it has a free lane and its type and meshes match.
 class Grouping {
  public:
   /// A free lane for one more cell, in a new group if need be.
-  std::size_t add(State& s, int type, const mesh::Topology* topology) {
-    for (auto& [group, lane] : open_)
-      if (s.group[group].type == type && s.group[group].topology == topology) {
+  std::size_t add(State& s, const Group& like) {
+    for (auto& [group, lane] : open_) {
+      const Group& g = s.group[group];
+      if (g.type == like.type && g.topology == like.topology && g.nucleus == like.nucleus) {
         if (lane % kLanes != 0) return lane++;
         group = s.group.size();
-        lane = open_group(s, type, topology);
+        lane = open_group(s, like);
         return lane++;
       }
+    }
     open_.emplace_back(s.group.size(), 0);
-    open_.back().second = open_group(s, type, topology);
+    open_.back().second = open_group(s, like);
     return open_.back().second++;
   }
 
  private:
-  static std::size_t open_group(State& s, int type, const mesh::Topology* topology) {
+  static std::size_t open_group(State& s, const Group& like) {
     const std::size_t lane = s.n_lane(), first = s.n_row();
-    s.group.push_back({topology, first, type});
+    s.group.push_back({like.topology, first, like.type, like.nucleus});
     const std::size_t n = lane + kLanes;
     s.lineage.resize(n, kEmptyLane);
     s.volume.resize(n, Ramp::constant(4.0 / 3 * kPi));
     s.birth.resize(n);
     s.tension.resize(n);
     s.pull.resize(n, Vec3::Zero());
-    s.position.resize((first + topology->n_node) * kPointStride, 0.0);
-    for (std::size_t l = lane; l < n; ++l)
-      for (int i = 0; i < topology->n_node; ++i)
-        store_point(s.position.data(), node_address(s, l, i), topology->rest[i]);
+    s.position.resize((first + like.n_point()) * kPointStride, 0.0);
+    for (std::size_t l = lane; l < n; ++l) place_points(s, l, [](const Vec3& x) { return x; });
     return lane;
   }
   std::vector<std::pair<std::size_t, std::size_t>> open_;  ///< (group, its next lane)
@@ -51,13 +63,12 @@ State make_state(const std::vector<NewCell>& cells) {
   State s;
   Grouping grouping;
   for (const NewCell& c : cells) {
-    const std::size_t lane = grouping.add(s, c.type, c.topology);
+    const std::size_t lane = grouping.add(s, {c.topology, 0, c.type, c.nucleus});
     s.lineage[lane] = c.lineage;
     s.volume[lane] = Ramp::constant(4.0 / 3 * kPi * c.radius * c.radius * c.radius);
     s.pull[lane] = c.pull;
-    for (int i = 0; i < c.topology->n_node; ++i)
-      store_point(s.position.data(), node_address(s, lane, i),
-                  c.center + c.radius * (c.rotation * c.topology->rest[i]));
+    place_points(s, lane,
+                 [&c](const Vec3& x) -> Vec3 { return c.center + c.radius * (c.rotation * x); });
   }
   return s;
 }
@@ -69,14 +80,15 @@ State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane) {
   for (const CellRef& c : cells) {
     const State& from = *c.state;
     const Group& g = from.group[c.lane / kLanes];
-    const std::size_t to = grouping.add(s, c.type < 0 ? g.type : c.type, g.topology);
+    const std::size_t to =
+        grouping.add(s, {g.topology, 0, c.type < 0 ? g.type : c.type, g.nucleus});
     lane.push_back(to);
     s.lineage[to] = from.lineage[c.lane];
     s.volume[to] = from.volume[c.lane];
     s.birth[to] = from.birth[c.lane];
     s.tension[to] = from.tension[c.lane];
     s.pull[to] = from.pull[c.lane];
-    for (int i = 0; i < g.topology->n_node; ++i)
+    for (int i = 0; i < g.n_point(); ++i)
       store_point(s.position.data(), node_address(s, to, i),
                   load_point(from.position.data(), node_address(from, c.lane, i)));
   }
@@ -114,6 +126,19 @@ void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
   for (int i = 0; i < n; ++i) node[i] = load_point(s.position.data(), node_address(s, lane, i));
 }
 
+void copy_nucleus(const State& s, std::size_t lane, std::vector<Vec3>& node) {
+  const Group& g = s.group[lane / kLanes];
+  node.resize(g.nucleus.n_node());
+  for (int i = 0; i < g.nucleus.n_node(); ++i)
+    node[i] = load_point(s.position.data(), node_address(s, lane, g.topology->n_node + i));
+}
+
+void store_nucleus(std::span<const Vec3> node, std::size_t lane, State& s) {
+  const Group& g = s.group[lane / kLanes];
+  for (int i = 0; i < g.nucleus.n_node(); ++i)
+    store_point(s.position.data(), node_address(s, lane, g.topology->n_node + i), node[i]);
+}
+
 std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> params,
                                       std::span<const std::uint8_t> constrained) {
   std::vector<solve::Block> blocks;
@@ -124,8 +149,8 @@ std::vector<solve::Block> make_blocks(const State& s, std::span<const Params> pa
     for (std::size_t l = k * kLanes; l < (k + 1) * kLanes && block.still; ++l)
       block.still = !s.active(l) || constrained[l] != 0;
     const Params& p = params[g.type];
-    block.pattern = block.still ? &shared_point_pattern(g.topology->n_node)
-                                : &shared_mesh_pattern(*g.topology, p);
+    block.pattern = block.still ? &shared_point_pattern(g.n_point())
+                                : &shared_mesh_pattern(*g.topology, p, g.nucleus);
     blocks.push_back(block);
   }
   set_dashpots(s, params, blocks);

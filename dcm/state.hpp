@@ -4,6 +4,7 @@
 /// Cells stand in groups of eight lanes that share one mesh topology and one cell type. A lane
 /// index (group * kLanes + lane) names a cell within the arrays; its lineage id names it for ever.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,11 +26,18 @@ struct Group {
   const mesh::Topology* topology = nullptr;  ///< shared, never owned
   std::size_t first_row = 0;                 ///< first node row in State::position
   int type = 0;                              ///< index into the params
+  NucleusMesh nucleus{};
+
+  /// Points of a cell: nodes of its cortex, then those of its nucleus.
+  int n_point() const { return topology->n_node + nucleus.n_node(); }
+  std::size_t first_nucleus_row() const {
+    return first_row + static_cast<std::size_t>(topology->n_node);
+  }
 };
 
 struct State {
   std::vector<Group> group;
-  std::vector<double> position;  ///< [rows][3][lane] um; empty lanes hold a rest icosphere
+  std::vector<double> position;  ///< [rows][3][lane] um; empty lanes hold rest icospheres
   // Per lane, [n_group * kLanes]:
   std::vector<std::int64_t> lineage;  ///< kEmptyLane where no cell is
   std::vector<Ramp> volume;  ///< um^3, reference volume V0(t); Eq. (18) is its linear growth
@@ -50,7 +58,8 @@ struct NewCell {
   Vec3 center = Vec3::Zero();
   double radius = 0;  ///< um, (3 V0 / 4 pi)^(1/3)
   Vec3 pull = Vec3::Zero();
-  Mat3 rotation = Mat3::Identity();  ///< orientation of the mesh
+  Mat3 rotation = Mat3::Identity();  ///< orientation of the meshes
+  NucleusMesh nucleus{};
 };
 
 /// Groups cells by type and topology in the order given (put them in space-filling order first).
@@ -74,7 +83,7 @@ int count_cells(const State& state);
 std::vector<double> reference_radii(const State& state, double time);
 void find_reference_radii(const State& state, double time, std::vector<double>& radius);
 
-/// Address of a node in arrays that start with the DCM rows.
+/// Address of a node, or of any point of the cell, in arrays that start with the DCM rows.
 inline Address node_address(const State& state, std::size_t lane, int node) {
   return make_address(state.group[lane / kLanes].first_row + node, static_cast<int>(lane % kLanes));
 }
@@ -82,8 +91,17 @@ inline Address node_address(const State& state, std::size_t lane, int node) {
 /// Mean of the nodes weighted by their share of the rest surface.
 Vec3 cell_center(const State& state, std::size_t lane);
 
-/// Copies the nodes of one cell out of the lanes.
+/// Copies the nodes of one cell's cortex out of the lanes.
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
+
+/// Those of its nucleus: none without one.
+void copy_nucleus(const State& state, std::size_t lane, std::vector<Vec3>& node);
+/// @param node  [n_node of the nucleus] um
+void store_nucleus(std::span<const Vec3> node, std::size_t lane, State& state);
+
+inline bool has_nuclei(const State& s) {
+  return std::ranges::any_of(s.group, [](const Group& g) { return g.nucleus.exists(); });
+}
 
 /// The blocks of unknowns these cells contribute, in order.
 /// @param constrained  [n_lane] 1: does not move; empty: all move. Groups without a moving cell

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dcm/terms/area.hpp"
+#include "dcm/terms/cortex_tension.hpp"
 
 namespace acinus::dcm {
 
@@ -27,15 +28,16 @@ std::vector<double> compute_node_tension(const Params& p, const GroupView& g, in
     tension[i] += pull;
     tension[j] += pull;
   }
-  double membrane = p.cortex_tension;
+  double membrane = 0;
   if (p.area_modulus > 0) {
     const double a0 = rest_area(g, lane);
-    membrane += p.area_modulus * (compute_areas(g)[lane] - a0) / a0;
+    membrane = p.area_modulus * (compute_areas(g)[lane] - a0) / a0;
   }
   for (std::size_t i = 0; i < tension.size(); ++i) {
     const int neighbours = t.ring_start[i + 1] - t.ring_start[i];
     tension[i] = std::sqrt(3.0) / neighbours * tension[i] + membrane;
   }
+  if (p.cortex_tension > 0) add_active_tension(p, g, lane, tension);
   return tension;
 }
 

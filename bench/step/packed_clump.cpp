@@ -19,10 +19,11 @@ std::string packed_clump_text(const PackedClump& clump) {
       clump.tolerance ? fmt::format(R"("solver": {{"tolerance": {}}}, )", *clump.tolerance) : "";
   return fmt::format(
       R"({{"name": "clump", "time": {{"end": "12 h"{}}}, {}
-  "cell_types": {{"cell": {{"dcm": {{"nodes": {}, "local_area_modulus": "{} N/m"}}}}}},
+  "cell_types": {{"cell": {{"dcm": {{"nodes": {}, "local_area_modulus": "{} N/m", "nucleus": {}}}}}}},
   "cells": {{"source": "clump", "model": "dcm", "count": {}, "spacing": 0.98, "jitter": 0.01}},
   "motility": {{"random": false}}, "contact": {{"quadrature": "{}"{}}}}})",
-      steps, solver, clump.nodes, clump.local_area_modulus, clump.count, clump.quadrature, skin);
+      steps, solver, clump.nodes, clump.local_area_modulus, clump.nucleus, clump.count,
+      clump.quadrature, skin);
 }
 
 void grow(coupling::World& world) {

@@ -18,6 +18,7 @@ struct PackedClump {
   std::optional<double> skin{};       ///< um, of contact; nothing: by default
   std::optional<double> tolerance{};  ///< of the linear solver; nothing: by default
   double local_area_modulus = 0;      ///< N/m
+  std::string nucleus = "null";       ///< block of the cell type, as JSON
 };
 
 /// Skin of contact lists that costs least in such a clump, um.

@@ -42,10 +42,11 @@ struct Frame {
   std::vector<std::array<std::int64_t, 3>> triangle;  ///< indices into mesh nodes, this frame only
   std::vector<Field> point_data;                      ///< rows: points
   std::vector<std::int64_t> cell_id;  ///< [n_triangle + n_sphere] lineage id, -1 for boundary
-  std::vector<std::uint8_t> kind;     ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall
-  std::vector<Field> cell_data;       ///< rows: triangles, then spheres
-  Table cells;                        ///< /cells: one row per biological cell
-  Table interface;                    ///< /interface: one row per DCM-CBM pair in contact
+  std::vector<std::uint8_t>
+      kind;  ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall, 3 nucleus
+  std::vector<Field> cell_data;  ///< rows: triangles, then spheres
+  Table cells;                   ///< /cells: one row per biological cell
+  Table interface;               ///< /interface: one row per DCM-CBM pair in contact
 };
 
 /// One named scalar of a time series sample.

@@ -32,6 +32,7 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   p.medium_friction = kFriction;
   p.nodal_friction = kFriction;
   p.series_friction = 0;
+  p.nucleus.reset();
   p.viscosity = p.diffusion = p.adhesion = p.vessel_friction = 0;
   small.params.dcm = {p};
   small.params.dcm_contact = world.params.dcm_contact;

@@ -16,6 +16,7 @@
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/world/population.hpp"
+#include "dcm/place_nucleus.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
@@ -84,7 +85,7 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
     const std::int64_t id = s.next_lineage++;
     born.shell_cycle.push_back(inherit(world, mother, id));
     born.shell.push_back({id, group.type, group.topology, Vec3::Zero(), radius,
-                          s.dcm.pull[mother.at], Mat3::Identity()});
+                          s.dcm.pull[mother.at], Mat3::Identity(), group.nucleus});
     born.node.push_back(node);
     born.stretch.push_back(daughters.stretch);
     born.tension.push_back(dcm::mean_tension(s.dcm.tension[mother.at]));
@@ -100,8 +101,19 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
   report.divisions.push_back(f);
 }
 
+/// Gives a daughter a nucleus of her own, with links as long as they have to be at birth.
+void bear_nucleus(const dcm::Params& params, const dcm::NewCell& shell,
+                  const std::vector<Vec3>& node, std::size_t lane, dcm::State& s) {
+  const dcm::Group& group = s.group[lane / kLanes];
+  if (!group.nucleus.exists()) return;
+  const std::vector<Vec3> nucleus =
+      dcm::place_nucleus(group, node, group.nucleus.size * shell.radius, params.nucleus->gap);
+  dcm::store_nucleus(nucleus, lane, s);
+  s.birth[lane].link = dcm::link_ratios(group, shell.radius, node, nucleus);
+}
+
 /// The newborn as a state of their own.
-State make_state(const Newborn& born, double time) {
+State make_state(const World& world, const Newborn& born, double time) {
   State s;
   s.dcm = dcm::make_state(born.shell);
   s.cbm = cbm::make_state(born.sphere);
@@ -115,6 +127,7 @@ State make_state(const Newborn& born, double time) {
     s.dcm.birth[lane] =
         dcm::make_birth_shape(*born.shell[k].topology, born.node[k], born.shell[k].radius,
                               born.stretch[k], {1, 0, time, time + born.mitosis[k]});
+    bear_nucleus(world.params.dcm[born.shell[k].type], born.shell[k], born.node[k], lane, s.dcm);
     if (born.tension[k] != 0)
       s.dcm.tension[lane] =
           dcm::make_tension(*born.shell[k].topology, born.node[k], born.tension[k]);
@@ -232,7 +245,7 @@ LifeReport turn_over(World& world, Workspace& work) {
   divide_shells(world, shells, born, gone, report);
   if (!shells.empty() && stop_requested()) return undo(before, s);
   s.divisions += std::ssize(born.shell) / 2 + std::ssize(born.sphere) / 2;
-  const State newborn = make_state(born, s.clock.time);
+  const State newborn = make_state(world, born, s.clock.time);
   replace_cells(world, gone, dissolves, newborn);
   for_each_cell(s, [&](const Cell& c) {  // new cells start to grow, or rest where a rule says so
     if (s.cycle[c.index].parent >= 0 && s.cycle[c.index].birth == s.clock.time)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "coupling/step/stages.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/mesh_remedy.hpp"
+#include "dcm/place_nucleus.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
@@ -49,21 +51,57 @@ double find_stretch(const State& s, std::size_t lane, const std::vector<Vec3>& n
   return mesh::compute_area(node, t.triangle) / (t.rest_area * radius * radius * rest);
 }
 
-void replace_mesh(State& s, std::size_t lane, const std::vector<Vec3>& node) {
+/// How much longer links are than at rest, all together.
+double find_link_stretch(const State& s, std::size_t lane, std::span<const double> ratio) {
+  const dcm::BirthShape& b = s.dcm.birth[lane];
+  const double time = s.clock.time, weight = b.is_forgotten(time) ? 0 : b.weight.at(time);
+  double present = 0, rest = 0;
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    present += ratio[i];
+    rest += b.link.empty() ? 1 : 1 + weight * (b.link[i] - 1);
+  }
+  return present / rest;
+}
+
+/// Turns the nucleus with the new mesh of its cortex and keeps the mean stretch of its links.
+/// @param old  [n_node] um, of the cortex, whose new nodes are in place already
+/// @return     lengths of the links at rest, for the cell's birth shape; empty: there is no nucleus
+std::vector<double> adapt_nucleus(const dcm::Params& params, std::size_t lane,
+                                  const std::vector<Vec3>& old, const std::vector<Vec3>& node,
+                                  State& s) {
+  const dcm::Group& group = s.dcm.group[lane / kLanes];
+  if (!group.nucleus.exists()) return {};
+  const double radius = reference_radius(s, lane);
+  std::vector<Vec3> before;
+  dcm::copy_nucleus(s.dcm, lane, before);
+  const double stretch = find_link_stretch(s, lane, dcm::link_ratios(group, radius, old, before));
+  std::vector<Vec3> nucleus = dcm::turn_nucleus(group, node, before);
+  if (nucleus.empty())
+    nucleus = dcm::place_nucleus(group, node, group.nucleus.size * radius, params.nucleus->gap);
+  dcm::store_nucleus(nucleus, lane, s.dcm);
+  std::vector<double> link = dcm::link_ratios(group, radius, node, nucleus);
+  for (double& l : link) l /= stretch;
+  return link;
+}
+
+void replace_mesh(const dcm::Params& params, State& s, std::size_t lane,
+                  const std::vector<Vec3>& node) {
   std::vector<Vec3> old;
   dcm::copy_nodes(s.dcm, lane, old);
   const double stretch = find_stretch(s, lane, old), t = s.clock.time;
+  std::vector<double> link = adapt_nucleus(params, lane, old, node, s);
   s.dcm.birth[lane] = dcm::make_birth_shape(topology_of(s, lane), node, reference_radius(s, lane),
                                             stretch, {1, 0, t, t + kForget});
+  s.dcm.birth[lane].link = std::move(link);
   dcm::EdgeTension& tension = s.dcm.tension[lane];
   if (!tension.is_new())
     tension = dcm::make_tension(topology_of(s, lane), node, dcm::mean_tension(tension));
-  const bool moved = has_last_move(s);
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const Address a = dcm::node_address(s.dcm, lane, static_cast<int>(i));
-    store_point(s.dcm.position.data(), a, node[i]);
-    if (moved) store_point(s.last_move.data(), a, Vec3::Zero());
-  }
+  for (std::size_t i = 0; i < node.size(); ++i)
+    store_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, static_cast<int>(i)),
+                node[i]);
+  if (has_last_move(s))
+    for (int i = 0; i < s.dcm.group[lane / kLanes].n_point(); ++i)
+      store_point(s.last_move.data(), dcm::node_address(s.dcm, lane, i), Vec3::Zero());
   if (lane < s.asleep.size()) s.asleep[lane] = 0;
 }
 
@@ -120,7 +158,8 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
     mending.events.push_back(
         {mended[k].ok ? "remeshed" : "mesh_degenerate", {lineage}, describe(mended[k])});
     if (!mended[k].ok) continue;
-    replace_mesh(s, lanes[k], mended[k].node);
+    replace_mesh(world.params.dcm[s.dcm.group[lanes[k] / kLanes].type], s, lanes[k],
+                 mended[k].node);
     changed.push_back(lineage);
   }
   if (!changed.empty()) {

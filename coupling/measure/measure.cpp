@@ -146,7 +146,7 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   NodeMeasure n;
   std::vector<double> contact(s.dcm.position.size(), 0.0);
   const solve::Links& links = w.system.links;
-  for (std::size_t l = 0; l < links.size(); ++l) {
+  for (std::size_t l = 0; l < w.first_nucleus_link; ++l) {
     const solve::Stencil stencil = solve::stencil_of(links.link[l]);
     const Vec3 f = links.load[l].force * links.load[l].normal;
     for (int k = 0; k < stencil.n; ++k)
@@ -158,7 +158,7 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
     const dcm::Group& group = s.dcm.group[lane / kLanes];
     const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
     const auto tension =
-        dcm::compute_node_tension(world.params.dcm[group.type], g, static_cast<int>(lane % kLanes));
+        dcm::compute_node_tension(w.dcm_params[group.type], g, static_cast<int>(lane % kLanes));
     const double r2 = w.lanes.radius[lane] * w.lanes.radius[lane];
     for (int i = 0; i < group.topology->n_node; ++i) {
       const std::size_t k = i;

@@ -45,12 +45,18 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
           force_at(cbm::cell_address(s.dcm.n_row(), c.at)).norm() / (4 * kPi * r * r);
       return;
     }
-    const mesh::Topology& t = *s.dcm.group[c.at / kLanes].topology;
-    const double r2 = w.lanes.radius[c.at] * w.lanes.radius[c.at];
+    const dcm::Group& g = s.dcm.group[c.at / kLanes];
     double sum = 0;
-    for (int i = 0; i < t.n_node; ++i)
-      sum += force_at(dcm::node_address(s.dcm, c.at, i)).squaredNorm() / (t.rest_node_area[i] * r2);
-    traction[c.index] = std::sqrt(sum / (t.rest_area * r2));
+    const auto add = [&](const mesh::Topology& t, int first, double r2) {
+      for (int i = 0; i < t.n_node; ++i)
+        sum += force_at(dcm::node_address(s.dcm, c.at, first + i)).squaredNorm() /
+               (t.rest_node_area[i] * r2);
+    };
+    const double r2 = w.lanes.radius[c.at] * w.lanes.radius[c.at];
+    add(*g.topology, 0, r2);
+    if (g.nucleus.exists())
+      add(*g.nucleus.topology, g.topology->n_node, g.nucleus.size * g.nucleus.size * r2);
+    traction[c.index] = std::sqrt(sum / (g.topology->rest_area * r2));
   });
   return traction;
 }

@@ -42,8 +42,9 @@ std::size_t lane_of(const Workspace& w, Address a) {
 constexpr double kLeastArea = 0.25;
 
 /// Whether a move turns a face over, or nearly, or folds two faces of an edge through each other.
-bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
-  const mesh::Topology& t = *s.group[lane / kLanes].topology;
+/// @param first  number of the mesh's first node among the points of the cell
+bool turns_over(const dcm::State& s, std::size_t lane, const mesh::Topology& t, int first,
+                const std::vector<double>& move) {
   struct Normals {
     Vec3 before, after;
   };
@@ -52,7 +53,7 @@ bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>
   for (const auto& corner : t.triangle) {
     Vec3 before[3], after[3];
     for (std::size_t m = 0; m < 3; ++m) {
-      const Address a = dcm::node_address(s, lane, corner[m]);
+      const Address a = dcm::node_address(s, lane, first + corner[m]);
       before[m] = load_point(s.position.data(), a);
       after[m] = before[m] + load_point(move.data(), a);
     }
@@ -65,14 +66,21 @@ bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>
     const Normals &f = normal[t.edge_triangle[e][0]], &g = normal[t.edge_triangle[e][1]];
     if (f.before.dot(g.before) > 0 || f.after.dot(g.after) > 0) continue;
     // Faces beyond a right angle on both sides of the step: the edge must bend the same way still.
-    const Address a = dcm::node_address(s, lane, t.edge[e][0]),
-                  b = dcm::node_address(s, lane, t.edge[e][1]);
+    const Address a = dcm::node_address(s, lane, first + t.edge[e][0]),
+                  b = dcm::node_address(s, lane, first + t.edge[e][1]);
     const Vec3 along = load_point(s.position.data(), b) - load_point(s.position.data(), a);
     const Vec3 moved = load_point(move.data(), b) - load_point(move.data(), a);
     if (f.before.cross(g.before).dot(along) * f.after.cross(g.after).dot(along + moved) < 0)
       return true;
   }
   return false;
+}
+
+/// The same for cortex and nucleus of a cell.
+bool turns_over(const dcm::State& s, std::size_t lane, const std::vector<double>& move) {
+  const dcm::Group& g = s.group[lane / kLanes];
+  if (turns_over(s, lane, *g.topology, 0, move)) return true;
+  return g.nucleus.exists() && turns_over(s, lane, *g.nucleus.topology, g.topology->n_node, move);
 }
 
 /// What the moves of cells come to.
@@ -199,10 +207,11 @@ Assessment assess_contacts(const World& world, const Workspace& w) {
   const bool pair = link.b.exists();
   const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
   const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
+  const bool inner = deep >= w.first_nucleus_link;
+  const std::string into = inner ? "its nucleus" : pair ? name_lane(s, b) : "its boundary";
   Assessment result = reject(s,
                              fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
-                                         depth_after(world, w, deep),
-                                         pair ? name_lane(s, b) : std::string("its boundary")),
+                                         depth_after(world, w, deep), into),
                              a);
   if (pair && b != a) result.cells.push_back(lineage_of(s, b));
   return result;

@@ -16,7 +16,7 @@ bool shapes_oscillate(const World& world, double step, const Workspace& w) {
   double product = 0, now2 = 0, before2 = 0;
   for (std::size_t lane = 0; lane < s.dcm.n_lane(); ++lane) {
     if (!s.dcm.active(lane)) continue;
-    const int n = s.dcm.group[lane / kLanes].topology->n_node;
+    const int n = s.dcm.group[lane / kLanes].n_point();
     auto velocity = [&](const std::vector<double>& move, double h, int i) -> Vec3 {
       return load_point(move.data(), dcm::node_address(s.dcm, lane, i)) / h;
     };

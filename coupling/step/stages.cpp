@@ -6,6 +6,7 @@
 #include "coupling/world/leaders.hpp"
 #include "dcm/node_friction.hpp"
 #include "dcm/terms/medium.hpp"
+#include "dcm/terms/nucleus_links.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -69,6 +70,7 @@ void refresh_lists(const InterfaceInput& in, Workspace& w) {
 void search_contacts(const InterfaceInput& in, Workspace& w) {
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(in.dcm, w.dcm, w.contacts);
+  dcm::find_nucleus_contacts(in.dcm, w.dcm, w.nuclei);
   w.cbm.overlap_sum.clear();
   if (cbm::has_correction(in.cbm.params)) cbm::find_overlaps(in.cbm, w.cbm);
   find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
@@ -100,16 +102,27 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
 /// The time of a step whose middle decides what holds in it, s since t = 0.
 double middle_of(const World& world, double step) { return time_since_start(world) + 0.5 * step; }
 
-/// Steps end where the temperature jumps, so its value in their middle is of second order.
+/// Steps end where a course jumps, so its value in their middle is of second order.
 void find_params(const World& world, double step, Workspace& w) {
   w.dcm_params = world.params.dcm;
   set_temperature(world.params.temperature, middle_of(world, step), w.dcm_params);
+  for (dcm::Params& p : w.dcm_params)
+    if (p.contraction)
+      p.cortex_tension *= contraction_factor(*p.contraction, middle_of(world, step));
   dcm::set_dashpots(world.state.dcm, w.dcm_params, w.system.block);
 }
 
 void add_stretch(const World& world, double step, Workspace& w) {
   const dcm::StretchLoad load = stretch_at(world.params.stretcher, middle_of(world, step));
   if (load.stress > 0) dcm::add_stretch_loads(world.state.dcm, w.lanes, load, w.system);
+}
+
+/// After all other contacts: those of nuclei have no record in the list of contacts.
+void add_nuclei(const dcm::ContactInput& in, Workspace& w) {
+  w.first_nucleus_link = w.system.links.size();
+  if (!dcm::has_nuclei(in.state)) return;
+  dcm::add_nucleus_links(in.state, w.dcm_params, in.lanes, w.system);
+  dcm::add_nucleus_contacts(in, w.dcm, w.nuclei, w.system.links);
 }
 
 void add_suction(const World& world, double step, Workspace& w) {
@@ -190,6 +203,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   if (phase.dcm.friction_form == dcm::FrictionForm::kNodes)
     dcm::add_node_friction(in.dcm, w.dcm, w.contacts, w.system.point_links);
   if (selection.interface) add_interface_loads(in, w.dcm, w.cbm.modulus, w.contacts, links);
+  add_nuclei(in.dcm, w);
   add_constraint(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);

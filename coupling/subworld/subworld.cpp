@@ -28,7 +28,7 @@ Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
 bool have_same_cells(const State& a, const State& b) {
   return a.dcm.lineage == b.dcm.lineage && a.cbm.lineage == b.cbm.lineage &&
          std::ranges::equal(a.dcm.group, b.dcm.group, [](const dcm::Group& g, const dcm::Group& h) {
-           return g.topology == h.topology && g.type == h.type;
+           return g.topology == h.topology && g.type == h.type && g.nucleus == h.nucleus;
          });
 }
 
@@ -38,7 +38,7 @@ void for_each_moving_point(const Subworld& sub, const State& to, F f) {
   const State& from = sub.world.state;
   for (std::size_t k = 0; k < sub.moving.dcm.size(); ++k) {
     const std::size_t lane = sub.moving.dcm[k];
-    const int n = to.dcm.group[lane / kLanes].topology->n_node;
+    const int n = to.dcm.group[lane / kLanes].n_point();
     for (int i = 0; i < n; ++i)
       f(dcm::node_address(from.dcm, sub.lane[k], i), dcm::node_address(to.dcm, lane, i));
   }

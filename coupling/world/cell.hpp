@@ -45,7 +45,7 @@ inline const CycleParams& cycle_of(const Params& p, const State& s, const Cell& 
 template <class F>
 void for_each_point(const State& s, const Cell& c, F f) {
   if (!c.deformable) return f(cbm::cell_address(s.dcm.n_row(), c.at));
-  const int n = s.dcm.group[c.at / kLanes].topology->n_node;
+  const int n = s.dcm.group[c.at / kLanes].n_point();
   for (int i = 0; i < n; ++i) f(dcm::node_address(s.dcm, c.at, i));
 }
 

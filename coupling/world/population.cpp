@@ -46,8 +46,8 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
     const State& from = *dcm[k].state;
     copy_cell(from, dcm[k].index, lane[k]);
     if (!has_last_move(from)) continue;
-    const int n_node = from.dcm.group[dcm[k].index / kLanes].topology->n_node;
-    for (int i = 0; i < n_node; ++i)
+    const int n_point = from.dcm.group[dcm[k].index / kLanes].n_point();
+    for (int i = 0; i < n_point; ++i)
       store_point(s.last_move.data(), dcm::node_address(s.dcm, lane[k], i),
                   load_point(from.last_move.data(), dcm::node_address(from.dcm, dcm[k].index, i)));
   }

@@ -12,6 +12,7 @@
 #include "coupling/world/interface.hpp"
 #include "coupling/world/migration.hpp"
 #include "coupling/world/world.hpp"
+#include "dcm/nucleus_contact.hpp"
 
 namespace acinus::coupling {
 
@@ -34,6 +35,7 @@ struct Workspace {
   solve::RigidWorkspace rigid;
   solve::CoarseSpace coarse;
   dcm::ContactWorkspace dcm;
+  dcm::NucleusWorkspace nuclei;
   cbm::ContactWorkspace cbm;
   InterfaceWorkspace interface;          ///< written by: find_all_contacts
   contact::ContactList contacts;         ///< written by: find_all_contacts, completed by: assemble
@@ -42,6 +44,7 @@ struct Workspace {
   std::vector<double> cbm_strength;      ///< empty: all 1; written by: find_references
   std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
   std::vector<dcm::Params> dcm_params;   ///< of the step; written by: assemble
+  std::size_t first_nucleus_link = 0;    ///< links from there on are of nuclei; by the same
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
   MediumFriction medium_friction;        ///< written by: assemble
   CellForces forces;                     ///< written by: assemble

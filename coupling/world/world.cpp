@@ -105,6 +105,7 @@ std::uint64_t hash_state(const State& s) {
   for (const dcm::BirthShape& b : s.dcm.birth) {
     add(b.edge);
     add(b.triangle);
+    add(b.link);
     if (!b.edge.empty()) add(std::array{b.area, b.weight.start, b.weight.end});
   }
   for (const dcm::EdgeTension& t : s.dcm.tension) {

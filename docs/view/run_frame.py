@@ -5,7 +5,7 @@
 """
 import os
 
-DCM, CBM, VESSEL = 0, 1, 2
+DCM, CBM, VESSEL, NUCLEUS = 0, 1, 2, 3
 
 
 class UserError(Exception):

@@ -34,7 +34,7 @@ Mat3 random_rotation(std::uint64_t seed, std::int64_t lineage) {
 }
 
 void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
-               const std::vector<std::string>& types, const std::vector<cbm::Params>& params,
+               const std::vector<std::string>& types, const coupling::Params& params,
                coupling::State& state) {
   std::vector<Vec3> centers;
   for (const PlacedCell& c : cells) centers.push_back(c.center);
@@ -47,9 +47,10 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
     if (c.deformable) {
       shells.push_back(
           {c.lineage, type, &mesh::shared_icosphere(t.dcm.nodes), c.center, c.radius, c.pull,
-           c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage)});
+           c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage),
+           dcm::nucleus_mesh(params.dcm[type].nucleus ? &*params.dcm[type].nucleus : nullptr)});
     } else {
-      const double young = cbm::draw_young(params[type], scene.seed, c.lineage);
+      const double young = cbm::draw_young(params.cbm[type], scene.seed, c.lineage);
       spheres.push_back({c.lineage, type, c.center, c.radius, young, c.pull});
     }
   }
@@ -115,7 +116,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     c.radius *= std::cbrt(1 + coupling::draw_start_age(p.life.type[type], scene.seed, c.lineage));
   }
   check_starts(scene, cells, p.boundary);
-  add_cells(scene, cells, built.type_names, p.cbm, world.state);
+  add_cells(scene, cells, built.type_names, p, world.state);
   if (scene.start_up.enabled)
     coupling::begin_start_up(world, scene.start_up.initial_radius);
   else

@@ -114,14 +114,53 @@ void get_tensions(const io::CheckpointData& d, dcm::State& s) {
   }
 }
 
+/// Nuclei by group: nodes, 0 for none, and their size over that of the cell.
+void put_nuclei(const dcm::State& s, io::CheckpointData& d) {
+  if (!dcm::has_nuclei(s)) return;
+  std::vector<std::int64_t> nodes;
+  std::vector<double> size, link;
+  for (const dcm::Group& g : s.group) {
+    nodes.push_back(g.nucleus.n_node());
+    size.push_back(g.nucleus.size);
+  }
+  for (const dcm::BirthShape& b : s.birth) link.insert(link.end(), b.link.begin(), b.link.end());
+  d.put("dcm/nucleus_nodes", nodes);
+  d.put("dcm/nucleus_size", size);
+  d.put("dcm/birth_link", link);
+}
+
+dcm::NucleusMesh nucleus_of(const io::CheckpointData& d, std::size_t group) {
+  if (!d.contains("dcm/nucleus_nodes")) return {};
+  const std::vector<std::int64_t>& nodes = d.integers("dcm/nucleus_nodes");
+  const std::vector<double>& size = d.numbers("dcm/nucleus_size");
+  check_same(d, "dcm/nucleus_nodes", group < nodes.size() ? 1 : 0, 1);
+  check_same(d, "dcm/nucleus_size", size.size(), nodes.size());
+  if (nodes[group] == 0) return {};
+  return {&mesh::shared_icosphere(static_cast<int>(nodes[group])), size[group]};
+}
+
+/// Lengths of links at birth, of the cells that remember their shape. @pre get_birth_shapes
+void get_birth_links(const io::CheckpointData& d, dcm::State& s) {
+  if (!d.contains("dcm/birth_link")) return;
+  const std::vector<double>& numbers = d.numbers("dcm/birth_link");
+  auto at = numbers.begin();
+  for (std::size_t l = 0; l < s.n_lane(); ++l) {
+    const auto n = static_cast<std::ptrdiff_t>(s.group[l / kLanes].nucleus.n_node());
+    if (n == 0 || s.birth[l].edge.empty()) continue;
+    check_same(d, "dcm/birth_link", numbers.end() - at >= n ? 1 : 0, 1);
+    s.birth[l].link.assign(at, at + n);
+    at += n;
+  }
+}
+
 void get_shells(const io::CheckpointData& d, dcm::State& s) {
   s = {};
   const std::vector<std::int64_t>& group = d.integers("dcm/group");
   std::size_t rows = 0;
   for (std::size_t k = 0; k + 1 < group.size(); k += 2) {
     const mesh::Topology& topology = mesh::shared_icosphere(static_cast<int>(group[k + 1]));
-    s.group.push_back({&topology, rows, static_cast<int>(group[k])});
-    rows += static_cast<std::size_t>(topology.n_node);
+    s.group.push_back({&topology, rows, static_cast<int>(group[k]), nucleus_of(d, k / 2)});
+    rows += static_cast<std::size_t>(s.group.back().n_point());
   }
   const std::size_t n = s.group.size() * kLanes;
   s.position = d.numbers("dcm/position");
@@ -132,6 +171,7 @@ void get_shells(const io::CheckpointData& d, dcm::State& s) {
   check_same(d, "dcm/lineage", s.lineage.size(), n);
   check_same(d, "dcm/volume", s.volume.size(), n);
   get_birth_shapes(d, s);
+  get_birth_links(d, s);
   get_tensions(d, s);
   check_same(d, "dcm/pull", s.pull.size(), n);
 }
@@ -250,6 +290,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   d.put("dcm/lineage", s.dcm.lineage);
   d.put("dcm/volume", flatten(s.dcm.volume));
   put_birth_shapes(s.dcm, d);
+  put_nuclei(s.dcm, d);
   put_tensions(s.dcm, d);
   d.put("dcm/pull", flatten(s.dcm.pull));
   d.put("cbm/position", s.cbm.position);

@@ -72,6 +72,8 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
   type.diffusion = 0;
   type.dcm.local_area_modulus =
       std::max(type.dcm.local_area_modulus, kLeastLocalArea * type.dcm.bulk_modulus);
+  type.dcm.nucleus.reset();  // spheres have neither
+  type.dcm.contraction.reset();
   type.cbm.young_spread = 0;
   type.cbm.stiffness_correction = "none";
   s.cell_types = {{name, type}};

@@ -110,6 +110,8 @@ void describe_cycle(Visitor& v, coupling::CycleParams& b);
 void describe_inhibition(Visitor& v, coupling::Inhibition& b);
 void describe_death(Visitor& v, CellType& b);
 void describe_life(Visitor& v, LifeBlock& b);
+void describe_contraction(Visitor& v, dcm::Contraction& b);
+void describe_nucleus(Visitor& v, dcm::Nucleus& b);
 void describe_cells(Visitor& v, CellsBlock& b);
 void describe_region(Visitor& v, Region& b);
 void describe_lobule(Visitor& v, LobuleBlock& b);

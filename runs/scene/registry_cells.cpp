@@ -52,6 +52,11 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .unit = "N/m",
           .range = kNotNegative},
          b.cortex_tension);
+  optional_block(v,
+                 {.name = "contraction",
+                  .meaning = "how that tension varies over time and over the surface; null = it "
+                             "does not"},
+                 b.contraction, describe_contraction);
   v.real({.name = "bulk_modulus",
           .meaning = "resistance of the cell to volume change",
           .dimension = kStress,
@@ -87,6 +92,10 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .range = kPositive,
           .symbol = "gamma_ECM+"},
          b.medium_friction);
+  optional_block(v,
+                 {.name = "nucleus",
+                  .meaning = "a second surface inside the cell; null = none. Spheres have none"},
+                 b.nucleus, describe_nucleus);
 }
 
 void describe_cbm(Visitor& v, CbmBlock& b) {

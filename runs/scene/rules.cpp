@@ -306,6 +306,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_integrator(scene, report);
   check_contact_law(scene, report);
   check_single_cell(scene, report);
+  check_inside(scene, report);
   check_pipette(scene, report);
   check_pulls(scene, report);
   check_start_up(scene, report);

@@ -23,6 +23,9 @@ void check_single_cell(const Scene& scene, Report& report);
 /// The part about the law of contact. @pre called by check_rules
 void check_contact_law(const Scene& scene, Report& report);
 
+/// The part about what acts within deformable cells. @pre called by check_rules
+void check_inside(const Scene& scene, Report& report);
+
 /// The part about plates and pipettes. @pre called by check_rules
 void check_pipette(const Scene& scene, Report& report);
 

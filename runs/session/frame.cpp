@@ -13,7 +13,7 @@ namespace {
 
 using coupling::CellMeasure, coupling::NodeMeasure;
 
-constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2;
+constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2, kNucleus = 3;
 
 /// Appends one number per component.
 void push(io::Field& field, double value) { field.value.push_back(static_cast<float>(value)); }
@@ -82,6 +82,12 @@ class FrameBuilder {
     add_triangles(*body.triangle, body.node.size(), &cell, kShell);
   }
 
+  void add_nucleus(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle,
+                   const CellMeasure& cell) {
+    for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
+    add_triangles(triangle, node.size(), &cell, kNucleus);
+  }
+
   void add_surface(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle) {
     for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
     add_triangles(triangle, node.size(), nullptr, kBoundary);
@@ -144,6 +150,18 @@ class FrameBuilder {
   std::size_t node_ = 0;   ///< of those of cells
 };
 
+void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapshot& snapshot,
+                FrameBuilder& builder) {
+  std::vector<Vec3> node;
+  for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
+    const std::size_t lane = w.dcm.lane_of_body[b];
+    const dcm::NucleusMesh& nucleus = s.group[lane / kLanes].nucleus;
+    if (!nucleus.exists()) continue;
+    dcm::copy_nucleus(s, lane, node);
+    builder.add_nucleus(node, nucleus.topology->triangle, snapshot.cells[b]);
+  }
+}
+
 }  // namespace
 
 mesh::Surface draw_boundary(const contact::Boundary& boundary) {
@@ -157,6 +175,7 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
   FrameBuilder builder(snapshot);
   const std::size_t n_body = w.dcm.body.size();
   for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
+  if (dcm::has_nuclei(world.state.dcm)) add_nuclei(world.state.dcm, w, snapshot, builder);
   builder.add_surface(boundary.node, boundary.triangle);
   for (const contact::StaticMesh& m : world.params.boundary.meshes)
     builder.add_surface(m.body.node, *m.triangle);

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/sphere.hpp"
+#include "coupling/measure/nuclei.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -57,6 +59,19 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
   return worst;
 }
 
+/// The nucleus that stands farthest outside its cortex. Contact looks max_depth far for the way
+/// back, so that a half of it is still safe.
+Excess find_leak(const coupling::World& world) {
+  const coupling::NucleusLeak leak = coupling::find_nucleus_leak(world.state);
+  const double limit = 0.5 * world.params.dcm_contact.max_depth;
+  if (!(leak.depth_um > limit)) return {};
+  return {leak.depth_um - limit,
+          fmt::format("the nucleus of DCM cell {} stands {:.3g} um outside its cortex, beyond the "
+                      "{:.3g} um that contact mends",
+                      leak.cell, leak.depth_um, limit),
+          {leak.cell}};
+}
+
 }  // namespace
 
 double deepest_overlap(const coupling::World& world) {
@@ -72,6 +87,7 @@ double deepest_overlap(const coupling::World& world) {
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,
                    const coupling::Workspace& work) {
   Excess worst = find_lost_sphere(audit, world, work);
+  if (Excess leak = find_leak(world); leak.depth_um > worst.depth_um) worst = std::move(leak);
   const auto look = [&](const coupling::WorstPair& pair, double limit, const char* what,
                         std::size_t n_cell) {
     if (pair.depth_um - limit <= worst.depth_um) return;

@@ -23,9 +23,9 @@ struct Excess {
 };
 
 /// The worst of: a cell turned inside out; deformable cells deeper in something than
-/// deepest_overlap; a sphere whose centre lies in a cell, another sphere, behind a wall, in a
-/// vessel or on the wrong side of a static mesh, where forces no longer separate them.   @pre
-/// observe() of the same moment
+/// deepest_overlap; a nucleus outside its cortex by half of what contact looks for; a sphere whose
+/// centre lies in a cell, another sphere, behind a wall, in a vessel or on the wrong side of a
+/// static mesh, where forces no longer separate them.   @pre observe() of the same moment
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,
                    const coupling::Workspace& work);
 

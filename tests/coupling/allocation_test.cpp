@@ -75,6 +75,20 @@ Count count_allocations(World& w, int warm_up, int n) {
   return count;
 }
 
+/// A nucleus pressed against one side of its cell, with links: all of it is at work.
+TEST(Allocation, NucleiAskForNoneEither) {
+  World w = make_test_world({{Vec3::Zero()}, {Vec3(23, 0, 0)}}, 10, 42);
+  w.params.dcm[0].nucleus = dcm::Nucleus{.size = 0.7, .link_young = 0.1};
+  give_nuclei(w);
+  std::vector<Vec3> nucleus;
+  dcm::copy_nucleus(w.state.dcm, 0, nucleus);
+  for (Vec3& x : nucleus) x.x() += 2.8;
+  dcm::store_nucleus(nucleus, 0, w.state.dcm);
+  const Count c = count_allocations(w, 200, 60);
+  EXPECT_GT(c.steps, 10);
+  EXPECT_EQ(c.held, 0) << "in " << c.steps << " steps";
+}
+
 TEST(Allocation, AStepOfAWorldThatWasSteppedBeforeAsksForNone) {
   for (const auto& [deformable, spheres] : {std::pair(true, false), {false, true}, {true, true}}) {
     World w = make_row(deformable, spheres);

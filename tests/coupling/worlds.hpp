@@ -62,6 +62,22 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
   return w;
 }
 
+/// Gives all deformable cells the nuclei of their types, at rest in their middle.
+/// @pre they are round, one group a type
+inline void give_nuclei(World& w) {
+  std::vector<dcm::NewCell> shells;
+  const dcm::State old = w.state.dcm;
+  for (std::size_t l = 0; l < old.n_lane(); ++l) {
+    if (!old.active(l)) continue;
+    const dcm::Group& g = old.group[l / kLanes];
+    const auto& nucleus = w.params.dcm[static_cast<std::size_t>(g.type)].nucleus;
+    shells.push_back({old.lineage[l], g.type, g.topology, dcm::cell_center(old, l),
+                      std::cbrt(3 * old.volume[l].to / (4 * kPi)), old.pull[l], Mat3::Identity(),
+                      dcm::nucleus_mesh(nucleus ? &*nucleus : nullptr)});
+  }
+  w.state.dcm = dcm::make_state(shells);
+}
+
 /// Steps until the time is reached; returns false if a step failed.
 inline bool run_until(World& world, Workspace& work, double time) {
   while (world.state.clock.time < time - 1e-9) {

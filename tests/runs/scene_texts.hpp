@@ -32,7 +32,9 @@ inline constexpr const char* kFull = R"({
   "start_up": {"enabled": true, "initial_radius": "3 um", "growth_time": "1 h"},
   "cell_types": {
     "old": {"radius": "11.3 um", "adhesion": "2.5e-5 J/m^2",
-            "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_across": 0},
+            "dcm": {"nodes": 642, "cortex_young": "0.9 kPa", "nodal_friction_across": 0,
+                    "cortex_tension": "1e-4 N/m", "nucleus": {"size": 0.4},
+                    "contraction": {"ring": 0.5, "course": [{"time": "1 s", "factor": 2}]}},
             "cycle": {"time": "23.7 h", "spread": 0.07, "mitosis": "50 min", "force_ramp": 0.2,
                       "axis": "given", "direction": [0, 1, 1], "start": "random"},
             "inhibition": {"by": "pressure", "pressure_threshold": "210 Pa", "power": 3},

@@ -57,6 +57,25 @@ coupling::State living() {
   return s;
 }
 
+TEST(StateFile, KeepsNuclei) {
+  coupling::World w = coupling::make_test_world({{Vec3::Zero()}, {Vec3(30, 0, 0)}}, 60, 162);
+  w.params.dcm[0].nucleus = dcm::Nucleus{};
+  coupling::give_nuclei(w);
+  coupling::State& saved = w.state;
+  saved.dcm.birth[1] = living().dcm.birth[0];
+  const mesh::Topology& t = *saved.dcm.group[0].topology;
+  saved.dcm.birth[1].edge.resize(static_cast<std::size_t>(t.n_edge), 1.2);
+  saved.dcm.birth[1].triangle.resize(static_cast<std::size_t>(t.n_triangle), 1.2);
+  saved.dcm.birth[1].link.assign(42, 1.4);
+  io::CheckpointData data;
+  put_state(saved, data);
+  coupling::State s;
+  get_state(data, s);
+  EXPECT_EQ(coupling::hash_state(s), coupling::hash_state(saved));
+  EXPECT_EQ(s.dcm.group[0].nucleus, saved.dcm.group[0].nucleus);
+  EXPECT_EQ(s.dcm.birth[1].link, saved.dcm.birth[1].link);
+}
+
 TEST(StateFile, KeepsLives) {
   const coupling::State saved = living();
   coupling::State s;

@@ -1,0 +1,27 @@
+#include "coupling/measure/nuclei.hpp"
+
+#include <vector>
+
+#include "core/mesh/audit_body.hpp"
+
+namespace acinus::coupling {
+
+NucleusLeak find_nucleus_leak(const State& s) {
+  NucleusLeak worst;
+  std::vector<Vec3> cortex, nucleus;
+  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
+    const dcm::Group& g = s.dcm.group[l / kLanes];
+    if (!s.dcm.active(l) || !g.nucleus.exists()) continue;
+    dcm::copy_nodes(s.dcm, l, cortex);
+    dcm::copy_nucleus(s.dcm, l, nucleus);
+    const mesh::AuditBody body(cortex, g.topology->triangle);
+    for (const Vec3& x : nucleus) {
+      if (body.locate(x) != mesh::Location::kOutside) continue;
+      const double depth = body.distance(x);
+      if (depth > worst.depth_um) worst = {depth, s.dcm.lineage[l]};
+    }
+  }
+  return worst;
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include "core/units.hpp"
+#include "runs/scene/rules.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
+
+void check_contraction(const Scene& scene, const std::string& dcm, const DcmBlock& b,
+                       Report& report) {
+  if (!b.contraction) return;
+  const std::string pointer = dcm + "/contraction";
+  if (!(b.cortex_tension > 0))
+    report.add_relation({dcm + "/cortex_tension", pointer},
+                        "\"" + format_quantity(b.cortex_tension, kTension, "N/m") + "\"",
+                        "leaves " + pointer + " nothing to vary. Give a tension above 0 N/m");
+  if (b.contraction->axis.norm() == 0)
+    report.add_relation({pointer + "/axis"}, "[0, 0, 0]", "has no direction");
+  check_course(b.contraction->course, pointer + "/course", report);
+  if (scene.life.sleep && !b.contraction->course.entry.empty())
+    report.add_relation({pointer + "/course", "/life/sleep"}, "",
+                        "is not for cells that may sleep: a tension that changes would not wake "
+                        "them. Set /life/sleep to false");
+}
+
+/// Faces of the coarsest mesh stand this far inside the sphere of its volume.
+constexpr double kInnerRadius = 0.9;
+
+/// The smallest radius that a cell of this type has at the start, um, and the key that says so.
+struct Smallest {
+  double radius;
+  std::string pointer;
+};
+Smallest find_smallest(const Scene& scene, const std::string& name, const CellType& type) {
+  Smallest s{type.radius, "/cell_types/" + name + "/radius"};
+  for (std::size_t k = 0; k < scene.cells.list.size(); ++k) {
+    const CellEntry& c = scene.cells.list[k];
+    if ((c.type.empty() || c.type == name) && c.radius && *c.radius < s.radius)
+      s = {*c.radius, fmt::format("/cells/list/{}/radius", k)};
+  }
+  if (scene.start_up.enabled && scene.start_up.initial_radius < s.radius)
+    s = {scene.start_up.initial_radius, "/start_up/initial_radius"};
+  return s;
+}
+
+void check_nucleus(const Scene& scene, const std::string& name, const CellType& type,
+                   Report& report) {
+  if (!type.dcm.nucleus) return;
+  const dcm::Nucleus& n = *type.dcm.nucleus;
+  const std::string dcm = "/cell_types/" + name + "/dcm", pointer = dcm + "/nucleus";
+  if (n.nodes > type.dcm.nodes)
+    report.add_relation({pointer + "/nodes", dcm + "/nodes"}, fmt::format("{}", n.nodes),
+                        fmt::format("must not exceed {}/nodes = {}", dcm, type.dcm.nodes));
+  const Smallest cell = find_smallest(scene, name, type);
+  if (n.size * cell.radius + n.gap > kInnerRadius * cell.radius)
+    report.add_relation(
+        {pointer + "/size", pointer + "/gap", cell.pointer}, fmt::format("{:g}", n.size),
+        fmt::format("leaves no room: that share of {} = {} and {}/gap = {} beside it must fit into "
+                    "{:g} of that radius. Make the nucleus smaller or the cell larger",
+                    cell.pointer, length(cell.radius), pointer, length(n.gap), kInnerRadius));
+  if (scene.numerics.integrator == coupling::Integrator::kRos2)
+    report.add_relation({pointer, "/time/integrator"}, "",
+                        "is not for \"ros2\": a nucleus meets its cortex. Choose "
+                        "\"linearly-implicit\"");
+}
+
+}  // namespace
+
+void check_inside(const Scene& scene, Report& report) {
+  for (const auto& [name, type] : scene.cell_types) {
+    check_contraction(scene, "/cell_types/" + name + "/dcm", type.dcm, report);
+    check_nucleus(scene, name, type, report);
+  }
+}
+
+}  // namespace acinus::runs
