@@ -1,7 +1,7 @@
 """From the values of a field to colours; used by render.py."""
-from run_frame import CBM, DCM, VESSEL
+from run_frame import CBM, DCM, NUCLEUS, VESSEL
 
-KIND_COLOR = {DCM: (0.93, 0.62, 0.36), CBM: (0.36, 0.58, 0.82)}
+KIND_COLOR = {DCM: (0.93, 0.62, 0.36), CBM: (0.36, 0.58, 0.82), NUCLEUS: (0.62, 0.36, 0.55)}
 # Control points of the colour maps: one for values of one sign, one for both signs.
 SEQUENTIAL = [(0.33, 0.33, 0.66), (0.22, 0.55, 0.74), (0.35, 0.74, 0.66), (0.75, 0.86, 0.45),
               (0.98, 0.79, 0.28)]

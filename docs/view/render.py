@@ -15,7 +15,7 @@ import sys
 
 sys.dont_write_bytecode = True  # no __pycache__ in the source tree
 from painter import KIND_COLOR, Painter
-from run_frame import CBM, DCM, VESSEL, Frame, UserError
+from run_frame import CBM, DCM, NUCLEUS, VESSEL, Frame, UserError
 
 KIND_NAME = {DCM: "deformable (DCM)", CBM: "centre-based (CBM)"}
 VESSEL_COLOR = (0.80, 0.10, 0.12)
@@ -38,6 +38,8 @@ def read_arguments():
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"),
                         help="of the colours, as labelled")
     parser.add_argument("--clip", choices="xyz", help="cut through the middle, across this axis")
+    parser.add_argument("--only", nargs="+", type=int, default=[], metavar="ID",
+                        help="draw these cells only")
     parser.add_argument("--camera", choices=CAMERA, default="iso")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--size", default="1600x1200", help="WIDTHxHEIGHT in pixels")
@@ -82,15 +84,23 @@ def with_normals(poly):
     return normals.GetOutput()
 
 
-def bodies(frame):
-    """(surface, frame row, its frame points) of every DCM and CBM cell, one by one."""
+def chosen(frame, only):
+    """Which rows are of the cells `only`; all if that is empty."""
+    import numpy as np
+    return np.isin(frame.cell_id, only) if only else np.ones(len(frame.cell_id), bool)
+
+
+def bodies(frame, only):
+    """(surface, frame row, its frame points) of every cell, one by one, nuclei after their cells; of
+    the cells `only` if that is not empty."""
     import numpy as np
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
     kind, ids = frame.kind[:frame.n_triangle], frame.cell_id[:frame.n_triangle]
-    rows = np.flatnonzero(kind == DCM)
-    rows = rows[np.argsort(ids[rows], kind="stable")]
-    for group in np.split(rows, np.flatnonzero(np.diff(ids[rows])) + 1) if len(rows) else []:
+    rows = np.flatnonzero(np.isin(kind, (DCM, NUCLEUS)) & chosen(frame, only)[:frame.n_triangle])
+    body = 2 * ids.astype(np.int64) + (kind == NUCLEUS)
+    rows = rows[np.argsort(body[rows], kind="stable")]
+    for group in np.split(rows, np.flatnonzero(np.diff(body[rows])) + 1) if len(rows) else []:
         points, local = np.unique(frame.triangle[group], return_inverse=True)
         yield with_normals(make_poly(frame.point[points], local.reshape(-1, 3))), group[0], points
     if frame.n_sphere == 0:
@@ -109,7 +119,7 @@ def bodies(frame):
         raise UserError("the run has spheres but no field radius")
     for s in range(frame.n_sphere):
         row = frame.n_triangle + s
-        if frame.kind[row] == CBM:
+        if frame.kind[row] == CBM and chosen(frame, only)[row]:
             poly = make_poly(unit * radius[row] + frame.point[n_node + s], faces)
             poly.GetPointData().SetNormals(ball.GetOutput().GetPointData().GetNormals())
             yield poly, row, np.array(n_node + s)
@@ -232,9 +242,9 @@ def lifted(cap, plane, i):
     return result.GetOutput()
 
 
-def add_bodies(renderer, frame, painter, plane):
+def add_bodies(renderer, frame, painter, plane, only):
     surfaces, caps = [], []
-    for poly, row, points in bodies(frame):
+    for poly, row, points in bodies(frame, only):
         painter.paint(poly, row, points)
         cap = None
         if plane is not None:
@@ -381,10 +391,12 @@ def draw(arguments):
     frame = Frame(arguments.run, arguments.frame)
     color = arguments.color or ("pressure" if "pressure" in frame.cell_data else "kind")
     painter = Painter(frame, color, arguments.range)
+    if arguments.only and not chosen(frame, arguments.only).any():
+        raise UserError("--only: the frame has none of these cells")
     plane = clip_plane(frame, arguments.clip, arguments.camera) if arguments.clip else None
     renderer = vtk.vtkRenderer()
     add_background(renderer)
-    add_bodies(renderer, frame, painter, plane)
+    add_bodies(renderer, frame, painter, plane, arguments.only)
     add_vessels(renderer, frame, plane)
     shade_corners(renderer, frame)
     lights = vtk.vtkLightKit()
