@@ -13,13 +13,25 @@ namespace {
 
 constexpr auto kProbes = contact::Quadrature::kThreePoint;
 
+/// Kept by each thread: a warmed-up step allocates nothing.
+struct SearchScratch {
+  std::vector<int> triangle;    ///< candidates of the block, face by face
+  std::vector<float> bound;     ///< um, of the distance of each
+  std::vector<double> squared;  ///< um^2, of all triangles from a face
+};
+
 /// Looks from points of a cortex for the nearest places of a nucleus.
 class PointSearch {
  public:
   /// @param horizon  um: places as far are not looked for
   PointSearch(const contact::SurfaceBody& cortex, const contact::SurfaceBody& nucleus,
-              double horizon)
-      : cortex_(cortex), nucleus_(nucleus), horizon_(horizon) {
+              double horizon, SearchScratch& scratch)
+      : cortex_(cortex),
+        nucleus_(nucleus),
+        horizon_(horizon),
+        triangle_(scratch.triangle),
+        bound_(scratch.bound),
+        squared_(scratch.squared) {
     triangle_.clear();
     bound_.clear();
   }
@@ -94,14 +106,10 @@ class PointSearch {
   double horizon_;
   contact::PointBlock block_;
   int point_[contact::PointBlock::kSize] = {};
-  // Candidates of the block, face by face; of this thread: a warmed-up step allocates nothing.
-  static thread_local std::vector<int> triangle_;
-  static thread_local std::vector<float> bound_;     ///< um, of the distance of each
-  static thread_local std::vector<double> squared_;  ///< um^2, of all triangles from a face
+  std::vector<int>& triangle_;
+  std::vector<float>& bound_;
+  std::vector<double>& squared_;
 };
-thread_local std::vector<int> PointSearch::triangle_;
-thread_local std::vector<float> PointSearch::bound_;
-thread_local std::vector<double> PointSearch::squared_;
 
 /// Triangles of a surface that come nearer to a point than a distance, um.
 void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance,
@@ -121,9 +129,10 @@ void find_in_cell(const ContactInput& in, const contact::SurfaceBody& cortex,
   double reach = 0;
   for (const Vec3& x : nucleus.node) reach = std::max(reach, (x - middle).norm());
   thread_local std::vector<int> near;
+  thread_local SearchScratch scratch;
   find_near(cortex, middle, reach + range, near);
   if (near.empty()) return;  // most nuclei at most times
-  PointSearch(cortex, nucleus, horizon)
+  PointSearch(cortex, nucleus, horizon, scratch)
       .look(near, [&](int point, int triangle, auto weight, const Vec3& normal, double distance) {
         if (distance > range) return;
         out.push_back({lane, point, triangle, weight, normal, distance - n.gap,

@@ -41,6 +41,18 @@ void blocks(Visitor& visitor, const Key& key, std::vector<Block>& list, Describe
   visitor.list(key, elements);
 }
 
+/// An entry of a course over time: `kValue` says what has a value then.
+template <const Key& kValue>
+void describe_course_point(Visitor& visitor, Schedule::Point& point) {
+  visitor.real({.name = "time",
+                .meaning = "time after t = 0; the value runs straight from one entry to the next, "
+                           "and two entries of one time are a jump",
+                .dimension = kTime,
+                .unit = "s"},
+               point.time);
+  visitor.real(kValue, point.value);
+}
+
 template <class Block>
 void named_blocks(Visitor& visitor, const Key& key, std::map<std::string, Block>& map,
                   Describe<Block> members) {

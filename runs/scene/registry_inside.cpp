@@ -5,15 +5,8 @@
 namespace acinus::runs {
 namespace {
 
-void describe_contraction_at(Visitor& v, Schedule::Point& b) {
-  v.real({.name = "time", .meaning = "time after t = 0", .dimension = kTime, .unit = "s"}, b.time);
-  v.real({.name = "factor",
-          .meaning = "factor on cortex_tension then; it runs straight from one entry to the next, "
-                     "and two entries of one time are a jump",
-          .range = kNotNegative,
-          .required = true},
-         b.value);
-}
+constexpr Key kFactorThen{
+    .name = "factor", .meaning = "factor then", .range = kNotNegative, .required = true};
 
 void describe_nucleus_shell(Visitor& v, dcm::Nucleus& b) {
   v.real({.name = "young",
@@ -97,7 +90,7 @@ void describe_contraction(Visitor& v, dcm::Contraction& b) {
          {.name = "course",
           .meaning = "factor on cortex_tension over time; none = 1",
           .item = "contraction"},
-         b.course.entry, describe_contraction_at);
+         b.course.entry, describe_course_point<kFactorThen>);
   v.real({.name = "ring",
           .meaning = "tension of a band about the equator beyond that of the poles, over the "
                      "latter; 0 = no band",

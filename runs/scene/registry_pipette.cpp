@@ -3,18 +3,13 @@
 namespace acinus::runs {
 namespace {
 
-void describe_suction_at(Visitor& v, Schedule::Point& b) {
-  v.real({.name = "time", .meaning = "time after t = 0", .dimension = kTime, .unit = "s"}, b.time);
-  v.real({.name = "pressure",
-          .meaning = "suction then, below the pressure outside; it runs straight from one entry to "
-                     "the next, and two entries of one time are a jump",
-          .dimension = kStress,
-          .unit = "Pa",
-          .range = kNotNegative,
-          .symbol = "dp",
-          .required = true},
-         b.value);
-}
+constexpr Key kSuctionThen{.name = "pressure",
+                           .meaning = "suction then, below the pressure outside",
+                           .dimension = kStress,
+                           .unit = "Pa",
+                           .range = kNotNegative,
+                           .symbol = "dp",
+                           .required = true};
 
 }  // namespace
 
@@ -52,7 +47,7 @@ void describe_pipette(Visitor& v, PipetteBlock& b) {
           .range = kPositive},
          b.length);
   blocks(v, {.name = "suction", .meaning = "suction over time; none = 0 Pa", .item = "suction"},
-         b.suction.entry, describe_suction_at);
+         b.suction.entry, describe_course_point<kSuctionThen>);
 }
 
 }  // namespace acinus::runs

@@ -3,27 +3,14 @@
 namespace acinus::runs {
 namespace {
 
-void describe_force_at(Visitor& v, Schedule::Point& b) {
-  v.real({.name = "time", .meaning = "time after t = 0", .dimension = kTime, .unit = "s"}, b.time);
-  v.real({.name = "force",
-          .meaning = "force then; it runs straight from one entry to the next, and two entries of "
-                     "one time are a jump",
-          .dimension = kForce,
-          .unit = "nN",
-          .required = true},
-         b.value);
-}
+constexpr Key kForceThen{
+    .name = "force", .meaning = "force then", .dimension = kForce, .unit = "nN", .required = true};
 
-void describe_displacement_at(Visitor& v, Schedule::Point& b) {
-  v.real({.name = "time", .meaning = "time after t = 0", .dimension = kTime, .unit = "s"}, b.time);
-  v.real({.name = "displacement",
-          .meaning = "how far it has moved then; it runs straight from one entry to the next, and "
-                     "two entries of one time are a jump",
-          .dimension = kLength,
-          .unit = "um",
-          .required = true},
-         b.value);
-}
+constexpr Key kDisplacementThen{.name = "displacement",
+                                .meaning = "how far it has moved then",
+                                .dimension = kLength,
+                                .unit = "um",
+                                .required = true};
 
 }  // namespace
 
@@ -41,7 +28,7 @@ void describe_pull(Visitor& v, PullEntry& b) {
          b.by);
   v.when(b.by == PullBy::kForce, "by = force", [&b](Visitor& w) {
     blocks(w, {.name = "force", .meaning = "force over time", .item = "force"}, b.force.entry,
-           describe_force_at);
+           describe_course_point<kForceThen>);
   });
   v.when(b.by == PullBy::kSpring, "by = spring", [&b](Visitor& w) {
     w.real({.name = "stiffness",
@@ -56,7 +43,7 @@ void describe_pull(Visitor& v, PullEntry& b) {
             .meaning = "displacement of the far end over time, from where the cell's position in "
                        "cells.list is; none = it stays there",
             .item = "displacement"},
-           b.displacement.entry, describe_displacement_at);
+           b.displacement.entry, describe_course_point<kDisplacementThen>);
   });
 }
 

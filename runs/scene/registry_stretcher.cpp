@@ -18,17 +18,12 @@ void describe_pulse(Visitor& v, coupling::Pulse& b) {
          b.to);
 }
 
-void describe_temperature_at(Visitor& v, Schedule::Point& b) {
-  v.real({.name = "time", .meaning = "time after t = 0", .dimension = kTime, .unit = "s"}, b.time);
-  v.real({.name = "value",
-          .meaning = "temperature then; it runs straight from one entry to the next, and two "
-                     "entries of one time are a jump",
-          .dimension = kTemperature,
-          .unit = "K",
-          .range = kPositive,
-          .required = true},
-         b.value);
-}
+constexpr Key kTemperatureThen{.name = "value",
+                               .meaning = "temperature then",
+                               .dimension = kTemperature,
+                               .unit = "K",
+                               .range = kPositive,
+                               .required = true};
 
 }  // namespace
 
@@ -85,7 +80,7 @@ void describe_temperature(Visitor& v, coupling::Temperature& b) {
           .symbol = "T_0"},
          b.reference);
   blocks(v, {.name = "course", .meaning = "temperature over time", .item = "temperature"},
-         b.course.entry, describe_temperature_at);
+         b.course.entry, describe_course_point<kTemperatureThen>);
 }
 
 }  // namespace acinus::runs
