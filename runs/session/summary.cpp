@@ -24,9 +24,9 @@ Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 Json division_figures(const LifeTotals& t) {
   return {{"max_volume_error", number(t.volume_error)},
           {"max_outside_um", number(t.outside_um)},
-          {"max_pressure_change_Pa", number(1e3 * t.pressure_change_kPa)},
+          {"max_pressure_change_Pa", number(1e3 * t.pressure_change)},
           {"max_settled_shift_um", number(t.settled_shift_um)},
-          {"max_settled_pressure_change_Pa", number(1e3 * t.settled_pressure_change_kPa)},
+          {"max_settled_pressure_change_Pa", number(1e3 * t.settled_pressure_change)},
           {"min_triangle_quality", number(t.min_quality)},
           {"most_planes", static_cast<int>(t.planes)},
           {"sub_steps", static_cast<int>(t.steps)},

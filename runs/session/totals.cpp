@@ -41,8 +41,8 @@ void visit(Totals& t, F f) requires std::same_as<std::remove_const_t<Totals>, Li
   f("volume_error", t.volume_error);
   f("outside_um", t.outside_um);
   f("settled_shift_um", t.settled_shift_um);
-  f("pressure_change_kPa", t.pressure_change_kPa);
-  f("settled_pressure_change_kPa", t.settled_pressure_change_kPa);
+  f("pressure_change_kPa", t.pressure_change);
+  f("settled_pressure_change_kPa", t.settled_pressure_change);
   f("planes", t.planes);
   f("steps", t.steps);
   f("waits", t.waits);
@@ -60,9 +60,8 @@ void add_life(LifeTotals& t, const coupling::LifeReport& report, int n_cell, dou
     t.volume_error = std::max(t.volume_error, f.volume_error);
     t.outside_um = std::max(t.outside_um, f.outside);
     t.settled_shift_um = std::max(t.settled_shift_um, f.settled_shift);
-    t.settled_pressure_change_kPa =
-        std::max(t.settled_pressure_change_kPa, f.settled_pressure_change);
-    t.pressure_change_kPa = std::max(t.pressure_change_kPa, f.pressure_change);
+    t.settled_pressure_change = std::max(t.settled_pressure_change, f.settled_pressure_change);
+    t.pressure_change = std::max(t.pressure_change, f.pressure_change);
     t.planes = std::max(t.planes, static_cast<double>(f.planes));
     t.min_quality = std::min(t.min_quality, f.min_quality);
     t.steps += f.steps;

@@ -30,10 +30,10 @@ struct LifeTotals {
   /// Wall time, s, when there were first 10, 100, .. 10^6 cells; 0: not yet.
   std::array<double, 6> wall_s_at{};
   // Largest of all divisions of deformable cells (coupling::DivisionFigures):
-  double volume_error = 0, outside_um = 0, settled_shift_um = 0, pressure_change_kPa = 0,
-         settled_pressure_change_kPa = 0;
-  double planes = 0;       ///< most tried in one division
-  double steps = 0;        ///< of all sub-simulations
+  double volume_error = 0, outside_um = 0, settled_shift_um = 0;
+  double pressure_change = 0, settled_pressure_change = 0;  ///< kPa
+  double planes = 0;                                        ///< most tried in one division
+  double steps = 0;                                         ///< of all sub-simulations
   double waits = 0;        ///< divisions put off for want of a clean plane
   double min_quality = 1;  ///< of a daughter's mesh
   double remeshed = 0;     ///< cells that got a better mesh

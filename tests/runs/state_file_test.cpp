@@ -47,7 +47,8 @@ coupling::State living() {
   s.dcm.birth[0] = {{1, 0, 60, 3660},
                     1.2,
                     std::vector<double>(static_cast<std::size_t>(t.n_edge), 1.1),
-                    std::vector<double>(static_cast<std::size_t>(t.n_triangle), 1.3)};
+                    std::vector<double>(static_cast<std::size_t>(t.n_triangle), 1.3),
+                    {}};
   s.dcm.birth[0].edge[5] = 0.7;
   s.dcm.tension[1] = {std::vector<double>(s.dcm.group[0].topology->edge.size(), 0.2),
                       std::vector<double>(s.dcm.group[0].topology->edge.size(), 3.1)};
