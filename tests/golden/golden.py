@@ -33,6 +33,10 @@ CASES = {
     "regeneration": ["regeneration.json", "--set", "start_up.growth_time=2 h", "--set",
                      "cell_types.hepatocyte.dcm.nodes=42", "--until", "6 h"],
     "regeneration_cbm": ["regeneration.json", "--set", "model=cbm", "--until", "2 d"],
+    "narrow_gap_nucleus": ["narrow_gap_nucleus.json", "--until", "20 min"],
+    "optical_stretcher_flow": ["optical_stretcher_flow.json"],
+    "pull_off_spring": ["pull_off_spring.json", "--until", "300 s"],
+    "maugis_dugdale": ["adhering_pair.json", "--set", "contact.law=maugis-dugdale", "--until", "20 s"],
     "hybrid_life": [os.path.join(HERE, "hybrid_life.json")],
     "calibration": [os.path.join(HERE, "calibration.json")],
 }
