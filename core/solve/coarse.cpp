@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/solve/kernels.hpp"
+#include "core/solve/link_kernels.hpp"
 #include "core/solve/row_blocks.hpp"
 #include "core/threads.hpp"
 
@@ -102,7 +103,9 @@ void CoarseSpace::find_neighbours() {
     if (p != pair.back()) pair.push_back(p);  // links come sorted by pair of cells
   };
   for (const Link& l : system_->links.link) join(l.a.point[0], l.b.point[0]);
-  for (const PointLink& l : system_->point_links) join(l.a, l.b);
+  // Pairs of spheres are listed before they touch, some steps sooner or later.
+  for (const PointLink& l : system_->point_links)
+    if (has_matrix(l, system_->stiffness_scale)) join(l.a, l.b);
   std::ranges::sort(pair);
   const auto repeated = std::ranges::unique(pair);
   pair.erase(repeated.begin(), repeated.end());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/solve/link_kernels.hpp"
 #include "core/solve/row_blocks.hpp"
 #include "core/threads.hpp"
 
@@ -40,7 +41,9 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
     parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
   };
   for (const Link& l : s.links.link) join(l.a.point[0], l.b.point[0]);
-  for (const PointLink& l : s.point_links) join(l.a, l.b);
+  // Pairs of spheres are listed before they touch, some steps sooner or later.
+  for (const PointLink& l : s.point_links)
+    if (has_matrix(l, s.stiffness_scale)) join(l.a, l.b);
   work.group.assign(active.size(), -1);
   int n = 0;
   for (std::size_t c = 0; c < active.size(); ++c) {
