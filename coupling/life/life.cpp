@@ -269,11 +269,15 @@ LifeReport turn_over(World& world, Workspace& work) {
 LifeReport live(World& world, Workspace& work) {
   Clock& clock = world.state.clock;
   LifeReport report;
-  if (clock.due != EventsDue::kMeshes) {
+  if (clock.due == EventsDue::kNone || clock.due == EventsDue::kAll) {
     report = turn_over(world, work);
     clock.due = EventsDue::kAll;
     if (report.interrupted) return report;
-    update_sleep(world, work);
+  }
+  if (clock.due != EventsDue::kMeshes && !update_sleep(world, work)) {
+    clock.due = EventsDue::kSleep;
+    report.interrupted = true;
+    return report;
   }
   mend_meshes(world, work, report);
   clock.due = report.interrupted ? EventsDue::kMeshes : EventsDue::kNone;

@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "coupling/step/loop.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/leaders.hpp"
 
@@ -179,9 +178,9 @@ StepResult advance(World& world, Workspace& w, double limit) {
   return step_awake(world, w, std::move(awake), limit);
 }
 
-bool set_sleepers_velocity(World& world, Workspace& w, double duration) {
+LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   State& s = world.state;
-  if (!sleepers_move(world) || !(s.clock.last_step > 0)) return true;
+  if (!sleepers_move(world) || !(s.clock.last_step > 0)) return {};
   const auto scope = w.timings.scope("sleepers");
   CellSet sleepers = find_cells(s, true);
   CellSet ring = find_ring(world, sleepers);
@@ -200,14 +199,14 @@ bool set_sleepers_velocity(World& world, Workspace& w, double duration) {
   const LoopResult done =
       run_loop({.time_left = time_left_until(clock, clock.time + duration),
                 .advance = [&](double limit) { return take_step(part.world, part.work, limit); }});
-  if (!done.ok) return false;
+  if (!done.ok) return done;
   move_counts(part.work, w);
   small.last_move = gather_positions(small);
   for (std::size_t k = 0; k < start.size(); ++k)
     small.last_move[k] = ratio * (small.last_move[k] - start[k]);
   start_last_moves(s);
   write_last_moves(part, 1, s);
-  return true;
+  return done;
 }
 
 }  // namespace acinus::coupling

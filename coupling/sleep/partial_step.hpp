@@ -4,6 +4,7 @@
 /// step of theirs sets now and then. (docs/decisions/0015.md)
 
 #include "coupling/step/controller.hpp"
+#include "coupling/step/loop.hpp"
 #include "coupling/subworld/subworld.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
@@ -23,7 +24,8 @@ StepResult advance(World& world, Workspace& work, double limit);
 /// step as long as it of sleepers whose neighbours stand still, without motility. (With those awake
 /// at a prescribed velocity no step would look at the balance of both together, and whatever
 /// velocity they have would last.)
-/// @return false if there is no such step: then nothing has changed
-[[nodiscard]] bool set_sleepers_velocity(World& world, Workspace& work, double duration);
+/// @return not ok if there is no such step, or the process is asked to stop: then nothing has
+/// changed
+[[nodiscard]] LoopResult set_sleepers_velocity(World& world, Workspace& work, double duration);
 
 }  // namespace acinus::coupling

@@ -71,25 +71,29 @@ double time_to_sleep_event(const World& world) {
 bool update_sleep(World& world, Workspace& work) {
   State& s = world.state;
   const Sleep& p = world.params.sleep;
-  if (!p.enabled || s.clock.phase != Phase::kRun) return false;
+  if (!p.enabled || s.clock.phase != Phase::kRun) return true;
   const std::int64_t now = grid_interval(time_of(s), p.grid);
-  if (now == s.sleep_interval) return false;
-  s.sleep_interval = now;
+  if (now == s.sleep_interval) return true;
   const auto scope = work.timings.scope("sleep");
   observe_rest(world, work);
   const std::vector<double> traction = unbalanced_traction(world, work);
-  std::vector<std::uint8_t> asleep = s.asleep;
-  asleep.resize(traction.size(), 0);
+  std::vector<std::uint8_t> asleep(traction.size(), 0);
   for_each_cell(s, [&](const Cell& c) {
     asleep[c.index] = may_sleep(s, c) && traction[c.index] <= p.traction ? 1 : 0;
   });
-  const bool slept = count_asleep(s) > 0;
-  const bool changed = slept ? asleep != s.asleep : std::ranges::count(asleep, 1) > 0;
-  s.asleep = std::move(asleep);
-  if (count_asleep(s) > 0 && !set_sleepers_velocity(world, work, time_to_sleep_event(world)))
-    std::ranges::fill(s.asleep, std::uint8_t{0});
+  const std::int64_t before = std::exchange(s.sleep_interval, now);
+  std::swap(s.asleep, asleep);
+  if (count_asleep(s) > 0) {
+    const LoopResult found = set_sleepers_velocity(world, work, time_to_sleep_event(world));
+    if (found.last.interrupted) {
+      std::swap(s.asleep, asleep);
+      s.sleep_interval = before;
+      return false;
+    }
+    if (!found.ok) std::ranges::fill(s.asleep, std::uint8_t{0});
+  }
   if (count_asleep(s) == 0) s.asleep.clear();
-  return changed;
+  return true;
 }
 
 }  // namespace acinus::coupling

@@ -17,8 +17,8 @@ namespace acinus::coupling {
 std::vector<double> unbalanced_traction(const World& world, const Workspace& work);
 
 /// Puts cells to sleep and wakes others if the time grid was crossed.
-/// @return whether someone did
-bool update_sleep(World& world, Workspace& work);
+/// @return false if the process is asked to stop meanwhile: then nothing has changed
+[[nodiscard]] bool update_sleep(World& world, Workspace& work);
 
 /// Time until sleep is looked at again, s; infinite when no cell may sleep.
 double time_to_sleep_event(const World& world);

@@ -99,8 +99,9 @@ struct Params {
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the
-/// process is asked to stop while cells divide, or while new meshes settle.
-enum class EventsDue : std::uint8_t { kNone, kAll, kMeshes };
+/// process is asked to stop while cells divide, while the velocity of sleepers is found, or while
+/// new meshes settle.
+enum class EventsDue : std::uint8_t { kNone, kAll, kMeshes, kSleep };
 
 struct Clock {
   double time = 0;    ///< s since the beginning of start-up

@@ -137,7 +137,7 @@ TEST(AwakePart, SleepersMoveAlongWithThoseAwake) {
   size_workspace(tired, tired_work);
   const Vec3 start[] = {dcm::cell_center(awake.state.dcm, 0), dcm::cell_center(awake.state.dcm, 1)};
   run_steps(awake, work, 30);
-  ASSERT_TRUE(set_sleepers_velocity(tired, tired_work, 1800));
+  ASSERT_TRUE(set_sleepers_velocity(tired, tired_work, 1800).ok);
   run_steps(tired, tired_work, 30);
   for (std::size_t lane : {0, 1}) {
     const Vec3 way = dcm::cell_center(awake.state.dcm, lane) - start[lane];

@@ -63,6 +63,30 @@ TEST(LifeStop, MeshBegunToBeMendedIsPutBack) {
   EXPECT_EQ(hash_state(stopped.state), hash_state(through.state));
 }
 
+TEST(LifeStop, SleepersAreLookedAtAgain) {
+  World through = make_test_world({{Vec3::Zero()}, {Vec3(23.5, 0, 0)}, {Vec3(0, 23.5, 0), false}});
+  through.params.motility.random = false;
+  through.params.sleep = {true, 600, 1};
+  Workspace work, stopped_work;
+  size_workspace(through, work);
+  ASSERT_TRUE(advance(through, work, 600).accepted);
+  through.state.clock.time = 600;
+  World stopped = through;
+  size_workspace(stopped, stopped_work);
+  EXPECT_FALSE(live(through, work).interrupted);
+  EXPECT_EQ(count_asleep(through.state), 3);
+  const std::uint64_t before = hash_state(stopped.state);
+  {
+    const WallTimeLimit passed(0);
+    EXPECT_TRUE(live(stopped, stopped_work).interrupted);
+  }
+  EXPECT_EQ(hash_state(stopped.state), before);
+  EXPECT_EQ(stopped.state.clock.due, EventsDue::kSleep);
+  EXPECT_FALSE(live(stopped, stopped_work).interrupted);
+  EXPECT_EQ(stopped.state.clock.due, EventsDue::kNone);
+  EXPECT_EQ(hash_state(stopped.state), hash_state(through.state));
+}
+
 // Limits of a few milliseconds fall into steps, divisions and the settling of daughters alike.
 TEST(LifeStop, ManyStopsLeaveTheSameBits) {
   constexpr double kEnd = 1200;  // s
