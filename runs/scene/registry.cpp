@@ -283,6 +283,30 @@ void describe_scene(Visitor& v, Scene& s) {
          s.model);
 }
 
+/// What holds, pulls, lights or warms cells from outside.
+void describe_apparatus(Visitor& v, Scene& s) {
+  optional_block(
+      v,
+      {.name = "pipette",
+       .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
+                  "through; null = none"},
+      s.pipette, describe_pipette);
+  blocks(v,
+         {.name = "pulls",
+          .meaning = "forces on single cells over time, or springs that hold them",
+          .item = "pull"},
+         s.pulls, describe_pull);
+  optional_block(v,
+                 {.name = "stretcher",
+                  .meaning = "two laser beams that pull at deformable cells; null = none"},
+                 s.stretcher, describe_stretcher);
+  optional_block(v,
+                 {.name = "temperature",
+                  .meaning = "temperature over time, on which the friction within the cortex of "
+                             "deformable cells depends; null = none"},
+                 s.temperature, describe_temperature);
+}
+
 }  // namespace
 
 void describe(Visitor& v, Scene& s) {
@@ -329,26 +353,7 @@ void describe(Visitor& v, Scene& s) {
   blocks(v,
          {.name = "static_meshes", .meaning = "rigid surfaces from files", .item = "static_mesh"},
          s.static_meshes, describe_static_mesh);
-  optional_block(
-      v,
-      {.name = "pipette",
-       .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
-                  "through; null = none"},
-      s.pipette, describe_pipette);
-  blocks(v,
-         {.name = "pulls",
-          .meaning = "forces on single cells over time, or springs that hold them",
-          .item = "pull"},
-         s.pulls, describe_pull);
-  optional_block(v,
-                 {.name = "stretcher",
-                  .meaning = "two laser beams that pull at deformable cells; null = none"},
-                 s.stretcher, describe_stretcher);
-  optional_block(v,
-                 {.name = "temperature",
-                  .meaning = "temperature over time, on which the friction within the cortex of "
-                             "deformable cells depends; null = none"},
-                 s.temperature, describe_temperature);
+  describe_apparatus(v, s);
   block(v, {.name = "output", .meaning = "what is written"}, s.output, describe_output);
 }
 

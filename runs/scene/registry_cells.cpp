@@ -30,6 +30,37 @@ void describe_cortex(Visitor& v, DcmBlock& b) {
          b.cortex_poisson);
 }
 
+void describe_dcm_friction(Visitor& v, DcmBlock& b) {
+  v.real({.name = "nodal_friction",
+          .meaning = "friction between neighbouring nodes of a cell",
+          .dimension = kFriction,
+          .unit = "N s/m",
+          .range = kNotNegative,
+          .symbol = "gamma_int"},
+         b.nodal_friction);
+  v.real({.name = "nodal_friction_across",
+          .meaning = "that friction across the edge of two nodes over that along it; 1 = the same "
+                     "in all directions, 0 = only along, which lets a cell turn freely",
+          .range = kNotNegative},
+         b.friction_across);
+  v.real(
+      {.name = "series_friction",
+       .meaning = "dashpot in series with the springs of the cortex, which then flow and have no "
+                  "length at rest; 0 = none",
+       .dimension = kFriction,
+       .unit = "N s/m",
+       .range = kNotNegative,
+       .symbol = "gamma_ME"},
+      b.series_friction);
+  v.real({.name = "ecm_friction",
+          .meaning = "friction of a DCM cell with the matrix, per area",
+          .dimension = kFrictionPerArea,
+          .unit = "N s/m^3",
+          .range = kPositive,
+          .symbol = "gamma_ECM+"},
+         b.medium_friction);
+}
+
 void describe_dcm(Visitor& v, DcmBlock& b) {
   describe_cortex(v, b);
   v.real({.name = "area_modulus",
@@ -64,34 +95,7 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .range = kNotNegative,
           .symbol = "K_V"},
          b.bulk_modulus);
-  v.real({.name = "nodal_friction",
-          .meaning = "friction between neighbouring nodes of a cell",
-          .dimension = kFriction,
-          .unit = "N s/m",
-          .range = kNotNegative,
-          .symbol = "gamma_int"},
-         b.nodal_friction);
-  v.real({.name = "nodal_friction_across",
-          .meaning = "that friction across the edge of two nodes over that along it; 1 = the same "
-                     "in all directions, 0 = only along, which lets a cell turn freely",
-          .range = kNotNegative},
-         b.friction_across);
-  v.real(
-      {.name = "series_friction",
-       .meaning = "dashpot in series with the springs of the cortex, which then flow and have no "
-                  "length at rest; 0 = none",
-       .dimension = kFriction,
-       .unit = "N s/m",
-       .range = kNotNegative,
-       .symbol = "gamma_ME"},
-      b.series_friction);
-  v.real({.name = "ecm_friction",
-          .meaning = "friction of a DCM cell with the matrix, per area",
-          .dimension = kFrictionPerArea,
-          .unit = "N s/m^3",
-          .range = kPositive,
-          .symbol = "gamma_ECM+"},
-         b.medium_friction);
+  describe_dcm_friction(v, b);
   optional_block(v,
                  {.name = "nucleus",
                   .meaning = "a second surface inside the cell; null = none. Spheres have none"},
