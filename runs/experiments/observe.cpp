@@ -81,8 +81,9 @@ std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observabl
   return row;
 }
 
-bool is_over(Experiment experiment, const Measures& measures) {
-  return experiment == Experiment::kPullOff && has_come_apart(measures);
+std::string why_over(Experiment experiment, const Measures& measures) {
+  const bool apart = experiment == Experiment::kPullOff && has_come_apart(measures);
+  return apart ? "the cells have come apart" : "";
 }
 
 void observe_births(const Scene& scene, const coupling::World& world,

@@ -48,9 +48,9 @@ struct Observables {
 /// first. What has no value at this frame is 0 there.
 std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observables& observables);
 
-/// Whether the series show all that the experiment is about, so that the run may end: cells that
-/// are pulled apart have come apart.
-bool is_over(Experiment experiment, const Measures& measures);
+/// Why the series show all that the experiment is about, so that the run may end: cells that are
+/// pulled apart have come apart. Empty: they do not.
+std::string why_over(Experiment experiment, const Measures& measures);
 
 /// Counts divisions by the layer they happened in. To be called while the daughters are where they
 /// were born; does nothing unless the experiment is a lobule.

@@ -48,8 +48,10 @@ class Recorder {
   void close(const std::string& status, const std::string& cause);
 
   double last_frame() const { return last_frame_; }  ///< s since t = 0
-  /// Whether the frames so far show all that the experiment is about.
-  bool experiment_is_over() const { return is_over(scene_.experiment, observables_.measures); }
+  /// Why the frames so far show all that the experiment is about; empty: they do not.
+  std::string why_experiment_is_over() const {
+    return why_over(scene_.experiment, observables_.measures);
+  }
   bool has_frame() const { return last_frame_ > kNoFrame; }
   /// What was wrong with the last frame.
   const Excess& excess() const { return excess_; }

@@ -174,7 +174,10 @@ bool SceneRun::events_over() {
   if (frame_is_due()) write_frame(time() >= end_ - kSameTime);
   if (excess_.depth_um > 0) return false;
   if (is_last() && simulation_.is_running()) return false;
-  if (recorder_.experiment_is_over()) return false;
+  if (const std::string why = recorder_.why_experiment_is_over(); !why.empty()) {
+    note("the experiment is over: " + why);
+    return false;
+  }
   was_running_ = simulation_.is_running();
   if (wall_seconds() - last_save_ > options_.checkpoint_every_s) {
     recorder_.save();
