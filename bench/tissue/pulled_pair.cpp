@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/build/build_world.hpp"
+#include "runs/experiments/single_cell.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -74,23 +74,13 @@ class PulledPair {
     const auto adhesion = coupling::find_adhesion(simulation_.world(), simulation_.work());
     const auto nodes = coupling::measure_nodes(simulation_.world(), simulation_.work());
     const auto cells = coupling::measure_cells(simulation_.world(), simulation_.work());
-    PairRest rest{adhesion.area,
-                  (center(1) - center(0)).norm(),
-                  0.5 * (cells[0].cytosol_pressure + cells[1].cytosol_pressure),
-                  0.5 * (cells[0].contact_area + cells[1].contact_area),
-                  0,
-                  std::numeric_limits<double>::infinity()};
-    int outside = 0;
-    for (std::size_t i = 0; i < nodes.tension.size(); ++i) {
-      if (adhesion.node[i] != 0) {
-        rest.tension_contact_min = std::min(rest.tension_contact_min, nodes.tension[i]);
-      } else {
-        rest.tension_outside += nodes.tension[i];
-        ++outside;
-      }
-    }
-    rest.tension_outside /= outside;
-    return rest;
+    const auto tension = coupling::find_contact_tensions(nodes.tension, adhesion);
+    return {adhesion.area,
+            (center(1) - center(0)).norm(),
+            0.5 * (cells[0].cytosol_pressure + cells[1].cytosol_pressure),
+            0.5 * (cells[0].contact_area + cells[1].contact_area),
+            tension.outside,
+            tension.least};
   }
 
   /// Attraction of the two with their centres at +-x, nN.
@@ -135,7 +125,7 @@ class PulledPair {
 }  // namespace
 
 double vesicle_force(const PairCase& c) {
-  return kPi * c.adhesion * make_scene(c).cell_types.begin()->second.radius / 2;
+  return runs::vesicle_pull_off(runs::pair_of(make_scene(c)));
 }
 
 PullOff find_pull_off(const PairCase& c) {

@@ -1,6 +1,7 @@
 #include "coupling/measure/adhesion.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace acinus::coupling {
 namespace {
@@ -52,6 +53,22 @@ Adhesion find_adhesion(const World& world, const Workspace& w) {
 bool any_adhesion(const World& world, const Workspace& w) {
   return std::ranges::any_of(w.contacts.surface(),
                              [&](const contact::Contact& k) { return adheres(world, w, k); });
+}
+
+ContactTensions find_contact_tensions(const std::vector<double>& tension,
+                                      const Adhesion& adhesion) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double sum[2] = {0, 0};
+  int n[2] = {0, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    const int side = adhesion.node[i] != 0 ? 1 : 0;
+    sum[side] += tension[i];
+    ++n[side];
+    if (side == 1) least = std::min(least, tension[i]);
+  }
+  return {n[0] > 0 ? sum[0] / n[0] : kNone, n[1] > 0 ? sum[1] / n[1] : kNone,
+          n[1] > 0 ? least : kNone};
 }
 
 }  // namespace acinus::coupling

@@ -20,6 +20,14 @@ struct Adhesion {
 };
 Adhesion find_adhesion(const World& world, const Workspace& work);  ///< @pre observe
 
+/// Tensions of the surfaces in and out of contact, nN/um: means over nodes, and the least in
+/// contact; NaN where there is no such node.
+struct ContactTensions {
+  double outside = 0, contact = 0, least = 0;
+};
+/// @param tension  [nodes] nN/um, of measure_nodes
+ContactTensions find_contact_tensions(const std::vector<double>& tension, const Adhesion& adhesion);
+
 /// Whether any two deformable cells adhere or press, at the contacts that were searched last.
 bool any_adhesion(const World& world, const Workspace& work);
 

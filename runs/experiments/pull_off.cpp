@@ -11,28 +11,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Tensions of the surface in and out of contact, nN/um.
-struct Tensions {
-  double outside = kNone, contact = kNone, least = kNone;
-};
-
-Tensions find_tensions(const std::vector<double>& tension,
-                       const std::vector<std::uint8_t>& in_contact) {
-  double sum[2] = {0, 0};
-  int n[2] = {0, 0};
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < tension.size(); ++i) {
-    const int side = in_contact[i] != 0 ? 1 : 0;
-    sum[side] += tension[i];
-    ++n[side];
-    if (side == 1) least = std::min(least, tension[i]);
-  }
-  Tensions t;
-  if (n[0] > 0) t.outside = sum[0] / n[0];
-  if (n[1] > 0) t.contact = sum[1] / n[1], t.least = least;
-  return t;
-}
-
 /// Force on the pulled cell along its pull, nN.
 double force_on(const coupling::Pull& pull, const ObservedFrame& f) {
   const dcm::State& cells = f.world.state.dcm;
@@ -63,13 +41,13 @@ void sample_pull_off(const ObservedFrame& f, Measures& m) {
   const std::vector<coupling::Pull>& pulls = f.world.params.pulls;
   const auto& cells = f.snapshot.cells;
   double force = kNone, distance = kNone, area = kNone;
-  Tensions t;
+  coupling::ContactTensions t;
   if (pulls.size() == 2 && cells.size() == 2) {
     force = 0.5 * (force_on(pulls[0], f) + force_on(pulls[1], f));
     distance = (cells[1].center - cells[0].center).norm();
     const coupling::Adhesion adhesion = coupling::find_adhesion(f.world, f.work);
     area = adhesion.area;
-    t = find_tensions(coupling::measure_nodes(f.world, f.work).tension, adhesion.node);
+    t = coupling::find_contact_tensions(coupling::measure_nodes(f.world, f.work).tension, adhesion);
   }
   m["pull_force_nN"].push_back(force);
   m["pull_force_relative"].push_back(force / vesicle_pull_off(pair_of(f.scene)));
