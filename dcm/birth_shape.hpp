@@ -11,6 +11,10 @@
 
 namespace acinus::dcm {
 
+/// Time in which a cortex forgets the shape it was given otherwise than by division, s: as long as
+/// mitosis, slow next to what settles a cell, fast next to its cycle.
+inline constexpr double kForgetShape = 3600;
+
 /// References over those of a sphere of the reference volume: r(t) = 1 + weight(t) (ratio - 1).
 struct BirthShape {
   Ramp weight = Ramp::constant(0);  ///< from 1 at birth to 0 after mitosis

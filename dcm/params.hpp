@@ -13,6 +13,7 @@ namespace acinus::dcm {
 struct Params {
   double spring_stiffness = 0;             ///< nN/um, k_s
   double bending_stiffness = 0;            ///< nN um, k_b
+  double fold_repulsion = 0;               ///< nN/um^3, of two faces folded onto each other
   double area_modulus = 0;                 ///< nN/um, K_A of the whole surface
   double local_area_modulus = 0;           ///< nN/um, K_A of each triangle
   double cortex_tension = 0;               ///< nN/um, active tension T of the surface

@@ -23,10 +23,6 @@
 namespace acinus::coupling {
 namespace {
 
-/// Time in which the cortex of a mended cell forgets the mesh it was given, s. As long as mitosis:
-/// slow next to what settles a cell, fast next to its cycle.
-constexpr double kForget = 3600;
-
 double reference_radius(const State& s, std::size_t lane) {
   return sphere_radius(s.dcm.volume[lane].at(s.clock.time));
 }
@@ -91,7 +87,7 @@ void replace_mesh(const dcm::Params& params, State& s, std::size_t lane,
   const double stretch = find_stretch(s, lane, old), t = s.clock.time;
   std::vector<double> link = adapt_nucleus(params, lane, old, node, s);
   s.dcm.birth[lane] = dcm::make_birth_shape(topology_of(s, lane), node, reference_radius(s, lane),
-                                            stretch, {1, 0, t, t + kForget});
+                                            stretch, {1, 0, t, t + dcm::kForgetShape});
   s.dcm.birth[lane].link = std::move(link);
   dcm::EdgeTension& tension = s.dcm.tension[lane];
   if (!tension.is_new())

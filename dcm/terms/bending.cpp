@@ -6,11 +6,20 @@
 namespace acinus::dcm {
 namespace {
 
-/// cos theta at which an edge begins to be a fold: 60 degrees between its faces.
-constexpr double kFoldCos = -0.5;
-/// 1 + cos theta below which the fold goes on as a straight line, so that all numbers stay finite:
-/// 11 degrees.
-constexpr double kFoldFloor = 0.02;
+/// A barrier against two faces that fold onto each other,
+/// fold = max(0, start - cos theta) / (1 + cos theta).
+struct Barrier {
+  double start;  ///< cos theta where it begins
+  double
+      floor;  ///< 1 + cos theta below which it goes on as a straight line: all numbers are finite
+};
+/// Bending begins to resist at 60 degrees between the faces, and is linear below 11.
+constexpr Barrier kBending{-0.5, 0.02};
+/// Contact of the faces begins at 26 degrees, and is linear below 3.6.
+constexpr Barrier kTouching{-0.9, 0.002};
+/// Depth, um, at which faces pressed on each other hold the energy that the barrier of contact is
+/// measured in.
+constexpr double kTouchDepth = 0.1;
 
 /// Share of its reference area below which a face resists collapse.
 constexpr double kLeastArea = 0.1;
@@ -50,23 +59,35 @@ ACINUS_INLINE void add_collapse(Lane k, const Collapse& c, double stiffness_scal
   store(across, load(across) + stiffness_scale * stiffness);
 }
 
-/// Moment about an edge over the stiffness, and the positive part of its derivative.
+/// Derivative by theta of a law over its stiffness, and the positive part of the second one.
 struct FoldLaw {
   Lane moment, slope;
 };
 
-/// @param c0, s0  cosine and sine of the rest angle
-ACINUS_INLINE FoldLaw fold_law(Lane cos_theta, Lane sin_theta, double c0, double s0) {
+/// Of fold^2.
+ACINUS_INLINE FoldLaw barrier_law(const Barrier& barrier, Lane cos_theta, Lane sin_theta) {
   // Below the floor, fold goes on along its tangent.
-  const Lane below = lane_max0(kFoldFloor - (1.0 + cos_theta));
-  const Lane open = kFoldFloor + lane_max0(1.0 + cos_theta - kFoldFloor);
+  const Lane below = lane_max0(barrier.floor - (1.0 + cos_theta));
+  const Lane open = barrier.floor + lane_max0(1.0 + cos_theta - barrier.floor);
   const Lane inverse_open = 1.0 / open;
-  const Lane at_open = lane_max0(kFoldCos - cos_theta - below) * inverse_open;
+  const Lane at_open = lane_max0(barrier.start - cos_theta - below) * inverse_open;
   const Lane growth = inverse_open * (1.0 + at_open);  // -d fold / d cos theta
   const Lane fold = at_open + growth * below;
   const Lane slope = fold > 0.0 ? sin_theta * growth : lane_of(0);  // d fold / d theta
-  return {sin_theta * c0 - cos_theta * s0 + 2.0 * fold * slope,
-          lane_max0(cos_theta * c0 + sin_theta * s0) + 2.0 * slope * slope};
+  return {2.0 * fold * slope, 2.0 * slope * slope};
+}
+
+/// Of the hinge with its barrier.
+/// @param c0, s0  cosine and sine of the rest angle
+ACINUS_INLINE FoldLaw hinge_law(Lane cos_theta, Lane sin_theta, double c0, double s0) {
+  const FoldLaw barrier = barrier_law(kBending, cos_theta, sin_theta);
+  return {sin_theta * c0 - cos_theta * s0 + barrier.moment,
+          lane_max0(cos_theta * c0 + sin_theta * s0) + barrier.slope};
+}
+
+/// Energy of two faces of mean size pressed kTouchDepth into each other, over radius^2, nN/um.
+double touch_stiffness(const Params& p, const mesh::Topology& t) {
+  return 0.5 * p.fold_repulsion * kTouchDepth * kTouchDepth * t.rest_area / t.n_triangle;
 }
 
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
@@ -74,6 +95,7 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
   const mesh::Topology& t = *g.topology;
   const Lane k = p.bending_stiffness * load(g.active);
   const Lane radius = load(g.radius);
+  const Lane touching = touch_stiffness(p, t) * load(g.active) * radius * radius;
   const auto least_area = [&](int triangle) {
     const std::size_t f = triangle;
     const Lane a0 = (kLeastArea * t.rest_triangle_area[f]) * radius * radius;
@@ -92,8 +114,14 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane inverse_norms = 1.0 / lane_sqrt(s1 * s2);
     const Lane cos_theta = dot(n1, n2) * inverse_norms;
     const Lane sin_theta = -dot(cross(n1, n2), edge) * inverse_length * inverse_norms;
-    const FoldLaw law = fold_law(cos_theta, sin_theta, t.rest_angle_cos[e], t.rest_angle_sin[e]);
-    const Lane moment = k * law.moment, stiffness = stiffness_scale * k * law.slope;
+    const FoldLaw law = hinge_law(cos_theta, sin_theta, t.rest_angle_cos[e], t.rest_angle_sin[e]);
+    Lane moment = k * law.moment, slope = k * law.slope;
+    if (sum_lanes<double>(lane_max0(kTouching.start - cos_theta)) > 0) {  // hardly ever
+      const FoldLaw touch = barrier_law(kTouching, cos_theta, sin_theta);
+      moment += touching * touch.moment;
+      slope += touching * touch.slope;
+    }
+    const Lane stiffness = stiffness_scale * slope;
     const Lane root = lane_sqrt(stiffness);
 
     const Lane inverse_squares = inverse_norms * inverse_norms;
@@ -135,7 +163,17 @@ void add_bending(const Params& p, const GroupView& g, solve::System& s) {
                  s.spring.data() + g.first_spring * solve::kSpringStride);
 }
 
+namespace {
+double squared_fold(const Barrier& barrier, double cos_theta) {
+  const double u = 1 + cos_theta, open = std::max(u, barrier.floor);
+  const double at_open = std::max(1 + barrier.start - open, 0.0) / open;
+  const double fold = at_open + (1 + at_open) / open * (open - u);
+  return fold * fold;
+}
+}  // namespace
+
 double bending_energy(const Params& p, const GroupView& g, int lane) {
+  const double touching = touch_stiffness(p, *g.topology) * g.radius[lane] * g.radius[lane];
   double energy = 0;
   for (std::size_t e = 0; e < g.topology->hinge.size(); ++e) {
     const auto& h = g.topology->hinge[e];
@@ -145,10 +183,9 @@ double bending_energy(const Params& p, const GroupView& g, int lane) {
     const Vec3 n1 = (x[0] - x[2]).cross(x[0] - x[3]), n2 = (x[1] - x[3]).cross(x[1] - x[2]);
     const double theta = -std::atan2(n1.cross(n2).dot(edge) / edge.norm(), n1.dot(n2));
     const double rest = std::atan2(g.topology->rest_angle_sin[e], g.topology->rest_angle_cos[e]);
-    const double u = 1 + std::cos(theta), open = std::max(u, kFoldFloor);
-    const double at_open = std::max(1 + kFoldCos - open, 0.0) / open;
-    const double fold = at_open + (1 + at_open) / open * (open - u);
-    energy += p.bending_stiffness * (1 - std::cos(theta - rest) + fold * fold);
+    energy += p.bending_stiffness *
+                  (1 - std::cos(theta - rest) + squared_fold(kBending, std::cos(theta))) +
+              touching * squared_fold(kTouching, std::cos(theta));
   }
   for (std::size_t f = 0; f < g.topology->triangle.size(); ++f) {
     const double least = kLeastArea * rest_triangle_area(g, f, lane);

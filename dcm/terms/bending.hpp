@@ -7,12 +7,17 @@
 
 namespace acinus::dcm {
 
-/// Adds hinges, E = k_b (1 - cos(theta - theta0) + fold^2), with theta0 the angle of the rest
-/// shape. Forces are the exact gradient, so net force and torque vanish. [VanLiedekerke2020, Eq.
-/// (9)] fold = max(0, -1/2 - cos theta) / (1 + cos theta), which the paper's energy lacks: that one
-/// is largest for faces folded flat on each other and draws an edge on beyond. Where strong
-/// adhesion zips up the sharp rim of two cells, or of two daughters, faces were folded into each
-/// other. Stiffness: k_b (max(0, cos(theta - theta0)) + 2 fold'^2) grad theta grad theta^T
+/// Adds hinges, E = k_b (1 - cos(theta - theta0) + fold_b^2) + k_t fold_t^2, with theta0 the angle
+/// of the rest shape. Forces are the exact gradient, so net force and torque vanish.
+/// [VanLiedekerke2020, Eq. (9), first two terms]
+///
+/// The paper's energy is largest for faces folded flat on each other and draws an edge on beyond.
+/// Where strong adhesion zips up the sharp rim of two cells, or of two daughters, faces were folded
+/// into each other. fold_b = max(0, -1/2 - cos theta) / (1 + cos theta) keeps them apart while the
+/// cortex is as stiff as adhesion is strong. fold_t = max(0, -0.9 - cos theta) / (1 + cos theta)
+/// does so whatever the cortex, as contact does between any two faces that are not neighbours; k_t
+/// is what Params::fold_repulsion holds in two faces pressed 0.1 um into each other. Stiffness:
+/// (k_b max(0, cos(theta - theta0)) + 2 k_b fold_b'^2 + 2 k_t fold_t'^2) grad theta grad theta^T
 /// (Gauss-Newton).
 ///
 /// Faces get E = k_b max(0, a0 / (10 a) - 1)^2, which the paper lacks too: nothing in its cortex

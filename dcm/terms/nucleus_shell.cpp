@@ -12,6 +12,7 @@ Params nucleus_shell(const Params& p) {
   Params shell;
   shell.spring_stiffness = cortex_spring_stiffness(n.young, n.thickness);
   shell.bending_stiffness = cortex_bending_stiffness(n.young, n.thickness, n.poisson);
+  shell.fold_repulsion = p.fold_repulsion;
   shell.area_modulus = n.area_modulus;
   shell.bulk_modulus = n.bulk_modulus;
   shell.nodal_friction = p.nodal_friction;

@@ -48,6 +48,7 @@ dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
   p.spring_stiffness = dcm::cortex_spring_stiffness(d.cortex_young, d.cortex_thickness);
   p.bending_stiffness =
       dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);
+  p.fold_repulsion = scene.contact.repulsion;
   if (p.nucleus && !p.nucleus->resists()) p.nucleus.reset();
   p.viscosity = scene.friction.liquid ? scene.friction.viscosity : 0;
   p.diffusion = type.diffusion;

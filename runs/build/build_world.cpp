@@ -1,10 +1,12 @@
 #include "runs/build/build_world.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
@@ -14,6 +16,7 @@
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/rules.hpp"
+#include "coupling/start_shapes.hpp"
 #include "coupling/start_up.hpp"
 #include "runs/build/build_boundary.hpp"
 #include "runs/build/build_correction.hpp"
@@ -21,6 +24,7 @@
 #include "runs/build/build_params.hpp"
 #include "runs/build/cell_types.hpp"
 #include "runs/build/place_cells.hpp"
+#include "runs/build/placing_advice.hpp"
 #include "runs/build/start_state.hpp"
 
 namespace acinus::runs {
@@ -84,6 +88,21 @@ coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   return lobule;
 }
 
+void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double depth, Notes& notes) {
+  if (cut.cells.empty()) return;
+  constexpr std::size_t kNamed = 5;
+  const bool more = cut.cells.size() > kNamed;
+  std::vector<std::string> ways = ways_to_start_smaller(scene);
+  ways.push_back(way_to_part(scene));
+  notes.warned.push_back(fmt::format(
+      "the scene starts with overlaps: {} deformable cells (number {}{}) stand more than {:.3g} um "
+      "deep in others. Each was cut where it meets them, down to {:.2g} of its volume, and starts "
+      "under the pressure of that. {}.",
+      cut.cells.size(),
+      fmt::join(std::span(cut.cells).first(more ? kNamed : cut.cells.size()), ", "),
+      more ? ", ..." : "", depth, cut.smallest_volume, fmt::join(ways, ", or ")));
+}
+
 }  // namespace
 
 BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
@@ -117,10 +136,12 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   }
   check_starts(scene, cells, p.boundary);
   add_cells(scene, cells, built.type_names, p, world.state);
-  if (scene.start_up.enabled)
+  if (scene.start_up.enabled) {
     coupling::begin_start_up(world, scene.start_up.initial_radius);
-  else
+  } else {
+    note_cut_cells(scene, coupling::cut_overlapping(world), p.dcm_contact.max_depth, built.notes);
     coupling::begin_life(world);
+  }
   return built;
 }
 

@@ -8,6 +8,7 @@
 
 #include "coupling/life/density.hpp"
 #include "coupling/world/cell.hpp"
+#include "runs/build/placing_advice.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -27,25 +28,6 @@ std::string advise_if_full(const coupling::World& world, std::span<const std::in
                 : "Start with fewer or smaller cells, enlarge the room, or end its compression "
                   "earlier.";
   return text;
-}
-
-/// How the cells of a scene come to stand farther apart. Clumps and boxes are laid out in diameters
-/// of their cells, so neither fewer nor smaller cells do it there.
-std::string how_to_part(const Scene& scene) {
-  switch (scene.cells.source) {
-    case CellSource::kList:
-      return "move them apart or give them a smaller radius (cells.list)";
-    case CellSource::kClump:
-    case CellSource::kBox:
-      return "place them farther apart (cells.spacing)";
-    case CellSource::kFill:
-      return "place fewer of them farther apart (cells.count, cells.min_distance), or take smaller "
-             "ones (radius of the cell type)";
-    case CellSource::kLobule:
-      break;
-  }
-  return "place fewer of them farther apart (lobule.cells, lobule.min_distance), or take smaller "
-         "ones (radius of the cell type)";
 }
 
 bool has_shells(const coupling::World& world) { return !world.state.dcm.group.empty(); }
@@ -91,16 +73,9 @@ std::string advise(const coupling::World& world, const Excess& excess) {
 
 std::string advise_start(const Scene& scene, const coupling::World& world, const Excess& excess) {
   if (scene.start_up.enabled) return advise(world, excess);
-  std::vector<std::string> ways{"Let the cells grow from small ones first (start_up.enabled)"};
-  const auto has_any_age = [](const auto& type) {
-    return type.second.cycle.time > 0 && type.second.cycle.random_start;
-  };
-  if (std::ranges::any_of(scene.cell_types, has_any_age))
-    ways.emplace_back(
-        "start them just born (cycle.start = birth; random ones have up to twice the "
-        "volume)");
+  std::vector<std::string> ways = ways_to_start_smaller(scene);
   constexpr std::size_t kPair = 2;
-  ways.push_back(excess.cells.size() == kPair ? how_to_part(scene)
+  ways.push_back(excess.cells.size() == kPair ? way_to_part(scene)
                                               : "place them elsewhere or take smaller ones");
   return fmt::format("{}.", fmt::join(ways, ", or "));
 }

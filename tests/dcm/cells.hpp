@@ -24,6 +24,7 @@ inline Params table_one() {
   Params p;
   p.spring_stiffness = cortex_spring_stiffness(1.0, 0.5);
   p.bending_stiffness = cortex_bending_stiffness(1.0, 0.5, 0.5);
+  p.fold_repulsion = 5;
   p.area_modulus = p.local_area_modulus = 0.8;
   p.bulk_modulus = 2.5;
   return p;

@@ -50,6 +50,25 @@ TEST(Fold, TakesEverMoreEnergy) {
   EXPECT_GT(energy_of(make_folded(170.0 * kPi / 180)), 1.1);
 }
 
+// A cortex a tenth as thick is a thousandth as stiff: faces keep apart as in contact then. Adhesion
+// of 1e-3 J/m^2 gains 14 fJ on two faces with edges of 4 um.
+TEST(Fold, OfAThinCortexIsStoppedByContact) {
+  Params thin = table_one();
+  thin.bending_stiffness *= 1e-3;
+  const auto energy = [&](double degrees) {
+    return bending_energy(thin, make_folded(degrees * kPi / 180).view(), static_cast<int>(kLane));
+  };
+  EXPECT_LT(energy(150) - energy(90), 0.01);
+  double last = energy(154);
+  for (double degrees = 156; degrees < 180; degrees += 2) {
+    EXPECT_GT(energy(degrees), last) << degrees;
+    last = energy(degrees);
+  }
+  EXPECT_GT(energy(176), 14);
+  thin.fold_repulsion = 0;
+  EXPECT_LT(energy(176), 1);
+}
+
 /// A cell at rest but for one corner of one face, which is moved toward the opposite edge until the
 /// face has this share of its area.
 Cells make_collapsed(double share) {
