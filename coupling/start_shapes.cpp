@@ -10,7 +10,7 @@
 #include "core/sphere.hpp"
 #include "core/threads.hpp"
 #include "coupling/world/cell.hpp"
-#include "dcm/place_nucleus.hpp"
+#include "dcm/give_shape.hpp"
 #include "dcm/room.hpp"
 
 namespace acinus::coupling {
@@ -32,22 +32,6 @@ std::vector<StartBall> list_balls(const State& s) {
   return balls;
 }
 
-void take_shape(const dcm::Params& params, std::size_t lane, double radius,
-                const std::vector<Vec3>& node, State& s) {
-  const dcm::Group& group = s.dcm.group[lane / kLanes];
-  const double time = s.clock.time;
-  for (std::size_t i = 0; i < node.size(); ++i)
-    store_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, static_cast<int>(i)),
-                node[i]);
-  s.dcm.birth[lane] = dcm::make_birth_shape(*group.topology, node, radius, 1,
-                                            {1, 0, time, time + dcm::kForgetShape});
-  if (!group.nucleus.exists()) return;
-  const std::vector<Vec3> nucleus =
-      dcm::place_nucleus(group, node, group.nucleus.size * radius, params.nucleus->gap);
-  dcm::store_nucleus(nucleus, lane, s.dcm);
-  s.dcm.birth[lane].link = dcm::link_ratios(group, radius, node, nucleus);
-}
-
 /// The ball of a lane as far as its faces leave it. The nodes of a ball stand a little outside it,
 /// so that the mesh has its volume.
 std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
@@ -61,7 +45,9 @@ std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
     radius = std::max(radius, d.norm());
     d.normalize();
   }
-  return dcm::fill_room(t, direction, ball.center, radius, face);
+  const dcm::Room room(ball.center,
+                       [&](const Vec3& d) { return dcm::reach_to_faces(d, radius, face); });
+  return room.fill(t, direction, radius);
 }
 
 }  // namespace
@@ -96,7 +82,10 @@ CutCells cut_overlapping(World& world) {
   for (std::size_t k = 0; k < cut.size(); ++k) {
     const StartBall& ball = balls[cut[k]];
     const dcm::Group& group = s.dcm.group[ball.at / kLanes];
-    take_shape(world.params.dcm[group.type], ball.at, ball.radius, node[k], s);
+    const double now = s.clock.time;
+    dcm::give_shape(world.params.dcm[group.type],
+                    {node[k], ball.radius, 1, {1, 0, now, now + dcm::kForgetShape}}, ball.at,
+                    s.dcm);
     const double volume = mesh::compute_volume(node[k], group.topology->triangle);
     result.smallest_volume = std::min(result.smallest_volume, volume / sphere_volume(ball.radius));
     result.cells.push_back(s.dcm.lineage[ball.at]);

@@ -1,6 +1,7 @@
 #include "dcm/room.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/mesh/measures.hpp"
 #include "core/mesh/star.hpp"
@@ -9,20 +10,12 @@
 namespace acinus::dcm {
 namespace {
 
-/// Nodes of the sphere that shows the room to the nodes that are spread over it.
-constexpr int kShowingNodes = 2562;
+/// Nodes of the sphere on which a room is looked at, and over whose faces meshes are spread.
+constexpr int kShowingNodes = 642;
 constexpr double kLeastShare = 0.25;
+constexpr int kBisections = 50;
 
-mesh::Surface show_room(const Vec3& center, double radius, std::span<const RoomFace> face) {
-  const mesh::Topology& sphere = mesh::shared_icosphere(kShowingNodes);
-  mesh::Surface surface;
-  surface.triangle = sphere.triangle;
-  for (const Vec3& rest : sphere.rest) {
-    const Vec3 direction = rest.normalized();
-    surface.node.push_back(center + reach_of_room(direction, radius, face) * direction);
-  }
-  return surface;
-}
+const mesh::Topology& showing_sphere() { return mesh::shared_icosphere(kShowingNodes); }
 
 }  // namespace
 
@@ -32,8 +25,8 @@ double share_of_distance(double radius, double other_radius, double distance) {
   return std::clamp(power, kLeastShare, 1 - kLeastShare);
 }
 
-double reach_of_room(const Vec3& direction, double radius, std::span<const RoomFace> face) {
-  double reach = radius;
+double reach_to_faces(const Vec3& direction, double farthest, std::span<const RoomFace> face) {
+  double reach = farthest;
   for (const RoomFace& f : face) {
     const double slope = f.normal.dot(direction);
     if (slope * reach > f.distance) reach = f.distance / slope;
@@ -41,19 +34,43 @@ double reach_of_room(const Vec3& direction, double radius, std::span<const RoomF
   return reach;
 }
 
-std::vector<Vec3> fill_room(const mesh::Topology& t, std::span<const Vec3> direction,
-                            const Vec3& center, double radius, std::span<const RoomFace> face) {
+Room::Room(const Vec3& center, Reach reach) : center_(center), reach_(std::move(reach)) {
+  for (const Vec3& rest : showing_sphere().rest) shown_.push_back(reach_(rest.normalized()));
+}
+
+std::vector<Vec3> Room::show(double radius) const {
+  const mesh::Topology& sphere = showing_sphere();
+  std::vector<Vec3> node;
+  for (std::size_t i = 0; i < shown_.size(); ++i)
+    node.push_back(center_ + std::min(shown_[i], radius) * sphere.rest[i].normalized());
+  return node;
+}
+
+double Room::volume(double radius) const {
+  return mesh::compute_volume(show(radius), showing_sphere().triangle);
+}
+
+double Room::find_radius(double wanted, double largest) const {
+  if (volume(largest) <= wanted) return largest;
+  double low = 0, high = largest;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (low + high);
+    (volume(middle) < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<Vec3> Room::fill(const mesh::Topology& t, std::span<const Vec3> direction,
+                             double radius) const {
   std::vector<Vec3> cast;
-  for (const Vec3& d : direction) cast.push_back(center + reach_of_room(d, radius, face) * d);
+  for (const Vec3& d : direction) cast.push_back(center_ + std::min(reach_(d), radius) * d);
   std::vector<Vec3> node = cast;
-  const mesh::StarSurface star(show_room(center, radius, face), center);
+  const mesh::StarSurface star({show(radius), showing_sphere().triangle}, center_);
   const std::vector<Part> part(node.size(), Part::kShell);
-  const int n_face = mesh::shared_icosphere(kShowingNodes).n_triangle;
-  spread_nodes(t, star, {part, n_face}, node);
+  spread_nodes(t, star, {part, showing_sphere().n_triangle}, node);
   // Spreading evens out long triangles beside rims; where it does not help, rays will do.
-  const bool better =
-      mesh::compute_quality(node, t.triangle) > mesh::compute_quality(cast, t.triangle);
-  return better ? node : cast;
+  return mesh::compute_quality(node, t.triangle) > mesh::compute_quality(cast, t.triangle) ? node
+                                                                                           : cast;
 }
 
 }  // namespace acinus::dcm

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -45,18 +44,5 @@ struct DaughterMeshes {
 /// Later attempts turn away from it at random.
 Vec3 division_axis(const World& world, const CycleParams& cycle, std::int64_t lineage,
                    const Vec3& center, int attempt);
-
-struct Settled {
-  bool ok = true;
-  std::string cause;
-  int steps = 0;
-  std::map<std::int64_t, double> shift;     ///< um, farthest a node of each daughter moved
-  std::map<std::int64_t, double> pressure;  ///< kPa, of each daughter's cytosol
-};
-
-/// Lets new deformable daughters settle against each other and their neighbours, which stand still,
-/// so that the next step of the whole world is an ordinary one. Without success all stay where they
-/// were.
-Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughters);
 
 }  // namespace acinus::coupling

@@ -15,8 +15,10 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/subworld/settle.hpp"
 #include "coupling/world/population.hpp"
-#include "dcm/place_nucleus.hpp"
+#include "coupling/zoom/update.hpp"
+#include "dcm/give_shape.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
@@ -101,17 +103,6 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
   report.divisions.push_back(f);
 }
 
-/// Gives a daughter a nucleus of her own, with links as long as they have to be at birth.
-void bear_nucleus(const dcm::Params& params, const dcm::NewCell& shell,
-                  const std::vector<Vec3>& node, std::size_t lane, dcm::State& s) {
-  const dcm::Group& group = s.group[lane / kLanes];
-  if (!group.nucleus.exists()) return;
-  const std::vector<Vec3> nucleus =
-      dcm::place_nucleus(group, node, group.nucleus.size * shell.radius, params.nucleus->gap);
-  dcm::store_nucleus(nucleus, lane, s);
-  s.birth[lane].link = dcm::link_ratios(group, shell.radius, node, nucleus);
-}
-
 /// The newborn as a state of their own.
 State make_state(const World& world, const Newborn& born, double time) {
   State s;
@@ -121,13 +112,10 @@ State make_state(const World& world, const Newborn& born, double time) {
   for (std::size_t k = 0; k < born.shell.size(); ++k) {
     const std::size_t lane =
         std::ranges::find(s.dcm.lineage, born.shell[k].lineage) - s.dcm.lineage.begin();
-    for (std::size_t i = 0; i < born.node[k].size(); ++i)
-      store_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, static_cast<int>(i)),
-                  born.node[k][i]);
-    s.dcm.birth[lane] =
-        dcm::make_birth_shape(*born.shell[k].topology, born.node[k], born.shell[k].radius,
-                              born.stretch[k], {1, 0, time, time + born.mitosis[k]});
-    bear_nucleus(world.params.dcm[born.shell[k].type], born.shell[k], born.node[k], lane, s.dcm);
+    dcm::give_shape(
+        world.params.dcm[born.shell[k].type],
+        {born.node[k], born.shell[k].radius, born.stretch[k], {1, 0, time, time + born.mitosis[k]}},
+        lane, s.dcm);
     if (born.tension[k] != 0)
       s.dcm.tension[lane] =
           dcm::make_tension(*born.shell[k].topology, born.node[k], born.tension[k]);
@@ -254,7 +242,7 @@ LifeReport turn_over(World& world, Workspace& work) {
   if (!born.shell.empty()) {
     std::vector<std::int64_t> daughters;
     for (const dcm::NewCell& c : born.shell) daughters.push_back(c.lineage);
-    const Settled settled = settle_daughters(world, daughters);
+    const Settled settled = settle_cells(world, daughters);
     if (!settled.ok && stop_requested()) return undo(before, s);
     for (std::size_t k = 0; k < report.divisions.size(); ++k)
       add_settling(settled, {daughters[2 * k], daughters[2 * k + 1]}, report.divisions[k]);
@@ -274,10 +262,21 @@ LifeReport live(World& world, Workspace& work) {
     clock.due = EventsDue::kAll;
     if (report.interrupted) return report;
   }
-  if (clock.due != EventsDue::kMeshes && !update_sleep(world, work)) {
+  const bool past_sleep = clock.due == EventsDue::kMeshes || clock.due == EventsDue::kZoom;
+  if (!past_sleep && !update_sleep(world, work)) {
     clock.due = EventsDue::kSleep;
     report.interrupted = true;
     return report;
+  }
+  if (clock.due != EventsDue::kMeshes) {
+    const ZoomReport zoom = update_zoom(world, work);
+    if (zoom.interrupted) {
+      clock.due = EventsDue::kZoom;
+      report.interrupted = true;
+      return report;
+    }
+    for (const ModelChange& c : zoom.changes)
+      report.events.push_back({c.code, {c.cell}, c.message});
   }
   mend_meshes(world, work, report);
   clock.due = report.interrupted ? EventsDue::kMeshes : EventsDue::kNone;
@@ -305,7 +304,8 @@ LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int6
 }
 
 double time_to_event(const World& world) {
-  return std::min(time_to_life_event(world), time_to_sleep_event(world));
+  return std::min(
+      {time_to_life_event(world), time_to_sleep_event(world), time_to_zoom_event(world)});
 }
 
 }  // namespace acinus::coupling

@@ -13,7 +13,8 @@
 namespace acinus::coupling {
 
 struct LifeEvent {
-  /// division | division_waits | settling_failed | death | lysis | remeshed | mesh_degenerate
+  /// division | division_waits | settling_failed | death | lysis | remeshed | mesh_degenerate |
+  /// promotion | demotion | promotion_waits
   std::string code;
   std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
   std::string message;
@@ -29,8 +30,8 @@ struct LifeReport {
 
 /// Stage 5 of a step: applies rules and inhibition on their time grid, then divides what has
 /// doubled its reference volume and removes what is dead. Time stands still. The workspace is sized
-/// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp), and
-/// mends meshes that degenerate (mesh_health.hpp).
+/// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp), lets the
+/// zoom follow (zoom/update.hpp), and mends meshes that degenerate (mesh_health.hpp).
 LifeReport live(World& world, Workspace& work);
 
 /// Removes those of the cells that dissolve. Their membrane gives way to the last, so a step that

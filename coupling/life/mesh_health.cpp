@@ -15,6 +15,7 @@
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/mesh_remedy.hpp"
 #include "dcm/place_nucleus.hpp"
@@ -159,7 +160,7 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
     changed.push_back(lineage);
   }
   if (!changed.empty()) {
-    const Settled settled = settle_daughters(world, changed);
+    const Settled settled = settle_cells(world, changed);
     if (!settled.ok && stop_requested()) {
       s = std::move(before);
       report.interrupted = true;

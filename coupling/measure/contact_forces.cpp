@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <unordered_map>
 
 #include "coupling/step/stages.hpp"
 
@@ -45,6 +46,30 @@ struct Places {
   }
 };
 
+void visit_fading(const World& world, const Places& places,
+                  const std::function<void(const ContactForce&)>& look) {
+  const State& s = world.state;
+  if (s.fading.empty()) return;
+  std::unordered_map<std::int64_t, std::size_t> number;
+  for (const std::size_t lane : places.w.dcm.lane_of_body)
+    number.emplace(s.dcm.lineage[lane], number.size());
+  for (const std::int64_t lineage : s.cbm.lineage) number.emplace(lineage, number.size());
+  for (const FadingForce& fading : s.fading) {
+    const auto a = number.find(fading.a), b = number.find(fading.b);
+    if (a == number.end() || b == number.end()) continue;
+    ContactForce f;
+    f.a = a->second;
+    f.b = b->second;
+    f.force = fading.share.at(s.clock.time) * fading.force;
+    const Vec3 way = places.center[f.b] - places.center[f.a];
+    f.normal = -way.normalized();
+    f.arm_a = 0.5 * way;
+    f.arm_b = -0.5 * way;
+    f.fades = true;
+    look(f);
+  }
+}
+
 }  // namespace
 
 void visit_contacts(const World& world, const Workspace& w,
@@ -71,6 +96,7 @@ void visit_contacts(const World& world, const Workspace& w,
       places.set_arms_of_surface(k, f);
     look(f);
   }
+  visit_fading(world, places, look);
 }
 
 Reactions find_reactions(const World& world, const Workspace& w) {

@@ -5,8 +5,8 @@
 
 namespace acinus::coupling {
 
-int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells,
-                   const Vec3& axis_point) {
+double distance_to_edge(const LayerCell& cell, std::span<const LayerCell> cells,
+                        const Vec3& axis_point) {
   const Vec3 own = cell.center - axis_point;
   const double distance = std::hypot(own.x(), own.y()), diameter = 2 * cell.radius;
   const double angle = std::atan2(own.y(), own.x());
@@ -18,7 +18,13 @@ int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells,
     const double turn = std::remainder(std::atan2(d.y(), d.x()) - angle, 2 * kPi);
     if (std::abs(turn) * distance < diameter) edge = r;
   }
-  return 1 + static_cast<int>(std::lround((distance - edge) / diameter));
+  return distance - edge;
+}
+
+int local_layer_of(const LayerCell& cell, std::span<const LayerCell> cells,
+                   const Vec3& axis_point) {
+  return 1 + static_cast<int>(
+                 std::lround(distance_to_edge(cell, cells, axis_point) / (2 * cell.radius)));
 }
 
 std::vector<int> find_layers(std::span<const LayerCell> cells, const Vec3& axis_point) {

@@ -78,6 +78,7 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
       forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
   });
   add_pulls(world, time + 0.5 * step, forces);
+  add_fading_forces(s, s.clock.time + 0.5 * step, forces);
 }
 
 }  // namespace acinus::coupling

@@ -38,6 +38,10 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
   const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to) {
     s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
     s.cycle[to] = value_of(from.cycle, at, Cycle{});
+    if (!from.model_since.empty()) {
+      s.model_since.resize(n_cell, like.clock.origin);
+      s.model_since[to] = from.model_since[at];
+    }
     if (value_of(from.asleep, at, std::uint8_t{0}) == 0) return;
     s.asleep.resize(n_cell, 0);
     s.asleep[to] = 1;
@@ -64,6 +68,7 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
   s.leader_interval = like.leader_interval;
   s.life_interval = like.life_interval;
   s.sleep_interval = like.sleep_interval;
+  s.fading = like.fading;
   s.next_lineage = like.next_lineage;
   s.divisions = like.divisions;
   s.deaths = like.deaths;

@@ -13,11 +13,13 @@
 #include "core/ranks.hpp"
 #include "core/solve/cg.hpp"
 #include "coupling/world/cycle.hpp"
+#include "coupling/world/fading.hpp"
 #include "coupling/world/interface.hpp"
 #include "coupling/world/pull.hpp"
 #include "coupling/world/stretcher.hpp"
 #include "coupling/world/suction.hpp"
 #include "coupling/world/temperature.hpp"
+#include "coupling/world/zoom.hpp"
 #include "dcm/contact.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
@@ -90,6 +92,7 @@ struct Params {
   Motility motility;
   LifeParams life;
   Sleep sleep;
+  ZoomParams zoom;
   Numerics numerics;
   contact::Boundary boundary;
   Temperature temperature;
@@ -99,9 +102,9 @@ struct Params {
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the
-/// process is asked to stop while cells divide, while the velocity of sleepers is found, or while
-/// new meshes settle.
-enum class EventsDue : std::uint8_t { kNone, kAll, kMeshes, kSleep };
+/// process is asked to stop while cells divide, while the velocity of sleepers is found, while
+/// cells change their model, or while new meshes settle.
+enum class EventsDue : std::uint8_t { kNone, kAll, kMeshes, kSleep, kZoom };
 
 struct Clock {
   double time = 0;    ///< s since the beginning of start-up
@@ -139,6 +142,10 @@ struct State {
   std::int64_t life_interval = -1;    ///< grid interval the rules of life were looked at
   std::int64_t next_lineage = 0;      ///< of the next cell to be born
   std::int64_t divisions = 0, deaths = 0;
+  /// [dcm lanes, then cbm cells] s, clock time since when a cell has its model; empty: all have
+  /// that of the start
+  std::vector<double> model_since;
+  std::vector<FadingForce> fading;
   std::vector<double> settle_pressure;  ///< kPa per cell at the last look of the settling phase
   double settle_time = -1;              ///< s, when that was
 };

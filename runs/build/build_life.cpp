@@ -13,7 +13,7 @@ coupling::LifeRule make_rule(const Scene& scene, const LifeRuleBlock& r) {
   coupling::LifeRule rule = r;
   if (r.region)
     rule.inside = [region = *r.region, axis = scene.axis_point](const Vec3& x) {
-      return in_region(region, axis, x);
+      return coupling::in_region(region, axis, x);
     };
   std::ranges::sort(rule.cells);
   return rule;

@@ -34,6 +34,18 @@ void set_motility(const Scene& scene, coupling::Motility& m) {
   if (scene.lobule) m.axis_radius = scene.lobule->central_vein_radius;
 }
 
+/// With --set model=dcm or cbm the zoom has nothing to say.
+void set_zoom(const Scene& scene, coupling::ZoomParams& p) {
+  const CellModel model = scene.model.value_or(scene.cells.model);
+  if (!scene.moving_zoom || model != CellModel::kZoom) return;
+  p = *scene.moving_zoom;
+  p.region = scene.zoom;
+  p.axis_point = scene.axis_point;
+  p.seed = scene.seed;
+  for (const auto& [name, type] : scene.cell_types)
+    p.mesh.push_back(&mesh::shared_icosphere(type.dcm.nodes));
+}
+
 void set_numerics(const Scene& scene, coupling::Numerics& n) {
   n = scene.numerics;
   // An explicit step's length is set by stability, not by what an error estimate asks for.
@@ -72,6 +84,7 @@ void set_params(const Scene& scene, coupling::Params& p) {
   set_contact(scene, p);
   p.start_up = scene.start_up;
   set_motility(scene, p.motility);
+  set_zoom(scene, p.zoom);
   set_numerics(scene, p.numerics);
   if (scene.stretcher) p.stretcher = *scene.stretcher;
   if (const auto& t = scene.pipette)

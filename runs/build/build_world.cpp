@@ -18,6 +18,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/start_shapes.hpp"
 #include "coupling/start_up.hpp"
+#include "coupling/world/orientation.hpp"
 #include "runs/build/build_boundary.hpp"
 #include "runs/build/build_correction.hpp"
 #include "runs/build/build_life.hpp"
@@ -31,12 +32,6 @@ namespace acinus::runs {
 namespace {
 
 /// A uniformly distributed rotation of a cell's mesh.
-Mat3 random_rotation(std::uint64_t seed, std::int64_t lineage) {
-  UniformStream r(seed, Purpose::kPlacement, static_cast<std::uint64_t>(lineage) + 1);
-  Eigen::Quaterniond q(r.normal(), r.normal(), r.normal(), r.normal());
-  return q.normalized().toRotationMatrix();
-}
-
 void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
                const std::vector<std::string>& types, const coupling::Params& params,
                coupling::State& state) {
@@ -51,7 +46,8 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
     if (c.deformable) {
       shells.push_back(
           {c.lineage, type, &mesh::shared_icosphere(t.dcm.nodes), c.center, c.radius, c.pull,
-           c.oriented ? Mat3(Mat3::Identity()) : random_rotation(scene.seed, c.lineage),
+           c.oriented ? Mat3(Mat3::Identity())
+                      : coupling::random_orientation(scene.seed, c.lineage),
            dcm::nucleus_mesh(params.dcm[type].nucleus ? &*params.dcm[type].nucleus : nullptr)});
     } else {
       const double young = cbm::draw_young(params.cbm[type], scene.seed, c.lineage);

@@ -13,7 +13,7 @@ const std::string& type_of_generated(const Scene& scene, std::int64_t number, co
   const std::vector<TypeShare>& types = scene.cells.types;
   if (types.empty()) return scene.cell_types.begin()->first;
   const auto is_here = [&](const TypeShare& t) {
-    return t.region && in_region(*t.region, scene.axis_point, center);
+    return t.region && coupling::in_region(*t.region, scene.axis_point, center);
   };
   const bool anywhere = std::ranges::none_of(types, is_here);
   std::vector<const TypeShare*> choice;

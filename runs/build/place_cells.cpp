@@ -8,10 +8,11 @@
 #include <utility>
 
 #include "core/contact/box_pairs.hpp"
+#include "core/contact/nearest_gap.hpp"
 #include "core/error.hpp"
-#include "core/mesh/measures.hpp"
 #include "core/random.hpp"
 #include "coupling/generate/packing.hpp"
+#include "coupling/zoom/regions.hpp"
 #include "runs/build/cell_types.hpp"
 
 namespace acinus::runs {
@@ -26,42 +27,6 @@ double start_radius(const Scene& scene, double radius) {
 
 /// Sizes beyond these are slips of the unit; the run file stores single precision.
 constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthest = 1e6;  // um
-
-/// Distance to a rigid surface, negative where cells may not be; no less than `enough` is told
-/// apart.
-double gap_to_static_mesh(const contact::StaticMesh& m, const Vec3& x, double enough) {
-  const std::vector<Vec3>& node = m.body.node;
-  if (!m.inside) {
-    Vec3 low = node.front(), high = low;
-    for (const Vec3& y : node) low = low.cwiseMin(y), high = high.cwiseMax(y);
-    const double away = (x - x.cwiseMax(low).cwiseMin(high)).norm();
-    if (away >= enough) return away;
-  }
-  const double distance = mesh::compute_distance(x, node, *m.triangle);
-  // Triangles of a surface that is lived in face inward: its winding number is -1 inside.
-  const bool within = std::abs(mesh::compute_winding_number(x, node, *m.triangle)) > 0.5;
-  return within == m.inside ? distance : -distance;
-}
-
-double nearest_gap(const contact::Boundary& boundary, const Vec3& x, std::string* name) {
-  double nearest = std::numeric_limits<double>::infinity();
-  auto look = [&](double gap, auto label) {
-    if (gap >= nearest) return;
-    nearest = gap;
-    if (name) *name = label();
-  };
-  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
-    look(contact::gap_to_wall(wall, x, 0).gap, [&] { return contact::wall_label(wall); });
-  });
-  const auto& network = boundary.vessels.network;
-  for (int s = 0; s < static_cast<int>(network.segment.size()); ++s)
-    look(contact::gap_to_segment(network, s, x).gap,
-         [&] { return fmt::format("vessel segment {}", s); });
-  for (const auto& m : boundary.meshes)
-    look(gap_to_static_mesh(m, x, nearest),
-         [&] { return fmt::format("static mesh \"{}\"", m.name); });
-  return nearest;
-}
 
 /// Cells that start anywhere in their cycle have up to twice the volume.
 double largest_start(const CellType& t) {
@@ -83,7 +48,7 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary
     // The next cell's type hangs on its number: large cells are not rarer for the room they need.
     const CellType& type =
         scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(seeds.size()), x));
-    if (nearest_gap(boundary, x, nullptr) < start_radius(scene, largest_start(type))) continue;
+    if (contact::nearest_gap(boundary, x, 0) < start_radius(scene, largest_start(type))) continue;
     seeds.push_back(x);
     tries = 0;
   }
@@ -137,25 +102,25 @@ void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
 
 }  // namespace
 
-bool in_region(const Region& r, const Vec3& axis_point, const Vec3& x) {
-  if (r.kind == RegionKind::kAll) return true;
-  if (r.kind == RegionKind::kSphere) return (x - r.center).norm() <= r.radius;
-  if (r.kind == RegionKind::kBox)
-    return (x.array() >= r.low.array()).all() && (x.array() <= r.high.array()).all();
-  if (r.kind == RegionKind::kHalfSpace) return (x - r.point).dot(r.normal) <= 0;
-  const double distance = (x - axis_point).head<2>().norm();
-  return distance >= r.min_distance && distance <= r.max_distance;
-}
-
-bool in_zoom(const Scene& scene, const Vec3& x) {
-  return std::ranges::any_of(scene.zoom,
-                             [&](const Region& r) { return in_region(r, scene.axis_point, x); });
-}
-
 namespace {
 
-bool is_deformable(const Scene& scene, CellModel model, const Vec3& x) {
-  return model == CellModel::kDcm || (model == CellModel::kZoom && in_zoom(scene, x));
+/// Which of the cells that the zoom decides about start deformable.
+void choose_models(const Scene& scene, const mesh::Network& vessels,
+                   const std::vector<std::size_t>& zoomed, std::vector<PlacedCell>& cells) {
+  if (zoomed.empty()) return;
+  std::vector<coupling::ZoomCell> all;
+  for (const PlacedCell& c : cells) {
+    coupling::ZoomCell z;
+    z.center = c.center;
+    z.radius = c.radius;
+    z.lineage = c.lineage;
+    all.push_back(z);
+  }
+  coupling::ZoomParams zoom;
+  zoom.region = scene.zoom;
+  zoom.axis_point = scene.axis_point;
+  const std::vector<double> distance = coupling::distances_from_zoom(zoom, vessels, all);
+  for (const std::size_t k : zoomed) cells[k].deformable = distance[k] <= 0;
 }
 
 }  // namespace
@@ -168,6 +133,11 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
   const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
 
   std::vector<PlacedCell> cells;
+  std::vector<std::size_t> zoomed;
+  const auto choose = [&](CellModel model, PlacedCell& p) {
+    p.deformable = model == CellModel::kDcm;
+    if (model == CellModel::kZoom) zoomed.push_back(cells.size());
+  };
   if (c.source == CellSource::kList) {
     for (const CellEntry& e : c.list) {
       PlacedCell p;
@@ -176,7 +146,7 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
       p.pull = e.pull;
       p.oriented = !e.random_orientation;
-      p.deformable = is_deformable(scene, e.model.value_or(c.model), e.position);
+      choose(e.model.value_or(c.model), p);
       cells.push_back(p);
     }
   } else {
@@ -199,11 +169,12 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
       p.radius = scene.cell_types.at(p.type).radius;
       p.oriented = false;
-      p.deformable = is_deformable(scene, c.model, x);
+      choose(c.model, p);
       cells.push_back(p);
     }
   }
   for (std::size_t k = 0; k < cells.size(); ++k) cells[k].lineage = static_cast<std::int64_t>(k);
+  choose_models(scene, boundary.vessels.network, zoomed, cells);
   return cells;
 }
 
@@ -215,7 +186,7 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
   for (const PlacedCell& c : cells) {
     std::string name;
     const double r = start_radius(scene, c.radius);
-    const double gap = nearest_gap(boundary, c.center, &name);
+    const double gap = contact::nearest_gap(boundary, c.center, 0, &name);
     if (gap >= r - kStartDepth) continue;
     if (++bad <= 10)
       message += fmt::format(

@@ -28,13 +28,6 @@ struct PlacedCell {
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
                                     const contact::Boundary& boundary);
 
-/// Whether a point lies in a region.
-/// @param axis_point  the vein axis is vertical through it
-bool in_region(const Region& region, const Vec3& axis_point, const Vec3& x);
-
-/// Whether a point lies in the union of the zoom regions.
-bool in_zoom(const Scene& scene, const Vec3& x);
-
 /// Every cell that starts inside a vessel or another obstacle, outside a wall or in another cell,
 /// in one message; before that, the first of an absurd size or place.
 /// @throws Error if there is any

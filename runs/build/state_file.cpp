@@ -257,6 +257,36 @@ void get_life(const io::CheckpointData& d, coupling::State& s) {
   s.sleep_interval = d.count("life/sleep_interval");
 }
 
+void put_zoom(const coupling::State& s, io::CheckpointData& d) {
+  d.put("zoom/model_since", s.model_since);
+  std::vector<std::int64_t> cell;
+  std::vector<Vec3> force;
+  std::vector<Ramp> share;
+  for (const coupling::FadingForce& f : s.fading) {
+    cell.insert(cell.end(), {f.a, f.b});
+    force.push_back(f.force);
+    share.push_back(f.share);
+  }
+  d.put("zoom/fading/cell", cell);
+  d.put("zoom/fading/force", flatten(force));
+  d.put("zoom/fading/share", flatten(share));
+}
+
+void get_zoom(const io::CheckpointData& d, coupling::State& s) {
+  if (!d.contains("zoom/model_since")) return;  // files of 0.1.0 have none
+  s.model_since = d.numbers("zoom/model_since");
+  const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
+  check_same(d, "zoom/model_since", s.model_since.empty() ? n_cell : s.model_since.size(), n_cell);
+  const std::vector<std::int64_t>& cell = d.integers("zoom/fading/cell");
+  const std::vector<Vec3> force = unflatten_points(d.numbers("zoom/fading/force"));
+  const std::vector<Ramp> share = unflatten(d.numbers("zoom/fading/share"));
+  check_same(d, "zoom/fading/cell", cell.size(), 2 * force.size());
+  check_same(d, "zoom/fading/share", share.size(), force.size());
+  s.fading.clear();
+  for (std::size_t k = 0; k < force.size(); ++k)
+    s.fading.push_back({cell[2 * k], cell[2 * k + 1], force[k], share[k]});
+}
+
 /// Calls f(name, value) for every number of the clock and the balance.
 template <class Clock, class Balance, class F>
 void visit_numbers(Clock& c, Balance& b, F f) {
@@ -304,6 +334,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   for (const auto& [a, b] : s.cbm.touching) touching.insert(touching.end(), {a, b});
   d.put("cbm/touching", touching);
   put_life(s, d);
+  put_zoom(s, d);
   d.put_count("clock/phase", static_cast<std::int64_t>(s.clock.phase));
   d.put_count("clock/coarse", s.clock.coarse ? 1 : 0);
   d.put_count("clock/events_due", static_cast<std::int64_t>(s.clock.due));
@@ -321,6 +352,7 @@ void get_state(const io::CheckpointData& d, coupling::State& s) {
   get_shells(d, s.dcm);
   get_spheres(d, s.cbm);
   get_life(d, s);
+  get_zoom(d, s);
   s.clock.phase = static_cast<coupling::Phase>(d.count("clock/phase"));
   s.clock.coarse = d.count("clock/coarse") != 0;
   if (d.contains("clock/events_due"))  // files of 0.1.0 have none

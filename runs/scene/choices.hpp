@@ -35,7 +35,6 @@ enum class CellModel { kDcm, kCbm, kZoom };
 enum class CellSource { kList, kClump, kBox, kFill, kLobule };
 /// By a prescribed force, or by a spring whose far end is moved.
 enum class PullBy { kForce, kSpring };
-enum class RegionKind { kNone = -1, kSphere, kBox, kHalfSpace, kAxisDistance, kAll };
 
 template <class E>
 inline constexpr const char* kChoices = nullptr;
@@ -50,7 +49,8 @@ inline constexpr const char* kChoices<CellSource> = "list|clump|box|fill|lobule"
 template <>
 inline constexpr const char* kChoices<PullBy> = "force|spring";
 template <>
-inline constexpr const char* kChoices<RegionKind> = "sphere|box|half_space|axis_distance|all";
+inline constexpr const char* kChoices<coupling::RegionKind> =
+    "sphere|box|half_space|axis_distance|all|front|cells|vessel|pressure";
 template <>
 inline constexpr const char* kChoices<coupling::LobuleShape> = "pie|hexagon";
 template <>

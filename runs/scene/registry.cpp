@@ -329,6 +329,11 @@ void describe(Visitor& v, Scene& s) {
           .meaning = "regions whose cells are DCM at t = 0 (their union)",
           .item = "zoom"},
          s.zoom, describe_region);
+  optional_block(v,
+                 {.name = "moving_zoom",
+                  .meaning = "cells change their model when they enter or leave the zoom regions; "
+                             "null = cells keep the model they start with"},
+                 s.moving_zoom, describe_moving_zoom);
   v.vector({.name = "axis_point",
             .meaning = "the vein axis is vertical (z) through this point",
             .dimension = kLength,

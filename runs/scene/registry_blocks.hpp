@@ -126,6 +126,7 @@ void describe_contraction(Visitor& v, dcm::Contraction& b);
 void describe_nucleus(Visitor& v, dcm::Nucleus& b);
 void describe_cells(Visitor& v, CellsBlock& b);
 void describe_region(Visitor& v, Region& b);
+void describe_moving_zoom(Visitor& v, MovingZoomBlock& b);
 void describe_lobule(Visitor& v, LobuleBlock& b);
 void describe_vessels(Visitor& v, VesselBlock& b);
 void describe_wall(Visitor& v, WallEntry& b);

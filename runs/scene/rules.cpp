@@ -217,12 +217,6 @@ void check_normal(const Vec3& normal, const std::string& pointer, Report& report
                       "must not be zero: it is the direction of the plane's normal");
 }
 
-void check_zoom(const Scene& scene, Report& report) {
-  for (std::size_t i = 0; i < scene.zoom.size(); ++i) {
-    check_region(scene.zoom[i], fmt::format("/zoom/{}", i), report);
-  }
-}
-
 void check_lobule(const Scene& scene, Report& report) {
   if (!scene.lobule) return;
   const LobuleBlock& lobule = *scene.lobule;
@@ -288,6 +282,10 @@ void check_boundary(const Scene& scene, Report& report) {
 }  // namespace
 
 void check_region(const Region& region, const std::string& pointer, Report& report) {
+  if (coupling::moves(region.kind) && !pointer.starts_with("/zoom/"))
+    report.add_relation({pointer + "/kind"}, "\"" + name_of_choice(region.kind) + "\"",
+                        "moves with the tissue, which only regions of /zoom can do. Choose sphere, "
+                        "box, half_space, axis_distance or all");
   if (region.kind == RegionKind::kBox)
     check_box(region.low, region.high, pointer + "/low", pointer + "/high", report);
   if (region.kind == RegionKind::kHalfSpace)

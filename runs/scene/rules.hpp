@@ -32,7 +32,10 @@ void check_pipette(const Scene& scene, Report& report);
 /// The part about pulls on single cells. @pre called by check_rules
 void check_pulls(const Scene& scene, Report& report);
 
-/// The part about one region, which stands at `pointer`.
+/// The part about the zoom. @pre called by check_rules
+void check_zoom(const Scene& scene, Report& report);
+
+/// The part about one region, which stands at `pointer`; one that moves is for the zoom only.
 void check_region(const Region& region, const std::string& pointer, Report& report);
 
 }  // namespace acinus::runs

@@ -92,16 +92,8 @@ struct MotilityBlock : coupling::Motility {
   }
 };
 
-/// A region of space; which members count depends on `kind`.
-struct Region {
-  RegionKind kind = RegionKind::kNone;
-  Vec3 center = Vec3::Zero();                    ///< sphere; um
-  double radius = 0;                             ///< sphere; um
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< box; um
-  Vec3 point = Vec3::Zero(),
-       normal = Vec3::UnitZ();                ///< half_space: (x - point).normal <= 0 is inside
-  double min_distance = 0, max_distance = 0;  ///< axis_distance: distance from the vein axis, um
-};
+using coupling::Region;
+using coupling::RegionKind;
 
 /// Which cells rest or die, and when. A cell is meant if `region` and `cells` both are.
 struct LifeRuleBlock : coupling::LifeRule {
@@ -121,6 +113,11 @@ struct LifeBlock {
   bool sleep = false;            ///< cells in balance are left out of the step until pushed
   double sleep_traction = 1e-3;  ///< kPa out of balance, below which a cell falls asleep
   bool remesh = true;            ///< cell meshes that degenerate are mended
+};
+
+/// A zoom that follows the tissue.
+struct MovingZoomBlock : coupling::ZoomParams {
+  MovingZoomBlock() { grid = 1800; }
 };
 
 struct CellEntry {
@@ -245,6 +242,7 @@ struct Scene {
   CellsBlock cells;
   LifeBlock life;
   std::vector<Region> zoom;        ///< union of regions
+  std::optional<MovingZoomBlock> moving_zoom;
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical (z) through this point
   ContactBlock contact;
   FrictionBlock friction;

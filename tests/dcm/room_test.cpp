@@ -39,9 +39,25 @@ TEST(Room, TheFaceBetweenTwoBallsIsTheirCircle) {
   EXPECT_EQ(share_of_distance(6, 20, 10), 0.25);
 }
 
+Room make_room(const Vec3& center, std::span<const RoomFace> face) {
+  return {center, [face](const Vec3& d) { return reach_to_faces(d, 2 * kRadius, face); }};
+}
+
 TEST(Room, WithoutFacesIsTheBall) {
-  const auto direction = directions(Mat3::Identity());
-  for (const Vec3& d : direction) EXPECT_EQ(reach_of_room(d, kRadius, {}), kRadius);
+  const Room room = make_room(Vec3::Zero(), {});
+  const auto node = room.fill(icosphere, directions(Mat3::Identity()), kRadius);
+  for (const Vec3& x : node)
+    EXPECT_NEAR(x.norm(), kRadius, 1e-2);  // spread over faces of 642 nodes
+}
+
+TEST(Room, IsAsLargeAsAsked) {
+  const RoomFace face{Vec3(0, 0, 1), 6};
+  const Room room = make_room(Vec3(1, 2, 3), std::span(&face, 1));
+  const double wanted = 4.0 / 3 * kPi * std::pow(kRadius, 3);
+  const double radius = room.find_radius(wanted, 2 * kRadius);
+  EXPECT_GT(radius, kRadius);
+  EXPECT_NEAR(room.volume(radius) / wanted, 1, 1e-9);
+  EXPECT_EQ(room.find_radius(10 * wanted, 1.5 * kRadius), 1.5 * kRadius);
 }
 
 TEST(Room, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
@@ -50,7 +66,8 @@ TEST(Room, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
     const Mat3 turn = reference::random_rotation(random);
     const RoomFace face{turn * Vec3(0, 0, 1), height};
     const Vec3 center(3, -4, 5);
-    const auto node = fill_room(icosphere, directions(turn), center, kRadius, std::span(&face, 1));
+    const auto node =
+        make_room(center, std::span(&face, 1)).fill(icosphere, directions(turn), kRadius);
     for (const Vec3& x : node) {
       EXPECT_LE(face.normal.dot(x - center), height + 1e-9);
       EXPECT_LE((x - center).norm(), kRadius * (1 + 1e-12));
@@ -71,7 +88,7 @@ TEST(Room, MeshesOfNarrowRoomsAreSound) {
       face.push_back({reference::random_vector(random, 1).normalized(),
                       kRadius * (0.15 + 0.8 * std::abs(reference::random_vector(random, 1).x()))});
     const auto node =
-        fill_room(icosphere, directions(Mat3::Identity()), Vec3::Zero(), kRadius, face);
+        make_room(Vec3::Zero(), face).fill(icosphere, directions(Mat3::Identity()), kRadius);
     for (const Vec3& x : node)
       for (const RoomFace& f : face) EXPECT_LE(f.normal.dot(x), f.distance + 1e-9);
     EXPECT_TRUE(faces_outward(icosphere, node, Vec3::Zero())) << trial;

@@ -1,7 +1,8 @@
+#include "coupling/subworld/settle.hpp"
+
 #include <algorithm>
 
 #include "core/mesh/measures.hpp"
-#include "coupling/life/division.hpp"
 #include "coupling/subworld/subworld.hpp"
 
 namespace acinus::coupling {
@@ -9,7 +10,7 @@ namespace {
 
 /// Gap, um, up to which a cell counts as a neighbour of another.
 constexpr double kReach = 0.5;
-/// How long new daughters settle ahead of all others, in steps of the whole world: long enough that
+/// How long new cells settle ahead of all others, in steps of the whole world: long enough that
 /// what is stiff has come to rest, and nothing next to the time in which tissue flows.
 constexpr double kSteps = 1;
 
@@ -23,23 +24,24 @@ double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>
 
 }  // namespace
 
-Settled settle_daughters(World& world, const std::vector<std::int64_t>& daughters) {
+Settled settle_cells(World& world, const std::vector<std::int64_t>& cells) {
   const State& s = world.state;
-  CellSet born;
+  CellSet fresh;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (std::ranges::find(daughters, s.dcm.lineage[l]) != daughters.end()) born.dcm.push_back(l);
+    if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
   Subworld sub;
-  extract_at_rest(world, born, find_neighbours(world, born, kReach), sub);
+  extract_at_rest(world, fresh, find_neighbours(world, fresh, kReach), sub);
   const Settling settling = relax(sub, kSteps * world.params.numerics.max_step);
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;
 
-  std::vector<std::vector<Vec3>> before(born.dcm.size());
-  for (std::size_t k = 0; k < born.dcm.size(); ++k) dcm::copy_nodes(s.dcm, born.dcm[k], before[k]);
+  std::vector<std::vector<Vec3>> before(fresh.dcm.size());
+  for (std::size_t k = 0; k < fresh.dcm.size(); ++k)
+    dcm::copy_nodes(s.dcm, fresh.dcm[k], before[k]);
   write_moved(sub, world.state);
   std::vector<Vec3> node;
-  for (std::size_t k = 0; k < born.dcm.size(); ++k) {
-    const std::size_t lane = born.dcm[k];
+  for (std::size_t k = 0; k < fresh.dcm.size(); ++k) {
+    const std::size_t lane = fresh.dcm[k];
     dcm::copy_nodes(s.dcm, lane, node);
     double& shift = result.shift[s.dcm.lineage[lane]];
     for (std::size_t i = 0; i < node.size(); ++i)

@@ -1,0 +1,18 @@
+#pragma once
+/// How the mesh of a cell is turned where no one says it.
+
+#include <cstdint>
+
+#include "core/random.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::coupling {
+
+/// A rotation drawn evenly from all, the same for a cell whenever it is drawn.
+inline Mat3 random_orientation(std::uint64_t seed, std::int64_t lineage) {
+  UniformStream r(seed, Purpose::kPlacement, static_cast<std::uint64_t>(lineage) + 1);
+  Eigen::Quaterniond q(r.normal(), r.normal(), r.normal(), r.normal());
+  return q.normalized().toRotationMatrix();
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,61 @@
+#include "coupling/zoom/pair_forces.hpp"
+
+#include "coupling/measure/contact_forces.hpp"
+#include "coupling/world/cell.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Lineages in the order in which measures number cells.
+std::vector<std::int64_t> list_lineages(const World& world, const Workspace& work) {
+  const State& s = world.state;
+  std::vector<std::int64_t> lineage;
+  for (const std::size_t lane : work.dcm.lane_of_body) lineage.push_back(s.dcm.lineage[lane]);
+  lineage.insert(lineage.end(), s.cbm.lineage.begin(), s.cbm.lineage.end());
+  return lineage;
+}
+
+Vec3 force_of(const PairForces& forces, const PairForces::key_type& pair) {
+  const auto at = forces.find(pair);
+  return at == forces.end() ? Vec3(Vec3::Zero()) : at->second;
+}
+
+}  // namespace
+
+PairForces find_pair_forces(const World& world, const Workspace& work,
+                            const std::set<std::int64_t>& cells) {
+  const std::vector<std::int64_t> lineage = list_lineages(world, work);
+  PairForces forces;
+  visit_contacts(world, work, [&](const ContactForce& f) {
+    const std::int64_t a = lineage[f.a], b = f.b == kNoCell ? kNoPartner : lineage[f.b];
+    if (a == b || f.fades || (!cells.contains(a) && !cells.contains(b))) return;
+    const bool swap = b != kNoPartner && b < a;
+    const auto pair = swap ? std::pair(b, a) : std::pair(a, b);
+    const auto at = forces.try_emplace(pair, Vec3::Zero()).first;
+    at->second += swap ? Vec3(-f.force) : f.force;
+  });
+  return forces;
+}
+
+void add_fading(const World& world, const PairForces& before, const PairForces& after,
+                std::vector<FadingForce>& fading) {
+  const State& s = world.state;
+  std::map<std::int64_t, Vec3> center;
+  for_each_cell(s, [&](const Cell& c) { center[lineage_of(s, c)] = center_of(s, c); });
+  std::set<PairForces::key_type> pairs;
+  for (const PairForces* forces : {&before, &after})
+    for (const auto& [pair, force] : *forces) pairs.insert(pair);
+  const double now = s.clock.time;
+  for (const auto& pair : pairs) {
+    Vec3 missing = force_of(before, pair) - force_of(after, pair);
+    if (pair.second != kNoPartner) {
+      const Vec3 line = (center.at(pair.first) - center.at(pair.second)).normalized();
+      missing = missing.dot(line) * line;
+    }
+    if (missing.norm() > 0)
+      fading.push_back(
+          {pair.first, pair.second, missing, {1, 0, now, now + world.params.zoom.fade}});
+  }
+}
+
+}  // namespace acinus::coupling

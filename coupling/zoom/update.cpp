@@ -1,0 +1,233 @@
+#include "coupling/zoom/update.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "core/sphere.hpp"
+#include "core/stop.hpp"
+#include "core/threads.hpp"
+#include "core/time_grid.hpp"
+#include "coupling/measure/measure.hpp"
+#include "coupling/step/stages.hpp"
+#include "coupling/subworld/settle.hpp"
+#include "coupling/world/cell.hpp"
+#include "coupling/zoom/pair_forces.hpp"
+#include "coupling/zoom/promote.hpp"
+#include "coupling/zoom/regions.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// A cell that is to change, and how far outside the zoom it is.
+struct Candidate {
+  Cell cell;
+  std::int64_t lineage = 0;
+  double distance = 0;  ///< um
+};
+
+struct Candidates {
+  std::vector<Candidate> promote, demote;
+};
+
+bool is_due(const State& s, const ZoomParams& zoom) {
+  if (!zoom.moves() || s.clock.phase != Phase::kRun || !(s.clock.last_step > 0)) return false;
+  return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), zoom.grid);
+}
+
+/// Whether a cell is in a state that one model can hand to the other.
+bool may_change(const World& world, const Cell& c) {
+  const State& s = world.state;
+  const double now = s.clock.time;
+  if (!s.model_since.empty() && now < s.model_since[c.index] + world.params.zoom.stay) return false;
+  const Cycle* cycle = s.cycle.empty() ? nullptr : &s.cycle[c.index];
+  if (cycle && cycle->fate == Fate::kLyse) return false;
+  if (!c.deformable) return s.cbm.strength[c.at].at(now) >= 1;
+  return !cycle || cycle->parent < 0 || now >= cycle->birth + cycle_of(world.params, s, c).mitosis;
+}
+
+std::vector<double> list_pressures(const World& world, const Workspace& work) {
+  const State& s = world.state;
+  std::vector<double> pressure(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
+  const std::vector<CellMeasure> measures = measure_cells(world, work);
+  const std::size_t n_body = work.dcm.lane_of_body.size();
+  for (std::size_t k = 0; k < measures.size(); ++k)
+    pressure[k < n_body ? work.dcm.lane_of_body[k] : s.dcm.n_lane() + k - n_body] =
+        measures[k].pressure;
+  return pressure;
+}
+
+/// The first n by an order, then in the order of their lineages: what happens to a cell must not
+/// depend on where it is kept.
+template <class Before>
+void keep_first(std::vector<Candidate>& list, std::size_t n, Before before) {
+  std::ranges::sort(list, [&](const Candidate& a, const Candidate& b) {
+    return a.distance != b.distance ? before(a.distance, b.distance) : a.lineage < b.lineage;
+  });
+  if (list.size() > n) list.resize(n);
+  std::ranges::sort(list, {}, &Candidate::lineage);
+}
+
+/// In the order of for_each_cell.
+std::vector<ZoomCell> list_zoom_cells(const State& s, const std::vector<double>& pressure) {
+  std::vector<ZoomCell> cells;
+  for_each_cell(s, [&](const Cell& c) {
+    ZoomCell z;
+    z.center = center_of(s, c);
+    z.radius = sphere_radius(volume_of(s, c).at(s.clock.time));
+    z.lineage = lineage_of(s, c);
+    if (!s.cycle.empty()) z.founder = s.cycle[c.index].founder;
+    if (!pressure.empty()) z.pressure = pressure[c.index];
+    cells.push_back(z);
+  });
+  return cells;
+}
+
+Candidates find_candidates(const World& world, const std::vector<double>& pressure) {
+  const State& s = world.state;
+  const ZoomParams& zoom = world.params.zoom;
+  const std::vector<double> distance = distances_from_zoom(
+      zoom, world.params.boundary.vessels.network, list_zoom_cells(s, pressure));
+  Candidates found;
+  std::size_t n_deformable = 0, n_cell = 0;
+  for_each_cell(s, [&](const Cell& c) {
+    n_deformable += c.deformable ? 1 : 0;
+    const Candidate candidate{c, lineage_of(s, c), distance[n_cell++]};
+    if (!c.deformable && candidate.distance <= 0 && may_change(world, c))
+      found.promote.push_back(candidate);
+    if (c.deformable && candidate.distance > zoom.margin && may_change(world, c))
+      found.demote.push_back(candidate);
+  });
+  const auto at_once = static_cast<std::size_t>(zoom.at_once);
+  keep_first(found.demote, at_once, std::greater{});
+  std::size_t room = at_once - found.demote.size();
+  if (zoom.most_deformable > 0) {
+    const auto most = static_cast<std::size_t>(zoom.most_deformable);
+    const std::size_t left = n_deformable - found.demote.size();
+    room = std::min(room, most > left ? most - left : 0);
+  }
+  keep_first(found.promote, room, std::less{});
+  return found;
+}
+
+/// Puts the new cells in the place of the old ones.
+void exchange(const std::vector<std::uint8_t>& gone, const std::vector<State>& fresh, State& s) {
+  const bool lives = !s.cycle.empty();
+  const double now = s.clock.time;
+  std::set<std::int64_t> changed;
+  std::vector<Member> shells, spheres;
+  for_each_cell(s, [&](const Cell& c) {
+    if (gone[c.index] != 0)
+      changed.insert(lineage_of(s, c));
+    else
+      (c.deformable ? shells : spheres).push_back({&s, c.at});
+  });
+  for (const State& f : fresh) {
+    for (const Member& m : list_dcm(f)) shells.push_back(m);
+    for (const Member& m : list_cbm(f)) spheres.push_back(m);
+  }
+  sort_by_place(shells, spheres);
+  s = compose(shells, spheres, s);
+  if (!lives) s.cycle.clear();
+  s.model_since.resize(s.dcm.n_lane() + s.cbm.n_cell(), s.clock.origin);
+  for_each_cell(s, [&](const Cell& c) {
+    if (changed.contains(lineage_of(s, c))) s.model_since[c.index] = now;
+  });
+}
+
+std::vector<NewShell> shape_spheres(const World& world, const std::vector<Candidate>& promote,
+                                    const std::vector<double>& pressure) {
+  std::vector<NewShell> shells(promote.size());
+  const std::vector<double> radius = cbm::radii_at(world.state.cbm, world.state.clock.time);
+  for_each_part(promote.size(), [&](std::size_t k) {
+    const Cell& c = promote[k].cell;
+    shells[k] = shape_sphere(world, c.at, pressure[c.index], radius);
+  });
+  return shells;
+}
+
+/// Changes the models of the candidates; what could not be shaped stays.
+/// @return lineages of the new deformable cells
+std::vector<std::int64_t> change_models(World& world, const Candidates& all,
+                                        const std::vector<double>& pressure, ZoomReport& report) {
+  State& s = world.state;
+  const std::vector<NewShell> shells = shape_spheres(world, all.promote, pressure);
+  std::vector<std::uint8_t> gone(s.dcm.n_lane() + s.cbm.n_cell(), 0);
+  std::vector<State> fresh;
+  std::vector<std::int64_t> promoted;
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    const Candidate& c = all.promote[k];
+    if (!shells[k].ok) {
+      report.changes.push_back({"promotion_waits", c.lineage, shells[k].why});
+      continue;
+    }
+    gone[c.cell.index] = 1;
+    fresh.push_back(make_shell(world, c.cell.at, shells[k]));
+    promoted.push_back(c.lineage);
+    report.changes.push_back({"promotion", c.lineage,
+                              fmt::format("becomes deformable at a pressure of {:.3g} Pa",
+                                          1e3 * pressure[c.cell.index])});
+  }
+  for (const Candidate& c : all.demote) {
+    gone[c.cell.index] = 1;
+    fresh.push_back(make_sphere(world, c.cell.at));
+    report.changes.push_back(
+        {"demotion", c.lineage,
+         fmt::format("becomes a sphere at a pressure of {:.3g} Pa", 1e3 * pressure[c.cell.index])});
+  }
+  if (!fresh.empty()) exchange(gone, fresh, s);
+  return promoted;
+}
+
+}  // namespace
+
+double time_to_zoom_event(const World& world) {
+  const ZoomParams& zoom = world.params.zoom;
+  if (!zoom.moves()) return std::numeric_limits<double>::infinity();
+  return time_to_next_interval(time_of(world.state), zoom.grid);
+}
+
+ZoomReport update_zoom(World& world, Workspace& work) {
+  ZoomReport report;
+  State& s = world.state;
+  if (!is_due(s, world.params.zoom)) return report;
+  const auto scope = work.timings.scope("zoom");
+  forget_faded(s);
+  std::vector<double> pressure;
+  if (zoom_needs_pressure(world.params.zoom)) {
+    observe(world, work);
+    pressure = list_pressures(world, work);
+  }
+  const Candidates all = find_candidates(world, pressure);
+  if (all.promote.empty() && all.demote.empty()) return report;
+  if (pressure.empty()) {
+    observe(world, work);
+    pressure = list_pressures(world, work);
+  }
+  std::set<std::int64_t> changing;
+  for (const auto* list : {&all.promote, &all.demote})
+    for (const Candidate& c : *list) changing.insert(c.lineage);
+  const PairForces before = find_pair_forces(world, work, changing);
+  State old = s;
+  const std::vector<std::int64_t> promoted = change_models(world, all, pressure, report);
+  if (!promoted.empty()) {
+    const Settled settled = settle_cells(world, promoted);
+    if (!settled.ok && stop_requested()) {
+      s = std::move(old);
+      return {{}, true};
+    }
+    if (!settled.ok)
+      for (const std::int64_t cell : promoted)
+        report.changes.push_back({"settling_failed", cell, settled.cause});
+  }
+  size_workspace(world, work);
+  observe(world, work);
+  add_fading(world, before, find_pair_forces(world, work, changing), s.fading);
+  return report;
+}
+
+}  // namespace acinus::coupling
