@@ -56,15 +56,21 @@ void visit_fading(const World& world, const Places& places,
   for (const std::int64_t lineage : s.cbm.lineage) number.emplace(lineage, number.size());
   for (const FadingForce& fading : s.fading) {
     const auto a = number.find(fading.a), b = number.find(fading.b);
-    if (a == number.end() || b == number.end()) continue;
+    const bool boundary = fading.b == kNoPartner;
+    if (a == number.end() || (b == number.end() && !boundary)) continue;
+    const double share = fading.share.at(s.clock.time);
     ContactForce f;
     f.a = a->second;
-    f.b = b->second;
-    f.force = fading.share.at(s.clock.time) * fading.force;
-    const Vec3 way = places.center[f.b] - places.center[f.a];
-    f.normal = -way.normalized();
-    f.arm_a = 0.5 * way;
-    f.arm_b = -0.5 * way;
+    f.force = share * fading.force;
+    const double size = f.force.norm();
+    if (!(size > 0)) continue;
+    f.arm_a = (share * fading.virial / size) * (f.force / size);
+    if (!boundary) {
+      f.b = b->second;
+      const Vec3 way = places.center[f.b] - places.center[f.a];
+      f.normal = -way.normalized();
+      f.arm_b = f.arm_a - way;
+    }
     f.fades = true;
     look(f);
   }
@@ -110,7 +116,7 @@ Reactions find_reactions(const World& world, const Workspace& w) {
   part_of(contact::Partner::kMesh).resize(boundary.meshes.size());
   part_of(contact::Partner::kVessel).resize(boundary.vessels.network.segment.size());
   visit_contacts(world, w, [&](const ContactForce& c) {
-    if (c.b != kNoCell) return;
+    if (c.b != kNoCell || c.fades) return;
     const std::size_t at = c.index;
     Reaction& part = part_of(c.kind)[at];
     part.net -= c.force;

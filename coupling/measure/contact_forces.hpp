@@ -29,11 +29,13 @@ struct ContactForce {
   double area = 0;             ///< um^2 in touch, of contacts with boundary
   /// Two cells that exert a force on each other; never of a fold.
   bool touching = false;
-  bool fades = false;  ///< no contact, but what a pair is left with by a change of model
+  /// No contact, but what a pair is left with by a change of model; with boundary the normal and
+  /// the kind are not known.
+  bool fades = false;
 };
 
-/// Calls `look` with every contact, then with every pair force that fades (fading.hpp), which acts
-/// where the face between the two cells would be.   @pre observe
+/// Calls `look` with every contact, then with every pair force that fades (fading.hpp).   @pre
+/// observe
 void visit_contacts(const World& world, const Workspace& work,
                     const std::function<void(const ContactForce&)>& look);
 

@@ -91,29 +91,35 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
   auto press = [&](std::size_t cell, const Vec3& force, const Vec3& arm) {
     add_stress(cells[cell], sphere_volume(cells[cell].radius), force, arm);
   };
-  /// nN, of every pair in contact, on the first; and of each part of the boundary on each cell
-  std::map<std::pair<std::size_t, std::size_t>, Vec3> pair_force;
+  struct PairSum {
+    Vec3 force = Vec3::Zero();  ///< nN, on the first
+    bool touching = false;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, PairSum> pair_force;
+  /// nN, of each part of the boundary on each cell
   std::map<std::tuple<std::size_t, contact::Partner, int>, Vec3> boundary_force;
   visit_contacts(world, w, [&](const ContactForce& c) {
     press(c.a, c.force, c.arm_a);
+    if (c.b == kNoCell && c.fades) return;
     if (c.b == kNoCell) {
       boundary_force.try_emplace({c.a, c.kind, c.index}, Vec3::Zero()).first->second += c.force;
       cells[c.a].normal_force += c.force.dot(c.normal);
       return;
     }
     press(c.b, -c.force, c.arm_b);
-    if (!c.touching) return;
-    Vec3& sum = pair_force.try_emplace({std::min(c.a, c.b), std::max(c.a, c.b)}, Vec3::Zero())
-                    .first->second;
-    sum += c.a < c.b ? c.force : Vec3(-c.force);
+    if (!c.touching && !c.fades) return;
+    PairSum& sum = pair_force[{std::min(c.a, c.b), std::max(c.a, c.b)}];
+    sum.force += c.a < c.b ? c.force : Vec3(-c.force);
+    sum.touching = sum.touching || c.touching;
   });
   for (const auto& [part, force] : boundary_force)
     cells[std::get<0>(part)].contact_force += force.norm();
-  for (const auto& [pair, force] : pair_force) {
+  for (const auto& [pair, sum] : pair_force) {
+    const auto& [force, touching] = sum;
     const double normal =
         force.dot((cells[pair.first].center - cells[pair.second].center).normalized());
     for (const std::size_t k : {pair.first, pair.second}) {
-      ++cells[k].contacts;
+      if (touching) ++cells[k].contacts;
       cells[k].contact_force += force.norm();
       cells[k].normal_force += normal;
     }

@@ -19,6 +19,7 @@ inline constexpr std::int64_t kNoPartner = -1;
 struct FadingForce {
   std::int64_t a = 0, b = kNoPartner;  ///< lineages; b: none if the partner is boundary
   Vec3 force = Vec3::Zero();           ///< nN, on a while the share is 1; b gets the opposite
+  double virial = 0;                   ///< nN um, force . arm of a, what it adds to its stress
   Ramp share;                          ///< from 1 to 0
 };
 

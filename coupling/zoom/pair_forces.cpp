@@ -15,9 +15,9 @@ std::vector<std::int64_t> list_lineages(const World& world, const Workspace& wor
   return lineage;
 }
 
-Vec3 force_of(const PairForces& forces, const PairForces::key_type& pair) {
+PairForce force_of(const PairForces& forces, const PairForces::key_type& pair) {
   const auto at = forces.find(pair);
-  return at == forces.end() ? Vec3(Vec3::Zero()) : at->second;
+  return at == forces.end() ? PairForce{} : at->second;
 }
 
 }  // namespace
@@ -31,8 +31,10 @@ PairForces find_pair_forces(const World& world, const Workspace& work,
     if (a == b || f.fades || (!cells.contains(a) && !cells.contains(b))) return;
     const bool swap = b != kNoPartner && b < a;
     const auto pair = swap ? std::pair(b, a) : std::pair(a, b);
-    const auto at = forces.try_emplace(pair, Vec3::Zero()).first;
-    at->second += swap ? Vec3(-f.force) : f.force;
+    PairForce& sum = forces[pair];
+    const Vec3 force = swap ? Vec3(-f.force) : f.force;
+    sum.force += force;
+    sum.virial += force.dot(swap ? f.arm_b : f.arm_a);
   });
   return forces;
 }
@@ -47,14 +49,18 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
     for (const auto& [pair, force] : *forces) pairs.insert(pair);
   const double now = s.clock.time;
   for (const auto& pair : pairs) {
-    Vec3 missing = force_of(before, pair) - force_of(after, pair);
+    const PairForce was = force_of(before, pair), is = force_of(after, pair);
+    Vec3 missing = was.force - is.force;
     if (pair.second != kNoPartner) {
       const Vec3 line = (center.at(pair.first) - center.at(pair.second)).normalized();
       missing = missing.dot(line) * line;
     }
     if (missing.norm() > 0)
-      fading.push_back(
-          {pair.first, pair.second, missing, {1, 0, now, now + world.params.zoom.fade}});
+      fading.push_back({pair.first,
+                        pair.second,
+                        missing,
+                        was.virial - is.virial,
+                        {1, 0, now, now + world.params.zoom.fade}});
   }
 }
 

@@ -23,6 +23,9 @@
 namespace acinus::coupling {
 namespace {
 
+/// s, longest step after a change: surfaces that meet a new shape adapt at once.
+constexpr double kStepAfterChange = 2;
+
 /// A cell that is to change, and how far outside the zoom it is.
 struct Candidate {
   Cell cell;
@@ -150,15 +153,21 @@ std::vector<NewShell> shape_spheres(const World& world, const std::vector<Candid
   return shells;
 }
 
+/// Those of the cells that are deformable now.
+std::vector<std::int64_t> list_meshes(const State& s, const std::set<std::int64_t>& cells) {
+  std::vector<std::int64_t> meshes;
+  for (const std::int64_t lineage : s.dcm.lineage)
+    if (cells.contains(lineage)) meshes.push_back(lineage);
+  return meshes;
+}
+
 /// Changes the models of the candidates; what could not be shaped stays.
-/// @return lineages of the new deformable cells
-std::vector<std::int64_t> change_models(World& world, const Candidates& all,
-                                        const std::vector<double>& pressure, ZoomReport& report) {
+void change_models(World& world, const Candidates& all, const std::vector<double>& pressure,
+                   ZoomReport& report) {
   State& s = world.state;
   const std::vector<NewShell> shells = shape_spheres(world, all.promote, pressure);
   std::vector<std::uint8_t> gone(s.dcm.n_lane() + s.cbm.n_cell(), 0);
   std::vector<State> fresh;
-  std::vector<std::int64_t> promoted;
   for (std::size_t k = 0; k < shells.size(); ++k) {
     const Candidate& c = all.promote[k];
     if (!shells[k].ok) {
@@ -167,7 +176,6 @@ std::vector<std::int64_t> change_models(World& world, const Candidates& all,
     }
     gone[c.cell.index] = 1;
     fresh.push_back(make_shell(world, c.cell.at, shells[k]));
-    promoted.push_back(c.lineage);
     report.changes.push_back({"promotion", c.lineage,
                               fmt::format("becomes deformable at a pressure of {:.3g} Pa",
                                           1e3 * pressure[c.cell.index])});
@@ -180,7 +188,6 @@ std::vector<std::int64_t> change_models(World& world, const Candidates& all,
          fmt::format("becomes a sphere at a pressure of {:.3g} Pa", 1e3 * pressure[c.cell.index])});
   }
   if (!fresh.empty()) exchange(gone, fresh, s);
-  return promoted;
 }
 
 }  // namespace
@@ -213,18 +220,20 @@ ZoomReport update_zoom(World& world, Workspace& work) {
     for (const Candidate& c : *list) changing.insert(c.lineage);
   const PairForces before = find_pair_forces(world, work, changing);
   State old = s;
-  const std::vector<std::int64_t> promoted = change_models(world, all, pressure, report);
-  if (!promoted.empty()) {
-    const Settled settled = settle_cells(world, promoted);
+  change_models(world, all, pressure, report);
+  const std::vector<std::int64_t> meshes = list_meshes(s, changing);
+  if (!meshes.empty()) {
+    const Settled settled = settle_cells(world, meshes);
     if (!settled.ok && stop_requested()) {
       s = std::move(old);
       return {{}, true};
     }
     if (!settled.ok)
-      for (const std::int64_t cell : promoted)
+      for (const std::int64_t cell : meshes)
         report.changes.push_back({"settling_failed", cell, settled.cause});
   }
   size_workspace(world, work);
+  s.clock.step = std::min(s.clock.step, kStepAfterChange);
   observe(world, work);
   add_fading(world, before, find_pair_forces(world, work, changing), s.fading);
   return report;

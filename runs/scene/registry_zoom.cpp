@@ -5,21 +5,13 @@
 namespace acinus::runs {
 namespace {
 
-void describe_distance(Visitor& w, Region& b, const char* meaning) {
-  w.real({.name = "max_distance",
-          .meaning = meaning,
-          .dimension = kLength,
-          .unit = "um",
-          .range = kPositive,
-          .required = true},
-         b.max_distance);
+bool reaches(RegionKind kind) {
+  return kind == RegionKind::kAxisDistance || kind == RegionKind::kFront ||
+         kind == RegionKind::kCells || kind == RegionKind::kVessel;
 }
 
 /// Regions that move with the tissue.
 void describe_following(Visitor& v, Region& b) {
-  v.when(b.kind == RegionKind::kFront, "kind = front", [&b](Visitor& w) {
-    describe_distance(w, b, "how deep the region reaches behind the edge of the lesion");
-  });
   v.when(b.kind == RegionKind::kCells, "kind = cells", [&b](Visitor& w) {
     w.integers({.name = "cells",
                 .meaning = "lineage numbers of the cells that are followed, from 0 in the order of "
@@ -28,10 +20,6 @@ void describe_following(Visitor& v, Region& b) {
                 .required = true},
                b.cells);
     w.flag({.name = "offspring", .meaning = "their descendants are followed, too"}, b.offspring);
-    describe_distance(w, b, "largest distance of centres from the nearest of them");
-  });
-  v.when(b.kind == RegionKind::kVessel, "kind = vessel", [&b](Visitor& w) {
-    describe_distance(w, b, "largest distance of a cell's centre from a vessel's surface");
   });
   v.when(b.kind == RegionKind::kPressure, "kind = pressure", [&b](Visitor& w) {
     w.real({.name = "above",
@@ -101,8 +89,12 @@ void describe_region(Visitor& v, Region& b) {
             .unit = "um",
             .range = kNotNegative},
            b.min_distance);
+  });
+  v.when(reaches(b.kind), "kind = axis_distance, front, cells or vessel", [&b](Visitor& w) {
     w.real({.name = "max_distance",
-            .meaning = "largest distance from the vein axis",
+            .meaning = "largest distance of a cell's centre from the vein axis, behind the edge of "
+                       "the lesion, from the nearest of the cells followed, or from the surface of "
+                       "a vessel",
             .dimension = kLength,
             .unit = "um",
             .range = kPositive,

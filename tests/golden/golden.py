@@ -38,6 +38,7 @@ CASES = {
     "pull_off_spring": ["pull_off_spring.json", "--until", "300 s"],
     "maugis_dugdale": ["adhering_pair.json", "--set", "contact.law=maugis-dugdale", "--until", "20 s"],
     "hybrid_life": [os.path.join(HERE, "hybrid_life.json")],
+    "moving_zoom": [os.path.join(HERE, "moving_zoom.json")],
     "calibration": [os.path.join(HERE, "calibration.json")],
 }
 

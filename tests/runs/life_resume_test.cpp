@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+
 #include "tests/runs/program.hpp"
 
 namespace acinus::runs {
@@ -60,6 +63,27 @@ TEST_F(LifeResume, ThroughDivisionsIsBitForBitInBothModels) {
     finish(parts, model, {"--resume"});
     expect_same(whole, parts);
   }
+}
+
+TEST_F(LifeResume, IsBitForBitThroughChangesOfModel) {
+  write("spheroid.json", kSpheroid);
+  const Words more{"--set", R"(zoom=[{"kind": "pressure", "above": "0.4 Pa", "below": "0.1 Pa"}])",
+                   "--set", R"(moving_zoom={"every": "20 min", "stay": "20 min"})"};
+  finish("whole", "zoom", more);
+  std::map<std::string, int> events;
+  for (const auto& e : reader("whole").events()) ++events[e.code];
+  std::printf("%d promotions, %d demotions\n", events["promotion"], events["demotion"]);
+  EXPECT_GE(events["promotion"], 2);
+  EXPECT_GE(events["demotion"], 1);
+  Words part = more;
+  part.insert(part.end(), {"--until", "140 min"});
+  finish("parts", "zoom", part);
+  for (const std::string until : {"180 min", "240 min", "260 min", "320 min"}) {
+    part = more;
+    part.insert(part.end(), {"--resume", "--until", until});
+    finish("parts", "zoom", part);
+  }
+  expect_same("whole", "parts");
 }
 
 TEST_F(LifeResume, IsBitForBitWithSleepersRulesAndDeath) {

@@ -50,7 +50,7 @@ TEST(Scene, EveryFieldIsRead) {
   EXPECT_EQ(scene.cells.list[1].model, CellModel::kCbm);
   EXPECT_EQ(scene.cells.list[1].pull, Vec3(0, 0, 0.1));
   EXPECT_EQ(scene.cells.grid, (std::array<int, 3>{2, 3, 4}));
-  ASSERT_EQ(scene.zoom.size(), 5u);
+  ASSERT_EQ(scene.zoom.size(), 9u);
   EXPECT_EQ(scene.zoom[0].radius, 30);
   EXPECT_EQ(scene.zoom[1].high, Vec3(1, 2, 3));
   EXPECT_EQ(scene.zoom[2].normal, Vec3(1, 0, 0.5));
@@ -168,7 +168,7 @@ TEST(Scene, ModelReplacesTheModelOfAnyScene) {
   const Scene full = parse_scene(kFull, "scene.json", ".", {"model=dcm"});
   EXPECT_EQ(full.cells.model, CellModel::kDcm);
   EXPECT_EQ(full.cells.list[1].model, CellModel::kCbm);
-  EXPECT_EQ(full.zoom.size(), 5u);
+  EXPECT_EQ(full.zoom.size(), 9u);
   EXPECT_EQ(parse_scene(full.resolved_json, "scene.json").hash, full.hash);
 }
 

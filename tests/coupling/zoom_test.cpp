@@ -1,0 +1,95 @@
+/// Cells that change their model while a scene runs.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/mesh/measures.hpp"
+#include "coupling/zoom/update.hpp"
+#include "tests/coupling/changing_cells.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+TEST(Zoom, NothingChangesWhereNoCellCrossesARegion) {
+  World w = make_clump_world(2, 23, [](int k) { return k < 4; });
+  Workspace work;
+  size_workspace(w, work);
+  run(w, work, 600);
+  w.params.zoom.region = {ball(Vec3(0, 0, -500), 500)};  // the lower four
+  const std::uint64_t before = hash_state(w.state);
+  EXPECT_TRUE(update_zoom(w, work).changes.empty());
+  EXPECT_EQ(hash_state(w.state), before);
+}
+
+TEST(Zoom, ACellKeepsWhatItIsBesideItsModel) {
+  World w = make_clump_world(3, 22, [](int) { return false; });
+  w.state.cbm.volume[13] = {7000, 7500, 0, 1e5};
+  w.state.cbm.pull[13] = Vec3(0.1, 0.2, 0.3);
+  w.state.cycle.assign(27, Cycle{});
+  w.state.cycle[13].duration = 123;
+  Workspace work;
+  size_workspace(w, work);
+  run(w, work, 600);
+  const Vec3 center = cbm::center_of(w.state.cbm, 13);
+  w.params.zoom.region = {ball(center, 5)};
+  const ZoomReport report = update_zoom(w, work);
+  ASSERT_EQ(report.changes.size(), 1u);
+  EXPECT_EQ(report.changes[0].code, "promotion");
+  EXPECT_EQ(report.changes[0].cell, 13);
+  ASSERT_EQ(dcm::count_cells(w.state.dcm), 1);
+  EXPECT_EQ(w.state.cbm.n_cell(), 26u);
+  const auto lane = static_cast<std::size_t>(std::ranges::find(w.state.dcm.lineage, 13) -
+                                             w.state.dcm.lineage.begin());
+  const Ramp v = w.state.dcm.volume[lane];
+  EXPECT_EQ(v.from, 7000);
+  EXPECT_EQ(v.to, 7500);
+  EXPECT_EQ(v.end, 1e5);
+  EXPECT_EQ(w.state.dcm.pull[lane], Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(w.state.cycle[lane].duration, 123);
+  std::vector<Vec3> node;
+  dcm::copy_nodes(w.state.dcm, lane, node);
+  EXPECT_LT((mesh::compute_centroid(node, w.state.dcm.group[0].topology->triangle) - center).norm(),
+            0.01 * 12);
+
+  // And back.
+  w.params.zoom.region = {ball(Vec3(500, 0, 0), 5)};
+  run(w, work, 600);
+  ASSERT_EQ(update_zoom(w, work).changes.size(), 1u);
+  EXPECT_EQ(dcm::count_cells(w.state.dcm), 0);
+  const auto at = static_cast<std::size_t>(std::ranges::find(w.state.cbm.lineage, 13) -
+                                           w.state.cbm.lineage.begin());
+  EXPECT_EQ(w.state.cbm.volume[at].from, 7000);
+  EXPECT_EQ(w.state.cbm.volume[at].end, 1e5);
+  EXPECT_EQ(w.state.cycle[at].duration, 123);
+  EXPECT_EQ(w.state.cbm.pull[at], Vec3(0.1, 0.2, 0.3));
+}
+
+TEST(Zoom, AChangeJumpsNeitherPressureNorForces) {
+  for (const double distance : {23.0, 22.0, 21.0}) {
+    for (const bool to_mesh : {true, false}) {
+      World w = make_clump_world(3, distance, [&](int k) { return k == 13 && !to_mesh; });
+      Workspace work;
+      size_workspace(w, work);
+      run(w, work, 600);
+      const Jump jump = change_one(w, work, 13);
+      std::printf(
+          "%g um, %s: pressure %.2f Pa, jump %.2f Pa; forces of neighbours %.2g of the "
+          "mean; centre %.3f um; %.1f ms\n",
+          distance, to_mesh ? "to a mesh" : "to a sphere", 1e3 * jump.before, 1e3 * jump.pressure,
+          jump.force, jump.shift, jump.ms);
+      EXPECT_LT(std::abs(jump.pressure), std::max(2e-3, 0.05 * std::abs(jump.before)));
+      EXPECT_LT(jump.force, 0.1);
+      EXPECT_LT(jump.shift, 0.12);
+      const std::int64_t rejected = w.state.clock.rejected;
+      run(w, work, 600);
+      std::printf("   rejected %d steps\n", static_cast<int>(w.state.clock.rejected - rejected));
+      EXPECT_LE(w.state.clock.rejected - rejected, 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace acinus::coupling
