@@ -24,7 +24,7 @@ namespace acinus::coupling {
 namespace {
 
 /// s, longest step after a change: surfaces that meet a new shape adapt at once.
-constexpr double kStepAfterChange = 2;
+constexpr double kStepAfterChange = 5;
 
 /// A cell that is to change, and how far outside the zoom it is.
 struct Candidate {
@@ -33,7 +33,7 @@ struct Candidate {
   double distance = 0;  ///< um
 };
 
-struct Candidates {
+struct Switches {
   std::vector<Candidate> promote, demote;
 };
 
@@ -90,12 +90,12 @@ std::vector<ZoomCell> list_zoom_cells(const State& s, const std::vector<double>&
   return cells;
 }
 
-Candidates find_candidates(const World& world, const std::vector<double>& pressure) {
+Switches find_candidates(const World& world, const std::vector<double>& pressure) {
   const State& s = world.state;
   const ZoomParams& zoom = world.params.zoom;
   const std::vector<double> distance = distances_from_zoom(
       zoom, world.params.boundary.vessels.network, list_zoom_cells(s, pressure));
-  Candidates found;
+  Switches found;
   std::size_t n_deformable = 0, n_cell = 0;
   for_each_cell(s, [&](const Cell& c) {
     n_deformable += c.deformable ? 1 : 0;
@@ -153,16 +153,20 @@ std::vector<NewShell> shape_spheres(const World& world, const std::vector<Candid
   return shells;
 }
 
-/// Those of the cells that are deformable now.
-std::vector<std::int64_t> list_meshes(const State& s, const std::set<std::int64_t>& cells) {
+/// Deformable cells that have to find their shape anew: those that changed, and those that touched
+/// one that did.
+std::vector<std::int64_t> meshes_to_settle(const State& s, const std::set<std::int64_t>& changed,
+                                           const PairForces& before) {
+  std::set<std::int64_t> touched = changed;
+  for (const auto& [pair, force] : before) touched.insert({pair.first, pair.second});
   std::vector<std::int64_t> meshes;
   for (const std::int64_t lineage : s.dcm.lineage)
-    if (cells.contains(lineage)) meshes.push_back(lineage);
+    if (touched.contains(lineage)) meshes.push_back(lineage);
   return meshes;
 }
 
 /// Changes the models of the candidates; what could not be shaped stays.
-void change_models(World& world, const Candidates& all, const std::vector<double>& pressure,
+void change_models(World& world, const Switches& all, const std::vector<double>& pressure,
                    ZoomReport& report) {
   State& s = world.state;
   const std::vector<NewShell> shells = shape_spheres(world, all.promote, pressure);
@@ -209,7 +213,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
     observe(world, work);
     pressure = list_pressures(world, work);
   }
-  const Candidates all = find_candidates(world, pressure);
+  const Switches all = find_candidates(world, pressure);
   if (all.promote.empty() && all.demote.empty()) return report;
   if (pressure.empty()) {
     observe(world, work);
@@ -221,7 +225,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   const PairForces before = find_pair_forces(world, work, changing);
   State old = s;
   change_models(world, all, pressure, report);
-  const std::vector<std::int64_t> meshes = list_meshes(s, changing);
+  const std::vector<std::int64_t> meshes = meshes_to_settle(s, changing, before);
   if (!meshes.empty()) {
     const Settled settled = settle_cells(world, meshes);
     if (!settled.ok && stop_requested()) {

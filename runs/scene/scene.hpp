@@ -241,7 +241,7 @@ struct Scene {
   std::map<std::string, CellType> cell_types;
   CellsBlock cells;
   LifeBlock life;
-  std::vector<Region> zoom;        ///< union of regions
+  std::vector<Region> zoom;  ///< union of regions
   std::optional<MovingZoomBlock> moving_zoom;
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical (z) through this point
   ContactBlock contact;

@@ -98,16 +98,15 @@ TEST(ZoomSlow, TwoHundredChanges) {
         "most %d rejected\n",
         name_of(tissue), 1e3 * largest, tally.promotions, tally.ms / std::max(1, tally.promotions),
         tally.demotions, tally.waits, tally.pressure, tally.force, tally.contact, tally.shift / 12,
-        w.state.balance.momentum, static_cast<int>(tally.rejected));
+        w.state.balance.momentum, static_cast<double>(tally.steps) / kChanges,
+        static_cast<int>(tally.rejected));
     std::fflush(stdout);
     EXPECT_LT(w.state.balance.momentum, 1e-12);
   }
   EXPECT_LE(all.pressure, 1);
   EXPECT_LE(all.force, 0.1);
-  // Wanted are 0.01 R and 2 steps: a room has its middle elsewhere than its sphere, and surfaces
-  // that meet a new shape adapt at once (docs/zoom.md).
-  EXPECT_LE(all.shift, 0.1 * 12);
-  EXPECT_LE(all.rejected, 5);
+  EXPECT_LE(all.rejected, 2);
+  EXPECT_LE(all.shift, 0.1 * 12);  // 0.01 R is wanted: rooms are not round (docs/zoom.md)
 }
 
 /// A cell in packed tissue goes to the other model and back, again and again, beside one left
