@@ -285,6 +285,26 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
   return rest_share(t, q, point) * radius * radius;
 }
 
+double point_stretch(const contact::SurfaceBody& b, contact::Quadrature q, int point,
+                     double radius) {
+  const mesh::Topology& t = *b.topology;
+  double present = 0, rest = 0;
+  const auto count = [&](int triangle) {
+    const auto& [i, j, k] = (*b.triangle)[triangle];
+    present += 0.5 * (b.node[j] - b.node[i]).cross(b.node[k] - b.node[i]).norm();
+    rest += t.rest_triangle_area[triangle];
+  };
+  if (contact::has_face_sites(q)) {
+    count(point / 3);
+  } else if (point < t.n_node) {
+    for (int f = t.node_triangle_start[point]; f < t.node_triangle_start[point + 1]; ++f)
+      count(t.node_triangle[f]);
+  } else {
+    for (int triangle : t.edge_triangle[point - t.n_node]) count(triangle);
+  }
+  return present / (rest * radius * radius);
+}
+
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const Contact& o) {
   if (is_between_triangles(c, o))

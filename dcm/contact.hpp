@@ -128,6 +128,11 @@ double contact_range(const ContactParams& c, const mesh::Topology& t, double rad
 /// Surface area that a probing point stands for, um^2: its share of the reference surface.
 double point_area(const mesh::Topology& t, contact::Quadrature q, int point, double radius);
 
+/// Present area of the triangles about a point over their area at rest, which a birth shape does
+/// not change: times point_area, the present area that the point stands for.
+double point_stretch(const contact::SurfaceBody& body, contact::Quadrature q, int point,
+                     double radius);
+
 /// Copies the nodes out of the lanes and recomputes normals and boxes.
 void refresh_bodies(const State& state, ContactWorkspace& work);
 

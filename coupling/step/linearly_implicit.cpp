@@ -20,6 +20,10 @@ constexpr int kMaxActiveSets = 6;
 bool is_steady(const World& world) {
   const State& s = world.state;
   if (!has_last_move(s) || s.dcm.n_lane() == 0) return false;
+  // Where spheres leave room, deformable cells under pressure bulge into it. What holds a bulge,
+  // pressure and stretched triangles, is not all in the matrix: steps that look ahead swing there
+  // where plain ones settle (docs/decisions/0035.md).
+  if (s.cbm.n_cell() > 0 && s.clock.step < world.params.numerics.max_step) return false;
   const Motility& m = world.params.motility;
   if (!m.random || !controls_at(s.clock, world.params.start_up).motility) return true;
   const double now = s.clock.time - s.clock.origin;

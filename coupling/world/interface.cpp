@@ -156,11 +156,17 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
   links.resize(at + contacts.interface().size());
   for (std::size_t n = contacts.obstacle_end; n < contacts.interface_end; ++n, ++at) {
     Contact& k = contacts.all[n];
-    const std::size_t body = k.a;
-    const PairLaw law = law_of(in, dcm_work, modulus, k);
-    const double area = dcm::point_area(*dcm_work.body[body].topology, in.dcm.options.quadrature,
-                                        k.point, in.dcm.lanes.radius[dcm_work.lane_of_body[body]]);
-    const double share = dcm::share_scale(dcm_work.share[body][k.point]) *
+    const contact::SurfaceBody& body = dcm_work.body[k.a];
+    const double radius = in.dcm.lanes.radius[dcm_work.lane_of_body[k.a]];
+    const contact::Quadrature quadrature = in.dcm.options.quadrature;
+    PairLaw law = law_of(in, dcm_work, modulus, k);
+    // The bed under a stretched surface is as wide as that is now: with its area at rest a tongue
+    // of a deformable cell would find a sphere the softer the farther it flows.
+    const double stretch = dcm::point_stretch(body, quadrature, k.point, radius);
+    law.cohesive.repulsion *= stretch;
+    law.hardening *= stretch;
+    const double area = dcm::point_area(*body.topology, quadrature, k.point, radius);
+    const double share = dcm::share_scale(dcm_work.share[k.a][k.point]) *
                          contact::contact_share(k.gap, in.dcm.options.friction_range);
     const double friction = in.params.friction_factor * in.params.friction * area * share;
     k.touching = area * share;

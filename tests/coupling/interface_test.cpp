@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <vector>
 
 #include "core/threads.hpp"
 #include "coupling/step/stages.hpp"
@@ -152,6 +155,76 @@ TEST(Interface, ACalibratedSphereHardensUnderAnIndentationDeeperThanItsOverlap) 
     if (std::abs(d - 0.2) > 1e-3 && std::abs(d - 0.3) > 1e-3) {
       EXPECT_NEAR(find_compliance(5, sphere, 12 * d).slope, (above - below) / (2 * step), 1e-6);
     }
+  }
+}
+
+/// A deformable cell that indents a sphere by so much, um, without adhesion.
+World indented_sphere(double depth) {
+  World w = make_test_world({{Vec3::Zero()}, {Vec3(1, 2, 3).normalized() * 24, false}});
+  w.params.dcm[0].adhesion = w.params.cbm[0].adhesion = 0;
+  Workspace work;
+  size_workspace(w, work);
+  find_all_contacts(w, 1.0, work);
+  double gap = 1;
+  for (const contact::Contact& k : work.contacts.interface()) gap = std::min(gap, k.gap);
+  // The normal is that of the line of centres to first order, so two rounds come near enough.
+  Vec3 x = cbm::center_of(w.state.cbm, 0);
+  store_point(w.state.cbm.position.data(), cbm::cell_address(0, 0), x * (1 - (gap + depth) / 24));
+  return w;
+}
+
+// However far a surface is stretched, a sphere pushes at it with the pressure of its bed times the
+// area there is: with that at rest, tongues of deformable cells flow into spheres.
+TEST(Interface, PressesOnThePresentAreaOfAStretchedSurface) {
+  const World rested = indented_sphere(1);
+  World stretched = rested;  // the same nodes, of a cell that is smaller at rest
+  for (auto& v : stretched.state.dcm.volume) v.from = v.to = 0.6 * v.to;
+  Workspace a, b;
+  size_workspace(rested, a);
+  size_workspace(stretched, b);
+  forces(rested, a, true);
+  forces(stretched, b, true);
+  const auto pressing = [](const Workspace& w) {
+    std::vector<contact::Contact> pressing;
+    std::ranges::copy_if(w.contacts.interface(), std::back_inserter(pressing),
+                         [](const contact::Contact& k) { return k.gap < 0; });
+    return pressing;
+  };
+  const std::vector<contact::Contact> x = pressing(a), y = pressing(b);
+  ASSERT_EQ(x.size(), y.size());
+  ASSERT_GT(x.size(), 5u);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    EXPECT_NEAR(x[k].force, y[k].force, 1e-13 * x[k].force);  // area at rest times its inverse
+    EXPECT_NEAR(x[k].slope, y[k].slope, 1e-13 * x[k].slope);
+  }
+}
+
+// Indented by less than the least depth a bed has one stiffness, and an energy of 1/2 k g^2 on the
+// present area, which a sphere that moves does not change.
+TEST(Interface, ForceOnTheSphereIsMinusTheGradientOfTheBedsEnergy) {
+  World w = indented_sphere(0.8 * kLeastDepth * 12);
+  Workspace work;
+  size_workspace(w, work);
+  const Address at = cbm::cell_address(0, 0);
+  const Vec3 center = cbm::center_of(w.state.cbm, 0);
+  const auto energy = [&](const Vec3& x) {
+    store_point(w.state.cbm.position.data(), at, x);
+    forces(w, work, true);
+    double sum = 0;
+    for (const contact::Contact& k : work.contacts.interface())
+      if (k.gap < 0) sum += 0.5 * k.slope * k.gap * k.gap;
+    return sum;
+  };
+  energy(center);
+  Vec3 force = Vec3::Zero();
+  for (const contact::Contact& k : work.contacts.interface()) force -= k.force * k.normal;
+  EXPECT_GT(force.norm(), 0.02);
+  const double step = 1e-4;
+  for (int m = 0; m < 3; ++m) {
+    const Vec3 shift = step * Vec3::Unit(m);
+    const double slope = (energy(center + shift) - energy(center - shift)) / (2 * step);
+    // k g^2 is quadratic but for points that begin to touch: of depth step, 1/2 k A step^2 each.
+    EXPECT_NEAR(force[m], -slope, 1e-3 * force.norm());
   }
 }
 

@@ -68,7 +68,7 @@ TEST(Sleep, ARestingClumpFallsAsleepAndMovesOnFromCheckToCheck) {
   EXPECT_EQ(time_to_event(w), 600);
   run_for(w, work, 600);
   EXPECT_LT(count_asleep(w.state), 8) << "pressed just now";
-  run_for(w, work, 4 * 3600);
+  run_for(w, work, 12 * 3600);
   ASSERT_EQ(count_asleep(w.state), 8);
   const auto start = places(w.state);
   run_for(w, work, 200);

@@ -31,6 +31,29 @@ TEST(ContactAreas, PointsShareTheSurface) {
     }
 }
 
+TEST(ContactAreas, StretchIsPresentOverReferenceArea) {
+  const mesh::Topology& t = mesh::shared_icosphere(42);
+  contact::SurfaceBody b;
+  b.topology = &t;
+  b.triangle = &t.triangle;
+  for (const Vec3& x : t.rest) b.node.push_back(3 * 1.2 * x);
+  for (const auto q : kAll)
+    for (int p = 0; p < static_cast<int>(contact::n_points(b, q)); ++p)
+      EXPECT_NEAR(point_stretch(b, q, p, 3), 1.44, 1e-14);  // round-offs of some areas
+  // One triangle twice as high: 2 of its own points, and of the others what it is a share of.
+  const auto& [i, j, k] = t.triangle[0];
+  const Vec3 foot = b.node[i] + (b.node[k] - b.node[i]).dot(b.node[j] - b.node[i]) /
+                                    (b.node[j] - b.node[i]).squaredNorm() * (b.node[j] - b.node[i]);
+  b.node[k] += b.node[k] - foot;
+  EXPECT_NEAR(point_stretch(b, contact::Quadrature::kThreePoint, 0, 3), 2 * 1.44, 1e-13);
+  const std::array<int, 2> edge{std::min(i, j), std::max(i, j)};
+  const auto at = static_cast<int>(std::ranges::find(t.edge, edge) - t.edge.begin());
+  const auto& [f, g] = t.edge_triangle[at];
+  const double own = t.rest_triangle_area[0], other = t.rest_triangle_area[f == 0 ? g : f];
+  EXPECT_NEAR(point_stretch(b, contact::Quadrature::kNodesAndEdges, t.n_node + at, 3),
+              1.44 * (2 * own + other) / (own + other), 1e-13);
+}
+
 /// A cube with n by n squares a side.
 mesh::Surface make_cube(int n) {
   mesh::Surface s;
