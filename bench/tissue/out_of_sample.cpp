@@ -179,12 +179,19 @@ void judge_in_place(const Judged& j, BenchTable& table) {
 void judge_by_themselves(const Judged& j, const std::string& law_file, int threads,
                          BenchTable& table) {
   const std::vector<PlacedFrame> frames = read_frames(j.deformable);
-  for (const auto& [name, file] :
-       {std::pair<std::string, std::string>{"plain", "none"}, {"table", law_file}}) {
-    const std::string folder = j.deformable + "_" + name;
-    run(runs::as_spheres(j.scene, file), folder, threads);
+  struct Run {
+    const char *name, *folder;
+    std::string law;
+    bool single_overlaps;
+  };
+  for (const Run& r : {Run{"plain", "plain", "none", true}, Run{"table", "table", law_file, true},
+                       Run{"table, no single overlaps", "sum", law_file, false}}) {
+    runs::Scene scene = j.scene;
+    for (auto& [name, type] : scene.cell_types) type.cbm.single_overlaps = r.single_overlaps;
+    const std::string folder = fmt::format("{}_{}", j.deformable, r.folder);
+    run(runs::as_spheres(scene, r.law), folder, threads);
     table.push_back(
-        compare(fmt::format("{}, {}, by themselves", j.name, name), frames, read_frames(folder)));
+        compare(fmt::format("{}, {}, by themselves", j.name, r.name), frames, read_frames(folder)));
     print_row(table.back());
   }
 }

@@ -21,7 +21,6 @@ struct Crowding {
   }
   double measure(OverlapMeasure by) const {
     if (contacts == 0) return 0;
-    if (by == OverlapMeasure::kMean) return sum / contacts;
     const double all = sum / cbm::kNeighbours;
     return by == OverlapMeasure::kByContacts ? all * std::pow(contacts / 7.0, 0.1) : all;
   }
@@ -88,18 +87,17 @@ void place(const PlacedCells& cells, double time, const SphereLaw& law, const cb
 
 std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain, double bulk_modulus) {
   const cbm::StiffnessLaw table = calibration::stiffness_law(law);
-  cbm::StiffnessLaw stiff = table, fitted, paper;
+  cbm::StiffnessLaw stiff = table, fitted;
   for (cbm::StiffnessLaw::Knot& k : stiff.table) k.added = std::max(0.0, law.a0 + k.added - plain);
   fitted.term.push_back({law.a1, law.power});
   fitted.range = table.range;
-  paper.term.push_back({4e3, 4});  // [VanLiedekerke2020]: 4e6 Pa
   cbm::StiffnessLaw soft;
   soft.term.push_back({1e3, 4});
   // Of a grid of constants the best in the calibration's clump (docs/calibration.md).
   const cbm::RoomLaw clump{bulk_modulus, 1.08, 0.98, 0.03}, all{bulk_modulus, 1.1, 0.98, 0.04};
   using enum OverlapMeasure;
   return {{"plain", plain, {}, kProgram, {}},
-          {"Eq. (22), mean overlap", plain, paper, kMean, {}},
+          {"Eq. (22), mean overlap", plain, cbm::paper_law(), kProgram, {}},
           {"Eq. (22), a1 fitted", plain, fitted, kSum, {}},
           {"table", law.a0, table, kProgram, {}},
           {"table alone", law.a0, table, kSum, {}},

@@ -27,7 +27,6 @@ using PlacedCells = std::map<std::int64_t, PlacedCell>;  ///< by lineage
 enum class OverlapMeasure {
   kProgram,     ///< as in a run: sum over twelve, single deep overlaps, faces at walls
   kSum,         ///< sum over twelve and nothing else
-  kMean,        ///< mean over contacts [VanLiedekerke2020, Eq. (22)]
   kByContacts,  ///< the sum, more or less of it by the number n of contacts: (n / 7)^0.1
 };
 
