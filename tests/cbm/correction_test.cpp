@@ -275,7 +275,7 @@ TEST(Correction, StiffensTheCentralCell) {
   soft.params[0].correction = {};
   soft.find();
   stiff.find();
-  const double d = relative_overlap(stiff.work, 0);
+  const double d = relative_overlap(stiff.work, 0, {});
   double sum = 0;
   for (const contact::Contact& c : stiff.sphere())
     if (c.a == 0 || c.b == 0) sum += std::max(0.0, -c.gap / 24);
@@ -322,7 +322,7 @@ Compression compress_clump(const StiffnessLaw& law, double young, double smalles
     s.boundary.capsules[0].radius = radius;
     settle(s);
     forces(s);
-    const double d = relative_overlap(s.work, 0);
+    const double d = relative_overlap(s.work, 0, {});
     found.lowest = std::min(found.lowest, d);
     found.highest = std::max(found.highest, d);
     const Eigen::MatrixXd j = jacobian(s);
