@@ -32,8 +32,8 @@ double room_energy(const RoomLaw& law, double relative_room) {
 std::vector<Room> find_rooms(const RoomInput& in, double reach) {
   const std::size_t n = in.center.size();
   std::vector<Room> rooms(n);
-  std::vector<std::vector<mesh::CutPlane>> planes(n);
-  const auto cut = [&](std::size_t cell, int other, const mesh::CutPlane& plane) {
+  std::vector<std::vector<mesh::BallCut>> planes(n);
+  const auto cut = [&](std::size_t cell, int other, const mesh::BallCut& plane) {
     rooms[cell].face.push_back({other, {}});
     planes[cell].push_back(plane);
   };

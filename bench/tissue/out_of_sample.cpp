@@ -27,14 +27,14 @@
 namespace acinus::bench {
 namespace {
 
-struct PlacedFrame {
+struct JudgedFrame {
   double time = 0;  ///< s
-  PlacedCells cells;
+  JudgedCells cells;
 };
 
-std::vector<PlacedFrame> read_frames(const std::string& folder) {
+std::vector<JudgedFrame> read_frames(const std::string& folder) {
   const io::RunReader run(folder + "/run.vtkhdf");
-  std::vector<PlacedFrame> frames;
+  std::vector<JudgedFrame> frames;
   for (int k = 0; k < run.n_frame(); ++k) {
     const io::Table t = run.cells(k);
     const auto column = [&](const char* name) -> const std::vector<double>& {
@@ -44,7 +44,7 @@ std::vector<PlacedFrame> read_frames(const std::string& folder) {
                &pressure = column("pressure"), &force = column("normal_force"),
                &area = column("contact_area");
     const auto& id = std::ranges::find(t.ids, "id", &io::IdColumn::name)->value;
-    PlacedFrame frame{run.time_s(k), {}};
+    JudgedFrame frame{run.time_s(k), {}};
     for (std::size_t i = 0; i < id.size(); ++i)
       frame.cells[id[i]] = {{center[3 * i], center[3 * i + 1], center[3 * i + 2]},
                             radius[i],
@@ -60,8 +60,8 @@ std::vector<PlacedFrame> read_frames(const std::string& folder) {
 /// radii. Spheres of that age push each other with a part of their force, which frames do not hold.
 constexpr double kNewborn = 0.3;
 
-void leave_out_births(std::vector<PlacedFrame>& frames) {
-  std::erase_if(frames, [](const PlacedFrame& f) {
+void leave_out_births(std::vector<JudgedFrame>& frames) {
+  std::erase_if(frames, [](const JudgedFrame& f) {
     for (const auto& [id, own] : f.cells)
       for (const auto& [other, c] : f.cells)
         if (id < other && (own.center - c.center).norm() < (1 - kNewborn) * (own.radius + c.radius))
@@ -71,7 +71,7 @@ void leave_out_births(std::vector<PlacedFrame>& frames) {
 }
 
 /// How dense cells are, up to a factor: from the distances of the six nearest of each.
-double mean_density(const PlacedCells& cells) {
+double mean_density(const JudgedCells& cells) {
   constexpr std::size_t kNear = 6;
   double sum = 0;
   int n = 0;
@@ -103,26 +103,26 @@ struct Misfit {
 };
 
 template <class Get>
-double mean_of(const PlacedCells& cells, Get get) {
+double mean_of(const JudgedCells& cells, Get get) {
   double sum = 0;
   for (const auto& [id, c] : cells) sum += get(c);
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
 }
 
 /// @param spheres  frames at the same times; single cells are compared where both have them
-BenchRow compare(const std::string& name, const std::vector<PlacedFrame>& deformable,
-                 const std::vector<PlacedFrame>& spheres) {
+BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deformable,
+                 const std::vector<JudgedFrame>& spheres) {
   constexpr double kPa = 1e3;
   Misfit pressure, force, area, density, single;
   double mean = 0, expected = 0;
   const std::size_t n = std::min(deformable.size(), spheres.size());
   for (std::size_t k = 0; k < n; ++k) {
-    const PlacedCells &is = spheres[k].cells, &should = deformable[k].cells;
+    const JudgedCells &is = spheres[k].cells, &should = deformable[k].cells;
     const auto add = [&](Misfit& m, auto get) { m.add(mean_of(is, get), mean_of(should, get)); };
-    const auto pressure_of = [](const PlacedCell& c) { return kPa * c.pressure; };
+    const auto pressure_of = [](const JudgedCell& c) { return kPa * c.pressure; };
     add(pressure, pressure_of);
-    add(force, [](const PlacedCell& c) { return c.normal_force; });
-    add(area, [](const PlacedCell& c) { return c.contact_area; });
+    add(force, [](const JudgedCell& c) { return c.normal_force; });
+    add(area, [](const JudgedCell& c) { return c.contact_area; });
     density.add(mean_density(is), mean_density(should));
     mean += mean_of(is, pressure_of) / static_cast<double>(n);
     expected += mean_of(should, pressure_of) / static_cast<double>(n);
@@ -162,14 +162,14 @@ void run(const runs::Scene& scene, const std::string& folder, int threads) {
 }
 
 void judge_in_place(const Judged& j, BenchTable& table) {
-  std::vector<PlacedFrame> frames = read_frames(j.deformable);
+  std::vector<JudgedFrame> frames = read_frames(j.deformable);
   const bool divides = std::ranges::any_of(
       j.scene.cell_types, [](const auto& type) { return type.second.cycle.time > 0; });
   if (divides) leave_out_births(frames);
   const coupling::World world = runs::build_world(j.scene, Ranks::serial()).world;
   for (const SphereLaw& law : j.laws) {
-    std::vector<PlacedFrame> spheres;
-    for (const PlacedFrame& f : frames)
+    std::vector<JudgedFrame> spheres;
+    for (const JudgedFrame& f : frames)
       spheres.push_back({f.time, bear_in_place(f.cells, f.time, law, world)});
     table.push_back(compare(fmt::format("{}, {}, in place", j.name, law.name), frames, spheres));
     print_row(table.back());
@@ -178,14 +178,15 @@ void judge_in_place(const Judged& j, BenchTable& table) {
 
 void judge_by_themselves(const Judged& j, const std::string& law_file, int threads,
                          BenchTable& table) {
-  const std::vector<PlacedFrame> frames = read_frames(j.deformable);
-  struct Run {
+  const std::vector<JudgedFrame> frames = read_frames(j.deformable);
+  struct SphereRun {
     const char *name, *folder;
     std::string law;
     bool single_overlaps;
   };
-  for (const Run& r : {Run{"plain", "plain", "none", true}, Run{"table", "table", law_file, true},
-                       Run{"table, no single overlaps", "sum", law_file, false}}) {
+  for (const SphereRun& r :
+       {SphereRun{"plain", "plain", "none", true}, SphereRun{"table", "table", law_file, true},
+        SphereRun{"table, no single overlaps", "sum", law_file, false}}) {
     runs::Scene scene = j.scene;
     for (auto& [name, type] : scene.cell_types) type.cbm.single_overlaps = r.single_overlaps;
     const std::string folder = fmt::format("{}_{}", j.deformable, r.folder);

@@ -11,7 +11,7 @@ namespace acinus::bench {
 namespace {
 
 /// Overlaps of one cell with cells and walls.
-struct Crowding {
+struct CellOverlaps {
   double sum = 0;
   int contacts = 0;
   void add(double overlap) {
@@ -26,8 +26,8 @@ struct Crowding {
   }
 };
 
-std::vector<Crowding> find_crowding(const cbm::RoomInput& in) {
-  std::vector<Crowding> out(in.center.size());
+std::vector<CellOverlaps> find_crowding(const cbm::RoomInput& in) {
+  std::vector<CellOverlaps> out(in.center.size());
   for (std::size_t i = 0; i < out.size(); ++i)
     for (std::size_t j = i + 1; j < out.size(); ++j) {
       const double overlap =
@@ -61,14 +61,14 @@ std::vector<cbm::RoomWall> find_walls(const std::vector<Vec3>& center,
 }
 
 /// The spheres' world at that moment, with moduli set where the program has no such law.
-void place(const PlacedCells& cells, double time, const SphereLaw& law, const cbm::RoomInput& in,
+void place(const JudgedCells& cells, double time, const SphereLaw& law, const cbm::RoomInput& in,
            coupling::World& world) {
   const bool own = law.measure != OverlapMeasure::kProgram;
   for (cbm::Params& p : world.params.cbm) {
     p.young = law.young;
     p.correction = own ? cbm::StiffnessLaw{} : law.correction;
   }
-  const std::vector<Crowding> crowding = own ? find_crowding(in) : std::vector<Crowding>{};
+  const std::vector<CellOverlaps> crowding = own ? find_crowding(in) : std::vector<CellOverlaps>{};
   std::vector<cbm::NewCell> spheres;
   for (const auto& [id, c] : cells) {
     double young = law.young;
@@ -108,7 +108,7 @@ std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain, do
           {"room and a1 d^4", 0.02, soft, kSum, all}};
 }
 
-PlacedCells bear_in_place(const PlacedCells& cells, double time, const SphereLaw& law,
+JudgedCells bear_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
                           coupling::World world) {
   std::vector<Vec3> center;
   std::vector<double> radius;
@@ -122,9 +122,9 @@ PlacedCells bear_in_place(const PlacedCells& cells, double time, const SphereLaw
   coupling::Workspace work;
   coupling::size_workspace(world, work);
   coupling::observe(world, work);
-  PlacedCells out = cells;
+  JudgedCells out = cells;
   for (const coupling::CellMeasure& m : coupling::measure_cells(world, work)) {
-    PlacedCell& c = out.at(m.id);
+    JudgedCell& c = out.at(m.id);
     c.pressure = m.pressure;
     c.normal_force = m.normal_force;
     c.contact_area = m.contact_area;

@@ -14,14 +14,14 @@
 namespace acinus::bench {
 
 /// A cell of a frame, or what a law makes of it.
-struct PlacedCell {
+struct JudgedCell {
   Vec3 center = Vec3::Zero();  ///< um
   double radius = 0;           ///< um
   double pressure = 0;         ///< kPa, contact pressure
   double normal_force = 0;     ///< nN
   double contact_area = 0;     ///< um^2
 };
-using PlacedCells = std::map<std::int64_t, PlacedCell>;  ///< by lineage
+using JudgedCells = std::map<std::int64_t, JudgedCell>;  ///< by lineage
 
 /// How the modulus of a cell comes from its overlaps.
 enum class OverlapMeasure {
@@ -43,7 +43,7 @@ std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain, do
 
 /// @param world  spheres with the constants and the boundary of the scene; its cells do not count
 /// @param time   s since t = 0, for which moving walls stand
-PlacedCells bear_in_place(const PlacedCells& cells, double time, const SphereLaw& law,
+JudgedCells bear_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
                           coupling::World world);
 
 }  // namespace acinus::bench

@@ -23,11 +23,11 @@ struct FaceSum {
 };
 
 /// The lines that cross the disc. @return false: nothing is left of the face
-bool find_lines(std::span<const CutPlane> planes, std::size_t face, const Vec3& along_u,
+bool find_lines(std::span<const BallCut> planes, std::size_t face, const Vec3& along_u,
                 const Vec3& along_v, double disc, std::vector<CutLine>& lines) {
   constexpr double kParallel = 1e-12;
   lines.clear();
-  const CutPlane& f = planes[face];
+  const BallCut& f = planes[face];
   for (std::size_t k = 0; k < planes.size(); ++k) {
     if (k == face) continue;
     const Vec2 in_plane(planes[k].normal.dot(along_u), planes[k].normal.dot(along_v));
@@ -106,13 +106,13 @@ void add_round(const std::vector<CutLine>& lines, double disc, double height, do
 
 }  // namespace
 
-CutBall cut_ball(double radius, std::span<const CutPlane> planes) {
+CutBall cut_ball(double radius, std::span<const BallCut> planes) {
   CutBall out{0, std::vector<CutFace>(planes.size())};
   double angle = 0, cones = 0;
   bool middle_left = true;
   std::vector<CutLine> lines;
   for (std::size_t f = 0; f < planes.size(); ++f) {
-    const CutPlane& plane = planes[f];
+    const BallCut& plane = planes[f];
     if (plane.distance <= -radius) return {0, std::vector<CutFace>(planes.size())};
     middle_left = middle_left && plane.distance > 0;
     if (plane.distance >= radius) continue;

@@ -9,7 +9,7 @@
 namespace acinus::mesh {
 
 /// What stands behind it is cut off: x . normal > distance, x from the middle of the ball.
-struct CutPlane {
+struct BallCut {
   Vec3 normal = Vec3::UnitZ();  ///< unit
   double distance = 0;          ///< um, negative if the middle itself is cut off
 };
@@ -27,6 +27,6 @@ struct CutBall {
 /// Exact up to rounding, whatever the planes: no corners are stored, every face is worked out by
 /// itself from its straight and its round pieces. About n^3 operations for n planes. The volume is
 /// that of cones over the faces and over what is left of the sphere (divergence theorem).
-CutBall cut_ball(double radius, std::span<const CutPlane> planes);
+CutBall cut_ball(double radius, std::span<const BallCut> planes);
 
 }  // namespace acinus::mesh

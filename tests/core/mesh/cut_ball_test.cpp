@@ -15,8 +15,8 @@ namespace {
 /// Some tens of sums of numbers of order one.
 constexpr double kRounding = 1e-13;
 
-std::vector<CutPlane> box(const Vec3& low, const Vec3& high) {
-  std::vector<CutPlane> planes;
+std::vector<BallCut> box(const Vec3& low, const Vec3& high) {
+  std::vector<BallCut> planes;
   for (int m = 0; m < 3; ++m) {
     planes.push_back({Vec3::Unit(m), high[m]});
     planes.push_back({-Vec3::Unit(m), -low[m]});
@@ -24,8 +24,8 @@ std::vector<CutPlane> box(const Vec3& low, const Vec3& high) {
   return planes;
 }
 
-std::vector<CutPlane> oblique() {
-  std::vector<CutPlane> planes;
+std::vector<BallCut> oblique() {
+  std::vector<BallCut> planes;
   for (const Vec3& p :
        {Vec3(1, 0.2, 0.1), Vec3(-0.3, 1, 0.2), Vec3(0.1, -0.9, 0.4), Vec3(-1, -0.3, 0.1),
         Vec3(0.2, 0.1, 1), Vec3(0.3, 0.2, -1.1), Vec3(1, 1, 1)})
@@ -36,20 +36,20 @@ std::vector<CutPlane> oblique() {
 
 TEST(CutBall, WithoutPlanesIsABall) {
   EXPECT_NEAR(cut_ball(2, {}).volume, sphere_volume(2), kRounding * sphere_volume(2));
-  const std::vector<CutPlane> far{{Vec3::UnitX(), 2.5}};
+  const std::vector<BallCut> far{{Vec3::UnitX(), 2.5}};
   EXPECT_NEAR(cut_ball(2, far).volume, sphere_volume(2), kRounding * sphere_volume(2));
   EXPECT_EQ(cut_ball(2, far).face[0].area, 0);
 }
 
 TEST(CutBall, LosesACap) {
   for (const double h : {0.7, 0.0, -0.4}) {
-    const CutBall b = cut_ball(1, std::vector<CutPlane>{{Vec3(1, 2, 2) / 3, h}});
+    const CutBall b = cut_ball(1, std::vector<BallCut>{{Vec3(1, 2, 2) / 3, h}});
     const double cap = kPi / 3 * (1 - h) * (1 - h) * (2 + h);
     EXPECT_NEAR(b.volume, sphere_volume(1) - cap, 10 * kRounding);
     EXPECT_NEAR(b.face[0].area, kPi * (1 - h * h), 10 * kRounding);
     EXPECT_NEAR((b.face[0].middle - h * Vec3(1, 2, 2) / 3).norm(), 0, kRounding);
   }
-  EXPECT_EQ(cut_ball(1, std::vector<CutPlane>{{Vec3::UnitX(), -1}}).volume, 0);
+  EXPECT_EQ(cut_ball(1, std::vector<BallCut>{{Vec3::UnitX(), -1}}).volume, 0);
 }
 
 TEST(CutBall, IsTheBoxInsideIt) {
@@ -69,19 +69,19 @@ TEST(CutBall, LosesSixCapsInAWideCube) {
 }
 
 TEST(CutBall, OfTwoEqualPlanesOneHasTheFace) {
-  const std::vector<CutPlane> twice{{Vec3::UnitX(), 0.5}, {Vec3::UnitX(), 0.5}};
+  const std::vector<BallCut> twice{{Vec3::UnitX(), 0.5}, {Vec3::UnitX(), 0.5}};
   const CutBall b = cut_ball(1, twice);
   EXPECT_NEAR(b.face[0].area + b.face[1].area, kPi * 0.75, 10 * kRounding);
   EXPECT_NEAR(b.volume, cut_ball(1, std::span(twice).first(1)).volume, 10 * kRounding);
 }
 
 TEST(CutBall, AreasAreDerivativesOfTheVolume) {
-  const std::vector<CutPlane> planes = oblique();
+  const std::vector<BallCut> planes = oblique();
   const CutBall b = cut_ball(1, planes);
   constexpr double kStep = 1e-5;
   int cut = 0;
   for (std::size_t k = 0; k < planes.size(); ++k) {
-    std::vector<CutPlane> more = planes, less = planes;
+    std::vector<BallCut> more = planes, less = planes;
     more[k].distance += kStep;
     less[k].distance -= kStep;
     const double slope = (cut_ball(1, more).volume - cut_ball(1, less).volume) / (2 * kStep);
@@ -94,8 +94,8 @@ TEST(CutBall, AreasAreDerivativesOfTheVolume) {
 
 TEST(CutBall, DoesNotDependOnTheFrame) {
   const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
-  std::vector<CutPlane> turned = oblique();
-  for (CutPlane& p : turned) p.normal = turn * p.normal;
+  std::vector<BallCut> turned = oblique();
+  for (BallCut& p : turned) p.normal = turn * p.normal;
   const CutBall a = cut_ball(1, oblique()), b = cut_ball(1, turned);
   EXPECT_NEAR(a.volume, b.volume, 10 * kRounding);
   for (std::size_t k = 0; k < turned.size(); ++k)
