@@ -18,6 +18,7 @@
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress.hpp"
 #include "bench/tissue/contact_laws.hpp"
+#include "bench/tissue/out_of_sample.hpp"
 #include "bench/tissue/patch.hpp"
 #include "bench/tissue/pull_off.hpp"
 #include "bench/tissue/relaxation.hpp"
@@ -44,6 +45,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"dcm27", bench_dcm27},
       {"jkr", bench_jkr},
       {"nucleus", bench_nucleus},
+      {"out-of-sample", bench_out_of_sample},
       {"patch", bench_patch},
       {"pull-off", bench_pull_off},
       {"pull-off-causes", bench_pull_off_causes},

@@ -42,6 +42,13 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000000));
   app.add_flag("--life", options.life,
                "stress: the cells of the same scenes also grow, divide and die");
+  app.add_option("--radius", options.radius, "out-of-sample: radius of the cells, um (default: 12)")
+      ->type_name("UM")
+      ->check(CLI::Range(4.0, 40.0));
+  app.add_option("--stiffness", options.stiffness,
+                 "out-of-sample: factor on the moduli of the cells (default: 1)")
+      ->type_name("F")
+      ->check(CLI::Range(0.5, 2.0));
   app.add_option("--out", options.folder, "folder for plots and scenes")->type_name("DIR");
   try {
     app.parse(argc, argv);

@@ -14,10 +14,6 @@ namespace {
 
 using contact::Contact;
 
-void count_overlap(ContactWorkspace& work, int cell, double relative, double share) {
-  work.overlap_sum[cell] += share * relative;
-}
-
 /// The moduli of all cells, from the overlaps where a law asks for them.
 void find_moduli(const State& s, std::span<const Params> params, ContactWorkspace& work) {
   work.modulus.resize(s.n_cell());
@@ -29,7 +25,7 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
       work.modulus[i] = {s.young[i], 0};
       continue;
     }
-    const double d = relative_overlap(work, i);
+    const double d = relative_overlap(work, i, law);
     work.modulus[i] = corrected_modulus(law, s.young[i], d);
     ++work.corrected;
     work.beyond += d > law.range ? 1 : 0;
@@ -37,7 +33,7 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
 }
 
 /// Adds the coupling of its cells to the stiffness of every contact.
-void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
+void add_coupling(const ContactInput& in, ContactWorkspace& work, std::span<Contact> obstacle,
                   std::vector<solve::PointLink>& link) {
   std::vector<double>& contacts = work.scratch;
   contacts.assign(work.coupling.size(), 0.0);
@@ -47,7 +43,9 @@ void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
     ++contacts[b];
   }
   for (const Contact& o : obstacle) ++contacts[o.a];
-  for (std::size_t i = 0; i < contacts.size(); ++i) work.coupling[i] *= contacts[i] / kNeighbours;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (!in.params[in.state.type[i]].correction.mean_of_contacts)
+      work.coupling[i] *= contacts[i] / kNeighbours;
   std::size_t k = 0;
   for (const auto& touching : work.touching) {
     if (touching.second < 0) continue;  // boundary
@@ -69,6 +67,9 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   const CellData& cells = in.cells;
   const std::span<const double> radius = cells.radius;
   work.overlap_sum.assign(s.n_cell(), 0.0);
+  const bool counts =
+      std::ranges::any_of(in.params, [](const Params& p) { return p.correction.mean_of_contacts; });
+  work.overlap_count.assign(counts ? s.n_cell() : 0, 0.0);
   std::vector<double>& relative = work.scratch;
   relative.resize(work.pair.size());
   for_each_index(relative.size(), relative.size() > 10000, [&](std::size_t k) {
@@ -85,7 +86,7 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   // A wall is as much of an obstacle as the cell's own image behind it.
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
     const auto count = [&](double gap) {
-      count_overlap(work, static_cast<int>(i), contact::mirror_wall_compression(radius[i], gap),
+      count_overlap(work, i, contact::mirror_wall_compression(radius[i], gap),
                     cells.strength_of(i));
     };
     contact::for_each_wall(in.boundary, [&](auto, auto, const auto& wall) {
@@ -114,8 +115,15 @@ double largest_separation(const State& s, std::span<const Params> params,
   return -contact::jkr_special(pair).fold.overlap;
 }
 
-double relative_overlap(const ContactWorkspace& work, std::size_t cell) {
-  return work.overlap_sum[cell] / kNeighbours;
+double relative_overlap(const ContactWorkspace& work, std::size_t cell, const StiffnessLaw& law) {
+  if (!law.mean_of_contacts) return work.overlap_sum[cell] / kNeighbours;
+  const double count = work.overlap_count[cell];
+  return count > 0 ? work.overlap_sum[cell] / count : 0;
+}
+
+void count_overlap(ContactWorkspace& work, std::size_t cell, double relative, double share) {
+  work.overlap_sum[cell] += share * relative;
+  if (!work.overlap_count.empty() && relative > 0) work.overlap_count[cell] += share;
 }
 
 contact::SphereForce weaken(contact::SphereForce law, double share) {
@@ -175,7 +183,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   find_obstacle_contacts(in, work, contacts.all);
   contacts.sphere_obstacle_end = contacts.all.size();
   if (!work.coupling.empty())
-    add_coupling(work, std::span(contacts.all).subspan(contacts.interface_end), link);
+    add_coupling(in, work, std::span(contacts.all).subspan(contacts.interface_end), link);
 }
 
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,

@@ -53,6 +53,8 @@ struct ContactWorkspace {
   /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
   /// find_overlaps; the DCM-CBM interface adds its own. Empty: not wanted.
   std::vector<double> overlap_sum;
+  /// [n_cell] contacts in that sum, each with its share. Empty: no law takes the mean.
+  std::vector<double> overlap_count;
   std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
   /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
   /// grows with all its overlaps, C_i; written by: find_contacts. Empty: no law corrects.
@@ -73,7 +75,11 @@ inline constexpr double kNeighbours = 12;
 /// Relative overlap d of a cell: of all its contacts together, over those of dense tissue. With
 /// twelve neighbours it is the mean of [VanLiedekerke2020, Eq. (22)]; with others it still says how
 /// full its room is, and a new contact makes no jump. (docs/decisions/0021.md)
-double relative_overlap(const ContactWorkspace& work, std::size_t cell);
+/// Over the contacts there are, with all those faults, where a law asks for the mean.
+double relative_overlap(const ContactWorkspace& work, std::size_t cell, const StiffnessLaw& law);
+
+/// Adds one contact of a cell to its overlaps. @pre they are wanted: overlap_sum is not empty
+void count_overlap(ContactWorkspace& work, std::size_t cell, double relative, double share);
 
 /// How far apart two adhering spheres may stand before they let go, um: a bound over all pairs and
 /// boundary.
@@ -94,7 +100,8 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work);
 /// dF/d overlap) n n^T and friction gamma pi a^2 of every pair. Where a law corrects the modulus,
 /// the stiffness of a pair is max(0, dF/d overlap) + C_i + C_j,
 ///   C_i = n_i / 12 max_j dF/dE^ dE^/dE~_i dE~_i/dd_i / (R_i + R_j),   n_i contacts of the cell
-/// (of a wall dF/dE of its face, that counts E~ twice, over R_i),
+/// (of a wall dF/dE of its face, that counts E~ twice, over R_i; with n_i for the 12 where d is the
+/// mean),
 /// a bound of what the other contacts of both do to this one: with E~ held fixed long steps are
 /// unstable above d = 0.09. All that a contact of two cells
 /// does is multiplied by the larger of their strengths, so that spheres born into each other come

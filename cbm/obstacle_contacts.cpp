@@ -105,8 +105,11 @@ class ObstacleSearch {
 
   void meet_face(const Contact& k, const contact::Material& material, double shape) {
     const std::size_t i = k.a;
-    const WallFace face =
-        wall_face(params_of(i).correction, in_.state.young[i], work_.modulus[i].value);
+    const StiffnessLaw& law = params_of(i).correction;
+    const double modulus = work_.modulus[i].value;
+    // The paper's law knows spheres at walls only.
+    const WallFace face = law.mean_of_contacts ? WallFace{.modulus = modulus}
+                                               : wall_face(law, in_.state.young[i], modulus);
     SphereBody crowded = body(i);
     crowded.young = face.modulus;
     // That the face recedes as the cell is crowded is left out of the matrix: it makes the contact

@@ -26,9 +26,24 @@ struct StiffnessLaw {
   /// By how much less than its radius a crowded sphere reaches to a rigid wall, over its radius:
   /// deformable cells fill the room at a wall, spheres leave some of it free, see wall_face.
   double wall_recess = 0;
+  /// d is the mean over the contacts of a cell, as [VanLiedekerke2020] words it, not their sum over
+  /// twelve.
+  bool mean_of_contacts = false;
+  /// A single neighbour pressed in deeper than the law was fitted for counts, see modulus_toward.
+  bool single_overlaps = true;
 
   bool corrects() const { return !term.empty() || !table.empty(); }
 };
+
+/// E~ = E + a1 d^4 in the paper's own words and with its a1 = 4e6 Pa. In loose tissue spheres
+/// become far too stiff by it (docs/decisions/0036.md).   [VanLiedekerke2020, Eq. (22), Table 1]
+inline StiffnessLaw paper_law() {
+  StiffnessLaw law;
+  law.term.push_back({4e3, 4});
+  law.mean_of_contacts = true;
+  law.single_overlaps = false;
+  return law;
+}
 
 /// Largest recess of a law.
 inline constexpr double kLargestRecess = 0.5;
@@ -88,7 +103,7 @@ inline constexpr double kOwnOverlap = 1;
 inline Modulus modulus_toward(const StiffnessLaw& law, double young, const Modulus& crowd,
                               double overlap) {
   const double beyond = overlap - kOwnOverlap * law.range;
-  if (!law.corrects() || beyond <= 0) return crowd;
+  if (!law.corrects() || !law.single_overlaps || beyond <= 0) return crowd;
   const Modulus own = corrected_modulus(law, young, beyond);
   return own.value > crowd.value ? own : crowd;
 }

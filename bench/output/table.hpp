@@ -14,6 +14,8 @@ struct BenchOptions {
   int seeds = 3;          ///< repetitions with different random numbers, for cases that have any
   int first = 1;          ///< the first of these seeds
   bool life = false;      ///< cells of random scenes grow, divide and die
+  double radius = 12;     ///< um, of the cells that laws of stiffness are judged with
+  double stiffness = 1;   ///< factor on the moduli of these cells
 };
 
 /// One line: a case and its figures. Names of figures are the keys of the JSON rows.

@@ -134,7 +134,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
       const double relative =
           1 -
           (dcm::cell_center(in.dcm.state, lane) - cbm::center_of(in.cbm.state, i)).norm() / reach;
-      cbm_work.overlap_sum[i] += std::max(relative, 0.0);
+      cbm::count_overlap(cbm_work, i, std::max(relative, 0.0), 1);
     }
     contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
   }

@@ -43,6 +43,11 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
     cbm::Params& p = params[k++];
     const std::string& file = type.cbm.stiffness_correction;
     if (file == "none") continue;
+    if (file == "paper") {
+      p.correction = cbm::paper_law();
+      notes.said.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
+      continue;
+    }
     check(file != "auto",
           fmt::format("/cell_types/{}/cbm/stiffness_correction: \"auto\" is for `acinus run`. "
                       "Calibrate first and name the law file.",
@@ -61,6 +66,7 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
                       file, name, fmt::join(differences, "; ")));
     p.young = law.a0;
     p.correction = calibration::stiffness_law(law);
+    p.correction.single_overlaps = type.cbm.single_overlaps;
   }
 }
 

@@ -128,14 +128,20 @@ void describe_cbm(Visitor& v, CbmBlock& b) {
           .range = kPositive,
           .symbol = "gamma_ECM+"},
          b.medium_friction);
-  v.text({.name = "stiffness_correction",
-          .meaning = "law by which the modulus grows with the overlap, a file `acinus calibrate` "
-                     "wrote, relative to the scene's folder; auto: calibrate for this cell type, "
-                     "once",
-          .choices = "none|auto",
-          .symbol = "E~",
-          .is_file = true},
-         b.stiffness_correction);
+  v.text(
+      {.name = "stiffness_correction",
+       .meaning = "law by which the modulus grows with the overlap, a file `acinus calibrate` "
+                  "wrote, relative to the scene's folder; auto: calibrate for this cell type, "
+                  "once; paper: E + 4e6 Pa d^4 with the mean overlap d of the contacts, too stiff "
+                  "where cells have few neighbours",
+       .choices = "none|auto|paper",
+       .symbol = "E~",
+       .is_file = true},
+      b.stiffness_correction);
+  v.flag({.name = "single_overlaps",
+          .meaning = "with a law file: a neighbour pressed in deeper than the law was found for "
+                     "stiffens the sphere toward it; false: only all overlaps together count"},
+         b.single_overlaps);
 }
 
 void describe_cell(Visitor& v, CellEntry& b) {

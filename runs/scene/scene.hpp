@@ -49,7 +49,8 @@ struct DcmBlock : dcm::Params {
 
 /// Centre-based parameters of a cell type (Table 1). young = 0: 3 K_V (1 - 2 nu).
 struct CbmBlock : cbm::Params {
-  std::string stiffness_correction = "none";  ///< law file | none | auto (calibrate here)
+  std::string stiffness_correction = "none";  ///< law file | none | auto (calibrate here) | paper
+  bool single_overlaps = true;  ///< what the law does with a neighbour pressed in deep
   CbmBlock() {
     young = 0;
     young_spread = 0.1;

@@ -231,7 +231,7 @@ TEST(Vessels, OneContactForAnySpacingOfTheChain) {
     EXPECT_EQ(s.force(0).norm(), 0);
     const double friction = 0.5 * kPi * law.contact_radius * law.contact_radius;
     EXPECT_NEAR(static_cast<double>(s.links()[0].friction), friction, 1e-7 * friction);  // a float
-    EXPECT_EQ(relative_overlap(s.work, 0), 0) << "vessels are kept out of the overlap";
+    EXPECT_EQ(relative_overlap(s.work, 0, {}), 0) << "vessels are kept out of the overlap";
   }
 }
 
@@ -266,8 +266,8 @@ TEST(Walls, MirrorActsAsTheImageCell) {
   ASSERT_EQ(image.links().size(), 1u);
   EXPECT_LT((wall.external_force(0) - image.force(0)).norm(), 1e-12);
   EXPECT_EQ(wall.links()[0].friction, 0);  // no tangential friction
-  EXPECT_NEAR(relative_overlap(wall.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
-  EXPECT_NEAR(relative_overlap(image.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
+  EXPECT_NEAR(relative_overlap(wall.work, 0, {}), (1 - 11.0 / 12) / kNeighbours, 1e-14);
+  EXPECT_NEAR(relative_overlap(image.work, 0, {}), (1 - 11.0 / 12) / kNeighbours, 1e-14);
   EXPECT_NEAR(wall.work.contact_area[0], image.work.contact_area[0], 1e-10);
   const auto hertz = 4.0 / 3 * 0.45 / (1 - 0.47 * 0.47) * std::sqrt(12.0);
   EXPECT_NEAR(wall.external_force(0).z(), hertz, 1e-12);
@@ -378,7 +378,7 @@ TEST(RelativeOverlap, IsThatOfAllContactsTogetherAndNeverFallsAsOneComesNearer) 
     s.move(2, {-gap, 0, 0});
     s.find();
     s.accept();
-    const double d = relative_overlap(s.work, 0);
+    const double d = relative_overlap(s.work, 0, {});
     EXPECT_GE(d, last);
     steepest = std::max(steepest, d - last);
     last = d;
@@ -394,14 +394,14 @@ TEST(RelativeOverlap, CountsWallsOfAnyKindAsTheImageBehindThem) {
     floor.material.mirror = mirror;
     s.boundary.planes = {floor};
     s.find();
-    EXPECT_NEAR(relative_overlap(s.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14) << mirror;
+    EXPECT_NEAR(relative_overlap(s.work, 0, {}), (1 - 11.0 / 12) / kNeighbours, 1e-14) << mirror;
   }
   Spheres s({sphere({0, 0, 11})});
   contact::Capsule shell;
   shell.radius = 22;
   s.boundary.capsules = {shell};
   s.find();
-  EXPECT_NEAR(relative_overlap(s.work, 0), (1 - 11.0 / 12) / kNeighbours, 1e-14);
+  EXPECT_NEAR(relative_overlap(s.work, 0, {}), (1 - 11.0 / 12) / kNeighbours, 1e-14);
 }
 
 TEST(MediumFriction, ActsOnWhatTouchesNothing) {

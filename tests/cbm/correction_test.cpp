@@ -84,6 +84,47 @@ TEST(StiffnessLaw, StiffensTowardOneNeighbourBeyondItsRange) {
   EXPECT_EQ(modulus_toward({}, 0.45, {0.45, 0}, 0.6).value, 0.45) << "no law";
 }
 
+TEST(StiffnessLaw, LeavesSingleOverlapsOutWhereAsked) {
+  StiffnessLaw law = quartic();
+  law.single_overlaps = false;
+  EXPECT_EQ(modulus_toward(law, 0.45, {0.45, 0}, 0.5).value, 0.45);
+}
+
+/// A row of three, 4 um and 2 um in each other, and the middle one 3 um in a mirror.
+Spheres row(const StiffnessLaw& law) {
+  Spheres s({{0, 0, Vec3(-20, 0, 0), 12, 0.45, Vec3::Zero()},
+             {1, 0, Vec3(0, 0, 0), 12, 0.45, Vec3::Zero()},
+             {2, 0, Vec3(22, 0, 0), 12, 0.45, Vec3::Zero()}});
+  contact::Plane mirror;
+  mirror.point = Vec3(0, 0, -9);
+  mirror.material.mirror = true;
+  s.boundary.planes.push_back(mirror);
+  s.params[0].correction = law;
+  s.find();
+  return s;
+}
+
+TEST(Correction, OfThePaperTakesTheMeanOfTheContacts) {
+  const Spheres s = row(paper_law()), sum = row(quartic());
+  // 4/24, 2/24 and 3/12; all three touch the mirror.
+  const double ends[] = {(4.0 / 24 + 0.25) / 2, (2.0 / 24 + 0.25) / 2}, middle = 0.5 / 3;
+  EXPECT_NEAR(relative_overlap(s.work, 1, paper_law()), middle, 1e-15);
+  EXPECT_NEAR(relative_overlap(s.work, 0, paper_law()), ends[0], 1e-15);
+  EXPECT_NEAR(relative_overlap(s.work, 2, paper_law()), ends[1], 1e-15);
+  EXPECT_NEAR(s.work.modulus[1].value, 0.45 + 4000 * std::pow(middle, 4), 1e-13);
+  EXPECT_NEAR(relative_overlap(sum.work, 1, quartic()), 0.5 / 12, 1e-15);
+  EXPECT_TRUE(sum.work.overlap_count.empty()) << "what no law asks for is not counted";
+  EXPECT_LT((s.force(0) + s.force(1) + s.force(2)).norm(), 1e-12 * s.force(0).norm());
+}
+
+TEST(Correction, OfThePaperIsThatOfASphereThatNothingTouches) {
+  Spheres s({{0, 0, Vec3(0, 0, 0), 12, 0.45, Vec3::Zero()}});
+  s.params[0].correction = paper_law();
+  s.find();
+  EXPECT_EQ(relative_overlap(s.work, 0, paper_law()), 0);
+  EXPECT_EQ(s.work.modulus[0].value, 0.45);
+}
+
 /// Two spheres alone with this relative overlap.
 Spheres deep_pair(double overlap) {
   const double apart = 24 * (1 - overlap);
@@ -234,7 +275,7 @@ TEST(Correction, StiffensTheCentralCell) {
   soft.params[0].correction = {};
   soft.find();
   stiff.find();
-  const double d = relative_overlap(stiff.work, 0);
+  const double d = relative_overlap(stiff.work, 0, {});
   double sum = 0;
   for (const contact::Contact& c : stiff.sphere())
     if (c.a == 0 || c.b == 0) sum += std::max(0.0, -c.gap / 24);
@@ -281,7 +322,7 @@ Compression compress_clump(const StiffnessLaw& law, double young, double smalles
     s.boundary.capsules[0].radius = radius;
     settle(s);
     forces(s);
-    const double d = relative_overlap(s.work, 0);
+    const double d = relative_overlap(s.work, 0, {});
     found.lowest = std::min(found.lowest, d);
     found.highest = std::max(found.highest, d);
     const Eigen::MatrixXd j = jacobian(s);

@@ -1,0 +1,250 @@
+#include "bench/tissue/out_of_sample.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/tissue/out_of_sample_scenes.hpp"
+#include "bench/tissue/spheres_in_place.hpp"
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "core/io/run_reader.hpp"
+#include "runs/build/build_params.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/build/read_cells.hpp"
+#include "runs/calibrate/calibrate.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/session/read_summary.hpp"
+#include "runs/session/stage.hpp"
+
+namespace acinus::bench {
+namespace {
+
+struct JudgedFrame {
+  double time = 0;  ///< s
+  JudgedCells cells;
+};
+
+std::vector<JudgedFrame> read_frames(const std::string& folder) {
+  const io::RunReader run(folder + "/run.vtkhdf");
+  std::vector<JudgedFrame> frames;
+  for (int k = 0; k < run.n_frame(); ++k) {
+    const io::Table t = run.cells(k);
+    const auto column = [&](const char* name) -> const std::vector<double>& {
+      return runs::cell_column(t, name, folder);
+    };
+    const auto &center = column("center"), &radius = column("radius"),
+               &pressure = column("pressure"), &force = column("normal_force"),
+               &area = column("contact_area");
+    const auto& id = std::ranges::find(t.ids, "id", &io::IdColumn::name)->value;
+    JudgedFrame frame{run.time_s(k), {}};
+    for (std::size_t i = 0; i < id.size(); ++i)
+      frame.cells[id[i]] = {{center[3 * i], center[3 * i + 1], center[3 * i + 2]},
+                            radius[i],
+                            pressure[i],
+                            force[i],
+                            area[i]};
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+/// Leaves out frames in which cells were just born: they overlap by more than this share of their
+/// radii. Spheres of that age push each other with a part of their force, which frames do not hold.
+constexpr double kNewborn = 0.3;
+
+void leave_out_births(std::vector<JudgedFrame>& frames) {
+  std::erase_if(frames, [](const JudgedFrame& f) {
+    for (const auto& [id, own] : f.cells)
+      for (const auto& [other, c] : f.cells)
+        if (id < other && (own.center - c.center).norm() < (1 - kNewborn) * (own.radius + c.radius))
+          return true;
+    return false;
+  });
+}
+
+/// How dense cells are, up to a factor: from the distances of the six nearest of each.
+double mean_density(const JudgedCells& cells) {
+  constexpr std::size_t kNear = 6;
+  double sum = 0;
+  int n = 0;
+  for (const auto& [id, c] : cells) {
+    std::vector<double> distance;
+    for (const auto& [other, o] : cells)
+      if (other != id) distance.push_back((o.center - c.center).norm());
+    if (distance.size() < kNear) continue;
+    std::ranges::nth_element(distance, distance.begin() + (kNear - 1));
+    double near = 0;
+    for (std::size_t k = 0; k < kNear; ++k) near += distance[k] / kNear;
+    sum += std::pow(c.radius / near, 3);
+    ++n;
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+/// A sum of squared differences beside that of the reference.
+struct Misfit {
+  double squares = 0, reference = 0;
+  int count = 0;
+  void add(double value, double expected) {
+    squares += (value - expected) * (value - expected);
+    reference += expected * expected;
+    ++count;
+  }
+  double rms() const { return std::sqrt(squares / std::max(1, count)); }
+  double relative() const { return std::sqrt(squares / reference); }
+};
+
+template <class Get>
+double mean_of(const JudgedCells& cells, Get get) {
+  double sum = 0;
+  for (const auto& [id, c] : cells) sum += get(c);
+  return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
+}
+
+/// @param spheres  frames at the same times; single cells are compared where both have them
+BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deformable,
+                 const std::vector<JudgedFrame>& spheres) {
+  constexpr double kPa = 1e3;
+  Misfit pressure, force, area, density, single;
+  double mean = 0, expected = 0;
+  const std::size_t n = std::min(deformable.size(), spheres.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    const JudgedCells &is = spheres[k].cells, &should = deformable[k].cells;
+    const auto add = [&](Misfit& m, auto get) { m.add(mean_of(is, get), mean_of(should, get)); };
+    const auto pressure_of = [](const JudgedCell& c) { return kPa * c.pressure; };
+    add(pressure, pressure_of);
+    add(force, [](const JudgedCell& c) { return c.normal_force; });
+    add(area, [](const JudgedCell& c) { return c.contact_area; });
+    density.add(mean_density(is), mean_density(should));
+    mean += mean_of(is, pressure_of) / static_cast<double>(n);
+    expected += mean_of(should, pressure_of) / static_cast<double>(n);
+    for (const auto& [id, c] : should)
+      if (const auto found = is.find(id); found != is.end())
+        single.add(pressure_of(found->second), pressure_of(c));
+  }
+  const int cells = n > 0 ? static_cast<int>(deformable[n - 1].cells.size()) : 0;
+  return {name,
+          cells,
+          {{"frames", static_cast<double>(n)},
+           {"deformable_Pa", expected},
+           {"spheres_Pa", mean},
+           {"pressure_error", pressure.relative()},
+           {"pressure_error_Pa", pressure.rms()},
+           {"cell_pressure_error", single.relative()},
+           {"cell_pressure_error_Pa", single.rms()},
+           {"normal_force_error", force.relative()},
+           {"contact_area_error", area.relative()},
+           {"density_error", density.relative()}}};
+}
+
+/// What one scene is judged with.
+struct Judged {
+  std::string name;
+  runs::Scene scene;       ///< with spheres
+  std::string deformable;  ///< run folder
+  std::vector<SphereLaw> laws;
+};
+
+void run(const runs::Scene& scene, const std::string& folder, int threads) {
+  const int code =
+      runs::run_stage(scene, {folder, threads, true, false, "acinus bench out-of-sample"});
+  check(code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),
+        fmt::format("bench out-of-sample: the run in {} ended with exit code {}", folder, code),
+        Exit::kCannotContinue);
+}
+
+void judge_in_place(const Judged& j, BenchTable& table) {
+  std::vector<JudgedFrame> frames = read_frames(j.deformable);
+  const bool divides = std::ranges::any_of(
+      j.scene.cell_types, [](const auto& type) { return type.second.cycle.time > 0; });
+  if (divides) leave_out_births(frames);
+  const coupling::World world = runs::build_world(j.scene, Ranks::serial()).world;
+  for (const SphereLaw& law : j.laws) {
+    std::vector<JudgedFrame> spheres;
+    for (const JudgedFrame& f : frames)
+      spheres.push_back({f.time, bear_in_place(f.cells, f.time, law, world)});
+    table.push_back(compare(fmt::format("{}, {}, in place", j.name, law.name), frames, spheres));
+    print_row(table.back());
+  }
+}
+
+void judge_by_themselves(const Judged& j, const std::string& law_file, int threads,
+                         BenchTable& table) {
+  const std::vector<JudgedFrame> frames = read_frames(j.deformable);
+  struct SphereRun {
+    const char *name, *folder;
+    std::string law;
+    bool single_overlaps;
+  };
+  for (const SphereRun& r :
+       {SphereRun{"plain", "plain", "none", true}, SphereRun{"table", "table", law_file, true},
+        SphereRun{"table, no single overlaps", "sum", law_file, false}}) {
+    runs::Scene scene = j.scene;
+    for (auto& [name, type] : scene.cell_types) type.cbm.single_overlaps = r.single_overlaps;
+    const std::string folder = fmt::format("{}_{}", j.deformable, r.folder);
+    run(runs::as_spheres(scene, r.law), folder, threads);
+    table.push_back(
+        compare(fmt::format("{}, {}, by themselves", j.name, r.name), frames, read_frames(folder)));
+    print_row(table.back());
+  }
+}
+
+/// The law for cells of 12 um, from its file if it was found before.
+calibration::Law find_law(const std::string& file, int threads) {
+  if (!std::filesystem::exists(file)) {
+    runs::CalibrateOptions options;
+    options.out = file;
+    options.calibration.relaxation = false;
+    options.threads = threads;
+    options.command_line = "acinus bench out-of-sample";
+    const int stop =
+        runs::calibrate(runs::read_scene(runs::scene_folder() + "/calibration.json"), options);
+    check(stop == 0, "bench out-of-sample: the calibration was stopped", Exit::kCannotContinue);
+  }
+  return calibration::read_law(file);
+}
+
+/// The clump in which the law was found.
+Judged in_sample(const std::string& root) {
+  const runs::Scene scene =
+      runs::compression_scene(runs::read_scene(runs::scene_folder() + "/calibration.json"), {});
+  return {"clump in a capsule (in sample)",
+          runs::as_spheres(scene, "none"),
+          root + "/law.calibration/compression_dcm",
+          {}};
+}
+
+}  // namespace
+
+BenchTable bench_out_of_sample(const BenchOptions& options) {
+  const std::string root =
+      options.folder.empty() ? "out-of-sample" : options.folder + "/out-of-sample";
+  std::filesystem::create_directories(root);
+  const calibration::Law law = find_law(root + "/law.json", options.threads);
+  const OutOfSampleCells cells{options.radius, options.stiffness};
+  BenchTable table;
+  Judged clump = in_sample(root);
+  const runs::CellType& type = clump.scene.cell_types.begin()->second;
+  clump.laws =
+      sphere_laws(law, runs::make_cbm_params(clump.scene, type).young, type.dcm.bulk_modulus);
+  judge_in_place(clump, table);
+  for (const OutOfSampleScene& s : out_of_sample_scenes(cells)) {
+    const std::string folder =
+        fmt::format("{}/{}_{:g}_{:g}", root, s.name, cells.radius, cells.stiffness);
+    run(s.scene, folder, options.threads);
+    Judged j{s.name, runs::as_spheres(s.scene, "none"), folder, clump.laws};
+    judge_in_place(j, table);
+    if (s.spheres_too) judge_by_themselves(j, root + "/law.json", options.threads, table);
+  }
+  return table;
+}
+
+}  // namespace acinus::bench

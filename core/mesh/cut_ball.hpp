@@ -1,0 +1,32 @@
+#pragma once
+/// A ball of which planes cut parts off: its volume, and area and middle of every cut face.
+
+#include <span>
+#include <vector>
+
+#include "core/vec.hpp"
+
+namespace acinus::mesh {
+
+/// What stands behind it is cut off: x . normal > distance, x from the middle of the ball.
+struct BallCut {
+  Vec3 normal = Vec3::UnitZ();  ///< unit
+  double distance = 0;          ///< um, negative if the middle itself is cut off
+};
+
+struct CutFace {
+  double area = 0;             ///< um^2
+  Vec3 middle = Vec3::Zero();  ///< um, its centroid, from the middle of the ball
+};
+
+struct CutBall {
+  double volume = 0;          ///< um^3
+  std::vector<CutFace> face;  ///< [plane]
+};
+
+/// Exact up to rounding, whatever the planes: no corners are stored, every face is worked out by
+/// itself from its straight and its round pieces. About n^3 operations for n planes. The volume is
+/// that of cones over the faces and over what is left of the sphere (divergence theorem).
+CutBall cut_ball(double radius, std::span<const BallCut> planes);
+
+}  // namespace acinus::mesh
