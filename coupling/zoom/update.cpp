@@ -160,6 +160,7 @@ std::vector<std::int64_t> meshes_to_settle(const State& s, const std::set<std::i
   std::set<std::int64_t> touched = changed;
   for (const auto& [pair, force] : before) touched.insert({pair.first, pair.second});
   std::vector<std::int64_t> meshes;
+  touched.erase(kNoPartner);  // boundary, whose number is that of empty lanes
   for (const std::int64_t lineage : s.dcm.lineage)
     if (touched.contains(lineage)) meshes.push_back(lineage);
   return meshes;
