@@ -9,7 +9,7 @@ namespace {
 
 /// The plane between two balls, from the middle of the first one.
 double radical_distance(double apart, double own, double other) {
-  return (apart * apart + own * own - other * other) / (2 * apart);
+  return mesh::share_to_power_plane(own, other, apart) * apart;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/mesh/cut_ball.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/mesh/star.hpp"
 #include "dcm/cast.hpp"
@@ -17,12 +18,20 @@ constexpr int kBisections = 50;
 
 const mesh::Topology& showing_sphere() { return mesh::shared_icosphere(kShowingNodes); }
 
+const std::vector<Vec3>& showing_directions() {
+  static const std::vector<Vec3> directions = [] {
+    std::vector<Vec3> all;
+    for (const Vec3& rest : showing_sphere().rest) all.push_back(rest.normalized());
+    return all;
+  }();
+  return directions;
+}
+
 }  // namespace
 
 double share_of_distance(double radius, double other_radius, double distance) {
-  const double power =
-      0.5 * (1 + (radius * radius - other_radius * other_radius) / (distance * distance));
-  return std::clamp(power, kLeastShare, 1 - kLeastShare);
+  return std::clamp(mesh::share_to_power_plane(radius, other_radius, distance), kLeastShare,
+                    1 - kLeastShare);
 }
 
 double reach_to_faces(const Vec3& direction, double farthest, std::span<const RoomFace> face) {
@@ -35,14 +44,13 @@ double reach_to_faces(const Vec3& direction, double farthest, std::span<const Ro
 }
 
 Room::Room(const Vec3& center, Reach reach) : center_(center), reach_(std::move(reach)) {
-  for (const Vec3& rest : showing_sphere().rest) shown_.push_back(reach_(rest.normalized()));
+  for (const Vec3& direction : showing_directions()) shown_.push_back(reach_(direction));
 }
 
 std::vector<Vec3> Room::show(double radius) const {
-  const mesh::Topology& sphere = showing_sphere();
   std::vector<Vec3> node;
   for (std::size_t i = 0; i < shown_.size(); ++i)
-    node.push_back(center_ + std::min(shown_[i], radius) * sphere.rest[i].normalized());
+    node.push_back(center_ + std::min(shown_[i], radius) * showing_directions()[i]);
   return node;
 }
 

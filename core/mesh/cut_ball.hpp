@@ -8,6 +8,12 @@
 
 namespace acinus::mesh {
 
+/// Where the power plane of two balls, that of the circle in which they meet, crosses the line of
+/// their middles: share of the distance from the first. The shares of the two add up to 1.
+inline double share_to_power_plane(double radius, double other_radius, double distance) {
+  return 0.5 * (1 + (radius * radius - other_radius * other_radius) / (distance * distance));
+}
+
 /// What stands behind it is cut off: x . normal > distance, x from the middle of the ball.
 struct BallCut {
   Vec3 normal = Vec3::UnitZ();  ///< unit

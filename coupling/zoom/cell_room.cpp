@@ -72,15 +72,13 @@ void add_surface(const dcm::State& s, std::size_t lane, Surroundings& around) {
 
 void add_boundary(const contact::Boundary& b, Surroundings& around) {
   const auto is_near = [&](double gap) { return gap < around.farthest; };
-  for (const contact::Plane& p : b.planes)
-    if (is_near(contact::gap_to_wall(p, around.center, around.time).gap))
-      around.boundary.planes.push_back(p);
-  for (const contact::Capsule& c : b.capsules)
-    if (is_near(contact::gap_to_wall(c, around.center, around.time).gap))
-      around.boundary.capsules.push_back(c);
-  for (const contact::Pipette& p : b.pipettes)
-    if (is_near(contact::gap_to_wall(p, around.center, around.time).gap))
-      around.boundary.pipettes.push_back(p);
+  const auto keep_near = [&](const auto& walls, auto& kept) {
+    for (const auto& wall : walls)
+      if (is_near(contact::gap_to_wall(wall, around.center, around.time).gap)) kept.push_back(wall);
+  };
+  keep_near(b.planes, around.boundary.planes);
+  keep_near(b.capsules, around.boundary.capsules);
+  keep_near(b.pipettes, around.boundary.pipettes);
   around.network = &b.vessels.network;
   for (int s = 0; s < static_cast<int>(b.vessels.network.segment.size()); ++s)
     if (is_near(contact::gap_to_segment(b.vessels.network, s, around.center).gap))

@@ -53,7 +53,9 @@ bool may_change(const World& world, const Cell& c) {
   return !cycle || cycle->parent < 0 || now >= cycle->birth + cycle_of(world.params, s, c).mitosis;
 }
 
-std::vector<double> list_pressures(const World& world, const Workspace& work) {
+/// Contact pressure of every cell now, [dcm lanes, then cbm cells] kPa.
+std::vector<double> observe_pressures(const World& world, Workspace& work) {
+  observe(world, work);
   const State& s = world.state;
   std::vector<double> pressure(s.dcm.n_lane() + s.cbm.n_cell(), 0.0);
   const std::vector<CellMeasure> measures = measure_cells(world, work);
@@ -210,16 +212,10 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   const auto scope = work.timings.scope("zoom");
   forget_faded(s);
   std::vector<double> pressure;
-  if (zoom_needs_pressure(world.params.zoom)) {
-    observe(world, work);
-    pressure = list_pressures(world, work);
-  }
+  if (zoom_needs_pressure(world.params.zoom)) pressure = observe_pressures(world, work);
   const Switches all = find_candidates(world, pressure);
   if (all.promote.empty() && all.demote.empty()) return report;
-  if (pressure.empty()) {
-    observe(world, work);
-    pressure = list_pressures(world, work);
-  }
+  if (pressure.empty()) pressure = observe_pressures(world, work);
   std::set<std::int64_t> changing;
   for (const auto* list : {&all.promote, &all.demote})
     for (const Candidate& c : *list) changing.insert(c.lineage);
