@@ -84,6 +84,30 @@ coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   return lobule;
 }
 
+/// Adhesion that the cortex cannot hold: cells wet each other until their faces fold and cross. Of
+/// 382 random scenes with W from 0.005 to 26 E h, 13 of the 14 in which cells crossed themselves
+/// had more than 0.7 (docs/verification.md).
+void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes) {
+  constexpr double kMostAdhesion = 0.5;  // E h
+  const auto empty = std::ranges::count(cells.lineage, dcm::kEmptyLane);
+  if (std::ssize(cells.lineage) - empty < 2) return;
+  int index = 0;
+  for (const auto& [name, type] : scene.cell_types) {
+    const double stretch = type.dcm.cortex_young * type.dcm.cortex_thickness;
+    const bool has_cells = std::ranges::any_of(
+        cells.group, [index](const dcm::Group& group) { return group.type == index; });
+    ++index;
+    if (!has_cells || type.adhesion <= kMostAdhesion * stretch) continue;
+    notes.warned.push_back(fmt::format(
+        "cell_types.{}.adhesion is {:.2g} J/m^2, {:.2g} times cortex_young x cortex_thickness, "
+        "what "
+        "holds the cortex together: deformable cells will spread over each other until they fold, "
+        "and may cross themselves. Below {} times ({:.2g} J/m^2) they do not.",
+        name, 1e-3 * type.adhesion, type.adhesion / stretch, kMostAdhesion,
+        1e-3 * kMostAdhesion * stretch));
+  }
+}
+
 void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double depth, Notes& notes) {
   if (cut.cells.empty()) return;
   constexpr std::size_t kNamed = 5;
@@ -132,6 +156,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   }
   check_starts(scene, cells, p.boundary);
   add_cells(scene, cells, built.type_names, p, world.state);
+  note_weak_cortex(scene, world.state.dcm, built.notes);
   if (scene.start_up.enabled) {
     coupling::begin_start_up(world, scene.start_up.initial_radius);
   } else {
