@@ -136,6 +136,8 @@ CheckpointData read_file(const std::string& path) {
     const std::size_t end = std::min(names.find('\n', begin), names.size());
     const std::string name = names.substr(begin, end - begin);
     begin = end + 1;
+    check(data.fault_of_name(name).empty(), path + ": is damaged (its list of arrays)",
+          Exit::kFileError);
     const std::string dataset = kRoot + ("/" + name);
     auto value = read_value(file, dataset);
     hash[name] = hash_of(value);
@@ -166,20 +168,23 @@ void link_as(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-void CheckpointData::add(const std::string& name, Value value) {
+std::string CheckpointData::fault_of_name(const std::string& name) const {
   const bool plain = !name.empty() && name.front() != '/' && name.back() != '/' &&
                      name.find("//") == std::string::npos &&
                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
                        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
                      });
-  check(plain, "internal error: \"" + name + "\" cannot name an array of a checkpoint",
-        Exit::kInternal);
+  if (!plain) return "\"" + name + "\" cannot name an array of a checkpoint";
   for (const auto& [other, unused] : value_) {
-    const bool clash =
-        other == name || other.starts_with(name + "/") || name.starts_with(other + "/");
-    check(!clash, "internal error: checkpoint arrays \"" + name + "\" and \"" + other + "\" clash",
-          Exit::kInternal);
+    if (other == name || other.starts_with(name + "/") || name.starts_with(other + "/"))
+      return "checkpoint arrays \"" + name + "\" and \"" + other + "\" clash";
   }
+  return {};
+}
+
+void CheckpointData::add(const std::string& name, Value value) {
+  const std::string fault = fault_of_name(name);
+  check(fault.empty(), "internal error: " + fault, Exit::kInternal);
   value_.emplace(name, std::move(value));
 }
 

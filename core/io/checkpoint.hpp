@@ -30,6 +30,8 @@ class CheckpointData {
   }
 
   bool contains(const std::string& name) const { return value_.count(name) != 0; }
+  /// Why no array can be added under this name; empty if one can.
+  std::string fault_of_name(const std::string& name) const;
   const std::vector<double>& numbers(const std::string& name) const;
   const std::vector<std::int64_t>& integers(const std::string& name) const;
   const std::vector<std::uint64_t>& bits(const std::string& name) const;

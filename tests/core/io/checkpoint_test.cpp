@@ -129,6 +129,23 @@ TEST(Checkpoint, DamageAnywhereIsNoticedOrHarmless) {
             std::string::npos);
 }
 
+/// The list of arrays has no checksum of its own: one that names an array twice, or none that can
+/// be, is damage.
+TEST(Checkpoint, DamagedListOfArraysIsDamage) {
+  const Folder folder("checkpoint_names");
+  for (const std::string list : {"time\ntime\n", "time\ntime/x\n", "/\n", "\n"}) {
+    save_state_file(folder / "state.h5", make_data(1));
+    {
+      h5::File file = h5::File::open(folder / "state.h5", h5::Access::kAppend);
+      ASSERT_GE(H5Ldelete(file.id(), "/names", H5P_DEFAULT), 0);
+      file.write_array<std::uint8_t>(
+          "/names", {reinterpret_cast<const std::uint8_t*>(list.data()), list.size()});
+      file.close();
+    }
+    error_of([&] { load_state_file(folder / "state.h5"); }, Exit::kFileError);
+  }
+}
+
 TEST(Checkpoint, NewerFormatIsRefusedNotReplaced) {
   const Folder folder("checkpoint_newer");
   save_checkpoint(folder.path, make_data(1));
