@@ -176,6 +176,7 @@ std::vector<hsize_t> File::shape(const std::string& name) const {
   if (rank < 1 || rank > 2) fail_here("read dataset " + name + " as rows");
   std::vector<hsize_t> result(rank);
   H5Sget_simple_extent_dims(space.id(), result.data(), nullptr);
+  if (rank == 2 && result[1] == 0) fail_here("read dataset " + name + ", whose rows are empty,");
   return result;
 }
 

@@ -91,12 +91,12 @@ RunLayout read_layout(const File& file) {
 
 std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layout,
                                          std::int64_t n_frame) {
-  std::vector<FrameIndex> frame(n_frame);
   const auto read = [&](const std::string& name, std::int64_t first = 0) {
     return file.read_rows<std::int64_t>(name, first, n_frame);
   };
   const std::string steps = "/VTKHDF/Steps/";
   const auto time = file.read_rows<double>(steps + "Values", 0, n_frame);
+  std::vector<FrameIndex> frame(time.size());
   const auto part = read(steps + "PartOffsets"), point = read(steps + "PointOffsets");
   const auto cell = read(steps + "CellOffsets"),
              connectivity = read(steps + "ConnectivityIdOffsets");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/io/run_rows.hpp"
 
@@ -61,6 +63,12 @@ Frame RunReader::frame(int k) const {
   frame.point = file.read_rows<float>("/VTKHDF/Points", f.point_offset, f.n_point);
   const auto id = file.read_rows<std::int64_t>("/VTKHDF/Connectivity", f.connectivity_offset,
                                                3 * f.n_triangle());
+  check(
+      std::ssize(frame.point) == 3 * f.n_point &&
+          std::ranges::all_of(id, [&](std::int64_t i) { return i >= 0 && i < f.n_point; }),
+      fmt::format("{}: triangles of frame {} have corners that are not there. The file is damaged.",
+                  path_, k),
+      Exit::kFileError);
   for (std::size_t i = 0; i + 2 < id.size(); i += 3)
     frame.triangle.push_back({id[i], id[i + 1], id[i + 2]});
   for (const auto& field : layout_.point_data) {

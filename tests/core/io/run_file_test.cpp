@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/hdf5.hpp"
 #include "core/io/run_reader.hpp"
 #include "tests/core/io/expect_frame.hpp"
 #include "tests/core/io/sample.hpp"
@@ -277,6 +278,39 @@ TEST(RunFile, FramesMustFitTogether) {
   const std::vector<SeriesValue> other{{"time", "s", 1}};
   expect_error(Exit::kCannotContinue, "begun by another version",
                [&] { run.append_series(other); });
+}
+
+/// Shapes and numbers that only damage can make: nobody may follow them out of an array.
+TEST(RunFile, ShapesAndCornersThatDoNotFitAreDamage) {
+  const Folder folder("run_shapes");
+  const std::string path = folder / "run.vtkhdf";
+  const auto replace = [&](const std::string& name, hsize_t rows, hsize_t width,
+                           std::int64_t value) {
+    RunFile run = RunFile::create(path, {{"seed", "1"}});
+    for (int k = 0; k < 2; ++k) run.append(make_frame(k, 1, 1));
+    run.close();
+    h5::File file = h5::File::open(path, h5::Access::kAppend);
+    ASSERT_GE(H5Ldelete(file.id(), name.c_str(), H5P_DEFAULT), 0);
+    const hsize_t dims[2] = {rows, width};
+    const hid_t space = H5Screate_simple(width == 1 ? 1 : 2, dims, nullptr);
+    const hid_t data = H5Dcreate2(file.id(), name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT);
+    const std::vector<std::int64_t> values(rows * width, value);
+    H5Dwrite(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Dclose(data);
+    H5Sclose(space);
+    file.close();
+  };
+  const auto read = [&] {
+    const RunReader reader(path);
+    for (int k = 0; k < reader.n_frame(); ++k) reader.frame(k);
+  };
+  replace("/VTKHDF/Steps/PartOffsets", 2, 0, 0);
+  expect_error(Exit::kFileError, "whose rows are empty", read);
+  for (const std::int64_t corner : {-1, 1 << 20}) {
+    replace("/VTKHDF/Connectivity", 1 << 16, 1, corner);
+    expect_error(Exit::kFileError, "corners that are not there", read);
+  }
 }
 
 TEST(RunFile, LongMessagesAreMarkedAsCut) {
