@@ -35,6 +35,24 @@ TableInfo read_table_info(const File& file, const std::string& group) {
   return info;
 }
 
+/// Whether the counts and offsets of a frame are those that some frame could have. Whether the rows
+/// are there is seen when they are read.
+bool is_possible(const FrameIndex& f, std::int64_t cells_begin, std::int64_t interface_begin) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 48;  // far from where sums overflow
+  const auto in = [](std::int64_t x, std::int64_t low, std::int64_t high) {
+    return x >= low && x <= high;
+  };
+  const auto are_rows = [&](const std::map<std::string, std::int64_t>& offsets) {
+    return std::ranges::all_of(offsets, [&](const auto& o) { return in(o.second, 0, kMost); });
+  };
+  return in(f.n_connectivity, 0, kMost) && in(f.n_cell, 0, f.n_connectivity) &&
+         (f.n_connectivity - f.n_cell) % 2 == 0 && in(f.n_sphere(), 0, f.n_point) &&
+         in(f.n_point, 0, kMost) && in(f.point_offset, 0, kMost) && in(f.cell_offset, 0, kMost) &&
+         in(f.connectivity_offset, 0, kMost) && in(f.cells_end, cells_begin, kMost) &&
+         in(f.interface_end, interface_begin, kMost) && are_rows(f.point_data_offset) &&
+         are_rows(f.cell_data_offset);
+}
+
 std::vector<std::string> table_datasets(const TableInfo& info, const std::string& where) {
   std::vector<std::string> result;
   for (const auto& id : info.ids) result.push_back(where + "/" + id);
@@ -134,6 +152,14 @@ std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layo
     const auto offset = read(steps + "CellDataOffsets/" + name);
     for (std::size_t k = 0; k < frame.size(); ++k) frame[k].cell_data_offset[name] = offset[k];
   }
+  for (std::size_t k = 0; k < frame.size(); ++k)
+    check(
+        is_possible(frame[k], k == 0 ? 0 : frame[k - 1].cells_end,
+                    k == 0 ? 0 : frame[k - 1].interface_end),
+        fmt::format("{}: frame {} has numbers of points, cells or rows that cannot be. The file is "
+                    "damaged.",
+                    file.path(), k),
+        Exit::kFileError);
   return frame;
 }
 

@@ -114,6 +114,9 @@ std::vector<Event> read_events(const File& file, std::int64_t first, std::int64_
   const auto code = file.read_text_rows("/events/code", first, n);
   const auto message = file.read_text_rows("/events/message", first, n);
   const auto offset = file.read_rows<std::int64_t>("/events/cell_offset", first, n + 1);
+  check(offset.front() >= 0 && std::ranges::is_sorted(offset),
+        file.path() + ": the cells of events are out of order. The file is damaged.",
+        Exit::kFileError);
   const auto cell = file.read_rows<std::int64_t>("/events/cell_id", offset.front(),
                                                  offset.back() - offset.front());
   std::vector<Event> event;

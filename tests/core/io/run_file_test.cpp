@@ -288,6 +288,7 @@ TEST(RunFile, ShapesAndCornersThatDoNotFitAreDamage) {
                            std::int64_t value) {
     RunFile run = RunFile::create(path, {{"seed", "1"}});
     for (int k = 0; k < 2; ++k) run.append(make_frame(k, 1, 1));
+    run.append_event({0, "note", {1}, ""});
     run.close();
     h5::File file = h5::File::open(path, h5::Access::kAppend);
     ASSERT_GE(H5Ldelete(file.id(), name.c_str(), H5P_DEFAULT), 0);
@@ -304,9 +305,17 @@ TEST(RunFile, ShapesAndCornersThatDoNotFitAreDamage) {
   const auto read = [&] {
     const RunReader reader(path);
     for (int k = 0; k < reader.n_frame(); ++k) reader.frame(k);
+    reader.events();
   };
   replace("/VTKHDF/Steps/PartOffsets", 2, 0, 0);
   expect_error(Exit::kFileError, "whose rows are empty", read);
+  replace("/events/cell_offset", 2, 1, -1);
+  expect_error(Exit::kFileError, "out of order", read);
+  for (const char* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
+    for (const std::int64_t many : {std::int64_t{-1}, std::int64_t{1} << 62}) {
+      replace(std::string("/VTKHDF/") + count, 2, 1, many);
+      expect_error(Exit::kFileError, "that cannot be", read);
+    }
   for (const std::int64_t corner : {-1, 1 << 20}) {
     replace("/VTKHDF/Connectivity", 1 << 16, 1, corner);
     expect_error(Exit::kFileError, "corners that are not there", read);
