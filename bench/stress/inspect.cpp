@@ -85,8 +85,9 @@ struct StartOfCell {
   double pull = 0;      ///< nN
 };
 
-std::map<std::int64_t, StartOfCell> origins(const coupling::World& start,
-                                            const Pedigree& pedigree) {
+/// @param moves  whether cells may change their model
+std::map<std::int64_t, StartOfCell> origins(const coupling::World& start, const Pedigree& pedigree,
+                                            bool moves) {
   std::map<std::int64_t, StartOfCell> all;
   const auto medium = [](double per_area, double viscosity, double volume) {
     const double radius = sphere_radius(volume);
@@ -98,23 +99,25 @@ std::map<std::int64_t, StartOfCell> origins(const coupling::World& start,
     const double smallest = r.unit * (death.lysis ? death.final_volume : 1);
     StartOfCell& o = all[r.founder];
     o.center = coupling::center_of(start.state, c);
-    if (c.deformable) {
-      const dcm::Params& p = start.params.dcm[r.type];
-      o.friction = medium(p.medium_friction, p.viscosity, smallest);
-      o.pull = start.state.dcm.pull[c.at].norm();
-    } else {
-      const cbm::Params& p = start.params.cbm[r.type];
-      // Neighbours may cover a sphere but for the least share that is always free.
-      o.friction = cbm::kLeastFree * medium(p.medium_friction, p.viscosity, smallest);
-      o.pull = start.state.cbm.pull[c.at].norm();
-    }
+    o.pull = (c.deformable ? start.state.dcm.pull : start.state.cbm.pull)[c.at].norm();
+    // Cells may change their model; neighbours may cover a sphere but for the least share that is
+    // always free.
+    const dcm::Params& shell = start.params.dcm[r.type];
+    const cbm::Params& sphere = start.params.cbm[r.type];
+    const double rubs[] = {
+        medium(shell.medium_friction, shell.viscosity, smallest),
+        cbm::kLeastFree * medium(sphere.medium_friction, sphere.viscosity, smallest)};
+    o.friction = moves ? std::min(rubs[0], rubs[1]) : rubs[c.deformable ? 0 : 1];
   });
   return all;
 }
 
-/// Mean edge at rest of meshes on a sphere of radius one; 0 without meshes.
+/// Mean edge at rest of meshes on a sphere of radius one, of those that spheres may become, too; 0
+/// without meshes.
 double unit_edge(const coupling::World& start) {
   double edge = 0;
+  for (const mesh::Topology* t : start.params.zoom.mesh)
+    if (t != nullptr) edge = std::max(edge, t->mean_rest_length);
   for (const dcm::Group& g : start.state.dcm.group)
     edge = std::max(edge, g.topology->mean_rest_length);
   return edge;
@@ -238,7 +241,8 @@ void Inspection::inspect_spheres() {
 }
 
 void Inspection::inspect_places() {
-  const std::map<std::int64_t, StartOfCell> origin = origins(start_, pedigree_);
+  const std::map<std::int64_t, StartOfCell> origin =
+      origins(start_, pedigree_, scene_.moving_zoom.has_value());
   double force = 0, friction = std::numeric_limits<double>::infinity(), size = 0, diffusion = 0;
   for (const auto& [id, o] : origin) friction = std::min(friction, o.friction);
   for (const auto& [id, r] : pedigree_.all()) {

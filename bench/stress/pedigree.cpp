@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/sphere.hpp"
 #include "coupling/world/cell.hpp"
@@ -20,10 +19,12 @@ constexpr double kRounding = 1e-6;
 const std::vector<std::int64_t>& ids_of(const io::Frame& f, const char* name) {
   return std::ranges::find(f.cells.ids, name, &io::IdColumn::name)->value;
 }
-std::set<std::int64_t> drawn_ids(const io::Frame& f) {
-  std::set<std::int64_t> ids(f.cell_id.begin(), f.cell_id.end());
-  ids.erase(-1);
-  return ids;
+/// The cells that a frame draws, and whether as surfaces.
+std::map<std::int64_t, bool> drawn_cells(const io::Frame& f) {
+  std::map<std::int64_t, bool> drawn;
+  for (std::size_t k = 0; k < f.cell_id.size(); ++k)
+    if (f.cell_id[k] >= 0) drawn[f.cell_id[k]] = k < f.triangle.size();
+  return drawn;
 }
 
 }  // namespace
@@ -46,6 +47,7 @@ Pedigree::Pedigree(const coupling::World& start) : params_(start.params) {
     r.founder = id;
     r.type = static_cast<std::size_t>(coupling::type_of(s, c));
     r.first_volume = grown ? volume.at(s.clock.time) : volume.to;
+    r.deformable = c.deformable;
     const coupling::CycleParams& life = life_of(r);
     r.unit = r.first_volume;
     if (life.time > 0) r.unit /= 1 + coupling::draw_start_age(life, params_.life.seed, id);
@@ -105,6 +107,7 @@ std::string Pedigree::bear(const io::Event& e) {
     r.parent = id;
     r.founder = mother.founder;
     r.type = mother.type;
+    r.deformable = mother.deformable;
     r.birth = e.time_s;
     r.first_volume = r.unit = mother.unit;
     all_[daughter] = r;
@@ -132,12 +135,23 @@ std::string Pedigree::end_life(const io::Event& e) {
   return may_die(id, r, e.time_s) ? "" : fmt::format("cell {} dies, which no rule wants", id);
 }
 
+std::string Pedigree::change_model(const io::Event& e) {
+  const std::int64_t id = e.cell_id.empty() ? -1 : e.cell_id[0];
+  const bool deformable = e.code == "promotion";
+  if (!is_there(id)) return fmt::format("{} of cell {}, which is not there", e.code, id);
+  Relative& r = all_.at(id);
+  const bool same = r.deformable == deformable;
+  r.deformable = deformable;
+  return same ? fmt::format("{} of cell {}, which has that model already", e.code, id) : "";
+}
+
 std::vector<Finding> Pedigree::add(const io::Event& e) {
   std::string wrong;
   if (e.code == "division") wrong = bear(e);
   if (e.code == "death_early" && !e.cell_id.empty() && is_there(e.cell_id[0]))
     all_.at(e.cell_id[0]).early = true;
   if (e.code == "death" || e.code == "lysis") wrong = end_life(e);
+  if (e.code == "promotion" || e.code == "demotion") wrong = change_model(e);
   if (e.code == "division_waits" && !e.cell_id.empty() && is_there(e.cell_id[0]))
     all_.at(e.cell_id[0]).waits = true;
   if (wrong.empty()) return {};
@@ -170,9 +184,12 @@ std::vector<Finding> Pedigree::compare(const io::Frame& f) const {
   const auto add = [&](Defect d, const std::string& what) { wrong.push_back({d, f.time_s, what}); };
   const std::vector<std::int64_t>&id = ids_of(f, "id"), &parent = ids_of(f, "parent");
   const std::map<std::int64_t, double> rest = rest_volumes(f);
-  const std::set<std::int64_t> drawn = drawn_ids(f);
-  for (const std::int64_t i : drawn)
+  const std::map<std::int64_t, bool> drawn = drawn_cells(f);
+  for (const auto& [i, deformable] : drawn) {
     if (!rest.contains(i)) add(Defect::kUnborn, fmt::format("cell {} is in no table", i));
+    if (is_there(i) && all_.at(i).deformable != deformable)
+      add(Defect::kUntimely, fmt::format("cell {} has changed its model without an event", i));
+  }
   for (std::size_t k = 0; k < id.size(); ++k) {
     if (!is_there(id[k])) {
       add(Defect::kUnborn, fmt::format("cell {} has no mother, or is dead", id[k]));

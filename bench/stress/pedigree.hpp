@@ -24,7 +24,8 @@ struct Relative {
   double end = std::numeric_limits<double>::infinity();        ///< it divided or died
   double dissolves = std::numeric_limits<double>::infinity();  ///< lysis began
   bool waits = false;                                          ///< a division of it failed
-  bool early = false;  ///< taken away while dissolving, as the run says
+  bool early = false;       ///< taken away while dissolving, as the run says
+  bool deformable = false;  ///< its model, as events say
 };
 
 struct Interval {
@@ -41,8 +42,9 @@ class Pedigree {
   std::vector<Finding> add(const io::Event& event);
   /// Cells that must have divided or died by then, had the rules been kept.
   std::vector<Finding> find_overdue(double time) const;
-  /// Compares with the table of cells of a frame: unborn, vanished, and volume where a reference
-  /// volume is outside rest_volume().
+  /// Compares with the table of cells of a frame: unborn, vanished, untimely where a cell has
+  /// changed its model without an event, and volume where a reference volume is outside
+  /// rest_volume().
   std::vector<Finding> compare(const io::Frame& frame) const;
 
   /// Every cell there ever was.
@@ -60,6 +62,7 @@ class Pedigree {
   bool may_die(std::int64_t id, const Relative& cell, double time) const;
   std::string bear(const io::Event& event);
   std::string end_life(const io::Event& event);
+  std::string change_model(const io::Event& event);
 
   const coupling::Params& params_;
   std::map<std::int64_t, Relative> all_;

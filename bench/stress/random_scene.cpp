@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/stress/random_life.hpp"
+#include "bench/stress/random_zoom.hpp"
 #include "core/random.hpp"
 #include "coupling/generate/packing.hpp"
 
@@ -64,6 +65,7 @@ class Drawing {
   void add_zoom(double half_width);
   void draw_time();
   void add_life();
+  void add_moving_zoom();
   /// Volume into which the cells are compressed, as a share of theirs at rest.
   double compressed_volume();
   double rest_volume() const { return count_ * 4.0 / 3 * kPi * std::pow(radius_, 3); }
@@ -350,6 +352,13 @@ void Drawing::add_life() {
       scene_["cells"][key] = scene_["cells"][key].get<double>() * std::cbrt(2.0);
 }
 
+void Drawing::add_moving_zoom() {
+  if (nodes_ > 162 && count_ > 6) return;  // too many for such meshes
+  scene_.merge_patch(
+      Json::parse(draw_zoom({seed_, wide_, end_, count_, radius_, scene_.contains("vessels"),
+                             scene_.contains("lobule")})));
+}
+
 RandomScene Drawing::draw(bool life) {
   scene_["name"] = fmt::format("stress_{}", seed_);
   scene_["description"] = fmt::format("{} stress scene", name_of(family_of(seed_)));
@@ -370,6 +379,7 @@ RandomScene Drawing::draw(bool life) {
     draw_fill();
   else
     draw_lobule();
+  if (life) add_moving_zoom();
   if (life) add_life();
   result_.cells = count_;
   result_.text = scene_.dump(2) + "\n";

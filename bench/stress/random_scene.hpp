@@ -24,7 +24,9 @@ struct RandomScene {
 inline constexpr const char* kNetworkFile = "vessels.swc";
 
 /// The scene of a seed, the same text every time.
-/// @param life  the cells of the same scene also grow, divide, die and rest (random_life.hpp)
+/// @param life  the cells of the same scene also grow, divide, die and rest (random_life.hpp), and
+/// may change their
+///              model (random_zoom.hpp)
 RandomScene draw_scene(std::uint64_t seed, bool life = false);
 
 }  // namespace acinus::bench

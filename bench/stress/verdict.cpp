@@ -20,7 +20,8 @@ bool is_failure(TrialOutcome o) { return o >= TrialOutcome::kRefused; }
 
 /// What happened in scenes with life, as counted in the table.
 constexpr std::array kLifeEvents{"division", "division_waits", "settling_failed", "death",
-                                 "lysis",    "remeshed",       "mesh_degenerate"};
+                                 "lysis",    "remeshed",       "mesh_degenerate", "promotion",
+                                 "demotion", "promotion_waits"};
 
 /// Nothing: the line is torn, or of another program or kind of scenes.
 std::optional<RunVerdict> read_line(const std::string& line, const std::string& program,

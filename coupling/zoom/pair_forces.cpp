@@ -1,5 +1,9 @@
 #include "coupling/zoom/pair_forces.hpp"
 
+#include <algorithm>
+#include <limits>
+
+#include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/world/cell.hpp"
 
@@ -13,6 +17,18 @@ std::vector<std::int64_t> list_lineages(const World& world, const Workspace& wor
   for (const std::size_t lane : work.dcm.lane_of_body) lineage.push_back(s.dcm.lineage[lane]);
   lineage.insert(lineage.end(), s.cbm.lineage.begin(), s.cbm.lineage.end());
   return lineage;
+}
+
+/// Most by which a fading force may compress a cell, as a share of its volume: a difference of two
+/// models is less, and what a crowded place makes of a new mesh is for its contacts to settle.
+constexpr double kMostCompression = 0.05;
+
+/// The force, nN, that compresses the cell so far if it acts on its cross-section.
+double largest_fading(const World& world, const Cell& c) {
+  const State& s = world.state;
+  const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
+  const auto type = static_cast<std::size_t>(type_of(s, c));
+  return kMostCompression * world.params.dcm[type].bulk_modulus * kPi * radius * radius;
 }
 
 PairForce force_of(const PairForces& forces, const PairForces::key_type& pair) {
@@ -43,7 +59,11 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
                 std::vector<FadingForce>& fading) {
   const State& s = world.state;
   std::map<std::int64_t, Vec3> center;
-  for_each_cell(s, [&](const Cell& c) { center[lineage_of(s, c)] = center_of(s, c); });
+  std::map<std::int64_t, double> most{{kNoPartner, std::numeric_limits<double>::infinity()}};
+  for_each_cell(s, [&](const Cell& c) {
+    center[lineage_of(s, c)] = center_of(s, c);
+    most[lineage_of(s, c)] = largest_fading(world, c);
+  });
   std::set<PairForces::key_type> pairs;
   for (const PairForces* forces : {&before, &after})
     for (const auto& [pair, force] : *forces) pairs.insert(pair);
@@ -55,11 +75,13 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
       const Vec3 line = (center.at(pair.first) - center.at(pair.second)).normalized();
       missing = missing.dot(line) * line;
     }
+    const double limit = std::min(most.at(pair.first), most.at(pair.second));
+    const double share = std::min(1.0, limit / missing.norm());
     if (missing.norm() > 0)
       fading.push_back({pair.first,
                         pair.second,
-                        missing,
-                        was.virial - is.virial,
+                        share * missing,
+                        share * (was.virial - is.virial),
                         {1, 0, now, now + world.params.zoom.fade}});
   }
 }

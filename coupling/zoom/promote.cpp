@@ -20,6 +20,7 @@ namespace {
 constexpr double kLeastVolume = 0.7;
 /// A mesh with a worse triangle is not accepted.
 constexpr double kLeastQuality = 0.1;
+constexpr int kFillings = 3;
 
 std::vector<Vec3> directions(const mesh::Topology& t, const Mat3& turn) {
   std::vector<Vec3> direction;
@@ -47,11 +48,18 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
   const double rest = s.cbm.volume[sphere].at(s.clock.time);
   const double wanted = rest * std::exp(-std::max(pressure, 0.0) / bulk);
   const dcm::Room room = find_room(world, sphere, radius);
-  const double size = room.find_radius(wanted, kRoomReach * radius[sphere]);
+  const std::vector<Vec3> direction =
+      directions(t, random_orientation(world.params.zoom.seed, s.cbm.lineage[sphere]));
   NewShell shell;
-  shell.node = room.fill(
-      t, directions(t, random_orientation(world.params.zoom.seed, s.cbm.lineage[sphere])), size);
-  const double found = mesh::compute_volume(shell.node, t.triangle);
+  double found = wanted;
+  // Chords cut off a part of the room. What is free moves out for it, faces at neighbours stay
+  // where they are.
+  for (double volume = wanted, k = 0; k < kFillings; ++k) {
+    const double size = room.find_radius(volume, kRoomReach * radius[sphere]);
+    shell.node = room.fill(t, direction, size);
+    found = mesh::compute_volume(shell.node, t.triangle);
+    volume *= wanted / found;
+  }
   const double quality = mesh::compute_quality(shell.node, t.triangle);
   shell.ok = found >= kLeastVolume * wanted && quality >= kLeastQuality;
   if (!shell.ok)

@@ -187,6 +187,15 @@ TEST_F(LifeInspection, FindsEventsThatCannotBe) {
   EXPECT_EQ(defects(), Found{Defect::kUntimely});
 }
 
+TEST_F(LifeInspection, FindsModelsThatChangeUntold) {
+  // Cell 0 is deformable in every frame, whatever an event says; and cell 2 is a sphere already.
+  record_.events.insert(record_.events.begin(), {100, "demotion", {0}, ""});
+  EXPECT_EQ(defects(), Found{Defect::kUntimely});
+  record_ = sound();
+  record_.events.insert(record_.events.begin(), {100, "demotion", {2}, ""});
+  EXPECT_EQ(defects(), Found{Defect::kUntimely});
+}
+
 TEST_F(LifeInspection, FindsADivisionThatDoesNotCome) {
   for (const bool divides : {true, false}) {
     record_ = sound();

@@ -104,6 +104,13 @@ TEST(RandomScene, LifeIsAnAdditionToTheSameScene) {
     for (const char* key : {"cycle", "inhibition", "death"})
       living["cell_types"]["cell"].erase(key);
     for (const char* key : {"integrator", "with_contacts"}) plain["time"].erase(key);
+    if (living.contains("moving_zoom")) {
+      living.erase("moving_zoom");
+      for (Json* scene : {&living, &plain}) {
+        scene->erase("zoom");
+        (*scene)["cells"].erase("model");
+      }
+    }
     // Where cells start anywhere in their cycle, the oldest are as large as those of the scene.
     const auto& cycle = living_scenes()[seed - 1].cell_types.begin()->second.cycle;
     const double smaller = cycle.time > 0 && cycle.random_start ? std::cbrt(0.5) : 1;
