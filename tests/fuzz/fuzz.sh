@@ -24,7 +24,8 @@ cmake -G Ninja -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-16 -DCMAKE_BUILD_TYPE=
   -DACINUS_FUZZ=ON -DACINUS_SANITIZE=ON -DACINUS_BENCH=OFF -DACINUS_PRECOMPILE=ON >/dev/null
 cmake --build build-fuzz -j "${ACINUS_JOBS:-$(nproc)}" --target fuzz_coverage fuzz_replay
 export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.txt:print_suppressions=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
-export ASAN_OPTIONS=allocator_may_return_null=1  # HDF5 asks for what a damaged file says, and copes with a refusal
+# HDF5 asks for as much memory as a damaged file says, and copes with a refusal.
+export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024
 failed=0
 for target in "${targets[@]}"; do
   corpus=build-fuzz/corpus/$target found=build-fuzz/found/$target
