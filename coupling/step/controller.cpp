@@ -48,6 +48,7 @@ Assessment attempt_and_assess(World& world, double step, bool first_try, Workspa
   effort.solves += attempt.solves;
   Assessment a;
   if (!attempt.status.ok) {
+    ++w.failed_solves;
     a.accepted = false;
     a.cause = attempt.status.cause;
     return a;
@@ -97,6 +98,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
   const Numerics& n = world.params.numerics;
   StepResult result;
   Effort effort;
+  w.failed_solves = 0;
   double wanted = s.clock.step > 0 ? std::min(s.clock.step, n.max_step) : n.max_step;
   for (;;) {
     const double step = std::min(wanted, limit);

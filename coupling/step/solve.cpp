@@ -1,12 +1,17 @@
 #include "coupling/step/solve.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/threads.hpp"
 
 namespace acinus::coupling {
 namespace {
+
+/// A step whose solve failed is tried again with twice the iterations, so often at most.
+constexpr int kMostDoublings = 5;
+constexpr int kMostIterations = std::numeric_limits<int>::max();
 
 /// Solves for the whole displacement from the guess in w.move.
 Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
@@ -55,7 +60,12 @@ Status solve_again(const World& world, Workspace& w, int& cg_iterations) {
 
 Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
   const auto scope = w.timings.scope("solve");
-  const solve::CgOptions& options = world.params.numerics.cg;
+  solve::CgOptions options = world.params.numerics.cg;
+  // Cells afloat in liquid hang together by little else than adhesion: such a system is no easier
+  // in a shorter step.
+  for (int k = 0; k < std::min(w.failed_solves, kMostDoublings); ++k)
+    options.max_iterations +=
+        std::min(options.max_iterations, kMostIterations - options.max_iterations);
   const bool coarse = world.state.clock.coarse;
   if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =

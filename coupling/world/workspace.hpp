@@ -56,6 +56,7 @@ struct Workspace {
   std::vector<double> move;                  ///< displacement of the step; written by: solve_step
   std::vector<double> rest_of_move;          ///< scratch of solve_step
   LinearisationPoint linearisation;          ///< written by: attempt_step
+  int failed_solves = 0;                     ///< attempts at this step; written by: take_step
   std::vector<std::uint8_t> leader;          ///< written by: choose_leaders_of_step
   std::int64_t leader_interval = -1;
   /// Where a world with sleepers steps; see sleep/partial_step.hpp.

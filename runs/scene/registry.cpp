@@ -66,7 +66,8 @@ void describe_solver(Visitor& v, solve::CgOptions& b) {
           .range = {.low = 0, .high = 0.1, .low_open = true}},
          b.tolerance);
   v.integer({.name = "max_iterations",
-             .meaning = "conjugate gradient iterations of one solve",
+             .meaning = "conjugate gradient iterations of one solve; twice as many each time that "
+                        "one failed at the same step",
              .range = kAtLeastOne},
             b.max_iterations);
 }

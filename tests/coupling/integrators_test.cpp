@@ -198,6 +198,22 @@ TEST(ExplicitEuler, RejectedStepsAreTriedAgainHalfAsLong) {
   EXPECT_TRUE(all_finite(w));
 }
 
+/// A shorter step does not help a solve that needs more iterations than it may take; the second
+/// attempt may take twice as many, the third four times.
+TEST(LinearlyImplicit, ASolveThatFailsGetsMoreIterations) {
+  World w = make_test_world(
+      {{Vec3(0, 0, 0), true, Vec3(0, 0, -3)}, {Vec3(0, 0, 23), true, Vec3::Zero()}}, 60, 162);
+  w.params.numerics.cg = {1e-8, 12};
+  Workspace work;
+  size_workspace(w, work);
+  const StepResult step = advance(w, work, 60);
+  std::printf("%d rejections\n", step.rejections);
+  EXPECT_TRUE(step.accepted);
+  EXPECT_GE(step.rejections, 1);
+  EXPECT_LE(step.rejections, 6);
+  EXPECT_EQ(work.failed_solves, step.rejections);
+}
+
 TEST(Newton, SolvesBackwardEuler) {
   for (const double step : {0.01, 1.0, 100.0}) {
     const World start = stretched_cell(Integrator::kNewton, step);
