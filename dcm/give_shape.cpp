@@ -8,8 +8,7 @@ namespace acinus::dcm {
 
 void give_shape(const Params& params, const GivenShape& shape, std::size_t lane, State& s) {
   const Group& group = s.group[lane / kLanes];
-  for (std::size_t i = 0; i < shape.node.size(); ++i)
-    store_point(s.position.data(), node_address(s, lane, static_cast<int>(i)), shape.node[i]);
+  store_nodes(shape.node, lane, s);
   s.birth[lane] =
       make_birth_shape(*group.topology, shape.node, shape.radius, shape.stretch, shape.weight);
   if (!group.nucleus.exists()) return;

@@ -126,6 +126,11 @@ void copy_nodes(const State& s, std::size_t lane, std::vector<Vec3>& node) {
   for (int i = 0; i < n; ++i) node[i] = load_point(s.position.data(), node_address(s, lane, i));
 }
 
+void store_nodes(std::span<const Vec3> node, std::size_t lane, State& s) {
+  for (std::size_t i = 0; i < node.size(); ++i)
+    store_point(s.position.data(), node_address(s, lane, static_cast<int>(i)), node[i]);
+}
+
 void copy_nucleus(const State& s, std::size_t lane, std::vector<Vec3>& node) {
   const Group& g = s.group[lane / kLanes];
   node.resize(g.nucleus.n_node());

@@ -93,6 +93,8 @@ Vec3 cell_center(const State& state, std::size_t lane);
 
 /// Copies the nodes of one cell's cortex out of the lanes.
 void copy_nodes(const State& state, std::size_t lane, std::vector<Vec3>& node);
+/// Puts them where these stand.   @param node  [n_node] um
+void store_nodes(std::span<const Vec3> node, std::size_t lane, State& state);
 
 /// Those of its nucleus: none without one.
 void copy_nucleus(const State& state, std::size_t lane, std::vector<Vec3>& node);

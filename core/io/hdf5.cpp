@@ -297,6 +297,16 @@ bool File::holds(const std::string& name) const {
   return H5Tequal(type.id(), stored_type<T>()) > 0;
 }
 
+void File::check_size(const std::string& name, double bytes) const {
+  constexpr double kMostPacked = 1100;  // deflate makes data at most 1032 times smaller
+  hsize_t size = 0;
+  if (H5Fget_filesize(id(), &size) < 0) fail_here("find its size");
+  check(bytes <= kMostPacked * static_cast<double>(size),
+        path_ + ": dataset " + name +
+            " claims to be larger than the file can hold. The file is damaged.",
+        Exit::kFileError);
+}
+
 template <class T>
 std::vector<T> File::read_rows(const std::string& name, std::int64_t first_row,
                                std::int64_t n) const {
@@ -308,7 +318,9 @@ std::vector<T> File::read_rows(const std::string& name, std::int64_t first_row,
   const auto dims = shape(name);
   // A damaged index must not make us ask for more memory than the dataset can hold.
   const std::int64_t possible = std::clamp<std::int64_t>(n, 0, static_cast<std::int64_t>(dims[0]));
-  std::vector<T> value(static_cast<std::size_t>(possible) * (dims.size() == 2 ? dims[1] : 1));
+  const hsize_t per_row = dims.size() == 2 ? dims[1] : 1;
+  check_size(name, static_cast<double>(possible) * static_cast<double>(per_row) * sizeof(T));
+  std::vector<T> value(static_cast<std::size_t>(possible) * per_row);
   read_raw(name, native_type<T>(), first_row, n, value.data());
   return value;
 }
@@ -323,6 +335,7 @@ std::vector<std::string> File::read_text_rows(const std::string& name, std::int6
     width = H5Tget_size(type.id());
   }
   const std::size_t possible = std::clamp<std::int64_t>(n, 0, n_row(name));
+  check_size(name, static_cast<double>(width) * static_cast<double>(possible));
   std::string packed(width * possible, '\0');
   const Handle type = text_type(width, H5T_CSET_UTF8);
   read_raw(name, type.id(), first_row, n, packed.data());

@@ -154,6 +154,8 @@ class File {
                         std::string_view unit);
   void write_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n_value,
                  const void* value);
+  /// Refuses to make room for more than the file can hold: a damaged file may claim anything.
+  void check_size(const std::string& name, double bytes) const;
   void read_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n,
                 void* value) const;
   std::vector<hsize_t> shape(const std::string& dataset) const;

@@ -175,22 +175,6 @@ void begin_lysis(World& world, const Cell& c, LifeReport& report) {
   report.events.push_back({"lysis", {lineage_of(s, c)}, "shrinks"});
 }
 
-/// Survivors and newborn in one state, neighbours near each other.
-void replace_cells(World& world, const std::vector<std::uint8_t>& gone,
-                   const std::vector<std::uint8_t>& dissolves, const State& born) {
-  const State& s = world.state;
-  std::vector<Member> shells, spheres;
-  for_each_cell(s, [&](const Cell& c) {
-    if (gone[c.index] != 0) return;
-    const int type = dissolves[c.index] != 0 ? cycle_of(world.params, s, c).death.type : -1;
-    (c.deformable ? shells : spheres).push_back({&s, c.at, type});
-  });
-  for (const Member& m : list_dcm(born)) shells.push_back(m);
-  for (const Member& m : list_cbm(born)) spheres.push_back(m);
-  sort_by_place(shells, spheres);
-  world.state = compose(shells, spheres, s);
-}
-
 LifeReport undo(State& before, State& s) {
   s = std::move(before);
   LifeReport nothing;
@@ -208,7 +192,8 @@ LifeReport turn_over(World& world, Workspace& work) {
   if (plan.empty()) return report;
   const auto scope = work.timings.scope("life");
   State& s = world.state;
-  std::vector<std::uint8_t> gone(s.cycle.size(), 0), dissolves(s.cycle.size(), 0);
+  std::vector<std::uint8_t> gone(s.cycle.size(), 0);
+  std::vector<int> type(s.cycle.size(), -1);  // cells become
   Newborn born;
   for (const Cell& c : plan.remove) {
     gone[c.index] = 1;
@@ -216,7 +201,7 @@ LifeReport turn_over(World& world, Workspace& work) {
     report.events.push_back({"death", {lineage_of(s, c)}, "removed"});
   }
   for (const Cell& c : plan.lyse) {
-    dissolves[c.index] = 1;
+    type[c.index] = cycle_of(world.params, s, c).death.type;
     begin_lysis(world, c, report);
   }
   // In the order of their numbers: which cell is born when must not depend on how cells are stored.
@@ -234,7 +219,7 @@ LifeReport turn_over(World& world, Workspace& work) {
   if (!shells.empty() && stop_requested()) return undo(before, s);
   s.divisions += std::ssize(born.shell) / 2 + std::ssize(born.sphere) / 2;
   const State newborn = make_state(world, born, s.clock.time);
-  replace_cells(world, gone, dissolves, newborn);
+  exchange_cells(gone, type, {&newborn, 1}, s);
   for_each_cell(s, [&](const Cell& c) {  // new cells start to grow, or rest where a rule says so
     if (s.cycle[c.index].parent >= 0 && s.cycle[c.index].birth == s.clock.time)
       set_growth(world.params, s, c, 1);
@@ -298,7 +283,7 @@ LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int6
     report.events.push_back({"death", {id}, "removed"});
   });
   if (report.events.empty()) return report;
-  replace_cells(world, gone, std::vector<std::uint8_t>(gone.size(), 0), State{});
+  exchange_cells(gone, {}, {}, s);
   size_workspace(world, work);
   return report;
 }

@@ -93,9 +93,7 @@ void replace_mesh(const dcm::Params& params, State& s, std::size_t lane,
   dcm::EdgeTension& tension = s.dcm.tension[lane];
   if (!tension.is_new())
     tension = dcm::make_tension(topology_of(s, lane), node, dcm::mean_tension(tension));
-  for (std::size_t i = 0; i < node.size(); ++i)
-    store_point(s.dcm.position.data(), dcm::node_address(s.dcm, lane, static_cast<int>(i)),
-                node[i]);
+  dcm::store_nodes(node, lane, s.dcm);
   if (has_last_move(s))
     for (int i = 0; i < s.dcm.group[lane / kLanes].n_point(); ++i)
       store_point(s.last_move.data(), dcm::node_address(s.dcm, lane, i), Vec3::Zero());

@@ -1,6 +1,7 @@
 #include "coupling/world/population.hpp"
 
 #include "coupling/generate/packing.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -96,6 +97,21 @@ std::vector<Member> list_cbm(const State& s) {
   std::vector<Member> list;
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) list.push_back({&s, c});
   return list;
+}
+
+void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> type,
+                    std::span<const State> fresh, State& s) {
+  std::vector<Member> shells, spheres;
+  for_each_cell(s, [&](const Cell& c) {
+    if (gone[c.index] == 0)
+      (c.deformable ? shells : spheres).push_back({&s, c.at, type.empty() ? -1 : type[c.index]});
+  });
+  for (const State& f : fresh) {
+    for (const Member& m : list_dcm(f)) shells.push_back(m);
+    for (const Member& m : list_cbm(f)) spheres.push_back(m);
+  }
+  sort_by_place(shells, spheres);
+  s = compose(shells, spheres, s);
 }
 
 }  // namespace acinus::coupling

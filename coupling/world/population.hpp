@@ -33,6 +33,13 @@ void sort_by_place(std::vector<Member>& dcm, std::vector<Member>& cbm);
 std::vector<Member> list_dcm(const State& state);
 std::vector<Member> list_cbm(const State& state);
 
+/// Puts fresh cells in the place of those that are gone, neighbours near each other.
+/// @param gone   [dcm lanes, then cbm cells] 1: this cell leaves
+/// @param type   [same] what a cell that stays becomes; -1 or an empty list: it stays what it is
+/// @param fresh  states that hold the new cells
+void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> type,
+                    std::span<const State> fresh, State& state);
+
 /// Index into arrays over [dcm lanes, then cbm cells].
 inline std::size_t cell_index(const State& s, std::size_t sphere) {
   return s.dcm.n_lane() + sphere;

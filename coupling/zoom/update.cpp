@@ -16,6 +16,7 @@
 #include "coupling/step/stages.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
+#include "coupling/world/population.hpp"
 #include "coupling/zoom/pair_forces.hpp"
 #include "coupling/zoom/promote.hpp"
 #include "coupling/zoom/regions.hpp"
@@ -119,28 +120,18 @@ Switches find_candidates(const World& world, const std::vector<double>& pressure
   return found;
 }
 
-/// Puts the new cells in the place of the old ones.
+/// Puts the new cells in the place of the old ones, and notes when.
 void exchange(const std::vector<std::uint8_t>& gone, const std::vector<State>& fresh, State& s) {
   const bool lives = !s.cycle.empty();
-  const double now = s.clock.time;
   std::set<std::int64_t> changed;
-  std::vector<Member> shells, spheres;
   for_each_cell(s, [&](const Cell& c) {
-    if (gone[c.index] != 0)
-      changed.insert(lineage_of(s, c));
-    else
-      (c.deformable ? shells : spheres).push_back({&s, c.at});
+    if (gone[c.index] != 0) changed.insert(lineage_of(s, c));
   });
-  for (const State& f : fresh) {
-    for (const Member& m : list_dcm(f)) shells.push_back(m);
-    for (const Member& m : list_cbm(f)) spheres.push_back(m);
-  }
-  sort_by_place(shells, spheres);
-  s = compose(shells, spheres, s);
+  exchange_cells(gone, {}, fresh, s);
   if (!lives) s.cycle.clear();
   s.model_since.resize(s.dcm.n_lane() + s.cbm.n_cell(), s.clock.origin);
   for_each_cell(s, [&](const Cell& c) {
-    if (changed.contains(lineage_of(s, c))) s.model_since[c.index] = now;
+    if (changed.contains(lineage_of(s, c))) s.model_since[c.index] = s.clock.time;
   });
 }
 

@@ -12,18 +12,27 @@ class UserError(Exception):
     """Something to tell the user without a traceback."""
 
 
+def open_run(path):
+    """The run.vtkhdf of a folder, or the file itself, as h5py opens it."""
+    import h5py
+    if os.path.isdir(path):
+        path = os.path.join(path, "run.vtkhdf")
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read: {error}") from None
+
+
+def count_frames(path):
+    with open_run(path) as file:
+        return int(file["VTKHDF/Steps"].attrs["NSteps"])
+
+
 class Frame:
     """One moment of a run: arrays of numpy."""
 
     def __init__(self, path, which):
-        import h5py
-        if os.path.isdir(path):
-            path = os.path.join(path, "run.vtkhdf")
-        try:
-            file = h5py.File(path, "r")
-        except OSError as error:
-            raise UserError(f"{path}: cannot be read: {error}") from None
-        with file:
+        with open_run(path) as file:
             root = file["VTKHDF"]
             steps = root["Steps"]
             n_frame = int(steps.attrs["NSteps"])

@@ -309,6 +309,21 @@ TEST(RunFile, ShapesAndCornersThatDoNotFitAreDamage) {
   };
   replace("/VTKHDF/Steps/PartOffsets", 2, 0, 0);
   expect_error(Exit::kFileError, "whose rows are empty", read);
+  const auto claim = [&](hsize_t rows) {  // none of them is stored
+    h5::File file = h5::File::open(path, h5::Access::kAppend);
+    ASSERT_GE(H5Ldelete(file.id(), "/VTKHDF/NumberOfPoints", H5P_DEFAULT), 0);
+    const hsize_t chunk = 64;
+    const hid_t space = H5Screate_simple(1, &rows, nullptr), how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(how, 1, &chunk);
+    H5Dclose(H5Dcreate2(file.id(), "/VTKHDF/NumberOfPoints", H5T_STD_I64LE, space, H5P_DEFAULT, how,
+                        H5P_DEFAULT));
+    H5Pclose(how);
+    H5Sclose(space);
+    file.close();
+  };
+  replace("/events/cell_offset", 2, 1, 0);
+  claim(hsize_t{1} << 50);
+  expect_error(Exit::kFileError, "larger than the file can hold", read);
   replace("/events/cell_offset", 2, 1, -1);
   expect_error(Exit::kFileError, "out of order", read);
   for (const char* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
