@@ -312,6 +312,8 @@ std::vector<Finding> compare_volumes(const std::map<std::int64_t, VolumeOfCell>&
     const double had = before.at(mother).volume / before.at(mother).rest;
     const double have = (pair[0].volume + pair[1].volume) / (pair[0].rest + pair[1].rest);
     const double change = have / had / typical;
+    const double left = std::log(have) / std::log(had);  // of what her volume was off its rest
+    if (left >= 0 && left <= 1) continue;  // was compressed more than the others, and recovers
     if (!(change < kMostDivisionChange && change > 1 / kMostDivisionChange))
       wrong.push_back({Defect::kVolume, time,
                        fmt::format("the daughters of cell {} have {:.3g} of their rest volume, she "
