@@ -1,0 +1,20 @@
+"""Runs of the tissue simulator acinus, read and started from Python.
+
+    import acinus
+    run = acinus.Run("lobule_hybrid.run")
+    frame = run[-1]                    # the last frame: frame.points, frame.triangles, frame.spheres
+    run.cells(frame=-1)["pressure"]    # kPa
+    run.observables()                  # what the experiment measures, over time
+
+Reading needs h5py and numpy; with pandas tables are DataFrames.
+"""
+from acinus.errors import AcinusError, Damaged, NoSuchItem, NotFound
+from acinus.frame import DEFORMABLE, NUCLEUS, SPHERE, VESSEL, Frame, Spheres
+from acinus.law import Law
+from acinus.lineage import Lineage
+from acinus.run import Run
+from acinus.study import Study
+from acinus.tables import Table
+
+__all__ = ["AcinusError", "DEFORMABLE", "Damaged", "Frame", "Law", "Lineage", "NUCLEUS", "NoSuchItem", "NotFound", "Run",
+           "SPHERE", "Spheres", "Study", "Table", "VESSEL"]
