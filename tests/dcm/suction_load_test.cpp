@@ -96,7 +96,9 @@ TEST(SuctionLoad, HasNoJumps) {
     add_suction_load(c.view(), {Vec3(0, 0, depth), Vec3::UnitZ(), kFar, 1}, c.system);
     const Vec3 of_first = load_of(c, 0, 0);
     // Less than the circumference times the depth by which the mouth moved.
-    if (k > 0) EXPECT_LT((of_first - before).norm(), 2 * kPi * 12 * 2e-3);
+    if (k > 0) {
+      EXPECT_LT((of_first - before).norm(), 2 * kPi * 12 * 2e-3);
+    }
     before = of_first;
   }
 }
