@@ -58,18 +58,19 @@ void visit_fading(const World& world, const Places& places,
     const auto a = number.find(fading.a), b = number.find(fading.b);
     const bool boundary = fading.b == kNoPartner;
     if (a == number.end() || (b == number.end() && !boundary)) continue;
-    const double share = fading.share.at(s.clock.time);
     ContactForce f;
     f.a = a->second;
+    const Vec3& center = places.center[f.a];
+    const Vec3 apart = boundary ? center : Vec3(center - places.center[b->second]);
+    const double share = left_of(fading, s.clock.time, apart);
     f.force = share * fading.force;
     const double size = f.force.norm();
     if (!(size > 0)) continue;
     f.arm_a = (share * fading.virial / size) * (f.force / size);
     if (!boundary) {
       f.b = b->second;
-      const Vec3 way = places.center[f.b] - places.center[f.a];
-      f.normal = -way.normalized();
-      f.arm_b = f.arm_a - way;
+      f.normal = apart.normalized();
+      f.arm_b = f.arm_a + apart;
     }
     f.fades = true;
     look(f);

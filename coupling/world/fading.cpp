@@ -1,5 +1,6 @@
 #include "coupling/world/fading.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "coupling/world/cell.hpp"
@@ -15,11 +16,21 @@ std::unordered_map<std::int64_t, Cell> find_cells(const State& s) {
   return cells;
 }
 
+Vec3 find_apart(const State& s, const std::unordered_map<std::int64_t, Cell>& cells,
+                const FadingForce& f) {
+  const Vec3 a = center_of(s, cells.at(f.a));
+  return f.b == kNoPartner ? a : Vec3(a - center_of(s, cells.at(f.b)));
+}
+
 bool has_both(const std::unordered_map<std::int64_t, Cell>& cells, const FadingForce& f) {
   return cells.contains(f.a) && (f.b == kNoPartner || cells.contains(f.b));
 }
 
 }  // namespace
+
+double left_of(const FadingForce& f, double time, const Vec3& apart) {
+  return f.share.at(time) * std::max(0.0, 1 - (apart - f.apart).norm() / f.reach);
+}
 
 void add_fading_forces(const State& s, double time, CellForces& forces) {
   if (s.fading.empty()) return;
@@ -30,10 +41,18 @@ void add_fading_forces(const State& s, double time, CellForces& forces) {
   };
   for (const FadingForce& f : s.fading) {
     if (!has_both(cells, f)) continue;
-    const Vec3 force = f.share.at(time) * f.force;
+    const Vec3 force = left_of(f, time, find_apart(s, cells, f)) * f.force;
     add(f.a, force);
     if (f.b != kNoPartner) add(f.b, -force);
   }
+}
+
+void keep_fading(const State& before, State& s) {
+  if (s.fading.empty()) return;
+  const auto was = find_cells(before), is = find_cells(s);
+  for (FadingForce& f : s.fading)
+    if (has_both(was, f) && has_both(is, f))
+      f.apart += find_apart(s, is, f) - find_apart(before, was, f);
 }
 
 void forget_faded(State& s) {

@@ -103,6 +103,7 @@ std::uint64_t hash_state(const State& s) {
   for (const FadingForce& f : s.fading) {
     add(std::array{f.a, f.b});
     add(std::array{f.force.x(), f.force.y(), f.force.z(), f.virial, f.share.start, f.share.end});
+    add(std::array{f.apart.x(), f.apart.y(), f.apart.z(), f.reach});
   }
   for (const Cycle& c : s.cycle)
     add(std::array{c.birth, c.birth_volume, c.duration, c.wait_until, static_cast<double>(c.parent),

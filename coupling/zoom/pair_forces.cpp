@@ -23,10 +23,13 @@ std::vector<std::int64_t> list_lineages(const World& world, const Workspace& wor
 /// models is less, and what a crowded place makes of a new mesh is for its contacts to settle.
 constexpr double kMostCompression = 0.05;
 
+/// How far a pair may move relative to each other until nothing is left of its fading force, as a
+/// share of the smaller radius: more than tissue in equilibrium does within an hour.
+constexpr double kReach = 0.25;
+
 /// The force, nN, that compresses the cell so far if it acts on its cross-section.
-double largest_fading(const World& world, const Cell& c) {
+double largest_fading(const World& world, const Cell& c, double radius) {
   const State& s = world.state;
-  const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
   const auto type = static_cast<std::size_t>(type_of(s, c));
   return kMostCompression * world.params.dcm[type].bulk_modulus * kPi * radius * radius;
 }
@@ -58,11 +61,15 @@ PairForces find_pair_forces(const World& world, const Workspace& work,
 void add_fading(const World& world, const PairForces& before, const PairForces& after,
                 std::vector<FadingForce>& fading) {
   const State& s = world.state;
-  std::map<std::int64_t, Vec3> center;
-  std::map<std::int64_t, double> most{{kNoPartner, std::numeric_limits<double>::infinity()}};
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  struct Place {
+    Vec3 center = Vec3::Zero();
+    double radius = kAny, most_force = kAny;
+  };
+  std::map<std::int64_t, Place> place{{kNoPartner, {}}};
   for_each_cell(s, [&](const Cell& c) {
-    center[lineage_of(s, c)] = center_of(s, c);
-    most[lineage_of(s, c)] = largest_fading(world, c);
+    const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
+    place[lineage_of(s, c)] = {center_of(s, c), radius, largest_fading(world, c, radius)};
   });
   std::set<PairForces::key_type> pairs;
   for (const PairForces* forces : {&before, &after})
@@ -70,19 +77,20 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
   const double now = s.clock.time;
   for (const auto& pair : pairs) {
     const PairForce was = force_of(before, pair), is = force_of(after, pair);
+    const Place &a = place.at(pair.first), &b = place.at(pair.second);
     Vec3 missing = was.force - is.force;
-    if (pair.second != kNoPartner) {
-      const Vec3 line = (center.at(pair.first) - center.at(pair.second)).normalized();
-      missing = missing.dot(line) * line;
-    }
-    const double limit = std::min(most.at(pair.first), most.at(pair.second));
+    const Vec3 apart = a.center - b.center;
+    if (pair.second != kNoPartner) missing = missing.dot(apart.normalized()) * apart.normalized();
+    const double limit = std::min(a.most_force, b.most_force);
     const double share = std::min(1.0, limit / missing.norm());
     if (missing.norm() > 0)
       fading.push_back({pair.first,
                         pair.second,
                         share * missing,
                         share * (was.virial - is.virial),
-                        {1, 0, now, now + world.params.zoom.fade}});
+                        {1, 0, now, now + world.params.zoom.fade},
+                        apart,
+                        kReach * std::min(a.radius, b.radius)});
   }
 }
 

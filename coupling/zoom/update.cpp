@@ -227,6 +227,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
   size_workspace(world, work);
   s.clock.step = std::min(s.clock.step, kStepAfterChange);
   observe(world, work);
+  keep_fading(old, s);
   add_fading(world, before, find_pair_forces(world, work, changing), s.fading);
   return report;
 }

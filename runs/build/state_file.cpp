@@ -260,19 +260,23 @@ void get_life(const io::CheckpointData& d, coupling::State& s) {
 void put_zoom(const coupling::State& s, io::CheckpointData& d) {
   d.put("zoom/model_since", s.model_since);
   std::vector<std::int64_t> cell;
-  std::vector<Vec3> force;
-  std::vector<double> virial;
+  std::vector<Vec3> force, apart;
+  std::vector<double> virial, reach;
   std::vector<Ramp> share;
   for (const coupling::FadingForce& f : s.fading) {
     cell.insert(cell.end(), {f.a, f.b});
     force.push_back(f.force);
     virial.push_back(f.virial);
     share.push_back(f.share);
+    apart.push_back(f.apart);
+    reach.push_back(f.reach);
   }
   d.put("zoom/fading/cell", cell);
   d.put("zoom/fading/force", flatten(force));
   d.put("zoom/fading/virial", virial);
   d.put("zoom/fading/share", flatten(share));
+  d.put("zoom/fading/apart", flatten(apart));
+  d.put("zoom/fading/reach", reach);
 }
 
 void get_zoom(const io::CheckpointData& d, coupling::State& s) {
@@ -284,12 +288,17 @@ void get_zoom(const io::CheckpointData& d, coupling::State& s) {
   const std::vector<Vec3> force = unflatten_points(d.numbers("zoom/fading/force"));
   const std::vector<double>& virial = d.numbers("zoom/fading/virial");
   const std::vector<Ramp> share = unflatten(d.numbers("zoom/fading/share"));
+  const std::vector<Vec3> apart = unflatten_points(d.numbers("zoom/fading/apart"));
+  const std::vector<double>& reach = d.numbers("zoom/fading/reach");
   check_same(d, "zoom/fading/cell", cell.size(), 2 * force.size());
   check_same(d, "zoom/fading/virial", virial.size(), force.size());
   check_same(d, "zoom/fading/share", share.size(), force.size());
+  check_same(d, "zoom/fading/apart", apart.size(), force.size());
+  check_same(d, "zoom/fading/reach", reach.size(), force.size());
   s.fading.clear();
   for (std::size_t k = 0; k < force.size(); ++k)
-    s.fading.push_back({cell[2 * k], cell[2 * k + 1], force[k], virial[k], share[k]});
+    s.fading.push_back(
+        {cell[2 * k], cell[2 * k + 1], force[k], virial[k], share[k], apart[k], reach[k]});
 }
 
 /// Calls f(name, value) for every number of the clock and the balance.

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/mesh/measures.hpp"
+#include "coupling/zoom/pair_forces.hpp"
 #include "coupling/zoom/update.hpp"
 #include "tests/coupling/changing_cells.hpp"
 
@@ -89,6 +90,28 @@ TEST(Zoom, AChangeJumpsNeitherPressureNorForces) {
       EXPECT_LE(w.state.clock.rejected - rejected, 2);
     }
   }
+}
+
+// In liquid nothing but the fading force acts on two cells that have come apart.
+TEST(Zoom, AFadingForceDoesNotDriveCellsAway) {
+  World w =
+      make_test_world({{Vec3::Zero(), false}, {Vec3(24, 0, 0), false}, {Vec3(300, 0, 0), false}});
+  for (cbm::Params& p : w.params.cbm) p.medium_friction *= 1e-4;
+  w.params.zoom.fade = 3600;
+  w.params.numerics.max_move = 0.25;
+  const std::int64_t a = w.state.cbm.lineage[0], b = w.state.cbm.lineage[1];
+  PairForces before;
+  before[{a, b}] = {Vec3(-2, 0, 0), -24};
+  before[{w.state.cbm.lineage[2], kNoPartner}] = {Vec3(0, 2, 0), -24};
+  add_fading(w, before, {}, w.state.fading);
+  ASSERT_EQ(w.state.fading.size(), 2u);
+  Workspace work;
+  size_workspace(w, work);
+  run(w, work, 600);
+  const Vec3 apart = cbm::center_of(w.state.cbm, 1) - cbm::center_of(w.state.cbm, 0);
+  EXPECT_GT(apart.x(), 25);  // it does act
+  EXPECT_LT(apart.x(), 24 + 0.5 * 12);
+  EXPECT_LT(std::abs(cbm::center_of(w.state.cbm, 2).y()), 0.5 * 12);
 }
 
 }  // namespace
