@@ -185,10 +185,10 @@ TEST(Interface, PressesOnThePresentAreaOfAStretchedSurface) {
   forces(rested, a, true);
   forces(stretched, b, true);
   const auto pressing = [](const Workspace& w) {
-    std::vector<contact::Contact> pressing;
-    std::ranges::copy_if(w.contacts.interface(), std::back_inserter(pressing),
+    std::vector<contact::Contact> found;
+    std::ranges::copy_if(w.contacts.interface(), std::back_inserter(found),
                          [](const contact::Contact& k) { return k.gap < 0; });
-    return pressing;
+    return found;
   };
   const std::vector<contact::Contact> x = pressing(a), y = pressing(b);
   ASSERT_EQ(x.size(), y.size());
