@@ -34,6 +34,7 @@ int run_cli(int argc, const char* const* argv) {
                               add_new(app),
                               add_calibrate(app, command_line),
                               add_compare(app, command_line),
+                              add_report(app),
                               add_study(app),
                               add_bench(app)};
   try {

@@ -1,13 +1,14 @@
 /// acinus run
 
-#include <charconv>
 #include <memory>
 
 #include "core/stop.hpp"
 #include "core/units.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/commands/command.hpp"
+#include "runs/commands/sizes.hpp"
 #include "runs/commands/wall_time.hpp"
+#include "runs/report/report.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/run_folder.hpp"
@@ -16,20 +17,9 @@
 namespace acinus::runs {
 namespace {
 
-/// Bytes of "16GB", "500 MB".
-double parse_memory(const std::string& text) {
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string unit(end, text.data() + text.size());
-  std::erase(unit, ' ');
-  const double scale = unit == "TB" ? 1e12 : unit == "GB" ? 1e9 : unit == "MB" ? 1e6 : 0;
-  check(code == std::errc() && scale > 0,
-        fmt::format("\"{}\": a size of memory is written like 16GB or \"500 MB\"", text));
-  return scale * value;
-}
-
 struct RunArguments {
   RunOptions run;
+  bool report = false;
   std::string until, checkpoint_every, max_walltime, max_memory, progress;
 };
 
@@ -43,14 +33,19 @@ int run(RunArguments& arguments) {
         flag_value("--checkpoint-every", arguments.checkpoint_every, parse_wall_time);
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   if (!arguments.max_memory.empty())
-    run.max_memory = flag_value("--max-memory", arguments.max_memory, parse_memory);
+    run.max_memory = flag_value("--max-memory", arguments.max_memory, parse_size);
   run.progress_json = arguments.progress == "json";
   Scene scene = read_scene(find_scene_file(run.scene_file), run.set);
   if (run.out.empty()) run.out = scene.name + ".run";
   check_folder(run.out, run);  // not after hours of calibration
   if (const int stop = resolve_corrections(scene, run.threads, run.quiet || run.progress_json))
     return tell_how_to_go_on(stop, run.command_line, run.quiet);
-  return run_scene(scene, run);
+  const int code = run_scene(scene, run);
+  if (arguments.report) {
+    const std::string page = write_report({.what = {run.out}, .out = run.out + "/report.html", .png = ""});
+    if (!run.quiet) fmt::print("report: {}\n", page);
+  }
+  return code;
 }
 
 }  // namespace
@@ -82,6 +77,8 @@ Command add_run(CLI::App& app, const std::string& command_line) {
                    "machine's)")
       ->type_name("SIZE");
   command->add_flag("--timings", run.timings, "print the time of each stage at the end");
+  command->add_flag("--report", arguments->report,
+                    "at the end write report.html into the run folder, a page for the browser");
   command->add_flag("--quiet", run.quiet, "warnings and errors only");
   command->add_option("--progress", arguments->progress, "form of the progress lines")
       ->type_name("json")

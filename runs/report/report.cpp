@@ -1,0 +1,88 @@
+#include "runs/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+#include "runs/report/other_parts.hpp"
+#include "runs/report/page.hpp"
+#include "runs/report/picture.hpp"
+#include "runs/report/run_part.hpp"
+
+namespace acinus::runs {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class Kind { kRun, kLaw, kStudy };
+
+Kind kind_of(const std::string& path) {
+  std::error_code code;
+  check(fs::exists(path, code), fmt::format("{}: there is no such file or folder", path),
+        Exit::kFileError);
+  const auto has = [&](const char* name) { return fs::exists(fs::path(path) / name, code); };
+  if (!fs::is_directory(path, code)) return Kind::kLaw;
+  if (has("run.vtkhdf") || has("summary.json")) return Kind::kRun;
+  if (has("study.json")) return Kind::kStudy;
+  if (has("law.json")) return Kind::kLaw;
+  throw Error(
+      fmt::format("{}: is no run (it has no run.vtkhdf), no study (no study.json) and no "
+                  "calibration (no law.json). Name a folder that `acinus run`, `acinus "
+                  "study` or `acinus calibrate` wrote, or a law file.",
+                  path));
+}
+
+/// "lobule.run" -> "lobule.html", in this folder.
+std::string file_named_after(const std::string& first) {
+  fs::path name = fs::path(first).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  name = name.filename();
+  for (const char* ending : {".run", ".study", ".calibration", ".json"})
+    if (name.extension() == ending) name = name.stem();
+  return name.string() + ".html";
+}
+
+}  // namespace
+
+std::string write_report(const ReportOptions& options) {
+  std::vector<std::string> folders;
+  for (const std::string& path : options.what)
+    if (kind_of(path) == Kind::kRun) folders.push_back(path);
+  const std::size_t page = empty_page_size();
+  check(options.bytes > page + 100'000,
+        fmt::format("--limit: the page without data takes {:.1f} MB. Allow more.", 1e-6 * page));
+  FrameLimits limits{.most_frames = options.most_frames};
+  // Curves, tables and texts take about a tenth.
+  limits.bytes = (options.bytes - page) * 9 / 10 / std::max<std::size_t>(1, folders.size());
+  Json data{{"version", ACINUS_VERSION}, {"limit", options.bytes}, {"items", Json::array()}};
+  for (const std::string& path : options.what) {
+    switch (kind_of(path)) {
+      case Kind::kRun: {
+        RunRecord run = read_run_record(path);
+        data["items"].push_back(describe_run(run, limits));
+        break;
+      }
+      case Kind::kLaw:
+        data["items"].push_back(describe_law(path));
+        break;
+      case Kind::kStudy:
+        data["items"].push_back(describe_study(path));
+    }
+  }
+  if (folders.size() > 1) data["comparison"] = describe_comparison(folders);
+  std::string title = data["items"][0]["name"].get<std::string>();
+  if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
+  const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
+  io::write_text_file(out,
+                      write_page(title, data.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  if (!options.png.empty()) take_picture(out, options.png);
+  return out;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,166 @@
+#include "runs/report/run_part.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/sphere.hpp"
+#include "runs/report/checks.hpp"
+#include "runs/report/thin.hpp"
+#include "runs/scene/differences.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/scene/writer.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(short_number(v));
+  return list;
+}
+
+Json curve(const std::vector<double>& time, const std::vector<double>& value) {
+  const TimeCurve thin = thin_curve({time, value}, kMostSamples);
+  return {{"time", numbers(thin.time)}, {"value", numbers(thin.value)}};
+}
+
+/// All columns but the time as curves of their own: thinning keeps each one's peaks.
+Json curves(const std::map<std::string, std::vector<double>>& columns,
+            const std::map<std::string, std::string>& unit) {
+  Json list = Json::object();
+  const auto time = columns.find("time");
+  if (time == columns.end()) return list;
+  for (const auto& [name, value] : columns) {
+    if (name == "time") continue;
+    list[name] = curve(time->second, value);
+    const auto at = unit.find(name);
+    list[name]["unit"] = at == unit.end() ? "" : at->second;
+  }
+  return list;
+}
+
+/// Quantiles over the cells of a frame: 5, 25, 50, 75, 95 %.
+void add_quantiles(Json& band, double time_s, std::vector<double> values) {
+  if (values.empty()) return;
+  std::ranges::sort(values);
+  band["time"].push_back(short_number(time_s));
+  for (const auto& [name, share] :
+       {std::pair("q05", 0.05), {"q25", 0.25}, {"q50", 0.5}, {"q75", 0.75}, {"q95", 0.95}})
+    band[name].push_back(short_number(quantile(values, share)));
+}
+
+std::vector<double> relative_volumes(const io::Table& cells) {
+  std::vector<double> volume = table_column(cells, "volume");
+  const std::vector<double> radius = table_column(cells, "radius");
+  for (std::size_t k = 0; k < volume.size() && k < radius.size(); ++k)
+    volume[k] /= sphere_volume(radius[k]);
+  return volume;
+}
+
+/// Pressure and volume of the cells at up to so many frames: tables are read without the meshes.
+Json describe_cells(RunRecord& run) {
+  constexpr int kMostTables = 200;
+  Json bands{{"pressure", Json::object()}, {"volume", Json::object()}};
+  for (const int k : choose_evenly(run.n_frame(), kMostTables)) {
+    const std::optional<io::Table> cells = read_cell_table(run, k);
+    if (!cells) continue;
+    const double time = run.reader->time_s(k);
+    add_quantiles(bands["pressure"], time, table_column(*cells, "pressure"));
+    add_quantiles(bands["volume"], time, relative_volumes(*cells));
+  }
+  return bands;
+}
+
+Json describe_frames(const PackedRun& packed, int in_file) {
+  Json j{{"in_file", in_file},   {"id_columns", packed.id_column}, {"columns", packed.column},
+         {"units", packed.unit}, {"meshes", Json::array()},        {"still", Json::array()},
+         {"list", Json::array()}};
+  for (const PackedMesh& m : packed.mesh)
+    j["meshes"].push_back({{"nodes", m.nodes}, {"triangles", m.triangles}, {"chunk", m.chunk}});
+  for (const PackedStill& s : packed.still)
+    j["still"].push_back({{"nodes", s.nodes}, {"triangles", s.triangles}, {"chunk", s.chunk}});
+  for (const PackedFrame& f : packed.frame)
+    j["list"].push_back({{"time", f.time_s},
+                         {"number", f.number},
+                         {"mesh", f.mesh},
+                         {"still", f.still},
+                         {"spheres", f.spheres},
+                         {"cells", f.cells},
+                         {"chunk", f.chunk}});
+  return j;
+}
+
+Json describe_interface(const PackedRun& packed) {
+  Json j = Json::object();
+  for (const InterfaceSample& s : packed.interface) {
+    j["time"].push_back(s.time_s);
+    j["pairs"].push_back(s.pairs);
+    j["mean force"].push_back(short_number(s.mean_force));
+    j["largest force"].push_back(short_number(s.largest_force));
+    j["deepest"].push_back(short_number(s.deepest));
+  }
+  return j;
+}
+
+Json describe_events(const std::vector<io::Event>& events) {
+  constexpr std::size_t kMostEvents = 500;
+  Json counts = Json::object(), last = Json::array();
+  for (const io::Event& e : events) counts[e.code] = counts.value(e.code, 0) + 1;
+  const std::size_t first = events.size() > kMostEvents ? events.size() - kMostEvents : 0;
+  for (std::size_t k = first; k < events.size(); ++k)
+    last.push_back({events[k].time_s, events[k].code, events[k].message, events[k].cell_id});
+  return {{"counts", counts}, {"last", last}, {"all", events.size()}};
+}
+
+/// What of the scene is not as a scene that says nothing has it.
+std::vector<std::string> differences_from_defaults(const std::string& scene) {
+  Scene plain;
+  set_canonical(plain);
+  return list_scene_differences(plain.resolved_json, scene,
+                                [](const std::string&) { return false; });
+}
+
+}  // namespace
+
+Json short_number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+Json describe_run(RunRecord& run, const FrameLimits& limits) {
+  const Json summary =
+      run.summary.empty() ? Json::object() : Json::parse(run.summary, nullptr, false);
+  if (summary.is_discarded()) run.damage.push_back("summary.json: is no JSON");
+  const PackedRun packed = pack_frames(run, limits);
+  Json j;
+  j["type"] = "run";
+  j["folder"] = run.folder;
+  j["name"] = std::filesystem::path(run.folder).lexically_normal().filename().string();
+  j["going_on"] = run.going_on;
+  j["summary"] = summary.is_object() ? summary : Json::object();
+  // Their curves come from the run file, with their times.
+  for (const char* key : {"measures", "measure_units"}) j["summary"].erase(key);
+  j["provenance"] = run.provenance;
+  j["provenance"].erase("scene");
+  if (const auto scene = run.provenance.find("scene"); scene != run.provenance.end()) {
+    j["scene"] = Json::parse(scene->second, nullptr, false);
+    j["differences"] = differences_from_defaults(scene->second);
+  }
+  j["checks"] = list_checks(j["summary"]);
+  j["series"] = curves(run.series, {});
+  j["observables"] = curves(run.observables, run.observable_unit);
+  j["bands"] = describe_cells(run);
+  j["interface"] = describe_interface(packed);
+  j["events"] = describe_events(run.events);
+  j["frames"] = describe_frames(packed, run.n_frame());
+  j["damage"] = run.damage;
+  return j;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+#include "runs/report/other_parts.hpp"
+
+namespace acinus::runs {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One field of a line, and the rest of the line. Quotes as in RFC 4180.
+std::string take_field(std::istringstream& line) {
+  std::string field;
+  if (line.peek() != '"') {
+    std::getline(line, field, ',');
+    return field;
+  }
+  line.get();
+  for (int c = line.get(); c != EOF; c = line.get()) {
+    if (c == '"' && line.peek() != '"') break;
+    if (c == '"') line.get();
+    field += static_cast<char>(c);
+  }
+  if (line.peek() == ',') line.get();
+  return field;
+}
+
+/// Rows of a CSV file, the header first.
+Json read_csv(const fs::path& file) {
+  Json rows = Json::array();
+  std::istringstream text(io::read_text_file(file.string()));
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream in(line);
+    Json row = Json::array();
+    while (in && in.peek() != EOF) row.push_back(take_field(in));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+Json describe_study(const std::string& folder) {
+  const fs::path root = folder;
+  std::error_code code;
+  check(fs::exists(root / "runs.csv", code),
+        fmt::format(
+            "{}: is a study without results. `acinus study FILE --out {} --report` writes them.",
+            folder, folder),
+        Exit::kFileError);
+  Json j{
+      {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};
+  j["runs"] = read_csv(root / "runs.csv");
+  j["verdicts"] = Json::array();
+  if (fs::exists(root / "verdicts.json", code))
+    j["verdicts"] =
+        Json::parse(io::read_text_file((root / "verdicts.json").string()), nullptr, false);
+  std::vector<fs::path> plots;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "plots", code))
+    if (entry.path().extension() == ".svg") plots.push_back(entry.path());
+  std::ranges::sort(plots);
+  j["plots"] = Json::array();
+  for (const fs::path& plot : plots)
+    j["plots"].push_back(
+        {{"name", plot.stem().string()}, {"svg", io::read_text_file(plot.string())}});
+  return j;
+}
+
+}  // namespace acinus::runs
