@@ -121,6 +121,8 @@ Json describe_events(const std::vector<io::Event>& events) {
 /// What of the scene is not as a scene that says nothing has it.
 std::vector<std::string> differences_from_defaults(const std::string& scene) {
   Scene plain;
+  const Json types = Json::parse(scene).value("cell_types", Json::object());
+  for (const auto& [name, type] : types.items()) plain.cell_types[name] = {};
   set_canonical(plain);
   return list_scene_differences(plain.resolved_json, scene,
                                 [](const std::string&) { return false; });

@@ -199,7 +199,7 @@ def pick_a_cell(browser):
             break
     else:
         raise AssertionError("no click finds a cell")
-    wait_for(browser, "document.querySelectorAll('.cell td').length > 10 && document.querySelector('.cell canvas')")
+    wait_for(browser, "document.querySelectorAll('.cell td').length > 10 && document.querySelector('.cell canvas') != null")
 
 
 def operate_rest(browser):

@@ -21,7 +21,8 @@ export class CellPanel {
     const seen = all.filter((f) => f.row.has(id));
     const curve = { label: `cell ${id}`, time: seen.map((f) => f.time), value: seen.map((f) => valueOf(field, f.table, f.row.get(id))), points: true };
     const head = make("h3", {}, `Cell ${id}`, this.runs.length > 1 ? make("span", { class: "unit" }, ` of ${name}`) : null);
-    const values = at == null ? [] : [...raw.id_columns, ...raw.columns].filter((c) => c !== "id").map((c) => {
+    const values = at == null ? [] : [...raw.id_columns, ...raw.columns].filter((c) => c !== "id" && c !== "parent").map((c) => {
+      if (c === "kind") return ["model", FIELDS.model.classes[rows.kind[at]]];
       const scale = raw.units[c] === "kPa" ? 1000 : 1;
       return [c.replaceAll("_", " "), `${number(rows[c][at] * scale)} ${scale === 1000 ? "Pa" : nice(raw.units[c] ?? "")}`];
     });

@@ -57,7 +57,7 @@ export class Model {
         this.spheres.dispose();
       }
       // Coarser where there are many: they are small on the screen then.
-      const [wide, high] = n > 2000 ? [12, 8] : [24, 16];
+      const [wide, high] = n > 2000 ? [9, 6] : [24, 16];
       this.spheres = new InstancedMesh(new SphereGeometry(1, wide, high), this.sphereMaterial, n);
       this.spheres.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * n), 3);
       this.spheres.visible = this.showSpheres !== false;

@@ -26,7 +26,7 @@ export function law(item) {
   };
   walk(l, "");
   return make("div", {}, make("div", { class: "headline" }, make("h2", {}, item.name), make("span", { class: "badge law" }, "calibrated law")),
-    make("div", { class: "plots" }, ...plots.filter((p) => p)), table(["key", "value"], rows, "The law"));
+    make("div", { class: "plots" }, ...plots.filter((p) => p)), make("h3", {}, "The law"), table(["key", "value"], rows, "The law"));
 }
 
 export function study(item) {
@@ -36,6 +36,7 @@ export function study(item) {
   const [head, ...runs] = item.runs;
   const image = (p) => make("figure", { class: "plot" }, make("img", { alt: `plot ${p.name}`, src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(p.svg)}` }));
   return make("div", {}, make("div", { class: "headline" }, make("h2", {}, item.name), make("span", { class: "badge study" }, "study")),
+    verdicts.length > 0 ? make("h3", {}, "Claims") : null,
     verdicts.length > 0 ? table(["verdict", "", "claim", "expected", "measured: mean [smallest, largest]"], verdicts, "Claims") : null,
     make("div", { class: "plots" }, ...item.plots.map(image)),
     make("details", {}, make("summary", {}, `${runs.length} runs`), table(head ?? [], runs, "Runs")));
@@ -43,8 +44,8 @@ export function study(item) {
 
 export function comparison(c, names) {
   if (c.fault) return make("p", { class: "quiet" }, `No comparison of the runs: ${c.fault}`);
-  const parts = c.runs.map((rows, k) => table(["quantity", names[0], names[k + 1], "", "difference"], rows.map((d) => [
+  const parts = c.runs.flatMap((rows, k) => [make("h3", {}, `${names[k + 1]} against ${names[0]}`), table(["quantity", names[0], names[k + 1], "", "difference"], rows.map((d) => [
     d.name, number(d.reference), number(d.value), nice(d.unit), d.difference == null ? "–" : d.absolute ? `${number(d.difference)} ${nice(d.unit)}` : `${number(+(100 * d.difference).toPrecision(3))} %`]),
-    `${names[k + 1]} against ${names[0]}`));
+    `${names[k + 1]} against ${names[0]}`)]);
   return make("div", {}, make("p", { class: "quiet" }, `${c.frames} frames from ${duration(c.from)} to ${duration(c.to)}. Means over cells and frames.`), ...parts, ...c.notes.map((n) => make("p", { class: "quiet" }, n)));
 }

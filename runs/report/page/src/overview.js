@@ -59,12 +59,28 @@ function stages(run) {
     make("span", {}, name), make("i", { style: `width:${Math.max(0.5, (100 * s) / most)}%` }), make("span", { class: "amount" }, `${duration(s)} · ${number(+((100 * s) / sum).toPrecision(2))} %`)])));
 }
 
+const plain = (value) => (value === null ? "none" : typeof value === "string" ? value : JSON.stringify(value));
+
+function valueOf(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return text; // "absent", "3 entries"
+  }
+}
+
+// Every value in a block that the defaults do not have: [key, text].
+function leaves(key, value) {
+  if (value === null || typeof value !== "object" || Array.isArray(value)) return [[key, plain(value)]];
+  return Object.entries(value).flatMap(([name, inner]) => leaves(`${key}.${name}`, inner));
+}
+
 function scene(run) {
   if (!run.differences) return null;
-  const lines = run.differences.map((d) => {
+  const lines = run.differences.flatMap((d) => {
     const colon = d.indexOf(": ");
-    const [then, now] = [d.slice(colon + 2).split(" -> ")[0], d.slice(colon + 2).split(" -> ").slice(1).join(" -> ")];
-    return [make("code", {}, d.slice(0, colon)), now || d.slice(colon + 2), now ? then : ""];
+    const [then, ...now] = d.slice(colon + 2).split(" -> ");
+    return leaves(d.slice(1, colon).replaceAll("/", "."), valueOf(now.join(" -> "))).map(([key, here]) => [make("code", {}, key), here, plain(valueOf(then))]);
   });
   return make("details", { class: "scene" }, make("summary", {}, `Scene: ${lines.length} values that are not the defaults`),
     table(["key", "here", "default"], lines, "Scene, differences from the defaults"),

@@ -36,12 +36,12 @@ export function timeUnit(longest) {
   return { name: "d", size: 86400 };
 }
 
-export function table(head, rows, caption) {
+// label: for those who hear the page
+export function table(head, rows, label) {
   const t = make("table", {});
-  if (caption) t.append(make("caption", {}, caption));
   t.append(make("thead", {}, make("tr", {}, ...head.map((h) => make("th", { scope: "col" }, h)))));
   t.append(make("tbody", {}, ...rows.map((row) => make("tr", {}, ...row.map((cell) => make("td", {}, cell instanceof Node ? cell : String(cell)))))));
-  return make("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": caption ?? "table" }, t);
+  return make("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": label }, t);
 }
 
 // micro and powers as people write them

@@ -127,7 +127,7 @@ export class Viewer {
     const size = Math.max(1, this.low.distanceTo(this.high));
     this.resize();
     const fit = 0.5 * size / Math.sin((Math.PI / 360) * this.camera.fov) / Math.min(1, this.camera.aspect);
-    this.camera.position.copy(centre).add(new Vector3(0.45, -0.8, 0.55).normalize().multiplyScalar(0.66 * fit));
+    this.camera.position.copy(centre).add(new Vector3(0.45, -0.8, 0.55).normalize().multiplyScalar(0.74 * fit));
     this.camera.near = size / 200;
     this.camera.far = size * 50;
     this.camera.updateProjectionMatrix();
