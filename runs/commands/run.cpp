@@ -42,7 +42,7 @@ int run(RunArguments& arguments) {
     return tell_how_to_go_on(stop, run.command_line, run.quiet);
   const int code = run_scene(scene, run);
   if (arguments.report) {
-    const std::string page = write_report({.what = {run.out}, .out = run.out + "/report.html", .png = ""});
+    const std::string page = write_report({.what = {run.out}, .out = run.out + "/report.html"});
     if (!run.quiet) fmt::print("report: {}\n", page);
   }
   return code;

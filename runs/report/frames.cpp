@@ -76,6 +76,7 @@ InterfaceSample sample_interface(const io::Frame& f) {
   InterfaceSample s{.time_s = f.time_s};
   const std::vector<double> force = table_column(f.interface, "force");
   const std::vector<double> gap = table_column(f.interface, "gap");
+  if (force.size() != 3 * gap.size()) return s;
   for (std::size_t k = 0; k < gap.size(); ++k) {
     const double size = std::hypot(force[3 * k], force[3 * k + 1], force[3 * k + 2]);
     if (!(size > 0)) continue;

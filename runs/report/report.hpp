@@ -9,8 +9,8 @@ namespace acinus::runs {
 
 struct ReportOptions {
   std::vector<std::string> what;  ///< run folders, law files, study folders
-  std::string out;                ///< HTML file; "" = named after the first
-  std::string png;                ///< picture of the page; "" = none
+  std::string out = "";           ///< HTML file; "" = named after the first
+  std::string png = "";           ///< picture of the page; "" = none
   int most_frames = 50;
   std::size_t bytes = 8'000'000;  ///< of the page
 };

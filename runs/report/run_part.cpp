@@ -58,8 +58,8 @@ void add_quantiles(Json& band, double time_s, std::vector<double> values) {
 std::vector<double> relative_volumes(const io::Table& cells) {
   std::vector<double> volume = table_column(cells, "volume");
   const std::vector<double> radius = table_column(cells, "radius");
-  for (std::size_t k = 0; k < volume.size() && k < radius.size(); ++k)
-    volume[k] /= sphere_volume(radius[k]);
+  if (radius.size() != volume.size()) return {};
+  for (std::size_t k = 0; k < volume.size(); ++k) volume[k] /= sphere_volume(radius[k]);
   return volume;
 }
 

@@ -125,7 +125,9 @@ export class Viewer {
     this.high = boxes.map((b) => b[1]).reduce((a, b) => a.clone().max(b));
     const centre = this.low.clone().add(this.high).multiplyScalar(0.5);
     const size = Math.max(1, this.low.distanceTo(this.high));
+    this.fittedAspect = null;
     this.resize();
+    this.fittedAspect = this.camera.aspect;
     const fit = 0.5 * size / Math.sin((Math.PI / 360) * this.camera.fov) / Math.min(1, this.camera.aspect);
     this.camera.position.copy(centre).add(new Vector3(0.45, -0.8, 0.55).normalize().multiplyScalar(0.74 * fit));
     this.camera.near = size / 200;
@@ -141,6 +143,8 @@ export class Viewer {
     const { clientWidth: w, clientHeight: h } = this.stage;
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / this.runs.length / Math.max(1, h);
+    // What fitted into the width at the last reset still does.
+    this.camera.zoom = Math.min(1, this.camera.aspect / (this.fittedAspect ?? this.camera.aspect));
     this.camera.updateProjectionMatrix();
     this.draw();
   }
