@@ -62,14 +62,14 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
                 std::vector<FadingForce>& fading) {
   const State& s = world.state;
   constexpr double kAny = std::numeric_limits<double>::infinity();
-  struct Place {
+  struct CellLimits {
     Vec3 center = Vec3::Zero();
     double radius = kAny, most_force = kAny;
   };
-  std::map<std::int64_t, Place> place{{kNoPartner, {}}};
+  std::map<std::int64_t, CellLimits> limits{{kNoPartner, {}}};
   for_each_cell(s, [&](const Cell& c) {
     const double radius = sphere_radius(volume_of(s, c).at(s.clock.time));
-    place[lineage_of(s, c)] = {center_of(s, c), radius, largest_fading(world, c, radius)};
+    limits[lineage_of(s, c)] = {center_of(s, c), radius, largest_fading(world, c, radius)};
   });
   std::set<PairForces::key_type> pairs;
   for (const PairForces* forces : {&before, &after})
@@ -77,7 +77,7 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
   const double now = s.clock.time;
   for (const auto& pair : pairs) {
     const PairForce was = force_of(before, pair), is = force_of(after, pair);
-    const Place &a = place.at(pair.first), &b = place.at(pair.second);
+    const CellLimits &a = limits.at(pair.first), &b = limits.at(pair.second);
     Vec3 missing = was.force - is.force;
     const Vec3 apart = a.center - b.center;
     if (pair.second != kNoPartner) missing = missing.dot(apart.normalized()) * apart.normalized();

@@ -20,17 +20,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Kind { kRun, kLaw, kStudy };
+enum class ItemKind { kRun, kLaw, kStudy };
 
-Kind kind_of(const std::string& path) {
+ItemKind kind_of(const std::string& path) {
   std::error_code code;
   check(fs::exists(path, code), fmt::format("{}: there is no such file or folder", path),
         Exit::kFileError);
   const auto has = [&](const char* name) { return fs::exists(fs::path(path) / name, code); };
-  if (!fs::is_directory(path, code)) return Kind::kLaw;
-  if (has("run.vtkhdf") || has("summary.json")) return Kind::kRun;
-  if (has("study.json")) return Kind::kStudy;
-  if (has("law.json")) return Kind::kLaw;
+  if (!fs::is_directory(path, code)) return ItemKind::kLaw;
+  if (has("run.vtkhdf") || has("summary.json")) return ItemKind::kRun;
+  if (has("study.json")) return ItemKind::kStudy;
+  if (has("law.json")) return ItemKind::kLaw;
   throw Error(
       fmt::format("{}: is no run (it has no run.vtkhdf), no study (no study.json) and no "
                   "calibration (no law.json). Name a folder that `acinus run`, `acinus "
@@ -53,7 +53,7 @@ std::string file_named_after(const std::string& first) {
 std::string write_report(const ReportOptions& options) {
   std::vector<std::string> folders;
   for (const std::string& path : options.what)
-    if (kind_of(path) == Kind::kRun) folders.push_back(path);
+    if (kind_of(path) == ItemKind::kRun) folders.push_back(path);
   const std::size_t page = empty_page_size();
   check(options.bytes > page + 100'000,
         fmt::format("--limit: the page without data takes {:.1f} MB. Allow more.", 1e-6 * page));
@@ -63,15 +63,15 @@ std::string write_report(const ReportOptions& options) {
   Json data{{"version", ACINUS_VERSION}, {"limit", options.bytes}, {"items", Json::array()}};
   for (const std::string& path : options.what) {
     switch (kind_of(path)) {
-      case Kind::kRun: {
+      case ItemKind::kRun: {
         RunRecord run = read_run_record(path);
         data["items"].push_back(describe_run(run, limits));
         break;
       }
-      case Kind::kLaw:
+      case ItemKind::kLaw:
         data["items"].push_back(describe_law(path));
         break;
-      case Kind::kStudy:
+      case ItemKind::kStudy:
         data["items"].push_back(describe_study(path));
     }
   }
