@@ -6,15 +6,19 @@
     run.cells(frame=-1)["pressure"]    # kPa
     run.observables()                  # what the experiment measures, over time
 
+    sim = acinus.Simulation("two_cells")  # steps a scene; needs the program, built with ACINUS_PYTHON
+    sim.run("10 min")
+
 Reading needs h5py and numpy; with pandas tables are DataFrames.
 """
-from acinus.errors import AcinusError, Damaged, NoSuchItem, NotFound
+from acinus.errors import AcinusError, BadInput, CannotContinue, Damaged, FileError, NoSuchItem, NotFound
 from acinus.frame import DEFORMABLE, NUCLEUS, SPHERE, VESSEL, Frame, Spheres
 from acinus.law import Law
 from acinus.lineage import Lineage
 from acinus.run import Run
+from acinus.simulate import Simulation, calibrate, compare, run
 from acinus.study import Study
 from acinus.tables import Table
 
-__all__ = ["AcinusError", "DEFORMABLE", "Damaged", "Frame", "Law", "Lineage", "NUCLEUS", "NoSuchItem", "NotFound", "Run",
-           "SPHERE", "Spheres", "Study", "Table", "VESSEL"]
+__all__ = ["AcinusError", "BadInput", "CannotContinue", "DEFORMABLE", "Damaged", "FileError", "Frame", "Law", "Lineage", "NUCLEUS",
+           "NoSuchItem", "NotFound", "Run", "SPHERE", "Simulation", "Spheres", "Study", "Table", "VESSEL", "calibrate", "compare", "run"]

@@ -13,6 +13,18 @@ class Damaged(AcinusError):
     """A file cannot be read although it is there: cut short, changed, or not of this program."""
 
 
+class BadInput(AcinusError, ValueError):
+    """A scene, a value or a call is wrong."""
+
+
+class FileError(AcinusError, OSError):
+    """The program could not read or write a file."""
+
+
+class CannotContinue(AcinusError, RuntimeError):
+    """A simulation could not go on; its state is the last good one."""
+
+
 class NoSuchItem(AcinusError, KeyError, IndexError):
     """A frame, cell, column or run that is not there."""
 

@@ -44,4 +44,10 @@ double next_frame_of_opening(const Scene& scene, double time) {
   return std::min(next, at(k));
 }
 
+double next_frame(const Scene& scene, double time) {
+  const double every = scene.output.every;
+  return std::min((std::floor((time + kSameTime) / every) + 1) * every,
+                  next_frame_of_opening(scene, time));
+}
+
 }  // namespace acinus::runs

@@ -13,4 +13,7 @@ double next_opening(const Scene& scene, double time);
 /// times a power of 10^(1 / after_opening) after the last one. Infinity if there is none.
 double next_frame_of_opening(const Scene& scene, double time);
 
+/// The next moment after `time` of a frame, output.every included: no step goes beyond it.
+double next_frame(const Scene& scene, double time);
+
 }  // namespace acinus::runs

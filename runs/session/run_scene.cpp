@@ -188,12 +188,7 @@ bool SceneRun::events_over() {
 }
 
 coupling::Observer SceneRun::observer() {
-  return {.next_moment =
-              [this](double time) {
-                const double every = scene_.output.every;
-                return std::min((std::floor((time + kSameTime) / every) + 1) * every,
-                                next_frame_of_opening(scene_, time));
-              },
+  return {.next_moment = [this](double time) { return next_frame(scene_, time); },
           .step =
               [this](const coupling::StepResult& step) {
                 recorder_.write_series(step);

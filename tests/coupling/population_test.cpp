@@ -56,7 +56,7 @@ State make_state(std::int64_t first_lineage = 0) {
     if (c.deformable) {
       dcm::BirthShape& b = s.dcm.birth[c.at];
       const mesh::Topology& t = *s.dcm.group[c.at / kLanes].topology;
-      b = {{1, 0, 0, 1.0 * static_cast<double>(id)}, 1.1, {}, {}};
+      b = {{1, 0, 0, 1.0 * static_cast<double>(id)}, 1.1, {}, {}, {}};
       b.edge.assign(static_cast<std::size_t>(t.n_edge), 1 + 0.01 * static_cast<double>(id));
       b.triangle.assign(static_cast<std::size_t>(t.n_triangle), 1.2);
     }

@@ -1,0 +1,144 @@
+"""Simulations driven from Python: built with `cmake -DACINUS_PYTHON=ON` (docs/python.md)."""
+import json
+import os
+
+import numpy as np
+
+from acinus.errors import AcinusError, NoSuchItem
+from acinus.law import Law
+from acinus.run import Run
+from acinus.tables import make_table
+
+SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
+UNITS = {"center_x": "um", "center_y": "um", "center_z": "um", "radius": "um", "volume": "um^3", "area": "um^2", "contact_area": "um^2",
+         "pressure": "kPa", "cytosol_pressure": "kPa", "contact_force": "nN", "normal_force": "nN", "migration_force": "nN"}
+
+
+def _native():
+    try:
+        from acinus import _native as native
+    except ImportError as error:
+        raise AcinusError(f"this package was installed without the simulator, which only reads runs ({error}). Build it with "
+                          "cmake --preset release -DACINUS_PYTHON=ON && cmake --build build, and put build/python into PYTHONPATH.") from error
+    return native
+
+
+def _changes(changes):
+    """{"time.end": "2 h", "cells.count": 8} as the program's --set has them."""
+    return [f"{key}={value if isinstance(value, str) else json.dumps(value)}" for key, value in (changes or {}).items()]
+
+
+def seconds(time):
+    """A time in s, or a text like "2 h"."""
+    if not isinstance(time, str):
+        return float(time)
+    number, _, unit = time.strip().partition(" ")
+    if unit.strip() not in SECONDS:
+        raise AcinusError(f'"{time}": a time is a number of s, or a text like "2 h" (s, min, h, d)')
+    return float(number) * SECONDS[unit.strip()]
+
+
+class Simulation:
+    """A scene that is stepped, looked at and changed from Python.
+
+        sim = acinus.Simulation("lobule_hybrid", {"start_up.growth_time": "30 min"})
+        sim.run("1 h")
+        sim.cells()["pressure"]
+
+    Lengths um, times s, forces nN, stresses kPa. Not for several threads at once.
+    """
+
+    def __init__(self, scene, set=None, threads=1):
+        """scene: a file or the name of a shipped scene; set: key -> value. Raises BadInput, FileError."""
+        self._sim = _native().Simulation(os.fspath(scene), _changes(set), threads)
+
+    def __repr__(self):
+        return f"<simulation of {self._sim.name}: {self._sim.n_cell} cells at t = {self.time:g} s>"
+
+    def run(self, until=None):
+        """To a time since t = 0 (s, or "2 h"; the scene's end where nothing is said), through start-up.
+
+        As `acinus run` steps, so the same bits at its end and at times of frames. Raises CannotContinue if a step
+        cannot be accepted; the state is then the last good one. Ctrl-C ends it after a whole step.
+        """
+        self._sim.run_until(self.end if until is None else seconds(until))
+
+    def step(self):
+        """One accepted step with what happens after it; returns its length, s."""
+        self._sim.step()
+        return self._sim.last_step
+
+    time = property(lambda self: self._sim.time, doc="s since t = 0; negative during start-up")
+    end = property(lambda self: self._sim.end, doc="s, of the scene")
+    steps = property(lambda self: self._sim.steps, doc="accepted so far, start-up included")
+    state_hash = property(lambda self: f"{self._sim.hash:016x}", doc="as in summary.json: equal bits give equal hashes")
+    scene = property(lambda self: json.loads(self._sim.scene_text), doc="the scene with every default filled in")
+    cell_types = property(lambda self: self._sim.type_names, doc="names, by number")
+
+    def __len__(self):
+        """Number of cells."""
+        return self._sim.n_cell
+
+    def cells(self):
+        """One row per cell, as run.cells(frame) has them; takes an assembly of all forces."""
+        return make_table(self._sim.cells(), UNITS)
+
+    def nodes(self, cell):
+        """(n, 3) um, a view of a deformable cell's surface without a copy: read-only. It shows the moment it was taken in
+        also after the simulation went on."""
+        return self._item(self._sim.nodes, cell)
+
+    def triangles(self, cell):
+        """(t, 3) corners as rows of nodes(cell)."""
+        return self._item(self._sim.triangles, cell)
+
+    def spheres(self):
+        """ids (n,) and centres (n, 3) um of the spheres; a copy."""
+        ids = np.asarray(self._sim.sphere_ids, dtype=np.int64)
+        return ids, self.sphere_rows().reshape(-1, 3)[:len(ids)]
+
+    def sphere_rows(self):
+        """(rows, 8, 3) um without a copy: sphere k is [k // 8, k % 8]."""
+        return self._sim.sphere_rows()
+
+    def move(self, cell, points):
+        """Puts the nodes of a deformable cell, or the centre of a sphere, elsewhere: (n, 3) um."""
+        self._item(self._sim.move, cell, np.atleast_2d(np.asarray(points, dtype=float)))
+
+    def pull(self, cell, force):
+        """A constant load on a cell, (3,) nN; zero ends it."""
+        self._item(self._sim.pull, cell, [float(f) for f in force])
+
+    def _item(self, call, cell, *arguments):
+        try:
+            return call(int(cell), *arguments)
+        except AcinusError as error:
+            raise (NoSuchItem(str(error)) if str(error).startswith("there is no") else error) from None
+
+
+def run(scene, out, set=None, threads=1, overwrite=False, resume=False):
+    """`acinus run`: simulates a scene into a run folder. Returns the acinus.Run; status tells how it ended."""
+    _native().run(os.fspath(scene), os.fspath(out), _changes(set), threads, overwrite, resume)
+    return Run(out)
+
+
+def calibrate(scene, out, set=None, cells=0, relaxation=True, threads=1):
+    """`acinus calibrate`: the law that makes spheres push as deformable cells do. Takes minutes; returns acinus.Law."""
+    code = _native().calibrate(os.fspath(scene), os.fspath(out), _changes(set), cells, relaxation, threads)
+    if code == 75:
+        raise KeyboardInterrupt
+    if code != 0:
+        raise AcinusError(f"{out}: calibration ended with exit code {code}")
+    return Law(out)
+
+
+def compare(*runs):
+    """`acinus compare`: how runs differ from the first one, one row per run and quantity.
+
+    runs: run folders or acinus.Run. difference is relative unless absolute is True.
+    """
+    folders = [r.folder if isinstance(r, Run) else os.fspath(r) for r in runs]
+    rows = _native().compare(folders)
+    names = ("run", "quantity", "unit", "reference", "value", "difference", "absolute")
+    columns = {name: np.array([row[k] for row in rows], dtype=object if k < 3 else bool if k == 6 else float) for k, name in enumerate(names)}
+    return make_table(columns, {})

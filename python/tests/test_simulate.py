@@ -1,0 +1,134 @@
+"""Simulations driven from Python are those of the command line, bit for bit.
+
+usage: ACINUS=build/acinus PYTHONPATH=build/python python3 python/tests/test_simulate.py
+"""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import acinus
+
+PROGRAM = os.environ["ACINUS"]
+
+
+def state_hash_of_program(scene, changes, folder):
+    words = [PROGRAM, "run", scene, "--threads", "1", "--quiet", "--out", folder]
+    for key, value in changes.items():
+        words += ["--set", f"{key}={value}"]
+    subprocess.run(words, check=True)
+    return json.loads((pathlib.Path(folder) / "summary.json").read_text())["state_hash"]
+
+
+class SameBits(unittest.TestCase):
+    def check_scene(self, scene, changes):
+        with tempfile.TemporaryDirectory() as folder:
+            expected = state_hash_of_program(scene, changes, folder + "/run")
+            sim = acinus.Simulation(scene, changes)
+            sim.run()
+            self.assertEqual(sim.state_hash, expected)
+            self.assertEqual(sim.time, sim.end)
+
+    def test_hybrid(self):
+        self.check_scene("lobule_hybrid", {"start_up.growth_time": "30 min", "time.end": "20 min", "output.every": "10 min"})
+
+    def test_growing_cells(self):
+        self.check_scene("spheroid", {"time.end": "30 h"})
+
+    def test_looking_changes_nothing(self):
+        a, b = (acinus.Simulation("two_cells", {"time.end": "10 min"}) for _ in range(2))
+        a.run()
+        held = []
+        while b.time < b.end - 1e-6:
+            b.step()
+            b.cells()
+            held.append(b.nodes(0))
+        self.assertEqual(a.state_hash, b.state_hash)
+        self.assertEqual(a.steps, b.steps)
+        self.assertGreater(np.abs(held[0] - held[-1]).max(), 0)  # each shows its own moment
+
+
+class Looking(unittest.TestCase):
+    def setUp(self):
+        self.sim = acinus.Simulation("lobule_hybrid", {"start_up.growth_time": "30 min", "time.end": "10 min"})
+
+    def test_arrays_are_those_of_the_state(self):
+        cells = self.sim.cells()
+        ids, centres = self.sim.spheres()
+        self.assertEqual(len(self.sim), len(cells["id"]))
+        sphere = np.asarray(cells["kind"]) == acinus.SPHERE
+        order = {c: k for k, c in enumerate(ids)}
+        rows = [order[c] for c in np.asarray(cells["id"])[sphere]]
+        np.testing.assert_array_equal(centres[rows, 0], np.asarray(cells["center_x"])[sphere])
+        cell = int(np.asarray(cells["id"])[~sphere][0])
+        nodes, triangles = self.sim.nodes(cell), self.sim.triangles(cell)
+        volume = np.linalg.det(nodes[triangles]).sum() / 6
+        row = list(cells["id"]).index(cell)
+        self.assertAlmostEqual(volume / np.asarray(cells["volume"])[row], 1, places=12)
+        self.assertFalse(nodes.flags.writeable)
+        self.assertFalse(nodes.flags.owndata)
+
+    def test_views_outlive_steps_and_the_simulation(self):
+        cells = self.sim.cells()
+        cell = int(np.asarray(cells["id"])[np.asarray(cells["kind"]) == acinus.DEFORMABLE][0])
+        nodes = self.sim.nodes(cell)
+        before = nodes.copy()
+        self.sim.step()
+        np.testing.assert_array_equal(nodes, before)
+        self.assertGreater(np.abs(self.sim.nodes(cell) - before).max(), 0)
+        del self.sim
+        np.testing.assert_array_equal(nodes, before)
+
+
+class Changing(unittest.TestCase):
+    def test_a_moved_cell_is_where_it_was_put(self):
+        sim = acinus.Simulation("two_cells", {"time.end": "10 min"})
+        nodes = sim.nodes(1)
+        sim.move(1, nodes + [300, 0, 0])
+        np.testing.assert_allclose(sim.nodes(1), nodes + [300, 0, 0], rtol=0, atol=1e-12)
+        sim.run()
+        self.assertEqual(sim.cells()["contacts"][0], 0)
+
+    def test_a_pulled_cell_moves_along(self):
+        sim = acinus.Simulation("two_cells", {"time.end": "10 min"})
+        start = np.asarray(sim.cells()["center_y"])[0]
+        sim.pull(0, [0, 5, 0])
+        sim.run()
+        self.assertGreater(np.asarray(sim.cells()["center_y"])[0], start + 0.05)
+
+
+class Programs(unittest.TestCase):
+    def test_run_and_compare(self):
+        with tempfile.TemporaryDirectory() as folder:
+            runs = [acinus.run("two_cells", f"{folder}/{k}.run", {"time.end": "10 min", "output.every": "5 min", "seed": k}) for k in (1, 2)]
+            self.assertEqual(runs[0].status, "completed")
+            table = acinus.compare(*runs)
+            self.assertIn("pressure", list(table["quantity"]))
+            with self.assertRaises(acinus.BadInput):
+                acinus.run("two_cells", runs[0].folder)  # holds results
+
+    def test_errors_say_what_to_do(self):
+        with self.assertRaises(acinus.FileError) as caught:
+            acinus.Simulation("two_cels")
+        self.assertIn("two_cells", str(caught.exception))
+        with self.assertRaises(acinus.BadInput) as caught:
+            acinus.Simulation("two_cells", {"time.end": "10 um"})
+        self.assertIn("time", str(caught.exception))
+        sim = acinus.Simulation("two_cells")
+        for call in (lambda: sim.nodes(99), lambda: sim.pull(99, [0, 0, 0])):
+            with self.assertRaises(acinus.NoSuchItem):
+                call()
+        with self.assertRaises(acinus.BadInput):
+            sim.move(0, np.zeros((3, 3)))
+        with self.assertRaises(acinus.BadInput):
+            sim.move(0, np.full(sim.nodes(0).shape, np.nan))
+        with self.assertRaises(acinus.AcinusError):
+            sim.run("2 parsecs")
+
+
+if __name__ == "__main__":
+    unittest.main()
