@@ -9,11 +9,13 @@ usage: ./acinus.sh COMMAND [ARGUMENT...]
   test [CTEST ARGUMENT...]  build everything and run the test suite without the tests labelled slow;
                             labels of your own, as in `test -L slow`, replace that choice
   build                     build everything, run nothing
+  python [test]             build the Python module beside the build folder and say how to use it,
+                            or run its tests and the notebooks
   packages                  install missing Debian packages, nothing else
   help                      this text
   anything else             build the program and hand all arguments to it, in the folder you are
                             in: run, check, schema, explain, list, new, calibrate, compare,
-                            study, bench (`./acinus.sh --help` says more)
+                            report, study, bench (`./acinus.sh --help` says more)
 
 Missing packages of packages.txt are installed by apt-get, as root or through sudo.
 Environment: ACINUS_JOBS               compile jobs (default: number of processors)
@@ -36,6 +38,7 @@ here=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")" && pwd -P)
 # ---- folders and the lock -------------------------------------------------------------------
 
 # build/ beside the script; a checkout that cannot be written gets a folder of its own in the cache.
+preset=release
 choose_build_dir() {
   local checksum
   if [[ -n ${ACINUS_BUILD_DIR:-} ]]; then
@@ -46,6 +49,8 @@ choose_build_dir() {
     checksum=$(printf '%s' "$here" | cksum)
     build=${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/acinus/build-${checksum%% *}
   fi
+  # A library's code is compiled otherwise than a program's.
+  [[ $preset != python ]] || build=${build%/}-python
   mkdir -p -- "$build" || die "cannot make the build folder $build; set ACINUS_BUILD_DIR"
   build=$(cd -- "$build" && pwd -P)
   log=$build/build.log
@@ -175,7 +180,7 @@ build_targets() {
   if ! is_configured; then
     say "configuring in $build"
     start_log
-    (cd -- "$here" && cmake --fresh --preset release -B "$build") >>"$log" 2>&1 </dev/null ||
+    (cd -- "$here" && cmake --fresh --preset "$preset" -B "$build") >>"$log" 2>&1 </dev/null ||
       show_log_and_die "cmake failed"
   fi
   # Captured first: with pipefail, a pipe into grep -q would fail when ninja is cut short.
@@ -214,6 +219,16 @@ case ${1:-help} in
     done
     prepare all
     exec ctest --test-dir "$build" --output-on-failure "${labels[@]}" "$@"
+    ;;
+  python)
+    preset=python
+    if [[ ${2:-} == test ]]; then
+      prepare acinus acinus_python
+      exec ctest --test-dir "$build" --output-on-failure -R '^python_(simulation|notebooks)$'
+    fi
+    [[ $# -eq 1 ]] || die "python takes nothing or the word test"
+    prepare acinus_python
+    printf 'export PYTHONPATH=%q\n' "$build/python"
     ;;
   bench)
     prepare acinus acinus-bench

@@ -6,7 +6,7 @@
     run.cells(frame=-1)["pressure"]    # kPa
     run.observables()                  # what the experiment measures, over time
 
-    sim = acinus.Simulation("two_cells")  # steps a scene; needs the program, built with ACINUS_PYTHON
+    sim = acinus.Simulation("two_cells")  # steps a scene; needs what `./acinus.sh python` builds
     sim.run("10 min")
 
 Reading needs h5py and numpy; with pandas tables are DataFrames.
@@ -16,9 +16,9 @@ from acinus.frame import DEFORMABLE, NUCLEUS, SPHERE, VESSEL, Frame, Spheres
 from acinus.law import Law
 from acinus.lineage import Lineage
 from acinus.run import Run
-from acinus.simulate import Simulation, calibrate, compare, run
+from acinus.simulation import Simulation, calibrate, compare, simulate
 from acinus.study import Study
 from acinus.tables import Table
 
 __all__ = ["AcinusError", "BadInput", "CannotContinue", "DEFORMABLE", "Damaged", "FileError", "Frame", "Law", "Lineage", "NUCLEUS",
-           "NoSuchItem", "NotFound", "Run", "SPHERE", "Simulation", "Spheres", "Study", "Table", "VESSEL", "calibrate", "compare", "run"]
+           "NoSuchItem", "NotFound", "Run", "SPHERE", "Simulation", "Spheres", "Study", "Table", "VESSEL", "calibrate", "compare", "simulate"]

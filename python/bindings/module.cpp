@@ -44,7 +44,7 @@ py::array view(const std::vector<py::ssize_t>& shape, const std::vector<py::ssiz
                           [](void* p) { delete static_cast<std::shared_ptr<const Loan>*>(p); });
   py::array_t<double> array(shape, strides, data, owner);
   array.attr("flags").attr("writeable") = false;
-  return std::move(array);
+  return array;
 }
 
 constexpr py::ssize_t kNumber = sizeof(double);
@@ -80,7 +80,7 @@ py::array triangles_of(Simulation& simulation, std::int64_t cell) {
     auto out = corner.mutable_unchecked<2>();
     for (std::size_t t = 0; t < triangle.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) out(t, k) = triangle[t][k];
-    return std::move(corner);
+    return corner;
   }
   throw Error("there is no deformable cell " + std::to_string(cell) + " now");
 }
@@ -90,7 +90,7 @@ py::array column(const std::vector<coupling::CellMeasure>& cells, Get get) {
   using Value = decltype(get(cells[0]));
   py::array_t<Value> values(static_cast<py::ssize_t>(cells.size()));
   for (std::size_t k = 0; k < cells.size(); ++k) values.mutable_at(k) = get(cells[k]);
-  return std::move(values);
+  return values;
 }
 
 /// Columns of the run file's table /cells.
@@ -131,7 +131,7 @@ int run(const std::string& scene_name, const std::string& out, const std::vector
   options.resume = resume;
   options.quiet = true;
   options.is_part = true;
-  options.command_line = "acinus.run of Python";
+  options.command_line = "acinus.simulate of Python";
   runs::Scene scene = runs::read_scene(runs::find_scene_file(scene_name), set);
   runs::check_folder(options.out, options);
   if (const int stop = runs::resolve_corrections(scene, threads, true)) return stop;

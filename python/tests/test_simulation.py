@@ -1,6 +1,6 @@
 """Simulations driven from Python are those of the command line, bit for bit.
 
-usage: ACINUS=build/acinus PYTHONPATH=build/python python3 python/tests/test_simulate.py
+usage: ACINUS=build/acinus PYTHONPATH=build-python/python python3 python/tests/test_simulation.py
 """
 import json
 import os
@@ -104,12 +104,12 @@ class Changing(unittest.TestCase):
 class Programs(unittest.TestCase):
     def test_run_and_compare(self):
         with tempfile.TemporaryDirectory() as folder:
-            runs = [acinus.run("two_cells", f"{folder}/{k}.run", {"time.end": "10 min", "output.every": "5 min", "seed": k}) for k in (1, 2)]
+            runs = [acinus.simulate("two_cells", f"{folder}/{k}.run", {"time.end": "10 min", "output.every": "5 min", "seed": k}) for k in (1, 2)]
             self.assertEqual(runs[0].status, "completed")
             table = acinus.compare(*runs)
             self.assertIn("pressure", list(table["quantity"]))
             with self.assertRaises(acinus.BadInput):
-                acinus.run("two_cells", runs[0].folder)  # holds results
+                acinus.simulate("two_cells", runs[0].folder)  # holds results
 
     def test_errors_say_what_to_do(self):
         with self.assertRaises(acinus.FileError) as caught:

@@ -1,4 +1,4 @@
-"""Simulations driven from Python: built with `cmake -DACINUS_PYTHON=ON` (docs/python.md)."""
+"""Simulations driven from Python: the module that `./acinus.sh python` builds (docs/python.md)."""
 import json
 import os
 
@@ -18,8 +18,8 @@ def _native():
     try:
         from acinus import _native as native
     except ImportError as error:
-        raise AcinusError(f"this package was installed without the simulator, which only reads runs ({error}). Build it with "
-                          "cmake --preset release -DACINUS_PYTHON=ON && cmake --build build, and put build/python into PYTHONPATH.") from error
+        raise AcinusError(f"this package was installed without the simulator, which only reads runs ({error}). In "
+                          "the source folder `./acinus.sh python` builds it and says what to put into PYTHONPATH.") from error
     return native
 
 
@@ -116,7 +116,7 @@ class Simulation:
             raise (NoSuchItem(str(error)) if str(error).startswith("there is no") else error) from None
 
 
-def run(scene, out, set=None, threads=1, overwrite=False, resume=False):
+def simulate(scene, out, set=None, threads=1, overwrite=False, resume=False):
     """`acinus run`: simulates a scene into a run folder. Returns the acinus.Run; status tells how it ended."""
     _native().run(os.fspath(scene), os.fspath(out), _changes(set), threads, overwrite, resume)
     return Run(out)
