@@ -4,7 +4,7 @@ add_library(acinus::flags ALIAS acinus_flags)
 target_compile_features(acinus_flags INTERFACE cxx_std_20)
 target_include_directories(acinus_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
 # A Python module is a shared library. Hidden, so that its functions are called and inlined as in the program.
-if(ACINUS_PYTHON)
+if(ACINUS_BINDINGS)
   set(CMAKE_POSITION_INDEPENDENT_CODE ON)
   set(CMAKE_CXX_VISIBILITY_PRESET hidden)
   set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
