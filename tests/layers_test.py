@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 # A folder includes only folders on floors below its own, and itself.
-FLOORS = {"bench": 6, "runs": 5, "calibration": 4, "coupling": 3, "dcm": 2, "cbm": 2, "core": 1}
+FLOORS = {"bench": 6, "python": 6, "runs": 5, "calibration": 4, "coupling": 3, "dcm": 2, "cbm": 2, "core": 1}
 # The rooms of a folder, lowest first; "" are the files directly in it. A room includes only those before it.
 ROOMS = {
     "coupling": ("generate", "world", "step", "measure", "subworld", "sleep", "zoom", "life", ""),

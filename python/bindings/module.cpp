@@ -6,7 +6,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
-#include "python/bindings/simulation.hpp"
+#include "python/bindings/stepped_scene.hpp"
 #include "runs/calibrate/calibrate.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/compare/compare.hpp"
@@ -50,7 +50,7 @@ py::array view(const std::vector<py::ssize_t>& shape, const std::vector<py::ssiz
 constexpr py::ssize_t kNumber = sizeof(double);
 
 /// (n_node, 3) um of a deformable cell.
-py::array nodes_of(Simulation& simulation, std::int64_t cell) {
+py::array nodes_of(SteppedScene& simulation, std::int64_t cell) {
   const dcm::State& s = simulation.state().dcm;
   for (std::size_t lane = 0; lane < s.n_lane(); ++lane) {
     if (s.lineage[lane] != cell) continue;
@@ -63,7 +63,7 @@ py::array nodes_of(Simulation& simulation, std::int64_t cell) {
 }
 
 /// (n_row, 8, 3) um: sphere k is [k / 8, k % 8]; the places after the last one are unused.
-py::array rows_of_spheres(Simulation& simulation) {
+py::array rows_of_spheres(SteppedScene& simulation) {
   const cbm::State& s = simulation.state().cbm;
   return view({static_cast<py::ssize_t>(s.n_row()), static_cast<py::ssize_t>(kLanes), 3},
               {kPointStride * kNumber, kNumber, kLanes * kNumber}, s.position.data(),
@@ -71,7 +71,7 @@ py::array rows_of_spheres(Simulation& simulation) {
 }
 
 /// (n_triangle, 3): corners as numbers of nodes.
-py::array triangles_of(Simulation& simulation, std::int64_t cell) {
+py::array triangles_of(SteppedScene& simulation, std::int64_t cell) {
   const dcm::State& s = simulation.state().dcm;
   for (std::size_t lane = 0; lane < s.n_lane(); ++lane) {
     if (s.lineage[lane] != cell) continue;
@@ -94,7 +94,7 @@ py::array column(const std::vector<coupling::CellMeasure>& cells, Get get) {
 }
 
 /// Columns of the run file's table /cells.
-py::dict cells_of(Simulation& simulation) {
+py::dict cells_of(SteppedScene& simulation) {
   using Measure = coupling::CellMeasure;
   const std::vector<Measure> cells = simulation.measure();
   py::dict t;
@@ -163,10 +163,10 @@ py::list compare(const std::vector<std::string>& folders) {
 using Release = py::call_guard<py::gil_scoped_release>;
 
 void bind_simulation(py::module_& m) {
-  py::class_<Simulation>(m, "Simulation")
+  py::class_<SteppedScene>(m, "Simulation")
       .def(py::init<const std::string&, const std::vector<std::string>&, int>(), Release())
       .def("run_until",
-           [](Simulation& s, double end) {
+           [](SteppedScene& s, double end) {
              const bool went_on = [&] {
                const py::gil_scoped_release release;
                return s.run_until(end);
@@ -174,34 +174,35 @@ void bind_simulation(py::module_& m) {
              check_interrupt(went_on);
            })
       .def("step",
-           [](Simulation& s) {
+           [](SteppedScene& s) {
              const bool went_on = [&] {
                const py::gil_scoped_release release;
                return s.step();
              }();
              check_interrupt(went_on);
            })
-      .def_property_readonly("time", &Simulation::time)
-      .def_property_readonly("is_running", &Simulation::is_running)
-      .def_property_readonly("end", [](const Simulation& s) { return s.scene().time.end; })
-      .def_property_readonly("name", [](const Simulation& s) { return s.scene().name; })
+      .def_property_readonly("time", &SteppedScene::time)
+      .def_property_readonly("is_running", &SteppedScene::is_running)
+      .def_property_readonly("end", [](const SteppedScene& s) { return s.scene().time.end; })
+      .def_property_readonly("name", [](const SteppedScene& s) { return s.scene().name; })
       .def_property_readonly("scene_text",
-                             [](const Simulation& s) { return s.scene().resolved_json; })
-      .def_property_readonly("steps", [](const Simulation& s) { return s.state().clock.accepted; })
+                             [](const SteppedScene& s) { return s.scene().resolved_json; })
+      .def_property_readonly("steps",
+                             [](const SteppedScene& s) { return s.state().clock.accepted; })
       .def_property_readonly("last_step",
-                             [](const Simulation& s) { return s.state().clock.last_step; })
+                             [](const SteppedScene& s) { return s.state().clock.last_step; })
       .def_property_readonly("n_cell",
-                             [](const Simulation& s) { return coupling::count_cells(s.state()); })
-      .def_property_readonly("type_names", &Simulation::type_names)
-      .def_property_readonly("hash", &Simulation::hash)
+                             [](const SteppedScene& s) { return coupling::count_cells(s.state()); })
+      .def_property_readonly("type_names", &SteppedScene::type_names)
+      .def_property_readonly("hash", &SteppedScene::hash)
       .def("cells", &cells_of)
       .def("nodes", &nodes_of)
       .def("triangles", &triangles_of)
       .def("sphere_rows", &rows_of_spheres)
       .def_property_readonly("sphere_ids",
-                             [](const Simulation& s) { return s.state().cbm.lineage; })
+                             [](const SteppedScene& s) { return s.state().cbm.lineage; })
       .def("move",
-           [](Simulation& s, std::int64_t cell,
+           [](SteppedScene& s, std::int64_t cell,
               const py::array_t<double, py::array::c_style | py::array::forcecast>& point) {
              check(point.ndim() == 2 && point.shape(1) == 3, "points have the shape (n, 3)");
              std::vector<Vec3> x;
@@ -209,7 +210,7 @@ void bind_simulation(py::module_& m) {
                x.emplace_back(point.at(k, 0), point.at(k, 1), point.at(k, 2));
              s.move(cell, x);
            })
-      .def("pull", [](Simulation& s, std::int64_t cell, const std::array<double, 3>& force) {
+      .def("pull", [](SteppedScene& s, std::int64_t cell, const std::array<double, 3>& force) {
         s.set_pull(cell, Vec3(force[0], force[1], force[2]));
       });
 }

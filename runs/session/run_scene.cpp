@@ -288,9 +288,12 @@ int SceneRun::go() {
   if (code == 0) {
     progress_.note(fmt::format("completed {:.4g} h in {:.1f} s; results in {}", time() / 3600,
                                recorder_.wall_s(), options_.out));
-    progress_.note(
-        "to look at it: ParaView 5.12 or newer opens run.vtkhdf; older ones open run.xmf with "
-        "\"XDMF Reader\"");
+    if (!options_.is_part)
+      progress_.note(
+          fmt::format("to look at it: acinus report {} makes a page for the browser; "
+                      "ParaView 5.12 or newer opens run.vtkhdf, older ones run.xmf with "
+                      "\"XDMF Reader\"",
+                      quote_for_shell(options_.out)));
   }
   if (options_.timings)
     for (const StageTime& stage : simulation_.work().timings.stages())

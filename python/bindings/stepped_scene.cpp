@@ -1,4 +1,4 @@
-#include "python/bindings/simulation.hpp"
+#include "python/bindings/stepped_scene.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,15 +50,16 @@ coupling::Cell find_cell(const coupling::State& s, std::int64_t lineage) {
 
 }  // namespace
 
-Simulation::Simulation(const std::string& scene, const std::vector<std::string>& set, int threads)
+SteppedScene::SteppedScene(const std::string& scene, const std::vector<std::string>& set,
+                           int threads)
     : scene_(read(scene, set, threads)),
       threads_(threads > 0 ? threads : processor_count()),
       simulation_(build(scene_, type_names_)) {}
 
-bool Simulation::run_until(double end) { return advance(end, false); }
-bool Simulation::step() { return advance(std::numeric_limits<double>::infinity(), true); }
+bool SteppedScene::run_until(double end) { return advance(end, false); }
+bool SteppedScene::step() { return advance(std::numeric_limits<double>::infinity(), true); }
 
-bool Simulation::advance(double end, bool once) {
+bool SteppedScene::advance(double end, bool once) {
   set_threads(threads_);
   const StopSignals signals;
   take_back();
@@ -76,21 +77,21 @@ bool Simulation::advance(double end, bool once) {
   return true;
 }
 
-std::uint64_t Simulation::hash() const { return coupling::hash_state(state()); }
+std::uint64_t SteppedScene::hash() const { return coupling::hash_state(state()); }
 
-std::vector<coupling::CellMeasure> Simulation::measure() {
+std::vector<coupling::CellMeasure> SteppedScene::measure() {
   set_threads(threads_);
   coupling::observe(simulation_.world(), simulation_.work());
   return coupling::measure_cells(simulation_.world(), simulation_.work());
 }
 
-std::shared_ptr<const Loan> Simulation::lend_positions() {
+std::shared_ptr<const Loan> SteppedScene::lend_positions() {
   if (!loan_) loan_ = std::make_shared<Loan>();
   return loan_;
 }
 
 /// Moving a vector leaves its numbers where they are: borrowers do not notice.
-void Simulation::take_back() {
+void SteppedScene::take_back() {
   if (loan_.use_count() > 1) {
     coupling::State& s = simulation_.world().state;
     std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
@@ -100,7 +101,7 @@ void Simulation::take_back() {
   loan_.reset();
 }
 
-void Simulation::move(std::int64_t lineage, const std::vector<Vec3>& point) {
+void SteppedScene::move(std::int64_t lineage, const std::vector<Vec3>& point) {
   coupling::State& s = simulation_.world().state;
   const coupling::Cell c = find_cell(s, lineage);
   const std::size_t n = c.deformable ? s.dcm.group[c.at / kLanes].topology->n_node : 1;
@@ -117,7 +118,7 @@ void Simulation::move(std::int64_t lineage, const std::vector<Vec3>& point) {
   simulation_.resize();
 }
 
-void Simulation::set_pull(std::int64_t lineage, const Vec3& force) {
+void SteppedScene::set_pull(std::int64_t lineage, const Vec3& force) {
   coupling::State& s = simulation_.world().state;
   const coupling::Cell c = find_cell(s, lineage);
   check(is_finite(force), fmt::format("pull on cell {}: is not finite", lineage));

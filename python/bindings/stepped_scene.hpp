@@ -18,12 +18,12 @@ struct Loan {
   std::vector<double> dcm, cbm;  ///< empty while the simulation still uses them itself
 };
 
-class Simulation {
+class SteppedScene {
  public:
   /// @param scene    a file, or the name of a shipped scene
   /// @param set      PATH=VALUE each
   /// @throws Error   as `acinus run`
-  Simulation(const std::string& scene, const std::vector<std::string>& set, int threads);
+  SteppedScene(const std::string& scene, const std::vector<std::string>& set, int threads);
 
   /// Steps until `end`, s since t = 0, as `acinus run` does: with the same moments at which steps
   /// end, so with the same bits where it is called with the end of the scene or with times of
