@@ -70,6 +70,7 @@ Command add_list(CLI::App& app);
 Command add_new(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_run(CLI::App& app, const std::string& command_line);
+Command add_serve(CLI::App& app);
 Command add_schema(CLI::App& app);
 Command add_study(CLI::App& app);
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "runs/report/page_assets.hpp"
+#include "runs/page/page_assets.hpp"
 
 namespace acinus::runs {
 namespace {

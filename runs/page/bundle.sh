@@ -10,11 +10,13 @@ if [[ ${1-} == --check ]]; then
   trap 'rm -rf -- "$out"' EXIT
 fi
 [[ -d node_modules ]] || npm ci --no-audit --no-fund --silent
-npx esbuild src/main.js --bundle --minify --format=iife --target=chrome100,firefox113,safari16.4 --legal-comments=none \
-  --log-level=warning --outfile="$out/page.min.js"
-npx esbuild src/page.css --bundle --minify --log-level=warning --outfile="$out/page.min.css"
+for page in report service; do
+  npx esbuild src/$page.js --bundle --minify --format=iife --target=chrome100,firefox113,safari16.4 --legal-comments=none \
+    --log-level=warning --outfile="$out/$page.min.js"
+  npx esbuild src/$page.css --bundle --minify --log-level=warning --outfile="$out/$page.min.css"
+done
 {
-  echo "This page contains three.js and uPlot."
+  echo "These pages contain three.js and uPlot."
   for package in three uplot; do
     printf '\n%s %s\n\n' "$package" "$(node -p "require('./node_modules/$package/package.json').version")"
     cat "node_modules/$package/LICENSE"

@@ -1,7 +1,8 @@
-# What report/page/bundle.sh made, as texts in the program: to build it needs no browser tools.
-set(page ${CMAKE_CURRENT_SOURCE_DIR}/report/page)
-set(assets "#include \"runs/report/page_assets.hpp\"\nnamespace acinus::runs {\n")
-foreach(asset kPageScript=bundle/page.min.js kPageStyle=bundle/page.min.css kPageBody=body.html kPageLicences=bundle/licences.txt)
+# The pages for browsers as texts in the program: what bundle.sh made, so that building it needs no browser tools.
+set(page ${CMAKE_CURRENT_SOURCE_DIR}/page)
+set(assets "#include \"runs/page/page_assets.hpp\"\nnamespace acinus::runs {\n")
+foreach(asset kPageScript=bundle/report.min.js kPageStyle=bundle/report.min.css kPageBody=report.html kPageLicences=bundle/licences.txt
+        kServiceScript=bundle/service.min.js kServiceStyle=bundle/service.min.css kServicePage=service.html kLoginPage=login.html)
   string(REPLACE "=" ";" asset ${asset})
   list(GET asset 0 name)
   list(GET asset 1 file)

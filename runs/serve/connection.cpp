@@ -1,0 +1,194 @@
+#include "runs/serve/connection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/file_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+namespace acinus::runs {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+constexpr auto kPatience = std::chrono::seconds(30);  ///< with a client that sends or takes slowly
+constexpr auto kEventPoll = std::chrono::milliseconds(500);
+constexpr std::uint32_t kMostHeader = 16384;      ///< bytes
+constexpr std::uint64_t kMostStrangeBody = 4096;  ///< bytes, of whom nothing is known
+
+HttpRequest take_head(const http::request_header<>& head) {
+  HttpRequest request;
+  request.method = std::string(head.method_string());
+  request.path = split_target({head.target().data(), head.target().size()});
+  for (const auto& field : head) {
+    std::string name(field.name_string());
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    request.headers[name] = std::string(field.value());
+  }
+  return request;
+}
+
+template <class Body>
+http::response<Body> make_head(const HttpReply& reply, bool keep_alive) {
+  http::response<Body> head{static_cast<http::status>(reply.status), 11};
+  head.set(http::field::content_type, reply.type);
+  head.set(http::field::cache_control, "no-store");
+  head.set("X-Content-Type-Options", "nosniff");
+  head.set("Referrer-Policy", "no-referrer");
+  head.set("Cross-Origin-Resource-Policy", "same-origin");
+  for (const auto& [name, value] : reply.headers) head.insert(name, value);
+  head.keep_alive(keep_alive);
+  return head;
+}
+
+class Connection {
+ public:
+  Connection(asio::ip::tcp::socket socket, Routes& routes, const ServeOptions& options)
+      : stream_(std::move(socket)), routes_(routes), options_(options) {}
+
+  Task<void> serve() {
+    while (co_await serve_one()) {
+    }
+    beast::error_code ignored;
+    stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+  }
+
+ private:
+  auto token() { return asio::redirect_error(asio::use_awaitable, failed_); }
+
+  /// @return whether there may be another one
+  Task<bool> serve_one() {
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(kMostHeader);
+    parser.body_limit(static_cast<std::uint64_t>(options_.max_body));
+    stream_.expires_after(kPatience);
+    co_await http::async_read_header(stream_, buffer_, parser, token());
+    if (failed_) co_return co_await refuse_what_is_no_request();
+    HttpRequest request = take_head(parser.get());
+    head_only_ = request.method == "HEAD";
+    if (!routes_.is_allowed(request)) parser.body_limit(kMostStrangeBody);
+    if (request.header("expect") == "100-continue") {
+      http::response<http::empty_body> go_on{http::status::continue_, 11};
+      co_await http::async_write(stream_, go_on, token());
+    }
+    co_await http::async_read(stream_, buffer_, parser, token());
+    if (failed_) co_return co_await refuse_what_is_no_request();
+    request.body = std::move(parser.get().body());
+    const bool keep_alive = parser.get().keep_alive();
+    stream_.expires_never();  // an evaluation may take hours
+    co_return co_await send(co_await answer(request), keep_alive);
+  }
+
+  Task<bool> refuse_what_is_no_request() {
+    const bool is_http =
+        failed_.category() == http::make_error_code(http::error::bad_method).category();
+    if (!is_http || failed_ == http::error::end_of_stream ||
+        failed_ == http::error::partial_message)
+      co_return false;  // gone, or too slow
+    const bool too_long = failed_ == http::error::body_limit;
+    const HttpReply reply =
+        error_reply(too_long ? 413 : 400, too_long ? "TooLarge" : "BadRequest",
+                    too_long ? "the request is larger than this service allows (--max-body)"
+                             : failed_.message());
+    stream_.expires_after(kPatience);
+    co_return co_await send(reply, false);
+  }
+
+  /// What is our fault ends one request, not the service.
+  Task<HttpReply> answer(const HttpRequest& request) {
+    std::string fault;
+    try {
+      co_return co_await routes_.answer(request);
+    } catch (const std::exception& error) {
+      fault = error.what();
+    }
+    fmt::print(stderr, "acinus: internal error while answering {}: {}\n", request.method, fault);
+    co_return error_reply(500, "InternalError", fault);
+  }
+
+  Task<bool> send(const HttpReply& reply, bool keep_alive) {
+    if (reply.events) co_return co_await send_events(reply);
+    if (!reply.file.empty()) co_return co_await send_file(reply, keep_alive);
+    auto response = make_head<http::string_body>(reply, keep_alive);
+    response.body() = reply.body;
+    response.prepare_payload();
+    co_return co_await write(response) && keep_alive;
+  }
+
+  Task<bool> send_file(const HttpReply& reply, bool keep_alive) {
+    auto response = make_head<http::file_body>(reply, keep_alive);
+    response.body().open(reply.file.c_str(), beast::file_mode::scan, failed_);
+    if (failed_)
+      co_return co_await send(error_reply(404, "NotFound", "the file is gone"), keep_alive);
+    response.prepare_payload();
+    co_return co_await write(response) && keep_alive;
+  }
+
+  template <class Body>
+  Task<bool> write(http::response<Body>& response) {
+    http::response_serializer<Body> serializer(response);
+    serializer.split(head_only_);
+    failed_ = {};
+    while (!failed_ && !(head_only_ ? serializer.is_header_done() : serializer.is_done())) {
+      stream_.expires_after(kPatience);  // for each piece: a file may be long
+      co_await http::async_write_some(stream_, serializer, token());
+    }
+    co_return !failed_;
+  }
+
+  Task<bool> send_events(const HttpReply& reply) {
+    HttpReply head = reply;
+    head.type = "text/event-stream";
+    auto response = make_head<http::empty_body>(head, false);
+    http::response_serializer<http::empty_body> serializer(response);
+    stream_.expires_after(kPatience);
+    co_await http::async_write_header(stream_, serializer, token());
+    asio::steady_timer timer(stream_.get_executor());
+    while (!failed_ && !head_only_) {
+      const std::optional<std::string> text = reply.events();
+      if (!text) break;
+      if (!text->empty()) {
+        stream_.expires_after(kPatience);
+        co_await asio::async_write(stream_, asio::buffer(*text), token());
+      }
+      if (failed_) break;
+      timer.expires_after(kEventPoll);
+      co_await timer.async_wait(token());
+    }
+    co_return false;
+  }
+
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  Routes& routes_;
+  const ServeOptions& options_;
+  beast::error_code failed_;
+  bool head_only_ = false;
+};
+
+}  // namespace
+
+Task<void> serve_connection(asio::ip::tcp::socket socket, Routes& routes,
+                            const ServeOptions& options) {
+  Connection connection(std::move(socket), routes, options);
+  co_await connection.serve();
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,333 @@
+#include "runs/serve/dispatcher.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/io/checkpoint.hpp"
+#include "core/timing.hpp"
+#include "runs/session/child.hpp"
+#include "runs/session/read_summary.hpp"
+#include "runs/session/run_folder.hpp"
+#include "runs/study/active_run.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace asio = boost::asio;
+namespace fs = std::filesystem;
+
+constexpr auto kLook = std::chrono::seconds(1);
+constexpr int kMostKills = 5;      ///< in a row, without getting any further
+constexpr double kGrace = 60;      ///< s that a run may take to end beyond its limits
+constexpr int kLooksPerSize = 10;  ///< the size of a folder is looked at less often
+
+std::string output_file(const std::string& folder) { return folder + "/output.txt"; }
+std::string progress_file(const std::string& folder) { return folder + "/progress.txt"; }
+
+/// What a run that could not even begin has told, without the program's name.
+std::string told(const std::string& folder) {
+  std::string line = last_line(output_file(folder));
+  if (line.starts_with("acinus: ")) line.erase(0, 8);
+  return line;
+}
+
+}  // namespace
+
+struct Dispatcher::Active {
+  Active(asio::io_context& io, Child process, double limit)
+      : child(std::move(process)), ended(io, ::dup(child.descriptor())), limit_s(limit) {}
+  Child child;
+  asio::posix::stream_descriptor ended;  ///< readable when the child has ended
+  double started = wall_seconds();
+  double limit_s;  ///< wall time, of this attempt
+  int looks = 0;
+  bool to_stop = false;  ///< by a client
+  std::string too_much;  ///< the limit it has broken; "" = none
+};
+
+struct Dispatcher::Timers {
+  asio::steady_timer look;
+};
+
+Dispatcher::Dispatcher(asio::io_context& io, const ServeOptions& options, JobStore& store)
+    : io_(io),
+      options_(options),
+      store_(store),
+      disk_bytes_(JobStore::size_of(store.folder())),
+      timers_(std::make_unique<Timers>(Timers{asio::steady_timer(io)})) {
+  for (Job& job : store_.load(warnings_)) {
+    const std::string folder = store_.run_folder(job.id);
+    std::error_code code;
+    job.bytes = JobStore::size_of(folder);
+    // A run may have ended while no service looked.
+    if (fs::exists(folder + "/summary.json", code) && job.state != JobState::kStopped) try {
+        const RunSummary summary = read_summary(folder);
+        job.time_s = job.end_s = summary.simulated_s;
+        job.dcm = summary.dcm;
+        job.cbm = summary.cbm;
+      } catch (const Error&) {  // torn: the run is resumed from its checkpoint
+      }
+    jobs_[job.id] = std::make_unique<Job>(job);
+  }
+}
+
+Dispatcher::~Dispatcher() = default;
+
+void Dispatcher::move(Job& job, JobState to) {
+  store_.move(job, to);
+  ++revision_;
+}
+
+Job* Dispatcher::find(const std::string& id) {
+  const auto found = jobs_.find(id);
+  return found == jobs_.end() ? nullptr : found->second.get();
+}
+
+void Dispatcher::check_room() const {
+  check(!ending_, "the service is about to end");
+  const auto waiting = std::ranges::count_if(
+      jobs_, [](const auto& j) { return j.second->state == JobState::kWaiting; });
+  check(
+      waiting < options_.max_waiting,
+      fmt::format("{} runs wait already, as many as this service allows (--max-waiting)", waiting));
+  check(disk_bytes_ < options_.max_disk,
+        fmt::format("the service has used {:.3g} GB of disk, as much as it may (--max-disk). "
+                    "Delete runs that are not needed.",
+                    1e-9 * disk_bytes_));
+}
+
+Job& Dispatcher::submit(Job job) {
+  store_.accept(job);
+  const std::string id = job.id;
+  Job& kept = *(jobs_[id] = std::make_unique<Job>(std::move(job)));
+  ++revision_;
+  // From the loop: the caller is still busy with the job.
+  asio::post(io_, [this] { start_what_can(); });
+  return kept;
+}
+
+void Dispatcher::begin() {
+  start_what_can();
+  look_again();
+}
+
+void Dispatcher::start_what_can() {
+  for (const auto& [id, job] : jobs_) {
+    if (ending_ || static_cast<int>(active_.size()) >= options_.jobs) return;
+    if (job->state != JobState::kWaiting) continue;
+    // A run of a service that was killed may still be writing its checkpoint.
+    if (is_being_written(store_.run_folder(id))) continue;
+    try {
+      start(*job);
+    } catch (const Error& error) {
+      job->failed = true;
+      job->cause = error.what();
+      move(*job, JobState::kFailed);
+    }
+  }
+}
+
+void Dispatcher::start(Job& job) {
+  const std::string folder = store_.run_folder(job.id);
+  std::error_code ignored;
+  if (fs::exists(folder + "/summary.json", ignored)) {
+    const RunSummary summary = read_summary(folder);
+    if (summary.status == "completed" || summary.status == "failed")
+      return finish_as(job, summary.status == "completed" ? 0 : 3);
+  }
+  const double limit_s = options_.max_walltime_s - job.used_s;
+  if (limit_s <= 0) {
+    job.cause = "the wall-time limit of this service (--max-walltime)";
+    return move(job, JobState::kStopped);
+  }
+  move(job, JobState::kRunning);
+  fs::remove(progress_file(folder), ignored);
+  fs::remove(output_file(folder), ignored);
+  const std::vector<std::string> words{"run",
+                                       folder + "/scene.json",
+                                       "--out",
+                                       folder,
+                                       "--threads",
+                                       std::to_string(options_.threads),
+                                       "--progress",
+                                       "json",
+                                       "--checkpoint-every",
+                                       fmt::format("{} s", options_.checkpoint_every_s),
+                                       "--max-walltime",
+                                       fmt::format("{} s", limit_s),
+                                       "--max-memory",
+                                       fmt::format("{} MB", 1e-6 * options_.max_memory),
+                                       "--until-cells",
+                                       std::to_string(options_.max_cells),
+                                       io::has_checkpoint(folder) ? "--resume" : "--overwrite"};
+  Child child(
+      words,
+      {.output = output_file(folder), .progress = progress_file(folder), .follows_parent = true});
+  auto active = std::make_unique<Active>(io_, std::move(child), limit_s);
+  wait_for_end(job, *(active_[job.id] = std::move(active)));
+}
+
+void Dispatcher::wait_for_end(Job& job, Active& active) {
+  active.ended.async_wait(asio::posix::stream_descriptor::wait_read,
+                          [this, &job](const boost::system::error_code& failed) {
+                            if (!failed) finish(job);
+                          });
+}
+
+void Dispatcher::finish(Job& job) {
+  const std::unique_ptr<Active> active = std::move(active_.extract(job.id).mapped());
+  look(job, *active);
+  const ChildEnd end = active->child.collect();
+  job.used_s += wall_seconds() - active->started;
+  const std::string folder = store_.run_folder(job.id);
+  disk_bytes_ -= job.bytes;
+  job.bytes = JobStore::size_of(folder);
+  disk_bytes_ += job.bytes;
+  job.left_s = -1;
+  job.phase.clear();
+  job.cause = active->too_much;
+  if (ending_ && end.code != 0 && end.code != static_cast<int>(Exit::kCannotContinue)) {
+    move(job, JobState::kWaiting);
+  } else if (end.code == static_cast<int>(Exit::kStopped) ||
+             (end.signal != 0 && (active->to_stop || !active->too_much.empty()))) {
+    if (job.cause.empty() && !active->to_stop) job.cause = told(folder);
+    move(job, JobState::kStopped);
+  } else if (end.signal != 0) {
+    wait_again_after_kill(job);
+  } else if (end.code == static_cast<int>(Exit::kBadInput) && is_being_written(folder)) {
+    move(job, JobState::kWaiting);
+  } else {
+    finish_as(job, end.code);
+  }
+  if (ending_ && active_.empty() && all_ended_) return all_ended_();
+  start_what_can();
+}
+
+void Dispatcher::finish_as(Job& job, int code) {
+  const std::string folder = store_.run_folder(job.id);
+  job.failed = code != 0;
+  try {
+    const RunSummary summary = read_summary(folder);
+    job.time_s = summary.simulated_s;
+    job.dcm = summary.dcm;
+    job.cbm = summary.cbm;
+    if (code != 0) job.cause = summary.cause;
+  } catch (const Error&) {  // it did not get so far
+  }
+  if (job.failed && job.cause.empty()) job.cause = told(folder);
+  if (job.failed && job.cause.empty()) job.cause = fmt::format("exit code {}", code);
+  if (!job.failed && job.dcm + job.cbm >= options_.max_cells)
+    job.cause = fmt::format("ended at {} cells, the limit of this service", options_.max_cells);
+  if (!job.failed && job.evaluation && on_evaluated) try {
+      on_evaluated(job, folder);
+    } catch (const Error& error) {
+      job.failed = true;
+      job.cause = error.what();
+    }
+  move(job, job.failed ? JobState::kFailed : JobState::kCompleted);
+}
+
+void Dispatcher::wait_again_after_kill(Job& job) {
+  const bool got_further = job.time_s > job.checkpoint_s;
+  job.checkpoint_s = job.time_s;
+  job.kills = got_further ? 1 : job.kills + 1;
+  job.failed = job.kills >= kMostKills;
+  if (job.failed) job.cause = fmt::format("killed {} times without getting any further", job.kills);
+  move(job, job.failed ? JobState::kFailed : JobState::kWaiting);
+}
+
+void Dispatcher::look_again() {
+  timers_->look.expires_after(kLook);
+  timers_->look.async_wait([this](const boost::system::error_code& failed) {
+    if (failed) return;
+    for (const auto& [id, active] : active_) look(*jobs_.at(id), *active);
+    start_what_can();
+    look_again();
+  });
+}
+
+void Dispatcher::look(Job& job, Active& active) {
+  const std::string folder = store_.run_folder(job.id);
+  const std::string line = last_line(progress_file(folder));
+  const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
+  if (j.is_object() && j.value("wall_s", -1.0) >= 0) {
+    const RunProgress progress = parse_progress(line);
+    const bool news = progress.time_s != job.time_s || j.value("phase", "") != job.phase;
+    job.time_s = progress.time_s;
+    job.end_s = progress.end_s;
+    job.left_s = progress.left_s.value_or(-1);
+    job.phase = j.value("phase", "");
+    job.dcm = j.value("dcm", 0);
+    job.cbm = j.value("cbm", 0);
+    if (news) ++job.revision, ++revision_;
+  }
+  if (++active.looks % kLooksPerSize == 0) {
+    disk_bytes_ -= job.bytes;
+    job.bytes = JobStore::size_of(folder);
+    disk_bytes_ += job.bytes;
+  }
+  if (job.bytes > options_.max_run_bytes && active.too_much.empty()) {
+    active.too_much =
+        fmt::format("{:.3g} GB on disk, more than this service allows for one run (--max-run-disk)",
+                    1e-9 * job.bytes);
+    active.child.send(SIGTERM);
+  }
+  // The run looks at its limit itself; this is for one that does not get there.
+  if (wall_seconds() > active.started + active.limit_s + kGrace) {
+    active.too_much = "the wall-time limit of this service (--max-walltime)";
+    active.child.send(SIGKILL);
+  }
+}
+
+void Dispatcher::stop(Job& job) {
+  if (job.state == JobState::kWaiting) return move(job, JobState::kStopped);
+  check(
+      job.state == JobState::kRunning,
+      fmt::format("the run is {}; only one that waits or runs can be stopped", name_of(job.state)));
+  Active& active = *active_.at(job.id);
+  active.to_stop = true;
+  active.child.send(SIGTERM);
+}
+
+void Dispatcher::resume(Job& job) {
+  check(job.state == JobState::kStopped,
+        fmt::format("the run is {}; only one that was stopped can be resumed", name_of(job.state)));
+  check_room();
+  job.cause.clear();
+  job.kills = 0;
+  move(job, JobState::kWaiting);
+  asio::post(io_, [this] { start_what_can(); });
+}
+
+void Dispatcher::remove(Job& job) {
+  check(job.state != JobState::kRunning, "the run goes on; stop it first");
+  disk_bytes_ -= job.bytes;
+  store_.remove(job);
+  ++revision_;
+  jobs_.erase(std::string(job.id));
+}
+
+void Dispatcher::end(std::function<void()> done) {
+  ending_ = true;
+  all_ended_ = std::move(done);
+  if (active_.empty()) return all_ended_();
+  for (const auto& [id, active] : active_) active->child.send(SIGTERM);
+  timers_->look.expires_after(std::chrono::seconds(static_cast<int>(kGrace)));
+  timers_->look.async_wait([this](const boost::system::error_code& failed) {
+    if (failed) return;
+    for (const auto& [id, active] : active_) active->child.send(SIGKILL);
+  });
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,75 @@
+#pragma once
+/// The queue at work: starts waiting runs as child processes, follows them, stops and resumes them.
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runs/serve/job.hpp"
+#include "runs/serve/job_store.hpp"
+#include "runs/serve/serve_options.hpp"
+
+namespace acinus::runs {
+
+class Dispatcher {
+ public:
+  /// Takes up what the store holds.
+  Dispatcher(boost::asio::io_context& io, const ServeOptions& options, JobStore& store);
+  ~Dispatcher();
+
+  /// Starts what waits, now and from now on.
+  void begin();
+  /// Stops all runs with a checkpoint; they wait for the next service. Calls `done` when all have
+  /// ended, those that do not within a minute killed.
+  void end(std::function<void()> done);
+
+  /// @throws Error(kBadInput) when the queue or the disk is full, or the service ends
+  void check_room() const;
+  /// Accepts a job whose folder is complete.
+  Job& submit(Job job);
+  /// @throws Error(kBadInput) where the state of the job does not allow it
+  void stop(Job& job);
+  void resume(Job& job);
+  void remove(Job& job);
+
+  Job* find(const std::string& id);
+  /// All jobs, oldest first.
+  const std::map<std::string, std::unique_ptr<Job>>& jobs() const { return jobs_; }
+  /// Counts every change of any job.
+  std::uint64_t revision() const { return revision_; }
+  double disk_bytes() const { return disk_bytes_; }
+  /// What was found damaged at the start.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Called when an evaluation is completed, before its folder goes.
+  std::function<void(const Job&, const std::string& folder)> on_evaluated;
+
+ private:
+  struct Active;
+  void start_what_can();
+  void start(Job& job);
+  void wait_for_end(Job& job, Active& active);
+  void finish(Job& job);
+  void finish_as(Job& job, int code);
+  void wait_again_after_kill(Job& job);
+  void look_again();
+  void look(Job& job, Active& active);
+  void move(Job& job, JobState to);
+
+  boost::asio::io_context& io_;
+  const ServeOptions& options_;
+  JobStore& store_;
+  std::map<std::string, std::unique_ptr<Job>> jobs_;
+  std::map<std::string, std::unique_ptr<Active>> active_;
+  std::vector<std::string> warnings_;
+  std::uint64_t revision_ = 0;
+  double disk_bytes_ = 0;
+  bool ending_ = false;
+  std::function<void()> all_ended_;
+  struct Timers;
+  std::unique_ptr<Timers> timers_;
+};
+
+}  // namespace acinus::runs

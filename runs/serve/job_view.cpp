@@ -1,0 +1,94 @@
+#include "runs/serve/job_view.hpp"
+
+#include <nlohmann/json.hpp>
+#include <ranges>
+
+#include "acinus_version.hpp"
+#include "runs/serve/results.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kMostListed = 200;
+constexpr int kQuietLooks = 30;  ///< looks without news before a comment is sent
+constexpr const char* kComment = ": still here\n\n";
+
+std::string dump(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+Json view_job(const Job& job) {
+  Json j = {{"id", job.id},
+            {"name", job.name},
+            {"scene", job.scene},
+            {"set", job.set},
+            {"created", job.created},
+            {"state", name_of(job.state)},
+            {"phase", job.phase},
+            {"time_s", job.time_s},
+            {"end_s", job.end_s},
+            {"left_s", nullptr},
+            {"cells", {{"dcm", job.dcm}, {"cbm", job.cbm}}},
+            {"bytes", job.bytes},
+            {"wall_s", job.used_s},
+            {"evaluation", job.evaluation},
+            {"cause", job.cause}};
+  if (job.left_s >= 0) j["left_s"] = job.left_s;
+  return j;
+}
+
+const std::string& JobList::text() {
+  if (!text_.empty() && revision_ == dispatcher_.revision()) return text_;
+  revision_ = dispatcher_.revision();
+  std::map<std::string, int> count;
+  for (const auto& [id, job] : dispatcher_.jobs()) ++count[name_of(job->state)];
+  Json runs = Json::array();
+  for (const auto& [id, job] : std::views::reverse(dispatcher_.jobs())) {
+    if (job->evaluation && job->state != JobState::kFailed) continue;
+    if (runs.size() == kMostListed) break;
+    runs.push_back(view_job(*job));
+  }
+  text_ = dump({{"version", ACINUS_VERSION},
+                {"count", count},
+                {"disk_bytes", dispatcher_.disk_bytes()},
+                {"runs", runs}});
+  return text_;
+}
+
+EventSource watch_job(Dispatcher& dispatcher, const std::string& id) {
+  return [&dispatcher, id, told = std::optional<std::uint64_t>(),
+          quiet = 0]() mutable -> std::optional<std::string> {
+    const Job* job = dispatcher.find(id);
+    if (job == nullptr) return std::nullopt;
+    if (told != job->revision) {
+      told = job->revision;
+      quiet = 0;
+      return event_text(dump(view_job(*job)));
+    }
+    return ++quiet % kQuietLooks == 0 ? kComment : "";
+  };
+}
+
+EventSource watch_list(const Dispatcher& dispatcher, JobList& list) {
+  return [&dispatcher, &list, told = std::optional<std::uint64_t>(),
+          quiet = 0]() mutable -> std::optional<std::string> {
+    if (told != dispatcher.revision()) {
+      told = dispatcher.revision();
+      quiet = 0;
+      return event_text(list.text());
+    }
+    return ++quiet % kQuietLooks == 0 ? kComment : "";
+  };
+}
+
+std::string view_series(const std::string& run_folder) {
+  const RunResult result = read_run_result(run_folder);
+  Json j = Json::object();
+  for (const auto& [name, curve] : result.curve)
+    j[name] = {{"unit", result.unit.at(name)}, {"time_s", curve.time}, {"value", curve.value}};
+  return dump(j);
+}
+
+}  // namespace acinus::runs

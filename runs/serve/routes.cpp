@@ -1,0 +1,244 @@
+#include "runs/serve/routes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/this_coro.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "runs/page/page_assets.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/serve/submission.hpp"
+#include "runs/session/child.hpp"
+#include "runs/study/active_run.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace asio = boost::asio;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Path = std::vector<std::string>;
+
+/// Files of a run folder that may be fetched.
+constexpr std::array kFiles{"scene.json", "summary.json", "run.vtkhdf", "run.vtkhdf.sums",
+                            "run.xmf",    "run.log",      "output.txt", "checkpoint.h5",
+                            "start.h5",   "report.html"};
+constexpr double kReportLimit = 120;  ///< s of wall time
+constexpr int kMostReports = 2;       ///< made at a time
+constexpr auto kPoll = std::chrono::milliseconds(50);
+
+HttpReply not_found(const std::string& message) { return error_reply(404, "NotFound", message); }
+HttpReply wrong_method(const char* allowed) {
+  HttpReply reply = error_reply(405, "MethodNotAllowed", fmt::format("allowed: {}", allowed));
+  reply.headers.emplace_back("Allow", allowed);
+  return reply;
+}
+HttpReply from_error(const Error& error) {
+  const bool clients = error.code() == Exit::kBadInput;
+  return error_reply(clients ? 400 : 503, clients ? "InvalidInput" : "FileError", error.what());
+}
+
+bool reads(const HttpRequest& request) {
+  return request.method == "GET" || request.method == "HEAD";
+}
+
+/// Only what the service itself sends may run in its page; frames are its own reports.
+constexpr const char* kPagePolicy =
+    "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; frame-ancestors "
+    "'self'; "
+    "base-uri 'none'; form-action 'self'";
+/// It has a script of its own, since whoever opens it may fetch nothing yet.
+constexpr const char* kLoginPolicy =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src "
+    "'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+/// A report is a page of a run, and knows nothing of the service: no cookie, no request.
+constexpr const char* kReportPolicy = "sandbox allow-scripts allow-downloads";
+
+HttpReply page(std::string_view text, const char* policy, int status = 200) {
+  HttpReply reply = text_reply("text/html; charset=utf-8", text);
+  reply.status = status;
+  reply.headers.emplace_back("Content-Security-Policy", policy);
+  return reply;
+}
+
+Json library_of(const std::vector<ShippedScene>& documents) {
+  Json all = Json::array();
+  for (const ShippedScene& d : documents)
+    all.push_back({{"name", d.name}, {"description", d.description}});
+  return all;
+}
+
+fs::file_time_type time_of(const std::string& file) {
+  std::error_code code;
+  const fs::file_time_type time = fs::last_write_time(file, code);
+  return code ? fs::file_time_type::min() : time;
+}
+
+}  // namespace
+
+Routes::Routes(asio::io_context& io, const ServeOptions& options, const Access& access,
+               JobStore& store, Dispatcher& dispatcher)
+    : io_(io),
+      options_(options),
+      access_(access),
+      store_(store),
+      dispatcher_(dispatcher),
+      list_(dispatcher),
+      um_bridge_(io, options, store, dispatcher) {}
+
+Task<HttpReply> Routes::answer(const HttpRequest& request) {
+  if (std::optional<HttpReply> refusal = refuse(access_, request)) {
+    const bool browser = reads(request) && request.path.empty() && refusal->status == 401;
+    co_return browser ? page(kLoginPage, kLoginPolicy, 401) : std::move(*refusal);
+  }
+  std::optional<HttpReply> fault;
+  try {
+    const Path& path = request.path;
+    if (UmBridge::is_asked(request)) co_return co_await um_bridge_.answer(request);
+    if (path.empty() || path[0] == "page" || path[0] == "login") co_return answer_page(request);
+    if (path == Path{"scenes"})
+      co_return reads(request) ? json_reply(200, library_of(shipped_scenes()))
+                               : wrong_method("GET");
+    if (path == Path{"events"}) {
+      if (!reads(request)) co_return wrong_method("GET");
+      HttpReply reply;
+      reply.events = watch_list(dispatcher_, list_);
+      co_return reply;
+    }
+    if (path[0] == "runs" && path.size() == 1) {
+      if (request.method == "POST") co_return submit(request);
+      if (!reads(request)) co_return wrong_method("GET, POST");
+      co_return text_reply("application/json", list_.text() + "\n");
+    }
+    if (path[0] == "runs" && path.size() <= 4) {
+      // Only what has the form of an id is ever looked for.
+      if (!is_job_id(path[1]) || !dispatcher_.find(path[1]))
+        co_return not_found(fmt::format("no run {}; GET /runs lists them", Json(path[1]).dump()));
+      if (path.size() == 4)
+        co_return path[2] == "files" && reads(request) ? send_file(path[1], path[3])
+                                                       : not_found("a run has no such part");
+      co_return co_await answer_run(request, path[1], path.size() == 3 ? path[2] : "");
+    }
+  } catch (const Error& error) {
+    fault = from_error(error);
+  }
+  co_return fault ? *fault : not_found("no such place; docs/service.md lists what there is");
+}
+
+HttpReply Routes::answer_page(const HttpRequest& request) {
+  const Path& path = request.path;
+  if (path == Path{"login"} && request.method == "POST") return log_in(access_, request);
+  if (!reads(request)) return wrong_method("GET");
+  if (path.empty()) return page(kServicePage, kPagePolicy);
+  if (path == Path{"login"}) return page(kLoginPage, kLoginPolicy);
+  if (path == Path{"page", "service.js"}) return text_reply("text/javascript", kServiceScript);
+  if (path == Path{"page", "service.css"}) return text_reply("text/css", kServiceStyle);
+  return not_found("the page has no such part");
+}
+
+HttpReply Routes::submit(const HttpRequest& request) {
+  dispatcher_.check_room();
+  const Job& job = dispatcher_.submit(prepare_submission(request.body, options_, store_));
+  HttpReply reply = json_reply(201, view_job(job));
+  reply.headers.emplace_back("Location", "/runs/" + job.id);
+  return reply;
+}
+
+Task<HttpReply> Routes::answer_run(const HttpRequest& request, const std::string& id,
+                                   const std::string& what) {
+  Job& job = *dispatcher_.find(id);
+  if (what == "stop" || what == "resume") {
+    if (request.method != "POST") co_return wrong_method("POST");
+    what == "stop" ? dispatcher_.stop(job) : dispatcher_.resume(job);
+    co_return json_reply(202, view_job(job));
+  }
+  if (what.empty() && request.method == "DELETE") {
+    dispatcher_.remove(job);
+    HttpReply reply;
+    reply.status = 204;
+    co_return reply;
+  }
+  if (!reads(request)) co_return wrong_method(what.empty() ? "GET, DELETE" : "GET");
+  if (what.empty()) co_return json_reply(200, view_job(job));
+  if (what == "events") {
+    HttpReply reply;
+    reply.events = watch_job(dispatcher_, id);
+    co_return reply;
+  }
+  if (what == "files") co_return list_files(id);
+  if (what == "series")
+    co_return text_reply("application/json", view_series(store_.run_folder(id)) + "\n");
+  if (what == "report") co_return co_await report(id);
+  co_return not_found("a run has no such part");
+}
+
+HttpReply Routes::list_files(const std::string& id) {
+  Json all = Json::array();
+  for (const char* name : kFiles) {
+    std::error_code code;
+    const std::uintmax_t size = fs::file_size(store_.run_folder(id) + "/" + name, code);
+    if (!code) all.push_back({{"name", name}, {"bytes", size}});
+  }
+  return json_reply(200, all);
+}
+
+HttpReply Routes::send_file(const std::string& id, const std::string& name) {
+  const auto known = std::ranges::find(kFiles, name);
+  std::error_code code;
+  const std::string file = known == kFiles.end() ? "" : store_.run_folder(id) + "/" + *known;
+  if (file.empty() || !fs::is_regular_file(file, code))
+    return not_found(fmt::format("run {} has no such file; GET /runs/{}/files lists them", id, id));
+  HttpReply reply;
+  reply.file = file;
+  reply.type = name.ends_with(".json") ? "application/json" : "application/octet-stream";
+  reply.headers.emplace_back("Content-Disposition",
+                             fmt::format("attachment; filename=\"{}-{}\"", id, name));
+  return reply;
+}
+
+/// By a process of its own: making it takes a while, and must not take the service along.
+Task<HttpReply> Routes::report(const std::string& id) {
+  const std::string folder = store_.run_folder(id), file = folder + "/report.html";
+  asio::steady_timer timer(co_await asio::this_coro::executor);
+  while (making_.contains(id) || static_cast<int>(making_.size()) >= kMostReports) {
+    timer.expires_after(kPoll);
+    co_await timer.async_wait(asio::use_awaitable);
+  }
+  if (time_of(file) < time_of(folder + "/run.vtkhdf") || time_of(file) == time_of("")) {
+    making_[id] = true;
+    const struct Done {
+      std::map<std::string, bool>& making;
+      const std::string& id;
+      ~Done() { making.erase(id); }
+    } done{making_, id};
+    const std::string words = folder + "/report.txt", fresh = folder + "/report.new.html";
+    std::error_code ignored;
+    fs::remove(words, ignored);
+    Child child({"report", folder, "--out", fresh},
+                {.output = words, .limit_s = kReportLimit, .follows_parent = true});
+    // Not the descriptor: the coroutine may go before the child does.
+    while (!wait_for_any({&child}, 0)) {
+      timer.expires_after(kPoll);
+      co_await timer.async_wait(asio::use_awaitable);
+    }
+    const ChildEnd end = child.collect();
+    if (end.code != 0)
+      co_return error_reply(503, "FileError",
+                            fmt::format("no report could be made: {}", last_line(words)));
+    fs::rename(fresh, file, ignored);
+  }
+  HttpReply reply;
+  reply.file = file;
+  reply.type = "text/html; charset=utf-8";
+  reply.headers.emplace_back("Content-Security-Policy", kReportPolicy);
+  co_return reply;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,46 @@
+#pragma once
+/// Which request does what. docs/service.md lists them.
+
+#include <boost/asio/io_context.hpp>
+#include <map>
+#include <string>
+
+#include "runs/serve/access.hpp"
+#include "runs/serve/async.hpp"
+#include "runs/serve/dispatcher.hpp"
+#include "runs/serve/http_message.hpp"
+#include "runs/serve/job_view.hpp"
+#include "runs/serve/um_bridge.hpp"
+
+namespace acinus::runs {
+
+class Routes {
+ public:
+  Routes(boost::asio::io_context& io, const ServeOptions& options, const Access& access,
+         JobStore& store, Dispatcher& dispatcher);
+
+  /// Whether a request may be answered at all, by its head alone: bodies of others are not read.
+  bool is_allowed(const HttpRequest& head) const { return !refuse(access_, head); }
+  /// Never throws for what the request is to blame for.
+  Task<HttpReply> answer(const HttpRequest& request);
+
+ private:
+  HttpReply answer_page(const HttpRequest& request);
+  HttpReply submit(const HttpRequest& request);
+  Task<HttpReply> answer_run(const HttpRequest& request, const std::string& id,
+                             const std::string& what);
+  Task<HttpReply> report(const std::string& id);
+  HttpReply list_files(const std::string& id);
+  HttpReply send_file(const std::string& id, const std::string& name);
+
+  boost::asio::io_context& io_;
+  const ServeOptions& options_;
+  const Access& access_;
+  JobStore& store_;
+  Dispatcher& dispatcher_;
+  JobList list_;
+  UmBridge um_bridge_;
+  std::map<std::string, bool> making_;  ///< reports that are being made
+};
+
+}  // namespace acinus::runs

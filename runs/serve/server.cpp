@@ -1,0 +1,139 @@
+#include "runs/serve/server.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "core/error.hpp"
+#include "runs/build/memory_need.hpp"
+#include "runs/serve/access.hpp"
+#include "runs/serve/connection.hpp"
+#include "runs/serve/dispatcher.hpp"
+#include "runs/serve/job_store.hpp"
+#include "runs/serve/routes.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+
+/// Every listener of events holds a socket.
+void allow_many_files() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+void fill_in(ServeOptions& options) {
+  if (options.jobs == 0)
+    options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  constexpr double kShare = 0.9;  // the rest is for the system and this service
+  if (options.max_memory == 0) options.max_memory = kShare * machine_memory() / options.jobs;
+}
+
+tcp::acceptor listen(asio::io_context& io, const ServeOptions& options) {
+  boost::system::error_code failed;
+  const asio::ip::address address = asio::ip::make_address(options.address, failed);
+  check(!failed,
+        fmt::format("--address {}: is no IP address, such as 127.0.0.1 or ::1", options.address));
+  check(options.token || address.is_loopback(),
+        fmt::format("--no-token: only for an address of this machine alone (127.0.0.1); at {} "
+                    "anybody could submit runs",
+                    options.address));
+  try {
+    return {io, {address, static_cast<std::uint16_t>(options.port)}};
+  } catch (const boost::system::system_error& error) {
+    throw Error(
+        fmt::format("--address {} --port {}: cannot listen there: {}. Choose another "
+                    "--port, or 0 for any that is free.",
+                    options.address, options.port, error.code().message()));
+  }
+}
+
+Task<void> accept(tcp::acceptor& acceptor, Routes& routes, const ServeOptions& options) {
+  while (acceptor.is_open()) {
+    boost::system::error_code failed;
+    tcp::socket socket =
+        co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, failed));
+    if (!failed) {
+      asio::co_spawn(acceptor.get_executor(), serve_connection(std::move(socket), routes, options),
+                     [](const std::exception_ptr&) {});  // a broken connection
+    } else if (acceptor.is_open()) {
+      // Too many files, perhaps: some will be closed.
+      asio::steady_timer timer(acceptor.get_executor(), std::chrono::milliseconds(100));
+      co_await timer.async_wait(asio::use_awaitable);
+    }
+  }
+}
+
+void tell(const ServeOptions& options, const Access& access, int port) {
+  const bool six = options.address.find(':') != std::string::npos;
+  const std::string host =
+      fmt::format("{}:{}", six ? "[" + options.address + "]" : options.address, port);
+  if (!access.token.empty()) {
+    fmt::print("open http://{}/login#{}\nUM-Bridge clients: http://acinus:{}@{}\n", host,
+               access.token, access.token, host);
+  } else {
+    fmt::print("open http://{}/\n", host);
+  }
+  fmt::print("{} runs at a time, kept in {}; Ctrl+C ends the service, runs with a checkpoint\n",
+             options.jobs, options.data);
+  std::fflush(stdout);
+}
+
+/// Until the loop is stopped. A fault in one handler does not end the others.
+void run(asio::io_context& io) {
+  for (;;) {
+    try {
+      io.run();
+      return;
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "acinus: warning: {}\n", error.what());
+    }
+  }
+}
+
+}  // namespace
+
+void serve(ServeOptions options) {
+  fill_in(options);
+  allow_many_files();
+  asio::io_context io(1);
+  tcp::acceptor acceptor = listen(io, options);
+  const int port = acceptor.local_endpoint().port();
+  JobStore store(options.data);
+  const Access access{options.token ? keep_token(store.folder() + "/token") : "",
+                      allowed_hosts(options.address, port, options.names)};
+  Dispatcher dispatcher(io, options, store);
+  for (const std::string& warning : dispatcher.warnings())
+    fmt::print(stderr, "acinus: warning: {}\n", warning);
+  Routes routes(io, options, access, store, dispatcher);
+  asio::signal_set signals(io, SIGTERM, SIGINT);
+  signals.async_wait([&](const boost::system::error_code&, int) {
+    acceptor.close();
+    if (!options.quiet) fmt::print("ending: runs write their checkpoints\n");
+    std::fflush(stdout);
+    dispatcher.end([&] { io.stop(); });
+  });
+  asio::co_spawn(io, accept(acceptor, routes, options), [](const std::exception_ptr&) {});
+  dispatcher.begin();
+  if (!options.quiet) tell(options, access, port);
+  run(io);
+}
+
+}  // namespace acinus::runs

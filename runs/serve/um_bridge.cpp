@@ -1,0 +1,154 @@
+#include "runs/serve/um_bridge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/this_coro.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "runs/serve/submission.hpp"
+
+namespace acinus::runs {
+namespace {
+
+namespace asio = boost::asio;
+using Json = nlohmann::json;
+
+constexpr std::array kPosts{"ModelInfo",     "InputSizes",   "OutputSizes", "Evaluate",
+                            "ApplyJacobian", "ApplyHessian", "Gradient"};
+constexpr auto kPoll = std::chrono::milliseconds(20);
+
+HttpReply invalid_input(const std::string& message) {
+  return error_reply(400, "InvalidInput", message);
+}
+
+/// The one vector of inputs.   @throws Error where it has another form
+std::vector<double> read_input(const Json& body, std::size_t n) {
+  check(body.contains("input") && body["input"].is_array() && body["input"].size() == 1 &&
+            body["input"][0].is_array(),
+        "\"input\" is a list of one list of numbers");
+  const Json& values = body["input"][0];
+  check(
+      values.size() == n,
+      fmt::format("{} numbers in \"input\", where the model has {} parameters", values.size(), n));
+  check(std::ranges::all_of(values, [](const Json& v) { return v.is_number(); }),
+        "\"input\" holds something that is no number");
+  return values.get<std::vector<double>>();
+}
+
+}  // namespace
+
+UmBridge::UmBridge(asio::io_context& io, const ServeOptions& options, JobStore& store,
+                   Dispatcher& dispatcher)
+    : io_(io), options_(options), store_(store), dispatcher_(dispatcher) {
+  for (const auto& [id, job] : dispatcher_.jobs())
+    if (job->evaluation) job_by_key_[job->key] = id;
+  dispatcher_.on_evaluated = [this](const Job& job, const std::string& folder) {
+    keep_result(result_file(job.key), read_run_result(folder));
+    // Later: the dispatcher is still busy with it.
+    asio::post(io_, [this, id = job.id] {
+      if (Job* done = dispatcher_.find(id)) {
+        job_by_key_.erase(done->key);
+        dispatcher_.remove(*done);
+      }
+    });
+  };
+}
+
+bool UmBridge::is_asked(const HttpRequest& request) {
+  if (request.path.size() != 1) return false;
+  return request.path[0] == "Info" || std::ranges::count(kPosts, request.path[0]) > 0;
+}
+
+const Models& UmBridge::models() {
+  if (!models_) models_.emplace();  // takes a moment: not before it is asked for
+  return *models_;
+}
+
+std::string UmBridge::result_file(const std::string& key) const {
+  return store_.results_folder() + "/" + key + ".json";
+}
+
+Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
+  const std::string& what = request.path[0];
+  if (what == "Info") {
+    std::vector<std::string> names;
+    for (const auto& [name, model] : models().all()) names.push_back(name);
+    co_return json_reply(200, {{"protocolVersion", 1.0}, {"models", names}});
+  }
+  const Json body = Json::parse(request.body, nullptr, false);
+  if (!body.is_object()) co_return invalid_input("the request must be a JSON object");
+  const std::string name = body.contains("name") && body["name"].is_string()
+                               ? body["name"].get<std::string>()
+                               : std::string();
+  const auto found = models().all().find(name);
+  if (found == models().all().end())
+    co_return error_reply(400, "ModelNotFound",
+                          fmt::format("no model {}; GET /Info lists them", Json(name).dump()));
+  const Model& model = found->second;
+  if (what == "ModelInfo")
+    co_return json_reply(200, {{"support",
+                                {{"Evaluate", true},
+                                 {"Gradient", false},
+                                 {"ApplyJacobian", false},
+                                 {"ApplyHessian", false}}}});
+  if (what == "Gradient" || what.starts_with("Apply"))
+    co_return error_reply(400, "UnsupportedFeature",
+                          "models here have no derivatives: cells divide at whole steps");
+  std::string fault;
+  try {
+    const ModelConfig config = read_config(model, body.value("config", Json()));
+    if (what == "InputSizes")
+      co_return json_reply(200, {{"inputSizes", {config.parameters.size()}}});
+    if (what == "OutputSizes") co_return json_reply(200, {{"outputSizes", {config.n_output()}}});
+    const std::vector<double> values = read_input(body, config.parameters.size());
+    co_return co_await evaluate(model, config, values);
+  } catch (const Error& error) {
+    fault = error.what();
+  }
+  co_return invalid_input(fault);
+}
+
+std::string UmBridge::find_or_submit(const Scene& scene, const std::string& key) {
+  if (const auto known = job_by_key_.find(key); known != job_by_key_.end())
+    if (Job* job = dispatcher_.find(known->second)) {
+      if (job->state == JobState::kStopped) dispatcher_.resume(*job);
+      return job->id;
+    }
+  dispatcher_.check_room();
+  const Job& job = dispatcher_.submit(prepare_evaluation(scene, key, options_, store_));
+  job_by_key_[key] = job.id;
+  return job.id;
+}
+
+Task<HttpReply> UmBridge::evaluate(const Model& model, const ModelConfig& config,
+                                   const std::vector<double>& values) {
+  const Scene scene = make_model_scene(model, config, values);
+  const std::string key = result_key(scene);
+  asio::steady_timer timer(co_await asio::this_coro::executor);
+  std::string id;
+  for (;;) {
+    if (const std::optional<RunResult> result = find_result(result_file(key)))
+      co_return json_reply(200, {{"output", {model_output(model, config, *result)}}});
+    if (id.empty()) id = find_or_submit(scene, key);
+    for (;;) {
+      const Job* job = dispatcher_.find(id);
+      if (job == nullptr || job->state == JobState::kCompleted) break;
+      if (job->state == JobState::kFailed || job->state == JobState::kStopped)
+        co_return error_reply(500, "ModelFailed",
+                              fmt::format("run {} {}: {}", id, name_of(job->state), job->cause));
+      timer.expires_after(kPoll);
+      co_await timer.async_wait(asio::use_awaitable);
+    }
+    if (!find_result(result_file(key)))
+      co_return error_reply(500, "ModelFailed", fmt::format("run {} left no result", id));
+  }
+}
+
+}  // namespace acinus::runs

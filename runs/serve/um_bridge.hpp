@@ -1,0 +1,41 @@
+#pragma once
+/// The protocol UM-Bridge 1.0: models evaluated over HTTP by clients in many languages.
+/// [Seelinger2023]
+
+#include <boost/asio/io_context.hpp>
+#include <map>
+#include <string>
+
+#include "runs/serve/async.hpp"
+#include "runs/serve/dispatcher.hpp"
+#include "runs/serve/http_message.hpp"
+#include "runs/serve/models.hpp"
+
+namespace acinus::runs {
+
+class UmBridge {
+ public:
+  UmBridge(boost::asio::io_context& io, const ServeOptions& options, JobStore& store,
+           Dispatcher& dispatcher);
+
+  /// Whether a request is one of the protocol's.
+  static bool is_asked(const HttpRequest& request);
+  /// Waits for the run where one is needed.
+  Task<HttpReply> answer(const HttpRequest& request);
+
+ private:
+  const Models& models();
+  Task<HttpReply> evaluate(const Model& model, const ModelConfig& config,
+                           const std::vector<double>& values);
+  std::string result_file(const std::string& key) const;
+  std::string find_or_submit(const Scene& scene, const std::string& key);
+
+  boost::asio::io_context& io_;
+  const ServeOptions& options_;
+  JobStore& store_;
+  Dispatcher& dispatcher_;
+  std::optional<Models> models_;
+  std::map<std::string, std::string> job_by_key_;  ///< evaluations that are not yet done
+};
+
+}  // namespace acinus::runs
