@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -29,6 +30,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 
 constexpr auto kPatience = std::chrono::seconds(30);  ///< with a client that sends or takes slowly
+constexpr auto kLinger = std::chrono::seconds(2);     ///< with what comes after the reply
 constexpr auto kEventPoll = std::chrono::milliseconds(500);
 constexpr std::uint32_t kMostHeader = 16384;      ///< bytes
 constexpr std::uint64_t kMostStrangeBody = 4096;  ///< bytes, of whom nothing is known
@@ -68,10 +70,20 @@ class Connection {
     }
     beast::error_code ignored;
     stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+    co_await drain();
   }
 
  private:
   auto token() { return asio::redirect_error(asio::use_awaitable, failed_); }
+
+  /// Takes what is still on its way, else the client would see a broken connection in place of the
+  /// reply.
+  Task<void> drain() {
+    std::array<char, 65536> bytes;
+    stream_.expires_after(kLinger);
+    failed_ = {};
+    while (!failed_) co_await stream_.async_read_some(asio::buffer(bytes), token());
+  }
 
   /// @return whether there may be another one
   Task<bool> serve_one() {
@@ -93,7 +105,8 @@ class Connection {
     request.body = std::move(parser.get().body());
     const bool keep_alive = parser.get().keep_alive();
     stream_.expires_never();  // an evaluation may take hours
-    co_return co_await send(co_await answer(request), keep_alive);
+    const HttpReply reply = co_await answer(request);
+    co_return co_await send(reply, keep_alive);
   }
 
   Task<bool> refuse_what_is_no_request() {
@@ -129,16 +142,20 @@ class Connection {
     auto response = make_head<http::string_body>(reply, keep_alive);
     response.body() = reply.body;
     response.prepare_payload();
-    co_return co_await write(response) && keep_alive;
+    const bool written = co_await write(response);
+    co_return written&& keep_alive;
   }
 
   Task<bool> send_file(const HttpReply& reply, bool keep_alive) {
     auto response = make_head<http::file_body>(reply, keep_alive);
     response.body().open(reply.file.c_str(), beast::file_mode::scan, failed_);
-    if (failed_)
-      co_return co_await send(error_reply(404, "NotFound", "the file is gone"), keep_alive);
+    if (failed_) {
+      const HttpReply gone = error_reply(404, "NotFound", "the file is gone");
+      co_return co_await send(gone, keep_alive);
+    }
     response.prepare_payload();
-    co_return co_await write(response) && keep_alive;
+    const bool written = co_await write(response);
+    co_return written&& keep_alive;
   }
 
   template <class Body>

@@ -42,6 +42,16 @@ std::string told(const std::string& folder) {
   return line;
 }
 
+/// Why a run stopped by itself.
+std::string why_stopped(const std::string& folder) {
+  try {
+    if (const std::string cause = read_summary(folder).cause; !cause.empty())
+      return cause + ", by the limits of this service";
+  } catch (const Error&) {  // before its first checkpoint
+  }
+  return told(folder);
+}
+
 }  // namespace
 
 struct Dispatcher::Active {
@@ -201,7 +211,7 @@ void Dispatcher::finish(Job& job) {
     move(job, JobState::kWaiting);
   } else if (end.code == static_cast<int>(Exit::kStopped) ||
              (end.signal != 0 && (active->to_stop || !active->too_much.empty()))) {
-    if (job.cause.empty() && !active->to_stop) job.cause = told(folder);
+    if (job.cause.empty() && !active->to_stop) job.cause = why_stopped(folder);
     move(job, JobState::kStopped);
   } else if (end.signal != 0) {
     wait_again_after_kill(job);

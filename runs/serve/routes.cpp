@@ -121,10 +121,10 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
       // Only what has the form of an id is ever looked for.
       if (!is_job_id(path[1]) || !dispatcher_.find(path[1]))
         co_return not_found(fmt::format("no run {}; GET /runs lists them", Json(path[1]).dump()));
-      if (path.size() == 4)
-        co_return path[2] == "files" && reads(request) ? send_file(path[1], path[3])
-                                                       : not_found("a run has no such part");
-      co_return co_await answer_run(request, path[1], path.size() == 3 ? path[2] : "");
+      const std::string id = path[1], what = path.size() > 2 ? path[2] : std::string();
+      if (path.size() == 4 && what == "files" && reads(request)) co_return send_file(id, path[3]);
+      if (path.size() == 4) co_return not_found("a run has no such part");
+      co_return co_await answer_run(request, id, what);
     }
   } catch (const Error& error) {
     fault = from_error(error);

@@ -103,10 +103,20 @@ void write_files(const Json& j, const std::string& folder) {
     const std::string text = content;
     std::string bytes(base64::decoded_size(text.size()) + 3, '\0');
     const auto [n, read] = base64::decode(bytes.data(), text.data(), text.size());
-    check(text.size() - read <= 2, fmt::format("\"files\": {}: is not in base64", name));
+    check(text.size() % 4 == 0 && read == text.find_last_not_of('=') + 1,
+          fmt::format("\"files\": {}: is not in base64", name));
     bytes.resize(n);
     io::write_text_file((fs::path(folder) / name).string(), bytes);
   }
+}
+
+/// Refuses what is no shipped scene's name, so that a name is no path either.
+void check_shipped(const std::string& name, const std::string& where) {
+  std::vector<std::string> names;
+  for (const ShippedScene& scene : shipped_scenes()) names.push_back(scene.name);
+  check(std::ranges::count(names, name) > 0,
+        fmt::format("{}: no shipped scene of that name. {}", where,
+                    did_you_mean_and(nearest_name(name, names), "GET /scenes lists them")));
 }
 
 /// The shipped scene that an own one extends; "" = none.
@@ -114,11 +124,7 @@ std::string extended(const Node& root) {
   const Node* node = root.find("extends");
   if (node == nullptr || node->text.empty()) return "";
   const std::string name = fs::path(node->text).stem().string();
-  std::vector<std::string> names;
-  for (const ShippedScene& scene : shipped_scenes()) names.push_back(scene.name);
-  check(std::ranges::count(names, name) > 0,
-        fmt::format("/extends = {}: a submitted scene may extend a shipped one. {}", shown(*node),
-                    did_you_mean_and(nearest_name(name, names), "GET /scenes names them")));
+  check_shipped(name, "/extends = " + shown(*node));
   return name;
 }
 
@@ -126,6 +132,7 @@ Document read_submitted(const Json& j, const std::string& input, Job& job) {
   check(j.contains("scene"), "\"scene\": missing: the name of a shipped scene, or a scene");
   if (j["scene"].is_string()) {
     job.scene = j["scene"];
+    check_shipped(job.scene, "\"scene\": " + j["scene"].dump());
     copy_scene(job.scene, input);
     write_files(j, input);
     return read_document(input + "/" + job.scene + ".json");
