@@ -1,5 +1,6 @@
 #include "runs/serve/job_view.hpp"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ranges>
 
@@ -84,6 +85,8 @@ EventSource watch_list(const Dispatcher& dispatcher, JobList& list) {
 }
 
 std::string view_series(const std::string& run_folder) {
+  std::error_code code;
+  if (!std::filesystem::exists(run_folder + "/run.vtkhdf", code)) return "{}";
   const RunResult result = read_run_result(run_folder);
   Json j = Json::object();
   for (const auto& [name, curve] : result.curve)

@@ -29,7 +29,8 @@ class JobList {
 EventSource watch_job(Dispatcher& dispatcher, const std::string& id);
 EventSource watch_list(const Dispatcher& dispatcher, JobList& list);
 
-/// Observables of a run over time, {"NAME": {"unit", "time_s", "value"}}.   @throws Error
+/// Observables of a run over time, {"NAME": {"unit", "time_s", "value"}}; none
+/// before the first frame.   @throws Error(kFileError)
 std::string view_series(const std::string& run_folder);
 
 }  // namespace acinus::runs

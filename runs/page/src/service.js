@@ -1,7 +1,7 @@
 // The page of the service: what runs, a form for more, and the chosen run.
 import { RunPanel } from "./service_run.js";
 import { showForm } from "./service_form.js";
-import { duration, make } from "./text.js";
+import { bytes, duration, make } from "./text.js";
 
 const panel = new RunPanel(document.getElementById("run"));
 const list = document.getElementById("runs");
@@ -40,13 +40,17 @@ function watch() {
     const news = JSON.parse(message.data);
     listed = news.runs;
     counts.textContent = Object.entries(news.count).map(([state, n]) => `${n} ${state}`).join(", ");
-    document.querySelector("footer").textContent = `acinus ${news.version}, ${(news.disk_bytes / 1e9).toPrecision(2)} GB on disk. What is asked for stays in the queue when the service ends.`;
+    document.querySelector("footer").textContent = `acinus ${news.version}, ${bytes(news.disk_bytes)} on disk. What is asked for stays in the queue when the service ends.`;
     show();
     document.body.dataset.ready = "yes";
   };
   source.onerror = () => { counts.textContent = "the service does not answer; trying again"; };
 }
 
-addEventListener("hashchange", show);
+addEventListener("hashchange", () => {
+  show();
+  // On a phone the run stands below the list.
+  if (panel.run && panel.element.offsetLeft < 100) panel.element.scrollIntoView({ behavior: "smooth" });
+});
 showForm(document.getElementById("new"), (id) => { location.hash = id; });
 watch();

@@ -1,6 +1,6 @@
 // The chosen run: how far it is, what it measures, what can be done with it.
 import { plot } from "./plots.js";
-import { duration, make } from "./text.js";
+import { bytes, duration, make } from "./text.js";
 
 const FIRST = ["lesion_area_relative", "lesion_area", "cells", "radius_of_gyration_um", "mean_pressure_Pa", "contact_pressure_mean_dcm_Pa"];
 const PLOTS = 2;
@@ -39,7 +39,8 @@ export class RunPanel {
   tell() {
     const run = this.run;
     this.head.replaceChildren(make("h2", {}, run.name), make("span", { class: "badge " + run.state }, run.state));
-    const rows = [["simulated", run.end_s > 0 ? `${duration(run.time_s)} of ${duration(run.end_s)}` : duration(run.time_s)], ["cells", `${run.cells.dcm} deformable, ${run.cells.cbm} spheres`],
+    const time = duration(Math.max(0, run.time_s));  // before: start-up
+    const rows = [["simulated", run.end_s > 0 ? `${time} of ${duration(run.end_s)}` : time], ["cells", `${run.cells.dcm} deformable, ${run.cells.cbm} spheres`],
       ["scene", run.scene || "own"], ["changes", run.set.join(", ") || "none"], ["asked for", run.created]];
     if (run.phase && run.phase !== "running") rows.unshift(["busy with", run.phase]);
     if (run.left_s != null) rows.push(["left", `about ${duration(run.left_s)}`]);
@@ -77,7 +78,7 @@ export class RunPanel {
     const { id } = this.run;
     const answer = await fetch(`/runs/${id}/files`);
     if (!answer.ok || id !== this.run?.id) return;
-    this.files.replaceChildren(...(await answer.json()).map((f) => make("li", {}, make("a", { href: `/runs/${id}/files/${f.name}`, download: true }, f.name), make("span", { class: "unit" }, ` ${(f.bytes / 1e6).toPrecision(2)} MB`))));
+    this.files.replaceChildren(...(await answer.json()).map((f) => make("li", {}, make("a", { href: `/runs/${id}/files/${f.name}`, download: true }, f.name), make("span", { class: "unit" }, ` ${bytes(f.bytes)}`))));
   }
 
   async drawSeries() {

@@ -28,6 +28,11 @@ export function duration(seconds) {
   return `${number(+(seconds / 86400).toPrecision(3))} d`;
 }
 
+export function bytes(n) {
+  const [size, unit] = n < 1e6 ? [1e3, "kB"] : n < 1e9 ? [1e6, "MB"] : [1e9, "GB"];
+  return `${number(+(n / size).toPrecision(2))} ${unit}`;
+}
+
 // One unit of time for a whole axis.
 export function timeUnit(longest) {
   if (longest < 600) return { name: "s", size: 1 };
