@@ -50,7 +50,7 @@ std::string header_token(const HttpRequest& request) {
   return colon == std::string::npos ? "" : pair.substr(colon + 1);
 }
 
-bool is_own_origin(const Access& access, const std::string& origin) {
+bool is_own_origin(const ServiceAccess& access, const std::string& origin) {
   return std::ranges::any_of(access.hosts, [&](const std::string& host) {
     return origin == "http://" + host || origin == "https://" + host;
   });
@@ -117,7 +117,7 @@ bool same_secret(const std::string& a, const std::string& b) {
   return difference == 0;
 }
 
-std::optional<HttpReply> refuse(const Access& access, const HttpRequest& request) {
+std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& request) {
   if (std::ranges::count(access.hosts, request.header("host")) == 0)
     return error_reply(403, "Forbidden",
                        "this service is not called by that name; --name allows it");
@@ -139,7 +139,7 @@ std::optional<HttpReply> refuse(const Access& access, const HttpRequest& request
   return std::nullopt;
 }
 
-HttpReply log_in(const Access& access, const HttpRequest& request) {
+HttpReply log_in(const ServiceAccess& access, const HttpRequest& request) {
   const nlohmann::json form = nlohmann::json::parse(request.body, nullptr, false);
   const bool given = form.is_object() && form.contains("token") && form["token"].is_string();
   if (!given || !same_secret(form["token"].get<std::string>(), access.token))

@@ -10,7 +10,7 @@
 
 namespace acinus::runs {
 
-struct Access {
+struct ServiceAccess {
   std::string token;               ///< "" = none is asked for
   std::vector<std::string> hosts;  ///< allowed values of Host: "127.0.0.1:8642"
 };
@@ -32,9 +32,9 @@ bool same_secret(const std::string& a, const std::string& b);
 /// The reply that refuses a request: 403 for a foreign Host or Origin, 401 without the token, as
 /// `Authorization: Bearer TOKEN`, the password of `Basic`, or the cookie of the login page.
 /// Nothing if it may be answered.
-std::optional<HttpReply> refuse(const Access& access, const HttpRequest& request);
+std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& request);
 
 /// The reply to the login page's form, {"token": ...}.
-HttpReply log_in(const Access& access, const HttpRequest& request);
+HttpReply log_in(const ServiceAccess& access, const HttpRequest& request);
 
 }  // namespace acinus::runs

@@ -76,7 +76,7 @@ Dispatcher::Dispatcher(asio::io_context& io, const ServeOptions& options, JobSto
       store_(store),
       disk_bytes_(JobStore::size_of(store.folder())),
       timers_(std::make_unique<Timers>(Timers{asio::steady_timer(io)})) {
-  for (Job& job : store_.load(warnings_)) {
+  for (RunJob& job : store_.load(warnings_)) {
     const std::string folder = store_.run_folder(job.id);
     std::error_code code;
     job.bytes = JobStore::size_of(folder);
@@ -88,18 +88,18 @@ Dispatcher::Dispatcher(asio::io_context& io, const ServeOptions& options, JobSto
         job.cbm = summary.cbm;
       } catch (const Error&) {  // torn: the run is resumed from its checkpoint
       }
-    jobs_[job.id] = std::make_unique<Job>(job);
+    jobs_[job.id] = std::make_unique<RunJob>(job);
   }
 }
 
 Dispatcher::~Dispatcher() = default;
 
-void Dispatcher::move(Job& job, JobState to) {
+void Dispatcher::move(RunJob& job, JobState to) {
   store_.move(job, to);
   ++revision_;
 }
 
-Job* Dispatcher::find(const std::string& id) {
+RunJob* Dispatcher::find(const std::string& id) {
   const auto found = jobs_.find(id);
   return found == jobs_.end() ? nullptr : found->second.get();
 }
@@ -117,10 +117,10 @@ void Dispatcher::check_room() const {
                     1e-9 * disk_bytes_));
 }
 
-Job& Dispatcher::submit(Job job) {
+RunJob& Dispatcher::submit(RunJob job) {
   store_.accept(job);
   const std::string id = job.id;
-  Job& kept = *(jobs_[id] = std::make_unique<Job>(std::move(job)));
+  RunJob& kept = *(jobs_[id] = std::make_unique<RunJob>(std::move(job)));
   ++revision_;
   // From the loop: the caller is still busy with the job.
   asio::post(io_, [this] { start_what_can(); });
@@ -148,7 +148,7 @@ void Dispatcher::start_what_can() {
   }
 }
 
-void Dispatcher::start(Job& job) {
+void Dispatcher::start(RunJob& job) {
   const std::string folder = store_.run_folder(job.id);
   std::error_code ignored;
   if (fs::exists(folder + "/summary.json", ignored)) {
@@ -188,14 +188,14 @@ void Dispatcher::start(Job& job) {
   wait_for_end(job, *(active_[job.id] = std::move(active)));
 }
 
-void Dispatcher::wait_for_end(Job& job, Active& active) {
+void Dispatcher::wait_for_end(RunJob& job, Active& active) {
   active.ended.async_wait(asio::posix::stream_descriptor::wait_read,
                           [this, &job](const boost::system::error_code& failed) {
                             if (!failed) finish(job);
                           });
 }
 
-void Dispatcher::finish(Job& job) {
+void Dispatcher::finish(RunJob& job) {
   const std::unique_ptr<Active> active = std::move(active_.extract(job.id).mapped());
   look(job, *active);
   const ChildEnd end = active->child.collect();
@@ -224,7 +224,7 @@ void Dispatcher::finish(Job& job) {
   start_what_can();
 }
 
-void Dispatcher::finish_as(Job& job, int code) {
+void Dispatcher::finish_as(RunJob& job, int code) {
   const std::string folder = store_.run_folder(job.id);
   job.failed = code != 0;
   try {
@@ -248,7 +248,7 @@ void Dispatcher::finish_as(Job& job, int code) {
   move(job, job.failed ? JobState::kFailed : JobState::kCompleted);
 }
 
-void Dispatcher::wait_again_after_kill(Job& job) {
+void Dispatcher::wait_again_after_kill(RunJob& job) {
   const bool got_further = job.time_s > job.checkpoint_s;
   job.checkpoint_s = job.time_s;
   job.kills = got_further ? 1 : job.kills + 1;
@@ -267,7 +267,7 @@ void Dispatcher::look_again() {
   });
 }
 
-void Dispatcher::look(Job& job, Active& active) {
+void Dispatcher::look(RunJob& job, Active& active) {
   const std::string folder = store_.run_folder(job.id);
   const std::string line = last_line(progress_file(folder));
   const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
@@ -300,7 +300,7 @@ void Dispatcher::look(Job& job, Active& active) {
   }
 }
 
-void Dispatcher::stop(Job& job) {
+void Dispatcher::stop(RunJob& job) {
   if (job.state == JobState::kWaiting) return move(job, JobState::kStopped);
   check(
       job.state == JobState::kRunning,
@@ -310,7 +310,7 @@ void Dispatcher::stop(Job& job) {
   active.child.send(SIGTERM);
 }
 
-void Dispatcher::resume(Job& job) {
+void Dispatcher::resume(RunJob& job) {
   check(job.state == JobState::kStopped,
         fmt::format("the run is {}; only one that was stopped can be resumed", name_of(job.state)));
   check_room();
@@ -320,7 +320,7 @@ void Dispatcher::resume(Job& job) {
   asio::post(io_, [this] { start_what_can(); });
 }
 
-void Dispatcher::remove(Job& job) {
+void Dispatcher::remove(RunJob& job) {
   check(job.state != JobState::kRunning, "the run goes on; stop it first");
   disk_bytes_ -= job.bytes;
   store_.remove(job);

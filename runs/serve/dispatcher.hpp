@@ -29,39 +29,39 @@ class Dispatcher {
   /// @throws Error(kBadInput) when the queue or the disk is full, or the service ends
   void check_room() const;
   /// Accepts a job whose folder is complete.
-  Job& submit(Job job);
+  RunJob& submit(RunJob job);
   /// @throws Error(kBadInput) where the state of the job does not allow it
-  void stop(Job& job);
-  void resume(Job& job);
-  void remove(Job& job);
+  void stop(RunJob& job);
+  void resume(RunJob& job);
+  void remove(RunJob& job);
 
-  Job* find(const std::string& id);
+  RunJob* find(const std::string& id);
   /// All jobs, oldest first.
-  const std::map<std::string, std::unique_ptr<Job>>& jobs() const { return jobs_; }
+  const std::map<std::string, std::unique_ptr<RunJob>>& jobs() const { return jobs_; }
   /// Counts every change of any job.
   std::uint64_t revision() const { return revision_; }
   double disk_bytes() const { return disk_bytes_; }
   /// What was found damaged at the start.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Called when an evaluation is completed, before its folder goes.
-  std::function<void(const Job&, const std::string& folder)> on_evaluated;
+  std::function<void(const RunJob&, const std::string& folder)> on_evaluated;
 
  private:
   struct Active;
   void start_what_can();
-  void start(Job& job);
-  void wait_for_end(Job& job, Active& active);
-  void finish(Job& job);
-  void finish_as(Job& job, int code);
-  void wait_again_after_kill(Job& job);
+  void start(RunJob& job);
+  void wait_for_end(RunJob& job, Active& active);
+  void finish(RunJob& job);
+  void finish_as(RunJob& job, int code);
+  void wait_again_after_kill(RunJob& job);
   void look_again();
-  void look(Job& job, Active& active);
-  void move(Job& job, JobState to);
+  void look(RunJob& job, Active& active);
+  void move(RunJob& job, JobState to);
 
   boost::asio::io_context& io_;
   const ServeOptions& options_;
   JobStore& store_;
-  std::map<std::string, std::unique_ptr<Job>> jobs_;
+  std::map<std::string, std::unique_ptr<RunJob>> jobs_;
   std::map<std::string, std::unique_ptr<Active>> active_;
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;

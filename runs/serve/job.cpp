@@ -50,7 +50,7 @@ std::string make_job_id() {
                      (now - second).count());
 }
 
-void write_job(const std::string& folder, const Job& job) {
+void write_job(const std::string& folder, const RunJob& job) {
   const nlohmann::ordered_json j = {
       {"id", job.id},           {"name", job.name},     {"scene", job.scene},
       {"set", job.set},         {"key", job.key},       {"evaluation", job.evaluation},
@@ -61,8 +61,8 @@ void write_job(const std::string& folder, const Job& job) {
       j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-Job read_job(const std::string& folder) {
-  Job job;
+RunJob read_job(const std::string& folder) {
+  RunJob job;
   try {
     const nlohmann::json j = nlohmann::json::parse(io::read_text_file(record_file(folder)));
     job.id = j.at("id");

@@ -17,7 +17,7 @@ enum class JobState {
 };
 const char* name_of(JobState state);
 
-struct Job {
+struct RunJob {
   // What stands in job.json.
   std::string id;
   std::string name;              ///< of the scene
@@ -49,7 +49,7 @@ bool is_job_id(const std::string& text);
 std::string make_job_id();
 
 /// Writes and reads job.json in a run folder.   @throws Error(kFileError), kBadInput if it is none
-void write_job(const std::string& folder, const Job& job);
-Job read_job(const std::string& folder);
+void write_job(const std::string& folder, const RunJob& job);
+RunJob read_job(const std::string& folder);
 
 }  // namespace acinus::runs

@@ -34,7 +34,7 @@ const char* queue_of(JobState state) {
 }
 constexpr const char* kQueues[] = {"waiting", "running", "stopped", "ended"};
 
-JobState state_in(const std::string& queue, const Job& job) {
+JobState state_in(const std::string& queue, const RunJob& job) {
   if (queue == "stopped") return JobState::kStopped;
   if (queue == "ended") return job.failed ? JobState::kFailed : JobState::kCompleted;
   return JobState::kWaiting;
@@ -72,15 +72,15 @@ JobStore::JobStore(const std::string& folder)
   for (const char* queue : kQueues) make_folder(folder_ + "/queue/" + queue);
 }
 
-std::vector<Job> JobStore::load(std::vector<std::string>& warnings) {
+std::vector<RunJob> JobStore::load(std::vector<std::string>& warnings) {
   std::map<std::string, std::string> queue_by_id;
   for (const char* queue : kQueues)
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_ + "/queue/" + queue))
       if (const std::string id = entry.path().filename(); is_job_id(id)) queue_by_id[id] = queue;
-  std::vector<Job> jobs;
+  std::vector<RunJob> jobs;
   for (const auto& [id, queue] : queue_by_id) {
     try {
-      Job job = read_job(run_folder(id));
+      RunJob job = read_job(run_folder(id));
       job.id = id;
       job.state = state_in(queue, job);
       if (queue == "running")
@@ -107,12 +107,12 @@ std::string JobStore::make_run_folder() {
   }
 }
 
-void JobStore::accept(const Job& job) {
+void JobStore::accept(const RunJob& job) {
   write_job(run_folder(job.id), job);
   io::write_text_file(queue_file(folder_, "waiting", job.id), "");
 }
 
-void JobStore::move(Job& job, JobState to) {
+void JobStore::move(RunJob& job, JobState to) {
   const std::string from_file = queue_file(folder_, queue_of(job.state), job.id),
                     to_file = queue_file(folder_, queue_of(to), job.id);
   try {
@@ -125,7 +125,7 @@ void JobStore::move(Job& job, JobState to) {
   ++job.revision;
 }
 
-void JobStore::remove(const Job& job) {
+void JobStore::remove(const RunJob& job) {
   std::error_code ignored;
   fs::remove(queue_file(folder_, queue_of(job.state), job.id), ignored);
   fs::remove_all(run_folder(job.id), ignored);

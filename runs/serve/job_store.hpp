@@ -28,16 +28,16 @@ class JobStore {
 
   /// All jobs by id, as a service that ended in whatever way left them: those that were running
   /// wait. Removes folders of runs that were never accepted. What is damaged is told in `warnings`.
-  std::vector<Job> load(std::vector<std::string>& warnings);
+  std::vector<RunJob> load(std::vector<std::string>& warnings);
 
   /// A new id with its folder.
   std::string make_run_folder();
   /// Accepts a job whose folder is complete, as waiting.
-  void accept(const Job& job);
+  void accept(const RunJob& job);
   /// Writes the job's record, then moves it in the queue. @post job.state == to
-  void move(Job& job, JobState to);
+  void move(RunJob& job, JobState to);
   /// Forgets a job and removes its folder.
-  void remove(const Job& job);
+  void remove(const RunJob& job);
 
   /// Bytes of a folder and all below.
   static double size_of(const std::string& folder);

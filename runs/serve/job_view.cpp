@@ -20,7 +20,7 @@ std::string dump(const Json& j) { return j.dump(-1, ' ', false, Json::error_hand
 
 }  // namespace
 
-Json view_job(const Job& job) {
+Json view_job(const RunJob& job) {
   Json j = {{"id", job.id},
             {"name", job.name},
             {"scene", job.scene},
@@ -61,7 +61,7 @@ const std::string& JobList::text() {
 EventSource watch_job(Dispatcher& dispatcher, const std::string& id) {
   return [&dispatcher, id, told = std::optional<std::uint64_t>(),
           quiet = 0]() mutable -> std::optional<std::string> {
-    const Job* job = dispatcher.find(id);
+    const RunJob* job = dispatcher.find(id);
     if (job == nullptr) return std::nullopt;
     if (told != job->revision) {
       told = job->revision;

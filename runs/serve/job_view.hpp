@@ -9,7 +9,7 @@
 
 namespace acinus::runs {
 
-nlohmann::ordered_json view_job(const Job& job);
+nlohmann::ordered_json view_job(const RunJob& job);
 
 /// Counts, and the newest runs without evaluations, newest first.
 class JobList {

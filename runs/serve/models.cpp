@@ -52,7 +52,7 @@ double time_in(const Json& j) {
   return parse_quantity(string_in(j, "\"at\": a time like \"2 days\", or a number of s,"), kTime);
 }
 
-const StudyRun& run_of(const Model& model, const std::string& variant) {
+const StudyRun& run_of(const StudyModel& model, const std::string& variant) {
   const std::vector<Variant>& variants = model.plan->variants;
   const auto found = std::ranges::find_if(
       model.plan->runs, [&](const StudyRun& run) { return variants[run.variant].name == variant; });
@@ -76,7 +76,7 @@ Models::Models() {
   }
 }
 
-ModelConfig read_config(const Model& model, const Json& j) {
+ModelConfig read_config(const StudyModel& model, const Json& j) {
   ModelConfig config;
   config.parameters = model.parameters;
   config.variant = model.plan->variants.front().name;
@@ -114,7 +114,7 @@ ModelConfig read_config(const Model& model, const Json& j) {
   return config;
 }
 
-Scene make_model_scene(const Model& model, const ModelConfig& config,
+Scene make_model_scene(const StudyModel& model, const ModelConfig& config,
                        const std::vector<double>& values) {
   const StudyRun& run = run_of(model, config.variant);
   Document document = parse_document(run.scene.resolved_json, run.scene.name, scene_folder());
@@ -128,7 +128,7 @@ Scene make_model_scene(const Model& model, const ModelConfig& config,
   return read_scene(document, run.scene.name);
 }
 
-std::vector<double> model_output(const Model& model, const ModelConfig& config,
+std::vector<double> model_output(const StudyModel& model, const ModelConfig& config,
                                  const RunResult& result) {
   const auto curve = result.curve.find(model.observable);
   check(curve != result.curve.end() && !curve->second.time.empty(),

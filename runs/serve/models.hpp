@@ -14,7 +14,7 @@
 namespace acinus::runs {
 
 /// One model: an observable of a study.
-struct Model {
+struct StudyModel {
   std::string name;  ///< "closing_force/lesion_area_relative"
   std::string observable, unit;
   const StudyPlan* plan = nullptr;
@@ -35,23 +35,23 @@ struct ModelConfig {
 class Models {
  public:
   Models();
-  const std::map<std::string, Model>& all() const { return models_; }
+  const std::map<std::string, StudyModel>& all() const { return models_; }
 
  private:
   std::vector<StudyPlan> plans_;
-  std::map<std::string, Model> models_;
+  std::map<std::string, StudyModel> models_;
 };
 
 /// @throws Error: what is unknown in it, or has the wrong form
-ModelConfig read_config(const Model& model, const nlohmann::json& config);
+ModelConfig read_config(const StudyModel& model, const nlohmann::json& config);
 
 /// The scene of an evaluation.   @param values  one per parameter, in the units of the keys
 /// @throws Error: all faults of the scene
-Scene make_model_scene(const Model& model, const ModelConfig& config,
+Scene make_model_scene(const StudyModel& model, const ModelConfig& config,
                        const std::vector<double>& values);
 
 /// The output, in the model's unit.   @throws Error where the run has no value at such a time
-std::vector<double> model_output(const Model& model, const ModelConfig& config,
+std::vector<double> model_output(const StudyModel& model, const ModelConfig& config,
                                  const RunResult& result);
 
 }  // namespace acinus::runs

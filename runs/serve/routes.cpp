@@ -83,7 +83,7 @@ fs::file_time_type time_of(const std::string& file) {
 
 }  // namespace
 
-Routes::Routes(asio::io_context& io, const ServeOptions& options, const Access& access,
+Routes::Routes(asio::io_context& io, const ServeOptions& options, const ServiceAccess& access,
                JobStore& store, Dispatcher& dispatcher)
     : io_(io),
       options_(options),
@@ -145,7 +145,7 @@ HttpReply Routes::answer_page(const HttpRequest& request) {
 
 HttpReply Routes::submit(const HttpRequest& request) {
   dispatcher_.check_room();
-  const Job& job = dispatcher_.submit(prepare_submission(request.body, options_, store_));
+  const RunJob& job = dispatcher_.submit(prepare_submission(request.body, options_, store_));
   HttpReply reply = json_reply(201, view_job(job));
   reply.headers.emplace_back("Location", "/runs/" + job.id);
   return reply;
@@ -153,7 +153,7 @@ HttpReply Routes::submit(const HttpRequest& request) {
 
 Task<HttpReply> Routes::answer_run(const HttpRequest& request, const std::string& id,
                                    const std::string& what) {
-  Job& job = *dispatcher_.find(id);
+  RunJob& job = *dispatcher_.find(id);
   if (what == "stop" || what == "resume") {
     if (request.method != "POST") co_return wrong_method("POST");
     what == "stop" ? dispatcher_.stop(job) : dispatcher_.resume(job);
@@ -173,10 +173,19 @@ Task<HttpReply> Routes::answer_run(const HttpRequest& request, const std::string
     co_return reply;
   }
   if (what == "files") co_return list_files(id);
-  if (what == "series")
-    co_return text_reply("application/json", view_series(store_.run_folder(id)) + "\n");
+  if (what == "series") co_return series(job);
   if (what == "report") co_return co_await report(id);
   co_return not_found("a run has no such part");
+}
+
+HttpReply Routes::series(const RunJob& job) {
+  try {
+    return text_reply("application/json", view_series(store_.run_folder(job.id)) + "\n");
+  } catch (const Error&) {
+    // The file may be just in the making.
+    if (job.state != JobState::kRunning) throw;
+    return text_reply("application/json", "{}\n");
+  }
 }
 
 HttpReply Routes::list_files(const std::string& id) {

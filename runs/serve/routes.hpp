@@ -16,7 +16,7 @@ namespace acinus::runs {
 
 class Routes {
  public:
-  Routes(boost::asio::io_context& io, const ServeOptions& options, const Access& access,
+  Routes(boost::asio::io_context& io, const ServeOptions& options, const ServiceAccess& access,
          JobStore& store, Dispatcher& dispatcher);
 
   /// Whether a request may be answered at all, by its head alone: bodies of others are not read.
@@ -30,12 +30,13 @@ class Routes {
   Task<HttpReply> answer_run(const HttpRequest& request, const std::string& id,
                              const std::string& what);
   Task<HttpReply> report(const std::string& id);
+  HttpReply series(const RunJob& job);
   HttpReply list_files(const std::string& id);
   HttpReply send_file(const std::string& id, const std::string& name);
 
   boost::asio::io_context& io_;
   const ServeOptions& options_;
-  const Access& access_;
+  const ServiceAccess& access_;
   JobStore& store_;
   Dispatcher& dispatcher_;
   JobList list_;

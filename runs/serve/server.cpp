@@ -81,7 +81,7 @@ Task<void> accept(tcp::acceptor& acceptor, Routes& routes, const ServeOptions& o
   }
 }
 
-void tell(const ServeOptions& options, const Access& access, int port) {
+void tell(const ServeOptions& options, const ServiceAccess& access, int port) {
   const bool six = options.address.find(':') != std::string::npos;
   const std::string host =
       fmt::format("{}:{}", six ? "[" + options.address + "]" : options.address, port);
@@ -117,8 +117,8 @@ void serve(ServeOptions options) {
   tcp::acceptor acceptor = listen(io, options);
   const int port = acceptor.local_endpoint().port();
   JobStore store(options.data);
-  const Access access{options.token ? keep_token(store.folder() + "/token") : "",
-                      allowed_hosts(options.address, port, options.names)};
+  const ServiceAccess access{options.token ? keep_token(store.folder() + "/token") : "",
+                             allowed_hosts(options.address, port, options.names)};
   Dispatcher dispatcher(io, options, store);
   for (const std::string& warning : dispatcher.warnings())
     fmt::print(stderr, "acinus: warning: {}\n", warning);

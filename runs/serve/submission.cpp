@@ -128,7 +128,7 @@ std::string extended(const Node& root) {
   return name;
 }
 
-Document read_submitted(const Json& j, const std::string& input, Job& job) {
+Document read_submitted(const Json& j, const std::string& input, RunJob& job) {
   check(j.contains("scene"), "\"scene\": missing: the name of a shipped scene, or a scene");
   if (j["scene"].is_string()) {
     job.scene = j["scene"];
@@ -164,7 +164,7 @@ std::string utc_now() {
   return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)));
 }
 
-void write_scene(const Scene& scene, const std::string& folder, Job& job) {
+void write_scene(const Scene& scene, const std::string& folder, RunJob& job) {
   job.created = utc_now();
   job.end_s = scene.time.end;
   io::write_text_file(folder + "/scene.json", write_resolved(scene));
@@ -176,14 +176,14 @@ std::string result_key(const Scene& scene) {
   return fmt::format("{}-{}-{}", scene.hash, ACINUS_VERSION, ACINUS_GIT);
 }
 
-Job prepare_submission(const std::string& body, const ServeOptions& options, JobStore& store) {
+RunJob prepare_submission(const std::string& body, const ServeOptions& options, JobStore& store) {
   const Json j = Json::parse(body, nullptr, false);
   check(j.is_object(), "the request must be a JSON object, e.g. {\"scene\": \"two_cells\"}");
   for (const auto& [key, value] : j.items())
     check(
         key == "scene" || key == "set" || key == "name" || key == "files",
         fmt::format("\"{}\": unknown; allowed are scene, set, name and files", pointer_part(key)));
-  Job job;
+  RunJob job;
   job.set = read_set(j);
   job.id = store.make_run_folder();
   const std::string folder = store.run_folder(job.id), input = folder + "/input";
@@ -205,10 +205,10 @@ Job prepare_submission(const std::string& body, const ServeOptions& options, Job
   return job;
 }
 
-Job prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
-                       JobStore& store) {
+RunJob prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
+                          JobStore& store) {
   check_limits(scene, options);
-  Job job;
+  RunJob job;
   job.id = store.make_run_folder();
   job.name = scene.name;
   job.key = key;

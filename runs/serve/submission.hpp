@@ -16,11 +16,11 @@ namespace acinus::runs {
 /// @return the job, not yet accepted
 /// @throws Error(kBadInput): what is wrong with it, every fault of the scene; paths that are
 ///         absolute or climb among it
-Job prepare_submission(const std::string& body, const ServeOptions& options, JobStore& store);
+RunJob prepare_submission(const std::string& body, const ServeOptions& options, JobStore& store);
 
 /// The same for a scene that is already read, as an evaluation.
-Job prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
-                       JobStore& store);
+RunJob prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
+                          JobStore& store);
 
 /// Identifies the result of a scene: its hash, and the program's version.
 std::string result_key(const Scene& scene);

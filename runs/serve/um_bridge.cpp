@@ -49,11 +49,11 @@ UmBridge::UmBridge(asio::io_context& io, const ServeOptions& options, JobStore& 
     : io_(io), options_(options), store_(store), dispatcher_(dispatcher) {
   for (const auto& [id, job] : dispatcher_.jobs())
     if (job->evaluation) job_by_key_[job->key] = id;
-  dispatcher_.on_evaluated = [this](const Job& job, const std::string& folder) {
+  dispatcher_.on_evaluated = [this](const RunJob& job, const std::string& folder) {
     keep_result(result_file(job.key), read_run_result(folder));
     // Later: the dispatcher is still busy with it.
     asio::post(io_, [this, id = job.id] {
-      if (Job* done = dispatcher_.find(id)) {
+      if (RunJob* done = dispatcher_.find(id)) {
         job_by_key_.erase(done->key);
         dispatcher_.remove(*done);
       }
@@ -91,7 +91,7 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
   if (found == models().all().end())
     co_return error_reply(400, "ModelNotFound",
                           fmt::format("no model {}; GET /Info lists them", Json(name).dump()));
-  const Model& model = found->second;
+  const StudyModel& model = found->second;
   if (what == "ModelInfo")
     co_return json_reply(200, {{"support",
                                 {{"Evaluate", true},
@@ -117,17 +117,17 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
 
 std::string UmBridge::find_or_submit(const Scene& scene, const std::string& key) {
   if (const auto known = job_by_key_.find(key); known != job_by_key_.end())
-    if (Job* job = dispatcher_.find(known->second)) {
+    if (RunJob* job = dispatcher_.find(known->second)) {
       if (job->state == JobState::kStopped) dispatcher_.resume(*job);
       return job->id;
     }
   dispatcher_.check_room();
-  const Job& job = dispatcher_.submit(prepare_evaluation(scene, key, options_, store_));
+  const RunJob& job = dispatcher_.submit(prepare_evaluation(scene, key, options_, store_));
   job_by_key_[key] = job.id;
   return job.id;
 }
 
-Task<HttpReply> UmBridge::evaluate(const Model& model, const ModelConfig& config,
+Task<HttpReply> UmBridge::evaluate(const StudyModel& model, const ModelConfig& config,
                                    const std::vector<double>& values) {
   const Scene scene = make_model_scene(model, config, values);
   const std::string key = result_key(scene);
@@ -138,7 +138,7 @@ Task<HttpReply> UmBridge::evaluate(const Model& model, const ModelConfig& config
       co_return json_reply(200, {{"output", {model_output(model, config, *result)}}});
     if (id.empty()) id = find_or_submit(scene, key);
     for (;;) {
-      const Job* job = dispatcher_.find(id);
+      const RunJob* job = dispatcher_.find(id);
       if (job == nullptr || job->state == JobState::kCompleted) break;
       if (job->state == JobState::kFailed || job->state == JobState::kStopped)
         co_return error_reply(500, "ModelFailed",

@@ -25,7 +25,7 @@ class UmBridge {
 
  private:
   const Models& models();
-  Task<HttpReply> evaluate(const Model& model, const ModelConfig& config,
+  Task<HttpReply> evaluate(const StudyModel& model, const ModelConfig& config,
                            const std::vector<double>& values);
   std::string result_file(const std::string& key) const;
   std::string find_or_submit(const Scene& scene, const std::string& key);
