@@ -40,6 +40,9 @@ HttpReply json_reply(int status, const nlohmann::ordered_json& value);
 HttpReply error_reply(int status, const std::string& type, const std::string& message);
 HttpReply text_reply(const std::string& type, std::string_view text);
 
+/// A text from outside in quotes, for messages.
+std::string quoted(const std::string& text);
+
 /// One server-sent event. @pre no line break in `data`
 std::string event_text(const std::string& data);
 

@@ -120,7 +120,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
     if (path[0] == "runs" && path.size() <= 4) {
       // Only what has the form of an id is ever looked for.
       if (!is_job_id(path[1]) || !dispatcher_.find(path[1]))
-        co_return not_found(fmt::format("no run {}; GET /runs lists them", Json(path[1]).dump()));
+        co_return not_found(fmt::format("no run {}; GET /runs lists them", quoted(path[1])));
       const std::string id = path[1], what = path.size() > 2 ? path[2] : std::string();
       if (path.size() == 4 && what == "files" && reads(request)) co_return send_file(id, path[3]);
       if (path.size() == 4) co_return not_found("a run has no such part");

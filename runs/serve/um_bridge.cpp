@@ -90,7 +90,7 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
   const auto found = models().all().find(name);
   if (found == models().all().end())
     co_return error_reply(400, "ModelNotFound",
-                          fmt::format("no model {}; GET /Info lists them", Json(name).dump()));
+                          fmt::format("no model {}; GET /Info lists them", quoted(name)));
   const StudyModel& model = found->second;
   if (what == "ModelInfo")
     co_return json_reply(200, {{"support",

@@ -17,10 +17,12 @@ class Service:
     def __init__(self, acinus, data, *flags):
         self.command = [acinus, "serve", "--data", data, "--port", "0", *flags]
         self.data, self.process = data, None
+        self.errors = data.rstrip("/") + ".stderr"
         self.start()
 
     def start(self):
-        self.process = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        with open(self.errors, "a") as errors:
+            self.process = subprocess.Popen(self.command, stdout=subprocess.PIPE, stderr=errors, text=True)
         for line in self.process.stdout:
             if found := re.match(r"open http://([^/:]+):(\d+)/", line):
                 self.port = int(found[2])
