@@ -35,8 +35,9 @@ int run_cli(int argc, const char* const* argv) {
                               add_calibrate(app, command_line),
                               add_compare(app, command_line),
                               add_report(app),
-                              add_serve(app),
                               add_study(app),
+                              add_serve(app),
+                              add_openvt(app, command_line),
                               add_bench(app)};
   try {
     app.parse(argc, argv);
