@@ -39,8 +39,8 @@ int grow(const OpenVtOptions& o) {
   const auto n = static_cast<double>(layer.cell.size());
   fmt::print(
       "{} cells within {:.0f} um, cycle {:.1f} h; free of rim {:.3f}, of area {:.3f} in the "
-      "mean; {:.1f} % not on the plane\n",
-      layer.cell.size(), reach, layer.cycle / 3600, rim / n, area / n, 100 * layer.off_plane);
+      "mean\n",
+      layer.cell.size(), reach, layer.cycle / 3600, rim / n, area / n);
   return code;
 }
 

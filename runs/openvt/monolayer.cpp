@@ -42,15 +42,8 @@ Layer read_layer(const std::string& folder, bool deformable) {
   const io::RunReader reader(folder + "/run.vtkhdf");
   const int last = reader.n_frame() - 1;
   check(last >= 0, fmt::format("{}: the run has no frame", folder), Exit::kFileError);
-  double largest = 0;
-  std::vector<double> height;
-  for (const auto& [lineage, cell] : read_cells(reader, last, folder)) {
+  for (const auto& [lineage, cell] : read_cells(reader, last, folder))
     layer.cell.push_back({cell.center.x(), cell.center.y(), cell.radius});
-    height.push_back(cell.center.z());
-    largest = std::max(largest, cell.radius);
-  }
-  const auto off = std::ranges::count_if(height, [&](double z) { return z > 1.5 * largest; });
-  layer.off_plane = static_cast<double>(off) / static_cast<double>(height.size());
   layer.free = free_shares(layer.cell);
   if (!deformable) return layer;
   // Their rims are no circles: what is free of the whole surface. They do not overlap.

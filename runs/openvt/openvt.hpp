@@ -47,7 +47,6 @@ struct Layer {
   double cycle = 0;              ///< s, five times that to 90 %
   std::vector<Disc> cell;        ///< at the end
   std::vector<FreeShares> free;  ///< of deformable cells the rim is that of their surface
-  double off_plane = 0;          ///< share of the cells that do not touch the plane
 };
 
 /// Runs openvt_relax11, then openvt_monolayer with five times its time as cycle.
