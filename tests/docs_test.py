@@ -194,6 +194,8 @@ class Page:
                                 if o == "--preset" and p not in self.facts.presets)
                 elif name == "acinus-bench" and self.facts.bench_options:
                     yield from self.check_arguments("bench", words[k + 1:])
+                elif name == "acinus" and words[:k][-1:] == ["-m"]:
+                    yield from self.check_module(words[k + 1:])
                 elif name in ("acinus", "acinus.sh") and self.facts.program:
                     yield from self.check_acinus(words[k + 1:], name == "acinus.sh")
                 else:
@@ -206,6 +208,13 @@ class Page:
                 yield f"ctest {option} {value}: no test has such a label"
             if option == "-R" and not any(re.search(value, name) for name in self.facts.tests):
                 yield f"ctest -R {value}: no such test"
+
+    def check_module(self, words):
+        """python3 -m acinus"""
+        with open(os.path.join(self.facts.root, "python", "acinus", "__main__.py"), encoding="utf-8") as file:
+            known = re.findall(r'add_parser\("([a-z-]+)"', file.read())
+        if words and words[0] not in known:
+            yield f"python3 -m acinus {words[0]}: no such command"
 
     def check_acinus(self, words, is_script):
         if not words or PLACEHOLDER.match(words[0]) or words[0] in ("--help", "--version"):

@@ -43,12 +43,12 @@ class Law:
         return self.json["a0_kPa"] + self.json["a1_kPa"] * np.asarray(overlap, dtype=float) ** self.json["power"]
 
     def modulus(self, overlap):
-        """What runs add to the modulus at this mean relative overlap, kPa: the table where there is one, else the formula;
+        """Modulus of a sphere at this mean relative overlap, kPa: the table where there is one, else the formula;
         NaN beyond the range of the fit, where the law is not known."""
         d = np.asarray(overlap, dtype=float)
         knot, value = self.table
-        added = np.interp(d, knot, value) if len(knot) else self.formula(d)
-        return np.where((d >= 0) & (d <= self.overlap_range[1]), added, np.nan)
+        found = np.interp(d, knot, value) if len(knot) else self.formula(d)
+        return np.where((d >= 0) & (d <= self.overlap_range[1]), found, np.nan)
 
     def __repr__(self):
         return f"<law {self.file}: {self.json['a0_kPa']:.4g} + {self.json['a1_kPa']:.4g} d^{self.json['power']:g} kPa>"

@@ -107,9 +107,9 @@ def law_table(law, points=60):
     PhysiCell's (1 - distance / sum of radii)^2 makes of it, strength by least squares over the range of the law.
     """
     sphere = law.json["cbm"]
-    radius, young, poisson = sphere["radius_um"], sphere["young_kPa"], sphere["poisson"]
+    radius, poisson = sphere["radius_um"], sphere["poisson"]
     overlap = np.linspace(0, law.overlap_range[1], points)
-    modulus = young + np.nan_to_num(law.modulus(overlap))
+    modulus = law.modulus(overlap)
     stiffness = modulus / (2 * (1 - poisson ** 2))  # of two alike
     force = 4 / 3 * stiffness * np.sqrt(radius / 2) * (2 * radius * overlap) ** 1.5
     shape = overlap ** 2

@@ -119,8 +119,8 @@ class ToOthers(unittest.TestCase):
         table = physicell.law_table(acinus.Law(self.law))
         np.testing.assert_allclose(table["distance"][0], 24)
         self.assertEqual(table["force"][0], 0)
-        # By hand at the end of the range: E = 5.45 kPa, E* = E / (2 (1 - 0.47^2)), R* = 6 um, depth 0.18 * 24 um.
-        np.testing.assert_allclose(table["force"][-1], 4 / 3 * 5.45 / (2 * (1 - 0.47**2)) * 6**0.5 * (0.18 * 24) ** 1.5)
+        # By hand at the end of the range: E = 5 kPa, E* = E / (2 (1 - 0.47^2)), R* = 6 um, depth 0.18 * 24 um.
+        np.testing.assert_allclose(table["force"][-1], 4 / 3 * 5.0 / (2 * (1 - 0.47**2)) * 6**0.5 * (0.18 * 24) ** 1.5)
         file = physicell.write_law(acinus.Law(self.law), self.folder + "/law.csv", drag=2.0)
         lines = pathlib.Path(file).read_text().splitlines()
         self.assertIn(f"{table['strength'] / 2:.6g} um/min", lines[1])

@@ -64,12 +64,16 @@ def log_likelihood(curves, force, curve, noise):
     return -0.5 * np.sum((areas.mean(axis=0) - curve) ** 2 / variance + np.log(variance))
 
 
+def search_grid(curves, curve, noise):
+    """The most likely of nine forces, and the step between them in log force."""
+    grid = np.geomspace(LOW, HIGH, 9)
+    return grid[np.argmax([log_likelihood(curves, f, curve, noise) for f in grid])], math.log(grid[1] / grid[0])
+
+
 def search_maximum(curves, curve, noise):
     from scipy.optimize import minimize_scalar
 
-    grid = np.geomspace(LOW, HIGH, 9)
-    best = grid[np.argmax([log_likelihood(curves, f, curve, noise) for f in grid])]
-    step = math.log(grid[1] / grid[0])
+    best, step = search_grid(curves, curve, noise)
     found = minimize_scalar(lambda x: -log_likelihood(curves, math.exp(x), curve, noise), method="bounded",
                             bounds=(math.log(best) - step, math.log(best) + step), options={"maxiter": 12, "xatol": 0.01})
     return math.exp(found.x)
@@ -83,8 +87,9 @@ def sample_posterior(curves, curve, noise, steps):
         return log_likelihood(curves, math.exp(x[0]), curve, noise) if inside else -math.inf
 
     walkers = 8
-    start = np.linspace(math.log(LOW), math.log(HIGH), walkers + 2)[1:-1, None]
+    best, step = search_grid(curves, curve, noise)
     np.random.seed(1)
+    start = math.log(best) + 0.5 * step * np.random.randn(walkers, 1)
     sampler = emcee.EnsembleSampler(walkers, 1, log_posterior)
     sampler.run_mcmc(start, steps)
     return np.exp(sampler.get_chain(discard=steps // 3, flat=True)[:, 0])
