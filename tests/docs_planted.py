@@ -61,7 +61,7 @@ WRONG = [  # one line each, with a part of what is to be said about it
     ("`wall.shuts`", "no such scene key"),
     ("`walls.0.1.opens`", "no such scene key"),
     ("`acinus walk`", "no such command"),
-    ("`python3 -m acinus walk`", "no such command"),
+    ("\n    python3 -m acinus walk\n", "no such command"),
     ("`acinus run lump`", "no such scene ships"),
     ("`acinus study clump`", "no such study ships"),
     ("`acinus run clump --loud`", "no such option"),
