@@ -211,8 +211,8 @@ class Page:
 
     def check_module(self, words):
         """python3 -m acinus"""
-        with open(os.path.join(self.facts.root, "python", "acinus", "__main__.py"), encoding="utf-8") as file:
-            known = re.findall(r'add_parser\("([a-z-]+)"', file.read())
+        file = os.path.join(self.facts.root, "python", "acinus", "__main__.py")
+        known = re.findall(r'add_parser\("([a-z-]+)"', read(file)) if os.path.exists(file) else []
         if words and words[0] not in known:
             yield f"python3 -m acinus {words[0]}: no such command"
 
