@@ -92,9 +92,10 @@ def operate_rest(browser):
     for name in browser.run("[...(document.querySelector('#observable')?.options ?? [])].map((o) => o.value)")[:20]:
         browser.run(f"""(() => {{ const e = document.querySelector('#observable'); e.value = {json.dumps(name)}; e.dispatchEvent(new Event('change')); }})()""")
     browser.run("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
-    browser.run("(async () => { for (let y = 0; y < document.body.scrollHeight; y += 500) { window.scrollTo(0, y); await new Promise((r) => setTimeout(r, 60)); } })()")
     # Plots are drawn once they come near the window.
-    wait_for(browser, "[...document.querySelectorAll('.plot')].every((p) => p.querySelector('canvas, img') != null)", 15)
+    for k in range(browser.run("document.querySelectorAll('.plot').length")):
+        browser.run(f"document.querySelectorAll('.plot')[{k}].scrollIntoView()")
+        wait_for(browser, f"document.querySelectorAll('.plot')[{k}].querySelector('canvas, img') != null", 15)
     wide = browser.run("document.documentElement.scrollWidth - document.documentElement.clientWidth")
     assert wide <= 0, f"the page is {wide} px wider than the window"
 
