@@ -2,7 +2,7 @@
 
 usage: report_page_test.py ACINUS [--keep FOLDER] [PAGE.html ...]
 
-Without pages a small hybrid run is made first, and a page of it alone and beside itself. No error in the console, no
+Without pages a small hybrid run is made first, and a page of it alone and beside another scene. No error in the console, no
 request but for the page, every control does something. Pictures go to --keep. Exit code 77 without Chromium.
 """
 
@@ -79,8 +79,9 @@ def operate_viewer(browser):
 def pick_a_cell(browser):
     box = browser.run("(() => { window.scrollTo(0, 0); const b = document.querySelector('.stage canvas').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
     views = int(browser.run("document.querySelector('.stage').dataset.views"))
-    for share in (0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65):
-        mouse_click(browser, box[0] + box[2] / views * 0.5, box[1] + share * box[3])
+    near = (0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65)
+    for x, y in sorted(((x, y) for x in near for y in near), key=lambda p: (p[0] - 0.5) ** 2 + (p[1] - 0.5) ** 2):
+        mouse_click(browser, box[0] + box[2] / views * x, box[1] + y * box[3])
         if not browser.run("document.querySelector('.cell').hidden"):
             break
     else:
@@ -123,9 +124,11 @@ def make_pages(acinus, folder):
     run = os.path.join(folder, "small.run")
     subprocess.run([acinus, "run", "lobule_hybrid", "--set", "start_up.growth_time=30 min", "--set", "output.every=10 min", "--until", "30 min",
                     "--threads", "1", "--out", run, "--quiet"], check=True)
+    other = os.path.join(folder, "other.run")
+    subprocess.run([acinus, "run", "two_cells", "--until", "10 min", "--threads", "1", "--out", other, "--quiet"], check=True)
     pages = [os.path.join(folder, name) for name in ("one.html", "two.html")]
     subprocess.run([acinus, "report", run, "--out", pages[0], "--quiet"], check=True)
-    subprocess.run([acinus, "report", run, run + "/", "--out", pages[1], "--quiet"], check=True)
+    subprocess.run([acinus, "report", run, other, "--out", pages[1], "--quiet"], check=True)
     return pages
 
 

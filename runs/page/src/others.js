@@ -47,5 +47,5 @@ export function comparison(c, names) {
   const parts = c.runs.flatMap((rows, k) => [make("h3", {}, `${names[k + 1]} against ${names[0]}`), table(["quantity", names[0], names[k + 1], "", "difference"], rows.map((d) => [
     d.name, number(d.reference), number(d.value), nice(d.unit), d.difference == null ? "–" : d.absolute ? `${number(d.difference)} ${nice(d.unit)}` : `${number(+(100 * d.difference).toPrecision(3))} %`]),
     `${names[k + 1]} against ${names[0]}`)]);
-  return make("div", {}, make("p", { class: "quiet" }, `${c.frames} frames from ${duration(c.from)} to ${duration(c.to)}. Means over cells and frames.`), ...parts, ...c.notes.map((n) => make("p", { class: "quiet" }, n)));
+  return make("div", {}, make("p", { class: "quiet" }, `${c.frames} ${c.frames === 1 ? "frame" : "frames"} from ${duration(c.from)} to ${duration(c.to)}. Means over cells and frames.`), ...parts, ...c.notes.map((n) => make("p", { class: "quiet" }, n)));
 }
