@@ -213,19 +213,19 @@ HttpReply Routes::send_file(const std::string& id, const std::string& name) {
 }
 
 /// By a process of its own: making it takes a while, and must not take the service along.
-Task<HttpReply> Routes::report(const std::string& id) {
+Task<HttpReply> Routes::report(std::string id) {
   const std::string folder = store_.run_folder(id), file = folder + "/report.html";
   asio::steady_timer timer(co_await asio::this_coro::executor);
-  while (making_.contains(id) || static_cast<int>(making_.size()) >= kMostReports) {
+  while (making_->contains(id) || static_cast<int>(making_->size()) >= kMostReports) {
     timer.expires_after(kPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
   if (time_of(file) < time_of(folder + "/run.vtkhdf") || time_of(file) == time_of("")) {
-    making_[id] = true;
+    making_->insert(id);
     const struct Done {
-      std::map<std::string, bool>& making;
-      const std::string& id;
-      ~Done() { making.erase(id); }
+      std::shared_ptr<std::set<std::string>> making;
+      std::string id;
+      ~Done() { making->erase(id); }
     } done{making_, id};
     const std::string words = folder + "/report.txt", fresh = folder + "/report.new.html";
     std::error_code ignored;

@@ -2,7 +2,8 @@
 /// Which request does what. docs/service.md lists them.
 
 #include <boost/asio/io_context.hpp>
-#include <map>
+#include <memory>
+#include <set>
 #include <string>
 
 #include "runs/serve/access.hpp"
@@ -29,7 +30,7 @@ class Routes {
   HttpReply submit(const HttpRequest& request);
   Task<HttpReply> answer_run(const HttpRequest& request, const std::string& id,
                              const std::string& what);
-  Task<HttpReply> report(const std::string& id);
+  Task<HttpReply> report(std::string id);
   HttpReply series(const RunJob& job);
   HttpReply list_files(const std::string& id);
   HttpReply send_file(const std::string& id, const std::string& name);
@@ -41,7 +42,9 @@ class Routes {
   Dispatcher& dispatcher_;
   JobList list_;
   UmBridge um_bridge_;
-  std::map<std::string, bool> making_;  ///< reports that are being made
+  /// Reports that are being made. Owned by those that are, too: when the service ends, their
+  /// coroutines go with the loop, after this object.
+  std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();
 };
 
 }  // namespace acinus::runs
