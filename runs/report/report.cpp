@@ -76,6 +76,7 @@ std::string write_report(const ReportOptions& options) {
     }
   }
   if (folders.size() > 1) data["comparison"] = describe_comparison(folders);
+  if (!options.title.empty()) data["items"][0]["name"] = options.title;
   std::string title = data["items"][0]["name"].get<std::string>();
   if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
   const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;

@@ -11,6 +11,7 @@ struct ReportOptions {
   std::vector<std::string> what;  ///< run folders, law files, study folders
   std::string out = "";           ///< HTML file; "" = named after the first
   std::string png = "";           ///< picture of the page; "" = none
+  std::string title = "";         ///< of the first; "" = its file name
   int most_frames = 50;
   std::size_t bytes = 8'000'000;  ///< of the page
 };

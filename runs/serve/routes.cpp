@@ -230,7 +230,9 @@ Task<HttpReply> Routes::report(std::string id) {
     const std::string words = folder + "/report.txt", fresh = folder + "/report.new.html";
     std::error_code ignored;
     fs::remove(words, ignored);
-    Child child({"report", folder, "--out", fresh},
+    const RunJob* job = dispatcher_.find(id);
+    const std::string title = job != nullptr ? job->name : id;
+    Child child({"report", folder, "--out", fresh, "--title=" + title},
                 {.output = words, .limit_s = kReportLimit, .follows_parent = true});
     // Not the descriptor: the coroutine may go before the child does.
     while (!wait_for_any({&child}, 0)) {

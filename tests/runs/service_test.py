@@ -43,7 +43,7 @@ def test_a_run_from_submission_to_files(service, acinus):
     assert any(len(s["value"]) > 1 and len(s["value"]) == len(s["time_s"]) for s in series.values()), series
     assert {f["name"] for f in service.json("GET", f"/runs/{run}/files")} >= {"run.vtkhdf", "summary.json", "scene.json", "checkpoint.h5"}
     status, headers, page = service.ask("GET", f"/runs/{run}/report")
-    assert status == 200 and page.startswith(b"<!DOCTYPE html>") and "sandbox" in headers["Content-Security-Policy"]
+    assert status == 200 and page.startswith(b"<!DOCTYPE html>") and b"<title>mine</title>" in page and "sandbox" in headers["Content-Security-Policy"]
     status, headers, data = service.ask("GET", f"/runs/{run}/files/run.vtkhdf")
     assert status == 200 and data.startswith(b"\x89HDF") and "attachment" in headers["Content-Disposition"]
     assert service.ask("HEAD", f"/runs/{run}/files/run.vtkhdf")[1]["Content-Length"] == str(len(data))
