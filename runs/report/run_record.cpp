@@ -43,7 +43,7 @@ RunRecord read_run_record(const std::string& folder) {
   attempt(run, "lock of the folder", [&] { run.going_on = is_being_written(folder); });
   if (has_summary) attempt(run, "summary", [&] { run.summary = io::read_text_file(summary); });
   if (!has_file) {
-    run.damage.push_back("run.vtkhdf is missing: no frames, no tables");
+    run.damage.emplace_back("run.vtkhdf is missing: no frames, no tables");
     return run;
   }
   attempt(run, "run file", [&] { run.reader.emplace(file); });
