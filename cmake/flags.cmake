@@ -15,7 +15,8 @@ target_compile_options(acinus_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math "$<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wpedantic>" -Wno-psabi
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>)  # gcc 12 sees impossible overlaps in std::string concatenation
 if(ACINUS_WERROR)
-  target_compile_options(acinus_flags INTERFACE -Werror)
+  # gcc 12 sees copies of short texts run beyond their ends: told, but no error.
+  target_compile_options(acinus_flags INTERFACE -Werror -Wno-error=array-bounds)
 endif()
 if(ACINUS_ASSERTS)
   target_compile_definitions(acinus_flags INTERFACE ACINUS_ENABLE_ASSERTS)
