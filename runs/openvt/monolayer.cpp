@@ -42,12 +42,14 @@ Layer read_layer(const std::string& folder, bool deformable) {
   const io::RunReader reader(folder + "/run.vtkhdf");
   const int last = reader.n_frame() - 1;
   check(last >= 0, fmt::format("{}: the run has no frame", folder), Exit::kFileError);
-  for (const auto& [lineage, cell] : read_cells(reader, last, folder))
-    layer.cell.push_back({cell.center.x(), cell.center.y(), cell.radius});
+  const io::Table cells = reader.cells(last);
+  const std::vector<double>&center = cell_column(cells, "center", folder),
+        &radius = cell_column(cells, "radius", folder);
+  for (std::size_t k = 0; k < radius.size(); ++k)
+    layer.cell.push_back({center[3 * k], center[3 * k + 1], radius[k]});
   layer.free = free_shares(layer.cell);
   if (!deformable) return layer;
   // Their rims are no circles: what is free of the whole surface. They do not overlap.
-  const io::Table cells = reader.cells(last);
   const std::vector<double>& area = cell_column(cells, "area", folder);
   const std::vector<double>& touched = cell_column(cells, "contact_area", folder);
   for (std::size_t k = 0; k < layer.free.size(); ++k)

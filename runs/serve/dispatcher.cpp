@@ -269,7 +269,7 @@ void Dispatcher::look_again() {
 
 void Dispatcher::look(RunJob& job, Active& active) {
   const std::string folder = store_.run_folder(job.id);
-  const std::string line = last_line(progress_file(folder));
+  const std::string line = take_progress_line(progress_file(folder));
   const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
   if (j.is_object() && j.value("wall_s", -1.0) >= 0) {
     const RunProgress progress = parse_progress(line);

@@ -60,14 +60,17 @@ RunProgress parse_progress(const std::string& line) {
   return progress;
 }
 
-RunProgress read_progress(const ActiveRun& run) {
+std::string take_progress_line(const std::string& file) {
   constexpr std::uintmax_t kLongest = 1 << 16;  // bytes
-  const std::string file = run.folder + "/progress.txt";
-  const RunProgress progress = parse_progress(last_line(file));
+  std::string line = last_line(file);
   std::error_code code;
   const std::uintmax_t size = fs::file_size(file, code);
   if (!code && size > kLongest) fs::resize_file(file, 0, code);  // the run appends
-  return progress;
+  return line;
+}
+
+RunProgress read_progress(const ActiveRun& run) {
+  return parse_progress(take_progress_line(run.folder + "/progress.txt"));
 }
 
 std::string last_line(const std::string& file) {

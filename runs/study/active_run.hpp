@@ -41,7 +41,10 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t run, const std::string& r
 /// One line of --progress json; what it does not say has the default.
 RunProgress parse_progress(const std::string& line);
 
-/// Nothing said yet gives the default. Keeps the file that is read small.
+/// The last line of a progress file, "" if none. Keeps the file that is read small.
+std::string take_progress_line(const std::string& file);
+
+/// Nothing said yet gives the default.
 RunProgress read_progress(const ActiveRun& run);
 
 /// The last line that a program printed, "" if none.
