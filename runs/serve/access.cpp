@@ -133,8 +133,7 @@ std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& 
   if (!same_secret(cookie_token(request), access.token))
     return refused("a token is needed: the line that `acinus serve` prints has it");
   // A browser sends cookies along whoever made it ask; what changes something must say who did.
-  const bool reads = request.method == "GET" || request.method == "HEAD";
-  if (!reads && origin.empty() && request.header("sec-fetch-site") != "same-origin")
+  if (!request.reads() && origin.empty() && request.header("sec-fetch-site") != "same-origin")
     return error_reply(403, "Forbidden", "a cookie alone changes nothing: no Origin was sent");
   return std::nullopt;
 }

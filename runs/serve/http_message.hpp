@@ -18,6 +18,7 @@ struct HttpRequest {
   std::map<std::string, std::string> headers;  ///< names in lower case
   std::string body;
   std::string header(const std::string& name) const;  ///< "" = none
+  bool reads() const { return method == "GET" || method == "HEAD"; }
 };
 
 /// The next piece of a reply that goes on: "" where there is nothing new yet, nothing at its end.

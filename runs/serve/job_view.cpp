@@ -87,11 +87,7 @@ EventSource watch_list(const Dispatcher& dispatcher, JobList& list) {
 std::string view_series(const std::string& run_folder) {
   std::error_code code;
   if (!std::filesystem::exists(run_folder + "/run.vtkhdf", code)) return "{}";
-  const RunResult result = read_run_result(run_folder);
-  Json j = Json::object();
-  for (const auto& [name, curve] : result.curve)
-    j[name] = {{"unit", result.unit.at(name)}, {"time_s", curve.time}, {"value", curve.value}};
-  return dump(j);
+  return result_text(read_run_result(run_folder));
 }
 
 }  // namespace acinus::runs

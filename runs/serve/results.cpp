@@ -31,11 +31,15 @@ RunResult read_run_result(const std::string& run_folder) {
   return result;
 }
 
-void keep_result(const std::string& file, const RunResult& result) {
+std::string result_text(const RunResult& result) {
   nlohmann::ordered_json j = nlohmann::ordered_json::object();
   for (const auto& [name, curve] : result.curve)
     j[name] = {{"unit", result.unit.at(name)}, {"time_s", curve.time}, {"value", curve.value}};
-  io::write_text_file(file, j.dump() + "\n");
+  return j.dump();
+}
+
+void keep_result(const std::string& file, const RunResult& result) {
+  io::write_text_file(file, result_text(result) + "\n");
 }
 
 std::optional<RunResult> find_result(const std::string& file) {

@@ -18,6 +18,9 @@ struct RunResult {
 /// The observables of a run folder, also of one that goes on.   @throws Error(kFileError)
 RunResult read_run_result(const std::string& run_folder);
 
+/// One line of JSON, {"NAME": {"unit", "time_s", "value"}}.
+std::string result_text(const RunResult& result);
+
 /// @throws Error(kFileError)
 void keep_result(const std::string& file, const RunResult& result);
 /// Nothing if there is none, or it cannot be read: it is made again then.

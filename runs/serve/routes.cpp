@@ -45,10 +45,6 @@ HttpReply from_error(const Error& error) {
   return error_reply(clients ? 400 : 503, clients ? "InvalidInput" : "FileError", error.what());
 }
 
-bool reads(const HttpRequest& request) {
-  return request.method == "GET" || request.method == "HEAD";
-}
-
 /// Only what the service itself sends may run in its page; frames are its own reports.
 constexpr const char* kPagePolicy =
     "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; frame-ancestors "
@@ -95,7 +91,7 @@ Routes::Routes(asio::io_context& io, const ServeOptions& options, const ServiceA
 
 Task<HttpReply> Routes::answer(const HttpRequest& request) {
   if (std::optional<HttpReply> refusal = refuse(access_, request)) {
-    const bool browser = reads(request) && request.path.empty() && refusal->status == 401;
+    const bool browser = request.reads() && request.path.empty() && refusal->status == 401;
     co_return browser ? page(kLoginPage, kLoginPolicy, 401) : std::move(*refusal);
   }
   std::optional<HttpReply> fault;
@@ -104,17 +100,17 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
     if (UmBridge::is_asked(request)) co_return co_await um_bridge_.answer(request);
     if (path.empty() || path[0] == "page" || path[0] == "login") co_return answer_page(request);
     if (path == Path{"scenes"})
-      co_return reads(request) ? json_reply(200, library_of(shipped_scenes()))
-                               : wrong_method("GET");
+      co_return request.reads() ? json_reply(200, library_of(shipped_scenes()))
+                                : wrong_method("GET");
     if (path == Path{"events"}) {
-      if (!reads(request)) co_return wrong_method("GET");
+      if (!request.reads()) co_return wrong_method("GET");
       HttpReply reply;
       reply.events = watch_list(dispatcher_, list_);
       co_return reply;
     }
     if (path[0] == "runs" && path.size() == 1) {
       if (request.method == "POST") co_return submit(request);
-      if (!reads(request)) co_return wrong_method("GET, POST");
+      if (!request.reads()) co_return wrong_method("GET, POST");
       co_return text_reply("application/json", list_.text() + "\n");
     }
     if (path[0] == "runs" && path.size() <= 4) {
@@ -122,7 +118,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
       if (!is_job_id(path[1]) || !dispatcher_.find(path[1]))
         co_return not_found(fmt::format("no run {}; GET /runs lists them", quoted(path[1])));
       const std::string id = path[1], what = path.size() > 2 ? path[2] : std::string();
-      if (path.size() == 4 && what == "files" && reads(request)) co_return send_file(id, path[3]);
+      if (path.size() == 4 && what == "files" && request.reads()) co_return send_file(id, path[3]);
       if (path.size() == 4) co_return not_found("a run has no such part");
       co_return co_await answer_run(request, id, what);
     }
@@ -135,7 +131,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
 HttpReply Routes::answer_page(const HttpRequest& request) {
   const Path& path = request.path;
   if (path == Path{"login"} && request.method == "POST") return log_in(access_, request);
-  if (!reads(request)) return wrong_method("GET");
+  if (!request.reads()) return wrong_method("GET");
   if (path.empty()) return page(kServicePage, kPagePolicy);
   if (path == Path{"login"}) return page(kLoginPage, kLoginPolicy);
   if (path == Path{"page", "service.js"}) return text_reply("text/javascript", kServiceScript);
@@ -165,7 +161,7 @@ Task<HttpReply> Routes::answer_run(const HttpRequest& request, const std::string
     reply.status = 204;
     co_return reply;
   }
-  if (!reads(request)) co_return wrong_method(what.empty() ? "GET, DELETE" : "GET");
+  if (!request.reads()) co_return wrong_method(what.empty() ? "GET, DELETE" : "GET");
   if (what.empty()) co_return json_reply(200, view_job(job));
   if (what == "events") {
     HttpReply reply;
