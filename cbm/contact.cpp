@@ -27,14 +27,15 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
     }
     const double d = relative_overlap(work, i, law);
     work.modulus[i] = corrected_modulus(law, s.young[i], d);
+    if (work.is_foreign(i)) continue;
     ++work.corrected;
     work.beyond += d > law.range ? 1 : 0;
   }
 }
 
-/// Adds the coupling of its cells to the stiffness of every contact.
-void add_coupling(const ContactInput& in, ContactWorkspace& work, std::span<Contact> obstacle,
-                  std::vector<solve::PointLink>& link) {
+/// Makes of the coupling of one contact that of all contacts of a cell.
+void scale_coupling(const ContactInput& in, ContactWorkspace& work,
+                    std::span<const Contact> obstacle) {
   std::vector<double>& contacts = work.scratch;
   contacts.assign(work.coupling.size(), 0.0);
   for (const auto& [a, b] : work.touching) {
@@ -46,14 +47,6 @@ void add_coupling(const ContactInput& in, ContactWorkspace& work, std::span<Cont
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (!in.params[in.state.type[i]].correction.mean_of_contacts)
       work.coupling[i] *= contacts[i] / kNeighbours;
-  std::size_t k = 0;
-  for (const auto& touching : work.touching) {
-    if (touching.second < 0) continue;  // boundary
-    while (work.pair[k] != touching) ++k;
-    link[k].stiffness +=
-        static_cast<float>(work.coupling[touching.first] + work.coupling[touching.second]);
-  }
-  for (Contact& o : obstacle) o.slope += work.coupling[o.a];
 }
 
 }  // namespace
@@ -85,6 +78,7 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   }
   // A wall is as much of an obstacle as the cell's own image behind it.
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
+    if (work.is_foreign(i)) continue;
     const auto count = [&](double gap) {
       count_overlap(work, i, contact::mirror_wall_compression(radius[i], gap),
                     cells.strength_of(i));
@@ -151,7 +145,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
   }
   const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
   work.pair = {};  // before the new ones take memory
-  work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin);
+  work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.foreign);
   work.segment.clear();
   const mesh::Network& network = in.boundary.vessels.network;
   if (!network.segment.empty()) {
@@ -166,7 +160,8 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
     work.segment = contact::find_pairs_between(boxes, segments, margin);
     std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
       const std::size_t i = p.first;
-      return contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
+      return work.is_foreign(i) ||
+             contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
     });
   }
   work.list_position = s.position;
@@ -183,7 +178,20 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   find_obstacle_contacts(in, work, contacts.all);
   contacts.sphere_obstacle_end = contacts.all.size();
   if (!work.coupling.empty())
-    add_coupling(in, work, std::span(contacts.all).subspan(contacts.interface_end), link);
+    scale_coupling(in, work, std::span(contacts.all).subspan(contacts.interface_end));
+}
+
+void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
+                  std::span<solve::PointLink> link) {
+  if (work.coupling.empty()) return;
+  std::size_t k = 0;
+  for (const auto& touching : work.touching) {
+    if (touching.second < 0) continue;  // boundary
+    while (work.pair[k] != touching) ++k;
+    link[k].stiffness +=
+        static_cast<float>(work.coupling[touching.first] + work.coupling[touching.second]);
+  }
+  for (Contact& o : obstacle) o.slope += work.coupling[o.a];
 }
 
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,

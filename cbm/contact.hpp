@@ -42,7 +42,11 @@ struct TypeFactors {
 /// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
 /// cells of its own range only and works out pairs that cross into it once more.
 struct ContactWorkspace {
-  std::vector<std::pair<int, int>> pair;     ///< near pairs, ascending; written by: refresh_pairs
+  /// [n_cell] 1: another process works out this cell; empty: none. Set by the caller. What is
+  /// summed over the contacts of a cell is whole for own cells only.
+  std::vector<std::uint8_t> foreign;
+  /// Near pairs with an own cell, ascending; written by: refresh_pairs
+  std::vector<std::pair<int, int>> pair;
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
   std::vector<double> force;  ///< [n_row][3][lane] nN of all pairs; by: find_contacts
@@ -63,6 +67,8 @@ struct ContactWorkspace {
   int list_builds = 0;
   std::int64_t searches = 0;               ///< calls of find_contacts
   std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
+
+  bool is_foreign(std::size_t cell) const { return !foreign.empty() && foreign[cell] != 0; }
 };
 
 /// A contact that exerts this share of its force: stiffness and contact area, and with it friction,
@@ -111,6 +117,11 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work);
 /// @param link      one per near pair, zero where not touching
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts,
                    std::vector<solve::PointLink>& link);
+
+/// The last stage of it: adds the coupling of its cells to the stiffness of every contact.
+/// @pre work.coupling is known of every cell that has a contact, or empty
+void add_coupling(ContactWorkspace& work, std::span<contact::Contact> obstacle,
+                  std::span<solve::PointLink> link);
 
 /// Adds the forces find_contacts worked out, and force and link of contacts with boundary.
 /// @pre the point links are those of find_contacts

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace acinus {
 namespace {
@@ -35,7 +36,7 @@ void ExactSum::add(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   std::uint64_t exponent = (bits >> kFraction) & kExponents;
   if (exponent == kExponents) {
-    special_ += value;
+    ++word_[std::isnan(value) ? kNan : value > 0 ? kPlusInfinity : kMinusInfinity];
     return;
   }
   std::uint64_t digits = bits & ((std::uint64_t{1} << kFraction) - 1);
@@ -57,13 +58,12 @@ void ExactSum::add(const ExactSum& other) {
   ExactSum ready = other;
   ready.carry();
   for (int k = 0; k < kWords; ++k) word_[k] += ready.word_[k];
-  special_ += ready.special_;
   carry();
 }
 
 /// Leaves 32 bits in each word but the last, which has the sign.
 void ExactSum::carry() {
-  for (int k = 0; k + 1 < kWords; ++k) {
+  for (int k = 0; k + 1 < kDigitWords; ++k) {
     const std::int64_t over = word_[k] >> kWordBits;  // towards minus infinity
     word_[k] -= over << kWordBits;
     word_[k + 1] += over;
@@ -77,15 +77,18 @@ std::span<std::int64_t> ExactSum::words() {
 }
 
 double ExactSum::value() const {
-  if (special_ != 0 || std::isnan(special_)) return special_;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const bool plus = word_[kPlusInfinity] > 0, minus = word_[kMinusInfinity] > 0;
+  if (word_[kNan] > 0 || (plus && minus)) return std::numeric_limits<double>::quiet_NaN();
+  if (plus || minus) return plus ? kInfinity : -kInfinity;
   ExactSum sum = *this;
   sum.carry();
-  const bool negative = sum.word_.back() < 0;
+  const bool negative = sum.word_[kDigitWords - 1] < 0;
   if (negative) {
-    for (std::int64_t& w : sum.word_) w = -w;
+    for (int k = 0; k < kDigitWords; ++k) sum.word_[k] = -sum.word_[k];
     sum.carry();
   }
-  int top = kWords - 1;
+  int top = kDigitWords - 1;
   while (top > 0 && sum.word_[top] == 0) --top;
   // Three words have all digits of a double; of what is below only whether there is anything
   // counts.

@@ -9,10 +9,11 @@
 namespace acinus {
 
 /// The exact sum of any finite numbers as one long integer, in words that overlap: each holds 32
-/// bits of it and room for carries. 67 words, two of which a term touches.
+/// bits of it and room for carries. 67 words, two of which a term touches, and three that count the
+/// terms that are not finite.
 class ExactSum {
  public:
-  static constexpr int kWords = 67;
+  static constexpr int kDigitWords = 67, kWords = kDigitWords + 3;
 
   void add(double value);
   void add(const ExactSum& other);
@@ -24,9 +25,9 @@ class ExactSum {
   std::span<std::int64_t> words();
 
  private:
+  enum { kNan = kDigitWords, kPlusInfinity, kMinusInfinity };
   void carry();
-  std::array<std::int64_t, kWords> word_{};  ///< of 2^(32 k - 1075)
-  double special_ = 0;                       ///< sum of terms that are not finite
+  std::array<std::int64_t, kWords> word_{};  ///< of 2^(32 k - 1075); then what is not finite
   int n_since_carry_ = 0;
 };
 

@@ -37,6 +37,7 @@ enum class Purpose : std::uint32_t {
   kSampling = 9,
   kLifeRule = 10,
   kProliferation = 11,
+  kSharing = 12,
 };
 
 /// Address of one block of random words.

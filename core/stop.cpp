@@ -23,6 +23,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 volatile std::sig_atomic_t g_last = 0, g_count = 0;
 int g_depth = 0;
 double g_limit = kNever;  ///< on the clock of wall_seconds()
+/// What processes that share a run agreed on.
+enum class Agreement { kNone, kGoOn, kStop } g_agreement = Agreement::kNone;
 
 bool has_signal() { return g_depth > 0 && g_last != 0; }
 
@@ -58,6 +60,7 @@ StopSignals::StopSignals() {
   if (g_depth++ > 0) return;
   g_last = 0;
   g_count = 0;
+  if (g_agreement == Agreement::kStop) g_agreement = Agreement::kGoOn;
   handle_with(remember);
 }
 
@@ -73,11 +76,18 @@ WallTimeLimit::WallTimeLimit(double limit_s) : before_(g_limit) {
 
 WallTimeLimit::~WallTimeLimit() { g_limit = before_; }
 
-bool stop_requested() { return has_signal() || (g_limit < kNever && wall_seconds() > g_limit); }
+bool is_asked_to_stop() { return has_signal() || (g_limit < kNever && wall_seconds() > g_limit); }
+
+void agree_to_stop(bool stop) { g_agreement = stop ? Agreement::kStop : Agreement::kGoOn; }
+
+bool stop_requested() {
+  return g_agreement == Agreement::kNone ? is_asked_to_stop() : g_agreement == Agreement::kStop;
+}
 
 std::string describe_stop() {
+  if (!stop_requested()) return {};
   if (has_signal()) return fmt::format("signal {}", static_cast<int>(g_last));
-  return stop_requested() ? "the wall-time limit" : "";
+  return is_asked_to_stop() ? "the wall-time limit" : "a request to another process";
 }
 
 ExitAtLimit::ExitAtLimit() {

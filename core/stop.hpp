@@ -34,10 +34,16 @@ class WallTimeLimit {
 };
 
 /// Whether a signal was counted or the limit has passed: what goes on must come to an end, and what
-/// is there be saved.
+/// is there be saved. Of processes that share a run: whether one of them was, as they agreed.
 bool stop_requested();
 /// "signal 15", "the wall-time limit"; empty: none.
 std::string describe_stop();
+
+/// Whether this process was, whatever others know. For what makes them agree.
+bool is_asked_to_stop();
+/// From the first call on stop_requested() says what was agreed last, so that all processes see it
+/// change at the same place.
+void agree_to_stop(bool stop);
 
 /// While one of these lives, and there is nothing to save yet, the program ends at the limit with
 /// exit code 75, whatever it is busy with.

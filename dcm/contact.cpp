@@ -238,6 +238,7 @@ void find_shares(const ContactInput& in, const contact::ContactList& contacts,
   work.share.resize(work.body.size());
   for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
     std::vector<double>& share = work.share[k];
+    if (work.is_complete[k] == 0) return share.clear();
     const auto number = static_cast<int>(k);
     share.assign(contact::n_points(work.body[k], in.options.quadrature), 0.0);
     for (const Contact& s : std::ranges::equal_range(
@@ -273,6 +274,12 @@ void find_point_contacts(const ContactInput& in, const contact::SearchOptions& o
   work.points_listed += listed;
   work.points_seen += seen;
   for (const auto& f : work.found) all.insert(all.end(), f.begin(), f.end());
+}
+
+void complete_body(const State& state, std::size_t k, ContactWorkspace& work) {
+  copy_nodes(state, work.lane_of_body[k], work.body[k].node);
+  contact::refresh_body(work.body[k]);
+  work.is_complete[k] = 1;
 }
 
 }  // namespace
@@ -336,25 +343,62 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
     for (std::size_t l = 0; l < state.n_lane(); ++l)
       if (state.active(l)) work.lane_of_body.push_back(l);
   }
+  work.is_complete.assign(n, 0);
   for_each_index(n, worth_threads(state.n_row()), [&](std::size_t k) {
     contact::SurfaceBody& b = work.body[k];
     b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
     b.triangle = &b.topology->triangle;
-    copy_nodes(state, work.lane_of_body[k], b.node);
-    contact::refresh_body(b);
+    if (!work.is_foreign_body(k)) return complete_body(state, k, work);
+    b.box = Box{};
+    for (int i = 0; i < b.topology->n_node; ++i)
+      b.box.include(
+          load_point(state.position.data(), node_address(state, work.lane_of_body[k], i)));
   });
+}
+
+void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work) {
+  std::vector<int> missing;
+  for (const int b : bodies)
+    if (work.is_complete[b] == 0) missing.push_back(b);
+  if (missing.empty()) return;
+  std::ranges::sort(missing);
+  const auto repeated = std::ranges::unique(missing);
+  missing.erase(repeated.begin(), repeated.end());
+  for_each_index(missing.size(), worth_threads(state.n_row()), [&](std::size_t k) {
+    complete_body(state, static_cast<std::size_t>(missing[k]), work);
+  });
+}
+
+void copy_all_nodes(const State& state, ContactWorkspace& work) {
+  for (std::size_t b = 0; b < work.body.size(); ++b)
+    if (work.is_complete[b] == 0) copy_nodes(state, work.lane_of_body[b], work.body[b].node);
 }
 
 void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
   work.lineage_of_body.clear();
   work.body_constrained.clear();
+  work.body_foreign.clear();
   for (std::size_t lane : work.lane_of_body) {
     work.lineage_of_body.push_back(in.state.lineage[lane]);
     if (!work.constrained.empty()) work.body_constrained.push_back(work.constrained[lane]);
+    if (!work.foreign.empty()) work.body_foreign.push_back(work.foreign[lane]);
   }
-  refresh_lists({work.body, work.fixed, work.lineage_of_body, work.body_constrained,
-                 in.boundary.vessels.network, search_options(in)},
-                work.lists);
+  const ListInput input{work.body,
+                        work.fixed,
+                        work.lineage_of_body,
+                        work.body_constrained,
+                        work.body_foreign,
+                        in.boundary.vessels.network,
+                        search_options(in)};
+  refresh_pairs(input, work.lists);
+  if (!work.foreign.empty()) {
+    std::vector<int> listed;
+    for (const contact::Candidates& c : work.lists.pair)
+      for (const int b : {c.body_a, c.body_b})
+        if (b < static_cast<int>(work.body.size())) listed.push_back(b);
+    complete_bodies(in.state, listed, work);
+  }
+  refresh_lists(input, work.lists);
 }
 
 void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::ContactList& contacts) {
@@ -369,7 +413,8 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   work.obstacle.resize(work.body.size());
   for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
     work.obstacle[k].clear();
-    if (work.constrained.empty() || work.constrained[work.lane_of_body[k]] == 0)
+    const std::size_t lane = work.lane_of_body[k];
+    if ((work.constrained.empty() || work.constrained[lane] == 0) && !work.is_foreign(lane))
       find_obstacle_contacts(in, static_cast<int>(k), options.range, work);
   });
   for (const auto& o : work.obstacle) all.insert(all.end(), o.begin(), o.end());
@@ -384,6 +429,7 @@ void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
   medium_area.assign(state.n_row() * kLanes, 0.0);
   for_each_index(work.body.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     const std::size_t lane = work.lane_of_body[k];
+    if (work.is_foreign(lane)) return;
     const contact::SurfaceBody& b = work.body[k];
     const std::size_t first = state.group[lane / kLanes].first_row;
     for (std::size_t p = 0; p < work.share[k].size(); ++p) {

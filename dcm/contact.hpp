@@ -105,12 +105,19 @@ double guard_area(const mesh::Topology& t, int point, double radius);
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
-  std::vector<std::size_t> lane_of_body;       ///< written by: refresh_bodies
-  std::vector<contact::SurfaceBody> body;      ///< written by: refresh_bodies
+  /// [n_lane] 1: another process works out this cell; empty: none. Set by the caller. Of two such
+  /// cells nothing is looked for, and of one only what own cells may touch is known.
+  std::vector<std::uint8_t> foreign;
+  std::vector<std::size_t> lane_of_body;  ///< written by: refresh_bodies
+  /// Boxes of all; the rest of own bodies and of those that complete_bodies was asked for. Written
+  /// by: refresh_bodies
+  std::vector<contact::SurfaceBody> body;
+  std::vector<std::uint8_t> is_complete;       ///< [body] written by: refresh_bodies
   std::vector<contact::SurfaceBody> fixed;     ///< static meshes
   ContactLists lists;                          ///< written by: refresh_lists
   std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
   std::vector<std::uint8_t> body_constrained;  ///< empty: all move; written by: refresh_lists
+  std::vector<std::uint8_t> body_foreign;      ///< empty: none; written by: refresh_lists
   std::vector<std::vector<contact::Contact>>
       found;  ///< [other threads than the first] by: find_contacts
   std::vector<std::vector<contact::Contact>> obstacle;  ///< [body] with boundary; by: find_contacts
@@ -120,6 +127,9 @@ struct ContactWorkspace {
   TriangleContactWorkspace triangles;               ///< of Maugis-Dugdale alone
   std::int64_t searches = 0;                        ///< calls of find_contacts
   std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
+
+  bool is_foreign(std::size_t lane) const { return !foreign.empty() && foreign[lane] != 0; }
+  bool is_foreign_body(std::size_t b) const { return is_foreign(lane_of_body[b]); }
 };
 
 /// Largest gap at which a contact of this cell does anything, um.
@@ -133,8 +143,16 @@ double point_area(const mesh::Topology& t, contact::Quadrature q, int point, dou
 double point_stretch(const contact::SurfaceBody& body, contact::Quadrature q, int point,
                      double radius);
 
-/// Copies the nodes out of the lanes and recomputes normals and boxes.
+/// Copies the nodes out of the lanes and recomputes normals and boxes; of foreign bodies only the
+/// boxes.
 void refresh_bodies(const State& state, ContactWorkspace& work);
+
+/// The same of the foreign bodies among some, any number of times each. @pre refresh_bodies
+void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work);
+
+/// Copies the nodes of the bodies that have none, for measures that look at all of them.
+/// @pre refresh_bodies
+void copy_all_nodes(const State& state, ContactWorkspace& work);
 
 /// Makes the lists again that no longer hold (contact_lists.hpp). @pre refresh_bodies
 void refresh_lists(const ContactInput& in, ContactWorkspace& work);

@@ -19,6 +19,12 @@ bool is_constrained(const ListInput& in, std::size_t body) {
   return body >= in.body.size() || (!in.constrained.empty() && in.constrained[body] != 0);
 }
 
+/// Whether another process looks for what a body touches; what nobody works out, a static mesh,
+/// counts as such.
+bool is_foreign(const ListInput& in, std::size_t body) {
+  return !in.foreign.empty() && (body >= in.body.size() || in.foreign[body] != 0);
+}
+
 /// Whether lists made then say anything about now.
 bool made_alike(const ContactLists& lists, const ListInput& in) {
   const contact::SearchOptions &a = lists.options, &b = in.options;
@@ -99,7 +105,8 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   }
   next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);
   std::erase_if(next.pair, [&](const contact::Candidates& c) {
-    return is_constrained(in, c.body_a) && is_constrained(in, c.body_b);
+    return (is_constrained(in, c.body_a) && is_constrained(in, c.body_b)) ||
+           (is_foreign(in, c.body_a) && is_foreign(in, c.body_b));
   });
   next.age.resize(next.pair.size());
   const auto number_before = [&](int body) {
@@ -193,8 +200,11 @@ double relative_motion(const ContactLists& lists, std::size_t pair) {
   return a->spread + b->spread + (a->mean - b->mean).norm();
 }
 
-void refresh_lists(const ListInput& in, ContactLists& lists) {
+void refresh_pairs(const ListInput& in, ContactLists& lists) {
   if (!made_alike(lists, in) || !pairs_hold(in, lists)) renew_pairs(in, lists);
+}
+
+void refresh_lists(const ListInput& in, ContactLists& lists) {
   const std::size_t n_body = in.body.size();
   const bool shared =
       n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
@@ -213,7 +223,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
       expired.push_back(k);
   if (!in.network.segment.empty())
     for (std::size_t k = 0; k < n_body; ++k) {
-      if (is_constrained(in, k)) continue;
+      if (is_constrained(in, k) || is_foreign(in, k)) continue;
       const ListAge& age = lists.segment_age[k];
       const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
       if (s == nullptr || s->spread + s->mean.norm() + range - age.range > skin)

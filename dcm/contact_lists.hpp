@@ -69,12 +69,16 @@ struct ListInput {
   std::span<const contact::SurfaceBody> body, fixed;
   std::span<const std::int64_t> lineage;      ///< [body]
   std::span<const std::uint8_t> constrained;  ///< [body] 1: does not move; empty: all move
+  std::span<const std::uint8_t> foreign;      ///< [body] 1: of another process; empty: none
   const mesh::Network& network;
   contact::SearchOptions options;
 };
 
-/// Makes those lists again that no longer hold. Nothing is listed between bodies that are
-/// constrained.
+/// Looks for the pairs of near bodies again if those listed no longer hold; reads only boxes.
+/// Nothing is listed between bodies that are constrained, nor between foreign ones.
+void refresh_pairs(const ListInput& in, ContactLists& lists);
+
+/// Makes those lists again that no longer hold. @pre refresh_pairs
 void refresh_lists(const ListInput& in, ContactLists& lists);
 
 /// How far the bodies of a pair moved relative to each other since its list was made, um.

@@ -173,7 +173,7 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
                solve::System& s) {
   const Families families = find_families(params, s);
   for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    if (s.block[k].still) return;
+    if (s.block[k].still || !s.ownership.owns(k)) return;
     const GroupView g = view_group(state, lanes, s, k);
     const Params& p = params[state.group[k].type];
     if (p.series_friction > 0)
@@ -196,21 +196,23 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
 void add_stretch_loads(const State& state, const LaneData& lanes, const StretchLoad& load,
                        solve::System& s) {
   for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    if (!s.block[k].still) add_stretch_load(view_group(state, lanes, s, k), load, s);
+    if (!s.block[k].still && s.ownership.owns(k))
+      add_stretch_load(view_group(state, lanes, s, k), load, s);
   });
 }
 
 void add_suction_loads(const State& state, const LaneData& lanes, const SuctionLoad& load,
                        solve::System& s) {
   for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    if (!s.block[k].still) add_suction_load(view_group(state, lanes, s, k), load, s);
+    if (!s.block[k].still && s.ownership.owns(k))
+      add_suction_load(view_group(state, lanes, s, k), load, s);
   });
 }
 
 void add_pull_spring_loads(const State& state, const LaneData& lanes,
                            std::span<const PullSpring> spring, solve::System& s) {
   for (std::size_t k = 0; k < state.group.size(); ++k)
-    if (!s.block[k].still)
+    if (!s.block[k].still && s.ownership.owns(k))
       add_pull_springs(view_group(state, lanes, s, k), spring.subspan(k * kLanes, kLanes), s,
                        s.rank_one.back());
 }

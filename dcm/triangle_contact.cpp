@@ -131,19 +131,29 @@ void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
   const std::size_t n = work.body.size();
   scratch.curved.resize(n);
   scratch.found.resize(n);
-  for_each_index(n, true, [&](std::size_t k) {
-    scratch.found[k].clear();
-    scratch.curved[k] = contact::make_curved_triangles(work.body[k].node, *work.body[k].triangle);
-  });
-  find_folds(work.lists.options, work);
-
   std::vector<Box> boxes;
   for (const SurfaceBody& b : work.body) boxes.push_back(b.box);
   double gap = 0;
   for (int k = 0; k < static_cast<int>(n); ++k)
     gap = std::max(gap, largest_gap(law_between(in, work, k, k)));
   const double reach = gap + in.options.max_depth;
-  const auto pairs = contact::find_pairs(boxes, reach);
+  auto pairs = contact::find_pairs(boxes, reach);
+  if (!work.foreign.empty()) {
+    std::erase_if(pairs, [&](const std::pair<int, int>& p) {
+      return work.is_foreign_body(p.first) && work.is_foreign_body(p.second);
+    });
+    std::vector<int> near;
+    for (const auto& [a, b] : pairs) near.insert(near.end(), {a, b});
+    complete_bodies(in.state, near, work);
+  }
+
+  for_each_index(n, true, [&](std::size_t k) {
+    scratch.found[k].clear();
+    if (work.is_complete[k] == 0) return;
+    scratch.curved[k] = contact::make_curved_triangles(work.body[k].node, *work.body[k].triangle);
+  });
+  find_folds(work.lists.options, work);
+
   for_each_index(n, true, [&](std::size_t k) {
     const int a = static_cast<int>(k);
     for (const auto& [first, b] :

@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "core/error.hpp"
+#include "runs/session/together.hpp"
 
 namespace acinus::runs {
 
@@ -20,6 +21,8 @@ int run_program(Work work) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return work();
+  } catch (const FailedElsewhere& failed) {
+    return failed.code();
   } catch (const Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return static_cast<int>(error.code());

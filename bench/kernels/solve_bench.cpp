@@ -6,7 +6,6 @@
 #include "bench/kernels/clump.hpp"
 #include "core/solve/kernels.hpp"
 #include "core/solve/merged_links.hpp"
-#include "core/solve/row_blocks.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -87,11 +86,9 @@ BENCHMARK(apply_merged)->Apply(clump_sizes);
 /// What the merged product has to earn back.
 void merge_links(benchmark::State& state) {
   const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
-  std::vector<int> block_of_row;
-  find_row_blocks(s, block_of_row);
   solve::LinkMerger merger;
   solve::MergedLinks merged;
-  for (auto _ : state) merger.merge(s, block_of_row, merged);
+  for (auto _ : state) merger.merge(s, merged);
   count(state, "cells", state.range());
 }
 BENCHMARK(merge_links)->Apply(clump_sizes);

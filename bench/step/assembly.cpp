@@ -10,7 +10,6 @@
 #include "core/contact/jkr_lanes.hpp"
 #include "core/random.hpp"
 #include "core/solve/merged_links.hpp"
-#include "core/solve/row_blocks.hpp"
 #include "core/timing.hpp"
 
 namespace acinus::bench {
@@ -42,11 +41,9 @@ ACINUS_KERNEL void evaluate_jkr(std::size_t n, const double* radius, const doubl
 }
 
 double time_merge_us(const solve::System& system) {
-  std::vector<int> block_of_row;
-  solve::find_row_blocks(system, block_of_row);
   solve::LinkMerger merger;
   solve::MergedLinks merged;
-  return time_us([&] { merger.merge(system, block_of_row, merged); });
+  return time_us([&] { merger.merge(system, merged); });
 }
 
 /// Bytes of the matrix of one cell.

@@ -84,8 +84,10 @@ bool are_near(const double* position, std::span<const double> radius, double mar
 }  // namespace
 
 std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
-                                                   std::span<const double> radius, double margin) {
+                                                   std::span<const double> radius, double margin,
+                                                   std::span<const std::uint8_t> foreign) {
   if (radius.size() < 2) return {};
+  const auto is_foreign = [&](std::size_t i) { return !foreign.empty() && foreign[i] != 0; };
   const PointGrid g = make_grid(position, radius, margin);
   if (g.start.empty()) {
     std::vector<Box> boxes;
@@ -93,7 +95,8 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
       boxes.push_back(sphere_box(center(position, i), radius[i]));
     Pairs pairs = find_pairs(boxes, margin);
     std::erase_if(pairs, [&](const auto& p) {
-      return !are_near(position, radius, margin, p.first, p.second);
+      return (is_foreign(p.first) && is_foreign(p.second)) ||
+             !are_near(position, radius, margin, p.first, p.second);
     });
     return pairs;
   }
@@ -113,7 +116,8 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
           const std::size_t to = g.index(std::min(c[0] + 1, g.n[0] - 1), y, z);
           for (std::uint32_t e = g.start[from]; e < g.start[to + 1]; ++e) {
             const std::size_t j = g.item[e];
-            if (j > i && are_near(position, radius, margin, i, j))
+            if (j > i && !(is_foreign(i) && is_foreign(j)) &&
+                are_near(position, radius, margin, i, j))
               part[k].emplace_back(static_cast<int>(i), static_cast<int>(j));
           }
         }

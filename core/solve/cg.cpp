@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "core/stop.hpp"
-#include "core/threads.hpp"
 
 namespace acinus::solve {
 namespace {
@@ -22,17 +21,6 @@ constexpr double kLeastGain = 0.5;
 constexpr int kMergeAfter = 16;
 /// Relative residual at which a solve that rounding stopped counts as solved all the same.
 constexpr double kHarmless = 1e-3;
-
-/// y = A x over all ranks; returns x . y.
-double apply_distributed(const Operator& op, std::span<double> x, std::span<double> y) {
-  op.system().halo.update(x);
-  const double product = op.apply<double>(x, y);
-  op.system().halo.add_back(y);
-  return product;
-}
-double apply_distributed(const Operator& op, std::span<float> x, std::span<float> y) {
-  return op.apply<float>(x, y);  // one rank: more are refused before a run starts
-}
 
 /// A squared norm: a number, and not negative.
 bool is_size(double rho) { return std::isfinite(rho) && rho >= 0; }
@@ -54,7 +42,7 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
   const std::size_t n = residual.size();
   for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
     a->resize(n);
-  for_each_number(n, [&](std::size_t k) {
+  for_each_own_number(op.system(), [&](std::size_t k) {
     v.correction[k] = 0;
     v.residual[k] = static_cast<T>(residual[k] / plan.size);
   });
@@ -64,13 +52,13 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
   double size2 = op.precondition<T>(v.residual, v.preconditioned);
   double rho = add_coarse(size2);
   if (!is_size(rho)) return PassEnd::kBrokeDown;
-  for_each_number(n, [&](std::size_t k) { v.direction[k] = v.preconditioned[k]; });
+  for_each_own_number(op.system(), [&](std::size_t k) { v.direction[k] = v.preconditioned[k]; });
   while (std::sqrt(size2) > plan.goal) {
     if (iterations >= plan.max_iterations) return PassEnd::kOutOfIterations;
     if (stop_requested()) return PassEnd::kAskedToStop;
     ++iterations;
     if (std::is_same_v<T, float> && iterations == kMergeAfter) op.merge_links();
-    const double curvature = apply_distributed(op, v.direction, v.product);
+    const double curvature = op.apply<T>(v.direction, v.product);
     if (!(curvature > 0)) return PassEnd::kBrokeDown;
     size2 = op.descend<T>(rho / curvature, v.direction, v.product, v.correction, v.residual,
                           v.preconditioned);
@@ -84,16 +72,17 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
 
 /// x += size * correction.
 template <class T>
-void add_correction(double size, const std::vector<T>& correction, std::span<double> x) {
-  for_each_number(x.size(),
-                  [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
+void add_correction(const System& s, double size, const std::vector<T>& correction,
+                    std::span<double> x) {
+  for_each_own_number(s, [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
 
 /// r = b - A x; returns its squared norm.
 double find_residual(const Operator& op, std::span<const double> b, std::span<double> x,
                      CgWorkspace& work) {
-  apply_distributed(op, x, work.product);
-  for_each_number(b.size(), [&](std::size_t k) { work.residual[k] = b[k] - work.product[k]; });
+  op.apply<double>(x, work.product);
+  for_each_own_number(op.system(),
+                      [&](std::size_t k) { work.residual[k] = b[k] - work.product[k]; });
   return op.precondition(work.residual, {});
 }
 
@@ -102,7 +91,7 @@ PassEnd improve(Operator& op, bool in_float, const PassPlan& plan, CgWorkspace& 
                 std::span<double> x, int& iterations) {
   const auto run = [&](auto& vectors) {
     const PassEnd end = run_pass(op, work.residual, plan, iterations, vectors);
-    if (end != PassEnd::kBrokeDown) add_correction(plan.size, vectors.correction, x);
+    if (end != PassEnd::kBrokeDown) add_correction(op.system(), plan.size, vectors.correction, x);
     return end;
   };
   return in_float ? run(work.single) : run(work.full);

@@ -1,11 +1,12 @@
 #include "core/solve/coarse.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/solve/kernels.hpp"
 #include "core/solve/link_kernels.hpp"
-#include "core/solve/row_blocks.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
@@ -59,11 +60,11 @@ Mat3 cross_matrix(const Vec3& v) {
 void CoarseSpace::place_cells(std::span<const double> position,
                               std::span<const std::uint8_t> active) {
   const System& s = *system_;
-  find_row_blocks(s, block_of_row_);
   cell_.assign(s.block.size() * kLanes, -1);
   arm_.assign(s.n_dof(), 0.0f);
   center_.clear();
   size_.clear();
+  block_of_cell_.clear();
   for (std::size_t b = 0; b < s.block.size(); ++b) {
     const std::size_t row = s.block[b].first_row;
     const std::size_t n = s.block[b].pattern->n_point;
@@ -77,35 +78,42 @@ void CoarseSpace::place_cells(std::span<const double> position,
       for (std::size_t i = row; i < row + n; ++i)
         sum += (load_point(position.data(), make_address(i, l)) - mean).squaredNorm();
       const double size = n > 1 ? std::sqrt(sum / static_cast<double>(n)) : 0;
-      for (std::size_t i = row; size > 0 && i < row + n; ++i) {
+      for (std::size_t i = row; size > 0 && s.ownership.owns(b) && i < row + n; ++i) {
         const Vec3 arm = (load_point(position.data(), make_address(i, l)) - mean) / size;
         for (int c = 0; c < 3; ++c)
           arm_[make_address(i, l) + static_cast<Address>(c * kLanes)] = static_cast<float>(arm[c]);
       }
       cell_[b * kLanes + l] = static_cast<int>(center_.size());
       center_.push_back(mean);
+      block_of_cell_.push_back(b);
       size_.push_back(size);
     }
   }
 }
 
 int CoarseSpace::cell_of(Point p) const {
-  return cell_[static_cast<std::size_t>(block_of_row_[p / kLanes]) * kLanes + p % kLanes];
+  return cell_[system_->block_of(p) * kLanes + p % kLanes];
 }
 
 void CoarseSpace::find_neighbours() {
-  std::vector<std::pair<int, int>> pair;
-  for (int c = 0; c < static_cast<int>(center_.size()); ++c) pair.emplace_back(c, c);
+  using CellPair = std::array<int, 2>;  // row and column
+  std::vector<CellPair> pair;
+  for (int c = 0; c < static_cast<int>(center_.size()); ++c) pair.push_back({c, c});
   auto join = [&](Point at_a, Point at_b) {
     if (at_b == kNowhere) return;
     const int a = cell_of(at_a), b = cell_of(at_b);
-    const std::pair<int, int> p{std::max(a, b), std::min(a, b)};
+    const CellPair p{std::max(a, b), std::min(a, b)};
     if (p != pair.back()) pair.push_back(p);  // links come sorted by pair of cells
   };
   for (const Link& l : system_->links.link) join(l.a.point[0], l.b.point[0]);
   // Pairs of spheres are listed before they touch, some steps sooner or later.
   for (const PointLink& l : system_->point_links)
     if (has_matrix(l, system_->stiffness_scale)) join(l.a, l.b);
+  if (!system_->ownership.is_whole()) {
+    std::erase_if(pair, [&](const CellPair& p) { return !owns(p[0]); });
+    const std::vector<CellPair> own = std::move(pair);
+    system_->ownership.ranks.gather<CellPair>(own, pair);
+  }
   std::ranges::sort(pair);
   const auto repeated = std::ranges::unique(pair);
   pair.erase(repeated.begin(), repeated.end());
@@ -119,6 +127,34 @@ void CoarseSpace::find_neighbours() {
   block_.assign(column_.size(), Mat6::Zero());
 }
 
+/// Gets the rows of the cells of other processes.
+void CoarseSpace::gather_rows() {
+  const Ownership& ownership = system_->ownership;
+  if (ownership.is_whole()) return;
+  std::vector<Mat6> own, all;
+  for (std::size_t c = 0; c < center_.size(); ++c)
+    if (owns(static_cast<int>(c)))
+      for (int e = start_[c]; e < start_[c + 1]; ++e) own.push_back(block_[e]);
+  gather_in_order(
+      ownership.ranks, center_.size(),
+      [&](std::size_t c) { return ownership.owner[block_of_cell_[c]]; },
+      [&](std::size_t c) { return static_cast<std::size_t>(start_[c + 1] - start_[c]); }, own, all);
+  block_ = std::move(all);
+}
+
+/// Gets what belongs to the cells of other processes.
+void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
+  const Ownership& ownership = system_->ownership;
+  if (ownership.is_whole()) return;
+  std::vector<Vec6> own, all;
+  for (std::size_t c = 0; c < v.size(); ++c)
+    if (owns(static_cast<int>(c))) own.push_back(v[c]);
+  gather_in_order(
+      ownership.ranks, v.size(), [&](std::size_t c) { return ownership.owner[block_of_cell_[c]]; },
+      [](std::size_t) { return std::size_t{1}; }, own, all);
+  v = std::move(all);
+}
+
 /// What a cell alone holds against its six motions: medium, and dashpots or strain against turning.
 void CoarseSpace::add_cells(const Operator& op) {
   const System& s = *system_;
@@ -127,11 +163,15 @@ void CoarseSpace::add_cells(const Operator& op) {
     double unit[6 * kLanes] = {};
     for (int l = 0; l < kLanes; ++l) unit[m * kLanes + l] = 1;
     std::ranges::fill(mode, 0.0);
-    for (const Block& b : s.block)
+    for (std::size_t k = 0; k < s.block.size(); ++k) {
+      if (!s.ownership.owns(k)) continue;
+      const Block& b = s.block[k];
       prolong_block(b.pattern->n_point, arm_.data() + b.first_row * kPointStride, unit,
                     mode.data() + b.first_row * kPointStride);
+    }
     op.apply_within(mode, product);
     for (std::size_t b = 0; b < s.block.size(); ++b) {
+      if (!s.ownership.owns(b)) continue;
       double out[6 * kLanes];
       restrict_block(s.block[b].pattern->n_point, arm_.data() + s.block[b].first_row * kPointStride,
                      product.data() + s.block[b].first_row * kPointStride, out);
@@ -274,6 +314,7 @@ void CoarseSpace::prepare(const Operator& op, std::span<const double> position,
   find_neighbours();
   add_cells(op);
   add_links(position);
+  gather_rows();
   factor();
 }
 
@@ -284,6 +325,7 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
   const std::size_t n_block = s.block.size();
   const bool shared = worth_threads(s.n_row);
   for_each_index(n_block, shared, [&](std::size_t b) {
+    if (!s.ownership.owns(b)) return;
     const std::size_t at = s.block[b].first_row * kPointStride;
     double out[6 * kLanes];
     restrict_block(s.block[b].pattern->n_point, arm_.data() + at, r.data() + at, out);
@@ -291,11 +333,13 @@ double CoarseSpace::add_of(std::span<const T> r, std::span<T> z) const {
       if (const int c = cell_[b * kLanes + l]; c >= 0)
         for (int m = 0; m < 6; ++m) small_[c][m] = out[m * kLanes + l];
   });
+  gather_cells(small_);
   double product = 0;
   const std::vector<Vec6> load = small_;
   solve(small_);
   for (std::size_t c = 0; c < load.size(); ++c) product += load[c].dot(small_[c]);
   for_each_index(n_block, shared, [&](std::size_t b) {
+    if (!s.ownership.owns(b)) return;
     const std::size_t at = s.block[b].first_row * kPointStride;
     double in[6 * kLanes] = {};
     for (std::size_t l = 0; l < kLanes; ++l)

@@ -4,7 +4,8 @@
 ///
 /// Friction and contact between cells decide how fast the iteration converges in packed tissue; the
 /// diagonal blocks know nothing of neighbours. E is factored incompletely (block Cholesky without
-/// fill), so it costs about as much as two products, and applying it a fraction of one.
+/// fill), so it costs about as much as two products, and applying it a fraction of one. Every
+/// process has the factor of all cells: it works out the rows of its own and gets the others.
 
 #include <Eigen/Dense>
 #include <span>
@@ -33,15 +34,18 @@ class CoarseSpace {
   double add_of(std::span<const T> r, std::span<T> z) const;
   void place_cells(std::span<const double> position, std::span<const std::uint8_t> active);
   int cell_of(Point p) const;
+  bool owns(int cell) const { return system_->ownership.owns(block_of_cell_[cell]); }
   void find_neighbours();
+  void gather_rows();
+  void gather_cells(std::vector<Vec6>& v) const;
   void add_cells(const Operator& op);
   void add_links(std::span<const double> position);
   void factor();
   void solve(std::vector<Vec6>& v) const;
 
   const System* system_ = nullptr;
-  std::vector<int> cell_;            ///< [n_block * kLanes] number of the cell, -1: none
-  std::vector<int> block_of_row_;    ///< [n_row]
+  std::vector<int> cell_;  ///< [n_block * kLanes] number of the cell, -1: none
+  std::vector<std::size_t> block_of_cell_;
   std::vector<float> arm_;           ///< [n_row][3][lane] (x - centre) / size of the cell
   std::vector<Vec3> center_;         ///< [cell]
   std::vector<double> size_;         ///< [cell] um; 0: a single point, which does not turn

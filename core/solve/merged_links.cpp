@@ -10,10 +10,8 @@
 namespace acinus::solve {
 namespace {
 
-int block_of(const std::vector<int>& block_of_row, Point p) { return block_of_row[p / kLanes]; }
-
-std::uint64_t cell_of(const std::vector<int>& block_of_row, Point p) {
-  return static_cast<std::uint64_t>(block_of(block_of_row, p)) * kLanes + p % kLanes;
+std::uint64_t cell_of(const System& s, Point p) {
+  return static_cast<std::uint64_t>(s.block_of(p)) * kLanes + p % kLanes;
 }
 
 bool is_same(const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
@@ -61,26 +59,24 @@ ACINUS_KERNEL void write_edges(std::size_t n_spring, const float* spring, const 
 
 }  // namespace
 
-bool is_merged(const System& s, const std::vector<int>& block_of_row, const Link& l) {
+bool is_merged(const System& s, const Link& l) {
   auto on_mesh = [&](const Side& side) {
-    const std::size_t b = block_of(block_of_row, side.point[0]);
-    return !s.block[b].pattern->spring_of.empty();
+    return !s.block[s.block_of(side.point[0])].pattern->spring_of.empty();
   };
   return l.b.exists() && !l.a.is_single() && on_mesh(l.a) && (l.b.is_single() || on_mesh(l.b));
 }
 
 /// Finds contacts in a row that join the same cells, and sorts them by pairs of cells.
-void LinkMerger::find_runs(const System& s, const std::vector<int>& block_of_row) {
+void LinkMerger::find_runs(const System& s) {
   run_.clear();
   bool open = false;
   for (std::size_t l = 0; l < s.links.size(); ++l) {
     const Link& k = s.links.link[l];
-    if (!is_merged(s, block_of_row, k)) {
+    if (!is_merged(s, k)) {
       open = false;
       continue;
     }
-    const std::uint64_t a = cell_of(block_of_row, k.a.point[0]),
-                        b = cell_of(block_of_row, k.b.point[0]);
+    const std::uint64_t a = cell_of(s, k.a.point[0]), b = cell_of(s, k.b.point[0]);
     const std::uint64_t cells = std::min(a, b) << 32 | std::max(a, b);
     const auto i = static_cast<std::uint32_t>(l);
     if (open && run_.back().cells == cells && run_.back().swapped == (a > b))
@@ -140,6 +136,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
 
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_index(n_block, worth_threads(s.n_row), [&](std::size_t b) {
+    if (!s.ownership.owns(b)) return;
     thread_local std::vector<SymBlock> sum;
     const Block& block = s.block[b];
     sum.assign(block.pattern->spring.size() * kLanes, {});
@@ -162,8 +159,8 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
   });
 }
 
-void LinkMerger::merge(const System& s, const std::vector<int>& block_of_row, MergedLinks& out) {
-  find_runs(s, block_of_row);
+void LinkMerger::merge(const System& s, MergedLinks& out) {
+  find_runs(s);
   add_across(s, out.pairs);
   add_within(s, out.edge);
 }

@@ -20,7 +20,7 @@ namespace acinus::solve {
 
 /// Whether a contact is worth merging: side a is a face of a mesh, side b another or a single
 /// point.
-bool is_merged(const System& system, const std::vector<int>& block_of_row, const Link& link);
+bool is_merged(const System& system, const Link& link);
 
 /// The merged contacts of a system.
 struct MergedLinks {
@@ -32,8 +32,7 @@ struct MergedLinks {
 /// threads.
 class LinkMerger {
  public:
-  /// @param block_of_row  of find_row_blocks
-  void merge(const System& system, const std::vector<int>& block_of_row, MergedLinks& out);
+  void merge(const System& system, MergedLinks& out);
 
  private:
   /// Contacts in a row that join the same two cells.
@@ -47,7 +46,7 @@ class LinkMerger {
     std::uint32_t block, run;
     bool is_b;
   };
-  void find_runs(const System& system, const std::vector<int>& block_of_row);
+  void find_runs(const System& system);
   void add_across(const System& system, PointPairs& pairs);
   void add_within(const System& system, std::vector<float>& edge);
 

@@ -1,16 +1,38 @@
 #include "core/solve/operator.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "core/exact_sum.hpp"
 #include "core/solve/kernels.hpp"
-#include "core/solve/row_blocks.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
 namespace {
 
-std::size_t first_point(const System& s, std::size_t block) {
-  return (block < s.block.size() ? s.block[block].first_row : s.n_row) * kLanes;
+/// The points of own blocks among [first, last).
+class OwnPoints {
+ public:
+  OwnPoints(const System& s, std::size_t first, std::size_t last)
+      : s_(s), from_(s.row_of(first) * kLanes), to_(s.row_of(last) * kLanes) {}
+  bool has(Point p) const { return p >= from_ && p < to_ && s_.owns(p); }
+
+ private:
+  const System& s_;
+  std::size_t from_, to_;
+};
+
+/// A point that a contact joins to one of another process.
+struct SharedPoint {
+  int rank = 0;
+  Point point = 0;
+  auto operator<=>(const SharedPoint&) const = default;
+};
+
+void sort_once(std::vector<SharedPoint>& points) {
+  std::ranges::sort(points);
+  const auto repeated = std::ranges::unique(points);
+  points.erase(repeated.begin(), repeated.end());
 }
 
 }  // namespace
@@ -34,7 +56,8 @@ void Operator::for_each_range(F f) const {
 template <class F>
 void Operator::for_each_block(const ThreadRange& range, F f) const {
   for (std::size_t b = range.first_block; b < range.last_block; ++b)
-    f(b, system_->block[b].first_row, system_->block[b].pattern->n_point);
+    if (system_->ownership.owns(b))
+      f(b, system_->block[b].first_row, system_->block[b].pattern->n_point);
 }
 
 LinkSet<Link> Operator::links_of(const ThreadRange& range) const {
@@ -44,20 +67,23 @@ LinkSet<PointLink> Operator::point_links_of(const ThreadRange& range) const {
   return {system_->point_links, range.point_link};
 }
 
-/// Cuts the blocks into one range per thread.
+/// Cuts the blocks into one range per thread, with as many own rows each.
 void Operator::divide() {
   const System& s = *system_;
   const std::size_t n_block = s.block.size();
-  const std::size_t n = std::max<std::size_t>(1, std::min(count_threads(s.n_row), n_block));
+  std::size_t n_own_row = 0;
+  for (const auto& [first, last] : s.own) n_own_row += s.row_of(last) - s.row_of(first);
+  const std::size_t n = std::max<std::size_t>(1, std::min(count_threads(n_own_row), n_block));
   range_.resize(n);
-  // By the middle of a block: there may be no more than two or three to a thread.
-  const auto middle = [&](std::size_t b) {
-    return s.block[b].first_row + s.block[b].pattern->n_point / 2;
-  };
-  std::size_t b = 0;
+  std::size_t b = 0, row = 0;
   for (std::size_t k = 0; k < n; ++k) {
     range_[k].first_block = b;
-    while (b < n_block && (k + 1 == n || middle(b) < (k + 1) * s.n_row / n)) ++b;
+    for (; b < n_block; ++b) {
+      const std::size_t rows = s.ownership.owns(b) ? s.row_of(b + 1) - s.row_of(b) : 0;
+      // By the middle of a block: there may be no more than two or three to a thread.
+      if (k + 1 < n && row + rows / 2 >= (k + 1) * n_own_row / n) break;
+      row += rows;
+    }
     range_[k].last_block = b;
   }
 }
@@ -67,11 +93,9 @@ void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
   // Every thread picks out its own: reading all contacts is cheaper than sorting them.
   for_each_range([&](ThreadRange& range) {
-    const std::size_t from = first_point(s, range.first_block),
-                      to = first_point(s, range.last_block);
-    auto owns = [&](Point p) { return p >= from && p < to; };
+    const OwnPoints own(s, range.first_block, range.last_block);
     auto pick = [&](std::size_t l, Point at_a, Point at_b, std::vector<Share>& mine) {
-      const bool a = owns(at_a), b = owns(at_b);
+      const bool a = own.has(at_a), b = own.has(at_b);
       if (a || b) mine.push_back({static_cast<std::uint32_t>(l), a, b});
     };
     range.link.clear();
@@ -91,20 +115,17 @@ void Operator::share_links(bool with_matrix) {
 void Operator::merge_links() {
   if (merged_) return;
   const System& s = *system_;
-  find_row_blocks(s, block_of_row_);
-  merger_.merge(s, block_of_row_, merge_);
+  merger_.merge(s, merge_);
   const PointPairs& pairs = merge_.pairs;
   for_each_range([&](ThreadRange& range) {
-    const std::size_t from = first_point(s, range.first_block),
-                      to = first_point(s, range.last_block);
-    auto owns = [&](Point p) { return p >= from && p < to; };
+    const OwnPoints own(s, range.first_block, range.last_block);
     range.single.clear();
     for (const Share l : range.link)
-      if (!is_merged(s, block_of_row_, s.links.link[l.link])) range.single.push_back(l);
+      if (!is_merged(s, s.links.link[l.link])) range.single.push_back(l);
     range.pair.clear();
     for (std::size_t k = 0; k < pairs.row.size(); ++k) {
       const PointPairs::Row& row = pairs.row[k];
-      const bool a = owns(row.a), b = owns(pairs.b[row.first]);
+      const bool a = own.has(row.a), b = own.has(pairs.b[row.first]);
       if (a || b) range.pair.push_back({static_cast<std::uint32_t>(k), a, b});
     }
   });
@@ -158,6 +179,7 @@ void Operator::start(const System& system) {
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
+  plan_exchange();
   external_.clear();
   external_point_.clear();
   for (std::size_t l = 0; l < system.links.size(); ++l)
@@ -178,9 +200,74 @@ InverseView Operator::inverse_of(std::size_t block) const {
 }
 
 double Operator::sum_partials() const {
-  double sum = 0;
-  for (double p : partial_) sum += p;
-  return system_->halo.ranks.sum(sum);
+  ExactSum sum;
+  for (const auto& [first, last] : system_->own)
+    for (std::size_t b = first; b < last; ++b) sum.add(partial_[b]);
+  system_->ownership.ranks.sum(std::span(&sum, 1));
+  return sum.value();
+}
+
+/// Both ends of a contact across processes know it, so both know which points the other needs.
+void Operator::plan_exchange() {
+  const System& s = *system_;
+  exchange_.peer.clear();
+  if (s.ownership.is_whole()) return;
+  std::vector<SharedPoint> send, receive;
+  const auto join = [&](std::span<const Point> a, std::span<const Point> b) {
+    const bool own_a = s.owns(a[0]), own_b = s.owns(b[0]);
+    if (own_a == own_b) return;
+    const auto& [own, other] = own_a ? std::pair(a, b) : std::pair(b, a);
+    const int rank = s.ownership.owner[s.block_of(other[0])];
+    for (const Point p : own) send.push_back({rank, p});
+    for (const Point p : other) receive.push_back({rank, p});
+  };
+  const auto points_of = [](const Side& side) {
+    return std::span(side.point).first(side.is_single() ? 1 : 3);
+  };
+  // Those without a matrix too: a step may close them.
+  for (const Link& l : s.links.link)
+    if (l.b.exists()) join(points_of(l.a), points_of(l.b));
+  for (const PointLink& l : s.point_links)
+    if (l.b != kNowhere && has_matrix(l, s.stiffness_scale))
+      join(std::span(&l.a, 1), std::span(&l.b, 1));
+  sort_once(send);
+  sort_once(receive);
+  send_.clear();
+  receive_.clear();
+  for (auto from = send.begin(), to = receive.begin(); to != receive.end();) {
+    ExchangePlan::Peer peer{to->rank, send_.size(), 0, receive_.size(), 0};
+    for (; from != send.end() && from->rank == peer.rank; ++from) send_.push_back(from->point);
+    for (; to != receive.end() && to->rank == peer.rank; ++to) receive_.push_back(to->point);
+    peer.send_end = send_.size();
+    peer.receive_end = receive_.size();
+    exchange_.peer.push_back(peer);
+  }
+}
+
+/// Gets the packed points of other processes.
+template <class T>
+void Operator::exchange_points(Packed<T>* x) const {
+  if (exchange_.empty()) return;
+  using Three = std::array<T, 3>;
+  thread_local std::vector<Three> out, in;
+  out.clear();
+  for (const Point p : send_) out.push_back({x[p][0], x[p][1], x[p][2]});
+  in.resize(receive_.size());
+  system_->ownership.ranks.exchange<Three>(exchange_, out, in);
+  for (std::size_t k = 0; k < in.size(); ++k) x[receive_[k]] = {in[k][0], in[k][1], in[k][2], 0};
+}
+
+void Operator::fetch(std::span<double> x) const {
+  if (exchange_.empty()) return;
+  using Three = std::array<double, 3>;
+  std::vector<Three> out, in(receive_.size());
+  for (const Point p : send_) {
+    const Vec3 v = load_point(x.data(), address_of(p));
+    out.push_back({v.x(), v.y(), v.z()});
+  }
+  system_->ownership.ranks.exchange<Three>(exchange_, out, in);
+  for (std::size_t k = 0; k < in.size(); ++k)
+    store_point(x.data(), address_of(receive_[k]), Vec3(in[k][0], in[k][1], in[k][2]));
 }
 
 template <class T>
@@ -192,6 +279,7 @@ Operator::PackedVectors<T> Operator::pack(In<T> x) const {
       std::fill_n(work.y + row * kLanes, n * kLanes, Packed<T>{});
     });
   });
+  exchange_points(work.x);
   return work;
 }
 

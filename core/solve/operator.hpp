@@ -17,9 +17,10 @@ namespace acinus::solve {
 /// A System made ready for products. T is double or float: iterations may run in float, what is
 /// judged and kept is double. Vectors are [n_row][3][lane].
 ///
-/// Threads: every thread owns a range of blocks and adds to nothing else; a contact that joins two
-/// ranges is worked out by both. A point's sum runs over its contacts in their order, so the bits
-/// do not depend on the number of threads.
+/// Threads and processes: each owns some blocks and adds to nothing else; a contact that joins
+/// blocks of two is worked out by both. A point's sum runs over its contacts in their order, and
+/// sums over blocks are exact, so the bits do not depend on who owns what. Only products read what
+/// is not own, and get it themselves; of all vectors the rest is neither read nor written.
 class Operator {
  public:
   template <class T>
@@ -34,7 +35,8 @@ class Operator {
   /// Reads the system; call again after its loads changed. Cost: linear in elements and links.
   void prepare(const System& system);
 
-  /// y = A x; returns x . y.
+  /// y = A x; returns x . y. Like all that returns a sum over all cells, to be called by all
+  /// processes.
   template <class T = double>
   double apply(In<T> x, Out<T> y) const;
 
@@ -55,7 +57,7 @@ class Operator {
   template <class T = double>
   void redirect(In<T> z, double beta, Out<T> p) const;
 
-  /// Dot product, summed per block and then in block order.
+  /// Dot product over all processes.
   template <class T = double>
   double dot(In<T> a, In<T> b) const;
 
@@ -69,6 +71,9 @@ class Operator {
   void apply_friction(std::span<const double> x, std::span<double> y) const;
   void apply_external_friction(std::span<const double> x, std::span<double> y) const;
 
+  /// Gets the points of other processes that own ones are in contact with.
+  void fetch(std::span<double> x) const;
+
   /// Adds the force of every link to the points it joins: to force, or to external_force where one
   /// side is boundary. Changes what the system asks for, not its matrix: prepare comes after.
   void add_link_forces(System& system);
@@ -76,7 +81,7 @@ class Operator {
   const System& system() const { return *system_; }
 
  private:
-  /// What one thread works on.
+  /// What one thread works on: the own blocks of a range.
   struct ThreadRange {
     std::size_t first_block = 0, last_block = 0;
     std::vector<Share> link, point_link;
@@ -108,12 +113,14 @@ class Operator {
   void for_each_block(const ThreadRange& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
   double sum_partials() const;
+  void plan_exchange();
+  template <class T>
+  void exchange_points(Packed<T>* x) const;
   void apply_external(std::span<const double> x, std::span<double> y, LinkScales scales) const;
 
   const System* system_ = nullptr;
   std::vector<ThreadRange> range_;
   bool merged_ = false;  ///< products in float use merge_
-  std::vector<int> block_of_row_;
   LinkMerger merger_;
   MergedLinks merge_;
   std::vector<std::uint32_t> external_, external_point_;  ///< links with boundary
@@ -121,6 +128,9 @@ class Operator {
   /// [family][rows of its blocks][3][lane], as InverseView wants them.
   std::vector<std::vector<float>> rank_one_;
   mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
+  /// Points that contacts join across processes: own ones to send, the others to receive.
+  ExchangePlan exchange_;
+  std::vector<Point> send_, receive_;
   /// One cache line per point, for whatever is being worked out: packed vectors in double (two
   /// halves of a line) or float, or the diagonal blocks. Never two of them at once.
   struct alignas(64) Line {

@@ -2,10 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <utility>
 
 #include "core/solve/link_kernels.hpp"
-#include "core/solve/row_blocks.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
@@ -23,13 +24,16 @@ int find_root(std::vector<int>& parent, int i) {
 
 /// Numbers the groups of cells joined by pair links; returns how many there are.
 int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWorkspace& work) {
-  find_row_blocks(s, work.block_of_row);
   auto cell_of = [&](Point p) {
-    return work.block_of_row[p / kLanes] * kLanes + static_cast<int>(p % kLanes);
+    return static_cast<int>(s.block_of(p)) * kLanes + static_cast<int>(p % kLanes);
   };
   std::vector<int>& parent = work.parent;
   parent.resize(active.size());
   std::iota(parent.begin(), parent.end(), 0);
+  const auto unite = [&](int a, int b) {
+    const int root_a = find_root(parent, a), root_b = find_root(parent, b);
+    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  };
   int last_a = -1, last_b = -1;  // links come sorted by pair of cells
   auto join = [&](Point at_a, Point at_b) {
     if (at_b == kNowhere) return;
@@ -37,13 +41,19 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
     if (a == last_a && b == last_b) return;
     last_a = a;
     last_b = b;
-    const int root_a = find_root(parent, a), root_b = find_root(parent, b);
-    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+    unite(a, b);
   };
   for (const Link& l : s.links.link) join(l.a.point[0], l.b.point[0]);
   // Pairs of spheres are listed before they touch, some steps sooner or later.
   for (const PointLink& l : s.point_links)
     if (has_matrix(l, s.stiffness_scale)) join(l.a, l.b);
+  if (!s.ownership.is_whole()) {  // each process knows the contacts of its own cells
+    std::vector<std::array<int, 2>> own, all;
+    for (int c = 0; c < static_cast<int>(parent.size()); ++c)
+      if (parent[c] != c) own.push_back({c, find_root(parent, c)});
+    s.ownership.ranks.gather<std::array<int, 2>>(own, all);
+    for (const auto& [a, b] : all) unite(a, b);
+  }
   work.group.assign(active.size(), -1);
   int n = 0;
   for (std::size_t c = 0; c < active.size(); ++c) {
@@ -63,58 +73,33 @@ Map3x6 unit_motions(const Vec3& from_center) {
   return m;
 }
 
+/// Where the numbers of a sum over the points of a group stand.
+enum Number : std::size_t {
+  kResidual = 0,
+  kMass = 6,  ///< of medium friction, and its moments about the centre
+  kFirstMoment = 7,
+  kSecondMoment = 10,  ///< xx xy xz yy yz zz
+  kTies = 16,          ///< upper triangle of what boundary adds to the matrix
+  kNumbers = 37
+};
+
 /// Sum of m z^T z over the points of a group.
-Mat6 medium_matrix(const RigidGroup& g) {
-  Mat3 cross;  // cross * v = first_moment x v
-  const Vec3& f = g.first_moment;
+Mat6 medium_matrix(double mass, const Vec3& f, const Mat3& second_moment) {
+  Mat3 cross;  // cross * v = first moment x v
   cross << 0, -f.z(), f.y(), f.z(), 0, -f.x(), -f.y(), f.x(), 0;
   Mat6 m;
-  m.topLeftCorner<3, 3>() = g.mass * Mat3::Identity();
+  m.topLeftCorner<3, 3>() = mass * Mat3::Identity();
   m.bottomLeftCorner<3, 3>() = cross;
   m.topRightCorner<3, 3>() = cross.transpose();
-  m.bottomRightCorner<3, 3>() = g.second_moment.trace() * Mat3::Identity() - g.second_moment;
+  m.bottomRightCorner<3, 3>() = second_moment.trace() * Mat3::Identity() - second_moment;
   return m;
 }
 
-/// f(address, group) for the points of cells in blocks [first, last).
-template <class F>
-void for_each_point(const System& s, const std::vector<int>& group, std::size_t first,
-                    std::size_t last, F f) {
-  for (std::size_t b = first; b < last; ++b)
-    for (int i = 0; i < s.block[b].pattern->n_point; ++i)
-      for (int l = 0; l < kLanes; ++l) {
-        const int g = group[b * kLanes + l];
-        if (g >= 0) f(make_address(s.block[b].first_row + i, l), static_cast<std::size_t>(g));
-      }
-}
-
-/// Parts of a sum over all points: as many whatever the number of threads, one if there are so many
-/// groups that their sums would take more memory than the points.
-std::size_t count_parts(const System& s, std::size_t n_group) {
-  return n_group > 64 ? 1 : std::min<std::size_t>(32, std::max<std::size_t>(s.block.size(), 1));
-}
-
-/// f(address, group number) for every point, in parallel; f writes to that point only.
-template <class F>
-void for_each_point(const System& s, const std::vector<int>& group, F f) {
-  const std::size_t n_part = count_parts(s, 1);
-  for_each_index(n_part, worth_threads(s.n_row), [&](std::size_t k) {
-    for_each_point(s, group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part, f);
-  });
-}
-
-/// f(address, its group's part) for every point; parts are added to the groups in order.
-template <class F>
-void sum_over_points(const System& s, RigidWorkspace& work, F f) {
-  std::vector<RigidGroup>& groups = work.groups;
-  const std::size_t n_group = groups.size(), n_part = count_parts(s, n_group);
-  work.part.assign(n_part * n_group, {});
-  for_each_index(n_part, worth_threads(s.n_row), [&](std::size_t k) {
-    for_each_point(s, work.group, k * s.block.size() / n_part, (k + 1) * s.block.size() / n_part,
-                   [&](Address a, std::size_t g) { f(a, groups[g], work.part[k * n_group + g]); });
-  });
-  for (std::size_t k = 0; k < n_part; ++k)
-    for (std::size_t g = 0; g < n_group; ++g) groups[g].add(work.part[k * n_group + g]);
+template <class M, class F>
+void for_each_upper(M& m, F f) {
+  std::size_t n = 0;
+  for (int i = 0; i < m.rows(); ++i)
+    for (int j = i; j < m.cols(); ++j) f(n++, m(i, j), m(j, i));
 }
 
 Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
@@ -131,41 +116,64 @@ class RigidModes {
   RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
       : op_(op), s_(op.system()), position_(cells.position), work_(work), groups_(work.groups) {
     groups_.assign(number_groups(s_, cells.active, work), {});
-    sum([&](Address a, const RigidGroup&, RigidGroup& part) {
-      part.sum += at(a);
-      part.n_point += 1;
-    });
-    for (RigidGroup& g : groups_) g.center = g.sum / g.n_point;
+    work.sums.prepare(s_, work.group, groups_.size());
+    work.sums.sum<4>(
+        [&](Address a, std::size_t, std::array<double, 4>& sum) {
+          const Vec3 x = at(a);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += x[static_cast<int>(k)];
+          sum[3] += 1;
+        },
+        [&](std::size_t g, const std::array<double, 4>& sum) {
+          groups_[g].center = Vec3(sum[0], sum[1], sum[2]) / sum[3];
+        });
   }
 
   /// What ties a group to the outside: medium and boundary. It is a lower bound of the
   /// projected matrix, and all of it but for the rotations: no link or element within a group feels
   /// a translation.
   void tie_to_outside(std::span<const double> residual) {
-    sum([&](Address a, const RigidGroup& whole, RigidGroup& group) {
-      const Vec3 d = at(a) - whole.center;
-      group.squared_reach = std::max(group.squared_reach, d.squaredNorm());
-      const Vec3 r = load_point(residual.data(), a);
-      group.residual.head<3>() += r;
-      group.residual.tail<3>() += d.cross(r);
-      const double m = s_.friction_scale * s_.medium[a / kPointStride * kLanes + a % kLanes];
-      group.mass += m;
-      group.first_moment += m * d;
-      group.second_moment += m * d * d.transpose();
-    });
-    for (RigidGroup& g : groups_) g.matrix = medium_matrix(g);
-    // Every part looks at all links and ties its own groups, in their order.
-    const std::size_t n_part = std::min(count_threads(s_.n_row), groups_.size());
-    for_each_part(n_part, [&](std::size_t part) {
-      const auto is_mine = [&](Address a) {
-        const int g = group_of(a);
-        return g >= 0 && static_cast<std::size_t>(g) % n_part == part;
-      };
-      for (const Link& l : s_.links.link)
-        if (!l.b.exists() && is_mine(address_of(l.a.point[0]))) tie(stencil_of(l), l);
-      for (const PointLink& l : s_.point_links)
-        if (l.b == kNowhere && is_mine(address_of(l.a))) tie({1, {address_of(l.a)}, {1}}, l);
-    });
+    find_ties();
+    work_.sums.largest(
+        [&](Address a, std::size_t g) { return (at(a) - groups_[g].center).squaredNorm(); },
+        work_.squared_reach);
+    work_.sums.sum<kNumbers>(
+        [&](Address a, std::size_t g, std::array<double, kNumbers>& sum) {
+          const Vec3 d = at(a) - groups_[g].center;
+          const Vec3 r = load_point(residual.data(), a), turn = d.cross(r);
+          const double m = s_.friction_scale * s_.medium[a / kPointStride * kLanes + a % kLanes];
+          for (std::size_t k = 0; k < 3; ++k) {
+            const int i = static_cast<int>(k);
+            sum[kResidual + k] += r[i];
+            sum[kResidual + 3 + k] += turn[i];
+            sum[kFirstMoment + k] += m * d[i];
+          }
+          sum[kMass] += m;
+          const Mat3 second = m * d * d.transpose();
+          for_each_upper(second,
+                         [&](std::size_t n, double v, double) { sum[kSecondMoment + n] += v; });
+          if (work_.tie.empty() || !is_first_point(a)) return;
+          const int tie = work_.tie_of_cell[cell_of(a)];
+          if (tie < 0) return;
+          for_each_upper(std::as_const(work_.tie[static_cast<std::size_t>(tie)]),
+                         [&](std::size_t n, double v, double) { sum[kTies + n] += v; });
+        },
+        [&](std::size_t g, const std::array<double, kNumbers>& sum) {
+          RigidGroup& group = groups_[g];
+          for (std::size_t k = 0; k < 6; ++k)
+            group.residual[static_cast<int>(k)] = sum[kResidual + k];
+          Mat3 second;
+          Mat6 tie;
+          const auto fill = [&sum](std::size_t from) {
+            return [&sum, from](std::size_t n, double& v, double& mirrored) {
+              v = mirrored = sum[from + n];
+            };
+          };
+          for_each_upper(second, fill(kSecondMoment));
+          for_each_upper(tie, fill(kTies));
+          const Vec3 first(sum[kFirstMoment], sum[kFirstMoment + 1], sum[kFirstMoment + 2]);
+          group.matrix = medium_matrix(sum[kMass], first, second) + tie;
+          group.squared_reach = work_.squared_reach[g];
+        });
   }
 
   /// Chooses the groups whose rigid error may be larger, um.
@@ -175,7 +183,8 @@ class RigidModes {
       g.correct = size_of(solve_spd(g.matrix, g.residual), g) > threshold;
       chosen += g.correct ? 1 : 0;
     }
-    return chosen;
+    // What follows is done by all processes or by none.
+    return static_cast<int>(s_.ownership.ranks.max(chosen));
   }
 
   /// Replaces the part of rotations by that of the whole operator. Groups share no link, so one
@@ -185,16 +194,21 @@ class RigidModes {
     work_.product.resize(position_.size());
     for (RigidGroup& g : groups_) g.matrix.bottomRightCorner<3, 3>().setZero();
     for (int axis = 0; axis < 3; ++axis) {
-      std::ranges::fill(work_.mode, 0.0);
-      for_each_point(s_, work_.group, [&](Address a, std::size_t g) {
+      for_each_own_number(s_, [&](std::size_t k) { work_.mode[k] = 0; });
+      work_.sums.for_each_point([&](Address a, std::size_t g) {
         if (groups_[g].correct)
           store_point(work_.mode.data(), a, Vec3::Unit(axis).cross(at(a) - groups_[g].center));
       });
       op_.apply(work_.mode, work_.product);
-      sum([&](Address a, const RigidGroup& whole, RigidGroup& group) {
-        group.matrix.block<3, 1>(3, 3 + axis) +=
-            (at(a) - whole.center).cross(load_point(work_.product.data(), a));
-      });
+      work_.sums.sum<3>(
+          [&](Address a, std::size_t g, std::array<double, 3>& sum) {
+            const Vec3 turn =
+                (at(a) - groups_[g].center).cross(load_point(work_.product.data(), a));
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += turn[static_cast<int>(k)];
+          },
+          [&](std::size_t g, const std::array<double, 3>& sum) {
+            groups_[g].matrix.block<3, 1>(3, 3 + axis) = Vec3(sum[0], sum[1], sum[2]);
+          });
     }
   }
 
@@ -206,7 +220,7 @@ class RigidModes {
       g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
       largest = std::max(largest, size_of(g.motion, g));
     }
-    for_each_point(s_, work_.group, [&](Address a, std::size_t g) {
+    work_.sums.for_each_point([&](Address a, std::size_t g) {
       if (groups_[g].correct)
         add_point(x.data(), a, unit_motions(at(a) - groups_[g].center) * groups_[g].motion);
     });
@@ -218,26 +232,39 @@ class RigidModes {
   static double size_of(const Vec6& motion, const RigidGroup& g) {
     return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
   }
-  template <class F>
-  void sum(F f) {
-    sum_over_points(s_, work_, f);
+  std::size_t cell_of(Address a) const {
+    return static_cast<std::size_t>(s_.block_of_row[a / kPointStride]) * kLanes + a % kPointStride;
   }
-  /// Number of the group that a point belongs to; -1: none.
-  int group_of(Address a) const {
-    const std::size_t block = work_.block_of_row[a / kPointStride];
-    return work_.group[block * kLanes + a % kPointStride];
+  bool is_first_point(Address a) const {
+    const auto block = static_cast<std::size_t>(s_.block_of_row[a / kPointStride]);
+    return a / kPointStride == s_.block[block].first_row;
   }
-  template <class L>
-  void tie(const Stencil& stencil, const L& l) {
-    RigidGroup& group = groups_[group_of(stencil.address[0])];
-    Vec3 place = Vec3::Zero();
-    for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
-    const Map3x6 z = unit_motions(place - group.center);
-    const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
-                 static_cast<double>(l.normal[2]));
-    const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
-                   s_.friction_scale * static_cast<double>(l.friction) * Mat3::Identity();
-    group.matrix += z.transpose() * m * z;
+  /// What boundary ties each cell to, about the centre of its group, in the order of the contacts.
+  void find_ties() {
+    work_.tie.clear();
+    work_.tie_of_cell.assign(work_.group.size(), -1);
+    const auto add = [&](const Stencil& stencil, const auto& l) {
+      const std::size_t cell = cell_of(stencil.address[0]);
+      const int g = work_.group[cell];
+      if (g < 0) return;
+      Vec3 place = Vec3::Zero();
+      for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
+      const Map3x6 z = unit_motions(place - groups_[static_cast<std::size_t>(g)].center);
+      const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
+                   static_cast<double>(l.normal[2]));
+      const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
+                     s_.friction_scale * static_cast<double>(l.friction) * Mat3::Identity();
+      int& tie = work_.tie_of_cell[cell];
+      if (tie < 0) {
+        tie = static_cast<int>(work_.tie.size());
+        work_.tie.push_back(Mat6::Zero());
+      }
+      work_.tie[static_cast<std::size_t>(tie)] += z.transpose() * m * z;
+    };
+    for (const Link& l : s_.links.link)
+      if (!l.b.exists()) add(stencil_of(l), l);
+    for (const PointLink& l : s_.point_links)
+      if (l.b == kNowhere) add({1, {address_of(l.a)}, {1}}, l);
   }
 
   const Operator& op_;

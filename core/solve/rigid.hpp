@@ -7,10 +7,10 @@
 /// the whole operator.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <span>
 #include <vector>
 
+#include "core/solve/group_sums.hpp"
 #include "core/solve/operator.hpp"
 
 namespace acinus::solve {
@@ -18,43 +18,30 @@ namespace acinus::solve {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// What the points of a group of cells add up to, and how it moves as a rigid body.
+/// A group of cells as a rigid body, and how it moves.
 struct RigidGroup {
   Vec3 center = Vec3::Zero();
-  Vec3 sum = Vec3::Zero();  ///< um, of the positions
-  double n_point = 0;
   double squared_reach = 0;  ///< um^2, farthest point from the centre
-  double mass = 0;           ///< of medium friction, and its moments about the centre
-  Vec3 first_moment = Vec3::Zero();
-  Mat3 second_moment = Mat3::Zero();
   Vec6 residual = Vec6::Zero();
   Mat6 matrix = Mat6::Zero();
   Vec6 motion = Vec6::Zero();
   bool correct = false;
-
-  void add(const RigidGroup& o) {
-    sum += o.sum;
-    n_point += o.n_point;
-    squared_reach = std::max(squared_reach, o.squared_reach);
-    mass += o.mass;
-    first_moment += o.first_moment;
-    second_moment += o.second_moment;
-    residual += o.residual;
-    matrix += o.matrix;
-  }
 };
 
 struct RigidWorkspace {
   std::vector<int> group;  ///< [n_block * kLanes] group of each cell, -1: empty lane
-  std::vector<int> block_of_row, parent;
+  std::vector<int> parent;
   std::vector<RigidGroup> groups;
-  std::vector<RigidGroup> part;  ///< [part of the points][group]
+  GroupSums sums;
+  std::vector<double> squared_reach;  ///< [group] um^2
+  std::vector<int> tie_of_cell;       ///< [n_block * kLanes] -1: none
+  std::vector<Mat6> tie;              ///< what boundary ties a cell to
   std::vector<double> mode, product;
 };
 
 struct RigidResult {
-  int corrected_groups = 0;
-  double largest_move = 0;  ///< um, the largest rigid displacement put right
+  int corrected_groups = 0;  ///< of several processes: the most that one has
+  double largest_move = 0;   ///< um, the largest rigid displacement put right
 };
 
 /// Where the cells are.

@@ -35,6 +35,11 @@ void set_blocks(System& system, std::vector<Block> blocks) {
     n_face += b.pattern->face.size();
   }
   system.block = std::move(blocks);
+  system.own = find_own_runs(system.ownership, system.block.size());
+  system.block_of_row.clear();
+  for (std::size_t b = 0; b < system.block.size(); ++b)
+    system.block_of_row.insert(system.block_of_row.end(), system.block[b].pattern->n_point,
+                               static_cast<int>(b));
   system.force.resize(system.n_dof());
   system.external_force.resize(system.n_dof());
   system.medium.resize(system.n_row * kLanes);
@@ -42,6 +47,24 @@ void set_blocks(System& system, std::vector<Block> blocks) {
   system.hinge.assign(n_hinge * kHingeStride, 0.0f);
   system.face.assign(n_face * kFaceStride, 0.0f);
   clear_loads(system);
+}
+
+void gather_rows(const System& s, std::span<double> x) {
+  const Ownership& ownership = s.ownership;
+  if (ownership.is_whole()) return;
+  std::vector<double> own, all;
+  const auto n_number = [&](std::size_t b) {
+    return (s.row_of(b + 1) - s.row_of(b)) * kPointStride;
+  };
+  for (const auto& [first, last] : s.own) {
+    const auto from = x.begin() + static_cast<std::ptrdiff_t>(s.row_of(first) * kPointStride);
+    own.insert(own.end(), from,
+               x.begin() + static_cast<std::ptrdiff_t>(s.row_of(last) * kPointStride));
+  }
+  gather_in_order(
+      ownership.ranks, s.block.size(), [&](std::size_t b) { return ownership.owner[b]; }, n_number,
+      own, all);
+  std::ranges::copy(all, x.begin());
 }
 
 void clear_loads(System& system) {

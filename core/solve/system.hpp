@@ -15,8 +15,9 @@
 
 #include "core/error.hpp"
 #include "core/lanes.hpp"
-#include "core/ranks.hpp"
 #include "core/solve/links.hpp"
+#include "core/solve/ownership.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::solve {
 
@@ -71,12 +72,15 @@ struct RankOne {
   std::vector<double> coefficient;  ///< [n_block][lane]
 };
 
-/// Loads of one step. The caller clears; models add.
+/// Loads of one step. The caller clears; models add. Rows of blocks that are not own hold nothing.
 struct System {
   std::vector<Block> block;
-  std::size_t n_row = 0;       ///< point rows over all blocks
-  double friction_scale = 1;   ///< 1/h, 1/s: what friction is multiplied by in the matrix
-  double stiffness_scale = 1;  ///< 1: linearly implicit; 0: friction only (explicit Euler)
+  std::size_t n_row = 0;          ///< point rows over all blocks
+  Ownership ownership;            ///< to be set before set_blocks
+  std::vector<BlockRun> own;      ///< own blocks
+  std::vector<int> block_of_row;  ///< [n_row]
+  double friction_scale = 1;      ///< 1/h, 1/s: what friction is multiplied by in the matrix
+  double stiffness_scale = 1;     ///< 1: linearly implicit; 0: friction only (explicit Euler)
 
   std::vector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
   std::vector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
@@ -87,13 +91,34 @@ struct System {
   std::vector<RankOne> rank_one;
   Links links;                         ///< contacts of surfaces
   std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
-  Halo halo;  ///< copies of unknowns owned by other ranks; nothing on one rank
 
   std::size_t n_dof() const { return n_row * kPointStride; }
+  std::size_t block_of(Point p) const { return static_cast<std::size_t>(block_of_row[p / kLanes]); }
+  bool owns(Point p) const { return ownership.is_whole() || ownership.owns(block_of(p)); }
+  /// First row of a block; of the block behind the last one: the number of rows.
+  std::size_t row_of(std::size_t b) const { return b < block.size() ? block[b].first_row : n_row; }
 };
 
-/// Sizes all arrays for the given blocks (offsets are filled in) and clears them.
+/// f(k) for the numbers of own blocks in vectors [n_row][3][lane].
+template <class F>
+void for_each_own_number(const System& s, const F& f) {
+  const auto begin = [&](std::size_t b) { return s.row_of(b) * kPointStride; };
+  if (s.own.size() == 1) {
+    const std::size_t first = begin(s.own[0].first);
+    for_each_number(begin(s.own[0].second) - first, [&](std::size_t k) { f(first + k); });
+    return;
+  }
+  for_each_index(s.own.size(), worth_threads(s.n_row), [&](std::size_t run) {
+    for (std::size_t k = begin(s.own[run].first); k < begin(s.own[run].second); ++k) f(k);
+  });
+}
+
+/// Sizes all arrays for the given blocks (offsets are filled in) and clears them. @pre ownership
 void set_blocks(System& system, std::vector<Block> blocks);
+
+/// Makes rows of other processes known: x of every row becomes what its owner has.
+/// @param x  [n_row][3][lane]
+void gather_rows(const System& system, std::span<double> x);
 
 /// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces and point links
 /// are written, not added to, by the one term each belongs to.

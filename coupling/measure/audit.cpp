@@ -187,10 +187,23 @@ Bodies prepare(const AuditFrame& frame) {
   return bodies;
 }
 
-void audit_shapes(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
-  std::vector<char> crosses(bodies.cell.size());
-  for_each_part(crosses.size(),
-                [&](std::size_t c) { crosses[c] = bodies.cell[c].self_intersects(); });
+/// f(k) for all k < n, each worked out by one process, known to all.
+template <class T, class F>
+std::vector<T> share_among(const Ranks& ranks, std::size_t n, const F& f) {
+  const auto n_rank = static_cast<std::size_t>(ranks.size()),
+             rank = static_cast<std::size_t>(ranks.rank());
+  const std::size_t first = rank * n / n_rank, last = (rank + 1) * n / n_rank;
+  std::vector<T> own(last - first), all;
+  for_each_part(own.size(), [&](std::size_t k) { own[k] = f(first + k); });
+  ranks.gather<T>(own, all);
+  return all;
+}
+
+void audit_shapes(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
+                  AuditResult& result) {
+  const std::vector<char> crosses = share_among<char>(
+      ranks, bodies.cell.size(),
+      [&](std::size_t c) { return static_cast<char>(bodies.cell[c].self_intersects()); });
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
     const mesh::AuditBody& cell = bodies.cell[c];
     result.n_inverted += cell.volume <= 0;
@@ -355,15 +368,16 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
 
 }  // namespace
 
-AuditResult audit(const AuditFrame& frame) {
+AuditResult audit(const AuditFrame& frame, const Ranks& ranks) {
   AuditResult result;
   const Bodies bodies = prepare(frame);
-  audit_shapes(frame, bodies, result);
+  audit_shapes(frame, bodies, ranks, result);
   audit_walls(frame, bodies, result);
   audit_spheres_at_walls(frame, bodies, result);
   std::vector<Pair> pairs = find_pairs(frame, bodies);
-  for_each_part(pairs.size(),
-                [&](std::size_t k) { pairs[k].depth = pair_depth(frame, bodies, pairs[k]); });
+  const std::vector<double> depth = share_among<double>(
+      ranks, pairs.size(), [&](std::size_t k) { return pair_depth(frame, bodies, pairs[k]); });
+  for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].depth = depth[k];
   for (const Pair& pair : pairs)
     keep_pair(frame, pair, result);  // in list order, whoever computed it
   result.max_overlap_cbm_um = result.cbm_cbm.depth_um;

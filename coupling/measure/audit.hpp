@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/network.hpp"
+#include "core/ranks.hpp"
 #include "core/vec.hpp"
 #include "coupling/measure/audit_walls.hpp"
 
@@ -97,6 +98,6 @@ struct AuditResult {
 /// is inside. Touching is not overlap. Cost n log n in the number of bodies; pairs run in parallel,
 /// and the result does not depend on the number of threads. Throws Error if a coordinate is not
 /// finite or a static is not closed.
-AuditResult audit(const AuditFrame& frame);
+AuditResult audit(const AuditFrame& frame, const Ranks& ranks = Ranks::serial());
 
 }  // namespace acinus::coupling

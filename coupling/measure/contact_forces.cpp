@@ -1,10 +1,12 @@
 #include "coupling/measure/contact_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <set>
 #include <unordered_map>
 
+#include "core/exact_sum.hpp"
 #include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
@@ -116,14 +118,30 @@ Reactions find_reactions(const World& world, const Workspace& w) {
       boundary, [&](contact::Partner kind, auto, const auto&) { part_of(kind).emplace_back(); });
   part_of(contact::Partner::kMesh).resize(boundary.meshes.size());
   part_of(contact::Partner::kVessel).resize(boundary.vessels.network.segment.size());
+  constexpr std::size_t kNumbers = 5;  // net force, normal, area
+  std::vector<ExactSum> sum;
+  std::array<std::size_t, contact::kObstacleKinds> first{};
+  for (std::size_t kind = 0; kind < r.part.size(); ++kind) {
+    first[kind] = sum.size();
+    sum.resize(sum.size() + kNumbers * r.part[kind].size());
+  }
   visit_contacts(world, w, [&](const ContactForce& c) {
     if (c.b != kNoCell || c.fades) return;
-    const std::size_t at = c.index;
-    Reaction& part = part_of(c.kind)[at];
-    part.net -= c.force;
-    part.normal += c.force.dot(c.normal);
-    part.area += c.area;
+    const std::size_t at =
+        first[static_cast<std::size_t>(c.kind)] + kNumbers * static_cast<std::size_t>(c.index);
+    for (std::size_t k = 0; k < 3; ++k) sum[at + k].add(-c.force[static_cast<int>(k)]);
+    sum[at + 3].add(c.force.dot(c.normal));
+    sum[at + 4].add(c.area);
   });
+  w.system.ownership.ranks.sum(sum);
+  auto next = sum.begin();
+  const auto value = [&next] { return (next++)->value(); };
+  for (std::vector<Reaction>& parts : r.part)
+    for (Reaction& part : parts) {
+      for (int k = 0; k < 3; ++k) part.net[k] = value();
+      part.normal = value();
+      part.area = value();
+    }
   return r;
 }
 
@@ -133,6 +151,13 @@ std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& worl
   visit_contacts(world, w, [&](const ContactForce& c) {
     if (c.touching) pairs.emplace(std::min(c.a, c.b), std::max(c.a, c.b));
   });
+  if (!w.system.ownership.is_whole()) {
+    using Pair = std::array<std::size_t, 2>;
+    std::vector<Pair> own, all;
+    for (const auto& [a, b] : pairs) own.push_back({a, b});
+    w.system.ownership.ranks.gather<Pair>(own, all);
+    for (const auto& [a, b] : all) pairs.emplace(a, b);
+  }
   return {pairs.begin(), pairs.end()};
 }
 
@@ -157,21 +182,37 @@ double interface_residual(const World& world, const Workspace& w) {
   };
   std::vector<Load> loads;
   for (const contact::Contact& k : w.contacts.interface()) {
+    if (w.dcm.is_foreign_body(static_cast<std::size_t>(k.a))) continue;  // another one's to add
     const solve::Stencil stencil = stencil_of(world, w, k);
     for (int m = 0; m < stencil.n; ++m)
       loads.push_back({load_point(w.position.data(), stencil.address[m]),
                        stencil.weight[m] * (k.force * k.normal)});
   }
-  if (loads.empty()) return 0;
-  Vec3 middle = Vec3::Zero(), force = Vec3::Zero(), torque = Vec3::Zero();
-  for (const Load& l : loads) middle += l.place / static_cast<double>(loads.size());
-  double size = 0, moment = 0;
-  for (const Load& l : loads) {
-    force += l.force;
-    size += l.force.norm();
-    torque += (l.place - middle).cross(l.force);
-    moment += (l.place - middle).norm() * l.force.norm();
-  }
+  const Ranks& ranks = w.system.ownership.ranks;
+  const auto sum_over_loads = [&]<std::size_t N>(const auto& numbers_of) {
+    std::array<ExactSum, N> sum;
+    for (const Load& l : loads) {
+      const std::array<double, N> number = numbers_of(l);
+      for (std::size_t n = 0; n < N; ++n) sum[n].add(number[n]);
+    }
+    ranks.sum(sum);
+    std::array<double, N> total;
+    for (std::size_t n = 0; n < N; ++n) total[n] = sum[n].value();
+    return total;
+  };
+  const auto place = sum_over_loads.template operator()<4>([](const Load& l) {
+    return std::array<double, 4>{l.place.x(), l.place.y(), l.place.z(), 1};
+  });
+  if (place[3] == 0) return 0;
+  const Vec3 middle = Vec3(place[0], place[1], place[2]) / place[3];
+  const auto total = sum_over_loads.template operator()<8>([&](const Load& l) {
+    const Vec3 arm = l.place - middle, turn = arm.cross(l.force);
+    return std::array<double, 8>{
+        l.force.x(), l.force.y(), l.force.z(),    turn.x(),
+        turn.y(),    turn.z(),    l.force.norm(), arm.norm() * l.force.norm()};
+  });
+  const Vec3 force(total[0], total[1], total[2]), torque(total[3], total[4], total[5]);
+  const double size = total[6], moment = total[7];
   return size > 0 ? std::max(force.norm() / size, torque.norm() / moment) : 0;
 }
 

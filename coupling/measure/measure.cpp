@@ -21,6 +21,13 @@ constexpr double kNow = 1e-9;
 /// A cell this old has settled in its place, s.
 constexpr double kNewborn = 600;
 
+/// The process that measures a cell, by its number among measures.
+int owner_of(const Workspace& w, std::size_t cell) {
+  const std::size_t n_body = w.dcm.body.size();
+  const std::size_t lane = cell < n_body ? w.dcm.lane_of_body[cell] : w.dcm_lanes + cell - n_body;
+  return w.system.ownership.owner[lane / kLanes];
+}
+
 void set_origin(const State& s, const Cycle& cycle, CellMeasure& m) {
   m.parent = cycle.parent;
   m.newborn = cycle.parent >= 0 && s.clock.time < cycle.birth + kNewborn;
@@ -49,6 +56,7 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
   m.center = dcm::cell_center(s.dcm, lane);
   m.radius = w.lanes.radius[lane];
+  if (w.dcm.is_foreign(lane)) return m;  // its owner measures it
   m.volume = dcm::compute_volumes(g)[l];
   m.area = dcm::compute_areas(g)[l];
   m.cytosol_pressure = dcm::cytosol_pressure(world.params.dcm[m.type].bulk_modulus, m.volume,
@@ -78,6 +86,7 @@ CellMeasure measure_sphere(const World& world, const Workspace& w, std::size_t c
   if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
   m.center = cbm::center_of(s.cbm, c);
   m.radius = w.cbm_radius[c];
+  if (w.cbm.is_foreign(c)) return m;
   if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
   m.volume = sphere_volume(m.radius);
   m.area = 4 * kPi * m.radius * m.radius;
@@ -144,6 +153,14 @@ std::vector<CellMeasure> measure_cells(const World& world, const Workspace& w) {
     m.pressure = -(m.stress[0] + m.stress[3] + m.stress[5]) / 3;
     if (!m.deformable) m.cytosol_pressure = m.pressure;
   }
+  if (w.system.ownership.is_whole()) return cells;
+  std::vector<CellMeasure> own;
+  const int self = w.system.ownership.ranks.rank();
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (owner_of(w, k) == self) own.push_back(cells[k]);
+  solve::gather_in_order(
+      w.system.ownership.ranks, cells.size(), [&](std::size_t k) { return owner_of(w, k); },
+      [](std::size_t) { return std::size_t{1}; }, own, cells);
   return cells;
 }
 
@@ -161,6 +178,7 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   }
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
     const std::size_t lane = w.dcm.lane_of_body[b];
+    if (w.dcm.is_foreign(lane)) continue;
     const dcm::Group& group = s.dcm.group[lane / kLanes];
     const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
     const auto tension =
@@ -175,6 +193,17 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
       n.tension.push_back(tension[k]);
     }
   }
+  if (w.system.ownership.is_whole()) return n;
+  const auto gather = [&](auto& values) {
+    const auto own = std::exchange(values, {});
+    solve::gather_in_order(
+        w.system.ownership.ranks, w.dcm.body.size(), [&](std::size_t b) { return owner_of(w, b); },
+        [&](std::size_t b) { return static_cast<std::size_t>(w.dcm.body[b].topology->n_node); },
+        own, values);
+  };
+  gather(n.force);
+  gather(n.pressure);
+  gather(n.tension);
   return n;
 }
 

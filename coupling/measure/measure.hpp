@@ -37,10 +37,20 @@ struct CellMeasure {
   double migration_force = 0;  ///< nN, active force on the cell
 };
 
+}  // namespace acinus::coupling
+
+namespace acinus {
+template <>
+inline constexpr bool kIsPlain<coupling::CellMeasure> = true;
+}  // namespace acinus
+
+namespace acinus::coupling {
+
 /// Makes the loads of the present moment (no step is taken, State is not touched).
 void observe(const World& world, Workspace& work);
 
-/// One entry per cell, deformable ones first, in storage order.   @pre observe
+/// One entry per cell, deformable ones first, in storage order. Of all processes, to be called by
+/// all of them, like all measures that follow.   @pre observe
 std::vector<CellMeasure> measure_cells(const World& world, const Workspace& work);
 
 /// Fields on the nodes of the deformable cells, body by body.   @pre observe

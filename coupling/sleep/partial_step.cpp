@@ -72,6 +72,8 @@ Subworld& take_part(const World& world, CellSet moving, CellSet constrained,
   if (!part) {
     part = std::make_shared<Subworld>();
     part->world.params = world.params;
+    part->world.ranks = world.ranks;
+    part->world.sharing = world.sharing;
   }
   take_cells(world.state, std::move(moving), std::move(constrained), *part);
   part->work.constraint.prescribed_velocity = sleepers_move(world);

@@ -39,6 +39,7 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
     return load_point(w.system.force.data(), a) + load_point(w.system.external_force.data(), a);
   };
   for_each_cell(s, [&](const Cell& c) {
+    if (!w.system.ownership.owns(c.index / kLanes)) return;
     if (!c.deformable) {
       const double r = w.cbm_radius[c.at];
       traction[c.index] =
@@ -58,6 +59,8 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
       add(*g.nucleus.topology, g.topology->n_node, g.nucleus.size * g.nucleus.size * r2);
     traction[c.index] = std::sqrt(sum / (g.topology->rest_area * r2));
   });
+  // Those that are not own are 0.
+  w.system.ownership.ranks.max(traction);
   return traction;
 }
 

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
@@ -90,11 +94,13 @@ struct Moves {
   std::size_t infinite = kNone, too_far = kNone, turned = kNone;  ///< lanes
   double distance = 0;                                            ///< um, of the lane too far
 
+  /// The same in any order.
   void add(const Moves& o) {
     largest = std::max(largest, o.largest);
-    if (infinite == kNone) infinite = o.infinite;
-    if (turned == kNone) turned = o.turned;
-    if (o.excess > excess) {  // of all cells that move too far, the one that does so most
+    infinite = std::min(infinite, o.infinite);
+    turned = std::min(turned, o.turned);
+    // Of all cells that move too far, the one that does so most.
+    if (o.excess > excess || (o.excess == excess && o.excess > 1 && o.too_far < too_far)) {
       excess = o.excess;
       too_far = o.too_far;
       distance = o.distance;
@@ -121,8 +127,10 @@ double largest_deformation(const World& world, const Workspace& w, std::size_t l
 
 Moves find_moves(const World& world, const Workspace& w) {
   const State& s = world.state;
-  return sum_over_cells<Moves>(
-      w, true, [&](std::size_t lane, Address first, int n_point, Moves& part) {
+  Moves own_cells, all_cells;
+  for_each_own_cell<Moves>(
+      w, true,
+      [&](std::size_t lane, Address first, int n_point, Moves& part) {
         double largest2 = 0;
         bool finite = true;
         for (int i = 0; i < n_point; ++i) {
@@ -146,7 +154,12 @@ Moves find_moves(const World& world, const Workspace& w) {
         own.excess = own.distance / limit;
         if (finite && deformable && turns_over(s.dcm, lane, w.move)) own.turned = lane;
         part.add(own);
-      });
+      },
+      [&](const Moves& part) { own_cells.add(part); });
+  std::vector<Moves> moves;
+  w.system.ownership.ranks.gather<Moves>(std::span(&own_cells, 1), moves);
+  for (const Moves& m : moves) all_cells.add(m);
+  return all_cells;
 }
 
 /// How deep a contact is driven by a step, um; 0: no danger. Where the repulsion is in the matrix,
@@ -166,8 +179,39 @@ double depth_after(const World& world, const Workspace& w, std::size_t l) {
   return deep ? -end : 0;
 }
 
-/// The first contact that is driven deep; the number of contacts if none is.
-std::size_t find_deep_contact(const World& world, const Workspace& w) {
+/// A contact that is driven deep.
+struct DeepContact {
+  std::array<int, 3> place{};  ///< in the list of all contacts: kind, and its two sides
+  std::size_t a = 0, b = 0;    ///< lanes; equal: with boundary or its own nucleus
+  bool inner = false, pair = false;
+  double depth = 0;  ///< um
+};
+
+DeepContact describe_contact(const World& world, const Workspace& w, std::size_t l) {
+  const solve::Link& link = w.system.links.link[l];
+  DeepContact deep;
+  deep.inner = l >= w.first_nucleus_link;
+  deep.pair = link.b.exists();
+  deep.a = lane_of(w, solve::address_of(link.a.point[0]));
+  deep.b = deep.pair ? lane_of(w, solve::address_of(link.b.point[0])) : deep.a;
+  deep.depth = depth_after(world, w, l);
+  constexpr int kObstacle = 1, kInterface = 2, kNucleus = 3;
+  if (deep.inner) {
+    deep.place = {kNucleus, static_cast<int>(deep.a), 0};
+    return deep;
+  }
+  const contact::Contact& k = w.contacts.all[l];
+  if (l < w.contacts.surface_end)
+    deep.place = {0, k.a, k.b};
+  else if (l < w.contacts.obstacle_end)
+    deep.place = {kObstacle, k.a, 0};
+  else
+    deep.place = {kInterface, k.a, k.b};
+  return deep;
+}
+
+/// The first contact of all processes that is driven deep.
+std::optional<DeepContact> find_deep_contact(const World& world, const Workspace& w) {
   const std::size_t n = w.system.links.size();
   std::atomic<std::size_t> first = n;
   for_each_index(n, worth_threads(w.system.n_row), [&](std::size_t l) {
@@ -175,7 +219,11 @@ std::size_t find_deep_contact(const World& world, const Workspace& w) {
     for (std::size_t found = first; l < found && !first.compare_exchange_weak(found, l);) {
     }
   });
-  return first;
+  std::vector<DeepContact> own, all;
+  if (first < n) own.push_back(describe_contact(world, w, first));
+  w.system.ownership.ranks.gather<DeepContact>(own, all);
+  if (all.empty()) return {};
+  return *std::ranges::min_element(all, {}, &DeepContact::place);
 }
 
 Assessment reject(const State& s, std::string cause, std::size_t lane) {
@@ -201,19 +249,16 @@ Assessment assess_moves(const World& world, double step, const Workspace& w) {
 
 Assessment assess_contacts(const World& world, const Workspace& w) {
   const State& s = world.state;
-  const std::size_t deep = find_deep_contact(world, w);
-  if (deep == w.system.links.size()) return {};
-  const solve::Link& link = w.system.links.link[deep];
-  const bool pair = link.b.exists();
-  const std::size_t a = lane_of(w, solve::address_of(link.a.point[0]));
-  const std::size_t b = pair ? lane_of(w, solve::address_of(link.b.point[0])) : a;
-  const bool inner = deep >= w.first_nucleus_link;
-  const std::string into = inner ? "its nucleus" : pair ? name_lane(s, b) : "its boundary";
-  Assessment result = reject(s,
-                             fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, a),
-                                         depth_after(world, w, deep), into),
-                             a);
-  if (pair && b != a) result.cells.push_back(lineage_of(s, b));
+  const std::optional<DeepContact> deep = find_deep_contact(world, w);
+  if (!deep) return {};
+  const std::string into = deep->inner  ? "its nucleus"
+                           : deep->pair ? name_lane(s, deep->b)
+                                        : "its boundary";
+  Assessment result = reject(
+      s,
+      fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, deep->a), deep->depth, into),
+      deep->a);
+  if (deep->pair && deep->b != deep->a) result.cells.push_back(lineage_of(s, deep->b));
   return result;
 }
 

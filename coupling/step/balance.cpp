@@ -1,6 +1,7 @@
 #include "coupling/step/balance.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
@@ -16,79 +17,76 @@ void find_products(const World& world, Workspace& w) {
   const Integrator method = world.params.numerics.integrator;
   if (method == Integrator::kRos2 || method == Integrator::kNewton) {
     w.op.apply(w.move, w.cg.product);
-    for_each_number(w.rhs.size(),
-                    [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
+    for_each_own_number(w.system,
+                        [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
   if (!w.linearisation.is_ahead()) {
     w.op.apply_external(w.move, w.cg.product);
     return;
   }
   // The matrix is that of the rest of the way.
-  for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] -= w.linearisation.move[k]; });
+  for_each_own_number(w.system, [&](std::size_t k) { w.move[k] -= w.linearisation.move[k]; });
   w.op.apply_external(w.move, w.cg.product);
-  for_each_number(w.move.size(), [&](std::size_t k) {
+  for_each_own_number(w.system, [&](std::size_t k) {
     w.move[k] += w.linearisation.move[k];
     w.cg.product[k] -= w.linearisation.pair_friction[k];
   });
 }
 
-struct CenterSum {
-  Vec3 sum = Vec3::Zero();
-  double n = 0;
-  void add(const CenterSum& o) {
-    sum += o.sum;
-    n += o.n;
-  }
-};
+/// Where the numbers of the sums stand.
+enum Number : std::size_t { kForce = 0, kTorque = 3, kRestTorque = 6, kSizes = 9, kNumbers = 12 };
 
-Vec3 find_center(const Workspace& w) {
-  const CenterSum middle = sum_over_cells<CenterSum>(
-      w, true, [&](std::size_t, Address first, int n_point, CenterSum& part) {
-        for (int i = 0; i < n_point; ++i)
-          part.sum += load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
-        part.n += n_point;
-      });
-  return middle.sum / std::max(middle.n, 1.0);
+void add(const Vec3& v, std::size_t at, std::array<double, kNumbers>& to) {
+  for (std::size_t k = 0; k < 3; ++k) to[at + k] += v[static_cast<int>(k)];
+}
+Vec3 vector_at(const std::array<double, kNumbers>& from, std::size_t at) {
+  return {from[at], from[at + 1], from[at + 2]};
 }
 
-struct Sums {
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), rest_torque = Vec3::Zero();
-  double force_size = 0, torque_size = 0, rest_torque_size = 0;
-  void add(const Sums& o) {
-    force += o.force;
-    torque += o.torque;
-    rest_torque += o.rest_torque;
-    force_size += o.force_size;
-    torque_size += o.torque_size;
-    rest_torque_size += o.rest_torque_size;
-  }
-};
+Vec3 find_center(const Workspace& w) {
+  const auto middle =
+      sum_over_cells<4>(w, true, [&](std::size_t, Address first, int n_point, CellSums<4>& part) {
+        for (int i = 0; i < n_point; ++i) {
+          const Vec3 x =
+              load_point(w.position.data(), first + static_cast<Address>(i * kPointStride));
+          for (std::size_t k = 0; k < 3; ++k) part.number[k] += x[static_cast<int>(k)];
+        }
+        part.number[3] += n_point;
+      }).number;
+  return Vec3(middle[0], middle[1], middle[2]) / std::max(middle[3], 1.0);
+}
 
 }  // namespace
 
 Balance measure_balance(const World& world, Workspace& w) {
   find_products(world, w);
   const Vec3 center = find_center(w);
-  const Sums t =
-      sum_over_cells<Sums>(w, false, [&](std::size_t, Address first, int n_point, Sums& part) {
-        for (int i = 0; i < n_point; ++i) {
-          const Address a = first + static_cast<Address>(i * kPointStride);
-          const Vec3 conservative = load_point(w.system.force.data(), a);
-          // what pair friction and the pair forces' change exert during the step
-          const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
-          const Vec3 rest = load_point(w.cg.product.data(), a) - product;
-          const Vec3 arm = load_point(w.position.data(), a) - center;
-          part.force += conservative + rest;
-          part.force_size += conservative.norm() + rest.norm();
-          part.torque += arm.cross(conservative);
-          part.torque_size += arm.norm() * conservative.norm();
-          part.rest_torque += arm.cross(rest);
-          part.rest_torque_size += arm.norm() * rest.norm();
-        }
-      });
-  auto relative = [](const Vec3& sum, double size) { return size > 0 ? sum.norm() / size : 0; };
-  return {relative(t.force, t.force_size), relative(t.torque, t.torque_size),
-          relative(t.rest_torque, t.rest_torque_size)};
+  const auto t = sum_over_cells<kNumbers>(
+                     w, false,
+                     [&](std::size_t, Address first, int n_point, CellSums<kNumbers>& part) {
+                       std::array<double, kNumbers>& sum = part.number;
+                       for (int i = 0; i < n_point; ++i) {
+                         const Address a = first + static_cast<Address>(i * kPointStride);
+                         const Vec3 conservative = load_point(w.system.force.data(), a);
+                         // what pair friction and the pair forces' change exert during the step
+                         const Vec3 product =
+                             load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
+                         const Vec3 rest = load_point(w.cg.product.data(), a) - product;
+                         const Vec3 arm = load_point(w.position.data(), a) - center;
+                         add(conservative + rest, kForce, sum);
+                         add(arm.cross(conservative), kTorque, sum);
+                         add(arm.cross(rest), kRestTorque, sum);
+                         sum[kSizes] += conservative.norm() + rest.norm();
+                         sum[kSizes + 1] += arm.norm() * conservative.norm();
+                         sum[kSizes + 2] += arm.norm() * rest.norm();
+                       }
+                     })
+                     .number;
+  const auto relative = [&t](std::size_t at, std::size_t size) {
+    return t[size] > 0 ? vector_at(t, at).norm() / t[size] : 0;
+  };
+  return {relative(kForce, kSizes), relative(kTorque, kSizes + 1),
+          relative(kRestTorque, kSizes + 2)};
 }
 
 }  // namespace acinus::coupling

@@ -1,43 +1,58 @@
 #pragma once
-/// Sums over all cells that are the same for any number of threads.
+/// Sums over all cells that are the same for any number of threads and processes.
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "core/exact_sum.hpp"
 #include "core/threads.hpp"
 #include "coupling/world/workspace.hpp"
 
 namespace acinus::coupling {
 
-/// Point rows that one part of a sum covers at least.
-constexpr std::size_t kPartRows = 64;
-
-/// f(lane, address of its first point, number of points, part) for every cell; the parts are added
-/// up in order; without constrained cells, or of all. Parts follow from the blocks alone, so the
-/// sum is the same for any number of threads.
-template <class Part, class F>
-Part sum_over_cells(const Workspace& w, bool unconstrained_only, F f) {
-  const auto& block = w.system.block;
+/// f(lane, address of its first point, number of points, part) for every own cell, with one part
+/// per block; put(part) for the parts in the order of the blocks. Without constrained cells, or of
+/// all.
+template <class Part, class F, class Put>
+void for_each_own_cell(const Workspace& w, bool unconstrained_only, const F& f, const Put& put) {
   // Of this thread, so that their memory stays; other threads of the loop write to them.
-  thread_local std::vector<std::size_t> kept_start;
   thread_local std::vector<Part> kept_part;
-  std::vector<std::size_t>& start = kept_start;
   std::vector<Part>& part = kept_part;
-  start.assign(1, 0);
-  for (std::size_t b = 0; b < block.size(); ++b)
-    if (block[b].first_row - block[start.back()].first_row >= kPartRows) start.push_back(b);
-  start.push_back(block.size());
-  part.assign(start.size() - 1, {});
-  for_each_index(part.size(), worth_threads(w.system.n_row), [&](std::size_t k) {
-    for (std::size_t b = start[k]; b < start[k + 1]; ++b)
-      for (int l = 0; l < kLanes; ++l) {
-        const std::size_t lane = b * kLanes + l;
-        if (w.active[lane] && !(unconstrained_only && w.constraint.holds(lane)))
-          f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[k]);
-      }
+  const auto& block = w.system.block;
+  part.assign(block.size(), Part{});
+  for_each_index(block.size(), worth_threads(w.system.n_row), [&](std::size_t b) {
+    if (!w.system.ownership.owns(b)) return;
+    for (int l = 0; l < kLanes; ++l) {
+      const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
+      if (w.active[lane] && !(unconstrained_only && w.constraint.holds(lane)))
+        f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[b]);
+    }
   });
-  Part total;
-  for (const Part& p : part) total.add(p);
+  for (const auto& [first, last] : w.system.own)
+    for (std::size_t b = first; b < last; ++b) put(part[b]);
+}
+
+/// Sums of N numbers over the cells, and the largest of one.
+template <std::size_t N>
+struct CellSums {
+  std::array<double, N> number{};
+  double largest = 0;
+};
+
+/// The same over the cells of all processes, exact sums.
+template <std::size_t N, class F>
+CellSums<N> sum_over_cells(const Workspace& w, bool unconstrained_only, const F& f) {
+  std::array<ExactSum, N> sum;
+  CellSums<N> total;
+  for_each_own_cell<CellSums<N>>(w, unconstrained_only, f, [&](const CellSums<N>& part) {
+    for (std::size_t n = 0; n < N; ++n) sum[n].add(part.number[n]);
+    total.largest = std::max(total.largest, part.largest);
+  });
+  const Ranks& ranks = w.system.ownership.ranks;
+  ranks.sum(sum);
+  for (std::size_t n = 0; n < N; ++n) total.number[n] = sum[n].value();
+  total.largest = ranks.max(total.largest);
   return total;
 }
 

@@ -60,7 +60,7 @@ bool activate_closing(Workspace& w) {
       if (end < -kControlledDepth) wrong = true;
     }
   });
-  if (!wrong) return false;
+  if (!w.system.ownership.ranks.any(wrong)) return false;
   links.closed.resize(links.size(), 0);
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (change[l] == 0) continue;
@@ -82,11 +82,11 @@ bool activate_closing(Workspace& w) {
 
 bool pulls_open(const Workspace& w) {
   const solve::Links& links = w.system.links;
-  for (std::size_t l = 0; l < links.size(); ++l)
-    if (links.is_closed(l) &&
-        clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kOpen)
-      return true;
-  return false;
+  bool open = false;
+  for (std::size_t l = 0; l < links.size() && !open; ++l)
+    open = links.is_closed(l) &&
+           clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kOpen;
+  return w.system.ownership.ranks.any(open);
 }
 
 }  // namespace acinus::coupling

@@ -1,6 +1,7 @@
 #include "coupling/step/controller.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -14,6 +15,20 @@
 
 namespace acinus::coupling {
 namespace {
+
+/// Makes the touching spheres of all processes known.
+void gather_touching(Workspace& w) {
+  const solve::Ownership& ownership = w.system.ownership;
+  if (ownership.is_whole()) return;
+  using Touching = std::array<int, 2>;
+  std::vector<Touching> own, all;
+  for (const auto& [a, b] : w.cbm.touching)
+    if (!w.cbm.is_foreign(static_cast<std::size_t>(a))) own.push_back({a, b});
+  ownership.ranks.gather<Touching>(own, all);
+  std::ranges::sort(all);
+  w.cbm.touching.clear();
+  for (const auto& [a, b] : all) w.cbm.touching.emplace_back(a, b);
+}
 
 /// Iterations per solve above which the coarse space is switched on, and below which it is switched
 /// off again.
@@ -105,6 +120,8 @@ StepResult take_step(World& world, Workspace& w, double limit) {
     const Assessment a = attempt_and_assess(world, step, result.rejections == 0, w, effort);
     if (a.accepted) {
       record_balance(world, w, s.balance);
+      solve::gather_rows(w.system, w.move);
+      gather_touching(w);
       commit(step, effort, world, w);
       s.clock.rejected += result.rejections;
       // A step cut short by an event says little about the next one's length.

@@ -11,16 +11,8 @@ namespace acinus::coupling {
 double error_norm(const World& world, const Workspace& w, std::span<const double> field) {
   const bool noise = world.params.motility.random &&
                      controls_at(world.state.clock, world.params.start_up).motility;
-  struct ErrorSum {
-    double sum2 = 0, largest2 = 0, n = 0;
-    void add(const ErrorSum& o) {
-      sum2 += o.sum2;
-      largest2 = std::max(largest2, o.largest2);
-      n += o.n;
-    }
-  };
-  const ErrorSum p = sum_over_cells<ErrorSum>(
-      w, true, [&](std::size_t, Address first, int n_point, ErrorSum& part) {
+  const CellSums<2> p =
+      sum_over_cells<2>(w, true, [&](std::size_t, Address first, int n_point, CellSums<2>& part) {
         auto at = [&](int i) {
           return load_point(field.data(), first + static_cast<Address>(i * kPointStride));
         };
@@ -31,23 +23,24 @@ double error_norm(const World& world, const Workspace& w, std::span<const double
         }
         for (int i = 0; i < n_point; ++i) {
           const double e2 = (at(i) - mean).squaredNorm();
-          part.sum2 += e2;
-          part.largest2 = std::max(part.largest2, e2);
+          part.number[0] += e2;
+          part.largest = std::max(part.largest, e2);
         }
-        part.n += n_point;
+        part.number[1] += n_point;
       });
-  return p.n > 0 ? std::max(std::sqrt(p.sum2 / p.n), std::sqrt(p.largest2) / 5) : 0;
+  const auto [sum2, n] = p.number;
+  return n > 0 ? std::max(std::sqrt(sum2 / n), std::sqrt(p.largest) / 5) : 0;
 }
 
 double estimate_error(const World& world, double step, Workspace& w) {
   const State& s = world.state;
   auto& change = w.cg.product;
   change.resize(w.move.size());
-  for_each_number(w.move.size(), [&](std::size_t k) { change[k] = 0.5 * w.move[k]; });
+  for_each_own_number(w.system, [&](std::size_t k) { change[k] = 0.5 * w.move[k]; });
   if (has_last_move(s)) {  // else the step is compared with rest
     const double ratio = step / s.clock.last_step;
-    for_each_number(w.move.size(),
-                    [&](std::size_t k) { change[k] -= 0.5 * ratio * s.last_move[k]; });
+    for_each_own_number(w.system,
+                        [&](std::size_t k) { change[k] -= 0.5 * ratio * s.last_move[k]; });
   }
   return error_norm(world, w, change);
 }

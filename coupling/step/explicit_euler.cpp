@@ -45,6 +45,7 @@ Attempt try_explicit_euler(const World& world, double step, Workspace& w) {
   assemble(world, step, w, {.stiffness_scale = 0});
   a.status = solve_step(world, step, w, a.cg_iterations);
   a.solves = 1;
+  solve::gather_rows(w.system, w.move);
   if (a.status.ok && shapes_oscillate(world, step, w))
     a.status = Status::failed(
         "explicit Euler is unstable at this step: the cells' shapes swing back and forth. Set "

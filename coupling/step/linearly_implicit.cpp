@@ -69,7 +69,7 @@ void assemble_ahead(World& world, double step, bool all, Workspace& w) {
     w.op.apply(point.move, point.friction);
     w.op.apply_external(point.move, w.cg.product);
   }
-  for_each_number(w.move.size(), [&](std::size_t k) {
+  for_each_own_number(w.system, [&](std::size_t k) {
     point.pair_friction[k] = point.friction[k] - w.cg.product[k];
   });
   remove_constraint(w, point.move, point.friction);

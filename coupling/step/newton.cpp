@@ -27,8 +27,9 @@ double newton_residual(const World& world, double step, std::span<const double> 
   assemble(s.world, step, s.work);
   s.product.resize(d.size());
   s.friction.op.apply(d, s.product);
-  for (std::size_t k = 0; k < d.size(); ++k)
+  for_each_own_number(s.work.system, [&](std::size_t k) {
     s.work.rhs[k] = s.work.system.force[k] + s.work.system.external_force[k] - s.product[k];
+  });
   return std::sqrt(s.work.op.precondition(s.work.rhs, {}));
 }
 
@@ -50,6 +51,7 @@ Attempt try_newton(World& world, double step, Workspace& w) {
   // The first iteration is a linearly implicit step; it also leaves what acceptance looks at.
   Attempt a = try_linearly_implicit(world, step, false, w);
   if (!a.status.ok) return a;
+  solve::gather_rows(w.system, w.move);
   Trial& s = make_trial(world, w);
   find_all_contacts(world, step, s.friction);
   assemble(world, step, s.friction, {.stiffness_scale = 0});
@@ -60,6 +62,7 @@ Attempt try_newton(World& world, double step, Workspace& w) {
     a.status = solve_system(s.world, s.work, a.cg_iterations);
     ++a.solves;
     if (!a.status.ok) return a;
+    solve::gather_rows(s.work.system, s.work.move);
     s.first = s.work.move;
     const double largest = largest_move(w, s.first);
     if (largest <= done) return a;

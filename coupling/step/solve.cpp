@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/threads.hpp"
-
 namespace acinus::coupling {
 namespace {
 
@@ -15,24 +13,23 @@ constexpr int kMostIterations = std::numeric_limits<int>::max();
 
 /// Solves for the whole displacement from the guess in w.move.
 Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
-  for_each_number(w.rhs.size(), [&](std::size_t k) {
-    w.rhs[k] = w.system.force[k] + w.system.external_force[k];
-  });
+  for_each_own_number(
+      w.system, [&](std::size_t k) { w.rhs[k] = w.system.force[k] + w.system.external_force[k]; });
   LinearisationPoint& point = w.linearisation;
   if (!point.is_ahead()) return solve_system(world, w, cg_iterations);
   // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole way. The way
   // of constrained cells is known: what ties them would drown all other forces.
   w.rest_of_move.resize(w.move.size());
-  for_each_number(w.rhs.size(), [&](std::size_t k) { w.rest_of_move[k] = point.move[k]; });
+  for_each_own_number(w.system, [&](std::size_t k) { w.rest_of_move[k] = point.move[k]; });
   std::swap(w.rest_of_move, w.move);
   place_constrained({}, w);
   w.op.apply(w.move, point.product);
   std::swap(w.rest_of_move, w.move);
   place_constrained({}, w);
-  for_each_number(w.rhs.size(),
-                  [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
+  for_each_own_number(w.system,
+                      [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
   const Status status = solve_system(world, w, cg_iterations);
-  for_each_number(w.rhs.size(), [&](std::size_t k) { w.rhs[k] -= point.product[k]; });
+  for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] -= point.product[k]; });
   place_constrained(point.move, w);
   return status;
 }
@@ -42,10 +39,10 @@ Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
 Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
   const State& s = world.state;
   if (w.linearisation.is_ahead()) {
-    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = w.linearisation.move[k]; });
+    for_each_own_number(w.system, [&](std::size_t k) { w.move[k] = w.linearisation.move[k]; });
   } else if (has_last_move(s)) {  // the last step's velocity is a good first guess
     const double ratio = step / s.clock.last_step;
-    for_each_number(w.move.size(), [&](std::size_t k) { w.move[k] = ratio * s.last_move[k]; });
+    for_each_own_number(w.system, [&](std::size_t k) { w.move[k] = ratio * s.last_move[k]; });
   } else {
     std::ranges::fill(w.move, 0.0);
   }
@@ -77,9 +74,10 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
       w.op, w.cg.residual, w.move, {w.position, w.active}, options.tolerance, w.rigid);
   if (rigid.corrected_groups > 0) {
     w.op.apply(w.move, w.cg.product);
-    for_each_number(w.rhs.size(),
-                    [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
+    for_each_own_number(w.system,
+                        [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
+  w.op.fetch(w.move);
   return Status::fine();
 }
 

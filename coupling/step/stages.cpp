@@ -1,9 +1,13 @@
 #include "coupling/step/stages.hpp"
 
+#include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 
+#include "coupling/step/foreign.hpp"
 #include "coupling/world/leaders.hpp"
+#include "coupling/world/sharing.hpp"
 #include "dcm/node_friction.hpp"
 #include "dcm/terms/medium.hpp"
 #include "dcm/terms/nucleus_links.hpp"
@@ -74,7 +78,15 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   w.cbm.overlap_sum.clear();
   if (cbm::has_correction(in.cbm.params)) cbm::find_overlaps(in.cbm, w.cbm);
   find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
+  // Of what its cells share a contact with, each process knows only the contacts with these.
+  exchange_shares(w);
+  const SphereExchange spheres = plan_sphere_exchange(w);
+  exchange_values(w, spheres, w.cbm.overlap_sum);
+  exchange_values(w, spheres, w.cbm.overlap_count);
   cbm::find_contacts(in.cbm, w.cbm, w.contacts, w.system.point_links);
+  exchange_values(w, spheres, w.cbm.coupling);
+  cbm::add_coupling(w.cbm, std::span(w.contacts.all).subspan(w.contacts.interface_end),
+                    w.system.point_links);
   add_interface_areas(w.interface, w.cbm);
 }
 
@@ -84,7 +96,7 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
   dcm::compute_medium_areas(in.dcm, w.dcm, w.medium_area);
   w.medium_friction.dcm.assign(s.dcm.n_lane(), 0.0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
-    if (!s.dcm.active(l)) continue;
+    if (!s.dcm.active(l) || w.dcm.is_foreign(l)) continue;
     const dcm::Group& g = s.dcm.group[l / kLanes];
     double area = 0;
     for (int i = 0; i < g.topology->n_node; ++i)
@@ -147,8 +159,9 @@ void size_workspace(const World& world, Workspace& w) {
   const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
   dcm::size_rank_one(s.dcm, world.params.dcm, w.system, any_spring(world.params.pulls));
-  w.system.halo.ranks = world.ranks;
+  w.system.ownership = share_blocks(world, blocks);
   solve::set_blocks(w.system, std::move(blocks));
+  find_foreign_cells(world, w);
   w.active = active_lanes(s);
   w.rhs.assign(w.system.n_dof(), 0.0);
   w.move.assign(w.system.n_dof(), 0.0);
@@ -217,7 +230,19 @@ void list_sphere_pairs(const World& world, Workspace& w) {
 
 std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {
   const PhaseParams phase = phase_params(world);
-  return compute_interface_forces(input_of(world, phase, 0, w), w.dcm, w.contacts);
+  std::vector<InterfaceForce> forces =
+      compute_interface_forces(input_of(world, phase, 0, w), w.dcm, w.contacts);
+  const solve::Ownership& ownership = w.system.ownership;
+  if (ownership.is_whole()) return forces;
+  // Each by the owner of its deformable cell, in the order of these.
+  std::map<std::int64_t, std::size_t> lane;
+  for (const std::size_t l : w.dcm.lane_of_body) lane.emplace(world.state.dcm.lineage[l], l);
+  const auto lane_of = [&lane](const InterfaceForce& f) { return lane.at(f.dcm_id); };
+  std::erase_if(forces, [&](const InterfaceForce& f) { return w.dcm.is_foreign(lane_of(f)); });
+  std::vector<InterfaceForce> all;
+  ownership.ranks.gather<InterfaceForce>(forces, all);
+  std::ranges::stable_sort(all, {}, lane_of);
+  return all;
 }
 
 solve::Stencil stencil_of(const World& world, const Workspace& w, const contact::Contact& k) {

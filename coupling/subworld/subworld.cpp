@@ -124,6 +124,8 @@ void take_cells(const State& state, CellSet moving, CellSet constrained, Subworl
 }
 
 void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Subworld& sub) {
+  sub.world.ranks = world.ranks;
+  sub.world.sharing = world.sharing;
   Params& params = sub.world.params;
   params = world.params;
   contact::for_each_wall(params.boundary, [&](auto, auto, auto& wall) {

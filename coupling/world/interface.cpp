@@ -70,14 +70,23 @@ void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
 }
 
 /// Pairs of surfaces and spheres that may touch.
-void find_near(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work, double range,
-               InterfaceWorkspace& work) {
+void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dcm_work,
+               const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
   work.body.clear();
   work.sphere.clear();
   for (const contact::SurfaceBody& b : dcm_work.body) work.body.push_back(b.box);
   for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i)
     work.sphere.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
   contact::find_pairs_between(work.body, work.sphere, range, work.near);
+  if (dcm_work.foreign.empty() && cbm_work.foreign.empty()) return;
+  std::erase_if(work.near, [&](const std::pair<int, int>& p) {
+    return dcm_work.is_foreign_body(p.first) && cbm_work.is_foreign(p.second);
+  });
+  std::vector<int> bodies;
+  for (const auto& [body, sphere] : work.near) bodies.push_back(body);
+  complete_bodies(in.dcm.state, bodies, dcm_work);
+  for (const int b : bodies)
+    dcm_work.share[b].resize(contact::n_points(dcm_work.body[b], in.dcm.options.quadrature));
 }
 
 }  // namespace
@@ -108,7 +117,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
   for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
     range = std::max(
         range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
-  find_near(in, dcm_work, range, work);
+  find_near(in, range, dcm_work, cbm_work, work);
   const auto& pairs = work.near;
   auto& found = work.found;
   if (found.size() < pairs.size()) found.resize(pairs.size());

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cbm/contact.hpp"
+#include "core/ranks.hpp"
 #include "core/solve/system.hpp"
 #include "dcm/contact.hpp"
 
@@ -30,6 +31,15 @@ struct InterfaceForce {
   double area = 0;            ///< um^2 in touch
   double gap = 0;             ///< um, smallest
 };
+
+}  // namespace acinus::coupling
+
+namespace acinus {
+template <>
+inline constexpr bool kIsPlain<coupling::InterfaceForce> = true;
+}  // namespace acinus
+
+namespace acinus::coupling {
 
 /// Scratch of the interface.
 struct InterfaceWorkspace {

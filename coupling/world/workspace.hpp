@@ -30,6 +30,7 @@ struct LinearisationPoint {
 
 struct Workspace {
   solve::System system;
+  std::size_t dcm_lanes = 0;  ///< written by: find_foreign_cells
   solve::Operator op;
   solve::CgWorkspace cg;
   solve::RigidWorkspace rigid;

@@ -162,10 +162,17 @@ inline bool has_last_move(const State& s) {
          s.last_move.size() == s.dcm.position.size() + s.cbm.position.size();
 }
 
+/// How the work of a step is shared among processes (sharing.hpp).
+enum class Sharing {
+  kBalanced,
+  kRandom  ///< any block to anyone, even few: to test that nothing depends on it
+};
+
 struct World {
   Params params;
   State state;
   Ranks ranks = Ranks::serial();
+  Sharing sharing = Sharing::kBalanced;
 };
 
 /// Time since t = 0, s. During start-up, whose end is not known, the time left to its latest

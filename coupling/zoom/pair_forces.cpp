@@ -1,6 +1,7 @@
 #include "coupling/zoom/pair_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/sphere.hpp"
@@ -39,6 +40,23 @@ PairForce force_of(const PairForces& forces, const PairForces::key_type& pair) {
   return at == forces.end() ? PairForce{} : at->second;
 }
 
+/// Makes the forces known to all. Whoever owns one of the two cells has all their contacts, so
+/// those of two processes are the same.
+void gather(const solve::Ownership& ownership, PairForces& forces) {
+  if (ownership.is_whole()) return;
+  struct Entry {
+    std::int64_t a, b;
+    std::array<double, 4> number;
+  };
+  std::vector<Entry> own, all;
+  for (const auto& [pair, sum] : forces)
+    own.push_back(
+        {pair.first, pair.second, {sum.force.x(), sum.force.y(), sum.force.z(), sum.virial}});
+  ownership.ranks.gather<Entry>(own, all);
+  for (const Entry& e : all)
+    forces[{e.a, e.b}] = {Vec3(e.number[0], e.number[1], e.number[2]), e.number[3]};
+}
+
 }  // namespace
 
 PairForces find_pair_forces(const World& world, const Workspace& work,
@@ -55,6 +73,7 @@ PairForces find_pair_forces(const World& world, const Workspace& work,
     sum.force += force;
     sum.virial += force.dot(swap ? f.arm_b : f.arm_a);
   });
+  gather(work.system.ownership, forces);
   return forces;
 }
 

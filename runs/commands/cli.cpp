@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "runs/commands/command.hpp"
 #include "runs/session/shell_quote.hpp"
 
@@ -42,10 +45,20 @@ int run_cli(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? static_cast<int>(Exit::kDone) : static_cast<int>(Exit::kBadInput);
+    // Of several processes one says what is wrong.
+    std::ostringstream nowhere;
+    const bool root = Ranks::world().is_root();
+    const int code = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
+    return static_cast<int>(code == 0 ? Exit::kDone : Exit::kBadInput);
   }
   for (const Command& command : commands)
-    if (command.app->parsed()) return command.run();
+    if (command.app->parsed()) {
+      check(Ranks::world().is_alone() || &command == &commands[0],
+            fmt::format("acinus {} is one process: start it without mpirun. Of the commands only "
+                        "acinus run shares its work among processes.",
+                        command.app->get_name()));
+      return command.run();
+    }
   return static_cast<int>(Exit::kBadInput);
 }
 

@@ -13,6 +13,7 @@
 #include "runs/scene/reader.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/run_scene.hpp"
+#include "runs/session/together.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 struct RunArguments {
   RunOptions run;
   bool report = false;
-  std::string until, checkpoint_every, max_walltime, max_memory, progress;
+  std::string until, checkpoint_every, max_walltime, max_memory, progress, sharing;
 };
 
 int run(RunArguments& arguments) {
@@ -34,14 +35,30 @@ int run(RunArguments& arguments) {
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   if (!arguments.max_memory.empty())
     run.max_memory = flag_value("--max-memory", arguments.max_memory, parse_size);
+  if (arguments.sharing == "random") run.sharing = coupling::Sharing::kRandom;
   run.progress_json = arguments.progress == "json";
-  Scene scene = read_scene(find_scene_file(run.scene_file), run.set);
-  if (run.out.empty()) run.out = scene.name + ".run";
-  check_folder(run.out, run);  // not after hours of calibration
-  if (const int stop = resolve_corrections(scene, run.threads, run.quiet || run.progress_json))
-    return tell_how_to_go_on(stop, run.command_line, run.quiet);
+  const Ranks ranks = Ranks::world();
+  Scene scene = together(ranks, [&] {
+    Scene read = read_scene(find_scene_file(run.scene_file), run.set);
+    if (run.out.empty()) run.out = read.name + ".run";
+    if (ranks.is_root()) check_folder(run.out, run);  // not after hours of calibration
+    return read;
+  });
+  // One process calibrates, the others find what it made.
+  int stop = 0;
+  const auto resolve = [&] {
+    stop = resolve_corrections(scene, run.threads, run.quiet || run.progress_json);
+  };
+  if (ranks.is_root())
+    together(ranks, resolve);
+  else
+    together(ranks, [] {});
+  stop = ranks.agree_worst(stop);
+  if (stop != 0)
+    return ranks.is_root() ? tell_how_to_go_on(stop, run.command_line, run.quiet) : stop;
+  if (!ranks.is_root()) resolve();
   const int code = run_scene(scene, run);
-  if (arguments.report) {
+  if (arguments.report && ranks.is_root()) {
     const std::string page = write_report({.what = {run.out}, .out = run.out + "/report.html"});
     if (!run.quiet) fmt::print("report: {}\n", page);
   }
@@ -76,6 +93,12 @@ Command add_run(CLI::App& app, const std::string& command_line) {
                    "stop with a checkpoint when more is in use, e.g. 16GB (default: 95 % of the "
                    "machine's)")
       ->type_name("SIZE");
+  command
+      ->add_option("--sharing", arguments->sharing,
+                   "how processes of mpirun share the cells; random is slow and tests that nothing "
+                   "depends on it")
+      ->type_name("balanced|random")
+      ->check(CLI::IsMember({"balanced", "random"}));
   command->add_flag("--timings", run.timings, "print the time of each stage at the end");
   command->add_flag("--report", arguments->report,
                     "at the end write report.html into the run folder, a page for the browser");

@@ -243,7 +243,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   frame.vessels = &boundary.vessels.network;
   frame.walls = walls;
   frame.statics = statics;
-  return coupling::audit(frame);
+  return coupling::audit(frame, world.ranks);
 }
 
 }  // namespace acinus::runs

@@ -54,8 +54,9 @@ double end_of_phase(const coupling::World& world, double end) {
 
 }  // namespace
 
-Progress::Progress(const RunOptions& options, double end)
+Progress::Progress(const RunOptions& options, double end, const Ranks& ranks)
     : options_(options),
+      ranks_(ranks),
       end_(end),
       started_(wall_seconds()),
       terminal_(isatty(STDOUT_FILENO) != 0) {}
@@ -67,7 +68,7 @@ void Progress::begin(const coupling::World& world) {
 }
 
 void Progress::step(const coupling::World& world) {
-  if (options_.quiet) return;
+  if (options_.quiet || !ranks_.is_root()) return;
   const coupling::Clock& clock = world.state.clock;
   // A phase of the start-up says nothing about how fast the next one goes.
   if (clock.phase != phase_) left_.restart();
@@ -114,7 +115,7 @@ void Progress::finish() {
 
 void Progress::note(const std::string& text) {
   spdlog::info(text);
-  if (options_.quiet || options_.progress_json) return;
+  if (options_.quiet || options_.progress_json || !ranks_.is_root()) return;
   finish();
   fmt::print("{}\n", text);
   std::fflush(stdout);
@@ -122,6 +123,7 @@ void Progress::note(const std::string& text) {
 
 void Progress::warn(const std::string& text) {
   spdlog::warn(text);
+  if (!ranks_.is_root()) return;
   finish();
   fmt::print(stderr, "acinus: warning: {}\n", text);
 }

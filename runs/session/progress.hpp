@@ -11,7 +11,8 @@ namespace acinus::runs {
 
 class Progress {
  public:
-  Progress(const RunOptions& options, double end);
+  /// Of several processes only the first one speaks.
+  Progress(const RunOptions& options, double end, const Ranks& ranks);
   /// Rate and time left count from here: a resumed run has not simulated its past in this process.
   void begin(const coupling::World& world);
   /// Called after every step; prints when it is time to.
@@ -27,6 +28,7 @@ class Progress {
   void print(const coupling::World& world);
 
   const RunOptions& options_;
+  Ranks ranks_;
   double end_, started_, last_ = -1e300;
   coupling::Phase phase_ = coupling::Phase::kRun;
   TimeLeft left_;  ///< of the phase

@@ -46,6 +46,7 @@ Recorder::Recorder(const Scene& scene, const RunOptions& options, coupling::Simu
 io::RunFileOptions Recorder::file_options() const { return {.compress = scene_.output.compress}; }
 
 void Recorder::create() {
+  if (!ranks().is_root()) return;
   file_ = io::RunFile::create(run_file(),
                               {{"scene", scene_.resolved_json},
                                {"scene_hash", scene_.hash},
@@ -75,10 +76,11 @@ Notes Recorder::resume() {
   last_frame_ = data.number("file/last_frame");
   excess_ = {data.number("file/excess"), "some cells overlap beyond what contact mends", {}};
   observables_ = get_observables(data);
+  Notes notes;
+  if (!ranks().is_root()) return notes;
   io::RunFileCounts counts;
   visit(counts, [&](const char* name, std::int64_t& n) { n = data.count(name); });
   file_ = io::RunFile::open_for_append(run_file(), counts, file_options());
-  Notes notes;
   notes.said.push_back(
       fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file));
   if (!loaded.warning.empty()) notes.warned.push_back(loaded.warning);
@@ -95,13 +97,13 @@ Excess Recorder::write_frame(bool last) {
   coupling::Workspace& work = simulation_.work();
   const auto scope = work.timings.scope("frames and audit");
   const Snapshot snapshot = take_snapshot(world, work);
+  dcm::copy_all_nodes(world.state.dcm, work.dcm);
   const coupling::AuditResult audit = audit_world(world, work, snapshot);
   add_audit(totals_, audit);
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
     observables = observe_frame({scene_, world, work, snapshot, audit}, observables_);
-  if (world.ranks.is_root())
-    file_->append(make_frame(world, work, snapshot, drawn_boundary_), observables);
+  if (file_) file_->append(make_frame(world, work, snapshot, drawn_boundary_), observables);
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)
     add_event("self_intersection",
@@ -114,6 +116,7 @@ Excess Recorder::write_frame(bool last) {
 }
 
 void Recorder::write_series(const coupling::StepResult& step) {
+  if (!file_) return;
   const coupling::State& s = simulation_.world().state;
   const std::array<io::SeriesValue, 11> sample{
       {{"time", "s", simulation_.time()},
@@ -132,7 +135,7 @@ void Recorder::write_series(const coupling::StepResult& step) {
 
 void Recorder::add_event(const std::string& code, const std::string& message,
                          const std::vector<std::int64_t>& cells) {
-  file_->append_event({simulation_.time(), code, cells, message});
+  if (file_) file_->append_event({simulation_.time(), code, cells, message});
 }
 
 void Recorder::add_life(const coupling::LifeReport& report) {
@@ -159,12 +162,14 @@ io::CheckpointData Recorder::make_checkpoint() {
 }
 
 void Recorder::save() {
+  if (!file_) return;
   const auto scope = simulation_.work().timings.scope("checkpoints");
   file_->flush();
   io::save_checkpoint(options_.out, make_checkpoint());
 }
 
 void Recorder::close(const std::string& status, const std::string& cause) {
+  if (!file_) return;
   save();
   file_->set_provenance("end", now_text());
   file_->set_provenance("status", status);

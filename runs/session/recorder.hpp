@@ -1,6 +1,7 @@
 #pragma once
 /// What a run leaves in its folder: frames, series and events in the run file, checkpoints, the
-/// summary. Its counters go on where a resumed run left them.
+/// summary. Its counters go on where a resumed run left them. Of several processes one writes, the
+/// others only work out with it what there is to write.
 
 #include <cstdint>
 #include <limits>
@@ -58,6 +59,7 @@ class Recorder {
   double wall_s() const { return wall_before_ + wall_seconds() - started_; }  ///< with resumes
 
  private:
+  const Ranks& ranks() const { return simulation_.world().ranks; }
   std::string run_file() const { return options_.out + "/run.vtkhdf"; }
   io::RunFileOptions file_options() const;
   io::CheckpointData make_checkpoint();
@@ -66,7 +68,7 @@ class Recorder {
   const RunOptions& options_;
   coupling::Simulation& simulation_;
   mesh::Surface drawn_boundary_;
-  std::optional<io::RunFile> file_;
+  std::optional<io::RunFile> file_;  ///< none: another process writes
   RunTotals totals_;
   LifeTotals life_;
   Observables observables_;

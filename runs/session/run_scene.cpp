@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
@@ -27,6 +30,7 @@
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
+#include "runs/session/together.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -78,6 +82,7 @@ class SceneRun {
   int finish(const coupling::LoopResult& steps);
   int give_up(const std::string& cause, const std::vector<std::int64_t>& cells);
   bool uses_too_much_memory();
+  std::string own_reason_to_stop();
   std::string reason_to_stop();
   const coupling::World& world() const { return simulation_.world(); }
   double time() const { return simulation_.time(); }
@@ -106,7 +111,7 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
       simulation_(std::move(built.world)),
       recorder_(scene, options, simulation_),
       end_(std::min(scene.time.end, options.until_s.value_or(scene.time.end))),
-      progress_(options, end_),
+      progress_(options, end_, simulation_.world().ranks),
       memory_limit_(memory_limit(options)) {}
 
 bool SceneRun::uses_too_much_memory() {
@@ -117,7 +122,9 @@ bool SceneRun::uses_too_much_memory() {
   return static_cast<double>(rss_bytes()) > memory_limit_;
 }
 
-std::string SceneRun::reason_to_stop() {
+std::string SceneRun::reason_to_stop() { return first_text(world().ranks, own_reason_to_stop()); }
+
+std::string SceneRun::own_reason_to_stop() {
   if (const std::string asked = describe_stop(); !asked.empty()) return asked;
   if (uses_too_much_memory()) return "the memory limit";
   if (std::filesystem::exists(options_.out + "/STOP")) return "the file STOP";
@@ -195,7 +202,10 @@ coupling::Observer SceneRun::observer() {
                 progress_.step(world());
               },
           .phase = [this](const std::string& what) { end_phase(what); },
-          .start = [this] { save_start(options_.out, scene_, world().state); },
+          .start =
+              [this] {
+                if (world().ranks.is_root()) save_start(options_.out, scene_, world().state);
+              },
           .life = [this](const coupling::LifeReport& report) { recorder_.add_life(report); },
           .events_over = [this] { return events_over(); }};
 }
@@ -217,7 +227,8 @@ int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>&
   recorder_.add_event("cannot_continue", cause, cells);
   if (time() > recorder_.last_frame() + kSameTime) recorder_.write_frame(true);
   close("failed", cause);
-  fmt::print(stderr, "acinus: simulation cannot continue: {}\n", cause);
+  if (world().ranks.is_root())
+    fmt::print(stderr, "acinus: simulation cannot continue: {}\n", cause);
   return static_cast<int>(Exit::kCannotContinue);
 }
 
@@ -227,7 +238,7 @@ void SceneRun::stop(const std::string& why) {
   progress_.note(fmt::format("stopped by {}", why) +
                  (options_.is_part ? "" : "; continue with: " + resume_command(options_)));
   // Obeyed; left there it would stop the resumed run too.
-  std::filesystem::remove(options_.out + "/STOP");
+  if (world().ranks.is_root()) std::filesystem::remove(options_.out + "/STOP");
 }
 
 int SceneRun::loop() {
@@ -277,9 +288,15 @@ int SceneRun::go() {
     recorder_.create();
   }
   const coupling::State& s = world().state;
-  progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {} threads",
-                             scene_.name, dcm::count_cells(s.dcm), s.cbm.n_cell(), vessel_length_,
-                             options_.threads));
+  const Ranks& ranks = world().ranks;
+  progress_.note(fmt::format("{}: {} DCM + {} CBM cells, {:.0f} um of vessels, {}", scene_.name,
+                             dcm::count_cells(s.dcm), s.cbm.n_cell(), vessel_length_,
+                             ranks.is_alone() ? fmt::format("{} threads", options_.threads)
+                                              : fmt::format("{} processes of {} threads",
+                                                            ranks.size(), options_.threads)));
+  if (simulation_.work().system.ownership.is_whole() && !ranks.is_alone())
+    progress_.note(
+        "there are too few cells to share: until there are more, every process does all the work");
   tell(notes_);
   if (const auto skipped = list_skipped(world()); !skipped.empty())
     progress_.note(fmt::format("skipped: {}", fmt::join(skipped, ", ")));
@@ -295,7 +312,7 @@ int SceneRun::go() {
                       "\"XDMF Reader\"",
                       quote_for_shell(options_.out)));
   }
-  if (options_.timings)
+  if (options_.timings && ranks.is_root())
     for (const StageTime& stage : simulation_.work().timings.stages())
       fmt::print("{:20s} {:9.3f} s wall {:9.3f} s CPU {:8d} calls\n", stage.name, stage.wall,
                  stage.cpu, stage.calls);
@@ -304,29 +321,58 @@ int SceneRun::go() {
 
 }  // namespace
 
-int run_scene(const Scene& scene, const RunOptions& asked) {
-  RunOptions options = asked;
-  if (options.threads <= 0) options.threads = processor_count();
-  set_threads(options.threads);
-  BuiltWorld built = [&] {
-    const ExitAtLimit nothing_to_save;
-    check_memory(scene, memory_limit(options));
-    return build_world(scene, Ranks::world());
-  }();
-  check(built.world.ranks.size() == 1,
-        "this version runs on one rank; start it without mpirun and use --threads.");
-  const io::FileLock writing = prepare_folder(options.out, options);
-  const LoggerKept keeping;
+namespace {
+
+std::shared_ptr<spdlog::logger> open_log(const RunOptions& options, const Ranks& ranks) {
+  if (!ranks.is_root()) return spdlog::null_logger_mt("run");
   auto log = spdlog::basic_logger_mt("run", options.out + "/run.log", !options.resume);
   // Few lines; someone may be following them, and a kill must not lose them.
   log->flush_on(spdlog::level::info);
-  spdlog::set_default_logger(log);
+  return log;
+}
+
+/// Ends all processes because of what happened to this one. What happened to all alike the first
+/// one says, and the others wait for it.
+[[noreturn]] void end_all(const Ranks& ranks, const std::exception& failed) {
+  constexpr unsigned kPatience = 3;  // s
+  const auto* error = dynamic_cast<const Error*>(&failed);
+  if (!ranks.is_root()) sleep(kPatience);
+  fmt::print(stderr, "{}{}\n", failed.what(),
+             ranks.is_root() ? "" : fmt::format(" (process {})", ranks.rank()));
+  ranks.abort(static_cast<int>(error != nullptr ? error->code() : Exit::kInternal));
+}
+
+}  // namespace
+
+int run_scene(const Scene& scene, const RunOptions& asked) {
+  const Ranks ranks = Ranks::world();
+  RunOptions options = asked;
+  const ThreadShare threads = share_processors(ranks, options.threads);
+  options.threads = threads.threads;
+  set_threads(options.threads);
+  BuiltWorld built = together(ranks, [&] {
+    const ExitAtLimit nothing_to_save;
+    check_alike(ranks, fmt::format("{} {}", ACINUS_VERSION, ACINUS_FLAGS), "program");
+    check_alike(ranks, scene.resolved_json, "scene");
+    check_memory(scene, memory_limit(options));
+    BuiltWorld world = build_world(scene, ranks);
+    world.world.sharing = options.sharing;
+    return world;
+  });
+  if (!threads.warning.empty()) built.notes.warned.push_back(threads.warning);
+  std::optional<io::FileLock> writing;
+  together(ranks, [&] {
+    if (ranks.is_root()) writing.emplace(prepare_folder(options.out, options));
+  });
+  const LoggerKept keeping;
+  spdlog::set_default_logger(open_log(options, ranks));
   spdlog::info("acinus {} {}: {}", ACINUS_VERSION, ACINUS_GIT, options.command_line);
   const StopSignals signals;
   try {
     return SceneRun(scene, options, std::move(built)).go();
   } catch (const std::exception& error) {
     spdlog::error(error.what());
+    if (!ranks.is_alone()) end_all(ranks, error);
     throw;
   }
 }

@@ -11,10 +11,11 @@ namespace acinus::runs {
 
 struct RunOptions {
   std::string scene_file;
-  std::vector<std::string> set;     ///< PATH=VALUE, already applied to the scene
-  std::string out;                  ///< run folder
-  bool resume = false;              ///< go on from the checkpoint in `out`
-  bool overwrite = false;           ///< results in `out` may be replaced
+  std::vector<std::string> set;  ///< PATH=VALUE, already applied to the scene
+  std::string out;               ///< run folder
+  bool resume = false;           ///< go on from the checkpoint in `out`
+  bool overwrite = false;        ///< results in `out` may be replaced
+  coupling::Sharing sharing = coupling::Sharing::kBalanced;
   int threads = 0;                  ///< 0 = all cores
   std::optional<double> until_s;    ///< stop at this simulated time, s; empty = time.end
   std::optional<int> until_cells;   ///< stop at so many cells; empty = time.until_cells

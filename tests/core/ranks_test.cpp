@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <vector>
-
-#include "core/error.hpp"
 
 // Run as it stands (one process, MPI never touched) and under mpirun: the claims are the same.
 
@@ -22,35 +21,88 @@ TEST(Ranks, WorldHasAsManyProcessesAsTheStart) {
   EXPECT_EQ(Ranks::world().rank(), ranks.rank());  // the second call starts nothing
 }
 
+double sum(const Ranks& ranks, const std::vector<double>& terms) {
+  ExactSum total;
+  for (const double t : terms) total.add(t);
+  ranks.sum(std::span(&total, 1));
+  return total.value();
+}
+
 TEST(Ranks, SerialIsTheIdentity) {
   const Ranks ranks = Ranks::serial();
   EXPECT_EQ(ranks.size(), 1);
-  std::vector<double> values = {1.0, 2.0};
-  ranks.sum(values);
-  EXPECT_EQ(values, (std::vector<double>{1.0, 2.0}));
-  EXPECT_EQ(ranks.sum(3.0), 3.0);
+  EXPECT_TRUE(ranks.is_alone());
+  EXPECT_EQ(sum(ranks, {1.0, 2.0}), 3.0);
   EXPECT_EQ(ranks.max(-1.0), -1.0);
+  EXPECT_EQ(ranks.min(-1), -1);
   EXPECT_EQ(ranks.agree_worst(75), 75);
+  const std::vector<int> own = {3, 4};
+  std::vector<int> all;
+  std::vector<std::size_t> start;
+  ranks.gather<int>(own, all, &start);
+  EXPECT_EQ(all, own);
+  EXPECT_EQ(start, (std::vector<std::size_t>{0, 2}));
   ranks.barrier();
 }
 
-// The sum in rank order, done again here from what each rank would give.
-TEST(Ranks, SumsInRankOrder) {
+// Whoever has which of the terms, the sum is that of one process.
+TEST(Ranks, SumsExactly) {
   const Ranks ranks = Ranks::world();
-  const auto share = [](int rank, std::size_t i) {
-    return std::sin(1.0 + rank + 0.1 * static_cast<double>(i)) *
-           std::pow(10.0, rank * 3 - static_cast<int>(i % 9));
-  };
-  for (const std::size_t length : {0u, 1u, 1000u, 150'000u}) {  // the last takes three chunks
-    std::vector<double> values(length);
-    for (std::size_t i = 0; i < length; ++i) values[i] = share(ranks.rank(), i);
-    ranks.sum(values);
-    for (std::size_t i = 0; i < length; ++i) {
-      double expected = share(0, i);
-      for (int rank = 1; rank < ranks.size(); ++rank) expected += share(rank, i);
-      ASSERT_EQ(values[i], expected) << i;
-    }
+  const auto term = [](int k) { return std::sin(1.0 + k) * std::pow(10.0, k % 37 - 18); };
+  constexpr int kTerms = 1000;
+  std::vector<double> all, own;
+  for (int k = 0; k < kTerms; ++k) {
+    all.push_back(term(k));
+    if (k * k % 7 % ranks.size() == ranks.rank()) own.push_back(term(k));
   }
+  EXPECT_EQ(sum(ranks, own), sum(Ranks::serial(), all));
+  EXPECT_TRUE(std::isnan(sum(ranks, {ranks.is_root() ? std::nan("") : 1.0})));
+  EXPECT_TRUE(std::isinf(sum(ranks, {ranks.is_root() ? HUGE_VAL : 1.0})));
+}
+
+TEST(Ranks, GathersInTheirOrder) {
+  const Ranks ranks = Ranks::world();
+  std::vector<double> own(static_cast<std::size_t>(ranks.rank()) * 3, ranks.rank()), all;
+  std::vector<std::size_t> start;
+  ranks.gather<double>(own, all, &start);
+  std::vector<double> expected;
+  std::vector<std::size_t> begin{0};
+  for (int r = 0; r < ranks.size(); ++r) {
+    expected.insert(expected.end(), static_cast<std::size_t>(r) * 3, r);
+    begin.push_back(expected.size());
+  }
+  EXPECT_EQ(all, expected);
+  EXPECT_EQ(start, begin);
+}
+
+// Everyone sends as many numbers as the ranks of both ends say.
+TEST(Ranks, ExchangesWithPeers) {
+  const Ranks ranks = Ranks::world();
+  ExchangePlan plan;
+  std::vector<int> out, expected;
+  for (int peer = 0; peer < ranks.size(); ++peer) {
+    if (peer == ranks.rank()) continue;
+    const auto n = static_cast<std::size_t>(peer + ranks.rank());
+    plan.peer.push_back({peer, out.size(), out.size() + n, expected.size(), expected.size() + n});
+    out.insert(out.end(), n, 10 * ranks.rank() + peer);
+    expected.insert(expected.end(), n, 10 * peer + ranks.rank());
+  }
+  std::vector<int> in(expected.size());
+  const Traffic before = Ranks::traffic();
+  ranks.exchange<int>(plan, out, in);
+  EXPECT_EQ(in, expected);
+  const Traffic after = Ranks::traffic();
+  EXPECT_EQ(after.messages - before.messages, static_cast<std::int64_t>(plan.peer.size()));
+  EXPECT_EQ(after.message_bytes - before.message_bytes,
+            static_cast<std::int64_t>(out.size() * sizeof(int)));
+}
+
+TEST(Ranks, TheRootTellsTheOthers) {
+  const Ranks ranks = Ranks::world();
+  std::vector<int> values;
+  if (ranks.is_root()) values = {7, 8, 9};
+  ranks.broadcast(values);
+  EXPECT_EQ(values, (std::vector<int>{7, 8, 9}));
 }
 
 TEST(Ranks, MaxAndAnySeeEveryRank) {
@@ -73,20 +125,6 @@ TEST(Ranks, TheGravestExitCodeWins) {
     }
   }
   ranks.barrier();
-}
-
-TEST(Halo, DoesNothingOnOneRankAndRefusesMore) {
-  const Ranks ranks = Ranks::world();
-  const Halo halo = {ranks};
-  std::vector<double> x = {1.0, 2.0};
-  if (ranks.size() == 1) {
-    halo.update(x);
-    halo.add_back(x);
-    EXPECT_EQ(x, (std::vector<double>{1.0, 2.0}));
-  } else {
-    EXPECT_THROW(halo.update(x), Error);
-    EXPECT_THROW(halo.add_back(x), Error);
-  }
 }
 
 }  // namespace

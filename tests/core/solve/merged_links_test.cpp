@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/solve/cg.hpp"
-#include "core/solve/row_blocks.hpp"
 #include "core/threads.hpp"
 #include "tests/core/solve/tissue.hpp"
 
@@ -22,10 +21,8 @@ namespace {
 constexpr double kFloatEps = static_cast<double>(std::numeric_limits<float>::epsilon());
 
 MergedLinks merge(const System& s) {
-  std::vector<int> block_of_row;
-  find_row_blocks(s, block_of_row);
   MergedLinks out;
-  LinkMerger().merge(s, block_of_row, out);
+  LinkMerger().merge(s, out);
   return out;
 }
 
@@ -99,17 +96,14 @@ std::vector<std::pair<Point, double>> weighted_points(const Side& s) {
 
 TEST(MergedLinks, AreTheSumsOverContactsWorkedOutPlainly) {
   const System s = make_tissue(40);
-  std::vector<int> block_of_row;
-  find_row_blocks(s, block_of_row);
   auto cell = [&](const Side& side) {
-    return static_cast<Point>(block_of_row[side.point[0] / kLanes]) * kLanes +
-           side.point[0] % kLanes;
+    return static_cast<Point>(s.block_of(side.point[0])) * kLanes + side.point[0] % kLanes;
   };
   std::map<std::pair<Point, Point>, Sum> across;  // by point of the lower cell
   std::map<std::pair<Point, Point>, Sum> within;  // by lower point
   std::size_t n_merged = 0;
   for (const Link& l : s.links.link) {
-    if (!is_merged(s, block_of_row, l) || (l.stiffness == 0 && l.friction == 0)) continue;
+    if (!is_merged(s, l) || (l.stiffness == 0 && l.friction == 0)) continue;
     ++n_merged;
     const Mat3 m =
         reference::contact_matrix(s, reference::normal_of(l.normal), l.stiffness, l.friction);
@@ -247,10 +241,7 @@ TEST(MergedProduct, OfEveryKindAlone) {
     SCOPED_TRACE(kind.name);
     Tissue t(seed++, 2);
     for (int k = 0; k < 30; ++k) t.add_contacts(kind);
-    std::vector<int> block_of_row;
-    find_row_blocks(t.system, block_of_row);
-    for (const Link& l : t.system.links.link)
-      EXPECT_EQ(is_merged(t.system, block_of_row, l), kind.is_merged);
+    for (const Link& l : t.system.links.link) EXPECT_EQ(is_merged(t.system, l), kind.is_merged);
     EXPECT_EQ(merge(t.system).pairs.b.empty(), !kind.is_merged);
     Operator op;
     op.prepare(t.system);
