@@ -40,7 +40,7 @@ bool pairs_hold(const ListInput& in, const ContactLists& lists) {
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     const ListedBody& b = lists.body[k];
     if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology ||
-        b.constrained != is_constrained(in, k))
+        b.constrained != is_constrained(in, k) || b.foreign != is_foreign(in, k))
       return false;
     const Box within = b.box.grown(room);
     if (!within.contains(in.body[k].box.low) || !within.contains(in.body[k].box.high)) return false;
@@ -95,12 +95,15 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
     if (was[k] >= 0) {
       const std::size_t from = was[k];
       b = std::move(lists.body[from]);
-      next.segment[k] = std::move(lists.segment[from]);
-      next.segment_age[k] = lists.segment_age[from];
+      if (!is_foreign(in, k)) {
+        next.segment[k] = std::move(lists.segment[from]);
+        next.segment_age[k] = lists.segment_age[from];
+      }
     }
     b.lineage = in.lineage[k];
     b.topology = in.body[k].topology;
     b.constrained = is_constrained(in, k);
+    b.foreign = is_foreign(in, k);
     b.box = in.body[k].box;
   }
   next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);

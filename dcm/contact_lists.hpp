@@ -33,7 +33,7 @@ struct ListSnapshot {
 struct ListedBody {
   std::int64_t lineage = -1;
   const mesh::Topology* topology = nullptr;
-  bool constrained = false;
+  bool constrained = false, foreign = false;
   Box box;  ///< when pairs were looked for
   std::vector<ListSnapshot> snapshot;
 };
