@@ -52,6 +52,18 @@ constexpr std::size_t kLargestCount = std::size_t{1} << 30;  ///< bytes of one c
 
 Traffic g_traffic;
 
+/// Adds the time of a call to what is waited.
+class Waiting {
+ public:
+  Waiting() : started_(MPI_Wtime()) {}
+  ~Waiting() { g_traffic.wait_s += MPI_Wtime() - started_; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  double started_;
+};
+
 void count_reduction(std::size_t bytes) {
   ++g_traffic.reductions;
   g_traffic.reduction_bytes += static_cast<std::int64_t>(bytes);
@@ -91,6 +103,7 @@ void Ranks::sum(std::span<ExactSum> sums) const {
     words.insert(words.end(), w.begin(), w.end());
   }
   words.push_back(is_asked_to_stop() ? 1 : 0);
+  const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, words.data(), static_cast<int>(words.size()), MPI_INT64_T, MPI_SUM,
                 handle(communicator_));
   for (std::size_t k = 0; k < sums.size(); ++k)
@@ -105,6 +118,7 @@ double Ranks::max(double value) const {
   std::array<double, 2> both = {
       std::isnan(value) ? -std::numeric_limits<double>::infinity() : value,
       std::isnan(value) ? 1.0 : 0.0};
+  const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, both.data(), 2, MPI_DOUBLE, MPI_MAX, handle(communicator_));
   count_reduction(sizeof both);
   return both[1] > 0.0 ? std::numeric_limits<double>::quiet_NaN() : both[0];
@@ -112,6 +126,7 @@ double Ranks::max(double value) const {
 
 void Ranks::max(std::span<double> values) const {
   if (size_ == 1) return;
+  const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
                 handle(communicator_));
   count_reduction(values.size_bytes());
@@ -119,6 +134,7 @@ void Ranks::max(std::span<double> values) const {
 
 std::int64_t Ranks::min(std::int64_t value) const {
   if (size_ == 1) return value;
+  const Waiting waiting;
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_MIN, handle(communicator_));
   count_reduction(sizeof value);
   return value;
@@ -139,6 +155,7 @@ int Ranks::agree_worst(int exit_code) const {
 }
 
 std::vector<std::size_t> Ranks::gather_sizes(std::size_t own_bytes) const {
+  const Waiting waiting;
   std::vector<std::size_t> bytes(static_cast<std::size_t>(size_));
   MPI_Allgather(&own_bytes, sizeof own_bytes, MPI_BYTE, bytes.data(), sizeof own_bytes, MPI_BYTE,
                 handle(communicator_));
@@ -149,6 +166,7 @@ std::vector<std::size_t> Ranks::gather_sizes(std::size_t own_bytes) const {
 
 void Ranks::gather_bytes(const void* own, std::size_t own_bytes,
                          const std::vector<std::size_t>& start, void* all) const {
+  const Waiting waiting;
   // MPI counts in int. What is longer goes in rounds, each with a part of what every rank has.
   const std::size_t most = kLargestCount / static_cast<std::size_t>(size_);
   std::size_t longest = 0;
@@ -179,6 +197,7 @@ void Ranks::gather_bytes(const void* own, std::size_t own_bytes,
 void Ranks::exchange_bytes(const ExchangePlan& plan, std::size_t size, const void* out,
                            void* in) const {
   constexpr int kTag = 1;
+  const Waiting waiting;
   thread_local std::vector<MPI_Request> request;
   request.clear();
   for (const ExchangePlan::Peer& p : plan.peer) {

@@ -40,6 +40,7 @@ struct Traffic {
   std::int64_t messages = 0, message_bytes = 0;  ///< of exchanges, sent
   std::int64_t reductions = 0, reduction_bytes = 0;
   std::int64_t gatherings = 0, gathered_bytes = 0;
+  double wait_s = 0;  ///< wall time within all these
 };
 
 /// A group of processes. Every collective call must be made by all of them, in the same order, and
@@ -60,6 +61,7 @@ class Ranks {
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
   bool is_alone() const { return size_ == 1; }
+  int communicator() const { return communicator_; }  ///< for libraries that know MPI
 
   /// In place sum over ranks, elementwise and exact: the same bits on every rank, and for any
   /// number of ranks. Requests to stop become known to all at the same time (core/stop.hpp).

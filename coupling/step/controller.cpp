@@ -11,6 +11,7 @@
 #include "coupling/step/acceptance.hpp"
 #include "coupling/step/attempt.hpp"
 #include "coupling/step/balance.hpp"
+#include "coupling/step/balance_shares.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
@@ -130,6 +131,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
       result.step = step;
       result.error = a.error;
       result.max_move = a.max_move;
+      balance_shares(world, w);
       return result;
     }
     if (stop_requested()) {

@@ -159,7 +159,7 @@ void size_workspace(const World& world, Workspace& w) {
   const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
   dcm::size_rank_one(s.dcm, world.params.dcm, w.system, any_spring(world.params.pulls));
-  w.system.ownership = share_blocks(world, blocks);
+  w.system.ownership = share_blocks(world, blocks, w.cost);
   solve::set_blocks(w.system, std::move(blocks));
   find_foreign_cells(world, w);
   w.active = active_lanes(s);

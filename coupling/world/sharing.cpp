@@ -1,5 +1,9 @@
 #include "coupling/world/sharing.hpp"
 
+#include <algorithm>
+#include <vector>
+
+#include "core/partition.hpp"
 #include "core/random.hpp"
 
 namespace acinus::coupling {
@@ -7,6 +11,8 @@ namespace {
 
 /// Blocks a process needs at least for sharing to be worth anything.
 constexpr std::size_t kLeastBlocks = 2;
+/// A guess before anything is measured: a point costs as much whatever it belongs to, s per step.
+constexpr double kPointCost = 2e-6;
 
 /// Every block to anyone.
 std::vector<int> draw_owners(const World& world, std::size_t n_block) {
@@ -18,26 +24,50 @@ std::vector<int> draw_owners(const World& world, std::size_t n_block) {
   return owner;
 }
 
+/// Where the blocks are, by the first points of their cells, and what they cost.
+struct BlockCosts {
+  std::vector<Vec3> place;
+  std::vector<double> cost;
+};
+
+BlockCosts find_costs(const State& s, std::span<const solve::Block> blocks,
+                      const MeasuredCost& measured) {
+  BlockCosts out;
+  std::size_t row = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const auto n_point = static_cast<std::size_t>(blocks[b].pattern->n_point);
+    Vec3 place = Vec3::Zero();
+    double cost = 0, n = 0;
+    for_each_cell_of(s, b, [&](std::int64_t lineage, std::size_t lane) {
+      const Address at = make_address(row, static_cast<int>(lane % kLanes));
+      place += load_point(position_of(s, at), 0);
+      ++n;
+      const auto known = measured.of_cell.find(lineage);
+      cost += known != measured.of_cell.end() ? known->second
+                                              : kPointCost * static_cast<double>(n_point);
+    });
+    out.place.push_back(place / std::max(n, 1.0));
+    out.cost.push_back(std::max(cost, kPointCost));
+    row += n_point;
+  }
+  return out;
+}
+
 }  // namespace
 
-solve::Ownership share_blocks(const World& world, std::span<const solve::Block> blocks) {
+solve::Ownership share_blocks(const World& world, std::span<const solve::Block> blocks,
+                              const MeasuredCost& cost) {
   solve::Ownership o;
-  const auto n_rank = static_cast<std::size_t>(world.ranks.size());
   const bool random = world.sharing == Sharing::kRandom;
-  if (n_rank == 1 || (!random && blocks.size() < kLeastBlocks * n_rank)) return o;
+  const std::size_t least =
+      random ? 1 : kLeastBlocks * static_cast<std::size_t>(world.ranks.size());
+  if (world.ranks.is_alone() || blocks.size() < least) return o;
   o.ranks = world.ranks;
   if (random) {
     o.owner = draw_owners(world, blocks.size());
-    return o;
-  }
-  // Blocks stand along a space-filling curve, deformable cells first: runs of either model with as
-  // much work each.
-  std::size_t n_row = 0, row = 0;
-  for (const solve::Block& b : blocks) n_row += static_cast<std::size_t>(b.pattern->n_point);
-  for (const solve::Block& b : blocks) {
-    const auto n = static_cast<std::size_t>(b.pattern->n_point);
-    o.owner.push_back(static_cast<int>((row + n / 2) * n_rank / n_row));
-    row += n;
+  } else {
+    const BlockCosts costs = find_costs(world.state, blocks, cost);
+    o.owner = partition(world.ranks, costs.place, costs.cost);
   }
   return o;
 }

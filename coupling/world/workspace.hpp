@@ -11,6 +11,7 @@
 #include "coupling/world/constraint.hpp"
 #include "coupling/world/interface.hpp"
 #include "coupling/world/migration.hpp"
+#include "coupling/world/sharing.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/nucleus_contact.hpp"
 
@@ -31,6 +32,7 @@ struct LinearisationPoint {
 struct Workspace {
   solve::System system;
   std::size_t dcm_lanes = 0;  ///< written by: find_foreign_cells
+  MeasuredCost cost;          ///< written by: balance_shares
   solve::Operator op;
   solve::CgWorkspace cg;
   solve::RigidWorkspace rigid;

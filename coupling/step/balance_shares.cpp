@@ -1,0 +1,75 @@
+#include "coupling/step/balance_shares.hpp"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/timing.hpp"
+#include "coupling/step/stages.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Accepted steps between two looks at who waits for whom, and how much longer than the mean the
+/// busiest may be busy.
+constexpr std::int64_t kStepsBetween = 32;
+constexpr double kImbalance = 1.1;
+
+/// Time this process was busy since its start, s.
+double busy_time() { return wall_seconds() - Ranks::traffic().wait_s; }
+
+/// What blocks cost beside each other, without a measure: their points, and the contacts of these.
+std::vector<double> count_work(const solve::System& s) {
+  constexpr double kLinkWork = 2;  // points
+  std::vector<double> work;
+  for (std::size_t b = 0; b < s.block.size(); ++b)
+    work.push_back(static_cast<double>(kLanes * (s.row_of(b + 1) - s.row_of(b))));
+  for (const solve::Link& l : s.links.link) {
+    work[s.block_of(l.a.point[0])] += kLinkWork;
+    if (l.b.exists()) work[s.block_of(l.b.point[0])] += kLinkWork;
+  }
+  return work;
+}
+
+}  // namespace
+
+void balance_shares(const World& world, Workspace& w) {
+  const solve::Ownership& ownership = w.system.ownership;
+  MeasuredCost& cost = w.cost;
+  if (ownership.is_whole() || ++cost.steps < kStepsBetween) return;
+  const double busy = busy_time() - cost.busy;
+  const bool first = cost.busy == 0;
+  const double steps = static_cast<double>(cost.steps);
+  cost.busy += busy;
+  cost.steps = 0;
+  if (first) return;  // with reading and placing
+  // What each process was busy for goes to its blocks in proportion to their work.
+  const std::vector<double> work = count_work(w.system);
+  double own_work = 0;
+  for (const auto& [begin, end] : w.system.own)
+    for (std::size_t b = begin; b < end; ++b) own_work += work[b];
+  std::vector<double> own, all, times;
+  ownership.ranks.gather<double>(std::span(&busy, 1), times);
+  for (const auto& [begin, end] : w.system.own)
+    for (std::size_t b = begin; b < end; ++b) own.push_back(busy / steps * work[b] / own_work);
+  solve::gather_in_order(
+      ownership.ranks, w.system.block.size(), [&](std::size_t b) { return ownership.owner[b]; },
+      [](std::size_t) { return std::size_t{1}; }, own, all);
+  const State& s = world.state;
+  cost.of_cell.clear();
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    std::size_t n = 0;
+    for_each_cell_of(s, b, [&](std::int64_t, std::size_t) { ++n; });
+    for_each_cell_of(s, b, [&](std::int64_t lineage, std::size_t) {
+      cost.of_cell[lineage] = all[b] / static_cast<double>(n);
+    });
+  }
+  double sum = 0;
+  for (const double t : times) sum += t;
+  const double most = *std::ranges::max_element(times);
+  if (world.sharing == Sharing::kBalanced &&
+      most * static_cast<double>(times.size()) > kImbalance * sum)
+    size_workspace(world, w);
+}
+
+}  // namespace acinus::coupling
