@@ -106,6 +106,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
     // A packed sphere has 12 neighbours, half of them its own.
     part[k].reserve(7 * radius.size() / n_part);
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
+      const bool needs_own = is_foreign(i);
       const auto c = g.cell_of(center(position, i));
       const std::size_t first = part[k].size();
       for (std::int64_t z = std::max<std::int64_t>(c[2] - 1, 0);
@@ -116,8 +117,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
           const std::size_t to = g.index(std::min(c[0] + 1, g.n[0] - 1), y, z);
           for (std::uint32_t e = g.start[from]; e < g.start[to + 1]; ++e) {
             const std::size_t j = g.item[e];
-            if (j > i && !(is_foreign(i) && is_foreign(j)) &&
-                are_near(position, radius, margin, i, j))
+            if (j > i && are_near(position, radius, margin, i, j) && !(needs_own && is_foreign(j)))
               part[k].emplace_back(static_cast<int>(i), static_cast<int>(j));
           }
         }

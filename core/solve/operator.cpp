@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/exact_sum.hpp"
 #include "core/solve/kernels.hpp"
@@ -199,10 +200,15 @@ InverseView Operator::inverse_of(std::size_t block) const {
   return view;
 }
 
-double Operator::sum_partials() const {
+ExactSum Operator::sum_own() const {
   ExactSum sum;
   for (const auto& [first, last] : system_->own)
     for (std::size_t b = first; b < last; ++b) sum.add(partial_[b]);
+  return sum;
+}
+
+double Operator::sum_partials() const {
+  ExactSum sum = sum_own();
   system_->ownership.ranks.sum(std::span(&sum, 1));
   return sum.value();
 }
@@ -284,7 +290,7 @@ Operator::PackedVectors<T> Operator::pack(In<T> x) const {
 }
 
 template <class T>
-double Operator::apply(In<T> x, Out<T> y) const {
+void Operator::multiply_own(In<T> x, Out<T> y) const {
   const System& s = *system_;
   const PackedVectors<T> work = pack<T>(x);
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
@@ -304,7 +310,20 @@ double Operator::apply(In<T> x, Out<T> y) const {
                                    work.y + row * kLanes, y.data() + row * kPointStride);
     });
   });
+}
+
+template <class T>
+double Operator::apply(In<T> x, Out<T> y) const {
+  multiply_own<T>(x, y);
   return sum_partials();
+}
+
+template <class T>
+Operator::Sums Operator::multiply(In<T> x, Out<T> y) const {
+  multiply_own<T>(x, y);
+  std::array<ExactSum, 2> sum{descended_, sum_own()};
+  system_->ownership.ranks.sum(sum);
+  return {sum[0].value(), sum[1].value()};
 }
 
 void Operator::apply_within(std::span<const double> x, std::span<double> y) const {
@@ -391,26 +410,19 @@ double Operator::precondition(In<T> r, Out<T> z) const {
 }
 
 template <class T>
-double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const {
+double Operator::descend(DescentStep step, const Descent<T>& v) const {
   for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       const std::size_t at = row * kPointStride;
-      partial_[b] = descend_block(inverse_of(b), alpha,
-                                  DescentBlock<T>{p.data() + at, q.data() + at, x.data() + at,
-                                                  r.data() + at, z.data() + at});
+      partial_[b] =
+          descend_block(inverse_of(b), step,
+                        DescentBlock<T>{v.w.data() + at, v.p.data() + at, v.s.data() + at,
+                                        v.x.data() + at, v.r.data() + at, v.z.data() + at});
     });
   });
-  return sum_partials();
-}
-
-template <class T>
-void Operator::redirect(In<T> z, double beta, Out<T> p) const {
-  for_each_range([&](const ThreadRange& range) {
-    for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
-      redirect_range(z.data() + row * kPointStride, beta, p.data() + row * kPointStride,
-                     n * kPointStride);
-    });
-  });
+  descended_ = sum_own();
+  return system_->ownership.ranks.is_alone() ? descended_.value()
+                                             : std::numeric_limits<double>::quiet_NaN();
 }
 
 template <class T>
@@ -424,11 +436,11 @@ double Operator::dot(In<T> a, In<T> b) const {
   return sum_partials();
 }
 
-#define ACINUS_INSTANTIATE(T)                                                               \
-  template double Operator::apply<T>(In<T>, Out<T>) const;                                  \
-  template double Operator::precondition<T>(In<T>, Out<T>) const;                           \
-  template double Operator::descend<T>(double, In<T>, In<T>, Out<T>, Out<T>, Out<T>) const; \
-  template void Operator::redirect<T>(In<T>, double, Out<T>) const;                         \
+#define ACINUS_INSTANTIATE(T)                                                 \
+  template double Operator::apply<T>(In<T>, Out<T>) const;                    \
+  template double Operator::precondition<T>(In<T>, Out<T>) const;             \
+  template double Operator::descend<T>(DescentStep, const Descent<T>&) const; \
+  template Operator::Sums Operator::multiply<T>(In<T>, Out<T>) const;         \
   template double Operator::dot<T>(In<T>, In<T>) const;
 ACINUS_INSTANTIATE(double)
 ACINUS_INSTANTIATE(float)

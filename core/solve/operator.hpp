@@ -28,6 +28,13 @@ class Operator {
   template <class T>
   using Out = std::type_identity_t<std::span<T>>;
 
+  /// The vectors of conjugate gradients.
+  template <class T>
+  struct Descent {
+    In<T> w;
+    Out<T> p, s, x, r, z;
+  };
+
   Operator() = default;
   Operator(const Operator&) = delete;  // it points at a system beside it
   Operator& operator=(const Operator&) = delete;
@@ -49,13 +56,20 @@ class Operator {
   template <class T = double>
   double precondition(In<T> r, Out<T> z) const;
 
-  /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
+  /// One update of conjugate gradients: p = z + beta p, s = w + beta s, x += alpha p, r -= alpha s,
+  /// z = M^-1 r. Returns r . z, or, where it takes other processes to know it, NaN: then it comes
+  /// with the next multiply.
   template <class T = double>
-  double descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const;
+  double descend(DescentStep step, const Descent<T>& vectors) const;
 
-  /// p = z + beta p.
+  /// r . z of the last descend, and x . y of a product.
+  struct Sums {
+    double residual = 0, curvature = 0;
+  };
+  /// y = A x, with both sums at once: processes wait for each other once an iteration.
+  /// @pre descend
   template <class T = double>
-  void redirect(In<T> z, double beta, Out<T> p) const;
+  Sums multiply(In<T> x, Out<T> y) const;
 
   /// Dot product over all processes.
   template <class T = double>
@@ -112,7 +126,10 @@ class Operator {
   template <class F>
   void for_each_block(const ThreadRange& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
+  ExactSum sum_own() const;
   double sum_partials() const;
+  template <class T>
+  void multiply_own(In<T> x, Out<T> y) const;
   void plan_exchange();
   template <class T>
   void exchange_points(Packed<T>* x) const;
@@ -128,6 +145,7 @@ class Operator {
   /// [family][rows of its blocks][3][lane], as InverseView wants them.
   std::vector<std::vector<float>> rank_one_;
   mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
+  mutable ExactSum descended_;           ///< own part of r . z of the last descend
   /// Points that contacts join across processes: own ones to send, the others to receive.
   ExchangePlan exchange_;
   std::vector<Point> send_, receive_;

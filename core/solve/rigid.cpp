@@ -79,9 +79,10 @@ enum Number : std::size_t {
   kMass = 6,  ///< of medium friction, and its moments about the centre
   kFirstMoment = 7,
   kSecondMoment = 10,  ///< xx xy xz yy yz zz
-  kTies = 16,          ///< upper triangle of what boundary adds to the matrix
-  kNumbers = 37
+  kNumbers = 16
 };
+/// Numbers of the upper triangle of a matrix 6 x 6.
+constexpr std::size_t kUpper = 21;
 
 /// Sum of m z^T z over the points of a group.
 Mat6 medium_matrix(double mass, const Vec3& f, const Mat3& second_moment) {
@@ -132,7 +133,6 @@ class RigidModes {
   /// projected matrix, and all of it but for the rotations: no link or element within a group feels
   /// a translation.
   void tie_to_outside(std::span<const double> residual) {
-    find_ties();
     work_.sums.largest(
         [&](Address a, std::size_t g) { return (at(a) - groups_[g].center).squaredNorm(); },
         work_.squared_reach);
@@ -151,29 +151,20 @@ class RigidModes {
           const Mat3 second = m * d * d.transpose();
           for_each_upper(second,
                          [&](std::size_t n, double v, double) { sum[kSecondMoment + n] += v; });
-          if (work_.tie.empty() || !is_first_point(a)) return;
-          const int tie = work_.tie_of_cell[cell_of(a)];
-          if (tie < 0) return;
-          for_each_upper(std::as_const(work_.tie[static_cast<std::size_t>(tie)]),
-                         [&](std::size_t n, double v, double) { sum[kTies + n] += v; });
         },
         [&](std::size_t g, const std::array<double, kNumbers>& sum) {
           RigidGroup& group = groups_[g];
           for (std::size_t k = 0; k < 6; ++k)
             group.residual[static_cast<int>(k)] = sum[kResidual + k];
           Mat3 second;
-          Mat6 tie;
-          const auto fill = [&sum](std::size_t from) {
-            return [&sum, from](std::size_t n, double& v, double& mirrored) {
-              v = mirrored = sum[from + n];
-            };
-          };
-          for_each_upper(second, fill(kSecondMoment));
-          for_each_upper(tie, fill(kTies));
+          for_each_upper(second, [&](std::size_t n, double& v, double& mirrored) {
+            v = mirrored = sum[kSecondMoment + n];
+          });
           const Vec3 first(sum[kFirstMoment], sum[kFirstMoment + 1], sum[kFirstMoment + 2]);
-          group.matrix = medium_matrix(sum[kMass], first, second) + tie;
+          group.matrix = medium_matrix(sum[kMass], first, second);
           group.squared_reach = work_.squared_reach[g];
         });
+    add_ties();
   }
 
   /// Chooses the groups whose rigid error may be larger, um.
@@ -238,6 +229,25 @@ class RigidModes {
   bool is_first_point(Address a) const {
     const auto block = static_cast<std::size_t>(s_.block_of_row[a / kPointStride]);
     return a / kPointStride == s_.block[block].first_row;
+  }
+  /// Adds what boundary ties the groups to.
+  void add_ties() {
+    find_ties();
+    if (!s_.ownership.ranks.any(!work_.tie.empty())) return;
+    work_.sums.sum<kUpper>(
+        [&](Address a, std::size_t, std::array<double, kUpper>& sum) {
+          if (!is_first_point(a)) return;
+          const int tie = work_.tie_of_cell[cell_of(a)];
+          if (tie < 0) return;
+          for_each_upper(std::as_const(work_.tie[static_cast<std::size_t>(tie)]),
+                         [&](std::size_t n, double v, double) { sum[n] += v; });
+        },
+        [&](std::size_t g, const std::array<double, kUpper>& sum) {
+          Mat6 tie;
+          for_each_upper(
+              tie, [&](std::size_t n, double& v, double& mirrored) { v = mirrored = sum[n]; });
+          groups_[g].matrix += tie;
+        });
   }
   /// What boundary ties each cell to, about the centre of its group, in the order of the contacts.
   void find_ties() {

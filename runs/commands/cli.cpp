@@ -9,6 +9,7 @@
 #include "core/ranks.hpp"
 #include "runs/commands/command.hpp"
 #include "runs/session/shell_quote.hpp"
+#include "runs/session/together.hpp"
 
 namespace acinus::runs {
 
@@ -53,10 +54,13 @@ int run_cli(int argc, const char* const* argv) {
   }
   for (const Command& command : commands)
     if (command.app->parsed()) {
-      check(Ranks::world().is_alone() || &command == &commands[0],
-            fmt::format("acinus {} is one process: start it without mpirun. Of the commands only "
-                        "acinus run shares its work among processes.",
-                        command.app->get_name()));
+      const auto refuse = [&] {
+        throw Error(fmt::format(
+            "acinus {} is one process: start it without mpirun. Of the commands only acinus run "
+            "shares its work among processes.",
+            command.app->get_name()));
+      };
+      if (!Ranks::world().is_alone() && &command != &commands[0]) together(Ranks::world(), refuse);
       return command.run();
     }
   return static_cast<int>(Exit::kBadInput);

@@ -196,9 +196,9 @@ def check_errors(program):
             if done.returncode != code or said != 1:
                 sys.exit(f"{arguments}: exit code {done.returncode}, not {code}; said {said} times:\n{done.stdout}")
 
-        expect(2, ["run", "no_such_scene", "--out", out], 2, "no_such_scene: ")
-        expect(2, ["run", "--no-such-flag"], 2, "--no-such-flag")
-        expect(2, ["calibrate", "no_such_scene"], 2, "start it without mpirun")
+        expect(2, ["run", "no_such_scene", "--out", out], 4, "no_such_scene: ")
+        expect(2, ["run"], 2, "SCENE is required")
+        expect(2, ["list"], 2, "start it without mpirun")
         os.mkdir(os.path.join(folder, "here"))
         open(os.path.join(folder, "here", "run.vtkhdf"), "w").close()
         expect(2, ["run", "two_cells", "--out", os.path.join(folder, "here")], 2, "holds the results of an earlier run")
