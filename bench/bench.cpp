@@ -14,6 +14,7 @@
 #include "bench/output/table.hpp"
 #include "bench/step/assembly.hpp"
 #include "bench/step/nucleus_cost.hpp"
+#include "bench/step/ranks.hpp"
 #include "bench/step/skipping.hpp"
 #include "bench/step/step_cost.hpp"
 #include "bench/stress/stress.hpp"
@@ -25,8 +26,10 @@
 #include "bench/tissue/sleep.hpp"
 #include "bench/work_precision/work_precision.hpp"
 #include "core/error.hpp"
+#include "core/ranks.hpp"
 #include "core/threads.hpp"
 #include "core/timing.hpp"
+#include "runs/session/together.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -49,6 +52,7 @@ const std::map<std::string, BenchTable (*)(const BenchOptions&)>& benches() {
       {"patch", bench_patch},
       {"pull-off", bench_pull_off},
       {"pull-off-causes", bench_pull_off_causes},
+      {"ranks", bench_ranks},
       {"relaxation", bench_relaxation},
       {"skipping", bench_skipping},
       {"sleep", bench_sleep},
@@ -75,19 +79,29 @@ int run_bench(const std::string& name, const BenchOptions& options) {
   const auto found = benches().find(name);
   check(found != benches().end(), fmt::format("bench {}: no such benchmark; there are: {}", name,
                                               fmt::join(list_benches(), ", ")));
+  const Ranks ranks = Ranks::world();
+  if (!ranks.is_alone() && name != "ranks")
+    runs::together(ranks, [&] {
+      throw Error(
+          fmt::format("bench {} is one process: start it without mpirun. Only bench ranks "
+                      "measures several.",
+                      name));
+    });
   const int threads = options.threads > 0 ? options.threads : processor_count();
   set_threads(threads);
   const Machine machine = describe_machine();
-  fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
-             ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
+  if (ranks.is_root())
+    fmt::print("{}  commit {}  {}  {}  {} threads; CPU time, medians of repetitions\n", name,
+               ACINUS_GIT, machine.cpu_model, machine.instruction_set, threads);
   const double index_before = measure_speed_index();
   const BenchTable table = found->second(options);
   const double index_after = measure_speed_index();
-  fmt::print("speed index (CPU time of a fixed loop): {:.3g} ms before, {:.3g} ms after\n",
-             index_before, index_after);
+  if (ranks.is_root())
+    fmt::print("speed index (CPU time of a fixed loop): {:.3g} ms before, {:.3g} ms after\n",
+               index_before, index_after);
   const bool passed = std::ranges::all_of(table, &BenchRow::passed);
   const int code = static_cast<int>(passed ? Exit::kDone : Exit::kInternal);
-  if (options.json_file.empty()) return code;
+  if (options.json_file.empty() || !ranks.is_root()) return code;
   Json j = {{"name", name},
             {"commit", ACINUS_GIT},
             {"machine", machine.cpu_model},

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "bench/step/packed_clump.hpp"
-#include "bench/step/step_runner.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::bench {
@@ -45,8 +44,10 @@ BenchRow measure_case(const StepCase& c) {
   return row;
 }
 
+}  // namespace
+
 StepCase dcm_case(int count, const std::string& quadrature, int steps,
-                  std::optional<double> tolerance = {}) {
+                  std::optional<double> tolerance) {
   return {
       fmt::format("{} growing DCM cells, {}{}", count, quadrature,
                   tolerance ? fmt::format(", CG {:g}", *tolerance) : ""),
@@ -65,8 +66,6 @@ StepCase cbm_case(int count, int steps, int repeats) {
           repeats,
           false};
 }
-
-}  // namespace
 
 BenchTable bench_dcm27(const BenchOptions&) {
   // The loosest solver whose pressure is still within 2 % (docs/work_precision.md) beside the

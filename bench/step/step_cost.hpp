@@ -2,9 +2,18 @@
 /// Cost of whole steps: cells grow or move for a while, then the same steps are timed repeatedly
 /// from one saved state.
 
+#include <optional>
+#include <string>
+
 #include "bench/output/table.hpp"
+#include "bench/step/step_runner.hpp"
 
 namespace acinus::bench {
+
+/// A clump of growing deformable cells, and one of spheres that adhere.
+StepCase dcm_case(int count, const std::string& quadrature, int steps,
+                  std::optional<double> tolerance = {});
+StepCase cbm_case(int count, int steps, int repeats);
 
 BenchTable bench_dcm27(const BenchOptions& options);    ///< 27 growing DCM cells
 BenchTable bench_dcm216(const BenchOptions& options);   ///< 216 growing DCM cells

@@ -21,11 +21,18 @@ std::uint64_t heap_bytes() {
   return info.uordblks + info.hblkhd;
 }
 
+Traffic difference(const Traffic& a, const Traffic& b) {
+  return {a.messages - b.messages,     a.message_bytes - b.message_bytes,
+          a.reductions - b.reductions, a.reduction_bytes - b.reduction_bytes,
+          a.gatherings - b.gatherings, a.gathered_bytes - b.gathered_bytes,
+          a.wait_s - b.wait_s};
+}
+
 }  // namespace
 
-StepRunner::StepRunner(const StepCase& c) : case_(c) {
+StepRunner::StepRunner(const StepCase& c, const Ranks& ranks) : case_(c) {
   const std::uint64_t before = heap_bytes();
-  world_ = runs::build_world(runs::parse_scene(c.scene, c.name), Ranks::serial()).world;
+  world_ = runs::build_world(runs::parse_scene(c.scene, c.name), ranks).world;
   if (c.grows) grow(world_);
   coupling::size_workspace(world_, work_);
   advance(c.warm_up);
@@ -38,10 +45,15 @@ StepRunner::StepRunner(const StepCase& c) : case_(c) {
 StepSample StepRunner::measure() {
   if (!case_.once) world_.state = saved_;
   work_.timings.clear();
+  const Traffic traffic = Ranks::traffic();
   const double cpu = cpu_seconds(), wall = wall_seconds();
   advance(case_.steps);
-  return {cpu_seconds() - cpu, wall_seconds() - wall, work_.timings.stages(),
+  return {cpu_seconds() - cpu,
+          wall_seconds() - wall,
+          difference(Ranks::traffic(), traffic),
+          work_.timings.stages(),
           world_.state.clock.cg_iterations - first_.cg_iterations,
+          world_.state.clock.solves - first_.solves,
           coupling::hash_state(world_.state)};
 }
 

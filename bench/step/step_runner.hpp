@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/ranks.hpp"
 #include "core/timing.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
@@ -22,15 +23,16 @@ struct StepCase {
 
 struct StepSample {
   double cpu = 0, wall = 0;  ///< s
+  Traffic traffic;           ///< of this process
   std::vector<StageTime> stages;
-  std::int64_t cg = 0;
+  std::int64_t cg = 0, solves = 0;
   std::uint64_t hash = 0;  ///< of the state afterwards
 };
 
 class StepRunner {
  public:
   /// Error: a step of the warm-up fails.
-  explicit StepRunner(const StepCase& c);
+  explicit StepRunner(const StepCase& c, const Ranks& ranks = Ranks::serial());
   StepRunner(const StepRunner&) = delete;  // the operator points at the system
   StepRunner& operator=(const StepRunner&) = delete;
 

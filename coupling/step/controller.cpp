@@ -25,8 +25,11 @@ void gather_touching(Workspace& w) {
   std::vector<Touching> own, all;
   for (const auto& [a, b] : w.cbm.touching)
     if (!w.cbm.is_foreign(static_cast<std::size_t>(a))) own.push_back({a, b});
-  ownership.ranks.gather<Touching>(own, all);
-  std::ranges::sort(all);
+  std::vector<std::size_t> start;
+  ownership.ranks.gather<Touching>(own, all, &start);
+  const auto at = [&](std::size_t k) { return all.begin() + static_cast<std::ptrdiff_t>(k); };
+  for (std::size_t r = 2; r < start.size(); ++r)  // each process has them in order
+    std::inplace_merge(all.begin(), at(start[r - 1]), at(start[r]));
   w.cbm.touching.clear();
   for (const auto& [a, b] : all) w.cbm.touching.emplace_back(a, b);
 }

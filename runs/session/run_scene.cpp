@@ -31,6 +31,7 @@
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/skipped.hpp"
 #include "runs/session/together.hpp"
+#include "runs/session/traffic.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -95,12 +96,13 @@ class SceneRun {
   Recorder recorder_;
   double end_;  ///< s
   Progress progress_;
-  double last_save_ = wall_seconds();
-  double memory_limit_;       ///< bytes
-  double next_look_ = 0;      ///< at the memory in use, on the clock of wall_seconds()
-  bool was_running_ = false;  ///< before this step
-  std::string stopped_by_;    ///< empty: it was not
-  Excess excess_;             ///< why a frame ended the run, if its depth is > 0
+  double started_ = wall_seconds(), last_save_ = started_;
+  std::int64_t accepted_before_ = 0;  ///< steps of the runs this one continues
+  double memory_limit_;               ///< bytes
+  double next_look_ = 0;              ///< at the memory in use, on the clock of wall_seconds()
+  bool was_running_ = false;          ///< before this step
+  std::string stopped_by_;            ///< empty: it was not
+  Excess excess_;                     ///< why a frame ended the run, if its depth is > 0
 };
 
 SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld built)
@@ -284,6 +286,7 @@ void SceneRun::tell(const Notes& notes) {
 int SceneRun::go() {
   if (options_.resume) {
     tell(recorder_.resume());
+    accepted_before_ = world().state.clock.accepted;
   } else {
     recorder_.create();
   }
@@ -312,6 +315,10 @@ int SceneRun::go() {
                       "\"XDMF Reader\"",
                       quote_for_shell(options_.out)));
   }
+  if (options_.timings)
+    for (const std::string& line : describe_traffic(
+             ranks, world().state.clock.accepted - accepted_before_, wall_seconds() - started_))
+      if (ranks.is_root()) fmt::print("{}\n", line);
   if (options_.timings && ranks.is_root())
     for (const StageTime& stage : simulation_.work().timings.stages())
       fmt::print("{:20s} {:9.3f} s wall {:9.3f} s CPU {:8d} calls\n", stage.name, stage.wall,
