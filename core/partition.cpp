@@ -11,12 +11,12 @@ namespace acinus {
 namespace {
 
 /// What Zoltan asks about: each process tells of a run of the places.
-struct Places {
+struct SharedPlaces {
   std::span<const Vec3> place;
   std::span<const double> cost;
   std::size_t first = 0, last = 0;
 };
-const Places& of(void* data) { return *static_cast<const Places*>(data); }
+const SharedPlaces& of(void* data) { return *static_cast<const SharedPlaces*>(data); }
 
 int count(void* data, int* error) {
   *error = ZOLTAN_OK;
@@ -25,7 +25,7 @@ int count(void* data, int* error) {
 
 void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR, int, float* weight,
           int* error) {
-  const Places& p = of(data);
+  const SharedPlaces& p = of(data);
   for (std::size_t k = p.first; k < p.last; ++k) {
     *global++ = static_cast<ZOLTAN_ID_TYPE>(k);
     *weight++ = static_cast<float>(p.cost[k]);
@@ -54,7 +54,7 @@ void require(int status, const char* what) {
 /// Zoltan with its settings.
 class Partitioner {
  public:
-  Partitioner(const Ranks& ranks, Places& places) {
+  Partitioner(const Ranks& ranks, SharedPlaces& places) {
     float version = 0;
     require(Zoltan_Initialize(0, nullptr, &version), "its start");
     zoltan_ = Zoltan_Create(MPI_Comm_f2c(ranks.communicator()));
@@ -102,7 +102,11 @@ std::vector<int> partition(const Ranks& ranks, std::span<const Vec3> place,
   if (ranks.is_alone()) return owner;
   const auto n_rank = static_cast<std::size_t>(ranks.size()),
              rank = static_cast<std::size_t>(ranks.rank());
-  Places own{place, cost, rank * place.size() / n_rank, (rank + 1) * place.size() / n_rank};
+  if (place.size() <= n_rank) {  // which Zoltan does not take
+    for (std::size_t k = 0; k < place.size(); ++k) owner[k] = static_cast<int>(k);
+    return owner;
+  }
+  SharedPlaces own{place, cost, rank * place.size() / n_rank, (rank + 1) * place.size() / n_rank};
   Partitioner(ranks, own).run([&](std::size_t k, int part) { owner[k] = part; });
   const std::vector<int> found(owner.begin() + static_cast<std::ptrdiff_t>(own.first),
                                owner.begin() + static_cast<std::ptrdiff_t>(own.last));

@@ -276,12 +276,6 @@ void find_point_contacts(const ContactInput& in, const contact::SearchOptions& o
   for (const auto& f : work.found) all.insert(all.end(), f.begin(), f.end());
 }
 
-void complete_body(const State& state, std::size_t k, ContactWorkspace& work) {
-  copy_nodes(state, work.lane_of_body[k], work.body[k].node);
-  contact::refresh_body(work.body[k]);
-  work.is_complete[k] = 1;
-}
-
 }  // namespace
 
 double contact_range(const ContactParams& c, const mesh::Topology& t, double radius) {
@@ -332,46 +326,6 @@ double guard_area(const mesh::Topology& t, int point, double radius) {
   const std::size_t k = point, n_node = t.n_node;
   return kGuardShare * radius * radius *
          (k < n_node ? t.rest_node_area[k] : t.rest_triangle_area[k - n_node]);
-}
-
-void refresh_bodies(const State& state, ContactWorkspace& work) {
-  std::size_t n = 0;
-  for (std::size_t l = 0; l < state.n_lane(); ++l) n += state.active(l) ? 1 : 0;
-  if (work.body.size() != n) {
-    work.body.assign(n, {});
-    work.lane_of_body.clear();
-    for (std::size_t l = 0; l < state.n_lane(); ++l)
-      if (state.active(l)) work.lane_of_body.push_back(l);
-  }
-  work.is_complete.assign(n, 0);
-  for_each_index(n, worth_threads(state.n_row()), [&](std::size_t k) {
-    contact::SurfaceBody& b = work.body[k];
-    b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
-    b.triangle = &b.topology->triangle;
-    if (!work.is_foreign_body(k)) return complete_body(state, k, work);
-    b.box = Box{};
-    for (int i = 0; i < b.topology->n_node; ++i)
-      b.box.include(
-          load_point(state.position.data(), node_address(state, work.lane_of_body[k], i)));
-  });
-}
-
-void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work) {
-  std::vector<int> missing;
-  for (const int b : bodies)
-    if (work.is_complete[b] == 0) missing.push_back(b);
-  if (missing.empty()) return;
-  std::ranges::sort(missing);
-  const auto repeated = std::ranges::unique(missing);
-  missing.erase(repeated.begin(), repeated.end());
-  for_each_index(missing.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    complete_body(state, static_cast<std::size_t>(missing[k]), work);
-  });
-}
-
-void copy_all_nodes(const State& state, ContactWorkspace& work) {
-  for (std::size_t b = 0; b < work.body.size(); ++b)
-    if (work.is_complete[b] == 0) copy_nodes(state, work.lane_of_body[b], work.body[b].node);
 }
 
 void refresh_lists(const ContactInput& in, ContactWorkspace& work) {

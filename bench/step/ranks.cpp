@@ -15,10 +15,10 @@ namespace acinus::bench {
 namespace {
 
 /// Mean and largest over the processes.
-struct Spread {
+struct RankSpread {
   double mean = 0, most = 0;
 };
-Spread spread(const Ranks& ranks, double own) {
+RankSpread spread(const Ranks& ranks, double own) {
   std::vector<double> all;
   ranks.gather<double>(std::span(&own, 1), all);
   double sum = 0;
@@ -42,9 +42,10 @@ BenchRow measure_case(const StepCase& c, const Ranks& ranks) {
     return spread(ranks, static_cast<double>(count) / steps);
   };
   constexpr double kKilo = 1000;
-  const Spread messages = per_step(s.traffic.messages), bytes = per_step(s.traffic.message_bytes),
-               gathered = per_step(s.traffic.gathered_bytes),
-               wait = spread(ranks, s.traffic.wait_s / s.wall);
+  const RankSpread messages = per_step(s.traffic.messages),
+                   bytes = per_step(s.traffic.message_bytes),
+                   gathered = per_step(s.traffic.gathered_bytes),
+                   wait = spread(ranks, s.traffic.wait_s / s.wall);
   BenchRow row{c.name,
                runner.cells(),
                {{"processes", ranks.size()},

@@ -35,51 +35,39 @@ struct PassPlan {
   const CoarseSpace* coarse = nullptr;
 };
 
-/// Iterates on A e = residual / size from e = 0 until the goal. The product with the direction
-/// follows from that with the preconditioned residual, so that both sums of an iteration are known
-/// at once. [ChronopoulosGear1989]
+/// Iterates on A e = residual / size from e = 0 until the goal.
 template <class T>
 PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan& plan,
                  int& iterations, CgVectors<T>& v) {
   const std::size_t n = residual.size();
-  for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product,
-                  &v.direction_product})
+  for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
     a->resize(n);
   for_each_own_number(op.system(), [&](std::size_t k) {
-    v.correction[k] = v.direction[k] = v.direction_product[k] = 0;
+    v.correction[k] = 0;
     v.residual[k] = static_cast<T>(residual[k] / plan.size);
   });
-  auto add_coarse = [&] {
-    return plan.coarse ? plan.coarse->add(v.residual, v.preconditioned) : 0.0;
+  auto add_coarse = [&](double diagonal) {
+    return plan.coarse ? diagonal + plan.coarse->add(v.residual, v.preconditioned) : diagonal;
   };
-  const Operator::Descent<T> vectors{v.product,    v.direction, v.direction_product,
-                                     v.correction, v.residual,  v.preconditioned};
-  // r . z with the diagonal blocks alone judges, that with the coarse space too leads on.
   double size2 = op.precondition<T>(v.residual, v.preconditioned);
-  double rho = size2 + add_coarse();
+  double rho = add_coarse(size2);
   if (!is_size(rho)) return PassEnd::kBrokeDown;
-  if (std::sqrt(size2) <= plan.goal) return PassEnd::kReached;
-  const double curvature = op.apply<T>(v.preconditioned, v.product);
-  if (!(curvature > 0)) return PassEnd::kBrokeDown;
-  DescentStep step{rho / curvature, 0};
-  for (;;) {
+  for_each_own_number(op.system(), [&](std::size_t k) { v.direction[k] = v.preconditioned[k]; });
+  while (std::sqrt(size2) > plan.goal) {
     if (iterations >= plan.max_iterations) return PassEnd::kOutOfIterations;
     if (stop_requested()) return PassEnd::kAskedToStop;
     ++iterations;
-    // Of several processes none knows the sum before all have gone through the product below.
-    if (std::sqrt(op.descend<T>(step, vectors)) <= plan.goal) return PassEnd::kReached;
     if (std::is_same_v<T, float> && iterations == kMergeAfter) op.merge_links();
-    const double coarse = add_coarse();
-    const Operator::Sums sums = op.multiply<T>(v.preconditioned, v.product);
-    size2 = sums.residual;
-    const double next = size2 + coarse;
+    const double curvature = op.apply<T>(v.direction, v.product);
+    if (!(curvature > 0)) return PassEnd::kBrokeDown;
+    size2 = op.descend<T>(rho / curvature, v.direction, v.product, v.correction, v.residual,
+                          v.preconditioned);
+    const double next = add_coarse(size2);
     if (!is_size(size2) || !is_size(next)) return PassEnd::kBrokeDown;
-    if (std::sqrt(size2) <= plan.goal) return PassEnd::kReached;
-    const double beta = next / rho, along = sums.curvature - beta * next / step.alpha;
-    if (!(along > 0)) return PassEnd::kBrokeDown;
-    step = {next / along, beta};
+    op.redirect<T>(v.preconditioned, next / rho, v.direction);
     rho = next;
   }
+  return PassEnd::kReached;
 }
 
 /// x += size * correction.

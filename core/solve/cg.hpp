@@ -32,9 +32,7 @@ struct CgResult {
 /// Vectors of one pass.
 template <class T>
 struct CgVectors {
-  std::vector<T> correction, residual, direction, preconditioned;
-  std::vector<T> product;            ///< A times the preconditioned residual
-  std::vector<T> direction_product;  ///< A times the direction, by recurrence
+  std::vector<T> correction, residual, direction, preconditioned, product;
 };
 
 /// Scratch, sized on first use.

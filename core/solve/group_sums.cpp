@@ -11,8 +11,8 @@ void GroupSums::prepare(const System& system, std::span<const int> group, std::s
   first_part_.assign(1, 0);
   part_.clear();
   // Of all blocks: how many have a part in a group, and whether blocks of several processes do.
-  std::vector<std::size_t> n_part(n_group, 0);
-  std::vector<int> owner_of_group(n_group, -1);
+  n_part_.assign(n_group, 0);
+  owner_of_group_.assign(n_group, -1);
   is_shared_.assign(n_group, 0);
   const Ownership& ownership = system.ownership;
   for (std::size_t b = 0; b < system.block.size(); ++b) {
@@ -23,11 +23,11 @@ void GroupSums::prepare(const System& system, std::span<const int> group, std::s
       if (g < 0 ||
           std::ranges::find(lanes.first(l), g) != lanes.begin() + static_cast<std::ptrdiff_t>(l))
         continue;
-      ++n_part[g];
+      ++n_part_[g];
       if (own) part_.push_back({static_cast<int>(b), g});
       if (ownership.is_whole()) continue;
-      if (owner_of_group[g] >= 0 && owner_of_group[g] != ownership.owner[b]) is_shared_[g] = 1;
-      owner_of_group[g] = ownership.owner[b];
+      if (owner_of_group_[g] >= 0 && owner_of_group_[g] != ownership.owner[b]) is_shared_[g] = 1;
+      owner_of_group_[g] = ownership.owner[b];
     }
     if (!own) continue;
     own_.push_back(b);
@@ -37,16 +37,16 @@ void GroupSums::prepare(const System& system, std::span<const int> group, std::s
   few_.clear();
   many_.clear();
   for (std::size_t g = 0; g < n_group; ++g) {
-    kind_.push_back(n_part[g] > kFewParts ? Kind::kMany : Kind::kFew);
-    if (is_shared_[g] != 0) (kind_[g] == Kind::kMany ? many_ : few_).push_back(g);
+    kind_.push_back(n_part_[g] > kFewParts ? GroupKind::kMany : GroupKind::kFew);
+    if (is_shared_[g] != 0) (kind_[g] == GroupKind::kMany ? many_ : few_).push_back(g);
   }
   start_.assign(n_group + 1, 0);
-  for (const Part& p : part_) ++start_[p.group + 1];
+  for (const GroupPart& p : part_) ++start_[p.group + 1];
   for (std::size_t g = 0; g < n_group; ++g) start_[g + 1] += start_[g];
   by_group_.resize(part_.size());
-  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  next_.assign(start_.begin(), start_.end() - 1);
   for (std::size_t p = 0; p < part_.size(); ++p)
-    by_group_[next[part_[p].group]++] = static_cast<std::uint32_t>(p);
+    by_group_[next_[part_[p].group]++] = static_cast<std::uint32_t>(p);
 }
 
 }  // namespace acinus::solve

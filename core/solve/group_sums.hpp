@@ -39,15 +39,15 @@ class GroupSums {
 
  private:
   /// What one block gives to one group.
-  struct Part {
+  struct GroupPart {
     int block, group;
   };
   template <std::size_t N>
-  struct PartSum {
-    Part part;
+  struct GroupPartSum {
+    GroupPart part;
     std::array<double, N> number;
   };
-  enum class Kind : std::uint8_t { kFew, kMany };
+  enum class GroupKind : std::uint8_t { kFew, kMany };
   static constexpr std::size_t kFewParts = 8;
 
   template <class F>
@@ -64,24 +64,27 @@ class GroupSums {
   }
   template <std::size_t N>
   void add_exactly(std::span<const std::uint32_t> parts,
-                   const std::vector<std::array<double, N>>& number,
-                   std::span<ExactSum, N> sum) const;
+                   std::span<const std::array<double, N>> number, std::span<ExactSum, N> sum) const;
 
   const System* system_ = nullptr;
   std::span<const int> group_;
   std::vector<std::size_t> own_;         ///< own blocks
   std::vector<std::size_t> first_part_;  ///< [own blocks + 1]
-  std::vector<Part> part_;               ///< of own blocks, ascending
+  std::vector<GroupPart> part_;          ///< of own blocks, ascending
   std::vector<std::uint32_t> by_group_;  ///< numbers of parts, group by group
   std::vector<std::size_t> start_;       ///< [n_group + 1] in by_group_
-  std::vector<Kind> kind_;               ///< [n_group] by the parts of all processes
+  std::vector<GroupKind> kind_;          ///< [n_group] by the parts of all processes
   std::vector<std::uint8_t> is_shared_;  ///< [n_group] whether several processes have parts
   std::vector<std::size_t> few_, many_;  ///< shared groups
+  std::vector<double> scratch_;          ///< [part][number] of a sum
+  // Of prepare.
+  std::vector<std::size_t> n_part_, next_;
+  std::vector<int> owner_of_group_;
 };
 
 template <std::size_t N>
 void GroupSums::add_exactly(std::span<const std::uint32_t> parts,
-                            const std::vector<std::array<double, N>>& number,
+                            std::span<const std::array<double, N>> number,
                             std::span<ExactSum, N> sum) const {
   constexpr std::size_t kWorthThreads = 2000;  // parts
   const std::size_t n_part =
@@ -99,7 +102,9 @@ void GroupSums::add_exactly(std::span<const std::uint32_t> parts,
 
 template <std::size_t N, class F, class Put>
 void GroupSums::sum(const F& f, const Put& put) {
-  std::vector<std::array<double, N>> number(part_.size());
+  scratch_.resize(N * part_.size());
+  const std::span<std::array<double, N>> number(
+      reinterpret_cast<std::array<double, N>*>(scratch_.data()), part_.size());
   for_each_index(own_.size(), worth_threads(system_->n_row), [&](std::size_t k) {
     for (std::size_t p = first_part_[k]; p < first_part_[k + 1]; ++p) number[p].fill(0);
     for_each_point(own_[k], [&](Address a, std::size_t g) {
@@ -116,7 +121,7 @@ void GroupSums::sum(const F& f, const Put& put) {
   for (std::size_t g = 0; g < kind_.size(); ++g) {
     const std::span<const std::uint32_t> parts = parts_of(g);
     if (parts.empty() || is_shared_[g]) continue;
-    if (kind_[g] == Kind::kFew) {
+    if (kind_[g] == GroupKind::kFew) {
       std::array<double, N> total{};
       for (const std::uint32_t p : parts)
         for (std::size_t n = 0; n < N; ++n) total[n] += number[p][n];
@@ -137,12 +142,12 @@ void GroupSums::sum(const F& f, const Put& put) {
       put(many_[k], value_of(std::span<const ExactSum, N>(&totals[N * k], N)));
   }
   if (few_.empty()) return;
-  std::vector<PartSum<N>> own, all;
+  std::vector<GroupPartSum<N>> own, all;
   for (const std::size_t g : few_)
     for (const std::uint32_t p : parts_of(g)) own.push_back({part_[p], number[p]});
-  ranks.gather<PartSum<N>>(own, all);
+  ranks.gather<GroupPartSum<N>>(own, all);
   std::ranges::sort(all, {},
-                    [](const PartSum<N>& p) { return std::pair(p.part.group, p.part.block); });
+                    [](const GroupPartSum<N>& p) { return std::pair(p.part.group, p.part.block); });
   for (std::size_t k = 0; k < all.size();) {
     const int g = all[k].part.group;
     std::array<double, N> total{};

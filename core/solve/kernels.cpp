@@ -137,30 +137,26 @@ ACINUS_INLINE double precondition(const InverseView& b, const T* r, T* z) {
 }
 
 template <class T>
-ACINUS_INLINE double descend(const InverseView& b, DescentStep step, const DescentBlock<T>& v) {
-  const T alpha = static_cast<T>(step.alpha), beta = static_cast<T>(step.beta);
-  LaneOf<T> sum = {}, along[kMaxFamilies] = {};
+ACINUS_INLINE double descend(const InverseView& b, double step, const DescentBlock<T>& v) {
+  const auto [p, q, x, r, z] = v;
+  const T alpha = static_cast<T>(step);
+  LaneOf<T> s = {}, along[kMaxFamilies] = {};
   for (int i = 0; i < b.n_point; ++i) {
     const int at = i * kPointStride;
-    LaneOf<T> left[3];
-    for (int c = 0; c < 3; ++c) {
-      const int k = at + c * kLanes;
-      const LaneOf<T> p = load<T>(v.z + k) + beta * load<T>(v.p + k);
-      const LaneOf<T> s = load<T>(v.w + k) + beta * load<T>(v.s + k);
-      store(v.p + k, p);
-      store(v.s + k, s);
-      store(v.x + k, load<T>(v.x + k) + alpha * p);
-      left[c] = load<T>(v.r + k) - alpha * s;
-      store(v.r + k, left[c]);
-    }
-    const Lane3Of<T> ri = {left[0], left[1], left[2]};
+    for (int c = 0; c < kPointStride; c += kLanes)
+      store(x + at + c, load<T>(x + at + c) + alpha * load<T>(p + at + c));
+    Lane3Of<T> ri;
+    ri.x = load<T>(r + at) - alpha * load<T>(q + at);
+    ri.y = load<T>(r + at + kLanes) - alpha * load<T>(q + at + kLanes);
+    ri.z = load<T>(r + at + 2 * kLanes) - alpha * load<T>(q + at + 2 * kLanes);
+    store3(r + at, ri);
     const Lane3Of<T> zi = sym_times(b.diagonal + i * kSymStride, ri);
-    store3(v.z + at, zi);
-    sum += dot(ri, zi);
+    store3(z + at, zi);
+    s += dot(ri, zi);
     for (std::size_t k = 0; k < b.n_family; ++k) along[k] += dot(load3<T>(b.vector[k] + at), ri);
   }
-  if (b.n_family > 0) sum += take_off(b, along, v.z);
-  return sum_lanes<T>(sum);
+  if (b.n_family > 0) s += take_off(b, along, z);
+  return sum_lanes<T>(s);
 }
 
 template <class T>
@@ -168,6 +164,12 @@ ACINUS_INLINE double dot_of(const T* a, const T* b, std::size_t n) {
   LaneOf<T> s = {};
   for (std::size_t k = 0; k < n; k += kLanes) s += load<T>(a + k) * load<T>(b + k);
   return sum_lanes<T>(s);
+}
+
+template <class T>
+ACINUS_INLINE void redirect(const T* z, double b, T* p, std::size_t n) {
+  const T beta = static_cast<T>(b);
+  for (std::size_t k = 0; k < n; k += kLanes) store(p + k, load<T>(z + k) + beta * load<T>(p + k));
 }
 
 }  // namespace
@@ -306,13 +308,13 @@ ACINUS_KERNEL double precondition_block(const InverseView& inverse, const float*
   return precondition<float>(inverse, r, z);
 }
 
-ACINUS_KERNEL double descend_block(const InverseView& inverse, DescentStep step,
+ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha,
                                    const DescentBlock<double>& v) {
-  return descend<double>(inverse, step, v);
+  return descend<double>(inverse, alpha, v);
 }
-ACINUS_KERNEL double descend_block(const InverseView& inverse, DescentStep step,
+ACINUS_KERNEL double descend_block(const InverseView& inverse, double alpha,
                                    const DescentBlock<float>& v) {
-  return descend<float>(inverse, step, v);
+  return descend<float>(inverse, alpha, v);
 }
 
 ACINUS_KERNEL double dot_range(const double* a, const double* b, std::size_t n) {
@@ -320,6 +322,13 @@ ACINUS_KERNEL double dot_range(const double* a, const double* b, std::size_t n) 
 }
 ACINUS_KERNEL double dot_range(const float* a, const float* b, std::size_t n) {
   return dot_of<float>(a, b, n);
+}
+
+ACINUS_KERNEL void redirect_range(const double* z, double beta, double* p, std::size_t n) {
+  redirect<double>(z, beta, p, n);
+}
+ACINUS_KERNEL void redirect_range(const float* z, double beta, float* p, std::size_t n) {
+  redirect<float>(z, beta, p, n);
 }
 
 }  // namespace acinus::solve

@@ -68,23 +68,23 @@ void invert_blocks(int n_point, const double* diagonal, float* inverse);
 double precondition_block(const InverseView& inverse, const double* r, double* z);
 double precondition_block(const InverseView& inverse, const float* r, float* z);
 
-/// How far along the new direction, and how much of the old one is in it.
-struct DescentStep {
-  double alpha = 0, beta = 0;
-};
 /// The vectors of a step of conjugate gradients, one block.
 template <class T>
 struct DescentBlock {
-  const T* w;
-  T *p, *s, *x, *r, *z;
+  const T *p, *q;
+  T *x, *r, *z;
 };
 
-/// p = z + beta p, s = w + beta s, x += alpha p, r -= alpha s, z = M^-1 r; returns r . z.
-double descend_block(const InverseView& inverse, DescentStep step, const DescentBlock<double>& v);
-double descend_block(const InverseView& inverse, DescentStep step, const DescentBlock<float>& v);
+/// x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
+double descend_block(const InverseView& inverse, double alpha, const DescentBlock<double>& v);
+double descend_block(const InverseView& inverse, double alpha, const DescentBlock<float>& v);
 
 /// Sum of products; n is a multiple of kLanes.
 double dot_range(const double* a, const double* b, std::size_t n);
 double dot_range(const float* a, const float* b, std::size_t n);
+
+/// p = z + beta p.
+void redirect_range(const double* z, double beta, double* p, std::size_t n);
+void redirect_range(const float* z, double beta, float* p, std::size_t n);
 
 }  // namespace acinus::solve

@@ -1,8 +1,6 @@
 #include "core/solve/operator.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 #include "core/exact_sum.hpp"
 #include "core/solve/kernels.hpp"
@@ -22,19 +20,6 @@ class OwnPoints {
   const System& s_;
   std::size_t from_, to_;
 };
-
-/// A point that a contact joins to one of another process.
-struct SharedPoint {
-  int rank = 0;
-  Point point = 0;
-  auto operator<=>(const SharedPoint&) const = default;
-};
-
-void sort_once(std::vector<SharedPoint>& points) {
-  std::ranges::sort(points);
-  const auto repeated = std::ranges::unique(points);
-  points.erase(repeated.begin(), repeated.end());
-}
 
 }  // namespace
 
@@ -180,7 +165,7 @@ void Operator::start(const System& system) {
 void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
-  plan_exchange();
+  exchange_.plan(system);
   external_.clear();
   external_point_.clear();
   for (std::size_t l = 0; l < system.links.size(); ++l)
@@ -200,80 +185,12 @@ InverseView Operator::inverse_of(std::size_t block) const {
   return view;
 }
 
-ExactSum Operator::sum_own() const {
+double Operator::sum_partials() const {
   ExactSum sum;
   for (const auto& [first, last] : system_->own)
     for (std::size_t b = first; b < last; ++b) sum.add(partial_[b]);
-  return sum;
-}
-
-double Operator::sum_partials() const {
-  ExactSum sum = sum_own();
   system_->ownership.ranks.sum(std::span(&sum, 1));
   return sum.value();
-}
-
-/// Both ends of a contact across processes know it, so both know which points the other needs.
-void Operator::plan_exchange() {
-  const System& s = *system_;
-  exchange_.peer.clear();
-  if (s.ownership.is_whole()) return;
-  std::vector<SharedPoint> send, receive;
-  const auto join = [&](std::span<const Point> a, std::span<const Point> b) {
-    const bool own_a = s.owns(a[0]), own_b = s.owns(b[0]);
-    if (own_a == own_b) return;
-    const auto& [own, other] = own_a ? std::pair(a, b) : std::pair(b, a);
-    const int rank = s.ownership.owner[s.block_of(other[0])];
-    for (const Point p : own) send.push_back({rank, p});
-    for (const Point p : other) receive.push_back({rank, p});
-  };
-  const auto points_of = [](const Side& side) {
-    return std::span(side.point).first(side.is_single() ? 1 : 3);
-  };
-  // Those without a matrix too: a step may close them.
-  for (const Link& l : s.links.link)
-    if (l.b.exists()) join(points_of(l.a), points_of(l.b));
-  for (const PointLink& l : s.point_links)
-    if (l.b != kNowhere && has_matrix(l, s.stiffness_scale))
-      join(std::span(&l.a, 1), std::span(&l.b, 1));
-  sort_once(send);
-  sort_once(receive);
-  send_.clear();
-  receive_.clear();
-  for (auto from = send.begin(), to = receive.begin(); to != receive.end();) {
-    ExchangePlan::Peer peer{to->rank, send_.size(), 0, receive_.size(), 0};
-    for (; from != send.end() && from->rank == peer.rank; ++from) send_.push_back(from->point);
-    for (; to != receive.end() && to->rank == peer.rank; ++to) receive_.push_back(to->point);
-    peer.send_end = send_.size();
-    peer.receive_end = receive_.size();
-    exchange_.peer.push_back(peer);
-  }
-}
-
-/// Gets the packed points of other processes.
-template <class T>
-void Operator::exchange_points(Packed<T>* x) const {
-  if (exchange_.empty()) return;
-  using Three = std::array<T, 3>;
-  thread_local std::vector<Three> out, in;
-  out.clear();
-  for (const Point p : send_) out.push_back({x[p][0], x[p][1], x[p][2]});
-  in.resize(receive_.size());
-  system_->ownership.ranks.exchange<Three>(exchange_, out, in);
-  for (std::size_t k = 0; k < in.size(); ++k) x[receive_[k]] = {in[k][0], in[k][1], in[k][2], 0};
-}
-
-void Operator::fetch(std::span<double> x) const {
-  if (exchange_.empty()) return;
-  using Three = std::array<double, 3>;
-  std::vector<Three> out, in(receive_.size());
-  for (const Point p : send_) {
-    const Vec3 v = load_point(x.data(), address_of(p));
-    out.push_back({v.x(), v.y(), v.z()});
-  }
-  system_->ownership.ranks.exchange<Three>(exchange_, out, in);
-  for (std::size_t k = 0; k < in.size(); ++k)
-    store_point(x.data(), address_of(receive_[k]), Vec3(in[k][0], in[k][1], in[k][2]));
 }
 
 template <class T>
@@ -285,12 +202,12 @@ Operator::PackedVectors<T> Operator::pack(In<T> x) const {
       std::fill_n(work.y + row * kLanes, n * kLanes, Packed<T>{});
     });
   });
-  exchange_points(work.x);
+  exchange_.fetch_packed(work.x);
   return work;
 }
 
 template <class T>
-void Operator::multiply_own(In<T> x, Out<T> y) const {
+double Operator::apply(In<T> x, Out<T> y) const {
   const System& s = *system_;
   const PackedVectors<T> work = pack<T>(x);
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
@@ -310,20 +227,7 @@ void Operator::multiply_own(In<T> x, Out<T> y) const {
                                    work.y + row * kLanes, y.data() + row * kPointStride);
     });
   });
-}
-
-template <class T>
-double Operator::apply(In<T> x, Out<T> y) const {
-  multiply_own<T>(x, y);
   return sum_partials();
-}
-
-template <class T>
-Operator::Sums Operator::multiply(In<T> x, Out<T> y) const {
-  multiply_own<T>(x, y);
-  std::array<ExactSum, 2> sum{descended_, sum_own()};
-  system_->ownership.ranks.sum(sum);
-  return {sum[0].value(), sum[1].value()};
 }
 
 void Operator::apply_within(std::span<const double> x, std::span<double> y) const {
@@ -410,19 +314,26 @@ double Operator::precondition(In<T> r, Out<T> z) const {
 }
 
 template <class T>
-double Operator::descend(DescentStep step, const Descent<T>& v) const {
+double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const {
   for_each_range([&](const ThreadRange& range) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       const std::size_t at = row * kPointStride;
-      partial_[b] =
-          descend_block(inverse_of(b), step,
-                        DescentBlock<T>{v.w.data() + at, v.p.data() + at, v.s.data() + at,
-                                        v.x.data() + at, v.r.data() + at, v.z.data() + at});
+      partial_[b] = descend_block(inverse_of(b), alpha,
+                                  DescentBlock<T>{p.data() + at, q.data() + at, x.data() + at,
+                                                  r.data() + at, z.data() + at});
     });
   });
-  descended_ = sum_own();
-  return system_->ownership.ranks.is_alone() ? descended_.value()
-                                             : std::numeric_limits<double>::quiet_NaN();
+  return sum_partials();
+}
+
+template <class T>
+void Operator::redirect(In<T> z, double beta, Out<T> p) const {
+  for_each_range([&](const ThreadRange& range) {
+    for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
+      redirect_range(z.data() + row * kPointStride, beta, p.data() + row * kPointStride,
+                     n * kPointStride);
+    });
+  });
 }
 
 template <class T>
@@ -436,11 +347,11 @@ double Operator::dot(In<T> a, In<T> b) const {
   return sum_partials();
 }
 
-#define ACINUS_INSTANTIATE(T)                                                 \
-  template double Operator::apply<T>(In<T>, Out<T>) const;                    \
-  template double Operator::precondition<T>(In<T>, Out<T>) const;             \
-  template double Operator::descend<T>(DescentStep, const Descent<T>&) const; \
-  template Operator::Sums Operator::multiply<T>(In<T>, Out<T>) const;         \
+#define ACINUS_INSTANTIATE(T)                                                               \
+  template double Operator::apply<T>(In<T>, Out<T>) const;                                  \
+  template double Operator::precondition<T>(In<T>, Out<T>) const;                           \
+  template double Operator::descend<T>(double, In<T>, In<T>, Out<T>, Out<T>, Out<T>) const; \
+  template void Operator::redirect<T>(In<T>, double, Out<T>) const;                         \
   template double Operator::dot<T>(In<T>, In<T>) const;
 ACINUS_INSTANTIATE(double)
 ACINUS_INSTANTIATE(float)

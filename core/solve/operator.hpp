@@ -10,6 +10,7 @@
 #include "core/solve/kernels.hpp"
 #include "core/solve/link_kernels.hpp"
 #include "core/solve/merged_links.hpp"
+#include "core/solve/point_exchange.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::solve {
@@ -27,13 +28,6 @@ class Operator {
   using In = std::type_identity_t<std::span<const T>>;
   template <class T>
   using Out = std::type_identity_t<std::span<T>>;
-
-  /// The vectors of conjugate gradients.
-  template <class T>
-  struct Descent {
-    In<T> w;
-    Out<T> p, s, x, r, z;
-  };
 
   Operator() = default;
   Operator(const Operator&) = delete;  // it points at a system beside it
@@ -56,20 +50,13 @@ class Operator {
   template <class T = double>
   double precondition(In<T> r, Out<T> z) const;
 
-  /// One update of conjugate gradients: p = z + beta p, s = w + beta s, x += alpha p, r -= alpha s,
-  /// z = M^-1 r. Returns r . z, or, where it takes other processes to know it, NaN: then it comes
-  /// with the next multiply.
+  /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
   template <class T = double>
-  double descend(DescentStep step, const Descent<T>& vectors) const;
+  double descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const;
 
-  /// r . z of the last descend, and x . y of a product.
-  struct Sums {
-    double residual = 0, curvature = 0;
-  };
-  /// y = A x, with both sums at once: processes wait for each other once an iteration.
-  /// @pre descend
+  /// p = z + beta p.
   template <class T = double>
-  Sums multiply(In<T> x, Out<T> y) const;
+  void redirect(In<T> z, double beta, Out<T> p) const;
 
   /// Dot product over all processes.
   template <class T = double>
@@ -86,7 +73,7 @@ class Operator {
   void apply_external_friction(std::span<const double> x, std::span<double> y) const;
 
   /// Gets the points of other processes that own ones are in contact with.
-  void fetch(std::span<double> x) const;
+  void fetch(std::span<double> x) const { exchange_.fetch(x); }
 
   /// Adds the force of every link to the points it joins: to force, or to external_force where one
   /// side is boundary. Changes what the system asks for, not its matrix: prepare comes after.
@@ -126,13 +113,7 @@ class Operator {
   template <class F>
   void for_each_block(const ThreadRange& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
-  ExactSum sum_own() const;
   double sum_partials() const;
-  template <class T>
-  void multiply_own(In<T> x, Out<T> y) const;
-  void plan_exchange();
-  template <class T>
-  void exchange_points(Packed<T>* x) const;
   void apply_external(std::span<const double> x, std::span<double> y, LinkScales scales) const;
 
   const System* system_ = nullptr;
@@ -145,10 +126,7 @@ class Operator {
   /// [family][rows of its blocks][3][lane], as InverseView wants them.
   std::vector<std::vector<float>> rank_one_;
   mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
-  mutable ExactSum descended_;           ///< own part of r . z of the last descend
-  /// Points that contacts join across processes: own ones to send, the others to receive.
-  ExchangePlan exchange_;
-  std::vector<Point> send_, receive_;
+  PointExchange exchange_;
   /// One cache line per point, for whatever is being worked out: packed vectors in double (two
   /// halves of a line) or float, or the diagonal blocks. Never two of them at once.
   struct alignas(64) Line {

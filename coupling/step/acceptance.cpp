@@ -156,6 +156,7 @@ Moves find_moves(const World& world, const Workspace& w) {
         part.add(own);
       },
       [&](const Moves& part) { own_cells.add(part); });
+  if (w.system.ownership.is_whole()) return own_cells;
   std::vector<Moves> moves;
   w.system.ownership.ranks.gather<Moves>(std::span(&own_cells, 1), moves);
   for (const Moves& m : moves) all_cells.add(m);
@@ -221,6 +222,7 @@ std::optional<DeepContact> find_deep_contact(const World& world, const Workspace
   });
   std::vector<DeepContact> own, all;
   if (first < n) own.push_back(describe_contact(world, w, first));
+  if (w.system.ownership.is_whole()) return own.empty() ? std::nullopt : std::optional(own.front());
   w.system.ownership.ranks.gather<DeepContact>(own, all);
   if (all.empty()) return {};
   return *std::ranges::min_element(all, {}, &DeepContact::place);

@@ -44,16 +44,16 @@ PairForce force_of(const PairForces& forces, const PairForces::key_type& pair) {
 /// those of two processes are the same.
 void gather(const solve::Ownership& ownership, PairForces& forces) {
   if (ownership.is_whole()) return;
-  struct Entry {
+  struct PairEntry {
     std::int64_t a, b;
     std::array<double, 4> number;
   };
-  std::vector<Entry> own, all;
+  std::vector<PairEntry> own, all;
   for (const auto& [pair, sum] : forces)
     own.push_back(
         {pair.first, pair.second, {sum.force.x(), sum.force.y(), sum.force.z(), sum.virial}});
-  ownership.ranks.gather<Entry>(own, all);
-  for (const Entry& e : all)
+  ownership.ranks.gather<PairEntry>(own, all);
+  for (const PairEntry& e : all)
     forces[{e.a, e.b}] = {Vec3(e.number[0], e.number[1], e.number[2]), e.number[3]};
 }
 

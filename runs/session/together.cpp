@@ -18,33 +18,33 @@ namespace acinus::runs {
 namespace {
 
 /// Where a process runs.
-struct Place {
+struct ProcessPlace {
   std::array<char, 64> host{};
   cpu_set_t processors{};
   int threads = 0;
 };
 
-Place find_place() {
-  Place p;
+ProcessPlace find_place() {
+  ProcessPlace p;
   gethostname(p.host.data(), p.host.size() - 1);
   if (sched_getaffinity(0, sizeof p.processors, &p.processors) != 0)
     for (int k = 0; k < processor_count(); ++k) CPU_SET(k, &p.processors);
   return p;
 }
 
-bool share_all(const Place& a, const Place& b) {
+bool share_all(const ProcessPlace& a, const ProcessPlace& b) {
   return a.host == b.host && CPU_EQUAL(&a.processors, &b.processors) != 0;
 }
 
 /// Names the machines on which threads outnumber processors.
-std::string find_crowded(const std::vector<Place>& places) {
-  struct Machine {
+std::string find_crowded(const std::vector<ProcessPlace>& places) {
+  struct NodeLoad {
     cpu_set_t processors{};
     int threads = 0;
   };
-  std::map<std::string, Machine> machines;
-  for (const Place& p : places) {
-    Machine& m = machines[p.host.data()];
+  std::map<std::string, NodeLoad> machines;
+  for (const ProcessPlace& p : places) {
+    NodeLoad& m = machines[p.host.data()];
     CPU_OR(&m.processors, &m.processors, &p.processors);
     m.threads += p.threads;
   }
@@ -86,13 +86,13 @@ std::string first_text(const Ranks& ranks, const std::string& text) {
 
 ThreadShare share_processors(const Ranks& ranks, int wanted) {
   if (ranks.is_alone()) return {wanted > 0 ? wanted : processor_count(), {}};
-  Place own = find_place();
-  std::vector<Place> places;
-  ranks.gather<Place>(std::span(&own, 1), places);
+  ProcessPlace own = find_place();
+  std::vector<ProcessPlace> places;
+  ranks.gather<ProcessPlace>(std::span(&own, 1), places);
   const auto sharing = static_cast<int>(
-      std::ranges::count_if(places, [&](const Place& p) { return share_all(p, own); }));
+      std::ranges::count_if(places, [&](const ProcessPlace& p) { return share_all(p, own); }));
   own.threads = wanted > 0 ? wanted : std::max(1, CPU_COUNT(&own.processors) / sharing);
-  ranks.gather<Place>(std::span(&own, 1), places);
+  ranks.gather<ProcessPlace>(std::span(&own, 1), places);
   return {own.threads, find_crowded(places)};
 }
 

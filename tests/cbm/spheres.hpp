@@ -38,6 +38,7 @@ struct Spheres {
     contacts.all.clear();
     contacts.interface_end = 0;
     find_contacts(in, work, contacts, system.point_links);
+    add_coupling(work, std::span(contacts.all).subspan(contacts.interface_end), system.point_links);
     add_contact_loads(in, work, contacts, system);
     list_pairs(in, work, contacts);
   }
