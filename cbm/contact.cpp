@@ -221,6 +221,7 @@ void add_cell_loads(const ContactInput& in, const ContactWorkspace& work,
                     std::span<const Vec3> cell_force, solve::System& system) {
   const State& s = in.state;
   for (std::size_t i = 0; i < s.n_row() * kLanes; ++i) {
+    if (i < s.n_cell() && work.is_foreign(i)) continue;
     const Address a = cell_address(in.first_row, i);
     const bool cell = i < s.n_cell();
     const double friction =

@@ -101,12 +101,12 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
     return pairs;
   }
   const auto n_part = static_cast<std::size_t>(thread_count());
-  std::vector<Pairs> part(n_part);
+  std::vector<Pairs> part(n_part), before(n_part);  // before: of foreign ones with later own ones
   for_each_part(n_part, [&](std::size_t k) {
     // A packed sphere has 12 neighbours, half of them its own.
-    part[k].reserve(7 * radius.size() / n_part);
+    if (foreign.empty()) part[k].reserve(7 * radius.size() / n_part);
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
-      const bool needs_own = is_foreign(i);
+      if (is_foreign(i)) continue;
       const auto c = g.cell_of(center(position, i));
       const std::size_t first = part[k].size();
       for (std::int64_t z = std::max<std::int64_t>(c[2] - 1, 0);
@@ -117,8 +117,12 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
           const std::size_t to = g.index(std::min(c[0] + 1, g.n[0] - 1), y, z);
           for (std::uint32_t e = g.start[from]; e < g.start[to + 1]; ++e) {
             const std::size_t j = g.item[e];
-            if (j > i && are_near(position, radius, margin, i, j) && !(needs_own && is_foreign(j)))
+            if (j <= i && (foreign.empty() || j == i || foreign[j] == 0)) continue;
+            if (!are_near(position, radius, margin, i, j)) continue;
+            if (j > i)
               part[k].emplace_back(static_cast<int>(i), static_cast<int>(j));
+            else
+              before[k].emplace_back(static_cast<int>(j), static_cast<int>(i));
           }
         }
       std::sort(part[k].begin() + static_cast<std::ptrdiff_t>(first), part[k].end());
@@ -127,6 +131,11 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
   Pairs pairs = std::move(part[0]);
   for (std::size_t k = 1; k < n_part; ++k)
     pairs.insert(pairs.end(), part[k].begin(), part[k].end());
+  if (foreign.empty()) return pairs;
+  const auto n_own = static_cast<std::ptrdiff_t>(pairs.size());
+  for (const Pairs& p : before) pairs.insert(pairs.end(), p.begin(), p.end());
+  std::sort(pairs.begin() + n_own, pairs.end());
+  std::inplace_merge(pairs.begin(), pairs.begin() + n_own, pairs.end());
   return pairs;
 }
 

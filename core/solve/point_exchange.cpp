@@ -1,6 +1,8 @@
 #include "core/solve/point_exchange.hpp"
 
-#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include "core/solve/link_kernels.hpp"
@@ -8,18 +10,27 @@
 namespace acinus::solve {
 namespace {
 
-/// A point that a contact joins to one of another process.
-struct SharedPoint {
-  int rank = 0;
-  Point point = 0;
-  auto operator<=>(const SharedPoint&) const = default;
+/// A set of points, read in ascending order.
+class PointSet {
+ public:
+  explicit PointSet(std::size_t n) : word_((n + kBits - 1) / kBits, 0) {}
+  void add(Point p) { word_[p / kBits] |= std::uint64_t{1} << (p % kBits); }
+  void append_to(std::vector<Point>& points) const {
+    for (std::size_t w = 0; w < word_.size(); ++w)
+      for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
+        points.push_back(
+            static_cast<Point>(w * kBits + static_cast<std::size_t>(std::countr_zero(left))));
+  }
+
+ private:
+  static constexpr std::size_t kBits = 64;
+  std::vector<std::uint64_t> word_;
 };
 
-void sort_once(std::vector<SharedPoint>& points) {
-  std::ranges::sort(points);
-  const auto repeated = std::ranges::unique(points);
-  points.erase(repeated.begin(), repeated.end());
-}
+/// What goes to another process, and what comes from it.
+struct PeerPoints {
+  PointSet send, receive;
+};
 
 std::span<const Point> points_of(const Side& side) {
   return std::span(side.point).first(side.is_single() ? 1 : 3);
@@ -44,26 +55,26 @@ void PointExchange::plan(const System& s) {
   send_.clear();
   receive_.clear();
   if (s.ownership.is_whole()) return;
-  std::vector<SharedPoint> send, receive;
+  std::map<int, PeerPoints> peers;
   const auto join = [&](std::span<const Point> a, std::span<const Point> b) {
     const bool own_a = s.owns(a[0]);
     if (own_a == s.owns(b[0])) return;
     const auto& [own, other] = own_a ? std::pair(a, b) : std::pair(b, a);
     const int rank = s.ownership.owner[s.block_of(other[0])];
-    for (const Point p : own) send.push_back({rank, p});
-    for (const Point p : other) receive.push_back({rank, p});
+    const PointSet none(peers.contains(rank) ? 0 : s.n_row * kLanes);
+    PeerPoints& peer = peers.try_emplace(rank, PeerPoints{none, none}).first->second;
+    for (const Point p : own) peer.send.add(p);
+    for (const Point p : other) peer.receive.add(p);
   };
   for (const Link& l : s.links.link)
     if (l.b.exists()) join(points_of(l.a), points_of(l.b));
   for (const PointLink& l : s.point_links)
     if (l.b != kNowhere && has_matrix(l, s.stiffness_scale))
       join(std::span(&l.a, 1), std::span(&l.b, 1));
-  sort_once(send);
-  sort_once(receive);
-  for (auto from = send.begin(), to = receive.begin(); to != receive.end();) {
-    ExchangePlan::Peer peer{to->rank, send_.size(), 0, receive_.size(), 0};
-    for (; from != send.end() && from->rank == peer.rank; ++from) send_.push_back(from->point);
-    for (; to != receive.end() && to->rank == peer.rank; ++to) receive_.push_back(to->point);
+  for (const auto& [rank, points] : peers) {
+    ExchangePlan::Peer peer{rank, send_.size(), 0, receive_.size(), 0};
+    points.send.append_to(send_);
+    points.receive.append_to(receive_);
     peer.send_end = send_.size();
     peer.receive_end = receive_.size();
     plan_.peer.push_back(peer);

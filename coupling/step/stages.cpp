@@ -92,10 +92,12 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
 
 /// Friction of every cell with the medium as a whole, nN s/um.
 void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace& w) {
+  constexpr double kForeign = -1;
   const State& s = world.state;
   dcm::compute_medium_areas(in.dcm, w.dcm, w.medium_area);
   w.medium_friction.dcm.assign(s.dcm.n_lane(), 0.0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) {
+    if (w.dcm.is_foreign(l)) w.medium_friction.dcm[l] = kForeign;
     if (!s.dcm.active(l) || w.dcm.is_foreign(l)) continue;
     const dcm::Group& g = s.dcm.group[l / kLanes];
     double area = 0;
@@ -107,8 +109,10 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
   }
   w.medium_friction.cbm.resize(s.cbm.n_cell());
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    w.medium_friction.cbm[c] = cbm::medium_friction(world.params.cbm[s.cbm.type[c]],
-                                                    w.cbm_radius[c], w.cbm.contact_area[c]);
+    w.medium_friction.cbm[c] = w.cbm.is_foreign(c)
+                                   ? kForeign
+                                   : cbm::medium_friction(world.params.cbm[s.cbm.type[c]],
+                                                          w.cbm_radius[c], w.cbm.contact_area[c]);
 }
 
 /// The time of a step whose middle decides what holds in it, s since t = 0.

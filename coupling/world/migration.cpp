@@ -65,13 +65,14 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
     return force;
   };
   for_each_index(s.dcm.n_lane(), s.dcm.n_lane() > kParallelCells, [&](std::size_t l) {
-    if (!s.dcm.active(l)) return;
+    if (!s.dcm.active(l) || medium.dcm[l] < 0) return;
     const dcm::Params& p = world.params.dcm[s.dcm.group[l / kLanes].type];
     forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
     if (m.leader_force > 0 && leader[l])
       forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
   });
   for_each_index(s.cbm.n_cell(), s.cbm.n_cell() > kParallelCells, [&](std::size_t c) {
+    if (medium.cbm[c] < 0) return;
     const cbm::Params& p = world.params.cbm[s.cbm.type[c]];
     forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
     if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])

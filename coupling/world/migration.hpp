@@ -19,7 +19,7 @@ struct CellForces {
   std::vector<Vec3> dcm, cbm;
 };
 
-/// Friction of each cell with the medium, nN s/um.
+/// Friction of each cell with the medium, nN s/um; negative: another process works this cell out.
 struct MediumFriction {
   std::vector<double> dcm, cbm;
 };
