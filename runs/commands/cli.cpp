@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <sstream>
 
 #include "acinus_version.hpp"
@@ -17,6 +18,17 @@ std::string version_text() {
   return fmt::format("acinus {} (git {}, {}, {})", ACINUS_VERSION, ACINUS_GIT, ACINUS_COMPILER,
                      ACINUS_FLAGS);
 }
+
+namespace {
+
+/// As several. Other launchers may start processes that are meant to be on their own, such as tasks
+/// of a study.
+bool started_by_mpirun() {
+  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return size != nullptr && std::atoi(size) > 1;
+}
+
+}  // namespace
 
 int run_cli(int argc, const char* const* argv) {
   CLI::App app("Simulator of living tissue: deformable triangulated cells (DCM) and spheres (CBM).",
@@ -48,7 +60,7 @@ int run_cli(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     // Of several processes one says what is wrong.
     std::ostringstream nowhere;
-    const bool root = Ranks::world().is_root();
+    const bool root = !started_by_mpirun() || Ranks::world().is_root();
     const int code = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
     return static_cast<int>(code == 0 ? Exit::kDone : Exit::kBadInput);
   }
@@ -62,8 +74,7 @@ int run_cli(int argc, const char* const* argv) {
       };
       // Benchmarks are another program, which says itself what it is for.
       const std::string name = command.app->get_name();
-      if (name != "run" && name != "bench" && !Ranks::world().is_alone())
-        together(Ranks::world(), refuse);
+      if (name != "run" && name != "bench" && started_by_mpirun()) together(Ranks::world(), refuse);
       return command.run();
     }
   return static_cast<int>(Exit::kBadInput);

@@ -1,5 +1,6 @@
 /// acinus run
 
+#include <cstdlib>
 #include <memory>
 
 #include "core/stop.hpp"
@@ -24,6 +25,22 @@ struct RunArguments {
   std::string until, checkpoint_every, max_walltime, max_memory, progress, sharing;
 };
 
+/// A launcher that started several processes, and processes that know nothing of each other: each
+/// would run the whole scene into the same folder.
+void check_launcher(const Ranks& ranks) {
+  if (!ranks.is_alone()) return;
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
+    const char* size = std::getenv(name);
+    if (size == nullptr || std::atoi(size) <= 1) continue;
+    throw Error(
+        fmt::format("this is one of {} processes that were started together but do not find each "
+                    "other ({}): acinus was built with another MPI than that of the launcher, or "
+                    "srun was not told of any. Use the mpirun of Open MPI, or srun --mpi=pmix.",
+                    size, name),
+        Exit::kCannotContinue);
+  }
+}
+
 int run(RunArguments& arguments) {
   RunOptions& run = arguments.run;
   if (!arguments.until.empty())
@@ -38,6 +55,7 @@ int run(RunArguments& arguments) {
   if (arguments.sharing == "random") run.sharing = coupling::Sharing::kRandom;
   run.progress_json = arguments.progress == "json";
   const Ranks ranks = Ranks::world();
+  check_launcher(ranks);
   Scene scene = together(ranks, [&] {
     Scene read = read_scene(find_scene_file(run.scene_file), run.set);
     if (run.out.empty()) run.out = read.name + ".run";

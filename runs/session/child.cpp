@@ -11,10 +11,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -25,11 +27,18 @@ namespace {
 
 constexpr const char* kThreads = "OMP_NUM_THREADS";
 
-/// This process's environment with one thread for the child.
+/// How launchers tell the processes that they start together of each other.
+constexpr std::array kLaunchers = {"OMPI_", "PMI_", "PMIX_", "SLURM_STEP_NUM_TASKS="};
+
+/// This process's environment with one thread for the child, which is on its own.
 std::vector<std::string> environment() {
   std::vector<std::string> all{std::string(kThreads) + "=1"};
-  for (char** entry = environ; *entry != nullptr; ++entry)
-    if (std::strncmp(*entry, kThreads, std::strlen(kThreads)) != 0) all.emplace_back(*entry);
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view variable = *entry;
+    if (!variable.starts_with(kThreads) &&
+        std::ranges::none_of(kLaunchers, [&](const char* l) { return variable.starts_with(l); }))
+      all.emplace_back(variable);
+  }
   return all;
 }
 

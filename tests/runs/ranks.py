@@ -202,6 +202,10 @@ def check_errors(program):
         os.mkdir(os.path.join(folder, "here"))
         open(os.path.join(folder, "here", "run.vtkhdf"), "w").close()
         expect(2, ["run", "two_cells", "--out", os.path.join(folder, "here")], 2, "holds the results of an earlier run")
+        # As if started by a launcher that this MPI does not know: PMI of MPICH, srun without --mpi.
+        for name in ("PMI_SIZE", "SLURM_STEP_NUM_TASKS"):
+            expect(1, ["run", "two_cells", "--out", out], 3, "one of 4 processes that were started together",
+                   ["env", f"{name}=4"])
         scene = os.path.join(folder, "scene.json")
         shutil.copy(os.path.join(SCENES, "two_cells.json"), scene)
         expect(2, ["run", scene, "--out", out], 2, "process 1 of 2 has another scene",
