@@ -46,6 +46,7 @@ BenchRow measure_case(const StepCase& c, const Ranks& ranks) {
                    bytes = per_step(s.traffic.message_bytes),
                    gathered = per_step(s.traffic.gathered_bytes),
                    wait = spread(ranks, s.traffic.wait_s / s.wall);
+  const coupling::Workspace& work = runner.work();
   BenchRow row{c.name,
                runner.cells(),
                {{"processes", ranks.size()},
@@ -56,10 +57,14 @@ BenchRow measure_case(const StepCase& c, const Ranks& ranks) {
                 {"messages_per_step_most", messages.most},
                 {"message_KB_per_step", bytes.mean / kKilo},
                 {"message_KB_per_step_most", bytes.most / kKilo},
+                {"points_sent", spread(ranks, static_cast<double>(work.op.n_sent_points())).mean},
+                {"bodies_sent", spread(ranks, static_cast<double>(work.bodies_sent)).mean},
                 {"reductions_per_step", static_cast<double>(s.traffic.reductions) / steps},
                 {"gatherings_per_step", static_cast<double>(s.traffic.gatherings) / steps},
                 {"gathered_KB_per_step", gathered.mean / kKilo},
                 {"wait_share", wait.mean}}};
+  for (const StageTime& t : s.stages)
+    row.value.emplace_back(t.name + "_ms", kKilo * t.wall / steps);
   if (ranks.is_root()) print_row(row);
   return row;
 }

@@ -80,6 +80,7 @@ class Operator {
   void add_link_forces(System& system);
 
   const System& system() const { return *system_; }
+  std::size_t n_sent_points() const { return exchange_.n_sent(); }  ///< by a product
 
  private:
   /// What one thread works on: the own blocks of a range.

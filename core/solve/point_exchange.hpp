@@ -24,6 +24,8 @@ class PointExchange {
   /// The same of a vector [n_row][3][lane].
   void fetch(std::span<double> x) const;
 
+  std::size_t n_sent() const { return send_.size(); }  ///< points, each to one process
+
  private:
   Ranks ranks_ = Ranks::serial();
   ExchangePlan plan_;

@@ -123,6 +123,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
     const double step = std::min(wanted, limit);
     const Assessment a = attempt_and_assess(world, step, result.rejections == 0, w, effort);
     if (a.accepted) {
+      const auto scope = w.timings.scope("commit");
       record_balance(world, w, s.balance);
       solve::gather_rows(w.system, w.move);
       gather_touching(w);

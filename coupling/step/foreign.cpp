@@ -84,6 +84,7 @@ void exchange_shares(Workspace& w) {
   for (const contact::Contact& k : w.contacts.interface())
     meet(k.a, owner_of_sphere(w, static_cast<std::size_t>(k.b)));
   bodies.sort();
+  w.bodies_sent = bodies.send.size();
 
   ExchangePlan plan;
   std::vector<double> out;

@@ -31,8 +31,9 @@ struct LinearisationPoint {
 
 struct Workspace {
   solve::System system;
-  std::size_t dcm_lanes = 0;  ///< written by: find_foreign_cells
-  MeasuredCost cost;          ///< written by: balance_shares
+  std::size_t dcm_lanes = 0;    ///< written by: find_foreign_cells
+  MeasuredCost cost;            ///< written by: balance_shares
+  std::size_t bodies_sent = 0;  ///< whose shares others need; written by: exchange_shares
   solve::Operator op;
   solve::CgWorkspace cg;
   solve::RigidWorkspace rigid;
