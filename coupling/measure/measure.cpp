@@ -8,6 +8,7 @@
 
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/step/foreign.hpp"
 #include "coupling/step/stages.hpp"
 #include "dcm/stress.hpp"
 #include "dcm/terms/area.hpp"
@@ -25,7 +26,7 @@ constexpr double kNewborn = 600;
 int owner_of(const Workspace& w, std::size_t cell) {
   const std::size_t n_body = w.dcm.body.size();
   const std::size_t lane = cell < n_body ? w.dcm.lane_of_body[cell] : w.dcm_lanes + cell - n_body;
-  return w.system.ownership.owner[lane / kLanes];
+  return owner_of_lane(w, lane);
 }
 
 void set_origin(const State& s, const Cycle& cycle, CellMeasure& m) {

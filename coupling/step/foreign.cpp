@@ -44,14 +44,15 @@ struct SharedCells {
   }
 };
 
-int owner_of_lane(const Workspace& w, std::size_t lane) {
-  return w.system.ownership.owner[lane / kLanes];
-}
 int owner_of_sphere(const Workspace& w, std::size_t sphere) {
-  return w.system.ownership.owner[(w.dcm_lanes + sphere) / kLanes];
+  return owner_of_lane(w, w.dcm_lanes + sphere);
 }
 
 }  // namespace
+
+int owner_of_lane(const Workspace& w, std::size_t lane) {
+  return w.system.ownership.owner[lane / kLanes];
+}
 
 void find_foreign_cells(const World& world, Workspace& w) {
   const State& s = world.state;

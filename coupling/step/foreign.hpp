@@ -2,6 +2,7 @@
 /// What a step has to know of cells that other processes work out. Positions of all cells are known
 /// everywhere; what follows from all contacts of a cell is known to its owner.
 
+#include <cstddef>
 #include <vector>
 
 #include "core/ranks.hpp"
@@ -11,6 +12,10 @@ namespace acinus::coupling {
 
 /// Tells the contact search which cells are not own. @pre the blocks of the system are set
 void find_foreign_cells(const World& world, Workspace& work);
+
+/// The process that works out a cell; lanes count [dcm lanes, then cbm cells].
+/// @pre the work is shared: the ownership is not whole
+int owner_of_lane(const Workspace& work, std::size_t lane);
 
 /// Gets the touching shares of the points of foreign bodies that own cells are in contact with.
 /// @pre all contacts of deformable cells are found
