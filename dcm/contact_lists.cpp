@@ -134,12 +134,15 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
 
 void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   const std::size_t n = s.node.size();
+  const auto moved = [&](std::size_t i) -> Vec3 {
+    return (now.node[i] - s.origin) - s.node[i].cast<double>();
+  };
   s.mean = Vec3::Zero();
-  for (std::size_t i = 0; i < n; ++i) s.mean += now.node[i] - s.node[i];
+  for (std::size_t i = 0; i < n; ++i) s.mean += moved(i);
   s.mean /= static_cast<double>(n);
   double spread2 = 0;
   for (std::size_t i = 0; i < n; ++i)
-    spread2 = std::max(spread2, (now.node[i] - s.node[i] - s.mean).squaredNorm());
+    spread2 = std::max(spread2, (moved(i) - s.mean).squaredNorm());
   s.spread = std::sqrt(spread2);
 }
 
@@ -154,7 +157,10 @@ int add_snapshot(const contact::SurfaceBody& now, ListedBody& body) {
   while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
   if (place == body.snapshot.size()) body.snapshot.emplace_back();
   ListSnapshot& s = body.snapshot[place];
-  s.node = now.node;
+  s.origin = 0.5 * (now.box.low + now.box.high);
+  s.node.clear();
+  s.node.reserve(now.node.size());
+  for (const Vec3& x : now.node) s.node.emplace_back((x - s.origin).cast<float>());
   s.mean = Vec3::Zero();
   s.spread = 0;
   s.lists = 1;  // not free

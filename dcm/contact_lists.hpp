@@ -23,8 +23,9 @@ struct SegmentCandidates {
 
 /// The nodes of a body when lists with it were made, and how they moved since.
 struct ListSnapshot {
-  std::vector<Vec3> node;    ///< um
-  Vec3 mean = Vec3::Zero();  ///< um, movement since then
+  std::vector<Eigen::Vector3f> node;  ///< um from the origin; lists allow for the rounding
+  Vec3 origin = Vec3::Zero();         ///< um
+  Vec3 mean = Vec3::Zero();           ///< um, movement since then
   double spread = 0;         ///< um, largest deviation of a node's movement from the mean
   int lists = 0;             ///< how many were made then; 0: its place is free
 };

@@ -10,6 +10,7 @@
 #include "core/contact/hertz.hpp"
 #include "core/error.hpp"
 #include "core/mesh/closest_point.hpp"
+#include "core/mesh/round_cone.hpp"
 #include "core/time_grid.hpp"
 
 namespace acinus::contact {
@@ -158,28 +159,17 @@ Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {
   const std::size_t s = segment;
   const Vec3& a = network.node[network.segment[s][0]];
   const Vec3& b = network.node[network.segment[s][1]];
-  const auto [ra, rb] = network.radius[s];
-  const Vec3 axis = b - a;
-  const double length = axis.norm();
+  const mesh::NearestBall ball =
+      mesh::find_nearest_ball(x, a, b, network.radius[s][0], network.radius[s][1]);
   Gap g;
-  double t = ra >= rb ? 0.0 : 1.0;  // one ball inside the other: the larger end is the surface
-  if (length > std::abs(rb - ra)) {
-    const Vec3 u = axis / length;
-    const double along = (x - a).dot(u);
-    const double across = ((x - a) - along * u).norm();
-    const double slope = (rb - ra) / length;
-    // The closest ball of the cone: its centre is shifted along the axis by the taper.
-    t = std::clamp((along + across * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
-  }
-  const Vec3 d = x - (a + t * axis);
-  g.axis_distance = d.norm();
-  g.radius = ra + t * (rb - ra);
+  g.axis_distance = ball.apart.norm();
+  g.radius = ball.radius;
   g.gap = g.axis_distance - g.radius;
-  g.parameter = t;
+  g.parameter = ball.parameter;
   if (g.axis_distance > 0) {
-    g.normal = d / g.axis_distance;
+    g.normal = ball.apart / g.axis_distance;
   } else {
-    g.normal = axis.unitOrthogonal();  // on the axis every direction is out
+    g.normal = (b - a).unitOrthogonal();  // on the axis every direction is out
   }
   return g;
 }

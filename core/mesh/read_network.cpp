@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/mesh/read_vmv.hpp"
 #include "core/mesh/vtk_legacy.hpp"
 
 namespace acinus::mesh {
@@ -222,13 +223,13 @@ Network read_network(const std::string& path) {
   const std::string extension =
       dot == path.npos || path[dot] == '/' ? "" : lower_case(path.substr(dot));
   if (extension == ".swc") return read_swc(file);
+  if (extension == ".vmv") return read_vmv(file);
   if (extension == ".vtk" || extension == ".vtp" || extension == ".vtu" || is_vtk_legacy(file)) {
     return read_vtk_network(path);
   }
   throw Error(
-      fmt::format("{}: vessel networks are read from legacy VTK (.vtk) and SWC (.swc), not {}. "
-                  "Convert the file "
-                  "or rename it after its format.",
+      fmt::format("{}: vessel networks are read from legacy VTK (.vtk), SWC (.swc) and VMV (.vmv), "
+                  "not {}. Convert the file or rename it after its format.",
                   path, in_quotes(extension)));
 }
 

@@ -8,8 +8,8 @@
 
 namespace acinus::mesh {
 
-/// Reads legacy VTK POLYDATA with LINES (ASCII or big-endian binary, versions 1 to 5) or SWC, in
-/// file units. Nodes keep the file's order, lines of more than two points become several segments.
+/// Reads legacy VTK POLYDATA with LINES (ASCII or big-endian binary, versions 1 to 5) SWC or VMV
+/// (read_vmv.hpp), in file units. Nodes keep the file's order, lines of more than two points become several segments.
 /// VTK radii come from an array of POINT_DATA or, when that has none, CELL_DATA, as SCALARS or
 /// FIELD, called radius, radii or r, or diameter or diameters (halved), in any case; the first of
 /// these names that is there counts. SWC radii belong to nodes; the ids are renumbered in file

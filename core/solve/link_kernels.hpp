@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/make_room.hpp"
 #include "core/solve/links.hpp"
 #include "core/solve/packed.hpp"
 
@@ -84,8 +85,14 @@ struct PointPairs {
     b.clear();
     block.clear();
   }
+  void make_room(std::size_t n_pair, std::size_t n_row) {
+    acinus::make_room(row, n_row);
+    acinus::make_room(b, n_pair);
+    acinus::make_room(block, n_pair);
+  }
   void append(const PointPairs& more) {
     const auto offset = static_cast<std::uint32_t>(b.size());
+    make_room(more.b.size(), more.row.size());
     for (const Row& r : more.row) row.push_back({r.a, r.first + offset, r.last + offset});
     b.insert(b.end(), more.b.begin(), more.b.end());
     block.insert(block.end(), more.block.begin(), more.block.end());

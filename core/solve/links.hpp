@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/lanes.hpp"
+#include "core/make_room.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::solve {
@@ -71,10 +72,9 @@ struct Links {
 
   std::size_t size() const { return link.size(); }
   void resize(std::size_t n) {
-    // With room: a few more each step must not mean new memory each step.
-    if (n > link.capacity()) {
-      link.reserve(n + n / 8);
-      load.reserve(n + n / 8);
+    if (n > link.size()) {
+      make_room(link, n - link.size());
+      make_room(load, n - load.size());
     }
     link.resize(n);
     load.resize(n);

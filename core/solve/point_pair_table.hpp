@@ -57,6 +57,7 @@ class PointPairTable {
   }
   /// Appends what was found, row by row.
   void emit(PointPairs& out) {
+    out.make_room(pair_.size(), a_.n);
     next_.assign(a_.n + 1, 0);
     for (const auto& p : pair_) ++next_[p[0] + 1];
     next_[0] = static_cast<std::uint32_t>(out.b.size());

@@ -48,6 +48,7 @@ int run_cli(int argc, const char* const* argv) {
                               add_explain(app),
                               add_list(app),
                               add_new(app),
+                              add_mesh(app),
                               add_calibrate(app, command_line),
                               add_compare(app, command_line),
                               add_report(app),

@@ -67,6 +67,7 @@ Command add_check(CLI::App& app);
 Command add_compare(CLI::App& app, const std::string& command_line);
 Command add_explain(CLI::App& app);
 Command add_list(CLI::App& app);
+Command add_mesh(CLI::App& app);
 Command add_new(CLI::App& app);
 Command add_openvt(CLI::App& app, const std::string& command_line);
 Command add_report(CLI::App& app);

@@ -1,0 +1,19 @@
+#pragma once
+/// Triangles laid about the zero of a function.
+
+#include <functional>
+
+#include "core/mesh/surface.hpp"
+
+namespace acinus::implicit {
+
+/// um, negative inside.
+using Distance = std::function<double(const Vec3&)>;
+
+/// Moves nodes along their normals until the function is zero in the mean over the triangles about
+/// each: with nodes on a curved surface all triangles are on its inner side, and the volume is too
+/// small. Of second order in the edge before, of fourth after.
+/// @param most  of the mean edge about a node: none moves farther
+void fit(const Distance& distance, double most, mesh::Surface& surface);
+
+}  // namespace acinus::implicit

@@ -1,0 +1,123 @@
+#include "core/io/surface_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+#include "core/mesh/input_file.hpp"
+
+namespace acinus::io {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);  // both binary formats are
+
+template <class T>
+void append_bytes(std::string& text, const T& value) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  text.append(bytes.data(), bytes.size());
+}
+
+/// Numbers of appended data, after their size.
+class VtpData {
+ public:
+  template <class T>
+  void start(std::size_t n) {
+    append_bytes(bytes_, static_cast<std::uint64_t>(n * sizeof(T)));
+  }
+  template <class T>
+  void add(T value) {
+    append_bytes(bytes_, value);
+  }
+  std::size_t size() const { return bytes_.size(); }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+std::string vtp_text(const mesh::Surface& s) {
+  constexpr int kCorners = 3;
+  VtpData data;
+  data.start<double>(3 * s.node.size());
+  for (const Vec3& x : s.node)
+    for (int k = 0; k < 3; ++k) data.add(x[k]);
+  const std::size_t connectivity = data.size();
+  data.start<std::int32_t>(3 * s.triangle.size());
+  for (const auto& corner : s.triangle)
+    for (const int k : corner) data.add(static_cast<std::int32_t>(k));
+  const std::size_t offsets = data.size();
+  data.start<std::int32_t>(s.triangle.size());
+  for (std::size_t t = 0; t < s.triangle.size(); ++t)
+    data.add(static_cast<std::int32_t>(kCorners * (t + 1)));
+  return fmt::format(
+             R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+<PolyData>
+<Piece NumberOfPoints="{}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="{}">
+<Points>
+<DataArray type="Float64" Name="Points" NumberOfComponents="3" format="appended" offset="0"/>
+</Points>
+<Polys>
+<DataArray type="Int32" Name="connectivity" format="appended" offset="{}"/>
+<DataArray type="Int32" Name="offsets" format="appended" offset="{}"/>
+</Polys>
+</Piece>
+</PolyData>
+<AppendedData encoding="raw">
+_)",
+             s.node.size(), s.triangle.size(), connectivity, offsets) +
+         data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+std::string stl_text(const mesh::Surface& s) {
+  constexpr std::size_t kHeader = 80;
+  std::string text = "binary STL, um";
+  text.resize(kHeader, ' ');
+  append_bytes(text, static_cast<std::uint32_t>(s.triangle.size()));
+  for (const auto& [a, b, c] : s.triangle) {
+    const Vec3 n = (s.node[b] - s.node[a]).cross(s.node[c] - s.node[a]).normalized();
+    for (const Vec3& x : {n, s.node[a], s.node[b], s.node[c]})
+      for (int k = 0; k < 3; ++k) append_bytes(text, static_cast<float>(x[k]));
+    append_bytes(text, std::uint16_t{0});
+  }
+  return text;
+}
+
+std::string obj_text(const mesh::Surface& s) {
+  std::string text = "# um\n";
+  for (const Vec3& x : s.node) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
+  for (const auto& [a, b, c] : s.triangle)
+    text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+  return text;
+}
+
+std::string ending_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  return dot == path.npos || path[dot] == '/' ? "" : mesh::lower_case(path.substr(dot));
+}
+
+}  // namespace
+
+bool is_surface_file(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".vtp" || ending == ".stl" || ending == ".obj";
+}
+
+void write_surface(const std::string& path, const mesh::Surface& surface) {
+  const std::string ending = ending_of(path);
+  if (ending == ".vtp") return write_text_file(path, vtp_text(surface));
+  if (ending == ".stl") return write_text_file(path, stl_text(surface));
+  if (ending == ".obj") return write_text_file(path, obj_text(surface));
+  throw Error(fmt::format("{}: surfaces are written as .vtp, .stl or .obj, not {}. Choose one of "
+                          "these endings.",
+                          path, mesh::in_quotes(ending)));
+}
+
+}  // namespace acinus::io

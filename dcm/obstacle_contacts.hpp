@@ -1,0 +1,15 @@
+#pragma once
+/// Contacts of deformable cells with walls and vessels, and their guards (contact.hpp).
+
+#include <vector>
+
+#include "dcm/contact.hpp"
+
+namespace acinus::dcm {
+
+/// Appends those of one body.
+/// @param range  um, largest gap of interest
+void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work, int number,
+                            double range, std::vector<contact::Contact>& out);
+
+}  // namespace acinus::dcm

@@ -1,0 +1,174 @@
+/// acinus mesh
+
+#include <memory>
+
+#include "core/implicit/vessel_mesh.hpp"
+#include "core/io/surface_file.hpp"
+#include "core/mesh/edit_network.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/mesh/read_network.hpp"
+#include "core/mesh/read_surface.hpp"
+#include "core/mesh/remesh.hpp"
+#include "core/mesh/wrap.hpp"
+#include "core/threads.hpp"
+#include "core/timing.hpp"
+#include "core/units.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/commands/command.hpp"
+#include "runs/scene/library.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+struct MeshArguments {
+  std::string what, out, unit = "1 um", edge, alpha, offset;
+  double fineness = 0.4, rounding = 0.1;
+  int threads = 0;
+  bool quiet = false;
+};
+
+double length_of(const char* flag, const std::string& text) {
+  return flag_value(flag, text, [](const std::string& t) { return parse_quantity(t, kLength); });
+}
+
+void start(const MeshArguments& a) {
+  check(io::is_surface_file(a.out),
+        fmt::format("--out \"{}\": surfaces are written as .vtp, .stl or .obj", a.out));
+  set_threads(a.threads > 0 ? a.threads : processor_count());
+}
+
+void tell(const MeshArguments& a, const mesh::Surface& s, const mesh::Connectivity& c,
+          double seconds) {
+  if (a.quiet) return;
+  fmt::print("{}: {} triangles, {} nodes, area {:.4g} um^2, volume {:.4g} um^3, {} part{}, {} "
+             "handle{}, {:.1f} s\n",
+             a.out, s.triangle.size(), s.node.size(), mesh::compute_area(s.node, s.triangle),
+             mesh::compute_volume(s.node, s.triangle), c.parts, c.parts == 1 ? "" : "s",
+             c.handles(), c.handles() == 1 ? "" : "s", seconds);
+}
+
+bool is_scene(const std::string& what) {
+  const std::string ending = what.substr(std::min(what.size(), what.find_last_of("./")));
+  return ending == ".json" || ending.empty() || ending[0] != '.';
+}
+
+mesh::Network find_network(const MeshArguments& a) {
+  if (is_scene(a.what)) {
+    const Scene scene = read_scene(find_scene_file(a.what), {});
+    mesh::Network n = build_world(scene, Ranks::serial()).world.params.boundary.vessels.network;
+    check(!n.segment.empty(), fmt::format("{}: the scene has no vessels", a.what));
+    return n;
+  }
+  mesh::NetworkTransform to_um;
+  to_um.unit = length_of("--unit", a.unit);
+  return mesh::resample_network(mesh::transform_network(mesh::read_network(a.what), to_um));
+}
+
+int mesh_vessels(const MeshArguments& a) {
+  start(a);
+  const double before = wall_seconds();
+  implicit::VesselMeshOptions o;
+  o.fineness = a.fineness;
+  o.rounding = a.rounding;
+  if (!a.edge.empty()) o.edge = length_of("--edge", a.edge);
+  const implicit::VesselMesh m = implicit::make_vessel_mesh(find_network(a), o);
+  io::write_surface(a.out, m.surface);
+  tell(a, m.surface, m.found, wall_seconds() - before);
+  if (o.edge > 0 && !m.remeshed)
+    fmt::print(stderr,
+               "acinus: warning: with triangles of {} the surface would cross itself or lose a "
+               "vessel; written as it was before, each vessel with triangles of its own size. Try "
+               "a smaller --edge.\n",
+               a.edge);
+  if (!m.is_as_expected())
+    fmt::print(stderr,
+               "acinus: warning: the network has {} part{} and {} loop{}, the surface {} and {}: "
+               "segments that share no node overlap or nearly touch. Look at the surface there; "
+               "thinner vessels or a smaller --fineness may help.\n",
+               m.expected.parts, m.expected.parts == 1 ? "" : "s", m.expected.handles(),
+               m.expected.handles() == 1 ? "" : "s", m.found.parts, m.found.handles());
+  return 0;
+}
+
+int mesh_wrap(const MeshArguments& a) {
+  start(a);
+  const double before = wall_seconds();
+  mesh::Surface all;
+  Box box;
+  for (const mesh::Surface& s : mesh::read_surfaces(a.what, length_of("--unit", a.unit))) {
+    const int first = static_cast<int>(all.node.size());
+    all.node.insert(all.node.end(), s.node.begin(), s.node.end());
+    for (const auto& [i, j, k] : s.triangle)
+      all.triangle.push_back({first + i, first + j, first + k});
+    for (const Vec3& x : s.node) box.include(x);
+  }
+  constexpr double kAlphas = 50, kOffsets = 20;
+  const double extent = (box.high - box.low).norm();
+  const double alpha = a.alpha.empty() ? extent / kAlphas : length_of("--alpha", a.alpha);
+  const double offset = a.offset.empty() ? alpha / kOffsets : length_of("--offset", a.offset);
+  const mesh::Surface wrapped = mesh::wrap(all, alpha, offset);
+  io::write_surface(a.out, wrapped);
+  tell(a, wrapped, mesh::find_connectivity(wrapped), wall_seconds() - before);
+  return 0;
+}
+
+void add_common(CLI::App& command, MeshArguments& a) {
+  command.add_option("--out", a.out, "the surface: .vtp, .stl or .obj, in um")
+      ->type_name("FILE")
+      ->required();
+  command.add_option("--unit", a.unit, "length of one unit of the file (default: 1 um)")
+      ->type_name("LENGTH");
+  add_threads(command, a.threads);
+  command.add_flag("--quiet", a.quiet, "errors and warnings only");
+}
+
+}  // namespace
+
+Command add_mesh(CLI::App& app) {
+  CLI::App* command = add_command(app, "mesh", "make closed surfaces: of vessels, about torn meshes",
+                                  "acinus mesh vessels tree.swc --out tree.vtp");
+  command->require_subcommand(1);
+  const auto arguments = std::make_shared<MeshArguments>();
+  CLI::App* vessels =
+      add_command(*command, "vessels", "one closed surface about a network of vessels",
+                  "acinus mesh vessels tree.swc --edge \"1.5 um\" --out tree.stl\n"
+                  "         acinus mesh vessels lobule_hybrid --out sinusoids.vtp");
+  vessels
+      ->add_option("WHAT", arguments->what,
+                   "network (.vtk, .swc, .vmv), scene file, or the name of a shipped scene")
+      ->required();
+  vessels
+      ->add_option("--edge", arguments->edge,
+                   "make all triangles alike, with sides near this (default: each vessel has "
+                   "triangles of its own size)")
+      ->type_name("LENGTH");
+  vessels
+      ->add_option("--fineness", arguments->fineness,
+                   "side of a triangle over the radius of its vessel (default: 0.4)")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.05, 1.0));
+  vessels
+      ->add_option("--rounding", arguments->rounding,
+                   "how far creases at branch points are rounded, over the radius there (default: "
+                   "0.1)")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 1.0));
+  add_common(*vessels, *arguments);
+  CLI::App* wrap = add_command(
+      *command, "wrap", "one closed surface about meshes that are torn or cross themselves",
+      "acinus mesh wrap dirty.stl --alpha \"5 um\" --offset \"0.2 um\" --out clean.stl");
+  wrap->add_option("FILE", arguments->what, "surfaces (.vtk, .obj, .stl)")->required();
+  wrap->add_option("--alpha", arguments->alpha,
+                   "holes narrower than this are closed (default: a fiftieth of the extent)")
+      ->type_name("LENGTH");
+  wrap->add_option("--offset", arguments->offset,
+                   "how far the new surface is outside (default: a twentieth of --alpha)")
+      ->type_name("LENGTH");
+  add_common(*wrap, *arguments);
+  return {command, [arguments, vessels] {
+            return vessels->parsed() ? mesh_vessels(*arguments) : mesh_wrap(*arguments);
+          }};
+}
+
+}  // namespace acinus::runs
