@@ -26,8 +26,8 @@ struct ListSnapshot {
   std::vector<Eigen::Vector3f> node;  ///< um from the origin; lists allow for the rounding
   Vec3 origin = Vec3::Zero();         ///< um
   Vec3 mean = Vec3::Zero();           ///< um, movement since then
-  double spread = 0;         ///< um, largest deviation of a node's movement from the mean
-  int lists = 0;             ///< how many were made then; 0: its place is free
+  double spread = 0;                  ///< um, largest deviation of a node's movement from the mean
+  int lists = 0;                      ///< how many were made then; 0: its place is free
 };
 
 /// A body as the lists know it. Cells are recognised by their lineage when their numbers change.

@@ -40,8 +40,8 @@ constexpr std::array<double, 3> kLongest{1.7320508075688772, 1.4142135623730951,
 constexpr std::array<double, 3> kExtent{0.8660254037844387, 0.7071067811865476, 0.7071067811865476};
 /// From one middle to that of the next bisection, summed up over all bisections to come.
 constexpr std::array<double, 3> kToGo{2.8660254037844387, 2.3660254037844387, 1.8660254037844387};
-/// So near a surface, in sides of the cube at the last bisection, all must be of its size: enough for
-/// those one bisection before, which reach kExtent, to be bisected wherever they meet it.
+/// So near a surface, in sides of the cube at the last bisection, all must be of its size: enough
+/// for those one bisection before, which reach kExtent, to be bisected wherever they meet it.
 constexpr double kMargin = 0.6;
 
 double cube_at(double root, int level) { return std::ldexp(root, -(level / 3)); }
@@ -49,9 +49,9 @@ double cube_at(double root, int level) { return std::ldexp(root, -(level / 3)); 
 /// The lattice: root cubes, and how often what is in them may be bisected.
 struct CubeLattice {
   Vec3 origin = Vec3::Zero();
-  double root = 1;       ///< um, side of the cubes that it starts from
-  int halvings = 0;      ///< of that side, until places are one apart
-  std::vector<int> last; ///< [part] the level at which tetrahedra are small enough
+  double root = 1;        ///< um, side of the cubes that it starts from
+  int halvings = 0;       ///< of that side, until places are one apart
+  std::vector<int> last;  ///< [part] the level at which tetrahedra are small enough
   Place n_root{};
 
   int unit() const { return 1 << halvings; }
@@ -114,7 +114,8 @@ using Tetrahedron = std::array<Corner, 4>;
 
 class CubeExtraction {
  public:
-  CubeExtraction(const Shape& shape, const CubeLattice& lattice) : shape_(shape), lattice_(lattice) {}
+  CubeExtraction(const Shape& shape, const CubeLattice& lattice)
+      : shape_(shape), lattice_(lattice) {}
 
   /// @param parts  near the cube
   CubePart run(const Place& cube, const std::vector<int>& parts) {
@@ -190,7 +191,9 @@ class CubeExtraction {
     std::size_t n_in = 0, n_out = 0;
     for (const Corner& c : t) (c.is_inside() ? in[n_in++] : out[n_out++]) = &c;
     if (n_in == 0 || n_out == 0) return;
-    const auto node = [&](const Corner* i, const Corner* o) { return number_of(*i, *o, span_of(parts)); };
+    const auto node = [&](const Corner* i, const Corner* o) {
+      return number_of(*i, *o, span_of(parts));
+    };
     const Vec3 outward = lattice_.position(out[0]->place) - lattice_.position(in[0]->place);
     if (n_in == 1) {
       add(outward, node(in[0], out[0]), node(in[0], out[1]), node(in[0], out[2]));

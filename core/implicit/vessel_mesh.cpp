@@ -118,8 +118,7 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   const NearbySegments nearby(shape, field.widest_crease() + o.edge);
   const Distance distance = [&](const Vec3& x) { return field.value(x, nearby.at(x)); };
   mesh::Surface even = mesh::remesh(out.surface, o.edge);
-  out.remeshed =
-      mesh::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
+  out.remeshed = mesh::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
   if (out.remeshed) out.surface = std::move(even);
   return out;
 }

@@ -93,8 +93,7 @@ std::string stl_text(const mesh::Surface& s) {
 std::string obj_text(const mesh::Surface& s) {
   std::string text = "# um\n";
   for (const Vec3& x : s.node) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
-  for (const auto& [a, b, c] : s.triangle)
-    text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+  for (const auto& [a, b, c] : s.triangle) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
   return text;
 }
 
@@ -115,9 +114,10 @@ void write_surface(const std::string& path, const mesh::Surface& surface) {
   if (ending == ".vtp") return write_text_file(path, vtp_text(surface));
   if (ending == ".stl") return write_text_file(path, stl_text(surface));
   if (ending == ".obj") return write_text_file(path, obj_text(surface));
-  throw Error(fmt::format("{}: surfaces are written as .vtp, .stl or .obj, not {}. Choose one of "
-                          "these endings.",
-                          path, mesh::in_quotes(ending)));
+  throw Error(
+      fmt::format("{}: surfaces are written as .vtp, .stl or .obj, not {}. Choose one of "
+                  "these endings.",
+                  path, mesh::in_quotes(ending)));
 }
 
 }  // namespace acinus::io

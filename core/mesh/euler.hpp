@@ -7,8 +7,8 @@
 namespace acinus::mesh {
 
 struct Connectivity {
-  int parts = 0;         ///< connected components
-  long euler_number = 0; ///< nodes - edges + triangles: 2 a part, less 2 for every handle
+  int parts = 0;          ///< connected components
+  long euler_number = 0;  ///< nodes - edges + triangles: 2 a part, less 2 for every handle
 
   long handles() const { return parts - euler_number / 2; }
   bool operator==(const Connectivity&) const = default;

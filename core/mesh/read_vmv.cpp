@@ -28,10 +28,11 @@ class VmvParser {
           fmt::format("{}: no list of nodes: VMV files have $VERT_LIST_BEGIN, lines \"number x y z "
                       "radius\" and $VERT_LIST_END.",
                       file_.path()));
-    check(!out_.segment.empty(),
-          fmt::format("{}: no strands: VMV files have $STRANDS_LIST_BEGIN, lines \"number node node "
-                      "...\" and $STRANDS_LIST_END.",
-                      file_.path()));
+    check(
+        !out_.segment.empty(),
+        fmt::format("{}: no strands: VMV files have $STRANDS_LIST_BEGIN, lines \"number node node "
+                    "...\" and $STRANDS_LIST_END.",
+                    file_.path()));
     return std::move(out_);
   }
 

@@ -10,9 +10,9 @@ namespace acinus::mesh {
 
 /// The ball of the cone whose surface is nearest to a point, or that the point is deepest in.
 struct NearestBall {
-  double parameter = 0;      ///< 0..1, from the first end to the second
-  double radius = 0;         ///< um
-  Vec3 apart = Vec3::Zero(); ///< um, from its centre to the point
+  double parameter = 0;       ///< 0..1, from the first end to the second
+  double radius = 0;          ///< um
+  Vec3 apart = Vec3::Zero();  ///< um, from its centre to the point
 };
 
 /// Exact, also where one end lies within the other: then that is the larger of the two.

@@ -41,11 +41,12 @@ void start(const MeshArguments& a) {
 void tell(const MeshArguments& a, const mesh::Surface& s, const mesh::Connectivity& c,
           double seconds) {
   if (a.quiet) return;
-  fmt::print("{}: {} triangles, {} nodes, area {:.4g} um^2, volume {:.4g} um^3, {} part{}, {} "
-             "handle{}, {:.1f} s\n",
-             a.out, s.triangle.size(), s.node.size(), mesh::compute_area(s.node, s.triangle),
-             mesh::compute_volume(s.node, s.triangle), c.parts, c.parts == 1 ? "" : "s",
-             c.handles(), c.handles() == 1 ? "" : "s", seconds);
+  fmt::print(
+      "{}: {} triangles, {} nodes, area {:.4g} um^2, volume {:.4g} um^3, {} part{}, {} "
+      "handle{}, {:.1f} s\n",
+      a.out, s.triangle.size(), s.node.size(), mesh::compute_area(s.node, s.triangle),
+      mesh::compute_volume(s.node, s.triangle), c.parts, c.parts == 1 ? "" : "s", c.handles(),
+      c.handles() == 1 ? "" : "s", seconds);
 }
 
 bool is_scene(const std::string& what) {
@@ -126,8 +127,9 @@ void add_common(CLI::App& command, MeshArguments& a) {
 }  // namespace
 
 Command add_mesh(CLI::App& app) {
-  CLI::App* command = add_command(app, "mesh", "make closed surfaces: of vessels, about torn meshes",
-                                  "acinus mesh vessels tree.swc --out tree.vtp");
+  CLI::App* command =
+      add_command(app, "mesh", "make closed surfaces: of vessels, about torn meshes",
+                  "acinus mesh vessels tree.swc --out tree.vtp");
   command->require_subcommand(1);
   const auto arguments = std::make_shared<MeshArguments>();
   CLI::App* vessels =

@@ -81,8 +81,7 @@ class RandomNetwork {
     for (std::size_t s = 0; s < network_.segment.size(); ++s) {
       const auto [p, q] = network_.segment[s];
       bool meets = false;
-      for (const auto& [own, other, own_end] :
-           {std::tuple(node_a, b, a), std::tuple(node_b, a, b)})
+      for (const auto& [own, other, own_end] : {std::tuple(node_a, b, a), std::tuple(node_b, a, b)})
         for (const auto& [end, far] : {std::pair(p, q), std::pair(q, p)})
           if (end == own) {
             meets = true;
@@ -93,15 +92,14 @@ class RandomNetwork {
         const double t = static_cast<double>(k) / kPlaces;
         const Vec3 x = a + t * (b - a);
         const double r = ra + t * (rb - ra);
-        const mesh::NearestBall ball =
-            mesh::find_nearest_ball(x, network_.node[p], network_.node[q], network_.radius[s][0],
-                                    network_.radius[s][1]);
+        const mesh::NearestBall ball = mesh::find_nearest_ball(
+            x, network_.node[p], network_.node[q], network_.radius[s][0], network_.radius[s][1]);
         const double gap = ball.apart.norm() - ball.radius - r;
         const bool at_node = meets && (k == 0 || k == kPlaces || gap < 0);
         if (!meets && gap < kGap * thinnest_) return false;
         // Next to a common node they overlap; farther along they must have come apart.
-        if (at_node && gap < 0 && std::min((x - a).norm(), (x - b).norm()) >
-                                      3 * std::max({ra, rb, ball.radius}))
+        if (at_node && gap < 0 &&
+            std::min((x - a).norm(), (x - b).norm()) > 3 * std::max({ra, rb, ball.radius}))
           return false;
       }
     }
@@ -149,9 +147,8 @@ inline UnionVolume sample_union(const mesh::Network& n, int per_segment, unsigne
       int owners = 0;
       bool own = false;
       for (const std::size_t k : near) {
-        const mesh::NearestBall ball =
-            mesh::find_nearest_ball(x, n.node[n.segment[k][0]], n.node[n.segment[k][1]],
-                                    n.radius[k][0], n.radius[k][1]);
+        const mesh::NearestBall ball = mesh::find_nearest_ball(
+            x, n.node[n.segment[k][0]], n.node[n.segment[k][1]], n.radius[k][0], n.radius[k][1]);
         if (ball.apart.norm() >= ball.radius) continue;
         ++owners;
         own = own || k == s;

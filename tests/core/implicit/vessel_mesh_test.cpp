@@ -115,9 +115,10 @@ TEST(VesselMesh, LoopIsARing) {
 /// and the triangles become small enough.
 TEST(VesselMesh, CrossingVesselsStayApart) {
   const double gap = 0.1;
-  const mesh::Network n{{Vec3(-10, 0, 0), Vec3(10, 0, 0), Vec3(0, -10, 4 + gap), Vec3(0, 10, 4 + gap)},
-                        {{0, 1}, {2, 3}},
-                        {{2, 2}, {2, 2}}};
+  const mesh::Network n{
+      {Vec3(-10, 0, 0), Vec3(10, 0, 0), Vec3(0, -10, 4 + gap), Vec3(0, 10, 4 + gap)},
+      {{0, 1}, {2, 3}},
+      {{2, 2}, {2, 2}}};
   const VesselMesh m = make_vessel_mesh(n, {});
   EXPECT_EQ(m.found.parts, 2);
   EXPECT_TRUE(m.is_as_expected());
@@ -133,9 +134,8 @@ TEST(VesselMesh, ThickAndThinMeet) {
 /// A fillet moves the surface by at most a quarter of its width, and none is where vessels go on
 /// straight.
 TEST(VesselMesh, RoundingIsOnlyInCreases) {
-  const mesh::Network chain{{Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(20, 0, 0)},
-                            {{0, 1}, {1, 2}},
-                            {{2, 2}, {2, 2}}};
+  const mesh::Network chain{
+      {Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(20, 0, 0)}, {{0, 1}, {1, 2}}, {{2, 2}, {2, 2}}};
   VesselMeshOptions sharp, round;
   sharp.rounding = 0;
   round.rounding = 0.5;
