@@ -20,10 +20,6 @@ namespace {
 
 /// Longest edge of the tetrahedra over the mean edge of the triangles that they are cut in.
 constexpr double kTetrahedra = 4;
-/// Nodes on a round surface leave all triangles on its inner side: so much of fineness^2 wider, a
-/// vessel has its volume. Measured on random networks; of all orientations to the lattice.
-constexpr double kWider = 0.12;
-
 void check_network(const mesh::Network& network) {
   check(!network.segment.empty(), "a network without segments has no surface");
   for (std::size_t s = 0; s < network.segment.size(); ++s)
@@ -80,14 +76,31 @@ class NearbySegments {
   std::map<Place, std::vector<int>> cube_;
 };
 
-/// Lays the triangles about the vessels' wall, if they do not cross each other then.
+/// Lays the triangles about the vessels' wall; where they cross each other then, nodes go back.
 /// @return whether they do not cross each other in the end
 bool fit_without_crossing(const Distance& distance, mesh::Surface& surface) {
   constexpr double kMost = 0.3;
-  const mesh::Surface before = surface;
+  constexpr int kRounds = 6;
+  const std::vector<Vec3> before = surface.node;
   fit(distance, kMost, surface);
-  if (!mesh::crosses_itself(surface)) return true;
-  surface = before;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<int> crossing = mesh::find_crossing_triangles(surface);
+    if (crossing.empty()) return true;
+    // With all triangles about them.
+    std::vector<char> back(before.size(), 0), wider;
+    for (const int t : crossing)
+      for (const int k : surface.triangle[t]) back[k] = 1;
+    for (int ring = 0; ring < round; ++ring) {
+      wider = back;
+      for (const auto& corner : surface.triangle)
+        if (std::ranges::any_of(corner, [&](int k) { return back[k] != 0; }))
+          for (const int k : corner) wider[k] = 1;
+      back = wider;
+    }
+    for (std::size_t k = 0; k < back.size(); ++k)
+      if (back[k] != 0) surface.node[k] = before[k];
+  }
+  surface.node = before;
   return !mesh::crosses_itself(surface);
 }
 
@@ -102,24 +115,24 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   out.expected = mesh::find_connectivity(network);
   out.fineness = o.fineness;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    mesh::Network wider = network;
-    for (auto& ends : wider.radius)
-      for (double& r : ends) r *= 1 + kWider * out.fineness * out.fineness;
-    const VesselField wider_field(wider, o.rounding);
-    const Shape shape = make_shape(wider, wider_field, out.fineness);
+    const Shape shape = make_shape(network, field, out.fineness);
     out.surface = extract_zero(shape, o.most_triangles);
     const mesh::Connectivity before = out.found;
     out.found = mesh::find_connectivity(out.surface);
     if (out.is_as_expected() || attempt + 1 == kAttempts || out.found == before) break;
     out.fineness *= kFiner;
   }
-  if (!(o.edge > 0)) return out;
   const Shape shape = make_shape(network, field, out.fineness);
-  const NearbySegments nearby(shape, field.widest_crease() + o.edge);
+  const NearbySegments nearby(
+      shape, field.widest_crease() + std::max(o.edge, *std::ranges::max_element(shape.size)));
   const Distance distance = [&](const Vec3& x) { return field.value(x, nearby.at(x)); };
-  mesh::Surface even = mesh::remesh(out.surface, o.edge);
-  out.remeshed = mesh::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
-  if (out.remeshed) out.surface = std::move(even);
+  if (o.edge > 0) {
+    mesh::Surface even = mesh::remesh(out.surface, o.edge);
+    out.remeshed =
+        mesh::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
+    if (out.remeshed) out.surface = std::move(even);
+  }
+  if (!out.remeshed) fit_without_crossing(distance, out.surface);
   return out;
 }
 

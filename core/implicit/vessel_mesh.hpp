@@ -10,7 +10,7 @@
 namespace acinus::implicit {
 
 struct VesselMeshOptions {
-  double fineness = 0.4;  ///< edges over the radius of the vessel
+  double fineness = 0.3;  ///< edges over the radius of the vessel
   double edge = 0;        ///< um, of all triangles alike; 0: each vessel its own
   double rounding = 0.1;  ///< VesselField
   std::size_t most_triangles = 20'000'000;

@@ -1,6 +1,8 @@
 #pragma once
 /// Triangles of one size. CGAL stays in the .cpp.
 
+#include <vector>
+
 #include "core/mesh/surface.hpp"
 
 namespace acinus::mesh {
@@ -12,5 +14,8 @@ Surface remesh(const Surface& surface, double edge);
 
 /// Whether any two triangles meet elsewhere than at a common node or side.
 bool crosses_itself(const Surface& surface);
+
+/// The triangles that do, ascending.
+std::vector<int> find_crossing_triangles(const Surface& surface);
 
 }  // namespace acinus::mesh
