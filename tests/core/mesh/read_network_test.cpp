@@ -191,7 +191,8 @@ TEST(ReadNetwork, BadTextFilesAreRefusedWithPlaceAndRemedy) {
   EXPECT_CONTAINS(refusal(folder.path() + "/none.vtk"), "none.vtk: no such file");
   EXPECT_CONTAINS(refusal(folder.path()), "is a folder");
   EXPECT_CONTAINS(refusal("/dev/zero"), "a device");
-  EXPECT_CONTAINS(refusal(folder.write("a.txt", "1 2 3")), "(.vtk), SWC (.swc) and VMV (.vmv), not \".txt\"");
+  EXPECT_CONTAINS(refusal(folder.write("a.txt", "1 2 3")),
+                  "(.vtk), SWC (.swc) and VMV (.vmv), not \".txt\"");
   EXPECT_CONTAINS(vtk(""), "empty");
   EXPECT_CONTAINS(vtk("hello\n"), "a.vtk:1: the first line is \"hello\"");
   EXPECT_CONTAINS(vtk("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n"), "VTK XML");
