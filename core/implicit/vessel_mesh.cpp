@@ -20,6 +20,7 @@ namespace {
 
 /// Longest edge of the tetrahedra over the mean edge of the triangles that they are cut in.
 constexpr double kTetrahedra = 4;
+
 void check_network(const mesh::Network& network) {
   check(!network.segment.empty(), "a network without segments has no surface");
   for (std::size_t s = 0; s < network.segment.size(); ++s)
@@ -114,15 +115,15 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   VesselMesh out;
   out.expected = mesh::find_connectivity(network);
   out.fineness = o.fineness;
+  Shape shape;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const Shape shape = make_shape(network, field, out.fineness);
+    shape = make_shape(network, field, out.fineness);
     out.surface = extract_zero(shape, o.most_triangles);
     const mesh::Connectivity before = out.found;
     out.found = mesh::find_connectivity(out.surface);
     if (out.is_as_expected() || attempt + 1 == kAttempts || out.found == before) break;
     out.fineness *= kFiner;
   }
-  const Shape shape = make_shape(network, field, out.fineness);
   const NearbySegments nearby(
       shape, field.widest_crease() + std::max(o.edge, *std::ranges::max_element(shape.size)));
   const Distance distance = [&](const Vec3& x) { return field.value(x, nearby.at(x)); };

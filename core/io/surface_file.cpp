@@ -97,27 +97,22 @@ std::string obj_text(const mesh::Surface& s) {
   return text;
 }
 
-std::string ending_of(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./");
-  return dot == path.npos || path[dot] == '/' ? "" : mesh::lower_case(path.substr(dot));
-}
-
 }  // namespace
 
-bool is_surface_file(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".vtp" || ending == ".stl" || ending == ".obj";
+void check_surface_file(const std::string& path) {
+  const std::string ending = mesh::extension_of(path);
+  check(ending == ".vtp" || ending == ".stl" || ending == ".obj",
+        fmt::format("{}: surfaces are written as .vtp, .stl or .obj, not {}. Choose one of these "
+                    "endings.",
+                    path, mesh::in_quotes(ending)));
 }
 
 void write_surface(const std::string& path, const mesh::Surface& surface) {
-  const std::string ending = ending_of(path);
-  if (ending == ".vtp") return write_text_file(path, vtp_text(surface));
-  if (ending == ".stl") return write_text_file(path, stl_text(surface));
-  if (ending == ".obj") return write_text_file(path, obj_text(surface));
-  throw Error(
-      fmt::format("{}: surfaces are written as .vtp, .stl or .obj, not {}. Choose one of "
-                  "these endings.",
-                  path, mesh::in_quotes(ending)));
+  check_surface_file(path);
+  const std::string ending = mesh::extension_of(path);
+  write_text_file(path, ending == ".vtp"   ? vtp_text(surface)
+                        : ending == ".stl" ? stl_text(surface)
+                                           : obj_text(surface));
 }
 
 }  // namespace acinus::io

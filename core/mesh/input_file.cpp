@@ -150,6 +150,11 @@ std::string in_quotes(std::string_view token) {
   return text + (token.size() > 40 ? "...\"" : "\"");
 }
 
+std::string extension_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  return dot == path.npos || path[dot] == '/' ? "" : lower_case(path.substr(dot));
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {

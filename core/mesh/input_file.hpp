@@ -60,6 +60,9 @@ bool parse_integer(std::string_view token, std::int64_t& value);
 /// A token in quotes, shortened and with unprintable bytes as '?', fit for a message.
 std::string in_quotes(std::string_view token);
 
+/// The ending of a path from its last dot on, in lower case: ".vtk"; empty when it has none.
+std::string extension_of(const std::string& path);
+
 /// ASCII lower case.
 std::string lower_case(std::string_view text);
 

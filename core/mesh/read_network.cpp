@@ -219,9 +219,7 @@ Network read_swc(InputFile& file) {
 
 Network read_network(const std::string& path) {
   InputFile file(path);
-  const std::size_t dot = path.find_last_of("./");
-  const std::string extension =
-      dot == path.npos || path[dot] == '/' ? "" : lower_case(path.substr(dot));
+  const std::string extension = extension_of(path);
   if (extension == ".swc") return read_swc(file);
   if (extension == ".vmv") return read_vmv(file);
   if (extension == ".vtk" || extension == ".vtp" || extension == ".vtu" || is_vtk_legacy(file)) {

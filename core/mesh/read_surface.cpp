@@ -149,11 +149,6 @@ std::vector<Surface> read_vtk(const std::string& path) {
   return bodies;
 }
 
-std::string extension_of(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./");
-  return dot == path.npos || path[dot] == '/' ? "" : lower_case(path.substr(dot));
-}
-
 }  // namespace
 
 void add_polygon(const InputFile& file, std::size_t place, const std::string& what,

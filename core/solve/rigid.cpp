@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
 #include "core/solve/link_kernels.hpp"
@@ -14,26 +13,13 @@ namespace {
 
 using Map3x6 = Eigen::Matrix<double, 3, 6>;
 
-int find_root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
 /// Numbers the groups of cells joined by pair links; returns how many there are.
 int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWorkspace& work) {
   auto cell_of = [&](Point p) {
     return static_cast<int>(s.block_of(p)) * kLanes + static_cast<int>(p % kLanes);
   };
-  std::vector<int>& parent = work.parent;
-  parent.resize(active.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto unite = [&](int a, int b) {
-    const int root_a = find_root(parent, a), root_b = find_root(parent, b);
-    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
-  };
+  DisjointSets& sets = work.sets;
+  sets.reset(active.size());
   int last_a = -1, last_b = -1;  // links come sorted by pair of cells
   auto join = [&](Point at_a, Point at_b) {
     if (at_b == kNowhere) return;
@@ -41,7 +27,7 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
     if (a == last_a && b == last_b) return;
     last_a = a;
     last_b = b;
-    unite(a, b);
+    sets.join(a, b);
   };
   for (const Link& l : s.links.link) join(l.a.point[0], l.b.point[0]);
   // Pairs of spheres are listed before they touch, some steps sooner or later.
@@ -49,16 +35,16 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
     if (has_matrix(l, s.stiffness_scale)) join(l.a, l.b);
   if (!s.ownership.is_whole()) {  // each process knows the contacts of its own cells
     std::vector<std::array<int, 2>> own, all;
-    for (int c = 0; c < static_cast<int>(parent.size()); ++c)
-      if (parent[c] != c) own.push_back({c, find_root(parent, c)});
+    for (int c = 0; c < static_cast<int>(sets.size()); ++c)
+      if (sets.is_joined(c)) own.push_back({c, sets.find(c)});
     s.ownership.ranks.gather<std::array<int, 2>>(own, all);
-    for (const auto& [a, b] : all) unite(a, b);
+    for (const auto& [a, b] : all) sets.join(a, b);
   }
   work.group.assign(active.size(), -1);
   int n = 0;
   for (std::size_t c = 0; c < active.size(); ++c) {
     if (!active[c]) continue;
-    const std::size_t root = find_root(parent, static_cast<int>(c));
+    const std::size_t root = sets.find(static_cast<int>(c));
     if (work.group[root] < 0) work.group[root] = n++;
     work.group[c] = work.group[root];
   }

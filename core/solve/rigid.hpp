@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/disjoint_sets.hpp"
 #include "core/solve/group_sums.hpp"
 #include "core/solve/operator.hpp"
 
@@ -30,7 +31,7 @@ struct RigidGroup {
 
 struct RigidWorkspace {
   std::vector<int> group;  ///< [n_block * kLanes] group of each cell, -1: empty lane
-  std::vector<int> parent;
+  DisjointSets sets;
   std::vector<RigidGroup> groups;
   GroupSums sums;
   std::vector<double> squared_reach;  ///< [group] um^2

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <tuple>
 
+#include "core/disjoint_sets.hpp"
 #include "coupling/generate/buckets.hpp"
 
 namespace acinus::coupling {
@@ -107,18 +107,17 @@ std::vector<Edge> delaunay_edges(const std::vector<Vec3>& node, const std::vecto
 class Builder {
  public:
   Builder(const std::vector<int>& vein_of, Sinusoids& out)
-      : vein_of_(vein_of), out_(out), degree_(vein_of.size(), 0), parent_(vein_of.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+      : vein_of_(vein_of), out_(out), degree_(vein_of.size(), 0), part_(vein_of.size()) {
     std::vector<int> first;  // one wall node of each vein
     for (std::size_t i = 0; i < vein_of.size(); ++i) {
       if (vein_of[i] < 0) continue;
       const std::size_t vein = vein_of[i];
       if (first.size() <= vein) first.resize(vein + 1, -1);
       if (first[vein] < 0) first[vein] = static_cast<int>(i);
-      parent_[i] = first[vein];
+      part_.join(static_cast<int>(i), first[vein]);
     }
   }
-  bool joined(const Edge& e) { return root(e.a) == root(e.b); }
+  bool joined(const Edge& e) { return part_.find(e.a) == part_.find(e.b); }
   bool taken(const Edge& e) const { return taken_.contains({e.a, e.b}); }
   bool at_wall(const Edge& e) const { return vein_of_[e.a] >= 0 || vein_of_[e.b] >= 0; }
   /// A wall node takes one sinusoid; others fewer than `limit`.
@@ -132,18 +131,15 @@ class Builder {
     out_.length += e.length;
     ++degree_[e.a];
     ++degree_[e.b];
-    parent_[root(e.a)] = root(e.b);
+    part_.join(e.a, e.b);
   }
 
  private:
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
   const std::vector<int>& vein_of_;
   Sinusoids& out_;
   std::set<std::array<int, 2>> taken_;
-  std::vector<int> degree_, parent_;
+  std::vector<int> degree_;
+  DisjointSets part_;
 };
 
 }  // namespace

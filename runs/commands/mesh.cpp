@@ -5,6 +5,7 @@
 #include "core/implicit/vessel_mesh.hpp"
 #include "core/io/surface_file.hpp"
 #include "core/mesh/edit_network.hpp"
+#include "core/mesh/input_file.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/read_surface.hpp"
@@ -33,8 +34,7 @@ double length_of(const char* flag, const std::string& text) {
 }
 
 void start(const MeshArguments& a) {
-  check(io::is_surface_file(a.out),
-        fmt::format("--out \"{}\": surfaces are written as .vtp, .stl or .obj", a.out));
+  io::check_surface_file(a.out);
   set_threads(a.threads > 0 ? a.threads : processor_count());
 }
 
@@ -49,13 +49,9 @@ void tell(const MeshArguments& a, const mesh::Surface& s, const mesh::Connectivi
       c.handles() == 1 ? "" : "s", seconds);
 }
 
-bool is_scene(const std::string& what) {
-  const std::string ending = what.substr(std::min(what.size(), what.find_last_of("./")));
-  return ending == ".json" || ending.empty() || ending[0] != '.';
-}
-
 mesh::Network find_network(const MeshArguments& a) {
-  if (is_scene(a.what)) {
+  const std::string ending = mesh::extension_of(a.what);
+  if (ending.empty() || ending == ".json") {  // a scene, or the name of a shipped one
     const Scene scene = read_scene(find_scene_file(a.what), {});
     mesh::Network n = build_world(scene, Ranks::serial()).world.params.boundary.vessels.network;
     check(!n.segment.empty(), fmt::format("{}: the scene has no vessels", a.what));

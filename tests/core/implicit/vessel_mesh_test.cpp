@@ -13,7 +13,7 @@
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/remesh.hpp"
 #include "core/threads.hpp"
-#include "core/timing.hpp"
+#include "tests/core/implicit/expect_vessel_mesh.hpp"
 #include "tests/core/implicit/random_network.hpp"
 
 namespace acinus::implicit {
@@ -23,44 +23,6 @@ mesh::Network straight(double radius, double length) {
   return {{Vec3(0.3, 0.1, -0.2), Vec3(0.3, 0.1, -0.2) + length * Vec3(1, 2, 3).normalized()},
           {{0, 1}},
           {{radius, radius}}};
-}
-
-/// Distance of a place to the wall of the nearest segment over the radius there.
-double off_wall(const mesh::Network& n, const Vec3& x) {
-  double least = 1e300, radius = 1;
-  for (std::size_t s = 0; s < n.segment.size(); ++s) {
-    const mesh::NearestBall ball = mesh::find_nearest_ball(
-        x, n.node[n.segment[s][0]], n.node[n.segment[s][1]], n.radius[s][0], n.radius[s][1]);
-    const double d = ball.apart.norm() - ball.radius;
-    if (d < least) least = d, radius = ball.radius;
-  }
-  return std::abs(least) / radius;
-}
-
-/// Of the middles of all triangles; those across a crease do not follow it.
-struct Deviation {
-  double rms = 0, beyond = 0;  ///< share of them farther than 5 % of the radius
-};
-Deviation find_deviation(const mesh::Network& n, const mesh::Surface& s) {
-  constexpr double kFar = 0.05;
-  Deviation d;
-  for (const auto& [i, j, k] : s.triangle) {
-    const double at = off_wall(n, (s.node[i] + s.node[j] + s.node[k]) / 3);
-    d.rms += at * at;
-    d.beyond += at > kFar ? 1 : 0;
-  }
-  const auto count = static_cast<double>(s.triangle.size());
-  return {std::sqrt(d.rms / count), d.beyond / count};
-}
-
-void expect_sound(const mesh::Network& network, const VesselMesh& m, const std::string& what) {
-  EXPECT_NO_THROW(mesh::check_manifold(m.surface, what));
-  EXPECT_FALSE(mesh::crosses_itself(m.surface)) << what;
-  EXPECT_EQ(m.found.parts, m.expected.parts) << what;
-  EXPECT_EQ(m.found.euler_number, m.expected.euler_number) << what;
-  const UnionVolume sampled = sample_union(network, 20000, 1);
-  const double volume = mesh::compute_volume(m.surface.node, m.surface.triangle);
-  EXPECT_NEAR(volume, sampled.volume, 0.01 * sampled.volume + 2 * sampled.deviation) << what;
 }
 
 TEST(VesselMesh, OfAStraightVesselHasItsVolumeAndWall) {
@@ -173,34 +135,6 @@ TEST(VesselMesh, OfRandomNetworksIsSound) {
     EXPECT_LT(d.beyond, 0.05) << seed;
     EXPECT_LT(d.rms, 0.03) << seed;
   }
-}
-
-/// A hundred networks, some of a thousand segments. ctest label slow.
-TEST(VesselMesh, DISABLED_OfAHundredRandomNetworksIsSound) {
-  int remeshed = 0;
-  for (unsigned seed = 1; seed <= 100; ++seed) {
-    const std::size_t n_segment = seed % 20 == 0 ? 1000 : 5 + 13 * (seed % 20);
-    const double thickest = seed % 3 == 0 ? 20 : seed % 3 == 1 ? 2 : 6;
-    const mesh::Network n = RandomNetwork(seed, 1, thickest).grow(n_segment);
-    const std::string what = fmt::format("seed {}, {} segments", seed, n_segment);
-    double at = wall_seconds();
-    const VesselMesh raw = make_vessel_mesh(n, {});
-    const double raw_s = wall_seconds() - at;
-    expect_sound(n, raw, what);
-    const Deviation d = find_deviation(n, raw.surface);
-    EXPECT_LT(d.beyond, 0.05) << what;
-    VesselMeshOptions o;
-    o.edge = 0.7;
-    at = wall_seconds();
-    const VesselMesh even = make_vessel_mesh(n, o);
-    const double even_s = wall_seconds() - at;
-    expect_sound(n, even, what + ", even");
-    remeshed += even.remeshed ? 1 : 0;
-    fmt::print("{}: {} triangles {:.2f} s, fineness {:.2f}, rms {:.3f}; even {} {} {:.1f} s\n",
-               what, raw.surface.triangle.size(), raw_s, raw.fineness, d.rms, even.remeshed,
-               even.surface.triangle.size(), even_s);
-  }
-  EXPECT_GE(remeshed, 95);
 }
 
 TEST(VesselMesh, BadRadiiAreRefused) {
