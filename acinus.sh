@@ -14,7 +14,7 @@ usage: ./acinus.sh COMMAND [ARGUMENT...]
   packages                  install missing Debian packages, nothing else
   help                      this text
   anything else             build the program and hand all arguments to it, in the folder you are
-                            in: run, check, schema, explain, list, new, mesh, calibrate, compare,
+                            in: run, check, schema, explain, list, new, mesh, import, voxelise, calibrate, compare,
                             report, study, serve, openvt, bench (`./acinus.sh --help` says more)
 
 Missing packages of packages.txt are installed by apt-get, as root or through sudo.

@@ -38,6 +38,7 @@ enum class Purpose : std::uint32_t {
   kLifeRule = 10,
   kProliferation = 11,
   kSharing = 12,
+  kImage = 13,
 };
 
 /// Address of one block of random words.

@@ -16,7 +16,7 @@ FLOORS = {"bench": 6, "python": 6, "runs": 5, "calibration": 4, "coupling": 3, "
 # The rooms of a folder, lowest first; "" are the files directly in it. A room includes only those before it.
 ROOMS = {
     "coupling": ("generate", "world", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
-    "runs": ("scene", "build", "experiments", "session", "calibrate", "compare", "study", "openvt", "page", "report", "serve", "commands", ""),
+    "runs": ("scene", "build", "images", "experiments", "session", "calibrate", "compare", "study", "openvt", "page", "report", "serve", "commands", ""),
     "bench": ("output", "step", "tissue", "stress", "work_precision", "kernels", ""),
 }
 MIRRORS = ("tests",)  # may include every floor; no floor includes them

@@ -76,6 +76,45 @@ _)",
          data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
 }
 
+/// Legacy VTK keeps the bytes of numbers the other way round.
+template <class T>
+void append_swapped(std::string& text, const T& value) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  text.append(bytes.rbegin(), bytes.rend());
+}
+
+std::string vtk_text(std::span<const mesh::Surface> surfaces,
+                     std::span<const std::uint32_t> label) {
+  constexpr std::int32_t kCorners = 3;
+  std::size_t nodes = 0, triangles = 0;
+  for (const mesh::Surface& s : surfaces) {
+    nodes += s.node.size();
+    triangles += s.triangle.size();
+  }
+  std::string text = fmt::format(
+      "# vtk DataFile Version 3.0\nsurfaces, um\nBINARY\nDATASET POLYDATA\nPOINTS {} double\n",
+      nodes);
+  for (const mesh::Surface& s : surfaces)
+    for (const Vec3& x : s.node)
+      for (int k = 0; k < 3; ++k) append_swapped(text, x[k]);
+  text += fmt::format("\nPOLYGONS {} {}\n", triangles, (1 + kCorners) * triangles);
+  std::int32_t first = 0;
+  for (const mesh::Surface& s : surfaces) {
+    for (const auto& corner : s.triangle) {
+      append_swapped(text, kCorners);
+      for (const int k : corner) append_swapped(text, first + static_cast<std::int32_t>(k));
+    }
+    first += static_cast<std::int32_t>(s.node.size());
+  }
+  if (label.empty()) return text + "\n";
+  text += fmt::format("\nCELL_DATA {}\nSCALARS label int 1\nLOOKUP_TABLE default\n", triangles);
+  for (std::size_t b = 0; b < surfaces.size(); ++b)
+    for (std::size_t t = 0; t < surfaces[b].triangle.size(); ++t)
+      append_swapped(text, static_cast<std::int32_t>(label[b]));
+  return text + "\n";
+}
+
 std::string stl_text(const mesh::Surface& s) {
   constexpr std::size_t kHeader = 80;
   std::string text = "binary STL, um";
@@ -101,18 +140,24 @@ std::string obj_text(const mesh::Surface& s) {
 
 void check_surface_file(const std::string& path) {
   const std::string ending = mesh::extension_of(path);
-  check(ending == ".vtp" || ending == ".stl" || ending == ".obj",
-        fmt::format("{}: surfaces are written as .vtp, .stl or .obj, not {}. Choose one of these "
-                    "endings.",
+  check(ending == ".vtk" || ending == ".vtp" || ending == ".stl" || ending == ".obj",
+        fmt::format("{}: surfaces are written as .vtk, .vtp, .stl or .obj, not {}. Choose one of "
+                    "these endings.",
                     path, mesh::in_quotes(ending)));
 }
 
 void write_surface(const std::string& path, const mesh::Surface& surface) {
   check_surface_file(path);
   const std::string ending = mesh::extension_of(path);
-  write_text_file(path, ending == ".vtp"   ? vtp_text(surface)
+  write_text_file(path, ending == ".vtk"   ? vtk_text({&surface, 1}, {})
+                        : ending == ".vtp" ? vtp_text(surface)
                         : ending == ".stl" ? stl_text(surface)
                                            : obj_text(surface));
+}
+
+void write_surfaces(const std::string& path, std::span<const mesh::Surface> surfaces,
+                    std::span<const std::uint32_t> label) {
+  write_text_file(path, vtk_text(surfaces, label));
 }
 
 }  // namespace acinus::io

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/mesh/components.hpp"
 #include "core/mesh/input_file.hpp"
 #include "core/mesh/surface_formats.hpp"
 #include "core/mesh/triangulate.hpp"
@@ -17,48 +17,8 @@ namespace acinus::mesh {
 
 namespace {
 
-// The given triangles with only the nodes they use, in their order.
-Surface compacted(const std::vector<Vec3>& node, std::vector<std::array<int, 3>> triangle) {
-  std::vector<int> used;
-  used.reserve(triangle.size() * 3);
-  for (const auto& t : triangle) used.insert(used.end(), t.begin(), t.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  Surface out;
-  out.node.reserve(used.size());
-  for (const int index : used) out.node.push_back(node[index]);
-  for (auto& t : triangle) {
-    for (int& index : t) {
-      index = static_cast<int>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
-    }
-  }
-  out.triangle = std::move(triangle);
-  return out;
-}
-
 void add_components(const Surface& soup, std::vector<Surface>& bodies) {
-  std::vector<int> parent(soup.node.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int node) {
-    while (parent[node] != node) {
-      int& up = parent[node];
-      up = parent[up];  // path halving
-      node = up;
-    }
-    return node;
-  };
-  for (const auto& [a, b, c] : soup.triangle) {
-    parent[root(b)] = root(a);
-    parent[root(c)] = root(a);
-  }
-  std::map<int, std::size_t> body;
-  std::vector<std::vector<std::array<int, 3>>> triangle;
-  for (const auto& t : soup.triangle) {
-    const std::size_t b = body.try_emplace(root(t[0]), triangle.size()).first->second;
-    if (b == triangle.size()) triangle.emplace_back();
-    triangle[b].push_back(t);
-  }
-  for (auto& part : triangle) bodies.push_back(compacted(soup.node, std::move(part)));
+  for (Surface& s : split_components(soup)) bodies.push_back(std::move(s));
 }
 
 // Entry of a polyhedron: the number of faces, then per face its number of nodes and the nodes.
@@ -177,13 +137,16 @@ std::vector<Surface> read_surfaces(const std::string& path, double um_per_unit) 
     add_components(read_obj(path), bodies);
   } else if (extension == ".stl") {
     add_components(read_stl(path), bodies);
+  } else if (extension == ".ply") {
+    add_components(read_ply(path), bodies);
   } else if (extension == ".vtk" || extension == ".vtp" || extension == ".vtu") {
     bodies = read_vtk(path);
   } else {
-    throw Error(fmt::format(
-        "{}: surfaces are read from .vtk (legacy), .obj and .stl, not {}. Convert the file or "
-        "rename it after its format.",
-        path, in_quotes(extension)));
+    throw Error(
+        fmt::format("{}: surfaces are read from .vtk (legacy), .obj, .stl and .ply, not {}. "
+                    "Convert the file or "
+                    "rename it after its format.",
+                    path, in_quotes(extension)));
   }
   check(!bodies.empty(),
         fmt::format("{}: the file holds no faces. Save the surface with its polygons.", path));

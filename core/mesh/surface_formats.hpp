@@ -17,6 +17,7 @@ void add_polygon(const InputFile& file, std::size_t place, const std::string& wh
 
 /// All faces of a file as one surface, in file units. Throw Error as read_surfaces does.
 Surface read_obj(const std::string& path);
+Surface read_ply(const std::string& path);
 Surface read_stl(const std::string& path);
 
 }  // namespace acinus::mesh

@@ -18,6 +18,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/start_shapes.hpp"
 #include "coupling/start_up.hpp"
+#include "coupling/take_shapes.hpp"
 #include "coupling/world/orientation.hpp"
 #include "runs/build/build_boundary.hpp"
 #include "runs/build/build_correction.hpp"
@@ -123,6 +124,26 @@ void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double de
       more ? ", ..." : "", depth, cut.smallest_volume, fmt::join(ways, ", or ")));
 }
 
+/// Cells take the shape of their surfaces, cell k that of surface k.
+void give_shapes(const std::vector<mesh::Surface>& surfaces, coupling::World& world, Notes& notes) {
+  std::vector<coupling::CellSurface> shape;
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    shape.push_back({static_cast<std::int64_t>(k), &surfaces[k]});
+  const coupling::TakenShapes taken = coupling::take_shapes(shape, world);
+  if (taken.laid + taken.filled > 0)
+    notes.said.push_back(
+        fmt::format("{} cells have the shape of their surface{}; worst triangle {:.2f} of 1",
+                    taken.laid + taken.filled,
+                    taken.filled > 0 ? fmt::format(", {} of them blown up inside it", taken.filled)
+                                     : std::string(),
+                    taken.worst_quality));
+  for (const auto& [lineage, cause] : taken.round)
+    notes.warned.push_back(fmt::format(
+        "cell {} starts as a ball of its volume, not in its shape: {}. A finer mesh may follow it "
+        "(dcm.nodes of its type).",
+        lineage, cause));
+}
+
 }  // namespace
 
 BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
@@ -149,8 +170,11 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
     coupling::begin_life(world);
     return built;
   }
-  std::vector<PlacedCell> cells = place_cells(scene, lobule ? &*lobule : nullptr, p.boundary);
+  const std::vector<mesh::Surface> surfaces = read_cell_surfaces(scene);
+  std::vector<PlacedCell> cells =
+      place_cells(scene, lobule ? &*lobule : nullptr, surfaces, p.boundary);
   for (PlacedCell& c : cells) {  // older cells are larger
+    if (c.shaped) continue;
     const std::size_t type = std::distance(scene.cell_types.begin(), scene.cell_types.find(c.type));
     c.radius *= std::cbrt(1 + coupling::draw_start_age(p.life.type[type], scene.seed, c.lineage));
   }
@@ -159,6 +183,9 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   note_weak_cortex(scene, world.state.dcm, built.notes);
   if (scene.start_up.enabled) {
     coupling::begin_start_up(world, scene.start_up.initial_radius);
+  } else if (!surfaces.empty()) {
+    give_shapes(surfaces, world, built.notes);
+    coupling::begin_life(world);
   } else {
     note_cut_cells(scene, coupling::cut_overlapping(world), p.dcm_contact.max_depth, built.notes);
     coupling::begin_life(world);

@@ -1,10 +1,8 @@
 #include "runs/build/memory_need.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
 #include "core/error.hpp"
@@ -20,13 +18,6 @@ namespace {
 constexpr double kBytesPerNode = 450, kBytesPerSphere = 900;
 /// Of a branch point: its nodes, segments, wall and the grids that find them.
 constexpr double kBytesPerBranch = 2000;
-
-/// Memory that a control group allows, bytes; infinite: any.
-double group_limit() {
-  std::ifstream file("/sys/fs/cgroup/memory.max");
-  double bytes = 0;
-  return file >> bytes ? bytes : std::numeric_limits<double>::infinity();
-}
 
 /// Of the smallest mesh among the cell types: which cells are of which is not known yet.
 double bytes_per_cell(const Scene& scene) {
@@ -44,12 +35,6 @@ double count_branches(const Scene& scene) {
 std::string in_gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
 
 }  // namespace
-
-double machine_memory() {
-  const double physical =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return std::min(physical, group_limit());
-}
 
 double estimate_memory(const Scene& scene) {
   return count_wanted_cells(scene) * bytes_per_cell(scene) +

@@ -5,9 +5,6 @@
 
 namespace acinus::runs {
 
-/// Memory of this machine, or of the control group the process runs in if that has less, bytes.
-double machine_memory();
-
 /// Memory that cells and vessels of a scene take at least, at its start, bytes: cells by number,
 /// model and mesh, branches of a generated lobule. What zoom decides counts as spheres.
 double estimate_memory(const Scene& scene);

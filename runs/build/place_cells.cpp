@@ -10,7 +10,10 @@
 #include "core/contact/box_pairs.hpp"
 #include "core/contact/nearest_gap.hpp"
 #include "core/error.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/mesh/read_surface.hpp"
 #include "core/random.hpp"
+#include "core/sphere.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/zoom/regions.hpp"
 #include "runs/build/cell_types.hpp"
@@ -125,7 +128,13 @@ void choose_models(const Scene& scene, const mesh::Network& vessels,
 
 }  // namespace
 
+std::vector<mesh::Surface> read_cell_surfaces(const Scene& scene) {
+  if (scene.cells.source != CellSource::kMeshes) return {};
+  return mesh::read_closed_surfaces(scene.cells.file, scene.cells.unit);
+}
+
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
+                                    std::span<const mesh::Surface> surface,
                                     const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
   const double diameter = 2 * largest_radius(scene);
@@ -160,6 +169,9 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
           uniform);
     else if (c.source == CellSource::kFill)
       centers = fill_box(scene, boundary);
+    else if (c.source == CellSource::kMeshes)
+      for (const mesh::Surface& s : surface)
+        centers.push_back(mesh::compute_centroid(s.node, s.triangle));
     else if (lobule)
       centers = lobule->seeds;
     cells.reserve(centers.size());
@@ -169,6 +181,11 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
       p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
       p.radius = scene.cell_types.at(p.type).radius;
       p.oriented = false;
+      if (c.source == CellSource::kMeshes) {
+        const mesh::Surface& s = surface[cells.size()];
+        p.radius = sphere_radius(mesh::compute_volume(s.node, s.triangle));
+        p.shaped = true;
+      }
       choose(c.model, p);
       cells.push_back(p);
     }
@@ -185,7 +202,8 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
   int bad = 0;
   for (const PlacedCell& c : cells) {
     std::string name;
-    const double r = start_radius(scene, c.radius);
+    // Of a shape of its own only the middle is looked at.
+    const double r = c.shaped ? kStartDepth : start_radius(scene, c.radius);
     const double gap = contact::nearest_gap(boundary, c.center, 0, &name);
     if (gap >= r - kStartDepth) continue;
     if (++bad <= 10)
@@ -216,6 +234,8 @@ double count_wanted_cells(const Scene& scene) {
   if (c.source == CellSource::kList) return static_cast<double>(c.list.size());
   if (c.source == CellSource::kBox) return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
   if (c.source == CellSource::kLobule && scene.lobule) return scene.lobule->cells;
+  if (c.source == CellSource::kMeshes)
+    return static_cast<double>(mesh::read_surfaces(c.file, c.unit).size());
   return c.count;
 }
 

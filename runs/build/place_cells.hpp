@@ -2,9 +2,11 @@
 /// Where the cells of a scene start, and which model each of them is.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/mesh/surface.hpp"
 #include "core/vec.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/world/world.hpp"
@@ -19,13 +21,20 @@ struct PlacedCell {
   double radius = 0;  ///< um at rest
   bool deformable = false;
   bool oriented = true;  ///< keep the mesh as it is; generated cells get a random orientation
+  bool shaped = false;   ///< has the shape of a surface, see cells.file
   Vec3 pull = Vec3::Zero();
 };
 
+/// The closed surfaces of cells.file, in um; none unless the scene has one.
+/// @throws Error for a file that cannot be used, with the body
+std::vector<mesh::Surface> read_cell_surfaces(const Scene& scene);
+
 /// All cells of the scene. Depends on the seed and the geometry, not on the models.
-/// @param lobule  empty unless the scene has one
+/// @param lobule   empty unless the scene has one
+/// @param surface  of read_cell_surfaces: cell k has the volume and the middle of surface k
 /// @throws Error when a source cannot place what is asked
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
+                                    std::span<const mesh::Surface> surface,
                                     const contact::Boundary& boundary);
 
 /// Every cell that starts inside a vessel or another obstacle, outside a wall or in another cell,

@@ -28,6 +28,8 @@ std::string way_to_part(const Scene& scene) {
     case CellSource::kFill:
       return "place fewer of them farther apart (cells.count, cells.min_distance), or take smaller "
              "ones (radius of the cell type)";
+    case CellSource::kMeshes:
+      return "move their surfaces apart (cells.file)";
     case CellSource::kLobule:
       break;
   }

@@ -26,7 +26,7 @@ constexpr double kLeastLocalArea = 0.04;
 /// Largest distance of a cell's centre from the middle, um.
 double reach_of(const Scene& scene) {
   double reach = 0;
-  for (const PlacedCell& c : place_cells(scene, nullptr, {}))
+  for (const PlacedCell& c : place_cells(scene, nullptr, {}, {}))
     reach = std::max(reach, c.center.norm());
   return reach;
 }

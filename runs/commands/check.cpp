@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/memory.hpp"
 #include "core/stop.hpp"
 #include "runs/build/build_world.hpp"
 #include "runs/build/memory_need.hpp"

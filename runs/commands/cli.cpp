@@ -49,6 +49,8 @@ int run_cli(int argc, const char* const* argv) {
                               add_list(app),
                               add_new(app),
                               add_mesh(app),
+                              add_import(app),
+                              add_voxelise(app),
                               add_calibrate(app, command_line),
                               add_compare(app, command_line),
                               add_report(app),

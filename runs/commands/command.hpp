@@ -66,6 +66,7 @@ Command add_calibrate(CLI::App& app, const std::string& command_line);
 Command add_check(CLI::App& app);
 Command add_compare(CLI::App& app, const std::string& command_line);
 Command add_explain(CLI::App& app);
+Command add_import(CLI::App& app);
 Command add_list(CLI::App& app);
 Command add_mesh(CLI::App& app);
 Command add_new(CLI::App& app);
@@ -75,5 +76,6 @@ Command add_run(CLI::App& app, const std::string& command_line);
 Command add_serve(CLI::App& app);
 Command add_schema(CLI::App& app);
 Command add_study(CLI::App& app);
+Command add_voxelise(CLI::App& app);
 
 }  // namespace acinus::runs

@@ -111,7 +111,7 @@ int mesh_wrap(const MeshArguments& a) {
 }
 
 void add_common(CLI::App& command, MeshArguments& a) {
-  command.add_option("--out", a.out, "the surface: .vtp, .stl or .obj, in um")
+  command.add_option("--out", a.out, "the surface: .vtk, .vtp, .stl or .obj, in um")
       ->type_name("FILE")
       ->required();
   command.add_option("--unit", a.unit, "length of one unit of the file (default: 1 um)")
@@ -156,7 +156,7 @@ Command add_mesh(CLI::App& app) {
   CLI::App* wrap = add_command(
       *command, "wrap", "one closed surface about meshes that are torn or cross themselves",
       "acinus mesh wrap dirty.stl --alpha \"5 um\" --offset \"0.2 um\" --out clean.stl");
-  wrap->add_option("FILE", arguments->what, "surfaces (.vtk, .obj, .stl)")->required();
+  wrap->add_option("FILE", arguments->what, "surfaces (.vtk, .obj, .stl, .ply)")->required();
   wrap->add_option("--alpha", arguments->alpha,
                    "holes narrower than this are closed (default: a fiftieth of the extent)")
       ->type_name("LENGTH");

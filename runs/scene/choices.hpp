@@ -32,7 +32,7 @@ enum class Experiment {
 };
 /// kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
-enum class CellSource { kList, kClump, kBox, kFill, kLobule };
+enum class CellSource { kList, kClump, kBox, kFill, kLobule, kMeshes };
 /// By a prescribed force, or by a spring whose far end is moved.
 enum class PullBy { kForce, kSpring };
 
@@ -45,7 +45,7 @@ inline constexpr const char* kChoices<Experiment> =
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>
-inline constexpr const char* kChoices<CellSource> = "list|clump|box|fill|lobule";
+inline constexpr const char* kChoices<CellSource> = "list|clump|box|fill|lobule|meshes";
 template <>
 inline constexpr const char* kChoices<PullBy> = "force|spring";
 template <>

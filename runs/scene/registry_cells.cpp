@@ -273,6 +273,21 @@ void describe_cells(Visitor& v, CellsBlock& b) {
             .range = kPositive},
            b.min_distance);
   });
+  v.when(b.source == CellSource::kMeshes, "source = meshes", [&b](Visitor& w) {
+    w.text(
+        {.name = "file",
+         .meaning = "surface file, relative to the scene's folder: every closed surface in it is "
+                    "the shape of one cell, its volume that of the cell",
+         .required = true,
+         .is_file = true},
+        b.file);
+    w.real({.name = "unit",
+            .meaning = "length of one unit of the file",
+            .dimension = kLength,
+            .unit = "um",
+            .range = kPositive},
+           b.unit);
+  });
 }
 
 }  // namespace acinus::runs

@@ -200,6 +200,11 @@ void check_cells(const Scene& scene, Report& report) {
                                     "the regions (--set zoom=[]) or change the model",
                                     name_of_choice(cells.model)));
   }
+  if (cells.source == CellSource::kMeshes && scene.start_up.enabled) {
+    report.add_relation({"/cells/source", "/start_up/enabled"}, "\"meshes\"",
+                        "gives cells the shape and size that they start with. Set "
+                        "/start_up/enabled to false");
+  }
   if (cells.source == CellSource::kFill)
     check_box(cells.low, cells.high, "/cells/low", "/cells/high", report);
   bool all_chosen = cells.source == CellSource::kList && !cells.list.empty();

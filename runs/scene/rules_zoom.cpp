@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/units.hpp"
 #include "runs/scene/rules.hpp"
@@ -13,11 +14,12 @@ namespace {
 std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
 std::string pressure(double value) { return "\"" + format_quantity(value, kStress, "Pa") + "\""; }
 
-/// How many cells a scene surely has; lists and boxes say it.
+/// How many cells a scene has at most; lists and boxes say it, meshes stand in a file.
 std::int64_t count_cells(const Scene& scene) {
   const CellsBlock& c = scene.cells;
   if (c.source == CellSource::kList) return std::ssize(c.list);
   if (c.source == CellSource::kBox) return std::int64_t{1} * c.grid[0] * c.grid[1] * c.grid[2];
+  if (c.source == CellSource::kMeshes) return std::numeric_limits<std::int64_t>::max();
   return c.source == CellSource::kLobule && scene.lobule ? scene.lobule->cells : c.count;
 }
 

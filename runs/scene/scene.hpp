@@ -149,6 +149,8 @@ struct CellsBlock {
   std::array<int, 3> grid{3, 3, 3};  ///< box: cells along x, y, z
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< fill: corners of the box, um
   double min_distance = 20;                      ///< fill: smallest centre distance, um
+  std::string file;                              ///< meshes: closed surfaces, one a cell
+  double unit = 1;                               ///< meshes: um per unit of the file
 };
 
 struct LobuleBlock {

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "runs/build/memory_need.hpp"
 #include "runs/serve/access.hpp"
 #include "runs/serve/connection.hpp"

@@ -16,6 +16,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "core/stop.hpp"
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"

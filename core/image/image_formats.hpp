@@ -1,0 +1,53 @@
+#pragma once
+/// The parts of read_image.cpp, one per file format. Not for use elsewhere.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/image/label_image.hpp"
+#include "core/image/scalar.hpp"
+
+namespace acinus::image {
+
+/// What a file says, before units are looked at.
+struct ImageFile {
+  std::array<std::int64_t, 3> size{};
+  Vec3 step = Vec3::Zero();  ///< sides of a voxel in units of the file; 0 where it does not say
+  double unit = 0;           ///< um in such a unit; 0: the file does not say
+  Scalar type = Scalar::kU8;
+  std::vector<Label> label;  ///< [z][y][x]
+
+  Voxel voxels() const {  ///< @pre count_voxels
+    return {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
+  }
+};
+
+/// Which of several channels, from 0; nothing where the file must have one only.
+struct ChannelChoice {
+  std::int64_t channel = -1;  ///< -1: not said
+  /// The channel to read. Throws Error where there are several and none was said, or fewer.
+  std::int64_t among(const std::string& path, std::int64_t n) const;
+};
+
+/// um in a unit by one of its names, as files spell it ("um", "micron", "mm"...); 0: unknown.
+double unit_by_name(std::string_view name);
+
+// All throw Error, with path and place, at what is wrong or not supported.
+ImageFile read_tiff(const std::string& path, const ChannelChoice& channel);
+ImageFile read_nifti(const std::string& path, const ChannelChoice& channel);
+ImageFile read_metaimage(const std::string& path);
+ImageFile read_nrrd(const std::string& path);
+ImageFile read_hdf5(const std::string& path, const std::string& dataset);
+
+/// The data that the header of a file announces: raw bytes, or a zlib or gzip stream.
+struct ImageBytes {
+  std::string path;  ///< of the file that has them, for messages
+  std::string_view stored;
+  bool compressed = false, swap = false;
+};
+
+/// Fills file.label. @pre file.size and file.type are set
+void take_bytes(const ImageBytes& bytes, ImageFile& file);
+
+}  // namespace acinus::image

@@ -1,0 +1,114 @@
+#include "core/image/label_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/box.hpp"
+#include "core/error.hpp"
+#include "core/image/distance.hpp"
+#include "core/implicit/extract.hpp"
+#include "core/mesh/components.hpp"
+#include "core/mesh/euler.hpp"
+#include "core/mesh/measures.hpp"
+
+namespace acinus::image {
+namespace {
+
+/// Longest edge of tetrahedra over the mean edge of the triangles that they are cut in.
+constexpr double kTetrahedra = 4;
+constexpr std::size_t kMostTriangles = 2'000'000;
+
+double volume_of(const mesh::Surface& s) { return mesh::compute_volume(s.node, s.triangle); }
+
+/// The smoothed distance in and around the box of a piece.
+Grid distance_about(const LabelImage& image, const Piece& piece, double smoothing) {
+  const int margin = 2 + static_cast<int>(std::ceil(3 * smoothing));
+  Grid grid;
+  grid.voxel = image.voxel;
+  Voxel low;
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = piece.low[k] - margin;
+    grid.size[k] = piece.high[k] - piece.low[k] + 1 + 2 * margin;
+  }
+  grid.origin = image.center(low);
+  std::vector<std::uint8_t> inside(static_cast<std::size_t>(grid.size[0]) * grid.size[1] *
+                                   grid.size[2]);
+  for (int z = piece.low[2]; z <= piece.high[2]; ++z)
+    for (int y = piece.low[1]; y <= piece.high[1]; ++y)
+      for (int x = piece.low[0]; x <= piece.high[0]; ++x)
+        if (image.label[image.index({x, y, z})] == piece.label)
+          inside[grid.index({x - low[0], y - low[1], z - low[2]})] = 1;
+  find_signed_distance(inside, grid);
+  smooth(Vec3::Constant(smoothing), grid);
+  return grid;
+}
+
+/// The value at which what lies below has a volume: a voxel counts in part within half its smallest
+/// side of the wall.
+double find_level(const Grid& grid, double volume) {
+  constexpr int kHalvings = 40;
+  const double side = grid.voxel.minCoeff(), voxel = grid.voxel.prod();
+  const auto [least, most] = std::ranges::minmax(grid.value);
+  double low = least - side, high = most + side;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double level = 0.5 * (low + high);
+    double below = 0;
+    for (const double v : grid.value) below += std::clamp(0.5 - (v - level) / side, 0.0, 1.0);
+    (below * voxel < volume ? low : high) = level;
+  }
+  return 0.5 * (low + high);
+}
+
+/// The surface at a value of the grid; what is largest of it, if it has parts.
+mesh::Surface surface_at(const Grid& grid, double level, double steepest, double edge) {
+  implicit::Shape shape;
+  shape.value = [&](const Vec3& x, std::span<const int>) { return grid.at(x) - level; };
+  shape.distance = [&](const Vec3& x, int) { return (grid.at(x) - level) / steepest; };
+  shape.size = {kTetrahedra * edge};
+  Box box;
+  box.include(grid.origin);
+  box.include(grid.origin +
+              grid.voxel.cwiseProduct(Vec3(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1)));
+  shape.box = {box};
+  return implicit::extract_zero(shape, kMostTriangles);
+}
+
+}  // namespace
+
+LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, double edge,
+                                double smoothing) {
+  constexpr int kRounds = 6;
+  constexpr double kExact = 1e-3;  // of the volume
+  const Grid grid = distance_about(image, piece, smoothing);
+  const double steepest = std::max(1.0, find_steepest(grid));
+  LabelSurface out;
+  out.volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
+  // Where the distance rises by 1 um a um, the volume rises by the area.
+  double level = find_level(grid, out.volume);
+  std::vector<mesh::Surface> parts;
+  for (int round = 0; round < kRounds; ++round) {
+    const mesh::Surface all = surface_at(grid, level, steepest, edge);
+    parts = mesh::split_components(all);
+    if (parts.empty()) break;
+    const double missing = out.volume - volume_of(all);
+    if (std::abs(missing) < kExact * out.volume) break;
+    level += missing / mesh::compute_area(all.node, all.triangle);
+  }
+  check(!parts.empty(), fmt::format("label {}: its {} voxels are too few for a surface",
+                                    piece.label, piece.n_voxel));
+  std::ranges::stable_sort(parts, [](const mesh::Surface& a, const mesh::Surface& b) {
+    return volume_of(a) > volume_of(b);
+  });
+  for (std::size_t k = 1; k < parts.size(); ++k) out.left_out += std::max(0.0, volume_of(parts[k]));
+  out.surface = std::move(parts.front());
+  out.handles = mesh::find_connectivity(out.surface).handles();
+  return out;
+}
+
+}  // namespace acinus::image

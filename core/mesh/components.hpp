@@ -1,0 +1,14 @@
+#pragma once
+/// The connected parts of a triangle surface.
+
+#include <vector>
+
+#include "core/mesh/surface.hpp"
+
+namespace acinus::mesh {
+
+/// Parts that share no node, ordered by their first triangle; nodes keep their order, and those of
+/// no triangle are left out.
+std::vector<Surface> split_components(const Surface& surface);
+
+}  // namespace acinus::mesh

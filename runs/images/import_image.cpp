@@ -1,0 +1,303 @@
+#include "runs/images/import_image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/image/label_surface.hpp"
+#include "core/image/pieces.hpp"
+#include "core/mesh/remesh.hpp"
+#include "core/sphere.hpp"
+#include "core/threads.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using image::Label;
+using image::LabelImage;
+using image::Piece;
+using image::Pieces;
+
+/// Sides of triangles over the radius of a ball of the label's volume: some 2500 to a cell.
+constexpr double kEdge = 0.12;
+/// No side is below this share of a voxel's.
+constexpr double kLeastEdge = 0.7;
+
+double edge_for(const LabelImage& image, const Piece& piece) {
+  const double volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
+  return std::max(kEdge * sphere_radius(volume), kLeastEdge * image.voxel.minCoeff());
+}
+
+void check_uneven(const LabelImage& image, std::vector<std::string>& warned) {
+  constexpr double kMost = 4;
+  const double ratio = image.voxel.maxCoeff() / image.voxel.minCoeff();
+  if (ratio <= kMost) return;
+  warned.push_back(
+      fmt::format("voxels of {:.3g} x {:.3g} x {:.3g} um are {:.2g} times as long as wide: shapes "
+                  "along the long side are guesses between slices",
+                  image.voxel[0], image.voxel[1], image.voxel[2], ratio));
+}
+
+/// Vessels as an image of their own, label 1, taken out of the cells' image.
+LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
+                        std::vector<std::string>& warned) {
+  LabelImage vessels = cells;
+  std::ranges::fill(vessels.label, 0);
+  if (!o.vessels.empty()) {
+    image::ReadImage read = o.read;
+    read.voxel = cells.voxel;
+    const LabelImage other = image::read_image(o.vessels, read);
+    check(other.size == cells.size,
+          fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
+                      o.vessels, other.size[0], other.size[1], other.size[2], o.image,
+                      cells.size[0], cells.size[1], cells.size[2]));
+    for (std::size_t k = 0; k < other.label.size(); ++k) vessels.label[k] = other.label[k] != 0;
+  }
+  std::size_t both = 0, any = 0;
+  for (std::size_t k = 0; k < cells.label.size(); ++k) {
+    const bool named = o.vessel_label != 0 && cells.label[k] == o.vessel_label;
+    if (named) vessels.label[k] = 1;
+    any += vessels.label[k];
+    if (vessels.label[k] == 0 || cells.label[k] == 0) continue;
+    both += named ? 0 : 1;
+    cells.label[k] = 0;
+  }
+  if (both > 0)
+    warned.push_back(
+        fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", both));
+  check(any > 0 || (o.vessels.empty() && o.vessel_label == 0),
+        fmt::format("{}: no voxel is {}.", o.vessels.empty() ? o.image : o.vessels,
+                    o.vessels.empty() ? fmt::format("labelled {}", o.vessel_label) : "not 0"));
+  return vessels;
+}
+
+/// Numbers that an 8-bit file ran out of come twice: told by labels in several large pieces.
+void check_overflow(const ImportOptions& o, const LabelImage& image, const Pieces& pieces) {
+  constexpr double kLargePart = 0.3, kMostShare = 0.1;
+  std::size_t labels = 0, twice = 0;
+  Label first = 0;
+  for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+    const Piece& p = pieces.piece[k];
+    if (k > 0 && pieces.piece[k - 1].label == p.label) continue;
+    ++labels;
+    const bool large = k + 1 < pieces.piece.size() && pieces.piece[k + 1].label == p.label &&
+                       static_cast<double>(pieces.piece[k + 1].n_voxel) >
+                           kLargePart * static_cast<double>(p.n_voxel);
+    if (large && twice++ == 0) first = p.label;
+  }
+  const bool many = static_cast<double>(twice) > kMostShare * static_cast<double>(labels);
+  check(!many || o.split,
+        fmt::format(
+            "{}: {} of {} labels are in several large pieces, label {} first{}. Give --split to "
+            "make every piece a cell, or label the cells anew.",
+            o.image, twice, labels, first,
+            image.most_label <= 255
+                ? ": its type counts to 255 only, and there are probably more cells than that"
+                : ""));
+}
+
+/// What is left out before any surface is made, and taken out of the image.
+class Sorting {
+ public:
+  Sorting(const ImportOptions& o, LabelImage& image, ImportedTissue& tissue)
+      : o_(o), image_(image), tissue_(tissue) {}
+
+  /// The pieces to keep, each the only one of its label.
+  std::vector<Piece> run() {
+    Pieces pieces = image::find_pieces(image_);
+    check(!pieces.piece.empty(),
+          fmt::format("{}: all voxels are 0, the background. Is this the label image?", o_.image));
+    check_overflow(o_, image_, pieces);
+    const double smallest = o_.smallest > 0 ? o_.smallest : 0.1 * median_volume(pieces);
+    std::vector<Piece> kept;
+    std::vector<char> keep(pieces.piece.size(), 0);
+    for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+      Piece& p = pieces.piece[k];
+      const std::string why = reason(pieces, k, smallest);
+      if (!why.empty()) {
+        tissue_.left_out.push_back({p.label, p.n_voxel, p.center, why});
+        continue;
+      }
+      keep[k] = 1;
+      kept.push_back(p);
+    }
+    if (o_.split) number_anew(pieces, keep, kept);
+    for (const image::PieceRow& row : pieces.row)
+      if (keep[row.piece] == 0)
+        std::fill_n(&image_.label[image_.index(row.first)], row.length, Label{0});
+    return kept;
+  }
+
+ private:
+  double volume(const Piece& p) const {
+    return static_cast<double>(p.n_voxel) * image_.voxel_volume();
+  }
+  /// um^3, of the labels that have the size of cells: specks do not count, however many.
+  double median_volume(const Pieces& pieces) const {
+    std::vector<double> all;
+    for (const Piece& p : pieces.piece) all.push_back(volume(p));
+    std::ranges::sort(all, std::greater());
+    double total = 0, sum = 0;
+    for (const double v : all) total += v;
+    for (const double v : all)  // half of all voxels are in pieces at least as large
+      if ((sum += v) >= 0.5 * total) return v;
+    return all.back();
+  }
+  std::string reason(const Pieces& pieces, std::size_t k, double smallest) const {
+    constexpr std::size_t kLeastVoxels = 27;
+    const Piece& p = pieces.piece[k];
+    const bool main = k == 0 || pieces.piece[k - 1].label != p.label;
+    if (!main && !o_.split)
+      return "a part of its label that does not hang together with the largest";
+    if (p.n_voxel < kLeastVoxels) return fmt::format("a speck: fewer than {} voxels", kLeastVoxels);
+    if (volume(p) < smallest) return fmt::format("a speck: smaller than {:.3g} um^3", smallest);
+    if (p.at_border && !o_.keep_border) return "cut off by the border of the image";
+    return {};
+  }
+  /// Pieces of one label become labels of their own, the main one keeps it.
+  void number_anew(const Pieces& pieces, const std::vector<char>& keep, std::vector<Piece>& kept) {
+    Label next = pieces.piece.back().label;
+    std::vector<Label> label(pieces.piece.size());
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+      const bool main = k == 0 || pieces.piece[k - 1].label != pieces.piece[k].label;
+      label[k] = main ? pieces.piece[k].label : ++next;
+      if (keep[k] != 0) kept[at++].label = label[k];
+    }
+    for (const image::PieceRow& row : pieces.row)
+      std::fill_n(&image_.label[image_.index(row.first)], row.length, label[row.piece]);
+    std::ranges::sort(kept, {}, &Piece::label);
+  }
+
+  const ImportOptions& o_;
+  LabelImage& image_;
+  ImportedTissue& tissue_;
+};
+
+/// The surface of a piece, smoothed more where it has holes at first.
+/// @return why there is none, or empty
+std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
+                         mesh::Surface& surface) {
+  constexpr std::array<double, 3> kMore{1, 1.6, 2.5};
+  constexpr double kMostLost = 0.1;
+  std::string why;
+  for (const double more : kMore) {
+    try {
+      image::LabelSurface made =
+          image::make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
+      if (made.handles > 0) {
+        why = "it has a hole through it";
+        continue;
+      }
+      if (made.left_out > kMostLost * made.volume)
+        return "its parts hang together by a few voxels only";
+      surface = std::move(made.surface);
+      return {};
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+  return why;
+}
+
+void add_cells(const ImportOptions& o, const LabelImage& image, const std::vector<Piece>& pieces,
+               ImportedTissue& tissue) {
+  std::vector<ImportedCell> cell(pieces.size());
+  std::vector<std::string> why(pieces.size());
+  for_each_part(pieces.size(), [&](std::size_t k) {
+    const Piece& p = pieces[k];
+    cell[k].label = p.label;
+    cell[k].n_voxel = p.n_voxel;
+    cell[k].volume = static_cast<double>(p.n_voxel) * image.voxel_volume();
+    cell[k].center = p.center;
+    cell[k].at_border = p.at_border;
+    why[k] = make_surface(image, p, o.smoothing, cell[k].surface);
+  });
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (why[k].empty())
+      tissue.cell.push_back(std::move(cell[k]));
+    else
+      tissue.left_out.push_back({cell[k].label, cell[k].n_voxel, cell[k].center, why[k]});
+  }
+}
+
+/// Who touches whom in the image, cells and vessels.
+void add_neighbours(const LabelImage& image, const LabelImage& vessels, ImportedTissue& tissue) {
+  constexpr int kFaces = 4;  // of voxels: fewer are chance
+  const Label vessel = [&] {
+    Label most = 0;
+    for (const ImportedCell& c : tissue.cell) most = std::max(most, c.label);
+    return most + 1;
+  }();
+  LabelImage both = image;
+  for (std::size_t k = 0; k < both.label.size(); ++k)
+    if (vessels.label[k] != 0) both.label[k] = vessel;
+  std::map<Label, ImportedCell*> by_label;
+  for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
+  for (const auto& [a, b] : image::find_touching(both, kFaces)) {
+    const auto p = by_label.find(a), q = by_label.find(b);
+    if (p == by_label.end()) continue;
+    if (b == vessel) p->second->at_vessel = true;
+    if (q == by_label.end()) continue;
+    ++p->second->neighbours;
+    ++q->second->neighbours;
+    tissue.touching.push_back({a, b});
+  }
+}
+
+void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
+  Pieces pieces = image::find_pieces(vessels);
+  LabelImage numbered = vessels;
+  const std::size_t smallest = 27;
+  for (const image::PieceRow& row : pieces.row)
+    std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
+                static_cast<Label>(row.piece) + 1);
+  std::size_t specks = 0;
+  for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+    Piece p = pieces.piece[k];
+    p.label = static_cast<Label>(k) + 1;
+    if (p.n_voxel < smallest) {
+      ++specks;
+      continue;
+    }
+    // A network is thin where a cell of its volume is not.
+    image::LabelSurface made =
+        image::make_label_surface(numbered, p, kLeastEdge * numbered.voxel.maxCoeff(), o.smoothing);
+    tissue.vessel.push_back(std::move(made.surface));
+  }
+  if (specks > 0)
+    tissue.warned.push_back(fmt::format(
+        "{} specks of vessels with fewer than {} voxels are left out", specks, smallest));
+}
+
+}  // namespace
+
+ImportedTissue import_image(const ImportOptions& o) {
+  ImportedTissue tissue;
+  LabelImage image = image::read_image(o.image, o.read);
+  tissue.size = image.size;
+  tissue.voxel = image.voxel;
+  check_uneven(image, tissue.warned);
+  const LabelImage vessels = take_vessels(o, image, tissue.warned);
+  const std::vector<Piece> pieces = Sorting(o, image, tissue).run();
+  add_cells(o, image, pieces, tissue);
+  std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {
+    return a.label != b.label ? a.label < b.label : a.n_voxel > b.n_voxel;
+  });
+  check(!tissue.cell.empty(),
+        fmt::format("{}: none of its {} labels can be kept; the first: label {}, {} voxels near "
+                    "({:.4g}, {:.4g}, {:.4g}) um: {}.{}",
+                    o.image, tissue.left_out.size(), tissue.left_out.front().label,
+                    tissue.left_out.front().n_voxel, tissue.left_out.front().center[0],
+                    tissue.left_out.front().center[1], tissue.left_out.front().center[2],
+                    tissue.left_out.front().why,
+                    o.keep_border ? "" : " --border keep keeps cells that the border cuts off."));
+  add_neighbours(image, vessels, tissue);
+  add_vessels(o, vessels, tissue);
+  return tissue;
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,67 @@
+#pragma once
+/// A scene from a label image: its cells as deformable cells or spheres, its vessels as a surface.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image/label_image.hpp"
+#include "core/image/read_image.hpp"
+#include "core/mesh/surface.hpp"
+#include "runs/scene/choices.hpp"
+
+namespace acinus::runs {
+
+struct ImportOptions {
+  std::string image;
+  image::ReadImage read;
+  std::string vessels;            ///< an image of the same size, not 0 inside vessels; "" = none
+  image::Label vessel_label = 0;  ///< or the label of vessels in the image; 0 = none
+  CellModel model = CellModel::kDcm;
+  int nodes = 162;           ///< of a cell's mesh
+  double smallest = 0;       ///< um^3; smaller labels are specks; 0: a tenth of the median
+  double smoothing = 0.7;    ///< voxels, standard deviation
+  bool keep_border = false;  ///< cells cut off by the border stay, between mirror walls
+  bool split = false;        ///< every connected piece of a label is a cell of its own
+};
+
+/// A label, or a piece of one, that is no cell of the scene.
+struct LeftOut {
+  image::Label label = 0;
+  std::size_t n_voxel = 0;
+  Vec3 center = Vec3::Zero();  ///< um
+  std::string why;
+};
+
+struct ImportedCell {
+  image::Label label = 0;
+  std::size_t n_voxel = 0;
+  double volume = 0;           ///< um^3, of its voxels
+  Vec3 center = Vec3::Zero();  ///< um, of its voxels
+  int neighbours = 0;          ///< cells that touch it in the image
+  bool at_border = false, at_vessel = false;
+  mesh::Surface surface;
+};
+
+struct ImportedTissue {
+  image::Voxel size{};
+  Vec3 voxel = Vec3::Zero();       ///< um
+  std::vector<ImportedCell> cell;  ///< by label
+  std::vector<LeftOut> left_out;   ///< by label, the larger first
+  std::vector<mesh::Surface> vessel;
+  std::vector<std::array<image::Label, 2>> touching;  ///< pairs of kept cells
+  std::vector<std::string> warned;
+};
+
+/// Reads, sorts out and makes surfaces. um from the corner of the image.
+/// @throws Error for an image that cannot be used or holds no cell that can be kept
+ImportedTissue import_image(const ImportOptions& options);
+
+/// Writes scene.json, cells.vtk, cells.csv, and where there are any vessels.vtk and left_out.csv,
+/// into a new folder. The scene is read once more, so that it surely runs.
+/// @return paths written, the scene first
+/// @throws Error if the folder exists (kBadInput), or the disk refuses (kFileError)
+std::vector<std::string> write_tissue(const ImportedTissue& tissue, const ImportOptions& options,
+                                      const std::string& folder);
+
+}  // namespace acinus::runs

@@ -1,0 +1,109 @@
+#include "runs/images/voxelise_run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/implicit/vessel_mesh.hpp"
+#include "core/io/run_reader.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/mesh/topology.hpp"
+#include "core/sphere.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr std::uint8_t kDeformable = 0, kSphere = 1;  // io::Frame::kind
+constexpr int kSphereNodes = 642;
+
+Vec3 point_of(const io::Frame& f, std::int64_t k) {
+  const auto at = static_cast<std::size_t>(3 * k);
+  return {f.point[at], f.point[at + 1], f.point[at + 2]};
+}
+
+/// Closed surfaces by lineage.
+std::map<std::int64_t, mesh::Surface> surfaces_of(const io::Frame& f) {
+  std::map<std::int64_t, mesh::Surface> out;
+  std::map<std::int64_t, int> number;  // of nodes, each of one cell
+  for (std::size_t t = 0; t < f.triangle.size(); ++t) {
+    if (f.kind[t] != kDeformable) continue;
+    mesh::Surface& s = out[f.cell_id[t]];
+    std::array<int, 3> corner{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [at, fresh] =
+          number.try_emplace(f.triangle[t][k], static_cast<int>(s.node.size()));
+      if (fresh) s.node.push_back(point_of(f, f.triangle[t][k]));
+      corner[k] = at->second;
+    }
+    s.triangle.push_back(corner);
+  }
+  const mesh::Topology& ball = mesh::shared_icosphere(kSphereNodes);
+  for (const io::Field& field : f.cell_data) {
+    if (field.name != "radius") continue;
+    for (std::int64_t k = 0; k < f.n_sphere; ++k) {
+      const std::size_t at = f.triangle.size() + static_cast<std::size_t>(k);
+      if (f.kind[at] != kSphere) continue;
+      mesh::Surface s;
+      s.triangle = ball.triangle;
+      for (const Vec3& x : ball.rest)
+        s.node.push_back(point_of(f, f.n_mesh_node + k) + static_cast<double>(field.value[at]) * x);
+      out[f.cell_id[at]] = std::move(s);
+    }
+  }
+  return out;
+}
+
+std::optional<mesh::Surface> vessels_of(const io::RunReader& run, const std::string& folder) {
+  const auto provenance = run.provenance();
+  const auto text = provenance.find("scene");
+  if (text == provenance.end()) return std::nullopt;
+  const Scene scene = parse_scene(text->second, folder, folder);
+  const mesh::Network network =
+      build_world(scene, Ranks::serial()).world.params.boundary.vessels.network;
+  if (network.segment.empty()) return std::nullopt;
+  return implicit::make_vessel_mesh(network, {}).surface;
+}
+
+}  // namespace
+
+RunImage voxelise_run(const VoxeliseRun& o) {
+  const io::RunReader run((std::filesystem::path(o.folder) / "run.vtkhdf").string());
+  const int frames = run.n_frame();
+  check(frames > 0, fmt::format("{}: the run has no frame yet.", o.folder));
+  check(o.frame < frames,
+        fmt::format("{}: --frame {}: the run has {}, numbered from 0.", o.folder, o.frame, frames));
+  RunImage out;
+  out.frame = o.frame < 0 ? frames - 1 : o.frame;
+  std::vector<mesh::Surface> body;
+  for (auto& [lineage, surface] : surfaces_of(run.frame(out.frame))) {
+    out.cell.push_back({static_cast<image::Label>(body.size()) + 1, lineage,
+                        mesh::compute_volume(surface.node, surface.triangle),
+                        mesh::compute_centroid(surface.node, surface.triangle)});
+    body.push_back(std::move(surface));
+  }
+  check(!body.empty(), fmt::format("{}: frame {} has no cells.", o.folder, out.frame));
+  if (o.vessels)
+    if (auto vessels = vessels_of(run, o.folder)) {
+      body.push_back(std::move(*vessels));
+      out.vessels = static_cast<image::Label>(body.size());
+    }
+  image::VoxelisedBodies made = image::voxelise(body, o.how);
+  out.image = std::move(made.image);
+  for (LabelledCell& c : out.cell) c.center -= made.corner;
+  return out;
+}
+
+std::string labels_text(const RunImage& image) {
+  std::string text = "label,cell,volume_um3,x_um,y_um,z_um\n";
+  for (const LabelledCell& c : image.cell)
+    text += fmt::format("{},{},{:.7g},{:.7g},{:.7g},{:.7g}\n", c.label, c.lineage, c.volume,
+                        c.center[0], c.center[1], c.center[2]);
+  return text;
+}
+
+}  // namespace acinus::runs

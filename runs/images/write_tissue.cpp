@@ -1,0 +1,164 @@
+/// The folder of a scene from an image.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/io/disk.hpp"
+#include "core/io/surface_file.hpp"
+#include "core/sphere.hpp"
+#include "runs/images/import_image.hpp"
+#include "runs/scene/key_reader.hpp"
+#include "runs/scene/reader.hpp"
+
+namespace acinus::runs {
+namespace {
+
+constexpr const char *kScene = "scene.json", *kCells = "cells.vtk", *kVessels = "vessels.vtk",
+                     *kTable = "cells.csv", *kLeftOut = "left_out.csv";
+
+/// um, with the digits that a voxel deserves.
+std::string length(double um) { return fmt::format("\"{:.6g} um\"", um); }
+
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+
+double mean_radius(const ImportedTissue& t) {
+  double volume = 0;
+  for (const ImportedCell& c : t.cell) volume += c.volume;
+  return sphere_radius(volume / static_cast<double>(t.cell.size()));
+}
+
+/// Mirror walls where the border cuts cells off: the tissue goes on there.
+std::string walls_text(const ImportedTissue& t) {
+  constexpr std::array<const char*, 3> kAxis{"x", "y", "z"};
+  std::array<std::array<bool, 2>, 3> cut{};
+  Vec3 extent;
+  for (int k = 0; k < 3; ++k) extent[k] = t.size[static_cast<std::size_t>(k)] * t.voxel[k];
+  for (const ImportedCell& c : t.cell) {
+    if (!c.at_border) continue;
+    for (const Vec3& x : c.surface.node)
+      for (int k = 0; k < 3; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        cut[at][0] = cut[at][0] || x[k] < t.voxel[k];
+        cut[at][1] = cut[at][1] || x[k] > extent[k] - t.voxel[k];
+      }
+  }
+  std::vector<std::string> walls;
+  for (int k = 0; k < 3; ++k)
+    for (const int end : {0, 1}) {
+      if (!cut[static_cast<std::size_t>(k)][static_cast<std::size_t>(end)]) continue;
+      std::array<std::string, 3> point{length(0), length(0), length(0)};
+      std::array<int, 3> normal{};
+      point[static_cast<std::size_t>(k)] = length(end == 0 ? 0 : extent[k]);
+      normal[static_cast<std::size_t>(k)] = end == 0 ? 1 : -1;
+      walls.push_back(
+          fmt::format("    {{ \"name\": \"{}_{}\", \"point\": [{}], \"normal\": [{}] }}",
+                      end == 0 ? "low" : "high", kAxis[static_cast<std::size_t>(k)],
+                      fmt::join(point, ", "), fmt::join(normal, ", ")));
+    }
+  return walls.empty() ? "" : fmt::format("  \"walls\": [\n{}\n  ],\n", fmt::join(walls, ",\n"));
+}
+
+/// Deformable cells in the middle third.
+std::string zoom_text(const ImportedTissue& t) {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const ImportedCell& c : t.cell) {
+    low = low.cwiseMin(c.center);
+    high = high.cwiseMax(c.center);
+  }
+  const Vec3 middle = 0.5 * (low + high);
+  const double radius = std::max((high - low).maxCoeff() / 3, mean_radius(t));
+  return fmt::format(
+      "  \"zoom\": [{{ \"kind\": \"sphere\", \"center\": [{}, {}, {}], \"radius\": {} }}],\n",
+      length(middle[0]), length(middle[1]), length(middle[2]), length(radius));
+}
+
+std::string scene_text(const ImportedTissue& t, const ImportOptions& o, const std::string& name) {
+  const std::string image = std::filesystem::path(o.image).filename().string();
+  const std::string vessels =
+      t.vessel.empty()
+          ? ""
+          : fmt::format("  \"static_meshes\": [{{ \"name\": \"vessels\", \"file\": \"{}\" }}],\n",
+                        kVessels);
+  return fmt::format(
+      R"({{
+  // {} cells of a label image of {} x {} x {} voxels, {:.4g} x {:.4g} x {:.4g} um each. Lengths are
+  // from the corner of the image. {} says which cell has which label.
+  "name": {},
+  "description": {},
+  "model": "{}",
+  "time": {{ "end": "1 h", "step": "60 s" }},
+  // The radius is the mean of all; every cell has the volume of its own surface.
+  "cell_types": {{ "cell": {{ "radius": {}, "dcm": {{ "nodes": {} }} }} }},
+  "cells": {{ "source": "meshes", "file": "{}" }},
+{}{}{}  "output": {{ "every": "10 min" }}
+}}
+)",
+      t.cell.size(), t.size[0], t.size[1], t.size[2], t.voxel[0], t.voxel[1], t.voxel[2], kTable,
+      quoted(name), quoted(fmt::format("{} cells from the image {}", t.cell.size(), image)),
+      name_of_choice(o.model), length(mean_radius(t)), o.nodes, kCells,
+      o.model == CellModel::kZoom ? zoom_text(t) : "", vessels, walls_text(t));
+}
+
+std::string cells_text(const ImportedTissue& t) {
+  std::string text = "cell,label,x_um,y_um,z_um,volume_um3,voxels,neighbours,at_border,at_vessel\n";
+  for (std::size_t k = 0; k < t.cell.size(); ++k) {
+    const ImportedCell& c = t.cell[k];
+    text += fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:d},{:d}\n", k, c.label,
+                        c.center[0], c.center[1], c.center[2], c.volume, c.n_voxel, c.neighbours,
+                        c.at_border, c.at_vessel);
+  }
+  return text;
+}
+
+std::string left_out_text(const ImportedTissue& t) {
+  std::string text = "label,voxels,x_um,y_um,z_um,why\n";
+  for (const LeftOut& l : t.left_out)
+    text += fmt::format("{},{},{:.6g},{:.6g},{:.6g},{}\n", l.label, l.n_voxel, l.center[0],
+                        l.center[1], l.center[2], quoted(l.why));
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptions& o,
+                                      const std::string& folder) {
+  namespace fs = std::filesystem;
+  check(!fs::exists(folder),
+        fmt::format("{}: exists already. Choose another --out, or remove it.", folder));
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) io::fail_on_disk(folder, "make the folder", error.value());
+  std::vector<std::string> written;
+  const auto path_of = [&](const char* name) {
+    return written.emplace_back((fs::path(folder) / name).string());
+  };
+  std::string name = fs::path(folder).lexically_normal().filename().string();
+  if (name.empty()) name = fs::path(folder).lexically_normal().parent_path().filename().string();
+  if (!is_name(name)) name = "tissue";
+  const std::string scene = path_of(kScene);
+  std::vector<mesh::Surface> surface;
+  std::vector<image::Label> label;
+  for (const ImportedCell& c : t.cell) {
+    surface.push_back(c.surface);
+    label.push_back(c.label);
+  }
+  io::write_surfaces(path_of(kCells), surface, label);
+  io::write_text_file(path_of(kTable), cells_text(t));
+  if (!t.vessel.empty()) {
+    const std::vector<image::Label> number(t.vessel.size(), o.vessel_label);
+    io::write_surfaces(path_of(kVessels), t.vessel, number);
+  }
+  if (!t.left_out.empty()) io::write_text_file(path_of(kLeftOut), left_out_text(t));
+  io::write_text_file(scene, scene_text(t, o, name));
+  read_scene(scene);  // throws where it could not be run
+  return written;
+}
+
+}  // namespace acinus::runs
