@@ -79,12 +79,18 @@ mesh::Surface surface_at(const Grid& grid, double level, double steepest, double
   return implicit::extract_zero(shape, kMostTriangles);
 }
 
+void scale_to(double volume, mesh::Surface& s) {
+  const Vec3 middle = mesh::compute_centroid(s.node, s.triangle);
+  const double factor = std::cbrt(volume / volume_of(s));
+  for (Vec3& x : s.node) x = middle + factor * (x - middle);
+}
+
 }  // namespace
 
 LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, double edge,
                                 double smoothing) {
-  constexpr int kRounds = 6;
-  constexpr double kExact = 1e-3;  // of the volume
+  constexpr int kRounds = 4;
+  constexpr double kNearly = 2e-3;  // of the volume; what is missing then is scaled
   const Grid grid = distance_about(image, piece, smoothing);
   const double steepest = std::max(1.0, find_steepest(grid));
   LabelSurface out;
@@ -95,9 +101,8 @@ LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, dou
   for (int round = 0; round < kRounds; ++round) {
     const mesh::Surface all = surface_at(grid, level, steepest, edge);
     parts = mesh::split_components(all);
-    if (parts.empty()) break;
     const double missing = out.volume - volume_of(all);
-    if (std::abs(missing) < kExact * out.volume) break;
+    if (parts.empty() || std::abs(missing) < kNearly * out.volume) break;
     level += missing / mesh::compute_area(all.node, all.triangle);
   }
   check(!parts.empty(), fmt::format("label {}: its {} voxels are too few for a surface",
@@ -107,6 +112,7 @@ LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, dou
   });
   for (std::size_t k = 1; k < parts.size(); ++k) out.left_out += std::max(0.0, volume_of(parts[k]));
   out.surface = std::move(parts.front());
+  scale_to(out.volume - out.left_out, out.surface);
   out.handles = mesh::find_connectivity(out.surface).handles();
   return out;
 }

@@ -9,7 +9,7 @@ namespace acinus::image {
 
 struct LabelSurface {
   mesh::Surface surface;  ///< closed, outward; um from the corner of the image
-  double volume = 0;      ///< um^3, of the voxels; that of the surface is within 0.1 % of it
+  double volume = 0;      ///< um^3, of the voxels: that of the surface and what is left out
   double left_out = 0;    ///< um^3, of parts that hang on by less than smoothing keeps
   long handles = 0;       ///< holes through it: 0 for what can be a cell
 };

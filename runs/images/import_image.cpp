@@ -273,6 +273,16 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
         "{} specks of vessels with fewer than {} voxels are left out", specks, smallest));
 }
 
+[[noreturn]] void fail_empty(const ImportOptions& o, const std::vector<LeftOut>& left_out) {
+  const LeftOut& first = left_out.front();  // there was a label, see Sorting
+  throw Error(fmt::format(
+      "{}: none of its {} labels can be kept; the first: label {}, {} voxels near ({:.4g}, {:.4g}, "
+      "{:.4g}) um: {}.{}",
+      o.image, left_out.size(), first.label, first.n_voxel, first.center[0], first.center[1],
+      first.center[2], first.why,
+      o.keep_border ? "" : " --border keep keeps cells that the border cuts off."));
+}
+
 }  // namespace
 
 ImportedTissue import_image(const ImportOptions& o) {
@@ -287,14 +297,7 @@ ImportedTissue import_image(const ImportOptions& o) {
   std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {
     return a.label != b.label ? a.label < b.label : a.n_voxel > b.n_voxel;
   });
-  check(!tissue.cell.empty(),
-        fmt::format("{}: none of its {} labels can be kept; the first: label {}, {} voxels near "
-                    "({:.4g}, {:.4g}, {:.4g}) um: {}.{}",
-                    o.image, tissue.left_out.size(), tissue.left_out.front().label,
-                    tissue.left_out.front().n_voxel, tissue.left_out.front().center[0],
-                    tissue.left_out.front().center[1], tissue.left_out.front().center[2],
-                    tissue.left_out.front().why,
-                    o.keep_border ? "" : " --border keep keeps cells that the border cuts off."));
+  if (tissue.cell.empty()) fail_empty(o, tissue.left_out);
   add_neighbours(image, vessels, tissue);
   add_vessels(o, vessels, tissue);
   return tissue;

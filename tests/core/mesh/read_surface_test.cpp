@@ -153,6 +153,55 @@ TEST(ReadSurface, ObjWithSlashesNegativesAndContinuation) {
   EXPECT_NEAR(compute_volume(bodies[0].node, bodies[0].triangle), 6, 1e-14);
 }
 
+/// As Blender, MeshLab and others write it: more properties than are needed, both binary orders.
+TEST(ReadSurface, PlyOfAllKinds) {
+  const TempFolder folder;
+  const Surface box = make_box(Vec3(1, 2, 3));
+  const auto header = [&](const std::string& format) {
+    return "ply\nformat " + format +
+           " 1.0\ncomment made by hand\nelement vertex 8\nproperty float x\nproperty float y\n"
+           "property float z\nproperty uchar red\nelement face 12\nproperty list uchar int "
+           "vertex_indices\nproperty float quality\nelement edge 1\nproperty int vertex1\n"
+           "end_header\n";
+  };
+  std::string text = header("ascii"), big = header("binary_big_endian"),
+              little = header("binary_little_endian");
+  const auto add = [&](auto value) {
+    const std::string bytes = big_endian(value);
+    big += bytes;
+    little += std::string(bytes.rbegin(), bytes.rend());
+    text += fmt::format("{} ", value);
+  };
+  const auto add_byte = [&](char value) {
+    big += value;
+    little += value;
+    text += fmt::format("{} ", static_cast<int>(value));
+  };
+  for (const Vec3& x : box.node) {
+    for (int k = 0; k < 3; ++k) add(static_cast<float>(x[k]));
+    add_byte(9);
+  }
+  for (const auto& t : box.triangle) {
+    add_byte(3);
+    for (const int k : t) add(k);
+    add(0.5f);
+  }
+  add(1);
+  for (const std::string& content : {text, big, little}) {
+    const auto bodies = read_closed_surfaces(folder.write("box.ply", content), 1);
+    ASSERT_EQ(bodies.size(), 1u);
+    EXPECT_NEAR(compute_volume(bodies[0].node, bodies[0].triangle), 6, 1e-14);
+  }
+  EXPECT_CONTAINS(refusal(folder.write("cut.ply", big.substr(0, big.size() - 20))),
+                  "the file ends where");
+  EXPECT_CONTAINS(refusal(folder.write("a.ply", "ply\nformat ascii 1.0\nelement vertex x\n")),
+                  "a.ply:3: found \"x\" where a number of elements");
+  EXPECT_CONTAINS(refusal(folder.write("b.ply",
+                                       "ply\nformat ascii 1.0\nelement vertex 1\nproperty "
+                                       "float x\nend_header\n1\n")),
+                  "it needs finite x, y and z");
+}
+
 TEST(ReadSurface, StlCornersAreMerged) {
   const TempFolder folder;
   const Surface sphere = make_sphere(42, 3);
@@ -194,8 +243,8 @@ TEST(ReadSurface, BadFilesAreRefusedWithPlaceAndRemedy) {
   const TempFolder folder;
   EXPECT_CONTAINS(refusal(folder.path() + "/none.obj"), "none.obj: no such file");
   EXPECT_CONTAINS(refusal(folder.path()), "read from .vtk");
-  EXPECT_CONTAINS(refusal(folder.write("a.ply", "ply\n")),
-                  ".vtk (legacy), .obj and .stl, not \".ply\"");
+  EXPECT_CONTAINS(refusal(folder.write("a.off", "OFF\n")),
+                  ".vtk (legacy), .obj, .stl and .ply, not \".off\"");
   EXPECT_CONTAINS(refusal(folder.write("a.obj", "")), "empty");
   EXPECT_CONTAINS(refusal(folder.write("a.obj", "v 0 0 0\nv 1 0\n")),
                   "a.obj:2: coordinate 3 of node 2 is missing");

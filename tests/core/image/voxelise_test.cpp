@@ -1,0 +1,77 @@
+#include "core/image/voxelise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "core/image/pieces.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/mesh/topology.hpp"
+#include "core/threads.hpp"
+
+namespace acinus::image {
+namespace {
+
+mesh::Surface ball(const Vec3& center, double radius) {
+  const mesh::Topology& t = mesh::shared_icosphere(162);
+  mesh::Surface s;
+  s.triangle = t.triangle;
+  for (const Vec3& x : t.rest) s.node.push_back(center + radius * x);
+  return s;
+}
+
+TEST(Voxelise, PaintsWhatIsInside) {
+  const std::vector<mesh::Surface> bodies{ball({1, 2, 3}, 5), ball({9, 2, 3}, 4)};
+  Voxelise how;
+  how.voxel = Vec3(0.5, 0.4, 0.6);
+  const VoxelisedBodies made = voxelise(bodies, how);
+  const LabelImage& image = made.image;
+  std::size_t wrong = 0;
+  for (int z = 0; z < image.size[2]; ++z)
+    for (int y = 0; y < image.size[1]; ++y)
+      for (int x = 0; x < image.size[0]; ++x) {
+        const Vec3 p = made.corner + image.center({x, y, z});
+        Label wanted = 0;
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+          if (wanted == 0 && mesh::is_inside(p, bodies[b].node, bodies[b].triangle))
+            wanted = static_cast<Label>(b + 1);
+        wrong += image.label[image.index({x, y, z})] != wanted;
+      }
+  EXPECT_EQ(wrong, 0u);
+  std::array<double, 3> volume{};
+  for (const Label l : image.label) volume[l] += image.voxel_volume();
+  for (std::size_t b = 0; b < 2; ++b) {
+    const double exact = mesh::compute_volume(bodies[b].node, bodies[b].triangle);
+    EXPECT_NEAR(volume[b + 1], exact,
+                (b == 0 ? 0.01 : 0.03) * exact);  // the first had its voxels first
+  }
+}
+
+TEST(Voxelise, WithNoiseHasRaggedWallsAndTheSameVoxelsOnAnyThreads) {
+  const std::vector<mesh::Surface> bodies{ball({0, 0, 0}, 6), ball({11.5, 0, 0}, 6)};
+  Voxelise how;
+  how.blur = 0.7;
+  how.noise = 0.4;
+  std::vector<std::vector<Label>> found;
+  for (const int threads : {1, 2}) {
+    set_threads(threads);
+    found.push_back(voxelise(bodies, how).image.label);
+  }
+  set_threads(1);
+  EXPECT_EQ(found[0], found[1]);
+  how.seed = 2;
+  const LabelImage other = voxelise(bodies, how).image;
+  EXPECT_NE(other.label, found[0]);
+  how.noise = 0;
+  const LabelImage smooth = voxelise(bodies, how).image;
+  std::size_t differ = 0, any = 0;
+  for (std::size_t k = 0; k < smooth.label.size(); ++k) {
+    differ += smooth.label[k] != other.label[k];
+    any += smooth.label[k] != 0;
+  }
+  EXPECT_GT(differ, 20u);
+  EXPECT_LT(differ, any / 5);
+}
+
+}  // namespace
+}  // namespace acinus::image
