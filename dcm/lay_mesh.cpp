@@ -1,14 +1,25 @@
 #include "dcm/lay_mesh.hpp"
 
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "core/mesh/audit_body.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/mesh/star.hpp"
 #include "dcm/cast.hpp"
+#include "dcm/inflate_mesh.hpp"
 #include "dcm/split.hpp"
 
 namespace acinus::dcm {
+namespace {
 
-std::optional<std::vector<Vec3>> lay_mesh(const mesh::Topology& topology,
-                                          const mesh::Surface& surface, const Mat3& rotation) {
+/// Triangles worse than this are not accepted.
+constexpr double kLeastQuality = 0.1;
+
+std::optional<std::vector<Vec3>> cast_mesh(const mesh::Topology& topology,
+                                           const mesh::Surface& surface, const Mat3& rotation) {
   const std::optional<Vec3> center = mesh::find_star_center(surface);
   if (!center) return std::nullopt;
   std::optional<std::vector<Vec3>> node = cast_sphere(topology, surface, *center, rotation);
@@ -16,11 +27,36 @@ std::optional<std::vector<Vec3>> lay_mesh(const mesh::Topology& topology,
   const std::vector<Part> part(node->size(), Part::kShell);
   spread_nodes(topology, mesh::StarSurface(surface, *center),
                {part, static_cast<int>(surface.triangle.size())}, *node);
-  const double volume = mesh::compute_volume(surface.node, surface.triangle);
-  const std::vector<double> weight(node->size(), 1);
-  if (!match_volume(topology, volume, weight, *node) || !faces_outward(topology, *node, *center))
-    return std::nullopt;
   return node;
+}
+
+/// Makes the volume exact, and says what is wrong with the mesh.
+std::string finish(const mesh::Topology& topology, double volume, std::vector<Vec3>& node) {
+  const std::vector<double> weight(node.size(), 1);
+  if (!match_volume(topology, volume, weight, node))
+    return fmt::format("the mesh has {:.2f} of its volume",
+                       mesh::compute_volume(node, topology.triangle) / volume);
+  const double quality = mesh::compute_quality(node, topology.triangle);
+  if (quality < kLeastQuality) return fmt::format("a triangle has the quality {:.2f}", quality);
+  if (mesh::AuditBody(node, topology.triangle).self_intersects()) return "the mesh crosses itself";
+  return {};
+}
+
+}  // namespace
+
+LaidMesh lay_mesh(const mesh::Topology& topology, const mesh::Surface& surface,
+                  const Mat3& rotation) {
+  const double volume = mesh::compute_volume(surface.node, surface.triangle);
+  LaidMesh out;
+  if (auto node = cast_mesh(topology, surface, rotation)) {
+    out.node = std::move(*node);
+    out.fault = finish(topology, volume, out.node);
+    if (out.fault.empty()) return out;
+  }
+  out.inflated = true;
+  out.node = inflate_mesh(topology, surface, rotation);
+  out.fault = finish(topology, volume, out.node);
+  return out;
 }
 
 }  // namespace acinus::dcm

@@ -1,7 +1,7 @@
 #pragma once
 /// A cell's mesh laid over a closed surface.
 
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/mesh/surface.hpp"
@@ -10,12 +10,18 @@
 
 namespace acinus::dcm {
 
-/// The nodes of a sphere mesh, spread evenly over a surface, with its volume: chords cut corners
-/// off, so the nodes stand a little outside. Nothing where no point sees the surface whole, or the
-/// mesh would fold.
-/// @param surface   closed, outward
+struct LaidMesh {
+  std::vector<Vec3> node;  ///< [n_node] um
+  bool inflated = false;   ///< blown up inside, where no point sees the surface whole
+  std::string fault;       ///< what is wrong with it; empty: nothing
+};
+
+/// The nodes of a sphere mesh, spread evenly over a surface, with its volume to 1e-12: chords cut
+/// corners off, so the nodes stand a little outside. Sound if no triangle is of a quality below 0.1
+/// and the mesh does not cross itself.
+/// @param surface   closed, outward, with volume
 /// @param rotation  of the sphere mesh before
-std::optional<std::vector<Vec3>> lay_mesh(const mesh::Topology& topology,
-                                          const mesh::Surface& surface, const Mat3& rotation);
+LaidMesh lay_mesh(const mesh::Topology& topology, const mesh::Surface& surface,
+                  const Mat3& rotation);
 
 }  // namespace acinus::dcm

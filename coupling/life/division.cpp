@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/mesh/audit_body.hpp"
+#include "core/mesh/inner_ball.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/random.hpp"
 #include "core/sphere.hpp"
@@ -17,11 +18,16 @@ namespace acinus::coupling {
 namespace {
 
 constexpr int kMostPlanes = 8;
+/// A daughter's mesh with a worse triangle than this is not accepted.
+constexpr double kLeastQuality = 0.1;
 /// How far later planes turn away from the wanted axis: the share of a random direction.
 constexpr double kTurn = 0.5;
 /// Nodes nearer the cut than this share of a mean edge lie on it and stay there when the volume is
 /// made exact: the sister is on the other side.
 constexpr double kOnCut = 0.15;
+
+/// A start in a folded half, as a share of its largest ball.
+constexpr double kSeed = 0.9;
 
 Vec3 random_direction(const World& world, std::int64_t lineage, int attempt) {
   const Vec3 v =
@@ -88,12 +94,25 @@ const char* describe(dcm::SplitFailure failure) {
   return "";
 }
 
+/// What is wrong with a daughter's mesh, or empty.
+std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& node) {
+  if (mesh::compute_quality(node, topology.triangle) < kLeastQuality)
+    return "a daughter's mesh is too distorted";
+  if (mesh::AuditBody(node, topology.triangle).self_intersects())
+    return "a daughter crosses herself";
+  return {};
+}
+
 /// Fills a half that no point sees whole: a ball inside it is blown up until it fills the mother's
 /// surface, which stands still.
 Filling blow_up(const World& world, int type, const MotherCell& mother, const mesh::CutPlane& plane,
                 const mesh::Surface& half) {
   const mesh::Topology& topology = *mother.topology;
-  Filling filling = fill_from_inside(world, type, topology, half);
+  const mesh::InnerBall ball = mesh::find_inner_ball(half);
+  if (!(ball.radius > 0)) return {.ok = false, .cause = "a half has no inside", .node = {}};
+  std::vector<Vec3> seed;
+  for (const Vec3& x : topology.rest) seed.push_back(ball.center + kSeed * ball.radius * x);
+  Filling filling = fill(world, type, topology, seed, half);
   if (!filling.ok) return filling;
   const double edge = topology.mean_rest_length * sphere_radius(0.5 * mother.volume);
   std::vector<double> weight;
@@ -125,10 +144,8 @@ std::string try_plane(const World& world, int type, const MotherCell& mother, co
   } else {
     why = describe(split.failure);
   }
-  for (std::size_t k = 0; k < 2 && why.empty(); ++k) {
-    const std::string fault = find_mesh_fault(*mother.topology, daughters.node[k]);
-    if (!fault.empty()) why = "a daughter: " + fault;
-  }
+  for (std::size_t k = 0; k < 2 && why.empty(); ++k)
+    why = find_fault(*mother.topology, daughters.node[k]);
   return why;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/inner_ball.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
 #include "coupling/step/loop.hpp"
@@ -24,10 +22,6 @@ constexpr double kRestMove = 0.01, kRestStep = 1;  // um, s
 constexpr int kMostSteps = 150;
 /// Share of the enclosed volume from which a start counts as filling already.
 constexpr double kNearlyFull = 0.9;
-/// A start in a folded body, as a share of its largest ball.
-constexpr double kSeed = 0.9;
-/// A mesh with a worse triangle than this is not accepted.
-constexpr double kLeastQuality = 0.1;
 
 }  // namespace
 
@@ -79,27 +73,11 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   filling.steps = result.steps;
   if (!result.ok) {
     filling.ok = false;
-    filling.cause = "the mesh cannot unfold: " + result.last.cause;
+    filling.cause = "the daughter cannot unfold: " + result.last.cause;
     return filling;
   }
   dcm::copy_nodes(s.dcm, 0, filling.node);
   return filling;
-}
-
-Filling fill_from_inside(const World& world, int type, const mesh::Topology& topology,
-                         const mesh::Surface& envelope) {
-  const mesh::InnerBall ball = mesh::find_inner_ball(envelope);
-  if (!(ball.radius > 0)) return {.ok = false, .cause = "it has no inside", .node = {}};
-  std::vector<Vec3> seed;
-  for (const Vec3& x : topology.rest) seed.push_back(ball.center + kSeed * ball.radius * x);
-  return fill(world, type, topology, seed, envelope);
-}
-
-std::string find_mesh_fault(const mesh::Topology& topology, const std::vector<Vec3>& node) {
-  if (mesh::compute_quality(node, topology.triangle) < kLeastQuality)
-    return "its mesh is too distorted";
-  if (mesh::AuditBody(node, topology.triangle).self_intersects()) return "its mesh crosses itself";
-  return {};
 }
 
 }  // namespace acinus::coupling

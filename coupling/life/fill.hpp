@@ -23,11 +23,4 @@ struct Filling {
 Filling fill(const World& world, int type, const mesh::Topology& topology,
              const std::vector<Vec3>& node, const mesh::Surface& envelope);
 
-/// The same for a surface that no point sees whole: starts from the largest ball inside it.
-Filling fill_from_inside(const World& world, int type, const mesh::Topology& topology,
-                         const mesh::Surface& envelope);
-
-/// What is wrong with a cell's mesh that was laid over or into something, or empty.
-std::string find_mesh_fault(const mesh::Topology& topology, const std::vector<Vec3>& node);
-
 }  // namespace acinus::coupling

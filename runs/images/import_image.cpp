@@ -251,7 +251,8 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
 void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
   Pieces pieces = image::find_pieces(vessels);
   LabelImage numbered = vessels;
-  const std::size_t smallest = 27;
+  constexpr std::size_t kLeastVoxels = 27;
+  constexpr double kSmoother = 1.5;
   for (const image::PieceRow& row : pieces.row)
     std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
                 static_cast<Label>(row.piece) + 1);
@@ -259,18 +260,20 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
   for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
     Piece p = pieces.piece[k];
     p.label = static_cast<Label>(k) + 1;
-    if (p.n_voxel < smallest) {
+    if (p.n_voxel < kLeastVoxels) {
       ++specks;
       continue;
     }
-    // A network is thin where a cell of its volume is not.
+    // A network is thin where a cell of its volume is not; walls with the steps of voxels are
+    // rough.
+    const double edge = kLeastEdge * numbered.voxel.maxCoeff();
     image::LabelSurface made =
-        image::make_label_surface(numbered, p, kLeastEdge * numbered.voxel.maxCoeff(), o.smoothing);
+        image::make_label_surface(numbered, p, edge, kSmoother * o.smoothing);
     tissue.vessel.push_back(std::move(made.surface));
   }
   if (specks > 0)
     tissue.warned.push_back(fmt::format(
-        "{} specks of vessels with fewer than {} voxels are left out", specks, smallest));
+        "{} specks of vessels with fewer than {} voxels are left out", specks, kLeastVoxels));
 }
 
 [[noreturn]] void fail_empty(const ImportOptions& o, const std::vector<LeftOut>& left_out) {

@@ -9,6 +9,7 @@ neighbours found again in 95 %. Prints what was found; exit code 1 beyond a limi
 
 import csv
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -89,9 +90,11 @@ def main():
         image, tissue, run = (os.path.join(temporary, name) for name in ("labels.tif", "tissue", "tissue.run"))
         before = acinus.Run(folder)
         number %= len(before)
-        print(call(program, "voxelise", folder, "--frame", str(number), "--voxel", f"{voxel} um", "--blur",
-                   f"{blur} um", "--noise", noise, "--out", image), end="")
-        print(call(program, "import", image, "--out", tissue, "--smoothing", smoothing), end="")
+        told = call(program, "voxelise", folder, "--frame", str(number), "--voxel", f"{voxel} um", "--blur", f"{blur} um",
+                    "--noise", noise, "--out", image)
+        vessels = re.search(r"vessels have label (\d+)", told)
+        print(told + call(program, "import", image, "--out", tissue, "--smoothing", smoothing,
+                          *(["--vessel-label", vessels[1]] if vessels else [])), end="")
         print(call(program, "run", os.path.join(tissue, "scene.json"), "--out", run, "--until", "1 s"), end="")
         labels = {int(r["label"]): r for r in rows(os.path.join(temporary, "labels.csv"))}
         cells = rows(os.path.join(tissue, "cells.csv"))

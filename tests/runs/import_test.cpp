@@ -1,0 +1,194 @@
+/// Scenes from images: what is kept, what is left out and why, what is refused.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "core/image/write_image.hpp"
+#include "core/mesh/measures.hpp"
+#include "core/sphere.hpp"
+#include "runs/build/build_world.hpp"
+#include "runs/images/import_image.hpp"
+#include "runs/scene/reader.hpp"
+#include "tests/core/image/images.hpp"
+#include "tests/core/mesh/temp_folder.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using mesh::contains;
+using mesh::message_of;
+using mesh::TempFolder;
+
+struct LabelledBall {
+  image::Label label;
+  Vec3 center;
+  double radius;
+};
+
+/// Balls in an image of 60 x 40 x 40 um; later ones cover earlier ones.
+image::LabelImage balls(const std::vector<LabelledBall>& all) {
+  return image::make_image({60, 40, 40}, Vec3::Ones(), [&](const Vec3& x) {
+    image::Label label = 0;
+    for (const LabelledBall& b : all)
+      if ((x - b.center).norm() < b.radius) label = b.label;
+    return label;
+  });
+}
+
+ImportOptions options_for(const TempFolder& folder, const image::LabelImage& image) {
+  ImportOptions o;
+  o.image = folder.path() + "/labels.mha";
+  image::write_image(o.image, image);
+  return o;
+}
+
+std::string why(const ImportedTissue& t, image::Label label, std::size_t n_voxel = 0) {
+  for (const LeftOut& l : t.left_out)
+    if (l.label == label && (n_voxel == 0 || l.n_voxel == n_voxel)) return l.why;
+  return "";
+}
+
+const std::vector<LabelledBall> kTwo{{3, {15, 20, 20}, 8}, {9, {29, 20, 20}, 8}};
+
+TEST(ImportImage, KeepsCellsAndSaysWhatItLeavesOut) {
+  const TempFolder folder;
+  auto all = kTwo;
+  all.push_back({4, {50, 30, 30}, 2.6});  // a speck
+  all.push_back({5, {45, 8, 30}, 0.9});   // one voxel
+  all.push_back({6, {58, 10, 10}, 6});    // cut off by the border
+  all.push_back({3, {45, 8, 8}, 1.8});    // a second piece of label 3
+  const ImportedTissue t = import_image(options_for(folder, balls(all)));
+  ASSERT_EQ(t.cell.size(), 2u);
+  EXPECT_EQ(t.cell[0].label, 3u);
+  EXPECT_EQ(t.cell[1].label, 9u);
+  EXPECT_EQ(t.touching, (std::vector<std::array<image::Label, 2>>{{3, 9}}));
+  EXPECT_EQ(t.cell[0].neighbours, 1);
+  for (const ImportedCell& c : t.cell)
+    EXPECT_NEAR(mesh::compute_volume(c.surface.node, c.surface.triangle), c.volume,
+                1e-9 * c.volume);
+  EXPECT_CONTAINS(why(t, 4), "a speck");
+  EXPECT_CONTAINS(why(t, 5), "fewer than 27 voxels");
+  EXPECT_CONTAINS(why(t, 6), "cut off by the border");
+  EXPECT_CONTAINS(why(t, 3), "does not hang together");
+  EXPECT_TRUE(t.vessel.empty());
+}
+
+TEST(ImportImage, MakesASceneThatStartsWithTheVolumesOfTheImage) {
+  const TempFolder folder;
+  const ImportOptions o = options_for(folder, balls(kTwo));
+  const std::string out = folder.path() + "/tissue";
+  const ImportedTissue t = import_image(o);
+  const std::vector<std::string> written = write_tissue(t, o, out);
+  EXPECT_CONTAINS(message_of([&] { write_tissue(t, o, out); }), "exists already");
+  const Scene scene = read_scene(written.front());
+  EXPECT_EQ(scene.name, "tissue");
+  const BuiltWorld built = build_world(scene, Ranks::serial());
+  const dcm::State& s = built.world.state.dcm;
+  int seen = 0;
+  for (std::size_t lane = 0; lane < s.n_lane(); ++lane) {
+    if (!s.active(lane)) continue;
+    ++seen;
+    const ImportedCell& c = t.cell[static_cast<std::size_t>(s.lineage[lane])];
+    std::vector<Vec3> node;
+    dcm::copy_nodes(s, lane, node);
+    const auto& triangle = s.group[lane / kLanes].topology->triangle;
+    EXPECT_NEAR(mesh::compute_volume(node, triangle), c.volume, 1e-6 * c.volume);
+    EXPECT_NEAR(s.volume[lane].at(0), c.volume, 1e-6 * c.volume);
+    EXPECT_LT((mesh::compute_centroid(node, triangle) - c.center).norm(), 0.3);
+  }
+  EXPECT_EQ(seen, 2);
+  // The same as spheres.
+  const BuiltWorld spheres =
+      build_world(read_scene(written.front(), {"model=cbm"}), Ranks::serial());
+  ASSERT_EQ(spheres.world.state.cbm.n_cell(), 2u);
+  EXPECT_NEAR(sphere_volume(8), spheres.world.state.cbm.volume[0].at(0), 0.15 * sphere_volume(8));
+}
+
+TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
+  const TempFolder folder;
+  const auto tube = [](const Vec3& x) { return std::hypot(x[0] - 45, x[1] - 20) < 5; };
+  image::LabelImage image = balls({{3, {15, 20, 20}, 8}, {9, {33, 20, 20}, 8}});
+  image::LabelImage vessels = image;
+  for (int z = 0; z < 40; ++z)
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const std::size_t at = image.index({x, y, z});
+        vessels.label[at] = tube(image.center({x, y, z})) ? 1 : 0;
+        if (vessels.label[at] != 0) image.label[at] = 77;
+      }
+  ImportOptions o = options_for(folder, image);
+  o.vessel_label = 77;
+  const ImportedTissue named = import_image(o);
+  o.vessel_label = 0;
+  o.vessels = folder.path() + "/vessels.mha";
+  image::write_image(o.vessels, vessels);
+  const ImportedTissue other = import_image(o);
+  for (const ImportedTissue& t : {named, other}) {
+    ASSERT_EQ(t.vessel.size(), 1u);
+    ASSERT_EQ(t.cell.size(), 2u);
+    EXPECT_FALSE(t.cell[0].at_vessel);
+    EXPECT_TRUE(t.cell[1].at_vessel);
+    const double volume = mesh::compute_volume(t.vessel[0].node, t.vessel[0].triangle);
+    EXPECT_NEAR(volume, kPi * 25 * 40, 0.03 * kPi * 25 * 40);
+  }
+  ASSERT_EQ(other.warned.size(), 1u);
+  EXPECT_CONTAINS(other.warned[0], "voxels belong to a cell and to a vessel");
+  o.vessels.clear();
+  o.vessel_label = 5;
+  EXPECT_CONTAINS(message_of([&] { import_image(o); }), "no voxel is labelled 5");
+}
+
+TEST(ImportImage, KeepsCellsAtTheBorderBetweenMirrorWallsIfAsked) {
+  const TempFolder folder;
+  ImportOptions o = options_for(folder, balls({{1, {0, 20, 20}, 9}, {2, {60, 20, 20}, 9}}));
+  const std::string message = message_of([&] { import_image(o); });
+  EXPECT_CONTAINS(message, "none of its 2 labels can be kept");
+  EXPECT_CONTAINS(message, "--border keep");
+  o.keep_border = true;
+  const std::vector<std::string> written =
+      write_tissue(import_image(o), o, folder.path() + "/tissue");
+  const Scene scene = read_scene(written.front());
+  ASSERT_EQ(scene.walls.size(), 2u);
+  EXPECT_EQ(scene.walls[0].normal, Vec3(1, 0, 0));
+  EXPECT_EQ(scene.walls[1].point, Vec3(60, 0, 0));
+  EXPECT_TRUE(scene.walls[1].mirror);
+}
+
+TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
+  const TempFolder folder;
+  std::vector<LabelledBall> all;
+  for (int k = 0; k < 6; ++k)
+    all.push_back({static_cast<image::Label>(k % 3 + 1),
+                   Vec3(10 + 20 * (k / 2), k % 2 == 0 ? 10 : 30, 20), 6});
+  ImportOptions o = options_for(folder, balls(all));
+  const std::string message = message_of([&] { import_image(o); });
+  EXPECT_CONTAINS(message, "3 of 3 labels are in several large pieces, label 1 first");
+  EXPECT_CONTAINS(message, "its type counts to 255 only");
+  EXPECT_CONTAINS(message, "--split");
+  o.split = true;
+  const ImportedTissue t = import_image(o);
+  EXPECT_EQ(t.cell.size(), 6u);
+  for (std::size_t k = 0; k < t.cell.size(); ++k)
+    EXPECT_NEAR(t.cell[k].volume, sphere_volume(6), 0.03 * sphere_volume(6));
+}
+
+TEST(ImportImage, RefusesImagesWithoutCells) {
+  const TempFolder folder;
+  EXPECT_CONTAINS(message_of([&] { import_image(options_for(folder, balls({}))); }),
+                  "all voxels are 0, the background");
+}
+
+TEST(ImportImage, SmoothsHolesAway) {
+  const TempFolder folder;
+  image::LabelImage image = balls(kTwo);
+  for (int x = 0; x < 60; ++x) image.label[image.index({x, 20, 20})] = 0;  // a needle through both
+  const ImportedTissue t = import_image(options_for(folder, image));
+  EXPECT_EQ(t.cell.size(), 2u);
+}
+
+}  // namespace
+}  // namespace acinus::runs
