@@ -40,6 +40,10 @@ ImageFile read_metaimage(const std::string& path);
 ImageFile read_nrrd(const std::string& path);
 ImageFile read_hdf5(const std::string& path, const std::string& dataset);
 
+/// A header may announce anything: throws Error unless so many bytes can come out of those stored.
+/// @param compressed  LZW makes data at most some thousand times smaller, deflate a thousand
+void check_announced(const std::string& path, double announced, double stored, bool compressed);
+
 /// The data that the header of a file announces: raw bytes, or a zlib or gzip stream.
 struct ImageBytes {
   std::string path;  ///< of the file that has them, for messages

@@ -89,10 +89,20 @@ double unit_by_name(std::string_view name) {
   return 0;
 }
 
+void check_announced(const std::string& path, double announced, double stored, bool compressed) {
+  constexpr double kMost = 5000;
+  check(announced <= stored * (compressed ? kMost : 1),
+        fmt::format("{}: {:.0f} bytes of data are announced, more than the file can hold. It is "
+                    "truncated or damaged.",
+                    path, announced));
+}
+
 void take_bytes(const ImageBytes& bytes, ImageFile& file) {
   const std::size_t n = count_voxels(bytes.path, file.size), size = n * bytes_of(file.type);
   std::string inflated;
   std::string_view raw = bytes.stored;
+  check_announced(bytes.path, static_cast<double>(size), static_cast<double>(raw.size()),
+                  true);  // without compression the sizes are compared below
   if (bytes.compressed) raw = inflated = inflate_bytes(bytes.path, bytes.stored, size);
   check(raw.size() == size,
         fmt::format("{}: {} bytes of data where {} x {} x {} voxels of {} bytes are announced. The "

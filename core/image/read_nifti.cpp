@@ -68,14 +68,10 @@ ImageFile read_nifti(const std::string& path, const ChannelChoice& channel) {
         fmt::format("{}: the header's sizes do not fit each other. Write the image again.", path));
   const std::int64_t n_channel = n->nvox / static_cast<std::int64_t>(voxels);
   const std::int64_t chosen = channel.among(path, n_channel);
-  // A header may announce anything; deflate makes data at most about a thousand times smaller.
-  constexpr double kMostDeflated = 1100;
-  const double stored = static_cast<double>(std::filesystem::file_size(n->iname ? n->iname : path));
-  check(
-      static_cast<double>(bytes) * static_cast<double>(n_channel) <=
-          stored * (nifti_is_gzfile(n->iname ? n->iname : path.c_str()) ? kMostDeflated : 1),
-      fmt::format("{}: {} bytes of data are announced, more than the file holds. It is truncated.",
-                  path, static_cast<std::size_t>(n->nvox) * bytes_of(file.type)));
+  const std::string data_path = n->iname ? n->iname : path;
+  check_announced(path, static_cast<double>(bytes) * static_cast<double>(n_channel),
+                  static_cast<double>(std::filesystem::file_size(data_path)),
+                  nifti_is_gzfile(data_path.c_str()) != 0);
   const bool scaled =
       n->scl_slope != 0 && std::isfinite(n->scl_slope) && (n->scl_slope != 1 || n->scl_inter != 0);
   check(!scaled,

@@ -157,7 +157,10 @@ ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
   file.size = {first.width, first.height, text.slices};
   file.step = text.step;
   file.unit = 1;
-  file.label.reserve(count_voxels(path, file.size));
+  const std::size_t voxels = count_voxels(path, file.size);
+  check_announced(path, static_cast<double>(voxels * bytes_of(file.type)),
+                  static_cast<double>(std::filesystem::file_size(path)), true);
+  file.label.reserve(voxels);
   std::vector<std::byte> rows(static_cast<std::size_t>(first.width) * first.height *
                               bytes_of(file.type));
   for (std::int64_t slice = 0; slice < text.slices; ++slice) {

@@ -6,12 +6,15 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
+#include "core/image/read_image.hpp"
+#include "core/image/write_image.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/run_file.hpp"
 #include "core/io/run_reader.hpp"
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/read_surface.hpp"
 #include "runs/scene/reader.hpp"
+#include "tests/core/image/images.hpp"
 #include "tests/core/io/sample.hpp"
 
 namespace acinus::fuzz {
@@ -51,6 +54,17 @@ void write_laws(const std::string& folder) {
 
 void read_network(const std::string& path) { mesh::read_network(path); }
 void read_surface(const std::string& path) { mesh::read_closed_surfaces(path, 1); }
+void read_image(const std::string& path) { image::read_image(path, {.voxel = Vec3(1, 1, 1)}); }
+void write_images(const std::string& folder) {
+  image::LabelImage image;
+  image.size = {6, 5, 4};
+  image.voxel = Vec3(0.5, 0.5, 1);
+  for (image::Label k = 0; k < 6 * 5 * 4; ++k) image.label.push_back(k / 7 * 300);
+  for (const char* name : {"/image.tif", "/image.mha", "/image.nrrd"})
+    image::write_image(folder + name, image);
+  constexpr std::int16_t kMicrons = 3;
+  std::ofstream(folder + "/image.nii", std::ios::binary) << image::nifti(image, kMicrons);
+}
 void write_vtk(const std::string& folder) { copy_all(ACINUS_TEST_DATA "/files", ".vtk", folder); }
 
 void read_checkpoint(const std::string& path) { io::load_state_file(path); }
@@ -83,8 +97,9 @@ const std::vector<Target>& all_targets() {
   static const std::vector<Target> all{
       {"scene", {".json"}, read_scene, write_scenes},
       {"law", {".json"}, read_law, write_laws},
-      {"network", {".vtk", ".swc"}, read_network, write_vtk},
-      {"surface", {".vtk", ".obj", ".stl"}, read_surface, write_vtk},
+      {"network", {".vtk", ".swc", ".vmv"}, read_network, write_vtk},
+      {"surface", {".vtk", ".obj", ".stl", ".ply"}, read_surface, write_vtk},
+      {"image", {".tif", ".nii", ".mha", ".nrrd"}, read_image, write_images},
       {"checkpoint", {".h5"}, read_checkpoint, write_checkpoints},
       {"run_file", {".vtkhdf"}, read_run_file, write_run_files}};
   return all;

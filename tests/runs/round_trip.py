@@ -1,8 +1,8 @@
 """A tissue as a label image, and back: voxelised with blur and noise, imported, and compared with what it was.
 
-usage: round_trip.py PROGRAM RUN [FRAME [VOXEL_UM [BLUR_UM [NOISE [SMOOTHING]]]]]
+usage: round_trip.py PROGRAM WHAT [FRAME [VOXEL_UM [BLUR_UM [NOISE [SMOOTHING]]]]]
 
-RUN is the folder of a run with deformable cells. Judged against the tissue itself, not against its image: volume of
+WHAT is the folder of a run with deformable cells, or a scene, which is run to t = 0. Judged against the tissue itself, not against its image: volume of
 every cell within 1 %, its centre within half a voxel, its surface within a voxel (root mean square), pairs of
 neighbours found again in 95 %. Prints what was found; exit code 1 beyond a limit.
 """
@@ -88,6 +88,9 @@ def main():
     size = float(voxel)
     with tempfile.TemporaryDirectory() as temporary:
         image, tissue, run = (os.path.join(temporary, name) for name in ("labels.tif", "tissue", "tissue.run"))
+        if not os.path.isdir(folder):
+            call(program, "run", folder, "--until", "1 s", "--out", os.path.join(temporary, "before.run"))
+            folder = os.path.join(temporary, "before.run")
         before = acinus.Run(folder)
         number %= len(before)
         told = call(program, "voxelise", folder, "--frame", str(number), "--voxel", f"{voxel} um", "--blur", f"{blur} um",

@@ -29,19 +29,6 @@ LabelImage numbered(Label step) {
   return make_image(kSize, {0.5, 0.25, 1.5}, [&](const Vec3&) { return step * next++; });
 }
 
-template <class T>
-std::string bytes_of(const LabelImage& image, bool swap = false) {
-  std::string out;
-  for (const Label l : image.label) {
-    const T value = static_cast<T>(l);
-    std::string one(sizeof(T), '\0');
-    std::memcpy(one.data(), &value, sizeof(T));
-    if (swap) one.assign(one.rbegin(), one.rend());
-    out += one;
-  }
-  return out;
-}
-
 void expect_image(const LabelImage& found, const LabelImage& wanted) {
   EXPECT_EQ(found.size, wanted.size);
   EXPECT_LT((found.voxel - wanted.voxel).norm(), 1e-6) << found.voxel.transpose();
@@ -68,7 +55,7 @@ TEST(ReadImage, GivesBackWhatWasWritten) {
 TEST(ReadImage, ReadsMetaImagesOfOthers) {
   const TempFolder folder;
   const LabelImage image = numbered(300);
-  folder.write("image.raw", "skip" + bytes_of<std::uint16_t>(image, true));
+  folder.write("image.raw", "skip" + image_bytes<std::uint16_t>(image, true));
   const std::string header =
       "ObjectType = Image\nNDims = 3\nBinaryDataByteOrderMSB = True\nDimSize = 5 4 3\n"
       "ElementSpacing = 0.5 0.25 1.5\nHeaderSize = 4\nElementType = MET_USHORT\n"
@@ -102,7 +89,7 @@ TEST(ReadImage, ReadsNrrdOfOthers) {
       "NRRD0005\n# by hand\nkey:=value\ntype: unsigned char\ndimension: 3\nsizes: 5 4 3\n"
       "space: left-posterior-superior\nspace directions: (0.0005,0,0) (0,0.00025,0) (0,0,0.0015)\n"
       "space units: \"mm\" \"mm\" \"mm\"\nencoding: gzip\n\n" +
-          deflate_bytes(bytes_of<std::uint8_t>(image), true));
+          deflate_bytes(image_bytes<std::uint8_t>(image), true));
   expect_image(read_image(path, {}), image);
   std::string text;
   for (const Label l : image.label) text += fmt::format("{} ", l);
@@ -113,7 +100,7 @@ TEST(ReadImage, ReadsNrrdOfOthers) {
                                   text),
                  {.unit = 1}),
       image);
-  folder.write("big.raw", bytes_of<std::int32_t>(image, true));
+  folder.write("big.raw", image_bytes<std::int32_t>(image, true));
   expect_image(read_image(folder.write("other.nhdr",
                                        "NRRD0004\ntype: int\ndimension: 3\nsizes: 5 4 3\nspacings: "
                                        "0.5 0.25 1.5\nunits: \"um\" \"um\" \"um\"\nendian: big\n"
@@ -123,26 +110,6 @@ TEST(ReadImage, ReadsNrrdOfOthers) {
   EXPECT_CONTAINS(refusal(folder.write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 4\n\n")),
                   "has \"4\" dimensions");
   EXPECT_CONTAINS(refusal(folder.write("b.nrrd", "PNG")), "does not begin with NRRD000");
-}
-
-/// The header of NIfTI-1 [nifti1.h], little-endian, with the data behind it.
-std::string nifti(const LabelImage& image, std::int16_t units, float slope = 0) {
-  std::string h(352, '\0');
-  const auto put = [&](std::size_t at, auto value) { std::memcpy(&h[at], &value, sizeof(value)); };
-  put(0, std::int32_t{348});
-  put(40, std::int16_t{3});
-  for (std::size_t k = 0; k < 3; ++k) {
-    put(42 + 2 * k, static_cast<std::int16_t>(image.size[k]));
-    put(80 + 4 * k, static_cast<float>(image.voxel[static_cast<int>(k)]));
-  }
-  for (std::size_t k = 3; k < 7; ++k) put(42 + 2 * k, std::int16_t{1});
-  put(70, std::int16_t{512});  // uint16
-  put(72, std::int16_t{16});
-  put(108, 352.0f);
-  put(112, slope);
-  put(123, static_cast<char>(units));
-  std::memcpy(&h[344], "n+1", 4);
-  return h + bytes_of<std::uint16_t>(image);
 }
 
 TEST(ReadImage, ReadsNifti) {
@@ -205,7 +172,7 @@ TEST(ReadImage, SaysWhichVoxelIsNoLabel) {
   LabelImage image = numbered(1);
   const std::string header =
       "NDims = 3\nDimSize = 5 4 3\nElementSpacing = 1 1 1\nDistanceUnits = um\n";
-  std::string bytes = bytes_of<float>(image);
+  std::string bytes = image_bytes<float>(image);
   const float wrong = 2.5;
   std::memcpy(&bytes[4 * (20 + 5 + 3)], &wrong, 4);
   EXPECT_CONTAINS(refusal(folder.write("a.mha", header +
@@ -213,7 +180,7 @@ TEST(ReadImage, SaysWhichVoxelIsNoLabel) {
                                                     "LOCAL\n" +
                                                     bytes)),
                   "voxel (3, 1, 1) holds 2.5; labels are whole numbers");
-  bytes = bytes_of<std::int16_t>(image);
+  bytes = image_bytes<std::int16_t>(image);
   bytes[1] = '\xff';
   EXPECT_CONTAINS(refusal(folder.write("b.mha", header +
                                                     "ElementType = MET_SHORT\nElementDataFile = "
