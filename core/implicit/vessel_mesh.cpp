@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/implicit/extract.hpp"
 #include "core/implicit/fit.hpp"
 #include "core/implicit/vessel_field.hpp"
+#include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/remesh.hpp"
 
 namespace acinus::implicit {
@@ -30,8 +32,10 @@ void check_network(const mesh::Network& network) {
           fmt::format("segment {} has the radius {} um; it must be a finite number above 0", s, r));
 }
 
-Shape make_shape(const mesh::Network& network, const VesselField& field, double fineness) {
+Shape make_shape(const VesselPieces& pieces, const VesselField& field) {
+  const mesh::Network& network = pieces.network;
   Shape shape;
+  shape.size = pieces.size;
   shape.value = [&](const Vec3& x, std::span<const int> parts) { return field.value(x, parts); };
   shape.distance = [&](const Vec3& x, int part) { return field.distance(x, part); };
   shape.reach = field.widest_crease();
@@ -43,10 +47,14 @@ Shape make_shape(const mesh::Network& network, const VesselField& field, double 
       box.include(ball.high);
     }
     shape.box.push_back(box);
-    shape.size.push_back(kTetrahedra * fineness *
-                         std::min(network.radius[s][0], network.radius[s][1]));
   }
   return shape;
+}
+
+std::vector<double> usual_sizes(const mesh::Network& n, double fineness) {
+  std::vector<double> size;
+  for (const auto& [ra, rb] : n.radius) size.push_back(kTetrahedra * fineness * std::min(ra, rb));
+  return size;
 }
 
 /// Which segments are near a place, looked up in cubes.
@@ -108,25 +116,29 @@ bool fit_without_crossing(const Distance& distance, mesh::Surface& surface) {
 }  // namespace
 
 VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOptions& o) {
-  constexpr int kAttempts = 4;
+  constexpr int kAttempts = 3;
   constexpr double kFiner = 0.6;
   check_network(network);
-  const VesselField field(network, o.rounding);
   VesselMesh out;
   out.expected = mesh::find_connectivity(network);
   out.fineness = o.fineness;
+  VesselPieces pieces;
+  std::optional<VesselField> field;
   Shape shape;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    shape = make_shape(network, field, out.fineness);
+    pieces = cut_vessels(network, usual_sizes(network, out.fineness));
+    field.emplace(pieces.network, o.rounding);
+    shape = make_shape(pieces, *field);
     out.surface = extract_zero(shape, o.most_triangles);
-    const mesh::Connectivity before = out.found;
     out.found = mesh::find_connectivity(out.surface);
-    if (out.is_as_expected() || attempt + 1 == kAttempts || out.found == before) break;
+    // Loops may be narrower than the triangles; walls that cross no triangle is small enough for.
+    if (out.is_as_expected() || pieces.overlapping > 0 || attempt + 1 == kAttempts) break;
     out.fineness *= kFiner;
   }
+  out.overlapping = pieces.overlapping;
   const NearbySegments nearby(
-      shape, field.widest_crease() + std::max(o.edge, *std::ranges::max_element(shape.size)));
-  const Distance distance = [&](const Vec3& x) { return field.value(x, nearby.at(x)); };
+      shape, field->widest_crease() + std::max(o.edge, *std::ranges::max_element(shape.size)));
+  const Distance distance = [&](const Vec3& x) { return field->value(x, nearby.at(x)); };
   if (o.edge > 0) {
     mesh::Surface even = mesh::remesh(out.surface, o.edge);
     out.remeshed =

@@ -20,14 +20,15 @@ struct VesselMesh {
   mesh::Surface surface;  ///< closed, a manifold, without self-intersection
   double fineness = 0;    ///< in the end
   bool remeshed = false;  ///< to the edge asked for
+  int overlapping = 0;    ///< pairs of segments that share no node and whose walls cross
   mesh::Connectivity found, expected;
   bool is_as_expected() const { return found == expected; }
 };
 
-/// Where vessels stay apart, or loops stay open, by less than the triangles tell, these are made
-/// smaller, a few times: is_as_expected says whether that was enough. It cannot be where segments
-/// overlap that share no node. Remeshing that makes the surface cross itself is given up.
-/// Throws Error if a radius is not above 0, the network has no segment, or there would be too many
+/// Triangles are smaller where vessels that share no node pass each other closely, and everywhere,
+/// a few times, where a loop would be closed: is_as_expected says whether that was enough. It
+/// cannot be where walls overlap. Remeshing that makes the surface cross itself is given up. Throws
+/// Error if a radius is not above 0, the network has no segment, or there would be too many
 /// triangles.
 VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOptions& options);
 

@@ -79,12 +79,16 @@ int mesh_vessels(const MeshArguments& a) {
                "a smaller --edge.\n",
                a.edge);
   if (!m.is_as_expected())
-    fmt::print(stderr,
-               "acinus: warning: the network has {} part{} and {} loop{}, the surface {} and {}: "
-               "segments that share no node overlap or nearly touch. Look at the surface there; "
-               "thinner vessels or a smaller --fineness may help.\n",
-               m.expected.parts, m.expected.parts == 1 ? "" : "s", m.expected.handles(),
-               m.expected.handles() == 1 ? "" : "s", m.found.parts, m.found.handles());
+    fmt::print(
+        stderr,
+        "acinus: warning: the network has {} part{} and {} loop{}, the surface {} and {}: {}. "
+        "Look at the surface there{}.\n",
+        m.expected.parts, m.expected.parts == 1 ? "" : "s", m.expected.handles(),
+        m.expected.handles() == 1 ? "" : "s", m.found.parts, m.found.handles(),
+        m.overlapping > 0
+            ? fmt::format("{} pairs of segments that share no node cross", m.overlapping)
+            : std::string("vessels nearly touch, or a loop is nearly closed"),
+        m.overlapping > 0 ? "" : "; a smaller --fineness may help");
   return 0;
 }
 

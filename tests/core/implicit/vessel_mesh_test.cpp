@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/closed.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/mesh/read_network.hpp"
@@ -85,6 +86,32 @@ TEST(VesselMesh, CrossingVesselsStayApart) {
   const VesselMesh m = make_vessel_mesh(n, {});
   EXPECT_EQ(m.found.parts, 2);
   EXPECT_TRUE(m.is_as_expected());
+}
+
+/// A hair apart: only the triangles there become small. Beside a short segment there is no gap.
+TEST(VesselMesh, NearlyTouchingVesselsStayApart) {
+  for (const double gap : {0.5, 0.2}) {
+    const mesh::Network n{{Vec3(-10, 0, 0), Vec3(10, 0, 0), Vec3(0, -10, 4 + gap),
+                           Vec3(0, 10, 4 + gap), Vec3(13, 0, 0), Vec3(30, 0, 0)},
+                          {{0, 1}, {2, 3}, {1, 4}, {4, 5}},
+                          {{2, 2}, {2, 2}, {2, 2}, {2, 2}}};
+    const VesselPieces pieces = cut_vessels(n, {2.4, 2.4, 2.4, 2.4});
+    EXPECT_EQ(pieces.overlapping, 0);
+    EXPECT_NEAR(*std::ranges::min_element(pieces.size), std::max(0.24, 0.9 * gap), 1e-9);
+    EXPECT_GT(pieces.network.segment.size(), 6u) << "two segments are cut";
+    EXPECT_EQ(pieces.size.front(), 2.4) << "far from the gap";
+    EXPECT_EQ(pieces.size.back(), 2.4) << "beside a short segment is no gap";
+    EXPECT_NEAR(mesh::total_length(pieces.network), mesh::total_length(n), 1e-9);
+    const VesselMesh m = make_vessel_mesh(n, {});
+    EXPECT_EQ(m.fineness, VesselMeshOptions{}.fineness);
+    EXPECT_TRUE(m.is_as_expected()) << gap;
+  }
+  const mesh::Network crossing{{Vec3(-10, 0, 0), Vec3(10, 0, 0), Vec3(0, -10, 3), Vec3(0, 10, 3)},
+                               {{0, 1}, {2, 3}},
+                               {{2, 2}, {2, 2}}};
+  const VesselMesh m = make_vessel_mesh(crossing, {});
+  EXPECT_EQ(m.overlapping, 1);
+  EXPECT_EQ(m.found.parts, 1);
 }
 
 TEST(VesselMesh, ThickAndThinMeet) {

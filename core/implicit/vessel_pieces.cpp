@@ -1,0 +1,169 @@
+#include "core/implicit/vessel_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/contact/box_pairs.hpp"
+#include "core/mesh/round_cone.hpp"
+
+namespace acinus::implicit {
+namespace {
+
+/// Part of a segment, by its parameter.
+struct Piece {
+  int segment = 0;
+  double low = 0, high = 1;
+};
+
+struct NearestPlaces {
+  double gap = 0;              ///< um, negative where walls cross
+  Vec3 middle = Vec3::Zero();  ///< between the two walls
+};
+
+mesh::NearestBall ball_of(const mesh::Network& n, int segment, const Vec3& x) {
+  const auto& [a, b] = n.segment[segment];
+  return mesh::find_nearest_ball(x, n.node[a], n.node[b], n.radius[segment][0],
+                                 n.radius[segment][1]);
+}
+
+/// Along the axis of one, the distance to the other less the radius is convex: both bodies are.
+NearestPlaces find_nearest_places(const mesh::Network& n, const Piece& piece, int other) {
+  constexpr int kRounds = 50;
+  constexpr double kGolden = 0.6180339887498949;
+  const Vec3 a = n.node[n.segment[piece.segment][0]];
+  const Vec3 along = n.node[n.segment[piece.segment][1]] - a;
+  const auto& [ra, rb] = n.radius[piece.segment];
+  const auto gap_at = [&](double t) {
+    const mesh::NearestBall ball = ball_of(n, other, a + t * along);
+    return ball.apart.norm() - ball.radius - (ra + t * (rb - ra));
+  };
+  double low = piece.low, high = piece.high;
+  for (int k = 0; k < kRounds; ++k) {
+    const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+    if (gap_at(left) < gap_at(right))
+      high = right;
+    else
+      low = left;
+  }
+  const double t = 0.5 * (low + high), radius = ra + t * (rb - ra);
+  const mesh::NearestBall ball = ball_of(n, other, a + t * along);
+  const double gap = ball.apart.norm() - ball.radius - radius;
+  return {gap, a + t * along - (radius + 0.5 * gap) * ball.apart.normalized()};
+}
+
+bool share_a_node(const mesh::Network& n, int s, int t) {
+  return std::ranges::any_of(n.segment[s], [&](int node) {
+    return std::ranges::find(n.segment[t], node) != n.segment[t].end();
+  });
+}
+
+/// Which segments are within some distance of each.
+std::vector<std::vector<int>> find_beside(const mesh::Network& n, double most) {
+  std::vector<Box> box;
+  for (std::size_t s = 0; s < n.segment.size(); ++s) {
+    box.emplace_back();
+    for (const std::size_t end : {0, 1}) {
+      const Box ball = sphere_box(n.node[n.segment[s][end]], n.radius[s][end]);
+      box.back().include(ball.low);
+      box.back().include(ball.high);
+    }
+  }
+  std::vector<std::vector<int>> beside(n.segment.size());
+  for (const auto& [s, t] : contact::find_pairs(box, most)) {
+    beside[s].push_back(t);
+    beside[t].push_back(s);
+  }
+  return beside;
+}
+
+class GapSearch {
+ public:
+  GapSearch(const mesh::Network& network, double most)
+      : n_(network), most_(most), beside_(find_beside(network, most)) {}
+
+  /// The smallest gap of a piece: negative where walls cross, `most` where there is none.
+  double find(const Piece& piece) const {
+    double least = most_;
+    for (const int other : beside_[piece.segment])
+      if (!share_a_node(n_, piece.segment, other))
+        least = std::min(least, find_between(piece, other));
+    return least;
+  }
+  /// Pairs of segments whose walls cross.
+  int count_overlapping() const {
+    int count = 0;
+    for (int s = 0; s < static_cast<int>(beside_.size()); ++s)
+      for (const int t : beside_[s])
+        if (s < t && !share_a_node(n_, s, t) && find_between({s, 0, 1}, t) < 0) ++count;
+    return count;
+  }
+
+ private:
+  double find_between(const Piece& piece, int other) const {
+    const NearestPlaces near = find_nearest_places(n_, piece, other);
+    if (near.gap >= most_) return most_;
+    // Neighbours along one vessel, with a short segment between them, are no gap.
+    const bool filled = std::ranges::any_of(beside_[piece.segment], [&](int k) {
+      if (k == other) return false;
+      const mesh::NearestBall ball = ball_of(n_, k, near.middle);
+      return ball.apart.norm() < ball.radius;
+    });
+    return filled ? most_ : near.gap;
+  }
+
+  const mesh::Network& n_;
+  double most_;
+  std::vector<std::vector<int>> beside_;
+};
+
+/// Pieces about as long as the vessel is thick.
+int count_pieces(const mesh::Network& n, std::size_t segment) {
+  constexpr double kMost = 200;
+  const auto& [a, b] = n.segment[segment];
+  const double radius = std::min(n.radius[segment][0], n.radius[segment][1]);
+  return static_cast<int>(
+      std::clamp(std::ceil((n.node[b] - n.node[a]).norm() / radius), 1.0, kMost));
+}
+
+}  // namespace
+
+VesselPieces cut_vessels(const mesh::Network& n, const std::vector<double>& size) {
+  constexpr double kOfGap = 0.9, kFinest = 0.1;
+  const GapSearch search(n, *std::ranges::max_element(size) / kOfGap);
+  VesselPieces out;
+  out.network.node = n.node;
+  out.overlapping = search.count_overlapping();
+  for (std::size_t s = 0; s < n.segment.size(); ++s) {
+    const auto size_of = [&](double low, double high) {
+      const double gap = search.find({static_cast<int>(s), low, high});
+      // No edge is short enough for walls that cross.
+      return gap > 0 ? std::clamp(kOfGap * gap, kFinest * size[s], size[s]) : size[s];
+    };
+    const auto [a, b] = n.segment[s];
+    const auto [ra, rb] = n.radius[s];
+    const int pieces = size_of(0, 1) < size[s] ? count_pieces(n, s) : 1;
+    const auto at = [&](int k) { return static_cast<double>(k) / pieces; };
+    int from = a;
+    double r_from = ra, before = size_of(0, at(1));
+    for (int k = 1; k <= pieces; ++k) {
+      const double next = k < pieces ? size_of(at(k), at(k + 1)) : -1;
+      if (next == before) continue;  // one piece with the next
+      int to = b;
+      if (k < pieces) {
+        to = static_cast<int>(out.network.node.size());
+        out.network.node.push_back(n.node[a] + at(k) * (n.node[b] - n.node[a]));
+      }
+      const double r_to = k < pieces ? ra + at(k) * (rb - ra) : rb;
+      out.network.segment.push_back({from, to});
+      out.network.radius.push_back({r_from, r_to});
+      out.size.push_back(before);
+      from = to;
+      r_from = r_to;
+      before = next;
+    }
+  }
+  return out;
+}
+
+}  // namespace acinus::implicit
