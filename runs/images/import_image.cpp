@@ -252,7 +252,7 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
   Pieces pieces = image::find_pieces(vessels);
   LabelImage numbered = vessels;
   constexpr std::size_t kLeastVoxels = 27;
-  constexpr double kSmoother = 1.5;
+  constexpr double kSmoother = 1.5, kVesselEdge = 1.5;
   for (const image::PieceRow& row : pieces.row)
     std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
                 static_cast<Label>(row.piece) + 1);
@@ -266,7 +266,7 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
     }
     // A network is thin where a cell of its volume is not; walls with the steps of voxels are
     // rough.
-    const double edge = kLeastEdge * numbered.voxel.maxCoeff();
+    const double edge = kVesselEdge * numbered.voxel.maxCoeff();
     image::LabelSurface made =
         image::make_label_surface(numbered, p, edge, kSmoother * o.smoothing);
     tissue.vessel.push_back(std::move(made.surface));
