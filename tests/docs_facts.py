@@ -9,7 +9,7 @@ import subprocess
 PAST = ("CHANGELOG.md",)
 SKIPPED = re.compile(r"^(build[^/]*|out|(.*/)?node_modules|\.git|(.*/)?__pycache__|(.*/)?[^/]*\.(run|study))$")
 SOURCE_ENDINGS = (".hpp", ".cpp", ".py")
-ENDINGS = "hpp|cpp|py|md|json|sh|txt|cmake|svg|png|vtkhdf|xmf|h5|csv|log|journal|lock|bib|slurm"
+ENDINGS = "hpp|cpp|py|md|json|sh|txt|cmake|svg|png|vtk|vtkhdf|xmf|h5|csv|log|journal|lock|bib|slurm"
 FILE_NAME = re.compile(rf"[\w.-]+\.({ENDINGS})")
 LITERAL = re.compile(r'"((?:\\.|[^"\\\n])*)"')
 

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/image/header_fields.hpp"
 #include "core/image/image_formats.hpp"
 #include "core/mesh/input_file.hpp"
 
@@ -33,73 +32,31 @@ constexpr std::array<std::pair<const char*, Scalar>, 12> kTypes{{
     {"met_double", Scalar::kF64},
 }};
 
-/// The fields of the header, with keys in lower case, and where each stands.
-class Header {
- public:
-  /// Leaves the cursor behind the line that says where the data are.
-  explicit Header(mesh::InputFile& file) : file_(file) {
-    while (file.remaining() > 0 && !has(kData)) {
-      const std::size_t place = file.position();
-      const std::string_view line = file.next_line();
-      const std::size_t equals = line.find('=');
-      if (equals == line.npos) {
-        if (trimmed(line).empty()) continue;
-        file.fail_at(place, "a line of the header without \"=\". Is this a MetaImage?");
-      }
-      field_[mesh::lower_case(trimmed(line.substr(0, equals)))] = {
-          std::string(trimmed(line.substr(equals + 1))), place};
-    }
-    check(has(kData),
-          fmt::format("{}: the header has no ElementDataFile: it looks truncated.", file.path()));
-  }
+constexpr const char* kData = "elementdatafile";
 
-  bool has(const std::string& key) const { return field_.contains(key); }
-  std::string text(const std::string& key) const {
-    return has(key) ? field_.at(key).value : std::string();
+/// Leaves the cursor behind the line that says where the data are.
+HeaderFields read_header(mesh::InputFile& file) {
+  HeaderFields fields(file, "Write the image again, for instance with ITK or Fiji.");
+  while (file.remaining() > 0 && !fields.has(kData)) {
+    const std::size_t place = file.position();
+    const std::string_view line = file.next_line();
+    const std::size_t equals = line.find('=');
+    if (equals != line.npos)
+      fields.add(line.substr(0, equals), line.substr(equals + 1), place);
+    else if (!trimmed(line).empty())
+      file.fail_at(place, "a line of the header without \"=\". Is this a MetaImage?");
   }
-  bool is_true(const std::string& key) const {
-    const std::string t = mesh::lower_case(text(key));
-    return t == "true" || t == "1";
-  }
-  std::vector<double> numbers(const std::string& key) const {
-    std::vector<double> out;
-    std::string_view rest = text_view(key);
-    while (!(rest = trimmed(rest)).empty()) {
-      const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-      double value = 0;
-      if (!mesh::parse_double(rest.substr(0, end), value))
-        fail(key, fmt::format("{} is no number", mesh::in_quotes(rest.substr(0, end))));
-      out.push_back(value);
-      rest.remove_prefix(end);
-    }
-    return out;
-  }
-  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    const std::size_t place = has(key) ? field_.at(key).place : 0;
-    file_.fail_at(place, what + ". Write the image again, for instance with ITK or Fiji.");
-  }
+  check(fields.has(kData),
+        fmt::format("{}: the header has no ElementDataFile: it looks truncated.", file.path()));
+  return fields;
+}
 
-  static constexpr const char* kData = "elementdatafile";
+bool is_true(const HeaderFields& h, const char* name) {
+  const std::string t = mesh::lower_case(h.text(name));
+  return t == "true" || t == "1";
+}
 
- private:
-  struct Field {
-    std::string value;
-    std::size_t place = 0;
-  };
-  static std::string_view trimmed(std::string_view t) {
-    const std::size_t first = t.find_first_not_of(" \t\r");
-    if (first == t.npos) return {};
-    return t.substr(first, t.find_last_not_of(" \t\r") - first + 1);
-  }
-  std::string_view text_view(const std::string& key) const {
-    return has(key) ? std::string_view(field_.at(key).value) : std::string_view();
-  }
-
-  mesh::InputFile& file_;
-  std::map<std::string, Field> field_;
-};
-
-Scalar type_of(const Header& header) {
+Scalar type_of(const HeaderFields& header) {
   const std::string name = mesh::lower_case(header.text("elementtype"));
   for (const auto& [text, type] : kTypes)
     if (name == text) return type;
@@ -108,7 +65,7 @@ Scalar type_of(const Header& header) {
                                          mesh::in_quotes(header.text("elementtype"))));
 }
 
-void check_supported(const Header& h) {
+void check_supported(const HeaderFields& h) {
   if (h.numbers("ndims") != std::vector<double>{3})
     h.fail("ndims", fmt::format("the image has {} dimensions; three are needed",
                                 mesh::in_quotes(h.text("ndims"))));
@@ -120,7 +77,7 @@ void check_supported(const Header& h) {
 
 ImageFile read_metaimage(const std::string& path) {
   mesh::InputFile file(path);
-  const Header h(file);
+  const HeaderFields h = read_header(file);
   check_supported(h);
   ImageFile out;
   out.type = type_of(h);
@@ -139,16 +96,16 @@ ImageFile read_metaimage(const std::string& path) {
 
   ImageBytes data;
   data.path = path;
-  data.compressed = h.is_true("compresseddata");
-  data.swap = h.is_true("binarydatabyteordermsb") || h.is_true("elementbyteordermsb");
-  const std::string name = h.text(Header::kData);
+  data.compressed = is_true(h, "compresseddata");
+  data.swap = is_true(h, "binarydatabyteordermsb") || is_true(h, "elementbyteordermsb");
+  const std::string name = h.text(kData);
   if (mesh::lower_case(name) == "local") {
     data.stored = file.bytes().substr(file.position());
     take_bytes(data, out);
     return out;
   }
   if (mesh::lower_case(name) == "list" || name.find('%') != name.npos)
-    h.fail(Header::kData, "data in a list of files are not read: write one file");
+    h.fail(kData, "data in a list of files are not read: write one file");
   data.path = (std::filesystem::path(path).parent_path() / name).string();
   const mesh::InputFile raw(data.path);
   data.stored = raw.bytes();

@@ -6,12 +6,13 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/image/header_fields.hpp"
 #include "core/image/image_formats.hpp"
 #include "core/mesh/input_file.hpp"
 
@@ -48,68 +49,25 @@ constexpr std::array<std::pair<const char*, Scalar>, 27> kTypes{{
     {"double", Scalar::kF64},
 }};
 
-struct Field {
-  std::string value;
-  std::size_t place = 0;
-};
-
-std::string trimmed(std::string_view t) {
-  const std::size_t first = t.find_first_not_of(" \t");
-  if (first == t.npos) return {};
-  return std::string(t.substr(first, t.find_last_not_of(" \t") - first + 1));
+/// Leaves the cursor behind the empty line.
+HeaderFields read_header(mesh::InputFile& file) {
+  HeaderFields fields(file, "Write the image again, for instance with 3D Slicer or Fiji.");
+  if (!file.next_line().starts_with("NRRD000"))
+    file.fail("the file does not begin with NRRD000. Is this an NRRD file?");
+  while (file.remaining() > 0) {
+    const std::size_t place = file.position();
+    const std::string_view line = file.next_line();
+    if (line.empty()) break;
+    if (line[0] == '#') continue;
+    const std::size_t colon = line.find(':');
+    if (colon == line.npos) file.fail_at(place, "a line of the header without \":\".");
+    if (line.substr(colon).starts_with(":=")) continue;  // a key of the user's own
+    fields.add(line.substr(0, colon), line.substr(colon + 1), place);
+  }
+  return fields;
 }
 
-class NrrdHeader {
- public:
-  /// Leaves the cursor behind the empty line.
-  explicit NrrdHeader(mesh::InputFile& file) : file_(file) {
-    const std::string_view magic = file.next_line();
-    if (!magic.starts_with("NRRD000"))
-      file.fail("the file does not begin with NRRD000. Is this an NRRD file?");
-    while (file.remaining() > 0) {
-      const std::size_t place = file.position();
-      const std::string_view line = file.next_line();
-      if (line.empty()) return;
-      if (line[0] == '#') continue;
-      const std::size_t colon = line.find(':');
-      if (colon == line.npos) file.fail_at(place, "a line of the header without \":\".");
-      if (line.substr(colon).starts_with(":=")) continue;  // a key of the user's own
-      field_[mesh::lower_case(line.substr(0, colon))] = {trimmed(line.substr(colon + 1)), place};
-    }
-  }
-  bool has(const std::string& name) const { return field_.contains(name); }
-  std::string text(const std::string& name) const {
-    return has(name) ? field_.at(name).value : std::string();
-  }
-  /// Numbers among any brackets, commas and spaces; "none" and "nan" are nan.
-  std::vector<double> numbers(const std::string& name) const {
-    std::vector<double> out;
-    std::string t = text(name);
-    std::ranges::replace_if(
-        t, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-    std::size_t at = 0;
-    while ((at = t.find_first_not_of(" \t", at)) != t.npos) {
-      const std::size_t end = std::min(t.find_first_of(" \t", at), t.size());
-      const std::string token = mesh::lower_case(t.substr(at, end - at));
-      double value = std::nan("");
-      if (token != "none" && !mesh::parse_double(token, value))
-        fail(name, fmt::format("{} is no number", mesh::in_quotes(token)));
-      out.push_back(value);
-      at = end;
-    }
-    return out;
-  }
-  [[noreturn]] void fail(const std::string& name, const std::string& what) const {
-    file_.fail_at(has(name) ? field_.at(name).place : 0,
-                  what + ". Write the image again, for instance with 3D Slicer or Fiji.");
-  }
-
- private:
-  mesh::InputFile& file_;
-  std::map<std::string, Field> field_;
-};
-
-Scalar type_of(const NrrdHeader& h) {
+Scalar type_of(const HeaderFields& h) {
   const std::string name = mesh::lower_case(h.text("type"));
   for (const auto& [text, type] : kTypes)
     if (name == text) return type;
@@ -118,7 +76,7 @@ Scalar type_of(const NrrdHeader& h) {
 }
 
 /// Sides of a voxel: "spacings", or the lengths of "space directions".
-Vec3 step_of(const NrrdHeader& h) {
+Vec3 step_of(const HeaderFields& h) {
   Vec3 step = Vec3::Zero();
   if (const std::vector<double> d = h.numbers("space directions"); !d.empty()) {
     if (d.size() != 9) h.fail("space directions", "three vectors of three numbers are needed");
@@ -136,7 +94,7 @@ Vec3 step_of(const NrrdHeader& h) {
 }
 
 /// The first text in quotes of "units" or "space units".
-double unit_of(const NrrdHeader& h) {
+double unit_of(const HeaderFields& h) {
   for (const char* name : {"space units", "units"}) {
     const std::string t = h.text(name);
     const std::size_t first = t.find('"');
@@ -161,7 +119,7 @@ std::string take_text(std::string_view text, mesh::InputFile& file, std::size_t 
 
 ImageFile read_nrrd(const std::string& path) {
   mesh::InputFile file(path);
-  const NrrdHeader h(file);
+  const HeaderFields h = read_header(file);
   ImageFile out;
   if (h.numbers("dimension") != std::vector<double>{3})
     h.fail("dimension", fmt::format("the image has {} dimensions; three are needed",

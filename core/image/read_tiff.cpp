@@ -1,19 +1,18 @@
 /// TIFF stacks, by libtiff: a page a slice.
 
 #include <fmt/format.h>
-#include <tiffio.h>
 
 #include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/image/image_formats.hpp"
+#include "core/image/tiff_handle.hpp"
 #include "core/image/tiff_text.hpp"
 
 namespace acinus::image {
@@ -31,11 +30,6 @@ void keep_words(const char* module, const char* format, va_list values) {
   last_words() = fmt::format("{}{}{}", module ? module : "", module ? ": " : "", text.data());
 }
 
-struct CloseTiff {
-  void operator()(TIFF* t) const { TIFFClose(t); }
-};
-using TiffFile = std::unique_ptr<TIFF, CloseTiff>;
-
 TiffFile open(const std::string& path) {
   check(std::filesystem::is_regular_file(path),
         fmt::format("{}: no such file. Check the path.", path));
@@ -47,14 +41,14 @@ TiffFile open(const std::string& path) {
   return tiff;
 }
 
-struct Page {
+struct TiffPage {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 1, samples = 1, format = SAMPLEFORMAT_UINT;
-  bool operator==(const Page&) const = default;
+  bool operator==(const TiffPage&) const = default;
 };
 
-Page page_of(TIFF* t) {
-  Page p;
+TiffPage page_of(TIFF* t) {
+  TiffPage p;
   TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &p.width);
   TIFFGetField(t, TIFFTAG_IMAGELENGTH, &p.height);
   TIFFGetFieldDefaulted(t, TIFFTAG_BITSPERSAMPLE, &p.bits);
@@ -63,7 +57,7 @@ Page page_of(TIFF* t) {
   return p;
 }
 
-Scalar type_of(const std::string& path, const Page& p) {
+Scalar type_of(const std::string& path, const TiffPage& p) {
   check(p.samples == 1,
         fmt::format("{}: {} numbers a pixel: a colour picture. Save the labels themselves, one "
                     "number a pixel.",
@@ -87,7 +81,7 @@ Scalar type_of(const std::string& path, const Page& p) {
 }
 
 /// The rows of a page, from its strips or tiles.
-void read_page(const std::string& path, TIFF* t, const Page& page, std::int64_t number,
+void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int64_t number,
                std::vector<std::byte>& rows) {
   const std::size_t bytes = page.bits / 8u, row = page.width * bytes;
   const auto damaged = [&] {
@@ -151,7 +145,7 @@ ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
   const TiffFile tiff = open(path);
   const TiffText text = describe(path, tiff.get());
   const std::int64_t chosen = channel.among(path, text.channels * text.times);
-  const Page first = page_of(tiff.get());
+  const TiffPage first = page_of(tiff.get());
   ImageFile file;
   file.type = type_of(path, first);
   file.size = {first.width, first.height, text.slices};
@@ -167,7 +161,7 @@ ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
     const std::int64_t number = text.page(slice, chosen);
     check(TIFFSetDirectory(tiff.get(), static_cast<tdir_t>(number)) == 1,
           fmt::format("{}: page {} is missing or damaged: {}", path, number, last_words()));
-    const Page page = page_of(tiff.get());
+    const TiffPage page = page_of(tiff.get());
     check(
         page == first,
         fmt::format("{}: page {} has {} x {} pixels of {} bits, the first {} x {} of {}. All must "

@@ -17,7 +17,7 @@ namespace acinus::image {
 namespace {
 
 /// A part of the image, with the share that one body has in its voxels.
-struct Share {
+struct BodyShare {
   Voxel low{};
   Grid grid;
 };
@@ -30,7 +30,7 @@ Box box_of(const mesh::Surface& s) {
 
 /// 1 where the centre of a voxel is inside: lines along x are cut with all triangles, upward and
 /// downward crossings counted. The lines pass the centres by a little, so as not to meet nodes.
-void fill_inside(const mesh::Surface& body, const Vec3& corner, Share& share) {
+void fill_inside(const mesh::Surface& body, const Vec3& corner, BodyShare& share) {
   constexpr double kAside = 1.3e-7, kAsideZ = 0.7e-7;  // of a voxel
   Grid& g = share.grid;
   std::vector<std::vector<std::pair<double, int>>> crossing(static_cast<std::size_t>(g.size[1]) *
@@ -88,11 +88,11 @@ Grid make_grain(const Grid& like, std::uint64_t seed, std::uint64_t body) {
   return grain;
 }
 
-Share make_share(const mesh::Surface& body, std::uint64_t number, const Vec3& corner,
-                 const Voxel& size, const Voxelise& how) {
+BodyShare make_share(const mesh::Surface& body, std::uint64_t number, const Vec3& corner,
+                     const Voxel& size, const Voxelise& how) {
   constexpr double kReach = 3;  // standard deviations of the blur
   const Box box = box_of(body).grown(kReach * how.blur);
-  Share share;
+  BodyShare share;
   share.grid.voxel = how.voxel;
   for (int k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -140,7 +140,7 @@ VoxelisedBodies voxelise(std::span<const mesh::Surface> bodies, const Voxelise& 
   out.image.label.assign(n_voxel, 0);
   std::vector<float> largest(n_voxel, 0), sum(n_voxel, 0);
   for (std::size_t first = 0; first < bodies.size(); first += kAtOnce) {
-    std::vector<Share> share(std::min(kAtOnce, bodies.size() - first));
+    std::vector<BodyShare> share(std::min(kAtOnce, bodies.size() - first));
     for_each_part(share.size(), [&](std::size_t k) {
       share[k] = make_share(bodies[first + k], first + k, out.corner, out.image.size, how);
     });

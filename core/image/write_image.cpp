@@ -1,7 +1,6 @@
 #include "core/image/write_image.hpp"
 
 #include <fmt/format.h>
-#include <tiffio.h>
 
 #include <algorithm>
 #include <array>
@@ -10,11 +9,11 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <string_view>
 
 #include "core/error.hpp"
 #include "core/image/inflate.hpp"
+#include "core/image/tiff_handle.hpp"
 #include "core/io/disk.hpp"
 #include "core/mesh/input_file.hpp"
 
@@ -66,10 +65,6 @@ std::string nrrd_text(const LabelImage& i) {
          deflate_bytes(all_bytes(i, bytes), true);
 }
 
-struct CloseTiff {
-  void operator()(TIFF* t) const { TIFFClose(t); }
-};
-
 /// Beyond this a TIFF needs addresses of 64 bits, bytes.
 constexpr double kMostClassic = 3.9e9;
 
@@ -79,7 +74,7 @@ void write_tiff(const std::string& path, const LabelImage& i) {
   const bool big = static_cast<double>(bytes * i.label.size()) > kMostClassic;
   const auto failed = [&] { io::fail_on_disk(path, "write the image", errno); };
   TIFFSetErrorHandler(nullptr);
-  std::unique_ptr<TIFF, CloseTiff> file(TIFFOpen(part.path.c_str(), big ? "w8" : "w"));
+  TiffFile file(TIFFOpen(part.path.c_str(), big ? "w8" : "w"));
   if (!file) failed();
   TIFF* t = file.get();
   const std::string description =

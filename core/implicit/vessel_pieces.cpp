@@ -11,7 +11,7 @@ namespace acinus::implicit {
 namespace {
 
 /// Part of a segment, by its parameter.
-struct Piece {
+struct AxisPart {
   int segment = 0;
   double low = 0, high = 1;
 };
@@ -28,7 +28,7 @@ mesh::NearestBall ball_of(const mesh::Network& n, int segment, const Vec3& x) {
 }
 
 /// Along the axis of one, the distance to the other less the radius is convex: both bodies are.
-NearestPlaces find_nearest_places(const mesh::Network& n, const Piece& piece, int other) {
+NearestPlaces find_nearest_places(const mesh::Network& n, const AxisPart& piece, int other) {
   constexpr int kRounds = 50;
   constexpr double kGolden = 0.6180339887498949;
   const Vec3 a = n.node[n.segment[piece.segment][0]];
@@ -83,7 +83,7 @@ class GapSearch {
       : n_(network), most_(most), beside_(find_beside(network, most)) {}
 
   /// The smallest gap of a piece: negative where walls cross, `most` where there is none.
-  double find(const Piece& piece) const {
+  double find(const AxisPart& piece) const {
     double least = most_;
     for (const int other : beside_[piece.segment])
       if (!share_a_node(n_, piece.segment, other))
@@ -100,7 +100,7 @@ class GapSearch {
   }
 
  private:
-  double find_between(const Piece& piece, int other) const {
+  double find_between(const AxisPart& piece, int other) const {
     const NearestPlaces near = find_nearest_places(n_, piece, other);
     if (near.gap >= most_) return most_;
     // Neighbours along one vessel, with a short segment between them, are no gap.

@@ -131,12 +131,12 @@ void give_shapes(const std::vector<mesh::Surface>& surfaces, coupling::World& wo
     shape.push_back({static_cast<std::int64_t>(k), &surfaces[k]});
   const coupling::TakenShapes taken = coupling::take_shapes(shape, world);
   if (taken.laid + taken.inflated > 0)
-    notes.said.push_back(
-        fmt::format("{} cells have the shape of their surface{}; worst triangle {:.2f} of 1",
-                    taken.laid + taken.inflated,
-                    taken.inflated > 0 ? fmt::format(", {} of them blown up inside it", taken.inflated)
-                                     : std::string(),
-                    taken.worst_quality));
+    notes.said.push_back(fmt::format(
+        "{} cells have the shape of their surface{}; worst triangle {:.2f} of 1",
+        taken.laid + taken.inflated,
+        taken.inflated > 0 ? fmt::format(", {} of them blown up inside it", taken.inflated)
+                           : std::string(),
+        taken.worst_quality));
   for (const auto& [lineage, cause] : taken.round)
     notes.warned.push_back(fmt::format(
         "cell {} starts as a ball of its volume, not in its shape: {}. A finer mesh may follow it "
