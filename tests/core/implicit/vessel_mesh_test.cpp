@@ -142,7 +142,7 @@ TEST(VesselMesh, RoundingIsOnlyInCreases) {
 }
 
 TEST(VesselMesh, IsTheSameForAnyThreads) {
-  const mesh::Network n = RandomNetwork(3, 1, 4).grow(40);
+  const mesh::Network n = RandomNetwork(3, 1, 4).grow(20);
   set_threads(1);
   const mesh::Surface one = make_vessel_mesh(n, {}).surface;
   set_threads(3);
@@ -155,7 +155,7 @@ TEST(VesselMesh, IsTheSameForAnyThreads) {
 TEST(VesselMesh, OfRandomNetworksIsSound) {
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
     const double thickest = seed % 2 == 0 ? 12 : 3;
-    const mesh::Network n = RandomNetwork(seed, 1, thickest).grow(10 + 20 * seed);
+    const mesh::Network n = RandomNetwork(seed, 1, thickest).grow(8 + 8 * seed);
     const VesselMesh m = make_vessel_mesh(n, {});
     expect_sound(n, m, fmt::format("seed {}", seed));
     const Deviation d = find_deviation(n, m.surface);
