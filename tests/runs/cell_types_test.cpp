@@ -36,7 +36,7 @@ std::map<std::string, int> count_types(const std::vector<PlacedCell>& cells) {
 TEST(CellTypes, AreDrawnByTheirShares) {
   const std::string types = R"("types": [{"type": "large", "share": 3}, {"type": "small"}])";
   const Scene scene = make_scene(R"("source": "clump", "count": 2000, )" + types);
-  const auto cells = place_cells(scene, nullptr, {});
+  const auto cells = place_cells(scene, nullptr, {}, {});
   auto n = count_types(cells);
   EXPECT_EQ(n["large"] + n["small"], 2000);
   // binomial: 1500 +- sqrt(2000 * 0.75 * 0.25) = 19
@@ -46,7 +46,7 @@ TEST(CellTypes, AreDrawnByTheirShares) {
   EXPECT_NEAR((cells[1].center - cells[0].center).norm(), 24, 1e-12);
   // Another place or model does not change who is what.
   const auto box =
-      place_cells(make_scene(R"("source": "box", "grid": [20, 10, 10], )" + types), nullptr, {});
+      place_cells(make_scene(R"("source": "box", "grid": [20, 10, 10], )" + types), nullptr, {}, {});
   for (std::size_t k = 0; k < cells.size(); ++k) EXPECT_EQ(cells[k].type, box[k].type);
 }
 
@@ -59,7 +59,7 @@ TEST(CellTypes, RegionsComeFirst) {
           "region": {"kind": "half_space", "point": ["-48 um", "0 um", "0 um"],
                      "normal": [1, 0, 0]}}])");
   int mixed[2] = {};
-  for (const PlacedCell& c : place_cells(scene, nullptr, {})) {
+  for (const PlacedCell& c : place_cells(scene, nullptr, {}, {})) {
     if (c.center.x() > 0) {
       EXPECT_EQ(c.type, "large");
     } else if (c.center.x() > -48) {
@@ -80,7 +80,7 @@ TEST(CellTypes, FillKeepsEachClearOfWallsByItsOwnRadius) {
          "types": [{"type": "large", "share": 0.5}, {"type": "small", "share": 0.5}])",
       R"(, "walls": [{"point": ["0 um", "0 um", "0 um"], "normal": [0, 0, 1]}])");
   const BuiltWorld built = build_world(scene, Ranks::serial());
-  const auto cells = place_cells(scene, nullptr, built.world.params.boundary);
+  const auto cells = place_cells(scene, nullptr, {}, built.world.params.boundary);
   ASSERT_EQ(cells.size(), 150u);
   double lowest[2] = {1e9, 1e9};
   for (std::size_t i = 0; i < cells.size(); ++i) {
