@@ -99,11 +99,6 @@ Pieces find_pieces(const LabelImage& image) {
   return pieces;
 }
 
-void paint(const Pieces& pieces, int piece, Label label, LabelImage& image) {
-  for (const PieceRow& row : pieces.row)
-    if (row.piece == piece) std::fill_n(&image.label[image.index(row.first)], row.length, label);
-}
-
 std::vector<std::array<Label, 2>> find_touching(const LabelImage& image, int least) {
   std::map<std::array<Label, 2>, int> faces;
   const std::array<std::size_t, 3> stride{1, image.index({0, 1, 0}), image.index({0, 0, 1})};

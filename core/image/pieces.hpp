@@ -30,9 +30,6 @@ struct Pieces {
 /// Cost: linear in voxels.
 Pieces find_pieces(const LabelImage& image);
 
-/// Labels the voxels of a piece anew.
-void paint(const Pieces& pieces, int piece, Label label, LabelImage& image);
-
 /// Pairs of labels, the lower first and ascending, that have at least `least` faces of voxels
 /// between them. Nothing touches the background.
 std::vector<std::array<Label, 2>> find_touching(const LabelImage& image, int least);
