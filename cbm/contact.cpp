@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cbm/obstacle_contacts.hpp"
 #include "cbm/pair_kernel.hpp"
@@ -47,6 +48,11 @@ void scale_coupling(const ContactInput& in, ContactWorkspace& work,
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (!in.params[in.state.type[i]].correction.mean_of_contacts)
       work.coupling[i] *= contacts[i] / kNeighbours;
+}
+
+/// Whether a contact acts on vessels, too: not a point link, which joins a point with one other.
+bool meets_moving_vessel(const ContactInput& in, const Contact& k) {
+  return k.partner == contact::Partner::kVessel && in.vessel_row != contact::kAtRest;
 }
 
 }  // namespace
@@ -141,6 +147,8 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
           (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
       wider = std::max(wider, radius[i] - work.list_radius[i]);
     }
+    for (std::size_t i = 0; i < work.list_network.size(); ++i)
+      moved = std::max(moved, (in.boundary.vessels.network.node[i] - work.list_network[i]).norm());
     if (2 * (moved + wider) <= skin) return false;
   }
   const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
@@ -164,6 +172,8 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
              contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
     });
   }
+  work.list_network = {};
+  if (in.vessel_row != contact::kAtRest) work.list_network = network.node;
   work.list_position = s.position;
   work.list_radius.assign(radius.begin(), radius.end());
   ++work.list_builds;
@@ -200,12 +210,30 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
   for (std::size_t k = 0; k < work.force.size(); ++k) force[k] += work.force[k];
   system.point_links.resize(work.pair.size());
   for (const Contact& k : contacts.sphere_obstacle()) {
+    if (meets_moving_vessel(in, k)) continue;
     const std::size_t i = k.a;
     add_point(system.external_force.data(), cell_address(in.first_row, i), k.force * k.normal);
     solve::PointLink link{
         cell_point(in.first_row, i), solve::kNowhere, {}, static_cast<float>(k.slope), k.friction};
     for (int m = 0; m < 3; ++m) link.normal[m] = static_cast<float>(k.normal[m]);
     system.point_links.push_back(link);
+  }
+}
+
+void add_vessel_loads(const ContactInput& in, const contact::ContactList& contacts,
+                      solve::Links& links) {
+  if (in.vessel_row == contact::kAtRest) return;
+  for (const Contact& k : contacts.sphere_obstacle()) {
+    if (!meets_moving_vessel(in, k)) continue;
+    const std::size_t i = k.a, l = links.size();
+    links.resize(l + 1);
+    links.link[l].a = solve::Side::at(cell_point(in.first_row, i));
+    links.link[l].b =
+        contact::vessel_side(in.boundary.vessels, in.vessel_row, k.b, center_of(in.state, i));
+    // Spheres may overlap as they like: no depth is too much.
+    solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
+                   links.link[l]);
+    links.load[l] = {k.normal, k.force, 0, 0};
   }
 }
 

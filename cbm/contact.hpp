@@ -11,6 +11,7 @@
 #include "core/contact/boundary.hpp"
 #include "core/contact/jkr.hpp"
 #include "core/contact/record.hpp"
+#include "core/contact/vessel_side.hpp"
 #include "core/solve/system.hpp"
 
 namespace acinus::cbm {
@@ -29,8 +30,9 @@ struct ContactInput {
   const ContactParams& options;
   CellData cells;
   const contact::Boundary& boundary;
-  double time = 0;            ///< s, for which moving walls stand
-  std::size_t first_row = 0;  ///< where the CBM rows start in the system
+  double time = 0;                            ///< s, for which moving walls stand
+  std::size_t first_row = 0;                  ///< where the CBM rows start in the system
+  std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
 };
 
 /// What contacts of two spheres need of the type of each.
@@ -49,7 +51,8 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> pair;
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
-  std::vector<double> force;  ///< [n_row][3][lane] nN of all pairs; by: find_contacts
+  std::vector<Vec3> list_network;  ///< nodes of vessels that move
+  std::vector<double> force;       ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
@@ -123,10 +126,14 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
 void add_coupling(ContactWorkspace& work, std::span<contact::Contact> obstacle,
                   std::span<solve::PointLink> link);
 
-/// Adds the forces find_contacts worked out, and force and link of contacts with boundary.
-/// @pre the point links are those of find_contacts
+/// Adds the forces find_contacts worked out, and force and link of contacts with boundary; but for
+/// those with vessels that move. @pre the point links are those of find_contacts
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, solve::System& system);
+
+/// Appends force and link of every contact with vessels that move.
+void add_vessel_loads(const ContactInput& in, const contact::ContactList& contacts,
+                      solve::Links& links);
 
 /// Appends the touching pairs of the last search one by one. @pre find_contacts
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "core/contact/wall_mesh.hpp"
 #include "core/mesh/measures.hpp"
 
 namespace acinus::cbm {
@@ -51,7 +54,10 @@ class ObstacleSearch {
           boundary, [&](Partner kind, int k, const auto& wall) { meet_wall(kind, i, k, wall, x); });
       for (std::size_t k = 0; k < boundary.meshes.size(); ++k) meet_mesh(i, k, x);
     }
-    for (auto [cell, segment] : work_.segment) meet_vessel(cell, segment);
+    if (in_.vessel_row == contact::kAtRest)
+      for (auto [cell, segment] : work_.segment) meet_vessel(cell, segment);
+    else
+      meet_moving_vessels();
     std::ranges::sort(work_.touching);
   }
 
@@ -88,8 +94,9 @@ class ObstacleSearch {
 
   /// @param recess  um, by which a wall is met later than at the radius
   /// @param slope   of its modulus over that of the cell
-  void meet(const Contact& k, const contact::SpherePair& pair, double recess = 0,
-            double slope = 1) {
+  /// @param share   of its force
+  void meet(const Contact& k, const contact::SpherePair& pair, double recess = 0, double slope = 1,
+            double share = 1) {
     const std::size_t i = k.a;
     const int key = boundary_key(k.partner, k.b);
     const bool before = k.partner == Partner::kVessel
@@ -97,8 +104,8 @@ class ObstacleSearch {
                             : was_touching(in_.state, k.a, key);
     const double overlap = -k.gap;
     if (overlap < recess && !before) return;
-    const contact::SphereForce law =
-        weaken(contact::jkr_force(pair, overlap - recess, before), in_.cells.strength_of(i));
+    const contact::SphereForce law = weaken(contact::jkr_force(pair, overlap - recess, before),
+                                            share * in_.cells.strength_of(i));
     if (!law.touching) return;
     work_.touching.emplace_back(k.a, key);
     add(k, law, params_of(i).vessel_friction, slope);
@@ -157,15 +164,61 @@ class ObstacleSearch {
                                in_.options.adhesion_factor * m.material.adhesion));
   }
 
-  void meet_vessel(std::size_t i, int segment) {
+  /// The gap to a segment, if the contact with it is one of its own.
+  std::optional<contact::Gap> vessel_gap(std::size_t i, int segment) const {
     const contact::Vessels& vessels = in_.boundary.vessels;
     const Vec3 x = center_of(in_.state, i);
-    const contact::Gap g = contact::gap_to_segment(vessels.network, segment, x);
-    if (!contact::is_local_minimum(vessels, segment, x, g)) return;
-    const contact::Material& m = vessels.material;
+    if (!contact::is_local_minimum(vessels, segment, x,
+                                   contact::gap_to_segment(vessels.network, segment, x)))
+      return std::nullopt;
+    return contact::gap_to_wall(vessels, segment, x, 2 * radius(i));
+  }
+
+  void meet_vessel(std::size_t i, int segment) {
+    if (const std::optional<contact::Gap> g = vessel_gap(i, segment)) press(i, segment, *g, 1);
+  }
+
+  /// A vessel that bends has two contacts where it had one, on the inner side of every joint that
+  /// is no longer straight: contacts with segments that share a node count as one as far as they
+  /// point the same way.
+  void meet_moving_vessels() {
+    const contact::Vessels& vessels = in_.boundary.vessels;
+    std::vector<std::pair<int, contact::Gap>> met;  // segment
+    const auto share_node = [&](int s, int t) {
+      const auto &a = vessels.network.segment[s], &b = vessels.network.segment[t];
+      return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+    };
+    for (auto pair = work_.segment.begin(); pair != work_.segment.end();) {
+      const int cell = pair->first;
+      met.clear();
+      for (; pair != work_.segment.end() && pair->first == cell; ++pair)
+        if (const std::optional<contact::Gap> g = vessel_gap(cell, pair->second))
+          if (g->gap < 2 * radius(cell)) met.emplace_back(pair->second, *g);
+      for (const auto& [segment, gap] : met) {
+        double count = 0;  // itself among them
+        for (const auto& [other, there] : met)
+          if (other == segment || share_node(other, segment))
+            count += likeness(gap.normal, there.normal);
+        press(cell, segment, gap, 1 / count);
+      }
+    }
+  }
+
+  /// 1: two directions are one; 0: they are two. Contacts run into each other where their distance
+  /// on the sphere is that of the diameter of a contact some hundredths of the radius deep.
+  static double likeness(const Vec3& a, const Vec3& b) {
+    constexpr double kApart = 0.5;  // rad
+    const double x = std::min(1.0, std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / kApart);
+    return (1 - x) * (1 - x) * (1 + 2 * x);
+  }
+
+  /// The contact of a sphere with a segment, and what counts of it.
+  void press(std::size_t i, int segment, const contact::Gap& g, double share) {
+    const contact::Material& m = in_.boundary.vessels.material;
     meet(contact_with(Partner::kVessel, i, segment, g.gap, g.normal),
          contact::vessel_pair(body(i), {g.radius, m.young, m.poisson},
-                              in_.options.adhesion_factor * m.adhesion));
+                              in_.options.adhesion_factor * m.adhesion),
+         0, 1, share);
   }
 
   const ContactInput& in_;

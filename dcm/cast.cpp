@@ -151,4 +151,15 @@ void spread_nodes(const mesh::Topology& topology, const mesh::StarSurface& star,
   }
 }
 
+std::optional<std::vector<Vec3>> cast_and_spread(const mesh::Topology& t,
+                                                 const mesh::Surface& surface, const Vec3& center,
+                                                 const Mat3& rotation) {
+  std::optional<std::vector<Vec3>> node = cast_sphere(t, surface, center, rotation);
+  if (!node) return std::nullopt;
+  const std::vector<Part> part(node->size(), Part::kShell);
+  spread_nodes(t, mesh::StarSurface(surface, center),
+               {part, static_cast<int>(surface.triangle.size())}, *node);
+  return node;
+}
+
 }  // namespace acinus::dcm

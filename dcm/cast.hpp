@@ -45,4 +45,9 @@ struct SpreadRule {
 void spread_nodes(const mesh::Topology& topology, const mesh::StarSurface& star,
                   const SpreadRule& rule, std::span<Vec3> node);
 
+/// Both: a fresh mesh of a surface that is star-shaped from the centre; nothing if it is not.
+std::optional<std::vector<Vec3>> cast_and_spread(const mesh::Topology& topology,
+                                                 const mesh::Surface& surface, const Vec3& center,
+                                                 const Mat3& rotation);
+
 }  // namespace acinus::dcm

@@ -168,7 +168,8 @@ void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
                         work.body_constrained,
                         work.body_foreign,
                         in.boundary.vessels.network,
-                        search_options(in)};
+                        search_options(in),
+                        in.vessel_row != contact::kAtRest};
   refresh_pairs(input, work.lists);
   if (!work.foreign.empty()) {
     std::vector<int> listed;
@@ -187,6 +188,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
     find_triangle_contacts(in, work, all);
   else
     find_point_contacts(in, options, work, all);
+  take_wall_contacts(in, work, all);
   contacts.surface_end = all.size();
 
   work.obstacle.resize(work.body.size());

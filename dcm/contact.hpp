@@ -10,6 +10,7 @@
 #include "core/contact/cohesive.hpp"
 #include "core/contact/record.hpp"
 #include "core/contact/surface.hpp"
+#include "core/contact/vessel_side.hpp"
 #include "core/solve/system.hpp"
 #include "dcm/contact_lists.hpp"
 #include "dcm/loads.hpp"
@@ -62,7 +63,8 @@ struct ContactInput {
   const ContactParams& options;
   const LaneData& lanes;
   const contact::Boundary& boundary;
-  double time = 0;  ///< s, for which moving walls stand
+  double time = 0;                            ///< s, for which moving walls stand
+  std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
 };
 
 /// Guards: nodes and face centres deep inside a vessel are pushed out, without adhesion or
@@ -112,8 +114,10 @@ struct ContactWorkspace {
   /// Boxes of all; the rest of own bodies and of those that complete_bodies was asked for. Written
   /// by: refresh_bodies
   std::vector<contact::SurfaceBody> body;
-  std::vector<std::uint8_t> is_complete;       ///< [body] written by: refresh_bodies
-  std::vector<contact::SurfaceBody> fixed;     ///< static meshes
+  std::vector<std::uint8_t> is_complete;    ///< [body] written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;  ///< static meshes, then the surface of vessels
+  /// [body] contacts with that surface; by: find_contacts. Empty: vessels are cones.
+  std::vector<std::vector<contact::Contact>> wall;
   ContactLists lists;                          ///< written by: refresh_lists
   std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
   std::vector<std::uint8_t> body_constrained;  ///< empty: all move; written by: refresh_lists

@@ -85,6 +85,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   ContactLists next;
   next.options = in.options;
   next.n_fixed = in.fixed.size();
+  next.network_node = std::move(lists.network_node);
   next.checked = lists.checked;
   next.made = lists.made;
   next.body.resize(in.body.size());
@@ -144,6 +145,18 @@ void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   for (std::size_t i = 0; i < n; ++i)
     spread2 = std::max(spread2, (moved(i) - s.mean).squaredNorm());
   s.spread = std::sqrt(spread2);
+}
+
+/// Whether a node of a network that moves went farther than the lists of segments allow for since
+/// they were made; if so they are to be made again, from its places now.
+bool network_moved(const ListInput& in, double most, ContactLists& lists) {
+  if (!in.network_moves) return false;
+  const std::vector<Vec3>& now = in.network.node;
+  bool far = lists.network_node.size() != now.size();
+  for (std::size_t i = 0; i < now.size() && !far; ++i)
+    far = (now[i] - lists.network_node[i]).norm() > most;
+  if (far) lists.network_node = now;
+  return far;
 }
 
 const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {
@@ -230,14 +243,18 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   for (std::size_t k = 0; k < lists.pair.size(); ++k)
     if (!lists.age[k].made() || relative_motion(lists, k) + range - lists.age[k].range > skin)
       expired.push_back(k);
-  if (!in.network.segment.empty())
+  if (!in.network.segment.empty()) {
+    // Half the skin is for the body, half for how far vessels move, each way from where they were.
+    const double room = in.network_moves ? 0.5 * skin : skin;
+    const bool moved = network_moved(in, 0.25 * skin, lists);
     for (std::size_t k = 0; k < n_body; ++k) {
       if (is_constrained(in, k) || is_foreign(in, k)) continue;
       const ListAge& age = lists.segment_age[k];
       const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
-      if (s == nullptr || s->spread + s->mean.norm() + range - age.range > skin)
+      if (moved || s == nullptr || s->spread + s->mean.norm() + range - age.range > room)
         segments_expired.push_back(k);
     }
+  }
   lists.checked += static_cast<std::int64_t>(lists.pair.size());
   lists.made += static_cast<std::int64_t>(expired.size());
   if (expired.empty() && segments_expired.empty()) return;

@@ -61,7 +61,10 @@ struct ContactLists {
   std::vector<ListAge> age;                ///< [pair]
   std::vector<SegmentCandidates> segment;  ///< [body]
   std::vector<ListAge> segment_age;        ///< [body]
-  std::int64_t checked = 0, made = 0;      ///< how often a list was looked at, and made
+  /// The nodes of a network that moves at a moment from which none went far since; all lists of
+  /// segments are younger.
+  std::vector<Vec3> network_node;
+  std::int64_t checked = 0, made = 0;  ///< how often a list was looked at, and made
   ListScratch scratch;
 };
 
@@ -73,6 +76,7 @@ struct ListInput {
   std::span<const std::uint8_t> foreign;      ///< [body] 1: of another process; empty: none
   const mesh::Network& network;
   contact::SearchOptions options;
+  bool network_moves = false;
 };
 
 /// Looks for the pairs of near bodies again if those listed no longer hold; reads only boxes.

@@ -111,6 +111,11 @@ solve::Side side_a(const ContactInput& in, const ContactWorkspace& work, const C
 }
 
 solve::Side side_b(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
+  if (k.partner == Partner::kVessel) {
+    const contact::SurfaceBody& a = work.body[k.a];
+    return contact::vessel_side(in.boundary.vessels, in.vessel_row, k.b,
+                                contact::point_position(a, probe_stencil(in.options, a, k)));
+  }
   if (k.partner != Partner::kSurface) return solve::Side::nowhere();
   const std::size_t body = k.b;
   return side_at(in.state, work.lane_of_body[body],

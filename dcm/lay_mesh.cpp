@@ -18,18 +18,6 @@ namespace {
 /// Triangles worse than this are not accepted.
 constexpr double kLeastQuality = 0.1;
 
-std::optional<std::vector<Vec3>> cast_mesh(const mesh::Topology& topology,
-                                           const mesh::Surface& surface, const Mat3& rotation) {
-  const std::optional<Vec3> center = mesh::find_star_center(surface);
-  if (!center) return std::nullopt;
-  std::optional<std::vector<Vec3>> node = cast_sphere(topology, surface, *center, rotation);
-  if (!node) return std::nullopt;
-  const std::vector<Part> part(node->size(), Part::kShell);
-  spread_nodes(topology, mesh::StarSurface(surface, *center),
-               {part, static_cast<int>(surface.triangle.size())}, *node);
-  return node;
-}
-
 /// Makes the volume exact, and says what is wrong with the mesh.
 std::string finish(const mesh::Topology& topology, double volume, std::vector<Vec3>& node) {
   const std::vector<double> weight(node.size(), 1);
@@ -48,8 +36,11 @@ LaidMesh lay_mesh(const mesh::Topology& topology, const mesh::Surface& surface,
                   const Mat3& rotation) {
   const double volume = mesh::compute_volume(surface.node, surface.triangle);
   LaidMesh out;
-  if (auto node = cast_mesh(topology, surface, rotation)) {
-    out.node = std::move(*node);
+  std::optional<std::vector<Vec3>> cast;
+  if (const std::optional<Vec3> center = mesh::find_star_center(surface))
+    cast = cast_and_spread(topology, surface, *center, rotation);
+  if (cast) {
+    out.node = std::move(*cast);
     out.fault = finish(topology, volume, out.node);
     if (out.fault.empty()) return out;
   }

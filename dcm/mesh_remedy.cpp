@@ -71,23 +71,14 @@ std::optional<mesh::Surface> take_print(const mesh::AuditBody& body) {
   return print;
 }
 
-std::optional<std::vector<Vec3>> cast_fresh(const mesh::Topology& t, std::span<const Vec3> node,
-                                            const mesh::Surface& surface, const Vec3& center) {
-  auto fresh = cast_sphere(t, surface, center, find_rotation(t, node, center));
-  if (!fresh) return std::nullopt;
-  const mesh::StarSurface star(surface, center);
-  const std::vector<Part> part(fresh->size(), Part::kShell);
-  spread_nodes(t, star, {part, static_cast<int>(surface.triangle.size())}, *fresh);
-  return fresh;
-}
-
 std::optional<std::vector<Vec3>> make_fresh(const mesh::Topology& t, std::span<const Vec3> node,
                                             const mesh::AuditBody& body) {
   const mesh::Surface surface{{node.begin(), node.end()}, t.triangle};
   if (const auto center = mesh::find_star_center(surface))
-    return cast_fresh(t, node, surface, *center);
+    return cast_and_spread(t, surface, *center, find_rotation(t, node, *center));
   const auto print = take_print(body);
-  return print ? cast_fresh(t, node, *print, body.centroid) : std::nullopt;
+  if (!print) return std::nullopt;
+  return cast_and_spread(t, *print, body.centroid, find_rotation(t, node, body.centroid));
 }
 
 /// Sweeps over the poor nodes of a mesh. A node is poor while a face beside it is poorer than

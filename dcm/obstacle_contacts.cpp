@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/contact/wall_mesh.hpp"
 #include "dcm/vessel_wall.hpp"
 
 namespace acinus::dcm {
@@ -65,20 +66,24 @@ class VesselSearch {
  public:
   VesselSearch(const contact::SurfaceBody& body, int number, const ContactParams& c, double range,
                const SegmentCandidates& list, const contact::Vessels& vessels,
-               VesselScratch& scratch)
+               std::span<const Contact> wall, VesselScratch& scratch)
       : b_(body),
         number_(number),
         c_(c),
         range_(range),
         list_(list),
         vessels_(vessels),
+        wall_(wall),
         scratch_(scratch) {}
 
-  /// Finds one contact per point, with the nearest segment of the network, then those of the
-  /// guards.
+  /// Finds one contact per point, with the nearest segment of the network or with the surface about
+  /// it, then those of the guards, which look at segments.
   void find() {
     scratch_.found.clear();
-    find_points();
+    if (vessels_.wall)
+      take_points_at_wall();
+    else
+      find_points();
     scratch_.guard.assign(n_guards(b_), {});
     if (contact::has_face_sites(c_.quadrature))
       find_guards_of_faces();
@@ -103,6 +108,14 @@ class VesselSearch {
       best.radius = g.radius;
     }
     return best;
+  }
+
+  void take_points_at_wall() {
+    for (const Contact& k : wall_) {
+      const Vec3 x =
+          contact::point_position(b_, contact::point_stencil(b_, c_.quadrature, k.point));
+      scratch_.found.push_back({k, contact::gap_to_segment(vessels_.network, k.b, x).radius});
+    }
   }
 
   void find_points() {
@@ -154,6 +167,7 @@ class VesselSearch {
   double range_;
   const SegmentCandidates& list_;
   const contact::Vessels& vessels_;
+  std::span<const Contact> wall_;
   VesselScratch& scratch_;
 };
 
@@ -186,10 +200,34 @@ void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work
   contact::for_each_wall(boundary, [&](Partner kind, int index, const auto& wall) {
     probe(kind, index, [&](const Vec3& x) { return contact::gap_to_wall(wall, x, in.time); });
   });
-  if (list.site.empty()) return;
+  std::span<const Contact> wall;
+  if (!work.wall.empty()) wall = work.wall[number];
+  if (list.site.empty() && wall.empty()) return;
   thread_local VesselScratch scratch;
-  VesselSearch(b, number, c, range, list, boundary.vessels, scratch).find();
+  VesselSearch(b, number, c, range, list, boundary.vessels, wall, scratch).find();
   for (const VesselContact& v : scratch.found) out.push_back(v.contact);
+}
+
+void take_wall_contacts(const ContactInput& in, ContactWorkspace& work, std::vector<Contact>& all) {
+  work.wall.clear();
+  if (!in.boundary.vessels.wall) return;
+  const contact::WallMesh& mesh = *in.boundary.vessels.wall;
+  const int number = static_cast<int>(in.boundary.meshes.size());  // they come before it
+  work.wall.resize(work.body.size());
+  const auto is_at_wall = [number](const Contact& k) {
+    return k.partner == Partner::kMesh && k.b == number;
+  };
+  for (const Contact& k : all) {
+    if (!is_at_wall(k)) continue;
+    work.wall[k.a].push_back({.a = k.a,
+                              .point = k.point,
+                              .b = mesh.segment[k.triangle],
+                              .partner = Partner::kVessel,
+                              .stiffness = 0,
+                              .normal = k.normal,
+                              .gap = k.gap});
+  }
+  std::erase_if(all, is_at_wall);
 }
 
 }  // namespace acinus::dcm

@@ -12,4 +12,9 @@ namespace acinus::dcm {
 void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work, int number,
                             double range, std::vector<contact::Contact>& out);
 
+/// Takes the contacts with the surface of vessels, which is searched for with the static meshes,
+/// out of those of surfaces: find_obstacle_contacts gives them what vessels are.
+void take_wall_contacts(const ContactInput& in, ContactWorkspace& work,
+                        std::vector<contact::Contact>& all);
+
 }  // namespace acinus::dcm

@@ -15,7 +15,7 @@ import tempfile
 FLOORS = {"bench": 6, "python": 6, "runs": 5, "calibration": 4, "coupling": 3, "dcm": 2, "cbm": 2, "core": 1}
 # The rooms of a folder, lowest first; "" are the files directly in it. A room includes only those before it.
 ROOMS = {
-    "coupling": ("generate", "world", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
+    "coupling": ("generate", "vessels", "world", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
     "runs": ("scene", "build", "images", "experiments", "session", "calibrate", "compare", "study", "openvt", "page", "report", "serve", "commands", ""),
     "bench": ("output", "step", "tissue", "stress", "work_precision", "kernels", ""),
 }

@@ -19,6 +19,39 @@ namespace {
 constexpr double kEnd = 1e-9;  ///< parameters this near 0 or 1 are the segment's end
 constexpr double kGone = 1e9;  ///< um behind its place
 
+/// Looks for the place of a surface that is nearest to a point, triangle by triangle.
+struct NearestTriangle {
+  const SurfaceBody& b;
+  const Vec3& x;
+  double reach;  ///< um, of interest
+  Gap gap;       ///< so far
+  double least2;
+
+  NearestTriangle(const SurfaceBody& body, const Vec3& point, double within)
+      : b(body),
+        x(point),
+        reach(within),
+        gap{within, Vec3::UnitZ(), 0, 0, 0},
+        least2(within * within) {}
+
+  void look(std::size_t t) {
+    const double far = reach + b.reach[t];
+    if ((x - b.center[t]).squaredNorm() > far * far) return;
+    const auto& corner = (*b.triangle)[t];
+    const mesh::ClosestPoint c =
+        mesh::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);
+    if (c.squared_distance >= least2) return;
+    least2 = c.squared_distance;
+    Vec3 out = Vec3::Zero();
+    for (int m = 0; m < 3; ++m) out += c.weight[m] * b.node_normal[corner[m]];
+    out.normalize();
+    const Vec3 apart = x - c.point;
+    const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(least2);
+    gap.gap = sign * distance;
+    gap.normal = distance > 0 ? Vec3(sign / distance * apart) : out;
+  }
+};
+
 }  // namespace
 
 Vec3 Plane::point_at(double time) const {
@@ -132,27 +165,17 @@ std::string wall_label(const Capsule& c) { return "the wall of the " + c.name; }
 
 std::string wall_label(const Pipette& p) { return "the wall of the " + p.name; }
 
-// Brute force over near triangles.
 Gap gap_to_mesh(const SurfaceBody& b, const Vec3& x, double reach) {
-  double best2 = reach * reach;
-  Gap gap{reach, Vec3::UnitZ(), 0, 0, 0};
-  for (std::size_t t = 0; t < b.triangle->size(); ++t) {
-    const double far = reach + b.reach[t];
-    if ((x - b.center[t]).squaredNorm() > far * far) continue;
-    const auto& corner = (*b.triangle)[t];
-    const mesh::ClosestPoint c =
-        mesh::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);
-    if (c.squared_distance >= best2) continue;
-    best2 = c.squared_distance;
-    Vec3 out = Vec3::Zero();
-    for (int m = 0; m < 3; ++m) out += c.weight[m] * b.node_normal[corner[m]];
-    out.normalize();
-    const Vec3 apart = x - c.point;
-    const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(best2);
-    gap.gap = sign * distance;
-    gap.normal = distance > 0 ? Vec3(sign / distance * apart) : out;
-  }
-  return gap;
+  NearestTriangle nearest(b, x, reach);
+  for (std::size_t t = 0; t < b.triangle->size(); ++t) nearest.look(t);
+  return nearest.gap;
+}
+
+Gap gap_to_triangles(const SurfaceBody& b, std::span<const int> triangles, const Vec3& x,
+                     double reach) {
+  NearestTriangle nearest(b, x, reach);
+  for (const int t : triangles) nearest.look(static_cast<std::size_t>(t));
+  return nearest.gap;
 }
 
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,8 +66,12 @@ struct Pipette {
   Material material;
 };
 
+struct WallMesh;
+
 struct Vessels {
   mesh::Network network;
+  /// What cells touch in place of the cones of the network; null: the cones. See wall_mesh.hpp.
+  std::shared_ptr<const WallMesh> wall;
   Material material;
   std::vector<std::vector<int>> segments_of_node;  ///< for finding chains
 };
@@ -139,6 +144,9 @@ std::string wall_label(const Pipette& p);
 
 /// Farther away than `reach` the gap is `reach`, the normal meaningless.
 Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);
+/// The same to some of its triangles.
+Gap gap_to_triangles(const SurfaceBody& body, std::span<const int> triangles, const Vec3& x,
+                     double reach);
 
 /// Exact distance to a capsule whose radius runs linearly from one end to the other (round cone).
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x);

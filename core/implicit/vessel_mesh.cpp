@@ -149,4 +149,16 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   return out;
 }
 
+std::string describe_connectivity(const VesselMesh& m) {
+  const auto number = [](int n, const char* of) {
+    return fmt::format("{} {}{}", n, of, n == 1 ? "" : "s");
+  };
+  return fmt::format(
+      "the network has {} and {}, the surface {} and {}: {}", number(m.expected.parts, "part"),
+      number(m.expected.handles(), "loop"), m.found.parts, m.found.handles(),
+      m.overlapping > 0
+          ? fmt::format("{} pairs of segments that share no node cross", m.overlapping)
+          : std::string("vessels nearly touch, or a loop is nearly closed"));
+}
+
 }  // namespace acinus::implicit

@@ -2,6 +2,7 @@
 /// One closed surface about a network of vessels.
 
 #include <cstddef>
+#include <string>
 
 #include "core/mesh/euler.hpp"
 #include "core/mesh/network.hpp"
@@ -31,5 +32,8 @@ struct VesselMesh {
 /// Error if a radius is not above 0, the network has no segment, or there would be too many
 /// triangles.
 VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOptions& options);
+
+/// "the network has 1 part and 2 loops, the surface 1 and 3: ..." with the likely cause.
+std::string describe_connectivity(const VesselMesh& mesh);
 
 }  // namespace acinus::implicit

@@ -243,4 +243,34 @@ Network resample_network(const Network& network) {
   return compacted(out);
 }
 
+Network split_network(const Network& network, double longest) {
+  check(
+      longest > 0 && std::isfinite(longest),
+      fmt::format("segments cannot be cut to at most {} um: the length must be above 0", longest));
+  Network out;
+  out.node = network.node;
+  Network more;  // further parts
+  for (std::size_t s = 0; s < network.segment.size(); ++s) {
+    const auto [a, b] = network.segment[s];
+    const auto [ra, rb] = network.radius[s];
+    const int parts = std::max(1, static_cast<int>(std::ceil(length_of(network, s) / longest)));
+    int from = a;
+    for (int k = 0; k < parts; ++k) {
+      const double end = (k + 1.0) / parts, begin = static_cast<double>(k) / parts;
+      int to = b;
+      if (k + 1 < parts) {
+        to = static_cast<int>(out.node.size());
+        out.node.push_back(at(network, a) + end * (at(network, b) - at(network, a)));
+      }
+      Network& list = k == 0 ? out : more;
+      list.segment.push_back({from, to});
+      list.radius.push_back({ra + begin * (rb - ra), ra + end * (rb - ra)});
+      from = to;
+    }
+  }
+  out.segment.insert(out.segment.end(), more.segment.begin(), more.segment.end());
+  out.radius.insert(out.radius.end(), more.radius.begin(), more.radius.end());
+  return out;
+}
+
 }  // namespace acinus::mesh

@@ -34,4 +34,9 @@ Network crop_network(const Network& network, const std::array<Vec3, 2>& box);
 /// Networks without short segments keep their segments, in the order of the chains.
 Network resample_network(const Network& network);
 
+/// Cuts segments that are longer than `longest`, um, in equal parts; radii run on linearly. Nodes
+/// and segments there were keep their numbers, but for what is cut: its first part takes the
+/// number. Throws Error when `longest` is not above 0.
+Network split_network(const Network& network, double longest);
+
 }  // namespace acinus::mesh

@@ -73,6 +73,25 @@ ACINUS_INLINE void add_faces(const BlockView& b, const T* x, T* y) {
 }
 
 template <class T>
+ACINUS_INLINE void add_beams(const BlockView& b, const T* x, T* y) {
+  const float* e = b.beam;
+  for (const auto& beam : b.pattern->beam) {
+    std::array<int, 4> at{};
+    for (std::size_t k = 0; k < at.size(); ++k) at[k] = beam[k] * kPointStride;
+    const Lane3Of<T> apart = load3<T>(x + at[1]) - load3<T>(x + at[0]);
+    const Lane3Of<T> turn = load3<T>(x + at[2]) + load3<T>(x + at[3]);
+    for (int direction = 0; direction < 2; ++direction, e += 6 * kLanes) {
+      const Lane3Of<T> end = load3<T>(e), rotation = load3<T>(e + 3 * kLanes);
+      const LaneOf<T> s = dot(end, apart) + dot(rotation, turn);
+      add3(y + at[0], -(s * end));
+      add3(y + at[1], s * end);
+      add3(y + at[2], s * rotation);
+      add3(y + at[3], s * rotation);
+    }
+  }
+}
+
+template <class T>
 ACINUS_INLINE double multiply(const BlockView& b, const T* x, const Packed<T>* contact, T* y) {
   const int n_point = b.pattern->n_point;
   const T scale = static_cast<T>(b.friction_scale);
@@ -96,6 +115,7 @@ ACINUS_INLINE double multiply(const BlockView& b, const T* x, const Packed<T>* c
     add_edges<T, true, false>(b, x, y);
   }
   add_faces(b, x, y);
+  if (!b.pattern->beam.empty()) add_beams(b, x, y);
   LaneOf<T> product = {};
   for (int i = 0; i < n_point; ++i) {
     Lane3Of<T> yi = load3<T>(y + i * kPointStride);
@@ -182,6 +202,7 @@ BlockView view_block(const System& s, std::size_t b, const float* edge) {
                  edge ? edge + block.first_spring * kEdgeStride : nullptr,
                  s.hinge.data() + block.first_hinge * kHingeStride,
                  s.face.data() + block.first_face * kFaceStride,
+                 s.beam.data() + block.first_beam * kBeamStride,
                  s.friction_scale,
                  block.dashpot,
                  block.dashpot_across,
@@ -261,6 +282,11 @@ ACINUS_KERNEL void add_diagonal(const BlockView& b, double* d) {
     add_outer_sym(d + f[2] * kSymStride, one, g1 + g2);
     e += kFaceStride;
   }
+  e = b.beam;
+  for (const auto& beam : pattern.beam)
+    for (int direction = 0; direction < 2; ++direction, e += 6 * kLanes)
+      for (std::size_t k = 0; k < beam.size(); ++k)
+        add_outer_sym(d + beam[k] * kSymStride, one, load3(k < 2 ? e : e + 3 * kLanes));
 }
 
 ACINUS_KERNEL void invert_blocks(int n_point, const double* d, float* out) {

@@ -17,6 +17,7 @@ struct BlockView {
   const float* edge;  ///< springs with merged contacts; null: spring, and no contacts
   const float* hinge;
   const float* face;
+  const float* beam;
   double friction_scale;
   double dashpot;         ///< nN s/um
   double dashpot_across;  ///< over that along the spring

@@ -23,16 +23,18 @@ void index_springs(BlockPattern& p) {
 
 void set_blocks(System& system, std::vector<Block> blocks) {
   system.n_row = 0;
-  std::size_t n_spring = 0, n_hinge = 0, n_face = 0;
+  std::size_t n_spring = 0, n_hinge = 0, n_face = 0, n_beam = 0;
   for (Block& b : blocks) {
     b.first_row = system.n_row;
     b.first_spring = n_spring;
     b.first_hinge = n_hinge;
     b.first_face = n_face;
+    b.first_beam = n_beam;
     system.n_row += static_cast<std::size_t>(b.pattern->n_point);
     n_spring += b.pattern->spring.size();
     n_hinge += b.pattern->wing.size();
     n_face += b.pattern->face.size();
+    n_beam += b.pattern->beam.size();
   }
   system.block = std::move(blocks);
   system.own = find_own_runs(system.ownership, system.block.size());
@@ -46,6 +48,7 @@ void set_blocks(System& system, std::vector<Block> blocks) {
   system.spring.resize(n_spring * kSpringStride);
   system.hinge.assign(n_hinge * kHingeStride, 0.0f);
   system.face.assign(n_face * kFaceStride, 0.0f);
+  system.beam.assign(n_beam * kBeamStride, 0.0f);
   clear_loads(system);
 }
 

@@ -28,11 +28,17 @@ struct BlockPattern {
   /// [n_spring] the other two points of the hinge about each spring; empty: no hinges
   std::vector<std::array<int, 2>> wing;
   std::vector<std::array<int, 3>> face;
+  /// Bending of a beam: its two ends, and the rotations of these; places may move alike.
+  std::vector<std::array<int, 4>> beam{};
   /// Springs of each point, where all sides of contacts have springs between their points (faces of
   /// a mesh): {other point, spring}, from first_spring_of[point]; empty: not known. Made by
   /// index_springs.
   std::vector<std::array<int, 2>> spring_of{};
   std::vector<std::size_t> first_spring_of{};
+  /// Points from there on are no places but rotations, in um on a lever of 1 um. -1: none.
+  int n_place = -1;
+
+  int count_places() const { return n_place < 0 ? n_point : n_place; }
 };
 
 /// Fills spring_of and first_spring_of.
@@ -55,12 +61,15 @@ inline constexpr int kSpringStride =
 inline constexpr int kHingeStride = 9 * kLanes;
 inline constexpr int kEdgeStride = 6 * kLanes;  ///< xx xy xz yy yz zz: a spring's matrix in full
 inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
+/// g on the second end, minus that on the first; on the rotations; in two directions across the
+/// beam: matrix g g^T + h h^T
+inline constexpr int kBeamStride = 12 * kLanes;
 
 /// Eight cells with one pattern.
 struct Block {
   const BlockPattern* pattern = nullptr;
   std::size_t first_row = 0;  ///< first point row
-  std::size_t first_spring = 0, first_hinge = 0, first_face = 0;
+  std::size_t first_spring = 0, first_hinge = 0, first_face = 0, first_beam = 0;
   bool still = false;         ///< cells that do not move: their rank-one terms are not looked at
   double dashpot = 0;         ///< nN s/um, friction among what the matrix of each spring holds
   double dashpot_across = 1;  ///< that across the spring over that along it
@@ -88,6 +97,7 @@ struct System {
   std::vector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
   std::vector<float> hinge;            ///< [n_hinge][9][lane] sqrt(nN/um)
   std::vector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
+  std::vector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
   std::vector<RankOne> rank_one;
   Links links;                         ///< contacts of surfaces
   std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
@@ -120,8 +130,8 @@ void set_blocks(System& system, std::vector<Block> blocks);
 /// @param x  [n_row][3][lane]
 void gather_rows(const System& system, std::span<double> x);
 
-/// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces and point links
-/// are written, not added to, by the one term each belongs to.
+/// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces, beams and point
+/// links are written, not added to, by the one term each belongs to.
 void clear_loads(System& system);
 
 /// Adds to a spring: along u the stiffness a + c, across it c.

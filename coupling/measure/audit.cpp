@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/mesh/audit_body.hpp"
+#include "core/mesh/round_cone.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::coupling {
@@ -179,7 +181,7 @@ Bodies prepare(const AuditFrame& frame) {
     bodies.fixed.emplace_back(frame.statics[i].node, frame.statics[i].triangle);
     check(bodies.fixed.back().closed(), fmt::format("audit: static mesh {} is not closed", i));
   }
-  if (!frame.vessels) return bodies;
+  if (!frame.vessels || frame.vessel_surface) return bodies;
   const mesh::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)
     bodies.cone.push_back({net.node[net.segment[s][0]], net.node[net.segment[s][1]],
@@ -256,6 +258,48 @@ void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, Audit
       keep(depth);
       keep_worst(result.center_in_static, depth - s.radius, s.id, static_cast<std::int64_t>(f));
     }
+  }
+}
+
+/// The segment whose axis is nearest to a body.
+std::int64_t nearest_vessel(const mesh::Network& net, const Vec3& x) {
+  std::int64_t nearest = 0;
+  double least2 = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < net.segment.size(); ++s) {
+    const mesh::NearestBall ball =
+        mesh::find_nearest_ball(x, net.node[net.segment[s][0]], net.node[net.segment[s][1]],
+                                net.radius[s][0], net.radius[s][1]);
+    if (ball.apart.squaredNorm() >= least2) continue;
+    least2 = ball.apart.squaredNorm();
+    nearest = static_cast<std::int64_t>(s);
+  }
+  return nearest;
+}
+
+/// Cells and spheres at the surface of the vessels.
+void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
+                          AuditResult& result) {
+  if (!frame.vessel_surface) return;
+  check_finite(frame.vessel_surface->node, "surface of the vessels");
+  const mesh::AuditBody surface(frame.vessel_surface->node, frame.vessel_surface->triangle);
+  const std::size_t n_cell = bodies.cell.size();
+  const std::vector<double> depth =
+      share_among<double>(ranks, n_cell + frame.spheres.size(), [&](std::size_t k) {
+        if (k < n_cell)
+          return bodies.cell[k].box.overlaps(surface.box) ? body_depth(bodies.cell[k], surface) : 0;
+        const AuditSphere& s = frame.spheres[k - n_cell];
+        if (!surface.box.overlaps(sphere_box(s.center, s.radius))) return 0.0;
+        return depth_in_fixed(s, surface, mesh::Location::kInside);
+      });
+  for (std::size_t k = 0; k < depth.size(); ++k) {
+    const bool cell = k < n_cell;
+    WorstPair& worst = cell ? result.dcm_vessel : result.cbm_vessel;
+    if (cell) keep_penetration(result, depth[k], frame.meshes[k].newborn);
+    if (depth[k] <= worst.depth_um) continue;
+    const Vec3 at = cell ? Vec3(0.5 * (bodies.cell[k].box.low + bodies.cell[k].box.high))
+                         : frame.spheres[k - n_cell].center;
+    keep_worst(worst, depth[k], cell ? frame.meshes[k].id : frame.spheres[k - n_cell].id,
+               nearest_vessel(*frame.vessels, at));
   }
 }
 
@@ -373,6 +417,7 @@ AuditResult audit(const AuditFrame& frame, const Ranks& ranks) {
   const Bodies bodies = prepare(frame);
   audit_shapes(frame, bodies, ranks, result);
   audit_walls(frame, bodies, result);
+  audit_vessel_surface(frame, bodies, ranks, result);
   audit_spheres_at_walls(frame, bodies, result);
   std::vector<Pair> pairs = find_pairs(frame, bodies);
   const std::vector<double> depth = share_among<double>(

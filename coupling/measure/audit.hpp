@@ -45,6 +45,8 @@ struct AuditFrame {
   std::span<const AuditSphere> spheres;
   std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
   const mesh::Network* vessels = nullptr;
+  /// The surface of the vessels, where cells meet that; cones then only name the nearest segment.
+  const AuditStatic* vessel_surface = nullptr;
   std::span<const AuditWall> walls;
   std::span<const AuditStatic> statics;
 };
@@ -88,6 +90,7 @@ struct AuditResult {
 /// - cell in vessel: depth of its surface in the round cone (the balls along the axis); where the
 /// axis
 ///   itself runs inside the cell, radius + distance to the cell's surface.
+/// - cell or sphere at the surface of vessels: as with a closed mesh.
 /// - cell behind a wall: the farthest node.
 /// - two spheres: Ri + Rj - distance. Sisters deeper in each other than to the centre count only
 /// when

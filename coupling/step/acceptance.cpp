@@ -25,11 +25,23 @@ namespace {
 constexpr double kDeep = 2.0 / 3;
 constexpr double kClosing = 0.1;  ///< um a deep contact may still close in one step
 
-std::string name_lane(const State& s, std::size_t lane) {
-  return lane < s.dcm.n_lane() ? name_dcm(s, lane) : name_cbm(s, lane - s.dcm.n_lane());
+/// Of the cell in a lane; none of the tree.
+std::vector<std::int64_t> lineage_of(const State& s, std::size_t lane) {
+  if (lane < s.dcm.n_lane()) return {s.dcm.lineage[lane]};
+  const std::size_t cell = lane - s.dcm.n_lane();
+  if (cell < s.cbm.n_cell()) return {s.cbm.lineage[cell]};
+  return {};
 }
-std::int64_t lineage_of(const State& s, std::size_t lane) {
-  return lane < s.dcm.n_lane() ? s.dcm.lineage[lane] : s.cbm.lineage[lane - s.dcm.n_lane()];
+
+/// What the displacement of a body in a step is measured by, um: the mean edge of a mesh at rest,
+/// that of a sphere's as good mesh, the thinnest vessel.
+double edge_of(const World& world, const Workspace& w, std::size_t lane) {
+  const State& s = world.state;
+  if (lane < s.dcm.n_lane())
+    return s.dcm.group[lane / kLanes].topology->mean_rest_length * w.lanes.radius[lane];
+  const std::size_t cell = lane - s.dcm.n_lane();
+  if (cell < s.cbm.n_cell()) return kSphereEdge * w.cbm_radius[cell];
+  return std::ranges::min(world.params.tree.tube, {}, &Tube::radius).radius;
 }
 
 /// Lane index (dcm lanes, then cbm cells) of an address.
@@ -140,13 +152,10 @@ Moves find_moves(const World& world, const Workspace& w) {
         }
         const double largest = std::sqrt(largest2);
         const bool deformable = lane < s.dcm.n_lane();
-        const double edge = deformable ? s.dcm.group[lane / kLanes].topology->mean_rest_length *
-                                             w.lanes.radius[lane]
-                                       : kSphereEdge * w.cbm_radius[lane - s.dcm.n_lane()];
         Moves own;
         own.largest = largest;
         if (!finite) own.infinite = lane;
-        const double limit = move_limit(world.params.numerics.max_move, edge);
+        const double limit = move_limit(world.params.numerics.max_move, edge_of(world, w, lane));
         own.too_far = lane;
         own.distance = finite && deformable && largest > limit
                            ? largest_deformation(world, w, lane, first, n_point, largest)
@@ -229,7 +238,7 @@ std::optional<DeepContact> find_deep_contact(const World& world, const Workspace
 }
 
 Assessment reject(const State& s, std::string cause, std::size_t lane) {
-  return {false, std::move(cause), {lineage_of(s, lane)}, 0, 0};
+  return {false, std::move(cause), lineage_of(s, lane), 0, 0};
 }
 
 Assessment assess_moves(const World& world, double step, const Workspace& w) {
@@ -237,14 +246,14 @@ Assessment assess_moves(const World& world, double step, const Workspace& w) {
   const Moves m = find_moves(world, w);
   Assessment a;
   if (m.infinite != Moves::kNone)
-    a = reject(s, name_lane(s, m.infinite) + ": its displacement is not finite", m.infinite);
+    a = reject(s, name_body(s, m.infinite) + ": its displacement is not finite", m.infinite);
   else if (m.too_far != Moves::kNone)
     a = reject(s,
-               fmt::format("{} would move {:.3g} um in {:.4g} s", name_lane(s, m.too_far),
+               fmt::format("{} would move {:.3g} um in {:.4g} s", name_body(s, m.too_far),
                            m.distance, step),
                m.too_far);
   else if (m.turned != Moves::kNone)
-    a = reject(s, name_lane(s, m.turned) + ": a face would turn over", m.turned);
+    a = reject(s, name_body(s, m.turned) + ": a face would turn over", m.turned);
   a.max_move = m.largest;
   return a;
 }
@@ -254,13 +263,14 @@ Assessment assess_contacts(const World& world, const Workspace& w) {
   const std::optional<DeepContact> deep = find_deep_contact(world, w);
   if (!deep) return {};
   const std::string into = deep->inner  ? "its nucleus"
-                           : deep->pair ? name_lane(s, deep->b)
+                           : deep->pair ? name_body(s, deep->b)
                                         : "its boundary";
   Assessment result = reject(
       s,
-      fmt::format("{} would be driven {:.2f} um into {}", name_lane(s, deep->a), deep->depth, into),
+      fmt::format("{} would be driven {:.2f} um into {}", name_body(s, deep->a), deep->depth, into),
       deep->a);
-  if (deep->pair && deep->b != deep->a) result.cells.push_back(lineage_of(s, deep->b));
+  if (deep->pair && deep->b != deep->a)
+    for (const std::int64_t lineage : lineage_of(s, deep->b)) result.cells.push_back(lineage);
   return result;
 }
 

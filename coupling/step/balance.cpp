@@ -63,7 +63,7 @@ Balance measure_balance(const World& world, Workspace& w) {
   const Vec3 center = find_center(w);
   const auto t = sum_over_cells<kNumbers>(
                      w, false,
-                     [&](std::size_t, Address first, int n_point, CellSums<kNumbers>& part) {
+                     [&](std::size_t lane, Address first, int n_point, CellSums<kNumbers>& part) {
                        std::array<double, kNumbers>& sum = part.number;
                        for (int i = 0; i < n_point; ++i) {
                          const Address a = first + static_cast<Address>(i * kPointStride);
@@ -79,6 +79,11 @@ Balance measure_balance(const World& world, Workspace& w) {
                          sum[kSizes] += conservative.norm() + rest.norm();
                          sum[kSizes + 1] += arm.norm() * conservative.norm();
                          sum[kSizes + 2] += arm.norm() * rest.norm();
+                       }
+                       const int n_all = w.system.block[lane / kLanes].pattern->n_point;
+                       for (int i = n_point; i < n_all; ++i) {  // moments on rotations
+                         const Address a = first + static_cast<Address>(i * kPointStride);
+                         add(load_point(w.system.force.data(), a), kTorque, sum);
                        }
                      })
                      .number;

@@ -11,7 +11,7 @@
 
 namespace acinus::coupling {
 
-/// f(lane, address of its first point, number of points, part) for every own cell, with one part
+/// f(lane, address of its first point, number of places, part) for every own body, with one part
 /// per block; put(part) for the parts in the order of the blocks. Without constrained cells, or of
 /// all.
 template <class Part, class F, class Put>
@@ -26,7 +26,7 @@ void for_each_own_cell(const Workspace& w, bool unconstrained_only, const F& f, 
     for (int l = 0; l < kLanes; ++l) {
       const std::size_t lane = b * kLanes + static_cast<std::size_t>(l);
       if (w.active[lane] && !(unconstrained_only && w.constraint.holds(lane)))
-        f(lane, make_address(block[b].first_row, l), block[b].pattern->n_point, part[b]);
+        f(lane, make_address(block[b].first_row, l), block[b].pattern->count_places(), part[b]);
     }
   });
   for (const auto& [first, last] : w.system.own)

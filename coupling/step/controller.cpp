@@ -96,6 +96,7 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
       moves ? std::span<const double>(w.linearisation.move) : std::span<const double>{}, w);
   dcm::begin_tensions(w.dcm_params, s.dcm);
   move_points(s, w.move);
+  place_vessels(world.params.tree, s.tree, world.params.boundary.vessels);
   dcm::advance_tensions(w.dcm_params, step, s.dcm);
   std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;

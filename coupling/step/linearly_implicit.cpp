@@ -58,6 +58,7 @@ void assemble_ahead(World& world, double step, bool all, Workspace& w) {
   for (auto* v : {&point.friction, &point.pair_friction, &point.product}) v->resize(w.move.size());
   extrapolate_moves(world, step, all, w, point.move);
   const std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
+  const TreeState tree = s.tree;
   if (all) move_points(s, point.move);
   find_all_contacts(world, step, w);
   assemble(world, step, w);
@@ -75,6 +76,7 @@ void assemble_ahead(World& world, double step, bool all, Workspace& w) {
   remove_constraint(w, point.move, point.friction);
   s.dcm.position = dcm;
   s.cbm.position = cbm;
+  s.tree = tree;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/contact/wall_mesh.hpp"
 #include "coupling/step/foreign.hpp"
 #include "coupling/world/leaders.hpp"
 #include "coupling/world/sharing.hpp"
@@ -35,14 +36,16 @@ InterfaceInput input_of(const World& world, const PhaseParams& phase, double wal
                         const Workspace& w) {
   const State& s = world.state;
   const Params& p = world.params;
-  return {{s.dcm, p.dcm, phase.dcm, w.lanes, p.boundary, wall_time},
+  const contact::Boundary& boundary = w.boundary ? *w.boundary : p.boundary;
+  return {{s.dcm, p.dcm, phase.dcm, w.lanes, boundary, wall_time, tree_first_row(s)},
           {s.cbm,
            p.cbm,
            phase.cbm,
            {w.cbm_radius, w.cbm_strength, w.cbm_mother},
-           p.boundary,
+           boundary,
            wall_time,
-           cbm_first_row(s)},
+           cbm_first_row(s),
+           tree_first_row(s)},
           phase.interface};
 }
 
@@ -146,6 +149,28 @@ void add_suction(const World& world, double step, Workspace& w) {
   if (load.pressure > 0) dcm::add_suction_loads(world.state.dcm, w.lanes, load, w.system);
 }
 
+/// Vessels of the step are where the tree is.
+void find_vessels(const World& world, Workspace& w) {
+  if (world.state.tree.node.empty()) return;
+  if (!w.boundary) w.boundary = world.params.boundary;
+  place_vessels(world.params.tree, world.state.tree, w.boundary->vessels);
+}
+
+void add_tree(const World& world, Workspace& w) {
+  if (world.state.tree.node.empty()) return;
+  add_tree_loads(world.params.tree, world.state.tree, w.system.block.back(), w.system);
+}
+
+/// Rows of the nodes of the tree that are anchored, and of their rotations.
+void find_anchored_rows(const World& world, Workspace& w) {
+  w.constraint.anchored_row.clear();
+  if (world.state.tree.node.empty()) return;
+  const VesselTree& tree = world.params.tree;
+  for (std::size_t i = 0; i < 2 * tree.n_node(); ++i)
+    if (tree.anchored[i % tree.n_node()] != 0)
+      w.constraint.anchored_row.push_back(tree_first_row(world.state) + i);
+}
+
 void add_pull_springs(const World& world, double step, Workspace& w) {
   if (world.state.clock.phase != Phase::kRun || !any_spring(world.params.pulls)) return;
   const dcm::State& cells = world.state.dcm;
@@ -162,6 +187,9 @@ void size_workspace(const World& world, Workspace& w) {
   std::vector<solve::Block> blocks = dcm::make_blocks(s.dcm, world.params.dcm, constrained);
   const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
+  if (!s.tree.node.empty()) blocks.push_back({.pattern = &world.params.tree.pattern});
+  find_anchored_rows(world, w);
+  w.boundary.reset();
   dcm::size_rank_one(s.dcm, world.params.dcm, w.system, any_spring(world.params.pulls));
   w.system.ownership = share_blocks(world, blocks, w.cost);
   solve::set_blocks(w.system, std::move(blocks));
@@ -177,12 +205,15 @@ void size_workspace(const World& world, Workspace& w) {
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();
   for (const contact::StaticMesh& m : world.params.boundary.meshes) w.dcm.fixed.push_back(m.body);
+  if (world.params.boundary.vessels.wall)
+    w.dcm.fixed.push_back(world.params.boundary.vessels.wall->body);
 }
 
 void find_all_contacts(const World& world, double step, Workspace& w) {
   const Clock& clock = world.state.clock;
   const PhaseParams phase = phase_params(world);
   const double end = clock.time + step;
+  find_vessels(world, w);
   find_references(world.state, end, w);
   apply_constraint(w);
   choose_leaders_of_step(world, w);
@@ -221,6 +252,8 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
     dcm::add_node_friction(in.dcm, w.dcm, w.contacts, w.system.point_links);
   if (selection.interface) add_interface_loads(in, w.dcm, w.cbm.modulus, w.contacts, links);
   add_nuclei(in.dcm, w);
+  cbm::add_vessel_loads(in.cbm, w.contacts, links);
+  add_tree(world, w);
   add_constraint(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);

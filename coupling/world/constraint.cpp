@@ -13,6 +13,7 @@ constexpr double kStiffness = 1e6;
 /// Calls f with the row and the lane of every constrained point.
 template <class F>
 void for_each_constrained_point(const Workspace& w, F f) {
+  for (const std::size_t row : w.constraint.anchored_row) f(row, std::size_t{0});
   if (!w.constraint.applies()) return;
   for (std::size_t lane = 0; lane < w.active.size(); ++lane) {
     const solve::Block& b = w.system.block[lane / kLanes];

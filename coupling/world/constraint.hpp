@@ -18,6 +18,8 @@ struct Constraint {
   /// Constrained cells go on with the velocity of their last move, which linearly implicit steps
   /// only know how to do; else they stand still.
   bool prescribed_velocity = false;
+  /// Rows of anchored vessels, in their first lane; written by: size_workspace.
+  std::vector<std::size_t> anchored_row;
 
   bool applies() const { return !cell.empty(); }
   bool holds(std::size_t lane) const { return lane < cell.size() && cell[lane] != 0; }

@@ -111,7 +111,16 @@ void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> typ
     for (const Member& m : list_cbm(f)) spheres.push_back(m);
   }
   sort_by_place(shells, spheres);
-  s = compose(shells, spheres, s);
+  State next = compose(shells, spheres, s);
+  if (has_last_move(s)) {
+    const auto of_tree =
+        s.last_move.end() - static_cast<std::ptrdiff_t>(s.tree.n_row()) * kPointStride;
+    next.last_move.insert(next.last_move.end(), of_tree, s.last_move.end());
+  } else {
+    next.last_move.resize(next.last_move.size() + s.tree.n_row() * kPointStride, 0.0);
+  }
+  next.tree = std::move(s.tree);
+  s = std::move(next);
 }
 
 }  // namespace acinus::coupling

@@ -2,6 +2,7 @@
 /// Scratch of the step, sized when the set of cells changes.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/solve/cg.hpp"
@@ -31,6 +32,8 @@ struct LinearisationPoint {
 
 struct Workspace {
   solve::System system;
+  /// The boundary of the step, where vessels move; written by: find_all_contacts
+  std::optional<contact::Boundary> boundary;
   std::size_t dcm_lanes = 0;    ///< written by: find_foreign_cells
   MeasuredCost cost;            ///< written by: balance_shares
   std::size_t bodies_sent = 0;  ///< whose shares others need; written by: exchange_shares

@@ -44,10 +44,15 @@ Controls controls_at(const Clock& clock, const StartUp& start_up) {
 }
 
 std::vector<std::uint8_t> active_lanes(const State& s) {
-  std::vector<std::uint8_t> active(s.dcm.n_lane() + s.cbm.n_row() * kLanes, 0);
+  const std::size_t n_lane = s.dcm.n_lane() + s.cbm.n_row() * kLanes;
+  std::vector<std::uint8_t> active(n_lane, 0);
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l) active[l] = s.dcm.active(l) ? 1 : 0;
   std::fill_n(active.begin() + static_cast<std::ptrdiff_t>(s.dcm.n_lane()), s.cbm.n_cell(),
               std::uint8_t{1});
+  if (!s.tree.node.empty()) {
+    active.resize(n_lane + kLanes, 0);
+    active[n_lane] = 1;
+  }
   return active;
 }
 
@@ -58,9 +63,11 @@ std::vector<double> gather_positions(const State& s) {
 }
 void gather_positions(const State& s, std::vector<double>& out) {
   const auto &dcm = s.dcm.position, &cbm = s.cbm.position;
-  out.resize(dcm.size() + cbm.size());
+  const std::size_t n_cell = dcm.size() + cbm.size();
+  out.resize(count_unknowns(s));
   for_each_number(dcm.size(), [&](std::size_t k) { out[k] = dcm[k]; });
   for_each_number(cbm.size(), [&](std::size_t k) { out[dcm.size() + k] = cbm[k]; });
+  if (!s.tree.node.empty()) copy_places(s.tree, std::span(out).subspan(n_cell));
 }
 
 const double* position_of(const State& s, Address point) {
@@ -76,6 +83,7 @@ void move_points(State& s, std::span<const double> d) {
   auto &dcm = s.dcm.position, &cbm = s.cbm.position;
   for_each_number(dcm.size(), [&](std::size_t k) { dcm[k] += d[k]; });
   for_each_number(cbm.size(), [&](std::size_t k) { cbm[k] += d[dcm.size() + k]; });
+  if (!s.tree.node.empty()) move_tree(d.subspan(dcm.size() + cbm.size()), s.tree);
 }
 
 std::uint64_t hash_state(const State& s) {
@@ -86,6 +94,8 @@ std::uint64_t hash_state(const State& s) {
   };
   add(s.dcm.position);
   add(s.cbm.position);
+  for (const Vec3& x : s.tree.node) add(std::array{x.x(), x.y(), x.z()});
+  for (const Eigen::Quaterniond& q : s.tree.rotation) add(std::array{q.w(), q.x(), q.y(), q.z()});
   add(s.dcm.lineage);
   add(s.cbm.lineage);
   add(s.cbm.young);
@@ -127,6 +137,11 @@ std::uint64_t hash_state(const State& s) {
   return value;
 }
 
+std::string name_body(const State& s, std::size_t lane) {
+  if (lane < s.dcm.n_lane()) return name_dcm(s, lane);
+  const std::size_t cell = lane - s.dcm.n_lane();
+  return cell < s.cbm.n_cell() ? name_cbm(s, cell) : std::string("the vessels");
+}
 std::string name_dcm(const State& s, std::size_t lane) {
   return fmt::format("DCM cell {}", s.dcm.lineage[lane]);
 }

@@ -12,6 +12,7 @@
 #include "core/contact/boundary.hpp"
 #include "core/ranks.hpp"
 #include "core/solve/cg.hpp"
+#include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/fading.hpp"
 #include "coupling/world/interface.hpp"
@@ -94,7 +95,8 @@ struct Params {
   Sleep sleep;
   ZoomParams zoom;
   Numerics numerics;
-  contact::Boundary boundary;
+  contact::Boundary boundary;  ///< of these vessels with a tree go where it is
+  VesselTree tree;
   Temperature temperature;
   Stretcher stretcher;
   Suction suction;
@@ -131,6 +133,7 @@ struct Balance {
 struct State {
   dcm::State dcm;
   cbm::State cbm;
+  TreeState tree;
   Clock clock;
   Balance balance;
   std::vector<double> last_move;      ///< [n_row][3][lane] um, displacement of the last step
@@ -156,10 +159,14 @@ int count_cells(const State& state);
 /// Number of cells asleep.
 int count_asleep(const State& state);
 
+/// Numbers of all unknowns.
+inline std::size_t count_unknowns(const State& s) {
+  return s.dcm.position.size() + s.cbm.position.size() + s.tree.n_row() * kPointStride;
+}
+
 /// Whether `last_move` is a step of the rows there are now: not before the first step.
 inline bool has_last_move(const State& s) {
-  return s.clock.last_step > 0 &&
-         s.last_move.size() == s.dcm.position.size() + s.cbm.position.size();
+  return s.clock.last_step > 0 && s.last_move.size() == count_unknowns(s);
 }
 
 /// How the work of a step is shared among processes (sharing.hpp).
@@ -188,15 +195,20 @@ Controls controls_at(const Clock& clock, const StartUp& start_up);
 
 /// Where the CBM rows start.
 inline std::size_t cbm_first_row(const State& s) { return s.dcm.n_row(); }
+/// Where those of the vessels start; kAtRest if they have none.
+inline std::size_t tree_first_row(const State& s) {
+  return s.tree.node.empty() ? contact::kAtRest : s.dcm.n_row() + s.cbm.n_row();
+}
 
-/// [dcm lanes, then cbm cells] 1 where a cell is; lanes of CBM rows included for the solver.
+/// [dcm lanes, then cbm cells, then the tree] 1 where a body is; all lanes of CBM rows and of the
+/// tree's block included for the solver.
 std::vector<std::uint8_t> active_lanes(const State& state);
 
 /// Positions of all unknowns in one array, [n_row][3][lane].
 std::vector<double> gather_positions(const State& state);
 void gather_positions(const State& state, std::vector<double>& out);
 
-/// Where the coordinates of a point among all unknowns are kept, kLanes apart.
+/// Where the coordinates of a point of a cell among all unknowns are kept, kLanes apart.
 double* position_of(State& state, Address point);
 const double* position_of(const State& state, Address point);
 
@@ -210,5 +222,7 @@ std::uint64_t hash_state(const State& state);
 /// "DCM cell 12" of a lane index, "CBM cell 40" of a sphere index.
 std::string name_dcm(const State& state, std::size_t lane);
 std::string name_cbm(const State& state, std::size_t cell);
+/// The same of a lane of active_lanes.
+std::string name_body(const State& state, std::size_t lane);
 
 }  // namespace acinus::coupling

@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
+#include "core/contact/wall_mesh.hpp"
 #include "core/error.hpp"
+#include "core/implicit/vessel_mesh.hpp"
+#include "core/mesh/edit_network.hpp"
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/read_surface.hpp"
 #include "runs/build/cell_types.hpp"
@@ -47,6 +52,15 @@ void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
   }
 }
 
+/// Lays the surface about the vessels that cells touch, if they do.
+void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
+  if (scene.vessels.contact != VesselContact::kMesh || vessels.network.segment.empty()) return;
+  implicit::VesselMesh mesh = implicit::make_vessel_mesh(vessels.network, {});
+  if (!mesh.is_as_expected()) notes.warned.push_back(implicit::describe_connectivity(mesh));
+  vessels.wall = std::make_shared<const contact::WallMesh>(
+      contact::make_wall_mesh(vessels.network, std::move(mesh.surface)));
+}
+
 }  // namespace
 
 coupling::LobuleParameters lobule_parameters(const Scene& scene) {
@@ -65,13 +79,17 @@ coupling::LobuleParameters lobule_parameters(const Scene& scene) {
           scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
 }
 
-void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary) {
+void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary,
+                  Notes& notes) {
   mesh::Network network;
   if (!scene.vessels.file.empty())
     network = read_vessels(scene.vessels);
   else if (lobule)
     network = lobule->vessels;
+  if (scene.vessels.flexible && scene.vessels.spacing)
+    network = mesh::split_network(network, *scene.vessels.spacing);
   contact::set_network(boundary.vessels, std::move(network));
+  add_wall(scene, boundary.vessels, notes);
   boundary.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
                                false};
   if (lobule)
@@ -100,6 +118,19 @@ void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::B
                                  contact::Pipette{}.opens,
                                  {}});
   add_static_meshes(scene, boundary);
+}
+
+coupling::VesselTree build_tree(const Scene& scene, const mesh::Network& rest) {
+  const VesselBlock& v = scene.vessels;
+  if (!v.flexible || rest.segment.empty()) return {};
+  coupling::VesselTree tree = coupling::make_tree(
+      rest, {v.young, v.poisson, v.wall_thickness, v.pressure, v.friction}, v.anchors);
+  check(v.anchors != coupling::VesselAnchors::kEnds ||
+            std::ranges::find(tree.anchored, std::uint8_t{1}) != tree.anchored.end(),
+        "/vessels/anchors is \"ends\", but the network has no end: every node has two segments or "
+        "more, so that nothing would hold it. Set vessels.anchors to \"none\", or crop the network "
+        "so that vessels end.");
+  return tree;
 }
 
 std::vector<std::string> boundary_names(const Scene& scene) {

@@ -6,6 +6,8 @@
 
 #include "core/contact/boundary.hpp"
 #include "coupling/generate/lobule.hpp"
+#include "coupling/vessels/vessel_tree.hpp"
+#include "runs/build/notes.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -15,7 +17,12 @@ coupling::LobuleParameters lobule_parameters(const Scene& scene);
 
 /// @param lobule  null: none
 /// @throws Error for files that cannot be used
-void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary);
+void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary,
+                  Notes& notes);
+
+/// The tree of flexible vessels; none if they are rigid or there are none.
+/// @param rest  the vessels of the boundary
+coupling::VesselTree build_tree(const Scene& scene, const mesh::Network& rest);
 
 /// Names of the walls, capsule and closed meshes that a scene's cells meet, without building it.
 std::vector<std::string> boundary_names(const Scene& scene);

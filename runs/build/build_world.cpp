@@ -154,8 +154,13 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
 
   std::optional<coupling::Lobule> lobule;
   if (scene.lobule) lobule = build_lobule(scene, built.notes);
-  add_boundary(scene, lobule ? &*lobule : nullptr, p.boundary);
+  add_boundary(scene, lobule ? &*lobule : nullptr, p.boundary, built.notes);
   built.vessel_length = mesh::total_length(p.boundary.vessels.network);
+  p.tree = build_tree(scene, p.boundary.vessels.network);
+  check(
+      !p.tree.exists() || ranks.is_alone(),
+      "vessels that are flexible are worked out by one process only: start without mpirun, or set "
+      "vessels.flexible to false");
 
   for (const auto& [name, type] : scene.cell_types) {
     built.type_names.push_back(name);
@@ -165,8 +170,11 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   build_corrections(scene, p.cbm, built.notes);
   build_life(scene, p, built.type_names);
   set_params(scene, p);
+  world.state.tree = coupling::at_rest(p.tree);
+  coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
   if (!scene.start_up.from.empty()) {
     built.notes.said.push_back(take_start(scene, world.state));
+    coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
     coupling::begin_life(world);
     return built;
   }

@@ -31,7 +31,8 @@ constexpr std::array kFree{"/name",
                            "/start_up/max_duration",
                            "/start_up/speed_tolerance",
                            "/start_up/pressure_tolerance",
-                           "/start_up/from"};
+                           "/start_up/from",
+                           "/vessels/contact"};
 
 /// The same for keys of a cell type.
 constexpr std::array kFreeOfType{"/cycle",

@@ -301,6 +301,28 @@ void get_zoom(const io::CheckpointData& d, coupling::State& s) {
         {cell[2 * k], cell[2 * k + 1], force[k], virial[k], share[k], apart[k], reach[k]});
 }
 
+/// Places and rotations (w, x, y, z) of the nodes of flexible vessels.
+void put_tree(const coupling::TreeState& tree, io::CheckpointData& d) {
+  if (tree.node.empty()) return;
+  d.put("tree/node", flatten(tree.node));
+  std::vector<double> rotation;
+  for (const Eigen::Quaterniond& q : tree.rotation)
+    rotation.insert(rotation.end(), {q.w(), q.x(), q.y(), q.z()});
+  d.put("tree/rotation", rotation);
+}
+
+void get_tree(const io::CheckpointData& d, coupling::TreeState& tree) {
+  if (tree.node.empty()) return;
+  const std::size_t n = tree.node.size();
+  tree.node = unflatten_points(d.numbers("tree/node"));
+  check_same(d, "tree/node", tree.node.size(), n);
+  const std::vector<double>& rotation = d.numbers("tree/rotation");
+  check_same(d, "tree/rotation", rotation.size(), 4 * n);
+  for (std::size_t k = 0; k < n; ++k)
+    tree.rotation[k] = Eigen::Quaterniond(rotation[4 * k], rotation[4 * k + 1], rotation[4 * k + 2],
+                                          rotation[4 * k + 3]);
+}
+
 /// Calls f(name, value) for every number of the clock and the balance.
 template <class Clock, class Balance, class F>
 void visit_numbers(Clock& c, Balance& b, F f) {
@@ -347,6 +369,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   std::vector<std::int64_t> touching;
   for (const auto& [a, b] : s.cbm.touching) touching.insert(touching.end(), {a, b});
   d.put("cbm/touching", touching);
+  put_tree(s.tree, d);
   put_life(s, d);
   put_zoom(s, d);
   d.put_count("clock/phase", static_cast<std::int64_t>(s.clock.phase));
@@ -365,6 +388,7 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
 void get_state(const io::CheckpointData& d, coupling::State& s) {
   get_shells(d, s.dcm);
   get_spheres(d, s.cbm);
+  get_tree(d, s.tree);
   get_life(d, s);
   get_zoom(d, s);
   s.clock.phase = static_cast<coupling::Phase>(d.count("clock/phase"));

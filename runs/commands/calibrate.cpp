@@ -34,12 +34,10 @@ int run(CalibrateArguments& arguments) {
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   if (!arguments.check_friction.empty())
     options.calibration.check_friction =
-        flag_value("--check-friction", arguments.check_friction,
-                   [](const std::string& text) { return parse_quantity(text, kFrictionPerArea); });
+        quantity_of("--check-friction", arguments.check_friction, kFrictionPerArea);
   if (!arguments.relaxation_time.empty())
     options.calibration.relaxation_time =
-        flag_value("--relaxation-time", arguments.relaxation_time,
-                   [](const std::string& text) { return parse_quantity(text, kTime); });
+        quantity_of("--relaxation-time", arguments.relaxation_time, kTime);
   const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
   return tell_how_to_go_on(calibrate(scene, options), command_to_go_on(options.command_line),
                            options.quiet);

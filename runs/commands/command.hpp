@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace acinus::runs {
 
@@ -49,6 +50,10 @@ double flag_value(const char* flag, const std::string& text, Parse parse) {
   } catch (const Error& error) {
     throw Error(std::string(flag) + " " + error.what(), error.code());
   }
+}
+
+inline double quantity_of(const char* flag, const std::string& text, const Dimension& dimension) {
+  return flag_value(flag, text, [&](const std::string& t) { return parse_quantity(t, dimension); });
 }
 
 /// Says how to go on with a job that was stopped and is taken up where it was by the same command.

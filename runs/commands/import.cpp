@@ -24,13 +24,10 @@ struct ImportArguments {
 ImportOptions options_of(const ImportArguments& a) {
   ImportOptions o = a.import;
   if (!a.voxel.empty()) o.read.voxel = parse_voxel("--voxel", a.voxel);
-  if (!a.unit.empty())
-    o.read.unit = flag_value("--unit", a.unit,
-                             [](const std::string& t) { return parse_quantity(t, kLength); });
+  if (!a.unit.empty()) o.read.unit = quantity_of("--unit", a.unit, kLength);
   if (!a.smallest.empty()) {
     constexpr Dimension kVolume{3, 0, 0};
-    o.smallest = flag_value("--smallest", a.smallest,
-                            [&](const std::string& t) { return parse_quantity(t, kVolume); });
+    o.smallest = quantity_of("--smallest", a.smallest, kVolume);
   }
   o.keep_border = a.border == "keep";
   o.model = a.model == "dcm"   ? CellModel::kDcm

@@ -29,10 +29,6 @@ struct MeshArguments {
   bool quiet = false;
 };
 
-double length_of(const char* flag, const std::string& text) {
-  return flag_value(flag, text, [](const std::string& t) { return parse_quantity(t, kLength); });
-}
-
 void start(const MeshArguments& a) {
   io::check_surface_file(a.out);
   set_threads(a.threads > 0 ? a.threads : processor_count());
@@ -58,7 +54,7 @@ mesh::Network find_network(const MeshArguments& a) {
     return n;
   }
   mesh::NetworkTransform to_um;
-  to_um.unit = length_of("--unit", a.unit);
+  to_um.unit = quantity_of("--unit", a.unit, kLength);
   return mesh::resample_network(mesh::transform_network(mesh::read_network(a.what), to_um));
 }
 
@@ -68,7 +64,7 @@ int mesh_vessels(const MeshArguments& a) {
   implicit::VesselMeshOptions o;
   o.fineness = a.fineness;
   o.rounding = a.rounding;
-  if (!a.edge.empty()) o.edge = length_of("--edge", a.edge);
+  if (!a.edge.empty()) o.edge = quantity_of("--edge", a.edge, kLength);
   const implicit::VesselMesh m = implicit::make_vessel_mesh(find_network(a), o);
   io::write_surface(a.out, m.surface);
   tell(a, m.surface, m.found, wall_seconds() - before);
@@ -79,16 +75,9 @@ int mesh_vessels(const MeshArguments& a) {
                "a smaller --edge.\n",
                a.edge);
   if (!m.is_as_expected())
-    fmt::print(
-        stderr,
-        "acinus: warning: the network has {} part{} and {} loop{}, the surface {} and {}: {}. "
-        "Look at the surface there{}.\n",
-        m.expected.parts, m.expected.parts == 1 ? "" : "s", m.expected.handles(),
-        m.expected.handles() == 1 ? "" : "s", m.found.parts, m.found.handles(),
-        m.overlapping > 0
-            ? fmt::format("{} pairs of segments that share no node cross", m.overlapping)
-            : std::string("vessels nearly touch, or a loop is nearly closed"),
-        m.overlapping > 0 ? "" : "; a smaller --fineness may help");
+    fmt::print(stderr, "acinus: warning: {}. Look at the surface there{}.\n",
+               implicit::describe_connectivity(m),
+               m.overlapping > 0 ? "" : "; a smaller --fineness may help");
   return 0;
 }
 
@@ -97,7 +86,8 @@ int mesh_wrap(const MeshArguments& a) {
   const double before = wall_seconds();
   mesh::Surface all;
   Box box;
-  for (const mesh::Surface& s : mesh::read_surfaces(a.what, length_of("--unit", a.unit))) {
+  for (const mesh::Surface& s :
+       mesh::read_surfaces(a.what, quantity_of("--unit", a.unit, kLength))) {
     const int first = static_cast<int>(all.node.size());
     all.node.insert(all.node.end(), s.node.begin(), s.node.end());
     for (const auto& [i, j, k] : s.triangle)
@@ -106,8 +96,10 @@ int mesh_wrap(const MeshArguments& a) {
   }
   constexpr double kAlphas = 50, kOffsets = 20;
   const double extent = (box.high - box.low).norm();
-  const double alpha = a.alpha.empty() ? extent / kAlphas : length_of("--alpha", a.alpha);
-  const double offset = a.offset.empty() ? alpha / kOffsets : length_of("--offset", a.offset);
+  const double alpha =
+      a.alpha.empty() ? extent / kAlphas : quantity_of("--alpha", a.alpha, kLength);
+  const double offset =
+      a.offset.empty() ? alpha / kOffsets : quantity_of("--offset", a.offset, kLength);
   const mesh::Surface wrapped = mesh::wrap(all, alpha, offset);
   io::write_surface(a.out, wrapped);
   tell(a, wrapped, mesh::find_connectivity(wrapped), wall_seconds() - before);

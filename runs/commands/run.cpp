@@ -43,9 +43,7 @@ void check_launcher(const Ranks& ranks) {
 
 int run(RunArguments& arguments) {
   RunOptions& run = arguments.run;
-  if (!arguments.until.empty())
-    run.until_s = flag_value("--until", arguments.until,
-                             [](const std::string& text) { return parse_quantity(text, kTime); });
+  if (!arguments.until.empty()) run.until_s = quantity_of("--until", arguments.until, kTime);
   if (!arguments.checkpoint_every.empty())
     run.checkpoint_every_s =
         flag_value("--checkpoint-every", arguments.checkpoint_every, parse_wall_time);

@@ -12,8 +12,8 @@ Vec3 parse_voxel(const char* flag, const std::string& text) {
   std::vector<double> side;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');)
-    side.push_back(flag_value(flag, part.substr(std::min(part.find_first_not_of(' '), part.size())),
-                              [](const std::string& t) { return parse_quantity(t, kLength); }));
+    side.push_back(quantity_of(
+        flag, part.substr(std::min(part.find_first_not_of(' '), part.size())), kLength));
   if (side.size() == 1) return Vec3::Constant(side[0]);
   check(side.size() == 3,
         fmt::format(

@@ -27,9 +27,7 @@ int run(const VoxeliseArguments& a) {
   VoxeliseRun o = a.voxelise;
   o.vessels = !a.no_vessels;
   o.how.voxel = parse_voxel("--voxel", a.voxel);
-  if (!a.blur.empty())
-    o.how.blur = flag_value("--blur", a.blur,
-                            [](const std::string& t) { return parse_quantity(t, kLength); });
+  if (!a.blur.empty()) o.how.blur = quantity_of("--blur", a.blur, kLength);
   const RunImage made = voxelise_run(o);
   image::write_image(a.out, made.image);
   const std::string table = std::filesystem::path(a.out).replace_extension(".csv").string();

@@ -36,6 +36,9 @@ enum class CellSource { kList, kClump, kBox, kFill, kLobule, kMeshes };
 /// By a prescribed force, or by a spring whose far end is moved.
 enum class PullBy { kForce, kSpring };
 
+/// What cells touch of vessels: a round cone a segment, or one closed surface about them.
+enum class VesselContact { kCones, kMesh };
+
 template <class E>
 inline constexpr const char* kChoices = nullptr;
 template <>
@@ -53,6 +56,10 @@ inline constexpr const char* kChoices<coupling::RegionKind> =
     "sphere|box|half_space|axis_distance|all|front|cells|vessel|pressure";
 template <>
 inline constexpr const char* kChoices<coupling::LobuleShape> = "pie|hexagon";
+template <>
+inline constexpr const char* kChoices<VesselContact> = "cones|mesh";
+template <>
+inline constexpr const char* kChoices<coupling::VesselAnchors> = "ends|none";
 template <>
 inline constexpr const char* kChoices<contact::Quadrature> = "3-point|nodes|nodes-and-edges";
 template <>

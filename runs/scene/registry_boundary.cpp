@@ -28,6 +28,39 @@ void describe_lobule_shape(Visitor& v, LobuleBlock& b) {
          b.lesion_radius);
 }
 
+void describe_flexible_vessels(Visitor& v, VesselBlock& b) {
+  v.real({.name = "wall_thickness",
+          .meaning = "thickness of the wall; a vessel whose radius is no larger is solid",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.wall_thickness);
+  v.real({.name = "pressure",
+          .meaning = "pressure inside over that outside",
+          .dimension = kStress,
+          .unit = "Pa",
+          .range = kNotNegative},
+         b.pressure);
+  v.real({.name = "friction",
+          .meaning = "friction of vessels with the matrix, per area",
+          .dimension = kFrictionPerArea,
+          .unit = "N s/m^3",
+          .range = kPositive},
+         b.friction);
+  choice(v,
+         {.name = "anchors",
+          .meaning = "what holds them: ends, where a vessel begins or ends it neither moves nor "
+                     "turns; none, they float"},
+         b.anchors);
+  v.optional_real({.name = "spacing",
+                   .meaning = "longest segment: longer ones are cut in equal parts",
+                   .dimension = kLength,
+                   .unit = "um",
+                   .range = kPositive,
+                   .automatic = "segments stay as they are"},
+                  b.spacing);
+}
+
 }  // namespace
 
 void describe_lobule(Visitor& v, LobuleBlock& b) {
@@ -124,6 +157,15 @@ void describe_vessels(Visitor& v, VesselBlock& b) {
           .range = kNotNegative,
           .symbol = "W"},
          b.adhesion);
+  choice(v,
+         {.name = "contact",
+          .meaning = "what cells touch: a round cone a segment, or one closed surface about all of "
+                     "them, without the creases where cones meet"},
+         b.contact);
+  v.flag({.name = "flexible",
+          .meaning = "true: vessels are elastic tubes that cells bend; false: they stand still"},
+         b.flexible);
+  v.when(b.flexible, "flexible = true", [&b](Visitor& w) { describe_flexible_vessels(w, b); });
 }
 
 void describe_wall(Visitor& v, WallEntry& b) {

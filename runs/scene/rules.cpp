@@ -83,6 +83,21 @@ void check_vessels(const Scene& scene, Report& report) {
                           "command line --set vessels.file=my_network.vtk");
 }
 
+/// Cells asleep are stepped without the vessels they lie on.
+void check_flexible_vessels(const Scene& scene, Report& report) {
+  const VesselBlock& v = scene.vessels;
+  if (v.file.empty() && !scene.lobule && v.flexible)
+    report.add_relation({"/vessels/flexible", "/vessels/file", "/lobule"}, "true",
+                        "needs vessels: give /vessels/file or a lobule block");
+  if (v.flexible && v.contact == VesselContact::kMesh)
+    report.add_relation({"/vessels/flexible", "/vessels/contact"}, "true",
+                        "goes with cones only, which follow the vessels: set /vessels/contact to "
+                        "\"cones\"");
+  if (v.flexible && scene.life.sleep)
+    report.add_relation({"/vessels/flexible", "/life/sleep"}, "true",
+                        "goes only where all cells are awake: set /life/sleep to false");
+}
+
 void check_integrator(const Scene& scene, Report& report) {
   if (scene.numerics.integrator != coupling::Integrator::kRos2 || scene.time.with_contacts ||
       !may_touch(scene))
@@ -306,6 +321,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_time(scene, report);
   check_relaxation(scene, report);
   check_vessels(scene, report);
+  check_flexible_vessels(scene, report);
   check_integrator(scene, report);
   check_contact_law(scene, report);
   check_single_cell(scene, report);

@@ -175,6 +175,13 @@ struct VesselBlock {
   double young = 0.6;                       ///< kPa
   double poisson = 0.4;
   double adhesion = 0;  ///< nN/um
+  VesselContact contact = VesselContact::kCones;
+  bool flexible = false;      ///< cells bend them
+  double wall_thickness = 1;  ///< um
+  double pressure = 0;        ///< kPa, inside
+  double friction = 0.1;      ///< nN s/um^3, with what is around them
+  coupling::VesselAnchors anchors = coupling::VesselAnchors::kEnds;
+  std::optional<double> spacing;  ///< um, longest segment of flexible vessels; empty = as they are
 };
 
 struct WallEntry {  ///< cells stay where (x - point).normal >= 0

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/contact/jkr.hpp"
+#include "core/contact/wall_mesh.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/step/stages.hpp"
@@ -165,7 +166,11 @@ void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapsho
 }  // namespace
 
 mesh::Surface draw_boundary(const contact::Boundary& boundary) {
-  mesh::Surface drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
+  mesh::Surface drawn;
+  if (const contact::WallMesh* wall = boundary.vessels.wall.get())
+    drawn = {wall->body.node, *wall->triangle};
+  else
+    drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
   for (const contact::Pipette& p : boundary.pipettes) coupling::add_pipette_surface(p, drawn);
   return drawn;
 }
@@ -241,6 +246,11 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
       explained_indentations(world, snapshot);
   frame.indentations = indentations;
   frame.vessels = &boundary.vessels.network;
+  coupling::AuditStatic surface;
+  if (const contact::WallMesh* wall = boundary.vessels.wall.get()) {
+    surface = {wall->body.node, *wall->triangle, false};
+    frame.vessel_surface = &surface;
+  }
   frame.walls = walls;
   frame.statics = statics;
   return coupling::audit(frame, world.ranks);

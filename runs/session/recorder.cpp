@@ -36,10 +36,7 @@ void visit(Counts& c, F f) {
 }  // namespace
 
 Recorder::Recorder(const Scene& scene, const RunOptions& options, coupling::Simulation& simulation)
-    : scene_(scene),
-      options_(options),
-      simulation_(simulation),
-      drawn_boundary_(draw_boundary(simulation.world().params.boundary)) {
+    : scene_(scene), options_(options), simulation_(simulation) {
   life_.start_cells = coupling::count_cells(simulation.world().state);
 }
 
@@ -67,7 +64,9 @@ Notes Recorder::resume() {
   const io::LoadedCheckpoint loaded = io::load_checkpoint(options_.out);
   const io::CheckpointData& data = loaded.data;
   check_same_scene(data, scene_);
-  get_state(data, simulation_.world().state);
+  coupling::World& world = simulation_.world();
+  get_state(data, world.state);
+  coupling::place_vessels(world.params.tree, world.state.tree, world.params.boundary.vessels);
   simulation_.resize();
   get_totals(data, totals_);
   get_totals(data, life_);
@@ -103,6 +102,8 @@ Excess Recorder::write_frame(bool last) {
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
     observables = observe_frame({scene_, world, work, snapshot, audit}, observables_);
+  if (drawn_boundary_.node.empty() || world.params.tree.exists())
+    drawn_boundary_ = draw_boundary(world.params.boundary);
   if (file_) file_->append(make_frame(world, work, snapshot, drawn_boundary_), observables);
   last_frame_ = snapshot.time;
   if (audit.n_self_intersecting > 0)

@@ -158,6 +158,9 @@ Json list_measures(const SummaryInput& in) {
   if (!in.world.params.boundary.vessels.network.segment.empty())
     measures["max_overlap_with_vessels_um"] =
         number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
+  if (in.world.params.tree.exists())
+    measures["largest_vessel_displacement_um"] =
+        number(coupling::largest_displacement(in.world.params.tree, in.world.state.tree));
   if (in.scene.experiment == Experiment::kAspiration)
     add_aspiration_figures(in.scene, in.measures, measures);
   if (in.scene.experiment == Experiment::kPullOff)

@@ -56,7 +56,7 @@ inline void add_medium(Eigen::MatrixXd& to, const solve::System& s) {
                        Mat3::Identity());
 }
 
-/// Springs, hinges and faces of one lane of a block.
+/// Springs, hinges, faces and beams of one lane of a block.
 inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solve::Block& block,
                          int lane) {
   const auto at = [&](int point) {
@@ -88,6 +88,16 @@ inline void add_elements(Eigen::MatrixXd& to, const solve::System& s, const solv
                g2 = element_vector(s.face, k + 3 * kLanes, lane);
     add_outer(to, {{at(p.face[e][0]), g1}, {at(p.face[e][1]), g2}, {at(p.face[e][2]), -(g1 + g2)}});
   }
+  for (std::size_t e = 0; e < p.beam.size(); ++e)
+    for (std::size_t d = 0; d < 2; ++d) {
+      const std::size_t k = (block.first_beam + e) * solve::kBeamStride + 6 * kLanes * d;
+      const Vec3 end = element_vector(s.beam, k, lane),
+                 turn = element_vector(s.beam, k + 3 * kLanes, lane);
+      add_outer(to, {{at(p.beam[e][0]), -end},
+                     {at(p.beam[e][1]), end},
+                     {at(p.beam[e][2]), turn},
+                     {at(p.beam[e][3]), turn}});
+    }
 }
 
 /// Points and weights of one side of a contact.
@@ -138,7 +148,7 @@ inline Eigen::MatrixXd make_zero(const solve::System& s) {
   return Eigen::MatrixXd::Zero(n, n);
 }
 
-/// What is kept as small elements: springs, hinges, faces and contacts.
+/// What is kept as small elements: springs, hinges, faces, beams and contacts.
 inline Eigen::MatrixXd make_dense_elements(const solve::System& s) {
   Eigen::MatrixXd a = make_zero(s);
   for (const solve::Block& block : s.block)

@@ -45,8 +45,8 @@ TEST(CellTypes, AreDrawnByTheirShares) {
   // A lattice has room for the largest type.
   EXPECT_NEAR((cells[1].center - cells[0].center).norm(), 24, 1e-12);
   // Another place or model does not change who is what.
-  const auto box =
-      place_cells(make_scene(R"("source": "box", "grid": [20, 10, 10], )" + types), nullptr, {}, {});
+  const auto box = place_cells(make_scene(R"("source": "box", "grid": [20, 10, 10], )" + types),
+                               nullptr, {}, {});
   for (std::size_t k = 0; k < cells.size(); ++k) EXPECT_EQ(cells[k].type, box[k].type);
 }
 

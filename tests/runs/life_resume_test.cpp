@@ -86,6 +86,33 @@ TEST_F(LifeResume, IsBitForBitThroughChangesOfModel) {
   expect_same("whole", "parts");
 }
 
+TEST_F(LifeResume, IsBitForBitBesideVesselsThatBend) {
+  write("spheroid.json", kSpheroid);
+  write("vessel.swc", "1 0 -60 0 -14 4 -1\n2 0 0 0 -14 4 1\n3 0 60 10 -14 4 2\n4 0 0 60 -20 3 2\n");
+  for (const std::string model : {"dcm", "zoom"}) {
+    const Words more{"--set",
+                     "vessels.file=vessel.swc",
+                     "--set",
+                     "vessels.flexible=true",
+                     "--set",
+                     "vessels.spacing=15 um",
+                     "--set",
+                     R"(zoom=[{"kind": "half_space", "point": ["0 um", "0 um", "0 um"],)"
+                     R"( "normal": [0, 1, 0]}])"};
+    const auto with = [&more](Words first) {
+      first.insert(first.end(), more.begin(), more.end());
+      return first;
+    };
+    const Json end = finish(model + "_whole", model, with({}));
+    EXPECT_GE(end["cells"]["divisions"], 3);
+    EXPECT_GT(end["measures"]["largest_vessel_displacement_um"], 0.01);
+    finish(model + "_parts", model, with({"--until", "140 min"}));
+    finish(model + "_parts", model, with({"--resume", "--until", "260 min"}));
+    finish(model + "_parts", model, with({"--resume"}));
+    expect_same(model + "_whole", model + "_parts");
+  }
+}
+
 TEST_F(LifeResume, IsBitForBitWithSleepersRulesAndDeath) {
   write("spheroid.json", kSpheroid);
   const Words more{"--set",

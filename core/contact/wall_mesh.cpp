@@ -1,0 +1,76 @@
+#include "core/contact/wall_mesh.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "core/threads.hpp"
+
+namespace acinus::contact {
+namespace {
+
+/// Of the segments whose boxes a point is in, the one with the nearest wall.
+int nearest_segment(const mesh::Network& network, std::span<const Box> box, const Vec3& x) {
+  int nearest = -1;
+  double least = 0;
+  const auto look = [&](std::size_t s) {
+    const double distance = std::abs(gap_to_segment(network, static_cast<int>(s), x).gap);
+    if (nearest >= 0 && distance >= least) return;
+    nearest = static_cast<int>(s);
+    least = distance;
+  };
+  for (std::size_t s = 0; s < box.size(); ++s)
+    if (box[s].contains(x)) look(s);
+  if (nearest < 0)
+    for (std::size_t s = 0; s < box.size(); ++s) look(s);
+  return nearest;
+}
+
+}  // namespace
+
+WallMesh make_wall_mesh(const mesh::Network& network, mesh::Surface surface) {
+  WallMesh wall;
+  wall.triangle =
+      std::make_shared<const std::vector<std::array<int, 3>>>(std::move(surface.triangle));
+  wall.body.node = std::move(surface.node);
+  wall.body.triangle = wall.triangle.get();
+  refresh_body(wall.body);
+  // Walls are nowhere farther from their cone than a share of its radius.
+  constexpr double kWider = 1.3;
+  std::vector<Box> box(network.segment.size());
+  for (std::size_t s = 0; s < box.size(); ++s)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Box ball =
+          sphere_box(network.node[network.segment[s][end]], kWider * network.radius[s][end]);
+      box[s].include(ball.low);
+      box[s].include(ball.high);
+    }
+  wall.segment.resize(wall.triangle->size());
+  for_each_index(wall.segment.size(), true, [&](std::size_t t) {
+    wall.segment[t] = nearest_segment(network, box, wall.body.center[t]);
+  });
+  wall.first_of_segment.assign(network.segment.size() + 1, 0);
+  for (const int s : wall.segment) ++wall.first_of_segment[static_cast<std::size_t>(s) + 1];
+  std::partial_sum(wall.first_of_segment.begin(), wall.first_of_segment.end(),
+                   wall.first_of_segment.begin());
+  wall.of_segment.resize(wall.segment.size());
+  std::vector<std::size_t> next = wall.first_of_segment;
+  for (std::size_t t = 0; t < wall.segment.size(); ++t)
+    wall.of_segment[next[wall.segment[t]]++] = static_cast<int>(t);
+  return wall;
+}
+
+Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach) {
+  Gap gap = gap_to_segment(vessels.network, segment, x);
+  if (!vessels.wall) return gap;
+  const WallMesh& wall = *vessels.wall;
+  const std::size_t first = wall.first_of_segment[segment],
+                    last = wall.first_of_segment[static_cast<std::size_t>(segment) + 1];
+  const Gap found = gap_to_triangles(
+      wall.body, std::span(wall.of_segment).subspan(first, last - first), x, reach);
+  if (found.gap >= reach) return gap;
+  gap.gap = found.gap;
+  gap.normal = found.normal;
+  return gap;
+}
+
+}  // namespace acinus::contact
