@@ -10,7 +10,7 @@
 #include "core/contact/hertz.hpp"
 #include "core/error.hpp"
 #include "core/mesh/closest_point.hpp"
-#include "core/mesh/round_cone.hpp"
+#include "core/mesh/segment_shape.hpp"
 #include "core/time_grid.hpp"
 
 namespace acinus::contact {
@@ -179,11 +179,7 @@ Gap gap_to_triangles(const SurfaceBody& b, std::span<const int> triangles, const
 }
 
 Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {
-  const std::size_t s = segment;
-  const Vec3& a = network.node[network.segment[s][0]];
-  const Vec3& b = network.node[network.segment[s][1]];
-  const mesh::NearestBall ball =
-      mesh::find_nearest_ball(x, a, b, network.radius[s][0], network.radius[s][1]);
+  const mesh::NearestBall ball = mesh::nearest_ball(network, segment, x);
   Gap g;
   g.axis_distance = ball.apart.norm();
   g.radius = ball.radius;
@@ -191,8 +187,9 @@ Gap gap_to_segment(const mesh::Network& network, int segment, const Vec3& x) {
   g.parameter = ball.parameter;
   if (g.axis_distance > 0) {
     g.normal = ball.apart / g.axis_distance;
-  } else {
-    g.normal = (b - a).unitOrthogonal();  // on the axis every direction is out
+  } else {  // on the axis every direction is out
+    const auto& [a, b] = network.segment[segment];
+    g.normal = (network.node[b] - network.node[a]).unitOrthogonal();
   }
   return g;
 }

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/mesh/segment_shape.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::contact {
@@ -36,14 +37,9 @@ WallMesh make_wall_mesh(const mesh::Network& network, mesh::Surface surface) {
   refresh_body(wall.body);
   // Walls are nowhere farther from their cone than a share of its radius.
   constexpr double kWider = 1.3;
-  std::vector<Box> box(network.segment.size());
-  for (std::size_t s = 0; s < box.size(); ++s)
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Box ball =
-          sphere_box(network.node[network.segment[s][end]], kWider * network.radius[s][end]);
-      box[s].include(ball.low);
-      box[s].include(ball.high);
-    }
+  std::vector<Box> box;
+  for (std::size_t s = 0; s < network.segment.size(); ++s)
+    box.push_back(mesh::cone_box(network, s, kWider));
   wall.segment.resize(wall.triangle->size());
   for_each_index(wall.segment.size(), true, [&](std::size_t t) {
     wall.segment[t] = nearest_segment(network, box, wall.body.center[t]);

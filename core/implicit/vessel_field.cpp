@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/mesh/round_cone.hpp"
+#include "core/mesh/segment_shape.hpp"
 
 namespace acinus::implicit {
 
@@ -16,10 +16,7 @@ VesselField::VesselField(const mesh::Network& network, double rounding)
 }
 
 double VesselField::distance(const Vec3& x, int segment) const {
-  const auto& [a, b] = network_.segment[segment];
-  const auto& [ra, rb] = network_.radius[segment];
-  const mesh::NearestBall ball =
-      mesh::find_nearest_ball(x, network_.node[a], network_.node[b], ra, rb);
+  const mesh::NearestBall ball = mesh::nearest_ball(network_, segment, x);
   return ball.apart.norm() - ball.radius;
 }
 

@@ -16,6 +16,7 @@
 #include "core/implicit/vessel_field.hpp"
 #include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/remesh.hpp"
+#include "core/mesh/segment_shape.hpp"
 
 namespace acinus::implicit {
 namespace {
@@ -39,15 +40,8 @@ Shape make_shape(const VesselPieces& pieces, const VesselField& field) {
   shape.value = [&](const Vec3& x, std::span<const int> parts) { return field.value(x, parts); };
   shape.distance = [&](const Vec3& x, int part) { return field.distance(x, part); };
   shape.reach = field.widest_crease();
-  for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    Box box;
-    for (const std::size_t end : {0, 1}) {
-      const Box ball = sphere_box(network.node[network.segment[s][end]], network.radius[s][end]);
-      box.include(ball.low);
-      box.include(ball.high);
-    }
-    shape.box.push_back(box);
-  }
+  for (std::size_t s = 0; s < network.segment.size(); ++s)
+    shape.box.push_back(mesh::cone_box(network, s));
   return shape;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/contact/box_pairs.hpp"
-#include "core/mesh/round_cone.hpp"
+#include "core/mesh/segment_shape.hpp"
 
 namespace acinus::implicit {
 namespace {
@@ -21,12 +21,6 @@ struct NearestPlaces {
   Vec3 middle = Vec3::Zero();  ///< between the two walls
 };
 
-mesh::NearestBall ball_of(const mesh::Network& n, int segment, const Vec3& x) {
-  const auto& [a, b] = n.segment[segment];
-  return mesh::find_nearest_ball(x, n.node[a], n.node[b], n.radius[segment][0],
-                                 n.radius[segment][1]);
-}
-
 /// Along the axis of one, the distance to the other less the radius is convex: both bodies are.
 NearestPlaces find_nearest_places(const mesh::Network& n, const AxisPart& piece, int other) {
   constexpr int kRounds = 50;
@@ -35,7 +29,7 @@ NearestPlaces find_nearest_places(const mesh::Network& n, const AxisPart& piece,
   const Vec3 along = n.node[n.segment[piece.segment][1]] - a;
   const auto& [ra, rb] = n.radius[piece.segment];
   const auto gap_at = [&](double t) {
-    const mesh::NearestBall ball = ball_of(n, other, a + t * along);
+    const mesh::NearestBall ball = mesh::nearest_ball(n, other, a + t * along);
     return ball.apart.norm() - ball.radius - (ra + t * (rb - ra));
   };
   double low = piece.low, high = piece.high;
@@ -47,7 +41,7 @@ NearestPlaces find_nearest_places(const mesh::Network& n, const AxisPart& piece,
       low = left;
   }
   const double t = 0.5 * (low + high), radius = ra + t * (rb - ra);
-  const mesh::NearestBall ball = ball_of(n, other, a + t * along);
+  const mesh::NearestBall ball = mesh::nearest_ball(n, other, a + t * along);
   const double gap = ball.apart.norm() - ball.radius - radius;
   return {gap, a + t * along - (radius + 0.5 * gap) * ball.apart.normalized()};
 }
@@ -61,14 +55,7 @@ bool share_a_node(const mesh::Network& n, int s, int t) {
 /// Which segments are within some distance of each.
 std::vector<std::vector<int>> find_beside(const mesh::Network& n, double most) {
   std::vector<Box> box;
-  for (std::size_t s = 0; s < n.segment.size(); ++s) {
-    box.emplace_back();
-    for (const std::size_t end : {0, 1}) {
-      const Box ball = sphere_box(n.node[n.segment[s][end]], n.radius[s][end]);
-      box.back().include(ball.low);
-      box.back().include(ball.high);
-    }
-  }
+  for (std::size_t s = 0; s < n.segment.size(); ++s) box.push_back(mesh::cone_box(n, s));
   std::vector<std::vector<int>> beside(n.segment.size());
   for (const auto& [s, t] : contact::find_pairs(box, most)) {
     beside[s].push_back(t);
@@ -106,7 +93,7 @@ class GapSearch {
     // Neighbours along one vessel, with a short segment between them, are no gap.
     const bool filled = std::ranges::any_of(beside_[piece.segment], [&](int k) {
       if (k == other) return false;
-      const mesh::NearestBall ball = ball_of(n_, k, near.middle);
+      const mesh::NearestBall ball = mesh::nearest_ball(n_, k, near.middle);
       return ball.apart.norm() < ball.radius;
     });
     return filled ? most_ : near.gap;

@@ -12,6 +12,7 @@
 #include "core/mesh/edit_network.hpp"
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/read_surface.hpp"
+#include "core/random.hpp"
 #include "runs/build/cell_types.hpp"
 
 namespace acinus::runs {
@@ -79,8 +80,12 @@ coupling::LobuleParameters lobule_parameters(const Scene& scene) {
           scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
 }
 
-void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary,
-                  Notes& notes) {
+coupling::Lobule draw_lobule(const Scene& scene) {
+  UniformStream stream(scene.seed, Purpose::kNetwork, 0);
+  return coupling::make_lobule(lobule_parameters(scene), [&stream] { return stream.uniform(); });
+}
+
+mesh::Network build_network(const Scene& scene, const coupling::Lobule* lobule) {
   mesh::Network network;
   if (!scene.vessels.file.empty())
     network = read_vessels(scene.vessels);
@@ -88,7 +93,18 @@ void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::B
     network = lobule->vessels;
   if (scene.vessels.flexible && scene.vessels.spacing)
     network = mesh::split_network(network, *scene.vessels.spacing);
-  contact::set_network(boundary.vessels, std::move(network));
+  return network;
+}
+
+mesh::Network build_network(const Scene& scene) {
+  if (!scene.lobule) return build_network(scene, nullptr);
+  const coupling::Lobule lobule = draw_lobule(scene);
+  return build_network(scene, &lobule);
+}
+
+void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary,
+                  Notes& notes) {
+  contact::set_network(boundary.vessels, build_network(scene, lobule));
   add_wall(scene, boundary.vessels, notes);
   boundary.vessels.material = {scene.vessels.adhesion, scene.vessels.young, scene.vessels.poisson,
                                false};

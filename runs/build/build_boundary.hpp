@@ -15,6 +15,14 @@ namespace acinus::runs {
 /// @pre the scene has a lobule
 coupling::LobuleParameters lobule_parameters(const Scene& scene);
 
+/// The lobule of a scene, drawn with its seed.   @pre the scene has one
+coupling::Lobule draw_lobule(const Scene& scene);
+
+/// The vessels of a scene at rest, without the rest of it; none: no segments.
+/// @throws Error for a file that cannot be used
+mesh::Network build_network(const Scene& scene, const coupling::Lobule* lobule);
+mesh::Network build_network(const Scene& scene);
+
 /// @param lobule  null: none
 /// @throws Error for files that cannot be used
 void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary,

@@ -11,7 +11,6 @@
 
 #include "core/error.hpp"
 #include "core/mesh/measures.hpp"
-#include "core/random.hpp"
 #include "core/sphere.hpp"
 #include "coupling/generate/lobule.hpp"
 #include "coupling/generate/packing.hpp"
@@ -63,9 +62,7 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
 /// The lobule of a scene that has one, with what is to be said about it.
 coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   const LobuleBlock& b = *scene.lobule;
-  UniformStream stream(scene.seed, Purpose::kNetwork, 0);
-  coupling::Lobule lobule =
-      coupling::make_lobule(lobule_parameters(scene), [&stream] { return stream.uniform(); });
+  coupling::Lobule lobule = draw_lobule(scene);
   if (static_cast<int>(lobule.seeds.size()) < b.cells)
     notes.warned.push_back(
         fmt::format("room for {} of the {} cells asked for", lobule.seeds.size(), b.cells));

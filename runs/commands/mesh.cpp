@@ -14,7 +14,7 @@
 #include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "core/units.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/build/build_boundary.hpp"
 #include "runs/commands/command.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
@@ -49,7 +49,7 @@ mesh::Network find_network(const MeshArguments& a) {
   const std::string ending = mesh::extension_of(a.what);
   if (ending.empty() || ending == ".json") {  // a scene, or the name of a shipped one
     const Scene scene = read_scene(find_scene_file(a.what), {});
-    mesh::Network n = build_world(scene, Ranks::serial()).world.params.boundary.vessels.network;
+    mesh::Network n = build_network(scene);
     check(!n.segment.empty(), fmt::format("{}: the scene has no vessels", a.what));
     return n;
   }

@@ -12,7 +12,7 @@
 #include "core/mesh/measures.hpp"
 #include "core/mesh/topology.hpp"
 #include "core/sphere.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/build/build_boundary.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs {
@@ -63,9 +63,12 @@ std::optional<mesh::Surface> vessels_of(const io::RunReader& run, const std::str
   const auto text = provenance.find("scene");
   if (text == provenance.end()) return std::nullopt;
   const Scene scene = parse_scene(text->second, folder, folder);
-  const mesh::Network network =
-      build_world(scene, Ranks::serial()).world.params.boundary.vessels.network;
+  const mesh::Network network = build_network(scene);
   if (network.segment.empty()) return std::nullopt;
+  check(!scene.vessels.flexible,
+        fmt::format("{}: its vessels bend, and a frame does not say where to; leave them out with "
+                    "--no-vessels.",
+                    folder));
   return implicit::make_vessel_mesh(network, {}).surface;
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+/// A segment of a network as a round cone.
+
+#include "core/box.hpp"
+#include "core/mesh/network.hpp"
+#include "core/mesh/round_cone.hpp"
+
+namespace acinus::mesh {
+
+inline NearestBall nearest_ball(const Network& n, int segment, const Vec3& x) {
+  const std::size_t s = segment;
+  const auto& [a, b] = n.segment[s];
+  const auto& [ra, rb] = n.radius[s];
+  return find_nearest_ball(x, n.node[a], n.node[b], ra, rb);
+}
+
+/// @param wider  factor on the radii
+inline Box cone_box(const Network& n, std::size_t segment, double wider = 1) {
+  Box box;
+  for (const std::size_t end : {0, 1}) {
+    const Box ball = sphere_box(n.node[n.segment[segment][end]], wider * n.radius[segment][end]);
+    box.include(ball.low);
+    box.include(ball.high);
+  }
+  return box;
+}
+
+}  // namespace acinus::mesh
