@@ -199,7 +199,7 @@ TEST(VesselTree, ActsOnCellsAsTheyActOnIt) {
 TEST(VesselTree, TouchesASphereOnceAtAJointThatBends) {
   const auto force = [](double angle) {
     World w = cell_on_vessel(false, kSinusoid, 0, true);
-    w.state.cbm.position[2 * kLanes] -= 1;  // z of the first sphere
+    w.state.cbm.position[2 * kLanes] = (kRadius + 10.9) / std::cos(angle);  // z: as near to both
     for (Vec3& x : w.state.tree.node) x.z() = std::tan(angle) * std::abs(x.x());
     Workspace work;
     size_workspace(w, work);
@@ -214,12 +214,14 @@ TEST(VesselTree, TouchesASphereOnceAtAJointThatBends) {
   for (double angle = 1e-4; angle < 0.7; angle += 0.01) {
     const double now = force(angle);
     EXPECT_NEAR(now, before, 0.06 * straight) << angle;
+    EXPECT_LT(now, 2 * straight);
     before = now;
   }
   std::printf(
       "a joint bent by 1e-4 rad pushes %.4f of a straight one, by 0.05 rad %.4f, 0.6 rad %.4f\n",
       force(1e-4) / straight, force(0.05) / straight, force(0.6) / straight);
   EXPECT_NEAR(force(1e-4), straight, 1e-3 * straight);
+  EXPECT_NEAR(force(0.6), 2 * std::cos(0.6) * straight, 1e-6 * straight);
 }
 
 TEST(VesselTree, BendsUnderACellAsMuchAsItPulls) {
