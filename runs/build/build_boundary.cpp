@@ -55,7 +55,7 @@ void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
 
 /// Lays the surface about the vessels that cells touch, if they do.
 void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
-  if (scene.vessels.contact != VesselContact::kMesh || vessels.network.segment.empty()) return;
+  if (scene.vessels.contact != VesselWalls::kMesh || vessels.network.segment.empty()) return;
   implicit::VesselMesh mesh = implicit::make_vessel_mesh(vessels.network, {});
   if (!mesh.is_as_expected()) notes.warned.push_back(implicit::describe_connectivity(mesh));
   vessels.wall = std::make_shared<const contact::WallMesh>(

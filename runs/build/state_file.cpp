@@ -5,45 +5,11 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "runs/build/state_numbers.hpp"
+#include "runs/build/tree_file.hpp"
 
 namespace acinus::runs {
 namespace {
-
-template <class T>
-std::vector<std::int64_t> as_integers(const std::vector<T>& v) {
-  return {v.begin(), v.end()};
-}
-std::vector<double> flatten(const std::vector<Ramp>& ramps) {
-  std::vector<double> v;
-  for (const Ramp& r : ramps) v.insert(v.end(), {r.from, r.to, r.start, r.end});
-  return v;
-}
-std::vector<Ramp> unflatten(const std::vector<double>& v) {
-  std::vector<Ramp> ramps;
-  for (std::size_t k = 0; k + 3 < v.size(); k += 4)
-    ramps.push_back({v[k], v[k + 1], v[k + 2], v[k + 3]});
-  return ramps;
-}
-
-std::vector<double> flatten(const std::vector<Vec3>& points) {
-  std::vector<double> v;
-  for (const Vec3& p : points) v.insert(v.end(), {p.x(), p.y(), p.z()});
-  return v;
-}
-std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
-  std::vector<Vec3> points;
-  for (std::size_t k = 0; k + 2 < v.size(); k += 3) points.emplace_back(v[k], v[k + 1], v[k + 2]);
-  return points;
-}
-
-void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
-                std::size_t expected) {
-  check(found == expected,
-        fmt::format("{}: {} has {} entries, {} are needed. The file is damaged or was written by "
-                    "another version; resume from the previous checkpoint or start anew.",
-                    data.source(), what, found, expected),
-        Exit::kFileError);
-}
 
 /// Only shapes that are still remembered are kept: lane, then weight, area, edges and triangles.
 void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
@@ -299,28 +265,6 @@ void get_zoom(const io::CheckpointData& d, coupling::State& s) {
   for (std::size_t k = 0; k < force.size(); ++k)
     s.fading.push_back(
         {cell[2 * k], cell[2 * k + 1], force[k], virial[k], share[k], apart[k], reach[k]});
-}
-
-/// Places and rotations (w, x, y, z) of the nodes of flexible vessels.
-void put_tree(const coupling::TreeState& tree, io::CheckpointData& d) {
-  if (tree.node.empty()) return;
-  d.put("tree/node", flatten(tree.node));
-  std::vector<double> rotation;
-  for (const Eigen::Quaterniond& q : tree.rotation)
-    rotation.insert(rotation.end(), {q.w(), q.x(), q.y(), q.z()});
-  d.put("tree/rotation", rotation);
-}
-
-void get_tree(const io::CheckpointData& d, coupling::TreeState& tree) {
-  if (tree.node.empty()) return;
-  const std::size_t n = tree.node.size();
-  tree.node = unflatten_points(d.numbers("tree/node"));
-  check_same(d, "tree/node", tree.node.size(), n);
-  const std::vector<double>& rotation = d.numbers("tree/rotation");
-  check_same(d, "tree/rotation", rotation.size(), 4 * n);
-  for (std::size_t k = 0; k < n; ++k)
-    tree.rotation[k] = Eigen::Quaterniond(rotation[4 * k], rotation[4 * k + 1], rotation[4 * k + 2],
-                                          rotation[4 * k + 3]);
 }
 
 /// Calls f(name, value) for every number of the clock and the balance.

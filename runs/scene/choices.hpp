@@ -37,7 +37,7 @@ enum class CellSource { kList, kClump, kBox, kFill, kLobule, kMeshes };
 enum class PullBy { kForce, kSpring };
 
 /// What cells touch of vessels: a round cone a segment, or one closed surface about them.
-enum class VesselContact { kCones, kMesh };
+enum class VesselWalls { kCones, kMesh };
 
 template <class E>
 inline constexpr const char* kChoices = nullptr;
@@ -57,7 +57,7 @@ inline constexpr const char* kChoices<coupling::RegionKind> =
 template <>
 inline constexpr const char* kChoices<coupling::LobuleShape> = "pie|hexagon";
 template <>
-inline constexpr const char* kChoices<VesselContact> = "cones|mesh";
+inline constexpr const char* kChoices<VesselWalls> = "cones|mesh";
 template <>
 inline constexpr const char* kChoices<coupling::VesselAnchors> = "ends|none";
 template <>

@@ -89,7 +89,7 @@ void check_flexible_vessels(const Scene& scene, Report& report) {
   if (v.file.empty() && !scene.lobule && v.flexible)
     report.add_relation({"/vessels/flexible", "/vessels/file", "/lobule"}, "true",
                         "needs vessels: give /vessels/file or a lobule block");
-  if (v.flexible && v.contact == VesselContact::kMesh)
+  if (v.flexible && v.contact == VesselWalls::kMesh)
     report.add_relation({"/vessels/flexible", "/vessels/contact"}, "true",
                         "goes with cones only, which follow the vessels: set /vessels/contact to "
                         "\"cones\"");

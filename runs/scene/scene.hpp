@@ -175,7 +175,7 @@ struct VesselBlock {
   double young = 0.6;                       ///< kPa
   double poisson = 0.4;
   double adhesion = 0;  ///< nN/um
-  VesselContact contact = VesselContact::kCones;
+  VesselWalls contact = VesselWalls::kCones;
   bool flexible = false;      ///< cells bend them
   double wall_thickness = 1;  ///< um
   double pressure = 0;        ///< kPa, inside

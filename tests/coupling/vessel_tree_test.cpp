@@ -198,7 +198,9 @@ TEST(VesselTree, ActsOnCellsAsTheyActOnIt) {
 /// as long as they are nearly straight.
 TEST(VesselTree, TouchesASphereOnceAtAJointThatBends) {
   const auto force = [](double angle) {
-    World w = cell_on_vessel(false, kSinusoid, 0, true);
+    TubeMaterial material = kSinusoid;
+    material.poisson = 0;  // arms that grow longer keep their radius
+    World w = cell_on_vessel(false, material, 0, true);
     w.state.cbm.position[2 * kLanes] = (kRadius + 10.9) / std::cos(angle);  // z: as near to both
     for (Vec3& x : w.state.tree.node) x.z() = std::tan(angle) * std::abs(x.x());
     Workspace work;
