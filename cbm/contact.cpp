@@ -147,8 +147,8 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
           (center_of(s, i) - load_point(work.list_position.data(), cell_address(0, i))).norm());
       wider = std::max(wider, radius[i] - work.list_radius[i]);
     }
-    for (std::size_t i = 0; i < work.list_network.size(); ++i)
-      moved = std::max(moved, (in.boundary.vessels.network.node[i] - work.list_network[i]).norm());
+    if (in.vessel_row != contact::kAtRest)
+      moved = std::max(moved, mesh::largest_motion(in.boundary.vessels.network, work.list_network));
     if (2 * (moved + wider) <= skin) return false;
   }
   const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
@@ -158,22 +158,28 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
   const mesh::Network& network = in.boundary.vessels.network;
   if (!network.segment.empty()) {
     std::vector<Box> boxes, segments;
+    double widest = 0;
     for (std::size_t i = 0; i < s.n_cell(); ++i)
       boxes.push_back(sphere_box(center_of(s, i), radius[i]));
     for (std::size_t k = 0; k < network.segment.size(); ++k) {
       Box box;
       for (int n : network.segment[k]) box.include(network.node[n]);
-      segments.push_back(box.grown(std::max(network.radius[k][0], network.radius[k][1])));
+      const double wide = std::max(network.radius[k][0], network.radius[k][1]);
+      segments.push_back(box.grown(wide));
+      widest = std::max(widest, wide);
     }
-    work.segment = contact::find_pairs_between(boxes, segments, margin);
+    // A surface about them may be that much farther out, in its rounded creases.
+    constexpr double kRounding = 0.05;
+    const double beyond = in.boundary.vessels.wall ? margin + kRounding * widest : margin;
+    work.segment = contact::find_pairs_between(boxes, segments, beyond);
     std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
       const std::size_t i = p.first;
       return work.is_foreign(i) ||
-             contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + margin;
+             contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + beyond;
     });
   }
   work.list_network = {};
-  if (in.vessel_row != contact::kAtRest) work.list_network = network.node;
+  if (in.vessel_row != contact::kAtRest) work.list_network = network;
   work.list_position = s.position;
   work.list_radius.assign(radius.begin(), radius.end());
   ++work.list_builds;

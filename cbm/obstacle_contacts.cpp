@@ -193,15 +193,22 @@ class ObstacleSearch {
       met.clear();
       for (; pair != work_.segment.end() && pair->first == cell; ++pair)
         if (const std::optional<contact::Gap> g = vessel_gap(cell, pair->second))
-          if (g->gap < 2 * radius(cell)) met.emplace_back(pair->second, *g);
+          met.emplace_back(pair->second, *g);
       for (const auto& [segment, gap] : met) {
-        double count = 0;  // itself among them
+        double count = 1;
         for (const auto& [other, there] : met)
-          if (other == segment || share_node(other, segment))
-            count += likeness(gap.normal, there.normal);
+          if (other != segment && share_node(other, segment))
+            count += likeness(gap.normal, there.normal) *
+                     share_of(radius(cell) - there.gap, radius(cell) - gap.gap);
         press(cell, segment, gap, 1 / count);
       }
     }
+  }
+
+  /// How much a neighbour as deep as this counts beside a contact: as much as itself at most.
+  static double share_of(double neighbour, double own) {
+    if (neighbour <= 0) return 0;
+    return neighbour >= own ? 1 : neighbour / own;
   }
 
   /// 1: two directions are one; 0: they are two. Contacts run into each other where their distance

@@ -19,7 +19,8 @@ constexpr double kPressureFloor = 1e-3;  ///< kPa: changes relative to less than
 double largest_speed(const State& s) {
   if (s.clock.last_step <= 0) return std::numeric_limits<double>::infinity();
   double largest2 = 0;
-  for (std::size_t row = 0; row < s.last_move.size() / kPointStride; ++row)
+  const std::size_t n_place = s.last_move.size() / kPointStride - s.tree.node.size();
+  for (std::size_t row = 0; row < n_place; ++row)  // the last ones are rotations
     for (int l = 0; l < kLanes; ++l)
       largest2 =
           std::max(largest2, load_point(s.last_move.data(), make_address(row, l)).squaredNorm());

@@ -85,7 +85,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
   ContactLists next;
   next.options = in.options;
   next.n_fixed = in.fixed.size();
-  next.network_node = std::move(lists.network_node);
+  next.network = std::move(lists.network);
   next.checked = lists.checked;
   next.made = lists.made;
   next.body.resize(in.body.size());
@@ -147,16 +147,12 @@ void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
   s.spread = std::sqrt(spread2);
 }
 
-/// Whether a node of a network that moves went farther than the lists of segments allow for since
-/// they were made; if so they are to be made again, from its places now.
+/// Whether a network that moves went farther than the lists of segments allow for since they were
+/// made; if so they are to be made again, from where it is now.
 bool network_moved(const ListInput& in, double most, ContactLists& lists) {
-  if (!in.network_moves) return false;
-  const std::vector<Vec3>& now = in.network.node;
-  bool far = lists.network_node.size() != now.size();
-  for (std::size_t i = 0; i < now.size() && !far; ++i)
-    far = (now[i] - lists.network_node[i]).norm() > most;
-  if (far) lists.network_node = now;
-  return far;
+  if (!in.network_moves || mesh::largest_motion(in.network, lists.network) <= most) return false;
+  lists.network = in.network;
+  return true;
 }
 
 const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {

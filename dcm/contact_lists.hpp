@@ -61,9 +61,9 @@ struct ContactLists {
   std::vector<ListAge> age;                ///< [pair]
   std::vector<SegmentCandidates> segment;  ///< [body]
   std::vector<ListAge> segment_age;        ///< [body]
-  /// The nodes of a network that moves at a moment from which none went far since; all lists of
+  /// A network that moves as it was at a moment from which it did not go far since; all lists of
   /// segments are younger.
-  std::vector<Vec3> network_node;
+  mesh::Network network;
   std::int64_t checked = 0, made = 0;  ///< how often a list was looked at, and made
   ListScratch scratch;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -165,6 +166,18 @@ std::vector<std::size_t> kept_nodes(const Network& network, const Chain& chain,
 }
 
 }  // namespace
+
+double largest_motion(const Network& now, const Network& then) {
+  if (now.segment != then.segment || now.node.size() != then.node.size())
+    return std::numeric_limits<double>::infinity();
+  double moved2 = 0, wider = 0;
+  for (std::size_t i = 0; i < now.node.size(); ++i)
+    moved2 = std::max(moved2, (now.node[i] - then.node[i]).squaredNorm());
+  for (std::size_t s = 0; s < now.radius.size(); ++s)
+    for (const std::size_t end : {0, 1})
+      wider = std::max(wider, std::abs(now.radius[s][end] - then.radius[s][end]));
+  return std::sqrt(moved2) + wider;
+}
 
 double total_length(const Network& network) {
   double length = 0;

@@ -17,4 +17,8 @@ struct Network {
 /// Sum of segment lengths, um.
 double total_length(const Network& network);
 
+/// How far any place of the walls is from where it was at most, um: nodes and radii. Infinite if
+/// they are not the same segments.
+double largest_motion(const Network& now, const Network& then);
+
 }  // namespace acinus::mesh

@@ -103,6 +103,9 @@ class RigidModes {
   RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
       : op_(op), s_(op.system()), position_(cells.position), work_(work), groups_(work.groups) {
     groups_.assign(number_groups(s_, cells.active, work), {});
+    for (std::size_t c = 0; c < work.group.size(); ++c)
+      if (work.group[c] >= 0 && s_.block[c / kLanes].pattern->has_rotations())
+        groups_[work.group[c]].rotates = true;
     work.sums.prepare(s_, work.group, groups_.size());
     work.sums.sum<4>(
         [&](Address a, std::size_t, std::array<double, 4>& sum) {
@@ -157,7 +160,7 @@ class RigidModes {
   int choose(double threshold) {
     int chosen = 0;
     for (RigidGroup& g : groups_) {
-      g.correct = size_of(solve_spd(g.matrix, g.residual), g) > threshold;
+      g.correct = !g.rotates && size_of(solve_spd(g.matrix, g.residual), g) > threshold;
       chosen += g.correct ? 1 : 0;
     }
     // What follows is done by all processes or by none.

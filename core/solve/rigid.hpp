@@ -26,6 +26,8 @@ struct RigidGroup {
   Vec6 residual = Vec6::Zero();
   Mat6 matrix = Mat6::Zero();
   Vec6 motion = Vec6::Zero();
+  bool rotates =
+      false;  ///< some of its unknowns are rotations, which these motions are not those of
   bool correct = false;
 };
 

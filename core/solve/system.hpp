@@ -38,7 +38,8 @@ struct BlockPattern {
   /// Points from there on are no places but rotations, in um on a lever of 1 um. -1: none.
   int n_place = -1;
 
-  int count_places() const { return n_place < 0 ? n_point : n_place; }
+  bool has_rotations() const { return n_place >= 0; }
+  int count_places() const { return has_rotations() ? n_place : n_point; }
 };
 
 /// Fills spring_of and first_spring_of.

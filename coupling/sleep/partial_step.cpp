@@ -81,7 +81,7 @@ Subworld& take_part(const World& world, CellSet moving, CellSet constrained,
 }
 
 void start_last_moves(State& s) {
-  if (!has_last_move(s)) s.last_move.assign(s.dcm.position.size() + s.cbm.position.size(), 0.0);
+  if (!has_last_move(s)) s.last_move.assign(count_unknowns(s), 0.0);
 }
 
 /// What a run tells about work done and left out counts wherever it happened.

@@ -150,12 +150,20 @@ Moves find_moves(const World& world, const Workspace& w) {
           finite = finite && m.allFinite();
           largest2 = std::max(largest2, m.squaredNorm());
         }
-        const double largest = std::sqrt(largest2);
         const bool deformable = lane < s.dcm.n_lane();
+        const double edge = edge_of(world, w, lane);
+        const int n_all = w.system.block[lane / kLanes].pattern->n_point;
+        for (int i = n_point; i < n_all; ++i) {  // rotations, as what they move at that distance
+          const Vec3 m =
+              edge * load_point(w.move.data(), first + static_cast<Address>(i * kPointStride));
+          finite = finite && m.allFinite();
+          largest2 = std::max(largest2, m.squaredNorm());
+        }
+        const double largest = std::sqrt(largest2);
         Moves own;
         own.largest = largest;
         if (!finite) own.infinite = lane;
-        const double limit = move_limit(world.params.numerics.max_move, edge_of(world, w, lane));
+        const double limit = move_limit(world.params.numerics.max_move, edge);
         own.too_far = lane;
         own.distance = finite && deformable && largest > limit
                            ? largest_deformation(world, w, lane, first, n_point, largest)

@@ -56,6 +56,12 @@ Vec3 find_center(const Workspace& w) {
   return Vec3(middle[0], middle[1], middle[2]) / std::max(middle[3], 1.0);
 }
 
+/// What pair friction and the pair forces' change exert on a point during the step.
+Vec3 rest_on(const Workspace& w, Address a) {
+  const Vec3 product = load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
+  return load_point(w.cg.product.data(), a) - product;
+}
+
 }  // namespace
 
 Balance measure_balance(const World& world, Workspace& w) {
@@ -68,10 +74,7 @@ Balance measure_balance(const World& world, Workspace& w) {
                        for (int i = 0; i < n_point; ++i) {
                          const Address a = first + static_cast<Address>(i * kPointStride);
                          const Vec3 conservative = load_point(w.system.force.data(), a);
-                         // what pair friction and the pair forces' change exert during the step
-                         const Vec3 product =
-                             load_point(w.rhs.data(), a) - load_point(w.cg.residual.data(), a);
-                         const Vec3 rest = load_point(w.cg.product.data(), a) - product;
+                         const Vec3 rest = rest_on(w, a);
                          const Vec3 arm = load_point(w.position.data(), a) - center;
                          add(conservative + rest, kForce, sum);
                          add(arm.cross(conservative), kTorque, sum);
@@ -83,7 +86,12 @@ Balance measure_balance(const World& world, Workspace& w) {
                        const int n_all = w.system.block[lane / kLanes].pattern->n_point;
                        for (int i = n_point; i < n_all; ++i) {  // moments on rotations
                          const Address a = first + static_cast<Address>(i * kPointStride);
-                         add(load_point(w.system.force.data(), a), kTorque, sum);
+                         const Vec3 conservative = load_point(w.system.force.data(), a);
+                         const Vec3 rest = rest_on(w, a);
+                         add(conservative, kTorque, sum);
+                         add(rest, kRestTorque, sum);
+                         sum[kSizes + 1] += conservative.norm();
+                         sum[kSizes + 2] += rest.norm();
                        }
                      })
                      .number;

@@ -54,6 +54,13 @@ void put_spring(const Vec3& u, double along, double across, float* element) {
 
 }  // namespace
 
+bool VesselTree::has_ends() const {
+  std::vector<int> degree(n_node(), 0);
+  for (const auto& segment : rest.segment)
+    for (const int n : segment) ++degree[n];
+  return std::ranges::find(degree, 1) != degree.end();
+}
+
 VesselTree make_tree(mesh::Network rest, const TubeMaterial& m, VesselAnchors anchors) {
   VesselTree tree;
   tree.rest = std::move(rest);
@@ -77,7 +84,7 @@ VesselTree make_tree(mesh::Network rest, const TubeMaterial& m, VesselAnchors an
     }
   }
   for (const int d : degree)
-    tree.anchored.push_back(anchors == VesselAnchors::kEnds && d < 2 ? 1 : 0);
+    tree.anchored.push_back(d == 0 || (d == 1 && anchors == VesselAnchors::kEnds) ? 1 : 0);
   tree.pattern.n_place = static_cast<int>(n_node);
   tree.pattern.n_point = static_cast<int>(2 * n_node);
   for (std::size_t s = 0; s < n_segment; ++s) {
@@ -113,7 +120,7 @@ void copy_places(const TreeState& s, std::span<double> out) {
 }
 
 void place_vessels(const VesselTree& tree, const TreeState& s, contact::Vessels& vessels) {
-  if (!tree.exists()) return;
+  if (s.node.empty()) return;
   vessels.network.node = s.node;
   const TubeMaterial& m = tree.material;
   for (std::size_t k = 0; k < tree.beam.size(); ++k) {

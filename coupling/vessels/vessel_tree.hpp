@@ -30,15 +30,17 @@ struct TubeMaterial {
 struct VesselTree {
   mesh::Network rest;  ///< without pressure
   TubeMaterial material;
-  std::vector<Tube> tube;              ///< [segment]
-  std::vector<Beam> beam;              ///< [segment]
-  std::vector<Mat3> frame;             ///< [segment] axis at rest and two directions across
-  std::vector<double> friction;        ///< [node] nN s/um
-  std::vector<double> turn_friction;   ///< [node] nN um s
-  std::vector<std::uint8_t> anchored;  ///< [node] 1: neither moves nor turns
-  solve::BlockPattern pattern;         ///< nodes, then their rotations
+  std::vector<Tube> tube;             ///< [segment]
+  std::vector<Beam> beam;             ///< [segment]
+  std::vector<Mat3> frame;            ///< [segment] axis at rest and two directions across
+  std::vector<double> friction;       ///< [node] nN s/um
+  std::vector<double> turn_friction;  ///< [node] nN um s
+  /// [node] 1: neither moves nor turns. So are nodes without a segment, which nothing moves.
+  std::vector<std::uint8_t> anchored;
+  solve::BlockPattern pattern;  ///< nodes, then their rotations
 
   bool exists() const { return !rest.segment.empty(); }
+  bool has_ends() const;  ///< nodes with one segment
   std::size_t n_node() const { return rest.node.size(); }
 };
 
@@ -63,7 +65,8 @@ void move_tree(std::span<const double> by, TreeState& state);
 /// @param out  [n_row][3][lane] um
 void copy_places(const TreeState& state, std::span<double> out);
 
-/// Gives vessels the present places and radii of the tree.
+/// Gives vessels the present places and radii of the tree. Without nodes in the state, as in a
+/// subworld, they stay where they are.
 void place_vessels(const VesselTree& tree, const TreeState& state, contact::Vessels& vessels);
 
 /// Largest distance of a node from its place at rest, um.

@@ -159,6 +159,11 @@ int count_cells(const State& state);
 /// Number of cells asleep.
 int count_asleep(const State& state);
 
+/// Vessels where they are at rest: what does not change in a run.
+inline const mesh::Network& vessels_at_rest(const Params& p) {
+  return p.tree.exists() ? p.tree.rest : p.boundary.vessels.network;
+}
+
 /// Numbers of all unknowns.
 inline std::size_t count_unknowns(const State& s) {
   return s.dcm.position.size() + s.cbm.position.size() + s.tree.n_row() * kPointStride;

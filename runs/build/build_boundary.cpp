@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include "core/contact/wall_mesh.hpp"
@@ -141,8 +139,7 @@ coupling::VesselTree build_tree(const Scene& scene, const mesh::Network& rest) {
   if (!v.flexible || rest.segment.empty()) return {};
   coupling::VesselTree tree = coupling::make_tree(
       rest, {v.young, v.poisson, v.wall_thickness, v.pressure, v.friction}, v.anchors);
-  check(v.anchors != coupling::VesselAnchors::kEnds ||
-            std::ranges::find(tree.anchored, std::uint8_t{1}) != tree.anchored.end(),
+  check(v.anchors != coupling::VesselAnchors::kEnds || tree.has_ends(),
         "/vessels/anchors is \"ends\", but the network has no end: every node has two segments or "
         "more, so that nothing would hold it. Set vessels.anchors to \"none\", or crop the network "
         "so that vessels end.");

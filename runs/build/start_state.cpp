@@ -15,7 +15,8 @@ namespace acinus::runs {
 namespace {
 
 /// Blocks and keys that act only after t = 0, or only on the way to rest. "model" has gone into
-/// cells.model; of start_up only what places the cells counts.
+/// cells.model; of start_up only what places the cells counts. What cells touch of vessels shapes a
+/// start as well, but both ways may be compared from one.
 constexpr std::array kFree{"/name",
                            "/description",
                            "/experiment",

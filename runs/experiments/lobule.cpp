@@ -72,10 +72,10 @@ void sample_layers(const std::vector<LesionCell>& cells, Observables& o) {
 void sample_sections(const ObservedFrame& frame, Observables& o) {
   Measures& m = o.measures;
   const LobuleRoom& room = *o.room;
-  const mesh::Network& vessels = frame.world.params.boundary.vessels.network;
   const std::vector<CellMeasure>& cells = frame.snapshot.cells;
   if (!o.grid)
-    o.grid = make_lesion_grid(room, o.start.at("lesion_radius_slices_surface_um"), vessels);
+    o.grid = make_lesion_grid(room, o.start.at("lesion_radius_slices_surface_um"),
+                              coupling::vessels_at_rest(frame.world.params));
   std::vector<Ball> balls;
   for (const CellMeasure& c : cells)
     if (!c.deformable) balls.push_back({c.center, c.radius});
@@ -142,7 +142,11 @@ void sample_sinusoids(const ObservedFrame& frame, Observables& o) {
 }  // namespace
 
 void sample_lobule(const ObservedFrame& frame, Observables& o) {
-  if (!o.room) o.room = make_lobule_room(frame.scene, frame.world.params.boundary.vessels);
+  if (!o.room) {
+    contact::Vessels vessels;
+    contact::set_network(vessels, coupling::vessels_at_rest(frame.world.params));
+    o.room = make_lobule_room(frame.scene, vessels);
+  }
   const std::vector<LesionCell> cells = lesion_cells(frame, *o.room);
   o.measures["time_d"].push_back(frame.snapshot.time / kDay);
   sample_radii(cells, o.room->frame, o);
