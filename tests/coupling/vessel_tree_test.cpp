@@ -141,6 +141,33 @@ TEST(VesselTree, JointsCarryBendingAndTwist) {
   EXPECT_NEAR(s.node[2].z(), said, 2e-3 * said);
 }
 
+TEST(VesselTree, HoldsWhatNothingElseHolds) {
+  mesh::Network n = straight_vessel(60, 3);
+  n.node.push_back(Vec3(0, 50, 0));  // without a segment
+  for (const VesselAnchors anchors : {VesselAnchors::kEnds, VesselAnchors::kNone}) {
+    const VesselTree tree = make_tree(n, kSinusoid, anchors);
+    EXPECT_TRUE(tree.has_ends());
+    const std::uint8_t end = anchors == VesselAnchors::kEnds ? 1 : 0;
+    EXPECT_EQ(tree.anchored, (std::vector<std::uint8_t>{end, end, 0, 0, 1}));
+  }
+  mesh::Network ring;
+  ring.node = {Vec3::Zero(), Vec3(20, 0, 0), Vec3(0, 20, 0)};
+  ring.segment = {{0, 1}, {1, 2}, {2, 0}};
+  ring.radius.assign(3, {kRadius, kRadius});
+  EXPECT_FALSE(make_tree(ring, kSinusoid, VesselAnchors::kEnds).has_ends());
+}
+
+/// A subworld has the vessels, but no nodes to move.
+TEST(VesselTree, LeavesVesselsWhereTheyAreWithoutAState) {
+  const mesh::Network n = straight_vessel(60, 3);
+  const VesselTree tree = make_tree(n, kSinusoid, VesselAnchors::kEnds);
+  contact::Vessels vessels;
+  contact::set_network(vessels, n);
+  vessels.network.node[2].z() = 3;
+  place_vessels(tree, {}, vessels);
+  EXPECT_EQ(vessels.network.node[2].z(), 3);
+}
+
 /// A cell that is pulled against the middle of a vessel.
 World cell_on_vessel(bool deformable, const TubeMaterial& material, double pull, bool flexible) {
   const double length = 48;
@@ -155,6 +182,19 @@ World cell_on_vessel(bool deformable, const TubeMaterial& material, double pull,
   }
   w.state.clock.phase = Phase::kRun;
   return w;
+}
+
+/// Floating vessels: nothing but friction holds them, and they go where a cell pushes them.
+TEST(VesselTree, FloatsWithoutAnchors) {
+  World w = cell_on_vessel(false, kSinusoid, 0.05, true);
+  w.params.tree = make_tree(w.params.tree.rest, kSinusoid, VesselAnchors::kNone);
+  Workspace work;
+  size_workspace(w, work);
+  ASSERT_TRUE(run_until(w, work, 20 * 3600));
+  double highest = -1e9;
+  for (const Vec3& x : w.state.tree.node) highest = std::max(highest, x.z());
+  std::printf("after 20 h all of it is at least %.3g um lower\n", -highest);
+  EXPECT_LT(highest, -0.5);
 }
 
 TEST(VesselTree, ActsOnCellsAsTheyActOnIt) {
