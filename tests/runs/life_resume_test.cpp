@@ -88,7 +88,7 @@ TEST_F(LifeResume, IsBitForBitThroughChangesOfModel) {
 
 TEST_F(LifeResume, IsBitForBitBesideVesselsThatBend) {
   write("spheroid.json", kSpheroid);
-  write("vessel.swc", "1 0 -60 0 -14 4 -1\n2 0 0 0 -14 4 1\n3 0 60 10 -14 4 2\n4 0 0 60 -20 3 2\n");
+  write("vessel.swc", "1 0 -60 0 -16 4 -1\n2 0 0 0 -16 4 1\n3 0 60 10 -16 4 2\n4 0 0 60 -22 3 2\n");
   for (const std::string model : {"dcm", "zoom"}) {
     const Words more{"--set",
                      "vessels.file=vessel.swc",

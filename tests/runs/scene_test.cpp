@@ -204,12 +204,13 @@ TEST(Scene, ResolvedSceneNamesEveryUnconditionalKey) {
     if (entry.path == "extends" || entry.path.starts_with("static_meshes.") ||
         entry.path.starts_with("pulls."))
       continue;
-    // kFull has leaders and contacts of another kind, no proliferation and cells slowed by other
-    // things.
+    // kFull has leaders and contacts of another kind, rigid vessels, no proliferation and cells
+    // slowed by other things.
     if (entry.path.starts_with("life.proliferation.") ||
         entry.path.starts_with("motility.leader_c") ||
         entry.path.starts_with("motility.leader_s") || entry.path.ends_with("density_threshold") ||
-        entry.condition.find("maugis") != std::string::npos)
+        entry.condition.find("maugis") != std::string::npos ||
+        entry.condition.find("flexible") != std::string::npos)
       continue;
     const std::string name = entry.path.substr(entry.path.rfind('.') + 1);
     EXPECT_NE(json.find("\"" + name + "\": "), std::string::npos) << entry.path;
