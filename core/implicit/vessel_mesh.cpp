@@ -110,7 +110,6 @@ bool fit_without_crossing(const Distance& distance, mesh::Surface& surface) {
 }  // namespace
 
 VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOptions& o) {
-  constexpr int kAttempts = 3;
   constexpr double kFiner = 0.6;
   check_network(network);
   VesselMesh out;
@@ -119,14 +118,14 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   VesselPieces pieces;
   std::optional<VesselField> field;
   Shape shape;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  for (int attempt = 0; attempt < o.attempts; ++attempt) {
     pieces = cut_vessels(network, usual_sizes(network, out.fineness));
     field.emplace(pieces.network, o.rounding);
     shape = make_shape(pieces, *field);
     out.surface = extract_zero(shape, o.most_triangles);
     out.found = mesh::find_connectivity(out.surface);
     // Loops may be narrower than the triangles; walls that cross no triangle is small enough for.
-    if (out.is_as_expected() || pieces.overlapping > 0 || attempt + 1 == kAttempts) break;
+    if (out.is_as_expected() || pieces.overlapping > 0 || attempt + 1 == o.attempts) break;
     out.fineness *= kFiner;
   }
   out.overlapping = pieces.overlapping;

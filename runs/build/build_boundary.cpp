@@ -58,7 +58,8 @@ void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
 void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
   if (scene.vessels.contact != VesselWalls::kMesh || vessels.network.segment.empty()) return;
   constexpr double kFineness = 0.15;
-  implicit::VesselMesh mesh = implicit::make_vessel_mesh(vessels.network, {.fineness = kFineness});
+  implicit::VesselMesh mesh =
+      implicit::make_vessel_mesh(vessels.network, {.fineness = kFineness, .attempts = 1});
   if (!mesh.is_as_expected()) notes.warned.push_back(implicit::describe_connectivity(mesh));
   vessels.wall = std::make_shared<const contact::WallMesh>(
       contact::make_wall_mesh(vessels.network, std::move(mesh.surface)));
