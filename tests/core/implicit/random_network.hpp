@@ -80,11 +80,11 @@ class RandomNetwork {
     constexpr double kGap = 0.4, kMostAlike = 0.5;
     for (std::size_t s = 0; s < network_.segment.size(); ++s) {
       const auto [p, q] = network_.segment[s];
-      bool meets = false;
+      std::vector<Vec3> shared;
       for (const auto& [own, other, own_end] : {std::tuple(node_a, b, a), std::tuple(node_b, a, b)})
         for (const auto& [end, far] : {std::pair(p, q), std::pair(q, p)})
           if (end == own) {
-            meets = true;
+            shared.push_back(own_end);
             const Vec3 out = (other - own_end).normalized();
             if ((network_.node[far] - own_end).normalized().dot(out) > kMostAlike) return false;
           }
@@ -95,11 +95,12 @@ class RandomNetwork {
         const mesh::NearestBall ball = mesh::find_nearest_ball(
             x, network_.node[p], network_.node[q], network_.radius[s][0], network_.radius[s][1]);
         const double gap = ball.apart.norm() - ball.radius - r;
-        const bool at_node = meets && (k == 0 || k == kPlaces || gap < 0);
-        if (!meets && gap < kGap * thinnest_) return false;
-        // Next to a common node they overlap; farther along they must have come apart.
-        if (at_node && gap < 0 &&
-            std::min((x - a).norm(), (x - b).norm()) > 3 * std::max({ra, rb, ball.radius}))
+        if (gap >= kGap * thinnest_) continue;
+        // Next to a common node they overlap; farther along they must have come apart, at the other
+        // end as well.
+        const double joined = 3 * std::max({ra, rb, ball.radius});
+        if (std::ranges::none_of(shared,
+                                 [&](const Vec3& end) { return (x - end).norm() <= joined; }))
           return false;
       }
     }
