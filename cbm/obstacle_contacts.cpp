@@ -8,6 +8,7 @@
 
 #include "core/contact/wall_mesh.hpp"
 #include "core/mesh/measures.hpp"
+#include "core/mesh/segment_shape.hpp"
 
 namespace acinus::cbm {
 namespace {
@@ -182,12 +183,8 @@ class ObstacleSearch {
   /// is no longer straight: contacts with segments that share a node count as one as far as they
   /// point the same way.
   void meet_moving_vessels() {
-    const contact::Vessels& vessels = in_.boundary.vessels;
+    const mesh::Network& network = in_.boundary.vessels.network;
     std::vector<std::pair<int, contact::Gap>> met;  // segment
-    const auto share_node = [&](int s, int t) {
-      const auto &a = vessels.network.segment[s], &b = vessels.network.segment[t];
-      return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
-    };
     for (auto pair = work_.segment.begin(); pair != work_.segment.end();) {
       const int cell = pair->first;
       met.clear();
@@ -197,7 +194,7 @@ class ObstacleSearch {
       for (const auto& [segment, gap] : met) {
         double count = 1;
         for (const auto& [other, there] : met)
-          if (other != segment && share_node(other, segment))
+          if (other != segment && mesh::share_a_node(network, other, segment))
             count += likeness(gap.normal, there.normal) *
                      share_of(radius(cell) - there.gap, radius(cell) - gap.gap);
         press(cell, segment, gap, 1 / count);

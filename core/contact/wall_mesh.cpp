@@ -30,19 +30,15 @@ int nearest_segment(const mesh::Network& network, std::span<const Box> box, cons
 
 WallMesh make_wall_mesh(const mesh::Network& network, mesh::Surface surface) {
   WallMesh wall;
-  wall.triangle =
-      std::make_shared<const std::vector<std::array<int, 3>>>(std::move(surface.triangle));
-  wall.body.node = std::move(surface.node);
-  wall.body.triangle = wall.triangle.get();
-  refresh_body(wall.body);
+  wall.surface = make_static_mesh("vessels", std::move(surface), false);
   // Walls are nowhere farther from their cone than a share of its radius.
   constexpr double kWider = 1.3;
   std::vector<Box> box;
   for (std::size_t s = 0; s < network.segment.size(); ++s)
     box.push_back(mesh::cone_box(network, s, kWider));
-  wall.segment.resize(wall.triangle->size());
+  wall.segment.resize(wall.surface.triangle->size());
   for_each_index(wall.segment.size(), true, [&](std::size_t t) {
-    wall.segment[t] = nearest_segment(network, box, wall.body.center[t]);
+    wall.segment[t] = nearest_segment(network, box, wall.surface.body.center[t]);
   });
   wall.first_of_segment.assign(network.segment.size() + 1, 0);
   for (const int s : wall.segment) ++wall.first_of_segment[static_cast<std::size_t>(s) + 1];
@@ -62,7 +58,7 @@ Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach
   const std::size_t first = wall.first_of_segment[segment],
                     last = wall.first_of_segment[static_cast<std::size_t>(segment) + 1];
   const Gap found = gap_to_triangles(
-      wall.body, std::span(wall.of_segment).subspan(first, last - first), x, reach);
+      wall.surface.body, std::span(wall.of_segment).subspan(first, last - first), x, reach);
   if (found.gap >= reach) return gap;
   gap.gap = found.gap;
   gap.normal = found.normal;

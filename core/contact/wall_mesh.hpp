@@ -11,8 +11,7 @@
 namespace acinus::contact {
 
 struct WallMesh {
-  std::shared_ptr<const std::vector<std::array<int, 3>>> triangle;
-  SurfaceBody body;
+  StaticMesh surface;
   std::vector<int> segment;  ///< [triangle] the segment that it is a wall of: the nearest
   /// Triangles of each segment, from first_of_segment[segment] on. None where it is buried in
   /// others.

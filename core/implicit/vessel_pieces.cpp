@@ -46,12 +46,6 @@ NearestPlaces find_nearest_places(const mesh::Network& n, const AxisPart& piece,
   return {gap, a + t * along - (radius + 0.5 * gap) * ball.apart.normalized()};
 }
 
-bool share_a_node(const mesh::Network& n, int s, int t) {
-  return std::ranges::any_of(n.segment[s], [&](int node) {
-    return std::ranges::find(n.segment[t], node) != n.segment[t].end();
-  });
-}
-
 /// Which segments are within some distance of each.
 std::vector<std::vector<int>> find_beside(const mesh::Network& n, double most) {
   std::vector<Box> box;
@@ -73,7 +67,7 @@ class GapSearch {
   double find(const AxisPart& piece) const {
     double least = most_;
     for (const int other : beside_[piece.segment])
-      if (!share_a_node(n_, piece.segment, other))
+      if (!mesh::share_a_node(n_, piece.segment, other))
         least = std::min(least, find_between(piece, other));
     return least;
   }
@@ -82,7 +76,7 @@ class GapSearch {
     int count = 0;
     for (int s = 0; s < static_cast<int>(beside_.size()); ++s)
       for (const int t : beside_[s])
-        if (s < t && !share_a_node(n_, s, t) && find_between({s, 0, 1}, t) < 0) ++count;
+        if (s < t && !mesh::share_a_node(n_, s, t) && find_between({s, 0, 1}, t) < 0) ++count;
     return count;
   }
 

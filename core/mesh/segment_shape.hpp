@@ -1,5 +1,5 @@
 #pragma once
-/// A segment of a network as a round cone.
+/// Segments of a network as round cones.
 
 #include "core/box.hpp"
 #include "core/mesh/network.hpp"
@@ -12,6 +12,12 @@ inline NearestBall nearest_ball(const Network& n, int segment, const Vec3& x) {
   const auto& [a, b] = n.segment[s];
   const auto& [ra, rb] = n.radius[s];
   return find_nearest_ball(x, n.node[a], n.node[b], ra, rb);
+}
+
+inline bool share_a_node(const Network& n, int s, int t) {
+  const auto& [a, b] = n.segment[s];
+  const auto& [c, d] = n.segment[t];
+  return a == c || a == d || b == c || b == d;
 }
 
 /// @param wider  factor on the radii

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/mesh/audit_body.hpp"
-#include "core/mesh/round_cone.hpp"
+#include "core/mesh/segment_shape.hpp"
 #include "core/threads.hpp"
 #include "coupling/measure/audit_depth.hpp"
 
@@ -144,9 +144,7 @@ std::int64_t nearest_vessel(const mesh::Network& net, const Vec3& x) {
   std::int64_t nearest = 0;
   double least2 = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < net.segment.size(); ++s) {
-    const mesh::NearestBall ball =
-        mesh::find_nearest_ball(x, net.node[net.segment[s][0]], net.node[net.segment[s][1]],
-                                net.radius[s][0], net.radius[s][1]);
+    const mesh::NearestBall ball = mesh::nearest_ball(net, static_cast<int>(s), x);
     if (ball.apart.squaredNorm() >= least2) continue;
     least2 = ball.apart.squaredNorm();
     nearest = static_cast<std::int64_t>(s);

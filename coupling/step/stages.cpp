@@ -206,7 +206,7 @@ void size_workspace(const World& world, Workspace& w) {
   w.dcm.fixed.clear();
   for (const contact::StaticMesh& m : world.params.boundary.meshes) w.dcm.fixed.push_back(m.body);
   if (world.params.boundary.vessels.wall)
-    w.dcm.fixed.push_back(world.params.boundary.vessels.wall->body);
+    w.dcm.fixed.push_back(world.params.boundary.vessels.wall->surface.body);
 }
 
 void find_all_contacts(const World& world, double step, Workspace& w) {

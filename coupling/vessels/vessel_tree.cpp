@@ -31,6 +31,14 @@ BeamEnds ends_of(const VesselTree& tree, const TreeState& state, std::size_t seg
   return ends;
 }
 
+/// How many segments every node has.
+std::vector<int> find_degrees(const mesh::Network& n) {
+  std::vector<int> degree(n.node.size(), 0);
+  for (const auto& segment : n.segment)
+    for (const int node : segment) ++degree[node];
+  return degree;
+}
+
 Mat3 frame_along(const Vec3& axis) {
   Mat3 f;
   f.col(0) = axis.normalized();
@@ -55,9 +63,7 @@ void put_spring(const Vec3& u, double along, double across, float* element) {
 }  // namespace
 
 bool VesselTree::has_ends() const {
-  std::vector<int> degree(n_node(), 0);
-  for (const auto& segment : rest.segment)
-    for (const int n : segment) ++degree[n];
+  const std::vector<int> degree = find_degrees(rest);
   return std::ranges::find(degree, 1) != degree.end();
 }
 
@@ -68,7 +74,6 @@ VesselTree make_tree(mesh::Network rest, const TubeMaterial& m, VesselAnchors an
   const std::size_t n_node = tree.rest.node.size(), n_segment = tree.rest.segment.size();
   tree.friction.assign(n_node, 0.0);
   tree.turn_friction.assign(n_node, 0.0);
-  std::vector<int> degree(n_node, 0);
   for (std::size_t s = 0; s < n_segment; ++s) {
     const auto [a, b] = tree.rest.segment[s];
     const Vec3 axis = tree.rest.node[b] - tree.rest.node[a];
@@ -78,12 +83,11 @@ VesselTree make_tree(mesh::Network rest, const TubeMaterial& m, VesselAnchors an
     tree.frame.push_back(frame_along(axis));
     const double half = m.friction * kPi * radius * length;  // of its surface
     for (const int n : {a, b}) {
-      ++degree[n];
       tree.friction[n] += half;
       tree.turn_friction[n] += half * radius * radius;
     }
   }
-  for (const int d : degree)
+  for (const int d : find_degrees(tree.rest))
     tree.anchored.push_back(d == 0 || (d == 1 && anchors == VesselAnchors::kEnds) ? 1 : 0);
   tree.pattern.n_place = static_cast<int>(n_node);
   tree.pattern.n_point = static_cast<int>(2 * n_node);

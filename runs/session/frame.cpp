@@ -168,7 +168,7 @@ void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapsho
 mesh::Surface draw_boundary(const contact::Boundary& boundary) {
   mesh::Surface drawn;
   if (const contact::WallMesh* wall = boundary.vessels.wall.get())
-    drawn = {wall->body.node, *wall->triangle};
+    drawn = {wall->surface.body.node, *wall->surface.triangle};
   else
     drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
   for (const contact::Pipette& p : boundary.pipettes) coupling::add_pipette_surface(p, drawn);
@@ -248,7 +248,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
   frame.vessels = &boundary.vessels.network;
   coupling::AuditStatic surface;
   if (const contact::WallMesh* wall = boundary.vessels.wall.get()) {
-    surface = {wall->body.node, *wall->triangle, false};
+    surface = {wall->surface.body.node, *wall->surface.triangle, false};
     frame.vessel_surface = &surface;
   }
   frame.walls = walls;
