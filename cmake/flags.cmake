@@ -3,8 +3,9 @@ add_library(acinus_flags INTERFACE)
 add_library(acinus::flags ALIAS acinus_flags)
 target_compile_features(acinus_flags INTERFACE cxx_std_20)
 target_include_directories(acinus_flags INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
-# A Python module is a shared library. Hidden, so that its functions are called and inlined as in the program.
-if(ACINUS_BINDINGS)
+# A Python module is a shared library, as is a program under SMPI. Hidden, so that its functions are called and inlined as in
+# the program.
+if(ACINUS_BINDINGS OR ACINUS_SMPI)
   set(CMAKE_POSITION_INDEPENDENT_CODE ON)
   set(CMAKE_CXX_VISIBILITY_PRESET hidden)
   set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)

@@ -71,12 +71,13 @@ mesh::Surface surface_at(const Grid& grid, double level, double steepest, double
   shape.value = [&](const Vec3& x, std::span<const int>) { return grid.at(x) - level; };
   shape.distance = [&](const Vec3& x, int) { return (grid.at(x) - level) / steepest; };
   shape.size = {kTetrahedra * edge};
+  shape.reach = {0};
   Box box;
   box.include(grid.origin);
   box.include(grid.origin +
               grid.voxel.cwiseProduct(Vec3(grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1)));
   shape.box = {box};
-  return implicit::extract_zero(shape, kMostTriangles);
+  return implicit::extract_zero(shape, kMostTriangles).surface;
 }
 
 void scale_to(double volume, mesh::Surface& s) {

@@ -52,20 +52,24 @@ struct CubeLattice {
   double root = 1;        ///< um, side of the cubes that it starts from
   int halvings = 0;       ///< of that side, until places are one apart
   std::vector<int> last;  ///< [part] the level at which tetrahedra are small enough
+  std::vector<int> last_fine;  ///< [fine ball]
   Place n_root{};
 
   int unit() const { return 1 << halvings; }
   Vec3 position(const Place& p) const {
     return origin + std::ldexp(root, -halvings) * Vec3(p[0], p[1], p[2]);
   }
-  /// How near to the surface of a part the middle of a bisection of this level is necessary.
-  double reach(int part, int level) const {
-    const int end = last[part];
+  /// How near to what asks for the level `end` the middle of a bisection of this level is necessary.
+  double reach(int end, int level) const {
     if (level >= end) return -1;
     const double here = cube_at(root, level), there = cube_at(root, end);
     return kToGo[level % 3] * here + (kMargin - kToGo[end % 3]) * there;
   }
 };
+
+double distance(const FineBall& ball, const Vec3& x) {
+  return std::max(0.0, (x - ball.center).norm() - ball.radius);
+}
 
 CubeLattice make_lattice(const Shape& shape) {
   Box box;
@@ -73,7 +77,7 @@ CubeLattice make_lattice(const Shape& shape) {
     box.include(b.low);
     box.include(b.high);
   }
-  const auto [least, most] = std::ranges::minmax(shape.size);
+  const double most = *std::ranges::max_element(shape.size);
   const double extent = (box.high - box.low).maxCoeff();
   constexpr double kMostRoots = 64;
   CubeLattice l;
@@ -83,12 +87,16 @@ CubeLattice make_lattice(const Shape& shape) {
     const int axis = static_cast<int>(k);
     l.n_root[k] = static_cast<int>(std::ceil((box.high[axis] - l.origin[axis]) / l.root)) + 1;
   }
-  for (const double size : shape.size) {
+  double least = most;
+  const auto find_level = [&](double size) {
+    least = std::min(least, size);
     int level = 0;
     while (kLongest[level % 3] * cube_at(l.root, level) > size) ++level;
-    l.last.push_back(level);
     l.halvings = std::max(l.halvings, level / 3 + 1);
-  }
+    return level;
+  };
+  for (const double size : shape.size) l.last.push_back(find_level(size));
+  for (const FineBall& ball : shape.fine) l.last_fine.push_back(find_level(ball.size));
   const int longest = *std::ranges::max_element(l.n_root);
   check(l.halvings < kBits && (longest << l.halvings) < (1 << kBits),
         fmt::format("triangles of {:.3g} um on a surface {:.3g} um across are too small: no more "
@@ -101,6 +109,7 @@ CubeLattice make_lattice(const Shape& shape) {
 struct CubePart {
   std::vector<std::uint64_t> key;  ///< [node]
   std::vector<Vec3> node;
+  std::vector<std::array<Vec3, 2>> edge;  ///< ZeroSurface
   std::vector<std::array<int, 3>> triangle;
 };
 
@@ -112,81 +121,89 @@ struct Corner {
 };
 using Tetrahedron = std::array<Corner, 4>;
 
+/// What matters in and near a root cube, ascending.
+struct Nearby {
+  std::vector<int> part, fine;
+};
+
 class CubeExtraction {
  public:
   CubeExtraction(const Shape& shape, const CubeLattice& lattice)
       : shape_(shape), lattice_(lattice) {}
 
-  /// @param parts  near the cube
-  CubePart run(const Place& cube, const std::vector<int>& parts) {
+  CubePart run(const Place& cube, const Nearby& nearby) {
     const int side = lattice_.unit();
-    near_ = parts;
+    near_ = nearby;
     std::array<Corner, 8> corner;
     for (unsigned c = 0; c < 8; ++c) {
       for (unsigned k = 0; k < 3; ++k)
         corner[c].place[k] = (cube[k] + static_cast<int>(c >> k & 1u)) * side;
-      corner[c].value = value_at(corner[c].place, parts);
+      corner[c].value = shape_.value(lattice_.position(corner[c].place), nearby.part);
     }
     // Six tetrahedra about the diagonal, one for each way along three sides.
     for (const auto& [u, v] : {std::pair{0u, 1u}, {0u, 2u}, {1u, 0u}, {1u, 2u}, {2u, 0u}, {2u, 1u}})
       visit({corner[0], corner[1u << u], corner[1u << u | 1u << v], corner[7]}, 0,
-            {0, parts.size()});
+            {0, nearby.part.size()}, {0, nearby.fine.size()});
     return std::move(part_);
   }
 
  private:
-  /// Of near_, which grows and shrinks with the depth of the bisection.
-  struct PartRange {
+  /// Of one array of near_, which grow and shrink with the depth of the bisection.
+  struct Range {
     std::size_t first, last;
   };
-  std::span<const int> span_of(const PartRange& r) const {
-    return std::span(near_).subspan(r.first, r.last - r.first);
-  }
-
-  double value_at(const Place& p, std::span<const int> parts) const {
-    return shape_.value(lattice_.position(p), parts);
+  std::span<const int> span_of(const Range& parts) const {
+    return std::span(near_.part).subspan(parts.first, parts.last - parts.first);
   }
 
   /// Bisects a tetrahedron as far as necessary and cuts what comes of it.
-  void visit(const Tetrahedron& t, int level, const PartRange& parts) {
+  void visit(const Tetrahedron& t, int level, const Range& parts, const Range& fine) {
     const std::size_t kind = static_cast<std::size_t>(level) % 3, end = 3 - kind;
     const Place place = middle(t[0].place, t[end].place);
     const Vec3 x = lattice_.position(place);
     const double extent = kExtent[kind] * cube_at(lattice_.root, level);
-    const std::size_t first = near_.size();
-    bool bisect = false;
-    double least = extent + 2 * shape_.reach;
+    const std::size_t first = near_.part.size(), first_fine = near_.fine.size();
+    bool bisect = false, outside = true;
     for (std::size_t k = parts.first; k < parts.last; ++k) {
-      const int part = near_[k];
-      const double d = shape_.distance(x, part), reach = lattice_.reach(part, level);
-      if (d < -extent - shape_.reach) return near_.resize(first);  // all inside
-      least = std::min(least, d);
+      const int part = near_.part[k];
+      const double d = shape_.distance(x, part), far = shape_.reach[part];
+      if (d < -extent - far) return near_.part.resize(first);  // all inside
+      outside = outside && d > extent + far;
+      const double reach = lattice_.reach(lattice_.last[part], level);
       bisect = bisect || std::abs(d) <= reach;
-      if (d <= extent + std::max(reach, 2 * shape_.reach)) near_.push_back(part);
+      if (d <= extent + std::max(reach, 2 * far)) near_.part.push_back(part);
     }
-    if (least <= extent + shape_.reach) {  // not all outside
-      const PartRange near{first, near_.size()};
+    if (!outside) {
+      for (std::size_t k = fine.first; k < fine.last; ++k) {
+        const int ball = near_.fine[k];
+        const double d = distance(shape_.fine[ball], x);
+        const double reach = lattice_.reach(lattice_.last_fine[ball], level);
+        bisect = bisect || d <= reach;
+        if (reach >= 0 && d <= extent + reach) near_.fine.push_back(ball);
+      }
+      const Range near{first, near_.part.size()};
       if (bisect)
-        bisect_at(t, end, place, level, near);
+        bisect_at(t, end, place, level, near, {first_fine, near_.fine.size()});
       else
         cut(t, near);
     }
-    near_.resize(first);
+    near_.part.resize(first);
+    near_.fine.resize(first_fine);
   }
 
   void bisect_at(const Tetrahedron& t, std::size_t end, const Place& place, int level,
-                 const PartRange& near) {
+                 const Range& near, const Range& fine) {
     const Corner z{place, shape_.value(lattice_.position(place), span_of(near))};
     Tetrahedron a = t, b = t;
     a[end] = z;
     for (std::size_t k = 0; k < end; ++k) b[k] = t[k + 1];
     b[end] = z;
-    visit(a, level + 1, near);
-    visit(b, level + 1, near);
+    visit(a, level + 1, near, fine);
+    visit(b, level + 1, near, fine);
   }
 
   /// The piece of the surface within one tetrahedron.
-  void cut(const Tetrahedron& t, const PartRange& parts) {
+  void cut(const Tetrahedron& t, const Range& parts) {
     std::array<const Corner*, 4> in{}, out{};
     std::size_t n_in = 0, n_out = 0;
     for (const Corner& c : t) (c.is_inside() ? in[n_in++] : out[n_out++]) = &c;
@@ -221,6 +238,7 @@ class CubeExtraction {
     if (fresh) {
       part_.key.push_back(key);
       part_.node.push_back(find_zero(in, out, parts));
+      part_.edge.push_back({lattice_.position(in.place), lattice_.position(out.place)});
     }
     return at->second;
   }
@@ -228,7 +246,7 @@ class CubeExtraction {
   /// Regula falsi between the two, halving the value of an end that stays (Illinois), as creases
   /// want it; never at an end, where triangles would have no area.
   Vec3 find_zero(const Corner& in, const Corner& out, std::span<const int> parts) const {
-    constexpr double kEnd = 0.02, kExact = 0.003;  // of the edge
+    constexpr double kExact = 0.003;  // of the edge
     constexpr int kRounds = 8;
     const Vec3 a = lattice_.position(in.place), b = lattice_.position(out.place);
     const double exact = kExact * (b - a).norm();
@@ -250,44 +268,59 @@ class CubeExtraction {
         stays = -1;
       }
     }
-    return a + std::clamp(t, kEnd, 1 - kEnd) * (b - a);
+    return a + std::clamp(t, kEdgeEnd, 1 - kEdgeEnd) * (b - a);
   }
 
   const Shape& shape_;
   const CubeLattice& lattice_;
-  std::vector<int> near_;                          ///< parts, those of each depth after the others
+  Nearby near_;                                    ///< what is near at each depth after the others
   std::unordered_map<std::uint64_t, int> number_;  ///< [edge]
   CubePart part_;
 };
 
-/// The parts that matter in each root cube, in an order that no hash decides.
-std::map<Place, std::vector<int>> find_nearby(const Shape& shape, const CubeLattice& l) {
-  std::map<Place, std::vector<int>> nearby;
+/// Calls back for every root cube that a box meets, with the middle of the cube.
+template <class Call>
+void for_each_cube(const CubeLattice& l, const Box& box, const Call& call) {
+  const auto cube = [&](const Vec3& x, std::size_t k) {
+    const int axis = static_cast<int>(k);
+    return std::clamp(static_cast<int>(std::floor((x[axis] - l.origin[axis]) / l.root)), 0,
+                      l.n_root[k] - 1);
+  };
+  for (int z = cube(box.low, 2); z <= cube(box.high, 2); ++z)
+    for (int y = cube(box.low, 1); y <= cube(box.high, 1); ++y)
+      for (int x = cube(box.low, 0); x <= cube(box.high, 0); ++x)
+        call(Place{x, y, z}, Vec3(l.origin + l.root * Vec3(x + 0.5, y + 0.5, z + 0.5)));
+}
+
+/// Of each root cube that a part is near, in an order that no hash decides.
+std::map<Place, Nearby> find_nearby(const Shape& shape, const CubeLattice& l) {
+  std::map<Place, Nearby> nearby;
   const double extent = kExtent[0] * l.root;
   for (int part = 0; part < static_cast<int>(shape.box.size()); ++part) {
-    const double reach = std::max(l.reach(part, 0), 2 * shape.reach);
-    const Box box = shape.box[part].grown(reach);
-    const auto cube = [&](const Vec3& x, std::size_t k) {
-      const int axis = static_cast<int>(k);
-      return std::clamp(static_cast<int>(std::floor((x[axis] - l.origin[axis]) / l.root)), 0,
-                        l.n_root[k] - 1);
-    };
-    for (int z = cube(box.low, 2); z <= cube(box.high, 2); ++z)
-      for (int y = cube(box.low, 1); y <= cube(box.high, 1); ++y)
-        for (int x = cube(box.low, 0); x <= cube(box.high, 0); ++x) {
-          const Vec3 center = l.origin + l.root * Vec3(x + 0.5, y + 0.5, z + 0.5);
-          if (shape.distance(center, part) <= extent + reach) nearby[{x, y, z}].push_back(part);
-        }
+    const double reach = std::max(l.reach(l.last[part], 0), 2 * shape.reach[part]);
+    for_each_cube(l, shape.box[part].grown(reach), [&](const Place& cube, const Vec3& center) {
+      if (shape.distance(center, part) <= extent + reach) nearby[cube].part.push_back(part);
+    });
+  }
+  for (int k = 0; k < static_cast<int>(shape.fine.size()); ++k) {
+    const FineBall& ball = shape.fine[k];
+    const double reach = l.reach(l.last_fine[k], 0);
+    const Box box = sphere_box(ball.center, ball.radius + std::max(0.0, reach));
+    for_each_cube(l, box, [&](const Place& cube, const Vec3& center) {
+      const auto near = nearby.find(cube);
+      if (near != nearby.end() && distance(ball, center) <= extent + reach)
+        near->second.fine.push_back(k);
+    });
   }
   return nearby;
 }
 
 }  // namespace
 
-mesh::Surface extract_zero(const Shape& shape, std::size_t most) {
+ZeroSurface extract_zero(const Shape& shape, std::size_t most) {
   const CubeLattice lattice = make_lattice(shape);
-  const std::map<Place, std::vector<int>> nearby = find_nearby(shape, lattice);
-  std::vector<const std::pair<const Place, std::vector<int>>*> cube;
+  const std::map<Place, Nearby> nearby = find_nearby(shape, lattice);
+  std::vector<const std::pair<const Place, Nearby>*> cube;
   for (const auto& c : nearby) cube.push_back(&c);
   std::vector<CubePart> part(cube.size());
   std::atomic<std::size_t> n_triangle = 0;
@@ -300,18 +333,22 @@ mesh::Surface extract_zero(const Shape& shape, std::size_t most) {
         fmt::format("the surface needs more than {} triangles. Take larger ones, or leave out what "
                     "is thin.",
                     most));
-  mesh::Surface out;
+  ZeroSurface out;
+  mesh::Surface& surface = out.surface;
   std::unordered_map<std::uint64_t, int> number;
   std::vector<int> global;
   for (CubePart& p : part) {
     global.resize(p.node.size());
     for (std::size_t k = 0; k < p.node.size(); ++k) {
-      const auto [at, fresh] = number.try_emplace(p.key[k], static_cast<int>(out.node.size()));
-      if (fresh) out.node.push_back(p.node[k]);
+      const auto [at, fresh] = number.try_emplace(p.key[k], static_cast<int>(surface.node.size()));
+      if (fresh) {
+        surface.node.push_back(p.node[k]);
+        out.edge.push_back(p.edge[k]);
+      }
       global[k] = at->second;
     }
     for (const auto& [a, b, c] : p.triangle)
-      out.triangle.push_back({global[a], global[b], global[c]});
+      surface.triangle.push_back({global[a], global[b], global[c]});
     p = {};
   }
   return out;

@@ -2,6 +2,8 @@
 /// The surface on which a function of space is zero, as triangles as small as each part of it asks
 /// for.
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -12,8 +14,16 @@
 
 namespace acinus::implicit {
 
+/// A place where triangles must be smaller than its parts ask for.
+struct FineBall {
+  Vec3 center = Vec3::Zero();  ///< um
+  double radius = 0;           ///< um
+  double size = 0;             ///< um, as Shape::size
+};
+
 /// A function, negative inside, put together from parts each of which matters near itself only.
-/// Parts are given in ascending order; those left out are farther than `reach` from the place.
+/// Parts are given in ascending order; those left out are farther than their `reach` from the
+/// place.
 struct Shape {
   /// um. @param parts  those that may matter
   std::function<double(const Vec3&, std::span<const int> parts)> value;
@@ -21,18 +31,31 @@ struct Shape {
   std::function<double(const Vec3&, int part)> distance;
   std::vector<double> size;  ///< [part] um, longest edge of the tetrahedra that cut it
   std::vector<Box> box;      ///< [part] that holds its surface
-  double reach = 0;          ///< um, how far from its own surface a part may change that of others
+  /// [part] um, how far from its own surface a part may change that of others.
+  std::vector<double> reach;
+  std::vector<FineBall> fine;
+};
+
+/// So near the ends of an edge, as a share of it, no node stands: triangles would have no area.
+inline constexpr double kEdgeEnd = 0.02;
+
+/// Where a function is zero.
+struct ZeroSurface {
+  mesh::Surface surface;
+  /// [node] um, the edge of a tetrahedron that it stands on. Wherever all of them stand between the
+  /// ends of theirs, the surface is a manifold that does not cross itself.
+  std::vector<std::array<Vec3, 2>> edge;
 };
 
 /// Closed surface between places of a lattice where the function is negative and those where it is
 /// not: space is filled with tetrahedra, which are bisected [Maubach1995] down to the size that the
-/// parts near them ask for, and each is cut by a plane piece. Whether one is bisected follows from
+/// parts and fine balls near them ask for, and each is cut by a plane piece. Whether one is bisected follows from
 /// the middle of its longest edge alone, so that all around an edge agree and no cracks open. So
 /// the surface is a manifold without self-intersection, whatever the function is; its nodes stand
 /// where the function is zero. Two surfaces nearer to each other than the tetrahedra can be joined.
 /// The same for any number of threads. Cost: linear in triangles.
 /// Throws Error if the sizes differ so much, or the extent is so large, that there would be more
 /// than 2^20 places to a side, or more than `most` triangles.
-mesh::Surface extract_zero(const Shape& shape, std::size_t most);
+ZeroSurface extract_zero(const Shape& shape, std::size_t most);
 
 }  // namespace acinus::implicit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -9,51 +10,68 @@
 
 namespace acinus::implicit {
 
-VesselField::VesselField(const mesh::Network& network, double rounding)
-    : network_(network), rounding_(rounding) {
-  for (const auto& [ra, rb] : network.radius)
-    widest_crease_ = std::max({widest_crease_, rounding * ra, rounding * rb});
+double crease_radius(double rounding, const mesh::NearestBall& a, const mesh::NearestBall& b) {
+  return rounding * std::min(a.radius, b.radius);
 }
 
-double VesselField::distance(const Vec3& x, int segment) const {
-  const mesh::NearestBall ball = mesh::nearest_ball(network_, segment, x);
+namespace {
+
+struct Wall {
+  double distance;  ///< um
+  int whole;        ///< segment
+  mesh::NearestBall ball;
+};
+
+/// Distance to the ball that rolls along a crease, at a place between the two walls that it
+/// touches; elsewhere to the nearer wall.
+double distance_in_crease(double rounding, const Wall& a, const Wall& b) {
+  constexpr double kStraight = 1e-9;
+  const double nearer = std::min(a.distance, b.distance);
+  const double radius = crease_radius(rounding, a.ball, b.ball);
+  const double sum = 2 * radius - a.distance - b.distance;
+  if (!(sum > 0)) return nearer;
+  // Of the angle between the walls: 0 where they face each other, 2 where one goes straight on.
+  const double alike = a.ball.apart.normalized().dot(b.ball.apart.normalized());
+  const double open = std::max(1 + alike, kStraight), closed = std::max(1 - alike, kStraight);
+  const double difference = std::abs(a.distance - b.distance);
+  if (difference * open > sum * closed) return nearer;  // beyond where the ball touches
+  return radius -
+         std::sqrt(sum * sum / (2 * open) + difference * difference / (2 * closed));
+}
+
+}  // namespace
+
+VesselField::VesselField(const mesh::Network& vessels, const VesselPieces& pieces, double rounding)
+    : vessels_(vessels), pieces_(pieces), rounding_(rounding) {
+  for (int k = 0; k < static_cast<int>(pieces.whole.size()); ++k)
+    widest_ = std::max(widest_, crease_reach(k));
+}
+
+double VesselField::crease_reach(int piece) const {
+  const auto& [a, b] = pieces_.network.radius[piece];
+  return 2 * rounding_ * std::max(a, b);
+}
+
+double VesselField::distance(const Vec3& x, int piece) const {
+  const mesh::NearestBall ball = mesh::nearest_ball(pieces_.network, piece, x);
   return ball.apart.norm() - ball.radius;
 }
 
-double VesselField::crease(int s, int t) const {
-  for (const std::size_t i : {0, 1})
-    for (const std::size_t j : {0, 1}) {
-      const int node = network_.segment[s][i];
-      if (node != network_.segment[t][j]) continue;
-      const auto leaving = [&](int segment, std::size_t end) {
-        return (network_.node[network_.segment[segment][1 - end]] - network_.node[node])
-            .normalized();
-      };
-      const double alike = leaving(s, i).dot(leaving(t, j));  // -1: straight on
-      const double radius = std::min(network_.radius[s][i], network_.radius[t][j]);
-      return rounding_ * radius * std::max(0.0, 0.5 * (1 + alike));
-    }
-  return 0;
-}
-
-double VesselField::value(const Vec3& x, std::span<const int> segments) const {
-  thread_local std::vector<double> at;
-  at.clear();
+double VesselField::value(const Vec3& x, std::span<const int> pieces) const {
+  thread_local std::vector<Wall> near;
+  near.clear();
   double least = std::numeric_limits<double>::infinity();
-  for (const int s : segments) least = std::min(least, at.emplace_back(distance(x, s)));
-  // Smooth minimum of two with compact support: less than both by at most a quarter of the width.
-  double rounded = least;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    if (at[i] >= least + widest_crease_) continue;
-    for (std::size_t j = i + 1; j < at.size(); ++j) {
-      const double apart = std::abs(at[i] - at[j]);
-      if (apart >= widest_crease_) continue;
-      const double width = crease(segments[i], segments[j]);
-      if (apart >= width) continue;
-      const double more = (width - apart) * (width - apart) / (4 * width);
-      rounded = std::min(rounded, std::min(at[i], at[j]) - more);
-    }
+  for (const int k : pieces) {
+    const mesh::NearestBall ball = mesh::nearest_ball(pieces_.network, k, x);
+    const double d = ball.apart.norm() - ball.radius;
+    least = std::min(least, d);
+    if (d < widest_) near.push_back({d, pieces_.whole[k], ball});
   }
+  double rounded = least;
+  for (auto a = near.begin(); a != near.end(); ++a)
+    for (auto b = std::next(a); b != near.end(); ++b)
+      if (a->whole != b->whole && mesh::share_a_node(vessels_, a->whole, b->whole))
+        rounded = std::min(rounded, distance_in_crease(rounding_, *a, *b));
   return rounded;
 }
 

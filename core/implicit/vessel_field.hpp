@@ -3,36 +3,39 @@
 
 #include <span>
 
+#include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/network.hpp"
+#include "core/mesh/round_cone.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::implicit {
 
-/// Signed distance of the union of all segments, with the crease rounded where two of them share a
-/// node. Segments that only pass each other are never joined by rounding, and two that go on
-/// straight into each other have no crease. Outside and near the surface it is the distance, at
-/// creases a little less; its slope is never above 1.
+/// Radius of the ball that rolls along the crease between two walls, um, and never comes where the
+/// gap between them is narrower: so a gap begins with a width that triangles can show.
+double crease_radius(double rounding, const mesh::NearestBall& a, const mesh::NearestBall& b);
+
+/// Signed distance of the union of all vessels, with the crease rounded where two of them share a
+/// node. Vessels that only pass each other are never joined by rounding. Outside and near the
+/// surface it is the distance, in a crease that to the rounded surface.
 class VesselField {
  public:
-  /// @param rounding  of a crease between segments that leave a node in one direction, as a share
-  ///                  of the smaller radius there: the surface moves by at most a quarter of it
-  VesselField(const mesh::Network& network, double rounding);
+  /// Keeps references to vessels and pieces.
+  /// @param rounding  radius of creases over the smaller radius of the two vessels there
+  VesselField(const mesh::Network& vessels, const VesselPieces& pieces, double rounding);
 
-  /// um, where only some segments matter.
-  double value(const Vec3& x, std::span<const int> segments) const;
+  /// um, where only some pieces matter.
+  double value(const Vec3& x, std::span<const int> pieces) const;
 
-  /// um, of one segment.
-  double distance(const Vec3& x, int segment) const;
+  /// um, of one piece.
+  double distance(const Vec3& x, int piece) const;
 
-  /// um, the widest rounding.
-  double widest_crease() const { return widest_crease_; }
+  /// um, how near both walls of a crease are that a piece has part in.
+  double crease_reach(int piece) const;
 
  private:
-  /// Rounding of the crease between two segments, um; 0 without a common node.
-  double crease(int s, int t) const;
-
-  const mesh::Network& network_;
-  double rounding_ = 0, widest_crease_ = 0;
+  const mesh::Network& vessels_;
+  const VesselPieces& pieces_;
+  double rounding_ = 0, widest_ = 0;
 };
 
 }  // namespace acinus::implicit

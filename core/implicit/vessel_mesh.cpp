@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/implicit/extract.hpp"
 #include "core/implicit/fit.hpp"
+#include "core/implicit/vessel_creases.hpp"
 #include "core/implicit/vessel_field.hpp"
 #include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/remesh.hpp"
@@ -34,34 +36,36 @@ void check_network(const mesh::Network& network) {
 }
 
 Shape make_shape(const VesselPieces& pieces, const VesselField& field) {
-  const mesh::Network& network = pieces.network;
   Shape shape;
   shape.size = pieces.size;
   shape.value = [&](const Vec3& x, std::span<const int> parts) { return field.value(x, parts); };
   shape.distance = [&](const Vec3& x, int part) { return field.distance(x, part); };
-  shape.reach = field.widest_crease();
-  for (std::size_t s = 0; s < network.segment.size(); ++s)
-    shape.box.push_back(mesh::cone_box(network, s));
+  for (std::size_t k = 0; k < pieces.whole.size(); ++k) {
+    shape.box.push_back(mesh::cone_box(pieces.network, k));
+    shape.reach.push_back(field.crease_reach(static_cast<int>(k)));
+  }
   return shape;
 }
 
-std::vector<double> usual_sizes(const mesh::Network& n, double fineness) {
-  std::vector<double> size;
-  for (const auto& [ra, rb] : n.radius) size.push_back(kTetrahedra * fineness * std::min(ra, rb));
-  return size;
-}
-
-/// Which segments are near a place, looked up in cubes.
-class NearbySegments {
+/// Which pieces matter at a place near the surface, looked up in cubes.
+class NearbyPieces {
  public:
-  NearbySegments(const Shape& shape, double margin) {
-    for (const Box& b : shape.box) side_ = std::max(side_, (b.high - b.low).maxCoeff());
+  /// @param farthest  um, that a place asked for is from the surface
+  NearbyPieces(const mesh::Network& pieces, const Shape& shape, double farthest) {
+    std::vector<double> sizes = shape.size;
+    std::ranges::nth_element(sizes, sizes.begin() + sizes.size() / 2);
+    side_ = 2 * sizes[sizes.size() / 2];
     for (int s = 0; s < static_cast<int>(shape.box.size()); ++s) {
-      const Box box = shape.box[s].grown(margin);
-      const Place low = place(box.low), high = place(box.high);
-      for (int z = low[2]; z <= high[2]; ++z)
-        for (int y = low[1]; y <= high[1]; ++y)
-          for (int x = low[0]; x <= high[0]; ++x) cube_[{x, y, z}].push_back(s);
+      const auto& [a, b] = pieces.segment[s];
+      const Vec3 &from = pieces.node[a], along = pieces.node[b] - from;
+      // Bit by bit: a box about all of a slanting piece is mostly empty.
+      const double bits = std::ceil(along.norm() / side_);
+      const double reach = shape.reach[s] + std::max(farthest, shape.size[s]);
+      for (double k = 0; k < bits; ++k) {
+        const auto& [ra, rb] = pieces.radius[s];
+        const double t = (k + 0.5) / bits, half = 0.5 * along.norm() / bits;
+        add(shape, s, sphere_box(from + t * along, ra + t * (rb - ra) + 2 * half + reach), reach);
+      }
     }
   }
   std::span<const int> at(const Vec3& x) const {
@@ -71,12 +75,31 @@ class NearbySegments {
 
  private:
   using Place = std::array<int, 3>;
+  struct Hash {
+    std::size_t operator()(const Place& p) const {
+      std::size_t key = 0;
+      for (const int k : p) key = (key ^ static_cast<std::uint32_t>(k)) * 0x9e3779b97f4a7c15u;
+      return key;
+    }
+  };
+  void add(const Shape& shape, int piece, const Box& box, double reach) {
+    const double half_diagonal = 0.5 * std::sqrt(3.0) * side_;
+    const Place low = place(box.low), high = place(box.high);
+    for (int z = low[2]; z <= high[2]; ++z)
+      for (int y = low[1]; y <= high[1]; ++y)
+        for (int x = low[0]; x <= high[0]; ++x) {
+          const double d = shape.distance(side_ * Vec3(x + 0.5, y + 0.5, z + 0.5), piece);
+          if (std::abs(d) > reach + half_diagonal) continue;
+          std::vector<int>& near = cube_[{x, y, z}];
+          if (near.empty() || near.back() != piece) near.push_back(piece);
+        }
+  }
   Place place(const Vec3& x) const {
     const Vec3 v = (x / side_).array().floor();
     return {static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])};
   }
   double side_ = 0;
-  std::map<Place, std::vector<int>> cube_;
+  std::unordered_map<Place, std::vector<int>, Hash> cube_;
 };
 
 /// Lays the triangles about the vessels' wall; where they cross each other then, nodes go back.
@@ -118,27 +141,32 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   VesselPieces pieces;
   std::optional<VesselField> field;
   Shape shape;
+  ZeroSurface raw;
   for (int attempt = 0; attempt < o.attempts; ++attempt) {
-    pieces = cut_vessels(network, usual_sizes(network, out.fineness));
-    field.emplace(pieces.network, o.rounding);
+    const double of_radius = kTetrahedra * out.fineness;
+    pieces = cut_vessels(network, of_radius);
+    field.emplace(network, pieces, o.rounding);
     shape = make_shape(pieces, *field);
-    out.surface = extract_zero(shape, o.most_triangles);
-    out.found = mesh::find_connectivity(out.surface);
-    // Loops may be narrower than the triangles; walls that cross no triangle is small enough for.
+    shape.fine = find_sharp_creases(network, o.rounding, of_radius);
+    for (FineBall& ball : shape.fine) ball.size *= out.fineness / o.fineness;
+    raw = extract_zero(shape, o.most_triangles);
+    out.found = mesh::find_connectivity(raw.surface);
+    // Loops may be narrower than the triangles. For walls that cross no triangle is small enough.
     if (out.is_as_expected() || pieces.overlapping > 0 || attempt + 1 == o.attempts) break;
     out.fineness *= kFiner;
   }
   out.overlapping = pieces.overlapping;
-  const NearbySegments nearby(
-      shape, field->widest_crease() + std::max(o.edge, *std::ranges::max_element(shape.size)));
+  const NearbyPieces nearby(pieces.network, shape, o.edge);
   const Distance distance = [&](const Vec3& x) { return field->value(x, nearby.at(x)); };
   if (o.edge > 0) {
-    mesh::Surface even = mesh::remesh(out.surface, o.edge);
-    out.remeshed =
-        mesh::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
-    if (out.remeshed) out.surface = std::move(even);
+    out.surface = mesh::remesh(raw.surface, o.edge);
+    out.remeshed = mesh::find_connectivity(out.surface) == out.found &&
+                   fit_without_crossing(distance, out.surface);
   }
-  if (!out.remeshed) fit_without_crossing(distance, out.surface);
+  if (!out.remeshed) {
+    fit(distance, raw);
+    out.surface = std::move(raw.surface);
+  }
   return out;
 }
 

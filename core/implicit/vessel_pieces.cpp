@@ -98,46 +98,60 @@ class GapSearch {
   std::vector<std::vector<int>> beside_;
 };
 
-/// Pieces about as long as the vessel is thick.
-int count_pieces(const mesh::Network& n, std::size_t segment) {
-  constexpr double kMost = 200;
+/// Ends of pieces about as long as the vessel is thick, from 0 to 1 along a segment.
+std::vector<double> find_ends(const mesh::Network& n, std::size_t segment) {
+  constexpr double kShortest = 0.005;
   const auto& [a, b] = n.segment[segment];
-  const double radius = std::min(n.radius[segment][0], n.radius[segment][1]);
-  return static_cast<int>(
-      std::clamp(std::ceil((n.node[b] - n.node[a]).norm() / radius), 1.0, kMost));
+  const auto& [ra, rb] = n.radius[segment];
+  const double length = (n.node[b] - n.node[a]).norm();
+  std::vector<double> ends{0};
+  while (ends.back() < 1) {
+    const double t = ends.back(), step = std::max(kShortest, (ra + t * (rb - ra)) / length);
+    ends.push_back(t + 1.5 * step < 1 ? t + step : 1);
+  }
+  return ends;
 }
 
 }  // namespace
 
-VesselPieces cut_vessels(const mesh::Network& n, const std::vector<double>& size) {
+VesselPieces cut_vessels(const mesh::Network& n, double of_radius) {
   constexpr double kOfGap = 0.9, kFinest = 0.1;
-  const GapSearch search(n, *std::ranges::max_element(size) / kOfGap);
+  double thickest = 0;
+  for (const auto& [ra, rb] : n.radius) thickest = std::max({thickest, ra, rb});
+  const GapSearch search(n, of_radius * thickest / kOfGap);
   VesselPieces out;
   out.network.node = n.node;
   out.overlapping = search.count_overlapping();
   for (std::size_t s = 0; s < n.segment.size(); ++s) {
-    const auto size_of = [&](double low, double high) {
-      const double gap = search.find({static_cast<int>(s), low, high});
-      // No edge is short enough for walls that cross.
-      return gap > 0 ? std::clamp(kOfGap * gap, kFinest * size[s], size[s]) : size[s];
-    };
     const auto [a, b] = n.segment[s];
     const auto [ra, rb] = n.radius[s];
-    const int pieces = size_of(0, 1) < size[s] ? count_pieces(n, s) : 1;
-    const auto at = [&](int k) { return static_cast<double>(k) / pieces; };
+    const auto radius_at = [&](double t) { return ra + t * (rb - ra); };
+    const auto size_of = [&](double low, double high) {
+      const double thinnest = std::min(ra, rb),
+                   thin = std::min(radius_at(low), radius_at(high));
+      // In powers of two, so that pieces of much the same size are one.
+      const double wanted =
+          of_radius * thinnest * std::exp2(std::floor(std::log2(thin / thinnest)));
+      const double gap = search.find({static_cast<int>(s), low, high});
+      // No edge is short enough for walls that cross.
+      return gap > 0 ? std::clamp(kOfGap * gap, kFinest * wanted, wanted) : wanted;
+    };
+    const std::vector<double> end = find_ends(n, s);
     int from = a;
-    double r_from = ra, before = size_of(0, at(1));
-    for (int k = 1; k <= pieces; ++k) {
-      const double next = k < pieces ? size_of(at(k), at(k + 1)) : -1;
+    double r_from = ra, before = size_of(0, end[1]);
+    for (std::size_t k = 1; k < end.size(); ++k) {
+      const bool last = k + 1 == end.size();
+      const double next = last ? -1 : size_of(end[k], end[k + 1]);
       if (next == before) continue;  // one piece with the next
       int to = b;
-      if (k < pieces) {
+      if (!last) {
         to = static_cast<int>(out.network.node.size());
-        out.network.node.push_back(n.node[a] + at(k) * (n.node[b] - n.node[a]));
+        out.network.node.push_back(n.node[a] + end[k] * (n.node[b] - n.node[a]));
       }
-      const double r_to = k < pieces ? ra + at(k) * (rb - ra) : rb;
+      const double r_to = last ? rb : radius_at(end[k]);
       out.network.segment.push_back({from, to});
       out.network.radius.push_back({r_from, r_to});
+      out.whole.push_back(static_cast<int>(s));
       out.size.push_back(before);
       from = to;
       r_from = r_to;

@@ -1,6 +1,8 @@
 #pragma once
 /// Segments of a network as round cones.
 
+#include <limits>
+
 #include "core/box.hpp"
 #include "core/mesh/network.hpp"
 #include "core/mesh/round_cone.hpp"
@@ -12,6 +14,21 @@ inline NearestBall nearest_ball(const Network& n, int segment, const Vec3& x) {
   const auto& [a, b] = n.segment[s];
   const auto& [ra, rb] = n.radius[s];
   return find_nearest_ball(x, n.node[a], n.node[b], ra, rb);
+}
+
+/// Of all segments the one whose wall is nearest to a place, or that it is deepest in.
+struct NearestSegment {
+  int segment = -1;  ///< -1: there is none
+  double gap = std::numeric_limits<double>::infinity();  ///< um, negative inside
+};
+inline NearestSegment nearest_segment(const Network& n, const Vec3& x) {
+  NearestSegment nearest;
+  for (int s = 0; s < static_cast<int>(n.segment.size()); ++s) {
+    const NearestBall ball = nearest_ball(n, s, x);
+    const double gap = ball.apart.norm() - ball.radius;
+    if (gap < nearest.gap) nearest = {s, gap};
+  }
+  return nearest;
 }
 
 inline bool share_a_node(const Network& n, int s, int t) {

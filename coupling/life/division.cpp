@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/mesh/audit_body.hpp"
 #include "core/mesh/inner_ball.hpp"
 #include "core/mesh/measures.hpp"
+#include "core/mesh/segment_shape.hpp"
 #include "core/random.hpp"
 #include "core/sphere.hpp"
 #include "coupling/life/fill.hpp"
@@ -36,18 +36,13 @@ Vec3 random_direction(const World& world, std::int64_t lineage, int attempt) {
   return v.normalized();
 }
 
-/// Direction of the vessel segment nearest to a point; nothing without vessels.
-Vec3 nearest_vessel(const mesh::Network& network, const Vec3& x) {
-  double nearest = std::numeric_limits<double>::infinity();
-  Vec3 direction = Vec3::Zero();
-  for (std::size_t s = 0; s < network.segment.size(); ++s) {
-    const double gap = contact::gap_to_segment(network, static_cast<int>(s), x).gap;
-    if (gap >= nearest) continue;
-    nearest = gap;
-    const auto [a, b] = network.segment[s];
-    direction = network.node[b] - network.node[a];
-  }
-  return direction.norm() > 0 ? direction.normalized() : Vec3::Zero();
+/// Along the vessel with the nearest wall; zero without vessels.
+Vec3 along_nearest_vessel(const mesh::Network& network, const Vec3& x) {
+  const int segment = mesh::nearest_segment(network, x).segment;
+  if (segment < 0) return Vec3::Zero();
+  const auto [a, b] = network.segment[segment];
+  const Vec3 along = network.node[b] - network.node[a];
+  return along.norm() > 0 ? along.normalized() : Vec3::Zero();
 }
 
 /// The mother as the split sees her.
@@ -161,7 +156,7 @@ Vec3 division_axis(const World& world, const CycleParams& cycle, std::int64_t li
   Vec3 wanted = Vec3::Zero();
   if (cycle.axis == DivisionAxis::kGiven) wanted = cycle.direction.normalized();
   if (cycle.axis == DivisionAxis::kVessel)
-    wanted = nearest_vessel(world.params.boundary.vessels.network, center);
+    wanted = along_nearest_vessel(world.params.boundary.vessels.network, center);
   if (wanted.isZero()) return random;
   return attempt == 0 ? wanted : (wanted + kTurn * random).normalized();
 }

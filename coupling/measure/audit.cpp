@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/mesh/audit_body.hpp"
@@ -139,19 +138,6 @@ void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, Audit
   }
 }
 
-/// The segment whose axis is nearest to a body.
-std::int64_t nearest_vessel(const mesh::Network& net, const Vec3& x) {
-  std::int64_t nearest = 0;
-  double least2 = std::numeric_limits<double>::infinity();
-  for (std::size_t s = 0; s < net.segment.size(); ++s) {
-    const mesh::NearestBall ball = mesh::nearest_ball(net, static_cast<int>(s), x);
-    if (ball.apart.squaredNorm() >= least2) continue;
-    least2 = ball.apart.squaredNorm();
-    nearest = static_cast<std::int64_t>(s);
-  }
-  return nearest;
-}
-
 /// Cells and spheres at the surface of the vessels.
 void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
                           AuditResult& result) {
@@ -175,7 +161,7 @@ void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const R
     const Vec3 at = cell ? Vec3(0.5 * (bodies.cell[k].box.low + bodies.cell[k].box.high))
                          : frame.spheres[k - n_cell].center;
     keep_worst(worst, depth[k], cell ? frame.meshes[k].id : frame.spheres[k - n_cell].id,
-               nearest_vessel(*frame.vessels, at));
+               mesh::nearest_segment(*frame.vessels, at).segment);
   }
 }
 

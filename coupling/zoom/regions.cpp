@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/contact/boundary.hpp"
+#include "core/mesh/segment_shape.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::coupling {
@@ -12,13 +12,6 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Cells from which on threads are worth it.
 constexpr std::size_t kMany = 200;
-
-double nearest_vessel(const mesh::Network& vessels, const Vec3& x) {
-  double nearest = kFar;
-  for (int s = 0; s < static_cast<int>(vessels.segment.size()); ++s)
-    nearest = std::min(nearest, contact::gap_to_segment(vessels, s, x).gap);
-  return nearest;
-}
 
 /// Centres of the cells that a region follows.
 std::vector<Vec3> list_followed(const Region& r, std::span<const ZoomCell> cells) {
@@ -59,7 +52,7 @@ std::vector<double> distances_from_zoom(const ZoomParams& zoom, const mesh::Netw
         case RegionKind::kCells:
           return nearest_of(followed, c.center) - r.max_distance;
         case RegionKind::kVessel:
-          return nearest_vessel(vessels, c.center) - r.max_distance;
+          return mesh::nearest_segment(vessels, c.center).gap - r.max_distance;
         case RegionKind::kPressure:
           return c.pressure >= r.above ? 0 : c.pressure > r.below ? 0.5 * zoom.margin : kFar;
         default:

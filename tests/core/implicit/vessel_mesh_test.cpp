@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <random>
 #include <vector>
 
 #include "core/error.hpp"
@@ -95,7 +96,7 @@ TEST(VesselMesh, NearlyTouchingVesselsStayApart) {
                            Vec3(0, 10, 4 + gap), Vec3(13, 0, 0), Vec3(30, 0, 0)},
                           {{0, 1}, {2, 3}, {1, 4}, {4, 5}},
                           {{2, 2}, {2, 2}, {2, 2}, {2, 2}}};
-    const VesselPieces pieces = cut_vessels(n, {2.4, 2.4, 2.4, 2.4});
+    const VesselPieces pieces = cut_vessels(n, 1.2);
     EXPECT_EQ(pieces.overlapping, 0);
     EXPECT_NEAR(*std::ranges::min_element(pieces.size), std::max(0.24, 0.9 * gap), 1e-9);
     EXPECT_GT(pieces.network.segment.size(), 6u) << "two segments are cut";
@@ -114,6 +115,43 @@ TEST(VesselMesh, NearlyTouchingVesselsStayApart) {
   EXPECT_EQ(m.found.parts, 1);
 }
 
+/// However sharp the angle, between walls that widen away from the node as well.
+TEST(VesselMesh, VesselsThatLeaveOneNodeStayApart) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] {
+    const double x = normal(random), y = normal(random), z = normal(random);
+    return Vec3(x, y, z);
+  };
+  for (const double far : {1.0, 3.0, 10.0})
+    for (const double degrees : {20.0, 40.0, 61.0, 75.0, 90.0, 130.0})
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 start = draw(), u = draw().normalized(), across = u.cross(draw()).normalized();
+        const double angle = degrees * kPi / 180, length = (3 + 2 * k) * far;
+        const mesh::Network n{
+            {start, start + length * u,
+             start + length * (std::cos(angle) * u + std::sin(angle) * across)},
+            {{0, 1}, {2, 0}},
+            {{1, far}, {far, 1}}};
+        VesselMeshOptions o;
+        o.attempts = 1;
+        const VesselMesh m = make_vessel_mesh(n, o);
+        EXPECT_TRUE(m.is_as_expected()) << far << " um, " << degrees << " degrees, " << k;
+      }
+}
+
+/// A cone is cut where it gets thinner: where it is thick its triangles are larger.
+TEST(VesselMesh, PiecesOfAConeHaveTheirOwnSize) {
+  const mesh::Network n{{Vec3(0, 0, 0), Vec3(60, 0, 0)}, {{0, 1}}, {{1, 20}}};
+  const VesselPieces pieces = cut_vessels(n, 1.2);
+  EXPECT_EQ(pieces.size, (std::vector<double>{1.2, 2.4, 4.8, 9.6}));
+  for (std::size_t k = 0; k < pieces.size.size(); ++k) {
+    EXPECT_LE(pieces.size[k], 1.2 * pieces.network.radius[k][0] + 1e-9);
+    EXPECT_GT(pieces.size[k], 0.5 * pieces.network.radius[k][0]);
+  }
+  EXPECT_NEAR(mesh::total_length(pieces.network), 60, 1e-9);
+}
+
 TEST(VesselMesh, ThickAndThinMeet) {
   const mesh::Network n{{Vec3(0, 0, 0), Vec3(60, 0, 0), Vec3(30, 0, 0), Vec3(30, 25, 0)},
                         {{0, 2}, {2, 1}, {2, 3}},
@@ -121,8 +159,7 @@ TEST(VesselMesh, ThickAndThinMeet) {
   expect_sound(n, make_vessel_mesh(n, {}), "thick and thin");
 }
 
-/// A fillet moves the surface by at most a quarter of its width, and none is where vessels go on
-/// straight.
+/// No crease is where vessels go on straight.
 TEST(VesselMesh, RoundingIsOnlyInCreases) {
   const mesh::Network chain{
       {Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(20, 0, 0)}, {{0, 1}, {1, 2}}, {{2, 2}, {2, 2}}};
