@@ -1,4 +1,5 @@
-/// Stands in for core/partition.cpp, because Zoltan is built for another MPI than the simulated one.
+/// Stands in for core/partition.cpp, because Zoltan is built for another MPI than the simulated
+/// one.
 
 #include "core/partition.hpp"
 

@@ -49,9 +49,9 @@ double cube_at(double root, int level) { return std::ldexp(root, -(level / 3)); 
 /// The lattice: root cubes, and how often what is in them may be bisected.
 struct CubeLattice {
   Vec3 origin = Vec3::Zero();
-  double root = 1;        ///< um, side of the cubes that it starts from
-  int halvings = 0;       ///< of that side, until places are one apart
-  std::vector<int> last;  ///< [part] the level at which tetrahedra are small enough
+  double root = 1;             ///< um, side of the cubes that it starts from
+  int halvings = 0;            ///< of that side, until places are one apart
+  std::vector<int> last;       ///< [part] the level at which tetrahedra are small enough
   std::vector<int> last_fine;  ///< [fine ball]
   Place n_root{};
 
@@ -59,7 +59,8 @@ struct CubeLattice {
   Vec3 position(const Place& p) const {
     return origin + std::ldexp(root, -halvings) * Vec3(p[0], p[1], p[2]);
   }
-  /// How near to what asks for the level `end` the middle of a bisection of this level is necessary.
+  /// How near to what asks for the level `end` the middle of a bisection of this level is
+  /// necessary.
   double reach(int end, int level) const {
     if (level >= end) return -1;
     const double here = cube_at(root, level), there = cube_at(root, end);

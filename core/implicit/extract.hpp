@@ -49,13 +49,13 @@ struct ZeroSurface {
 
 /// Closed surface between places of a lattice where the function is negative and those where it is
 /// not: space is filled with tetrahedra, which are bisected [Maubach1995] down to the size that the
-/// parts and fine balls near them ask for, and each is cut by a plane piece. Whether one is bisected follows from
-/// the middle of its longest edge alone, so that all around an edge agree and no cracks open. So
-/// the surface is a manifold without self-intersection, whatever the function is; its nodes stand
-/// where the function is zero. Two surfaces nearer to each other than the tetrahedra can be joined.
-/// The same for any number of threads. Cost: linear in triangles.
-/// Throws Error if the sizes differ so much, or the extent is so large, that there would be more
-/// than 2^20 places to a side, or more than `most` triangles.
+/// parts and fine balls near them ask for, and each is cut by a plane piece. Whether one is
+/// bisected follows from the middle of its longest edge alone, so that all around an edge agree and
+/// no cracks open. So the surface is a manifold without self-intersection, whatever the function
+/// is; its nodes stand where the function is zero. Two surfaces nearer to each other than the
+/// tetrahedra can be joined. The same for any number of threads. Cost: linear in triangles. Throws
+/// Error if the sizes differ so much, or the extent is so large, that there would be more than 2^20
+/// places to a side, or more than `most` triangles.
 ZeroSurface extract_zero(const Shape& shape, std::size_t most);
 
 }  // namespace acinus::implicit

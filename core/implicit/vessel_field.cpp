@@ -35,8 +35,7 @@ double distance_in_crease(double rounding, const Wall& a, const Wall& b) {
   const double open = std::max(1 + alike, kStraight), closed = std::max(1 - alike, kStraight);
   const double difference = std::abs(a.distance - b.distance);
   if (difference * open > sum * closed) return nearer;  // beyond where the ball touches
-  return radius -
-         std::sqrt(sum * sum / (2 * open) + difference * difference / (2 * closed));
+  return radius - std::sqrt(sum * sum / (2 * open) + difference * difference / (2 * closed));
 }
 
 }  // namespace

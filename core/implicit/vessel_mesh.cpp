@@ -14,8 +14,8 @@
 #include "core/error.hpp"
 #include "core/implicit/extract.hpp"
 #include "core/implicit/fit.hpp"
-#include "core/implicit/vessel_creases.hpp"
 #include "core/implicit/vessel_field.hpp"
+#include "core/implicit/vessel_gaps.hpp"
 #include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/remesh.hpp"
 #include "core/mesh/segment_shape.hpp"
@@ -147,15 +147,15 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
     pieces = cut_vessels(network, of_radius);
     field.emplace(network, pieces, o.rounding);
     shape = make_shape(pieces, *field);
-    shape.fine = find_sharp_creases(network, o.rounding, of_radius);
-    for (FineBall& ball : shape.fine) ball.size *= out.fineness / o.fineness;
+    VesselGaps gaps = find_narrow_gaps(network, o.rounding, of_radius);
+    shape.fine = std::move(gaps.fine);
+    out.overlapping = gaps.overlapping;
     raw = extract_zero(shape, o.most_triangles);
     out.found = mesh::find_connectivity(raw.surface);
     // Loops may be narrower than the triangles. For walls that cross no triangle is small enough.
-    if (out.is_as_expected() || pieces.overlapping > 0 || attempt + 1 == o.attempts) break;
+    if (out.is_as_expected() || out.overlapping > 0 || attempt + 1 == o.attempts) break;
     out.fineness *= kFiner;
   }
-  out.overlapping = pieces.overlapping;
   const NearbyPieces nearby(pieces.network, shape, o.edge);
   const Distance distance = [&](const Vec3& x) { return field->value(x, nearby.at(x)); };
   if (o.edge > 0) {

@@ -1,6 +1,5 @@
 #pragma once
-/// Vessels cut into pieces, for triangles to be small only where a vessel is thin or passes another
-/// closely.
+/// Tapering vessels cut into pieces, for triangles to be small only where they are thin.
 
 #include <vector>
 
@@ -9,16 +8,12 @@
 namespace acinus::implicit {
 
 struct VesselPieces {
-  mesh::Network network;   ///< the same vessels: a cut segment has further nodes along it
-  std::vector<int> whole;  ///< [piece] the segment that it is of
-  /// [piece] um, longest edge of the tetrahedra that cut it: the one wanted where it is thinnest,
-  /// less where the vessel passes another that it shares no node with, with nothing but free space
-  /// between, so that no edge reaches from one to the other; at least a tenth of the one wanted.
-  std::vector<double> size;
-  int overlapping = 0;  ///< pairs of segments that share no node and whose walls cross
+  mesh::Network network;     ///< the same vessels: a cut segment has further nodes along it
+  std::vector<int> whole;    ///< [piece] the segment that it is of
+  std::vector<double> size;  ///< [piece] um, longest edge of the tetrahedra that cut it
 };
 
-/// @param of_radius  the edge wanted over the radius
+/// @param of_radius  the edge wanted over the radius of a piece where it is thinnest
 VesselPieces cut_vessels(const mesh::Network& network, double of_radius);
 
 }  // namespace acinus::implicit

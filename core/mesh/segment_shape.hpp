@@ -18,7 +18,7 @@ inline NearestBall nearest_ball(const Network& n, int segment, const Vec3& x) {
 
 /// Of all segments the one whose wall is nearest to a place, or that it is deepest in.
 struct NearestSegment {
-  int segment = -1;  ///< -1: there is none
+  int segment = -1;                                      ///< -1: there is none
   double gap = std::numeric_limits<double>::infinity();  ///< um, negative inside
 };
 inline NearestSegment nearest_segment(const Network& n, const Vec3& x) {

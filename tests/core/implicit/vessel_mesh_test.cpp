@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/implicit/vessel_gaps.hpp"
 #include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/closed.hpp"
 #include "core/mesh/measures.hpp"
@@ -96,13 +97,15 @@ TEST(VesselMesh, NearlyTouchingVesselsStayApart) {
                            Vec3(0, 10, 4 + gap), Vec3(13, 0, 0), Vec3(30, 0, 0)},
                           {{0, 1}, {2, 3}, {1, 4}, {4, 5}},
                           {{2, 2}, {2, 2}, {2, 2}, {2, 2}}};
-    const VesselPieces pieces = cut_vessels(n, 1.2);
-    EXPECT_EQ(pieces.overlapping, 0);
-    EXPECT_NEAR(*std::ranges::min_element(pieces.size), std::max(0.24, 0.9 * gap), 1e-9);
-    EXPECT_GT(pieces.network.segment.size(), 6u) << "two segments are cut";
-    EXPECT_EQ(pieces.size.front(), 2.4) << "far from the gap";
-    EXPECT_EQ(pieces.size.back(), 2.4) << "beside a short segment is no gap";
-    EXPECT_NEAR(mesh::total_length(pieces.network), mesh::total_length(n), 1e-9);
+    const VesselGaps gaps = find_narrow_gaps(n, 0.1, 1.2);
+    EXPECT_EQ(gaps.overlapping, 0);
+    double least = 2.4;
+    for (const FineBall& ball : gaps.fine) {
+      least = std::min(least, ball.size);
+      EXPECT_LT((ball.center - Vec3(0, 0, 2 + gap / 2)).norm(), 5) << "where they pass each other";
+    }
+    EXPECT_LT(least, 0.9 * gap);
+    EXPECT_GT(least, 0.4 * gap);
     const VesselMesh m = make_vessel_mesh(n, {});
     EXPECT_EQ(m.fineness, VesselMeshOptions{}.fineness);
     EXPECT_TRUE(m.is_as_expected()) << gap;
@@ -128,11 +131,10 @@ TEST(VesselMesh, VesselsThatLeaveOneNodeStayApart) {
       for (int k = 0; k < 4; ++k) {
         const Vec3 start = draw(), u = draw().normalized(), across = u.cross(draw()).normalized();
         const double angle = degrees * kPi / 180, length = (3 + 2 * k) * far;
-        const mesh::Network n{
-            {start, start + length * u,
-             start + length * (std::cos(angle) * u + std::sin(angle) * across)},
-            {{0, 1}, {2, 0}},
-            {{1, far}, {far, 1}}};
+        const mesh::Network n{{start, start + length * u,
+                               start + length * (std::cos(angle) * u + std::sin(angle) * across)},
+                              {{0, 1}, {2, 0}},
+                              {{1, far}, {far, 1}}};
         VesselMeshOptions o;
         o.attempts = 1;
         const VesselMesh m = make_vessel_mesh(n, o);
