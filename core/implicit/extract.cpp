@@ -150,15 +150,15 @@ class CubeExtraction {
 
  private:
   /// Of one array of near_, which grow and shrink with the depth of the bisection.
-  struct Range {
+  struct NearRange {
     std::size_t first, last;
   };
-  std::span<const int> span_of(const Range& parts) const {
+  std::span<const int> span_of(const NearRange& parts) const {
     return std::span(near_.part).subspan(parts.first, parts.last - parts.first);
   }
 
   /// Bisects a tetrahedron as far as necessary and cuts what comes of it.
-  void visit(const Tetrahedron& t, int level, const Range& parts, const Range& fine) {
+  void visit(const Tetrahedron& t, int level, const NearRange& parts, const NearRange& fine) {
     const std::size_t kind = static_cast<std::size_t>(level) % 3, end = 3 - kind;
     const Place place = middle(t[0].place, t[end].place);
     const Vec3 x = lattice_.position(place);
@@ -182,7 +182,7 @@ class CubeExtraction {
         bisect = bisect || d <= reach;
         if (reach >= 0 && d <= extent + reach) near_.fine.push_back(ball);
       }
-      const Range near{first, near_.part.size()};
+      const NearRange near{first, near_.part.size()};
       if (bisect)
         bisect_at(t, end, place, level, near, {first_fine, near_.fine.size()});
       else
@@ -193,7 +193,7 @@ class CubeExtraction {
   }
 
   void bisect_at(const Tetrahedron& t, std::size_t end, const Place& place, int level,
-                 const Range& near, const Range& fine) {
+                 const NearRange& near, const NearRange& fine) {
     const Corner z{place, shape_.value(lattice_.position(place), span_of(near))};
     Tetrahedron a = t, b = t;
     a[end] = z;
@@ -204,7 +204,7 @@ class CubeExtraction {
   }
 
   /// The piece of the surface within one tetrahedron.
-  void cut(const Tetrahedron& t, const Range& parts) {
+  void cut(const Tetrahedron& t, const NearRange& parts) {
     std::array<const Corner*, 4> in{}, out{};
     std::size_t n_in = 0, n_out = 0;
     for (const Corner& c : t) (c.is_inside() ? in[n_in++] : out[n_out++]) = &c;

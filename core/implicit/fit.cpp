@@ -43,13 +43,13 @@ void smooth(const mesh::Surface& s, int times, std::vector<T>& value) {
 }
 
 /// How far the function wants each node to go, along the normal there.
-struct Moves {
+struct FitMoves {
   std::vector<Vec3> normal;      ///< [node] unit; zero: of no triangle
   std::vector<double> distance;  ///< [node] um
   std::vector<double> edge;      ///< [node] um, mean about it
 };
 
-Moves find_moves(const Distance& distance, const mesh::Surface& s) {
+FitMoves find_moves(const Distance& distance, const mesh::Surface& s) {
   const std::vector<double> mean = means_over(distance, s);
   std::vector<Vec3> normal(s.node.size(), Vec3::Zero());
   std::vector<double> sum(s.node.size(), 0.0), area(s.node.size(), 0.0);
@@ -79,7 +79,7 @@ Moves find_moves(const Distance& distance, const mesh::Surface& s) {
 void fit(const Distance& distance, double most, mesh::Surface& s) {
   if (s.node.empty()) return;
   for (int round = 0; round < kRounds; ++round) {
-    const Moves m = find_moves(distance, s);
+    const FitMoves m = find_moves(distance, s);
     for (std::size_t k = 0; k < s.node.size(); ++k) {
       const double farthest = most * m.edge[k];
       s.node[k] += std::clamp(m.distance[k], -farthest, farthest) * m.normal[k];
@@ -91,7 +91,7 @@ void fit(const Distance& distance, ZeroSurface& z) {
   constexpr double kMostSlanting = 0.2;  // cosine: nodes would go far along such an edge
   if (z.surface.node.empty()) return;
   for (int round = 0; round < kRounds; ++round) {
-    const Moves m = find_moves(distance, z.surface);
+    const FitMoves m = find_moves(distance, z.surface);
     for (std::size_t k = 0; k < z.surface.node.size(); ++k) {
       const auto& [a, b] = z.edge[k];
       const Vec3 along = b - a;
