@@ -44,27 +44,24 @@ constexpr std::array<double, 3> kToGo{2.8660254037844387, 2.3660254037844387, 1.
 /// for those one bisection before, which reach kExtent, to be bisected wherever they meet it.
 constexpr double kMargin = 0.6;
 
-double cube_at(double root, int level) { return std::ldexp(root, -(level / 3)); }
-
 /// The lattice: root cubes, and how often what is in them may be bisected.
 struct CubeLattice {
   Vec3 origin = Vec3::Zero();
   double root = 1;             ///< um, side of the cubes that it starts from
   int halvings = 0;            ///< of that side, until places are one apart
+  double spacing = 1;          ///< um, of places
+  std::vector<double> side;    ///< [level] um, of the cube that a bisection is in
   std::vector<int> last;       ///< [part] the level at which tetrahedra are small enough
   std::vector<int> last_fine;  ///< [fine ball]
   Place n_root{};
 
   int unit() const { return 1 << halvings; }
-  Vec3 position(const Place& p) const {
-    return origin + std::ldexp(root, -halvings) * Vec3(p[0], p[1], p[2]);
-  }
+  Vec3 position(const Place& p) const { return origin + spacing * Vec3(p[0], p[1], p[2]); }
   /// How near to what asks for the level `end` the middle of a bisection of this level is
   /// necessary.
   double reach(int end, int level) const {
     if (level >= end) return -1;
-    const double here = cube_at(root, level), there = cube_at(root, end);
-    return kToGo[level % 3] * here + (kMargin - kToGo[end % 3]) * there;
+    return kToGo[level % 3] * side[level] + (kMargin - kToGo[end % 3]) * side[end];
   }
 };
 
@@ -92,12 +89,15 @@ CubeLattice make_lattice(const Shape& shape) {
   const auto find_level = [&](double size) {
     least = std::min(least, size);
     int level = 0;
-    while (kLongest[level % 3] * cube_at(l.root, level) > size) ++level;
+    while (kLongest[level % 3] * std::ldexp(l.root, -(level / 3)) > size) ++level;
     l.halvings = std::max(l.halvings, level / 3 + 1);
     return level;
   };
   for (const double size : shape.size) l.last.push_back(find_level(size));
   for (const FineBall& ball : shape.fine) l.last_fine.push_back(find_level(ball.size));
+  l.spacing = std::ldexp(l.root, -l.halvings);
+  for (int level = 0; level <= 3 * l.halvings; ++level)
+    l.side.push_back(std::ldexp(l.root, -(level / 3)));
   const int longest = *std::ranges::max_element(l.n_root);
   check(l.halvings < kBits && (longest << l.halvings) < (1 << kBits),
         fmt::format("triangles of {:.3g} um on a surface {:.3g} um across are too small: no more "
@@ -162,7 +162,7 @@ class CubeExtraction {
     const std::size_t kind = static_cast<std::size_t>(level) % 3, end = 3 - kind;
     const Place place = middle(t[0].place, t[end].place);
     const Vec3 x = lattice_.position(place);
-    const double extent = kExtent[kind] * cube_at(lattice_.root, level);
+    const double extent = kExtent[kind] * lattice_.side[level];
     const std::size_t first = near_.part.size(), first_fine = near_.fine.size();
     bool bisect = false, outside = true;
     for (std::size_t k = parts.first; k < parts.last; ++k) {
