@@ -10,7 +10,7 @@ namespace acinus::contact {
 namespace {
 
 /// Of the segments whose boxes a point is in, the one with the nearest wall.
-int nearest_segment(const mesh::Network& network, std::span<const Box> box, const Vec3& x) {
+int segment_of_wall(const mesh::Network& network, std::span<const Box> box, const Vec3& x) {
   int nearest = -1;
   double least = 0;
   const auto look = [&](std::size_t s) {
@@ -38,7 +38,7 @@ WallMesh make_wall_mesh(const mesh::Network& network, mesh::Surface surface) {
     box.push_back(mesh::cone_box(network, s, kWider));
   wall.segment.resize(wall.surface.triangle->size());
   for_each_index(wall.segment.size(), true, [&](std::size_t t) {
-    wall.segment[t] = nearest_segment(network, box, wall.surface.body.center[t]);
+    wall.segment[t] = segment_of_wall(network, box, wall.surface.body.center[t]);
   });
   wall.first_of_segment.assign(network.segment.size() + 1, 0);
   for (const int s : wall.segment) ++wall.first_of_segment[static_cast<std::size_t>(s) + 1];

@@ -27,9 +27,9 @@ struct VesselMesh {
   bool is_as_expected() const { return found == expected; }
 };
 
-/// Triangles are smaller where vessels that share no node pass each other closely, and everywhere,
-/// a few times, where a loop would be closed: is_as_expected says whether that was enough. It
-/// cannot be where walls overlap. Remeshing that makes the surface cross itself is given up. Throws
+/// Triangles are smaller where walls face each other across a narrow gap, and everywhere, a few
+/// times, where parts or loops are wrong: is_as_expected says whether that was enough. It cannot be
+/// where walls overlap. Remeshing that makes the surface cross itself is given up. Throws
 /// Error if a radius is not above 0, the network has no segment, or there would be too many
 /// triangles.
 VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOptions& options);
