@@ -47,15 +47,21 @@ struct ZeroSurface {
   std::vector<std::array<Vec3, 2>> edge;
 };
 
+/// Whether a surface has the parts and loops that are known.
+using IsRight = std::function<bool(const mesh::Surface&)>;
+
 /// Closed surface between places of a lattice where the function is negative and those where it is
 /// not: space is filled with tetrahedra, which are bisected [Maubach1995] down to the size that the
 /// parts and fine balls near them ask for, and each is cut by a plane piece. Whether one is
 /// bisected follows from the middle of its longest edge alone, so that all around an edge agree and
 /// no cracks open. So the surface is a manifold without self-intersection, whatever the function
 /// is; its nodes stand where the function is zero. Two surfaces nearer to each other than the
-/// tetrahedra can be joined. The same for any number of threads. Cost: linear in triangles. Throws
-/// Error if the sizes differ so much, or the extent is so large, that there would be more than 2^20
-/// places to a side, or more than `most` triangles.
-ZeroSurface extract_zero(const Shape& shape, std::size_t most);
+/// tetrahedra can be joined: as long as the surface is not right, what it missed is looked for,
+/// edges in whose middle the function has another sign than at both ends, and these are bisected as
+/// well. The same for any number of threads. Cost: linear in triangles. Throws Error if the sizes
+/// differ so much, or the extent is so large, that there would be more than 2^20 places to a side,
+/// or more than `most` triangles.
+/// @param is_right  null: any is
+ZeroSurface extract_zero(const Shape& shape, std::size_t most, const IsRight& is_right = {});
 
 }  // namespace acinus::implicit

@@ -24,54 +24,51 @@ std::vector<double> means_over(const Distance& distance, const mesh::Surface& s)
   return mean;
 }
 
-/// Replaces values of nodes by their mean over the triangles about each, as often as said.
-template <class T>
-void smooth(const mesh::Surface& s, int times, std::vector<T>& value) {
+/// What is summed up over the triangles about a node: normals, the function's means and areas.
+using NodeSums = Eigen::Matrix<double, 5, 1>;
+
+/// Replaces sums of nodes by their mean over the triangles about each, as often as said.
+void smooth(const mesh::Surface& s, int times, std::vector<NodeSums>& value) {
+  std::vector<int> about(value.size(), 0);
+  for (const auto& corner : s.triangle)
+    for (const int k : corner) ++about[k];
+  std::vector<NodeSums> sum(value.size());
   for (; times > 0; --times) {
-    std::vector<T> sum(value.size(), 0 * value[0]);
-    std::vector<int> about(value.size(), 0);
-    for (const auto& corner : s.triangle) {
-      const T mean = (value[corner[0]] + value[corner[1]] + value[corner[2]]) / 3;
-      for (const int k : corner) {
-        sum[k] += mean;
-        ++about[k];
-      }
+    std::ranges::fill(sum, NodeSums::Zero());
+    for (const auto& [a, b, c] : s.triangle) {
+      const NodeSums mean = (value[a] + value[b] + value[c]) / 3;
+      for (const int k : {a, b, c}) sum[k] += mean;
     }
     for (std::size_t k = 0; k < value.size(); ++k)
       if (about[k] > 0) value[k] = sum[k] / about[k];
   }
 }
 
-/// How far the function wants each node to go, along the normal there.
-struct FitMoves {
-  std::vector<Vec3> normal;      ///< [node] unit; zero: of no triangle
-  std::vector<double> distance;  ///< [node] um
-  std::vector<double> edge;      ///< [node] um, mean about it
+/// How far the function wants a node to go, along the normal there.
+struct FitMove {
+  Vec3 normal = Vec3::Zero();  ///< unit; zero: of no triangle
+  double distance = 0;         ///< um
+  double edge = 0;             ///< um, mean about it
 };
 
-FitMoves find_moves(const Distance& distance, const mesh::Surface& s) {
+std::vector<FitMove> find_moves(const Distance& distance, const mesh::Surface& s) {
   const std::vector<double> mean = means_over(distance, s);
-  std::vector<Vec3> normal(s.node.size(), Vec3::Zero());
-  std::vector<double> sum(s.node.size(), 0.0), area(s.node.size(), 0.0);
+  std::vector<NodeSums> sum(s.node.size(), NodeSums::Zero());
   for (std::size_t t = 0; t < s.triangle.size(); ++t) {
     const auto& [a, b, c] = s.triangle[t];
     const Vec3 n = (s.node[b] - s.node[a]).cross(s.node[c] - s.node[a]);
-    for (const int k : s.triangle[t]) {
-      normal[k] += n;
-      sum[k] += n.norm() * mean[t];
-      area[k] += n.norm();
-    }
+    NodeSums of;
+    of << n, n.norm() * mean[t], n.norm();
+    for (const int k : {a, b, c}) sum[k] += of;
   }
   // Slivers would cross each other if each node went its own way: neighbours go together.
   smooth(s, kSmooth, sum);
-  smooth(s, kSmooth, area);
-  smooth(s, kSmooth, normal);
+  std::vector<FitMove> move(s.node.size());
   for (std::size_t k = 0; k < s.node.size(); ++k) {
-    sum[k] = area[k] > 0 ? -sum[k] / area[k] : 0;
-    area[k] = std::sqrt(area[k]);
-    normal[k].normalize();
+    const double area = sum[k][4];
+    if (area > 0) move[k] = {sum[k].head<3>().normalized(), -sum[k][3] / area, std::sqrt(area)};
   }
-  return {std::move(normal), std::move(sum), std::move(area)};
+  return move;
 }
 
 }  // namespace
@@ -79,10 +76,10 @@ FitMoves find_moves(const Distance& distance, const mesh::Surface& s) {
 void fit(const Distance& distance, double most, mesh::Surface& s) {
   if (s.node.empty()) return;
   for (int round = 0; round < kRounds; ++round) {
-    const FitMoves m = find_moves(distance, s);
+    const std::vector<FitMove> move = find_moves(distance, s);
     for (std::size_t k = 0; k < s.node.size(); ++k) {
-      const double farthest = most * m.edge[k];
-      s.node[k] += std::clamp(m.distance[k], -farthest, farthest) * m.normal[k];
+      const double farthest = most * move[k].edge;
+      s.node[k] += std::clamp(move[k].distance, -farthest, farthest) * move[k].normal;
     }
   }
 }
@@ -91,13 +88,13 @@ void fit(const Distance& distance, ZeroSurface& z) {
   constexpr double kMostSlanting = 0.2;  // cosine: nodes would go far along such an edge
   if (z.surface.node.empty()) return;
   for (int round = 0; round < kRounds; ++round) {
-    const FitMoves m = find_moves(distance, z.surface);
+    const std::vector<FitMove> move = find_moves(distance, z.surface);
     for (std::size_t k = 0; k < z.surface.node.size(); ++k) {
       const auto& [a, b] = z.edge[k];
       const Vec3 along = b - a;
-      const double length = along.norm(), outward = along.dot(m.normal[k]) / length;
+      const double length = along.norm(), outward = along.dot(move[k].normal) / length;
       const double at = (z.surface.node[k] - a).norm() / length;
-      const double to = at + m.distance[k] / (std::max(outward, kMostSlanting) * length);
+      const double to = at + move[k].distance / (std::max(outward, kMostSlanting) * length);
       z.surface.node[k] = a + std::clamp(to, kEdgeEnd, 1 - kEdgeEnd) * along;
     }
   }

@@ -150,11 +150,14 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
     VesselGaps gaps = find_narrow_gaps(network, o.rounding, of_radius);
     shape.fine = std::move(gaps.fine);
     out.overlapping = gaps.overlapping;
-    raw = extract_zero(shape, o.most_triangles);
-    out.found = mesh::find_connectivity(raw.surface);
     // Loops may be narrower than the triangles. For walls that cross no triangle is small enough.
-    if (out.is_as_expected() || out.overlapping > 0 || attempt + 1 == o.attempts) break;
-    out.fineness *= kFiner;
+    const auto is_right = [&](const mesh::Surface& surface) {
+      out.found = mesh::find_connectivity(surface);
+      return out.is_as_expected() || out.overlapping > 0;
+    };
+    raw = extract_zero(shape, o.most_triangles, is_right);
+    if (out.is_as_expected() || out.overlapping > 0) break;
+    if (attempt + 1 < o.attempts) out.fineness *= kFiner;
   }
   const NearbyPieces nearby(pieces.network, shape, o.edge);
   const Distance distance = [&](const Vec3& x) { return field->value(x, nearby.at(x)); };
