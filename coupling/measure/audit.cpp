@@ -142,8 +142,7 @@ void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, Audit
 void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
                           AuditResult& result) {
   if (!frame.vessel_surface) return;
-  check_finite(frame.vessel_surface->node, "surface of the vessels");
-  const mesh::AuditBody surface(frame.vessel_surface->node, frame.vessel_surface->triangle);
+  const mesh::AuditBody& surface = *frame.vessel_surface;
   const std::size_t n_cell = bodies.cell.size();
   const std::vector<double> depth =
       share_among<double>(ranks, n_cell + frame.spheres.size(), [&](std::size_t k) {

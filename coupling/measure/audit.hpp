@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/audit_body.hpp"
 #include "core/mesh/network.hpp"
 #include "core/ranks.hpp"
 #include "core/vec.hpp"
@@ -46,7 +47,8 @@ struct AuditFrame {
   std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
   const mesh::Network* vessels = nullptr;
   /// The surface of the vessels, where cells meet that; cones then only name the nearest segment.
-  const AuditStatic* vessel_surface = nullptr;
+  /// It takes long to prepare: once for all frames of a run.
+  const mesh::AuditBody* vessel_surface = nullptr;
   std::span<const AuditWall> walls;
   std::span<const AuditStatic> statics;
 };

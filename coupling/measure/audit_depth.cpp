@@ -67,6 +67,7 @@ double surface_depth(const mesh::AuditBody& a, const mesh::AuditBody& b, mesh::L
   for (const auto& [i, j] : a.edge) {
     if (bad[i] || bad[j]) continue;
     const Vec3 &from = a.sample[i], &to = a.sample[j];
+    if (forbidden == mesh::Location::kInside && !b.box.overlaps(segment_box(from, to))) continue;
     probe_pieces(from, to, b.crossings(from, to), look);
   }
   return depth;

@@ -217,8 +217,14 @@ std::vector<coupling::KnownIndentation> explained_indentations(const coupling::W
 
 }  // namespace
 
+std::optional<mesh::AuditBody> prepare_vessel_surface(const contact::Boundary& boundary) {
+  const contact::WallMesh* wall = boundary.vessels.wall.get();
+  if (wall == nullptr) return std::nullopt;
+  return mesh::AuditBody(wall->surface.body.node, *wall->surface.triangle);
+}
+
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,
-                                  const Snapshot& snapshot) {
+                                  const Snapshot& snapshot, const mesh::AuditBody* vessel_surface) {
   const contact::Boundary& boundary = world.params.boundary;
   const double time = std::max(0.0, snapshot.time);
   std::vector<coupling::AuditMesh> meshes;
@@ -246,11 +252,7 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
       explained_indentations(world, snapshot);
   frame.indentations = indentations;
   frame.vessels = &boundary.vessels.network;
-  coupling::AuditStatic surface;
-  if (const contact::WallMesh* wall = boundary.vessels.wall.get()) {
-    surface = {wall->surface.body.node, *wall->surface.triangle, false};
-    frame.vessel_surface = &surface;
-  }
+  frame.vessel_surface = vessel_surface;
   frame.walls = walls;
   frame.statics = statics;
   return coupling::audit(frame, world.ranks);

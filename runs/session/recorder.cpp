@@ -97,7 +97,9 @@ Excess Recorder::write_frame(bool last) {
   const auto scope = work.timings.scope("frames and audit");
   const Snapshot snapshot = take_snapshot(world, work);
   dcm::copy_all_nodes(world.state.dcm, work.dcm);
-  const coupling::AuditResult audit = audit_world(world, work, snapshot);
+  if (!vessel_surface_) vessel_surface_ = prepare_vessel_surface(world.params.boundary);
+  const coupling::AuditResult audit =
+      audit_world(world, work, snapshot, vessel_surface_ ? &*vessel_surface_ : nullptr);
   add_audit(totals_, audit);
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
