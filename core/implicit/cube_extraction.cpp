@@ -57,7 +57,7 @@ class CubeExtraction {
   };
   /// What becomes of a tetrahedron, and what is near it.
   struct Decision {
-    enum class Next { nothing, cut, bisect } next = Next::nothing;
+    enum class Next { kNothing, kCut, kBisect } next = Next::kNothing;
     double value = 0;  ///< in the middle of the longest edge
     NearRange parts, fine;
   };
@@ -72,9 +72,9 @@ class CubeExtraction {
     const auto [at, fresh] = decision_.try_emplace(edge_key(t[0].place, t[end].place));
     if (fresh) at->second = decide(t[0], t[end], level, parts, fine);
     const Decision d = at->second;
-    if (d.next == Decision::Next::bisect)
+    if (d.next == Decision::Next::kBisect)
       bisect(t, end, level, d);
-    else if (d.next == Decision::Next::cut)
+    else if (d.next == Decision::Next::kCut)
       cut(t, d.parts);
   }
 
@@ -111,7 +111,7 @@ class CubeExtraction {
       if (distance_[k] <= farthest + 2 * shape_.reach[part]) near_.part.push_back(part);
     }
     out.parts.last = near_.part.size();
-    out.next = bisect ? Decision::Next::bisect : Decision::Next::cut;
+    out.next = bisect ? Decision::Next::kBisect : Decision::Next::kCut;
     out.value = shape_.value(x, span_of(out.parts));
     if (bisect) return out;
     part_.coarsest = std::min(part_.coarsest, level);

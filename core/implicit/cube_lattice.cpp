@@ -10,9 +10,9 @@
 namespace acinus::implicit {
 
 int CubeLattice::level_of(double size) const {
-  const int last = 3 * halvings - 1;
+  const int finest = 3 * halvings - 1;
   int level = 0;
-  while (level < last && kLongest[level % 3] * std::ldexp(root, -(level / 3)) > size) ++level;
+  while (level < finest && kLongest[level % 3] * std::ldexp(root, -(level / 3)) > size) ++level;
   return level;
 }
 

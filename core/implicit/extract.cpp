@@ -20,13 +20,13 @@ namespace acinus::implicit {
 namespace {
 
 /// One root cube, and what came of it.
-struct Cube {
+struct RootCube {
   Nearby nearby;
   CubePart part;
   bool is_done = false;
 };
 /// In an order that no hash decides.
-using Cubes = std::map<Place, Cube>;
+using Cubes = std::map<Place, RootCube>;
 
 /// Calls back for every root cube that a box meets, with the middle of the cube.
 template <class Call>
@@ -65,7 +65,7 @@ void add_fine(std::span<const FineBall> fine, std::size_t first, const CubeLatti
     for_each_cube(l, box, [&](const Place& place, const Vec3& center) {
       const auto near = cubes.find(place);
       if (near == cubes.end() || find_distance(ball, center) > reach) return;
-      Cube& cube = near->second;
+      RootCube& cube = near->second;
       cube.nearby.fine.push_back(static_cast<int>(k));
       const Vec3 apart = (ball.center - center).cwiseAbs().array() - 0.5 * l.root;
       cube.is_done = cube.is_done && apart.cwiseMax(0).norm() - ball.radius >
