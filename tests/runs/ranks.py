@@ -44,7 +44,7 @@ CASES = {
                      "cell_types.hepatocyte.dcm.nodes=42", "--until", "6 h"],
 }
 FEW = [(2, 1, "balanced"), (3, 2, "random")]
-ALL = [(n, t, s) for n in (2, 3, 4, 5, 8) for t in (1, 2) for s in ("balanced", "random")]
+ALL = [(n, t, s) for t, s in ((1, "balanced"), (2, "random"), (2, "balanced"), (1, "random")) for n in (2, 3, 4, 5, 8)]
 
 # Open MPI says first that it is started as root and on too few processors.
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--mca", "btl_vader_single_copy_mechanism", "none"]
@@ -100,7 +100,9 @@ def check_same(program, cases, starts):
                 many = os.path.join(folder, "many")
                 call(program, ranks, [*CASES[case], "--out", many, "--threads", str(threads), "--sharing", sharing,
                                       "--quiet", "--overwrite"])
-                compare(one, many, f"{case} on {ranks} processes of {threads} threads, {sharing}")
+                start = f"{case} on {ranks} processes of {threads} threads, {sharing}"
+                compare(one, many, start)
+                print(f"{start}: the same", flush=True)
             print(f"{case}: {summary(one)['state_hash']} on {len(starts)} starts", flush=True)
 
 
