@@ -32,8 +32,12 @@ using Tetrahedron = std::array<Corner, 4>;
 class CubeExtraction {
  public:
   CubeExtraction(const Shape& shape, std::span<const FineBall> fine, const CubeLattice& lattice,
-                 Nearby nearby)
-      : shape_(shape), fine_(fine), lattice_(lattice), near_(std::move(nearby)) {}
+                 Nearby nearby, bool find_missed)
+      : shape_(shape),
+        fine_(fine),
+        lattice_(lattice),
+        find_missed_(find_missed),
+        near_(std::move(nearby)) {}
 
   CubePart run(const Place& cube) {
     const int side = lattice_.unit();
@@ -58,7 +62,7 @@ class CubeExtraction {
   /// What becomes of a tetrahedron, and what is near it.
   struct Decision {
     enum class Next { kNothing, kCut, kBisect } next = Next::kNothing;
-    double value = 0;  ///< in the middle of the longest edge
+    double value = 0;  ///< in the middle of the longest edge, if bisected there
     NearRange parts, fine;
   };
   std::span<const int> span_of(const NearRange& parts) const {
@@ -112,12 +116,29 @@ class CubeExtraction {
     }
     out.parts.last = near_.part.size();
     out.next = bisect ? Decision::Next::kBisect : Decision::Next::kCut;
-    out.value = shape_.value(x, span_of(out.parts));
-    if (bisect) return out;
+    if (bisect) {
+      out.value = shape_.value(x, span_of(out.parts));
+      return out;
+    }
     part_.coarsest = std::min(part_.coarsest, level);
-    if (a.is_inside() == b.is_inside() && a.is_inside() != (out.value < 0))
+    if (find_missed_ && a.is_inside() == b.is_inside() && changes_between(a, b, span_of(out.parts)))
       part_.missed.push_back({x, 0, kShorter * kLongest[level % 3] * lattice_.side[level]});
     return out;
+  }
+
+  /// Whether the function, which changes no faster than the place, has another sign somewhere
+  /// between two corners of one sign: looked for in steps as long as its value.
+  bool changes_between(const Corner& a, const Corner& b, std::span<const int> parts) const {
+    constexpr double kShortest = 0.05;  // of the edge
+    const Vec3 from = lattice_.position(a.place), along = lattice_.position(b.place) - from;
+    const double length = along.norm(), end = length - std::abs(b.value);
+    double at = std::max(std::abs(a.value), kShortest * length);
+    while (at < end) {
+      const double here = shape_.value(from + at / length * along, parts);
+      if ((here < 0) != a.is_inside()) return true;
+      at += std::max(std::abs(here), kShortest * length);
+    }
+    return false;
   }
 
   void bisect(const Tetrahedron& t, std::size_t end, int level, const Decision& d) {
@@ -199,10 +220,11 @@ class CubeExtraction {
     return a + std::clamp(t, kEdgeEnd, 1 - kEdgeEnd) * (b - a);
   }
 
-  static constexpr double kShorter = 0.9;  ///< bisected once more
+  static constexpr double kShorter = 0.45;  ///< halved
   const Shape& shape_;
   std::span<const FineBall> fine_;
   const CubeLattice& lattice_;
+  bool find_missed_;
   std::vector<double> distance_;  ///< of the parts that a decision looks at
   Nearby near_;                   ///< of all decisions, one after the other
   std::pmr::monotonic_buffer_resource memory_;
@@ -218,8 +240,9 @@ double find_distance(const FineBall& ball, const Vec3& x) {
 }
 
 CubePart extract_cube(const Shape& shape, std::span<const FineBall> fine,
-                      const CubeLattice& lattice, const Place& cube, Nearby nearby) {
-  return CubeExtraction(shape, fine, lattice, std::move(nearby)).run(cube);
+                      const CubeLattice& lattice, const Place& cube, Nearby nearby,
+                      bool find_missed) {
+  return CubeExtraction(shape, fine, lattice, std::move(nearby), find_missed).run(cube);
 }
 
 }  // namespace acinus::implicit

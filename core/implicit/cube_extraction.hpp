@@ -26,8 +26,8 @@ struct CubePart {
   std::vector<std::array<int, 3>> triangle;
   int coarsest =
       std::numeric_limits<int>::max();  ///< level of the tetrahedra that are not bisected
-  /// Where the function has another sign in the middle of an edge than at its ends, for that middle
-  /// to become a corner.
+  /// Middles of edges along which the function has another sign than at both ends, to become
+  /// corners.
   std::vector<FineBall> missed;
 };
 
@@ -35,7 +35,9 @@ struct CubePart {
 double find_distance(const FineBall& ball, const Vec3& x);
 
 /// @param fine  Shape::fine, and what has been added to it
+/// @param find_missed  CubePart::missed is wanted
 CubePart extract_cube(const Shape& shape, std::span<const FineBall> fine,
-                      const CubeLattice& lattice, const Place& cube, Nearby nearby);
+                      const CubeLattice& lattice, const Place& cube, Nearby nearby,
+                      bool find_missed);
 
 }  // namespace acinus::implicit

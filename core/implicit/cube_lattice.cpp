@@ -18,7 +18,7 @@ int CubeLattice::level_of(double size) const {
 
 CubeLattice make_lattice(const Shape& shape) {
   constexpr double kMostRoots = 64;
-  constexpr int kSpare = 2;  // halvings for what an extraction bisects beyond what it was asked for
+  constexpr int kSpare = 4;  // halvings for what an extraction bisects beyond what it was asked for
   Box box;
   for (const Box& b : shape.box) {
     box.include(b.low);

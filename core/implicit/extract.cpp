@@ -75,7 +75,7 @@ void add_fine(std::span<const FineBall> fine, std::size_t first, const CubeLatti
 }
 
 void extract(const Shape& shape, std::span<const FineBall> fine, const CubeLattice& lattice,
-             std::size_t most, Cubes& cubes) {
+             std::size_t most, bool find_missed, Cubes& cubes) {
   std::vector<Cubes::value_type*> todo;
   std::atomic<std::size_t> n_triangle = 0;
   for (auto& c : cubes)
@@ -86,7 +86,7 @@ void extract(const Shape& shape, std::span<const FineBall> fine, const CubeLatti
   for_each_index(todo.size(), true, [&](std::size_t k) {
     if (n_triangle > most) return;
     auto& [place, cube] = *todo[k];
-    cube.part = extract_cube(shape, fine, lattice, place, cube.nearby);
+    cube.part = extract_cube(shape, fine, lattice, place, cube.nearby, find_missed);
     cube.is_done = true;
     n_triangle += cube.part.triangle.size();
   });
@@ -125,16 +125,23 @@ ZeroSurface join(const Cubes& cubes) {
 
 }  // namespace
 
-ZeroSurface extract_zero(const Shape& shape, std::size_t most, const IsRight& is_right) {
-  constexpr int kMostRounds = 4;
+ZeroSurface extract_zero(const Shape& shape, std::size_t most, const CountFaults& count_faults) {
+  constexpr int kMostRounds = 6;
   CubeLattice lattice = make_lattice(shape);
   Cubes cubes = find_cubes(shape, lattice);
   std::vector<FineBall> fine = shape.fine;
   add_fine(fine, 0, lattice, cubes);
+  ZeroSurface out;
+  long fewest = 0;
   for (int round = 1;; ++round) {
-    extract(shape, fine, lattice, most, cubes);
-    ZeroSurface out = join(cubes);
-    if (!is_right || is_right(out.surface) || round == kMostRounds) return out;
+    extract(shape, fine, lattice, most, count_faults != nullptr, cubes);
+    ZeroSurface z = join(cubes);
+    const long faults = count_faults ? count_faults(z) : 0;
+    if (round == 1 || faults < fewest) {
+      fewest = faults;
+      out = std::move(z);
+    }
+    if (fewest == 0 || round == kMostRounds) return out;
     const std::size_t first = fine.size();
     for (const auto& [place, cube] : cubes)
       fine.insert(fine.end(), cube.part.missed.begin(), cube.part.missed.end());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/implicit/cavities.hpp"
 #include "core/implicit/extract.hpp"
 #include "core/implicit/fit.hpp"
 #include "core/implicit/vessel_field.hpp"
@@ -151,11 +153,15 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
     shape.fine = std::move(gaps.fine);
     out.overlapping = gaps.overlapping;
     // Loops may be narrower than the triangles. For walls that cross no triangle is small enough.
-    const auto is_right = [&](const mesh::Surface& surface) {
-      out.found = mesh::find_connectivity(surface);
-      return out.is_as_expected() || out.overlapping > 0;
+    const auto count_faults = [&](ZeroSurface& z) {
+      leave_out_cavities(z);
+      out.found = mesh::find_connectivity(z.surface);
+      if (out.overlapping > 0) return 0L;
+      return std::abs(out.found.parts - out.expected.parts) +
+             std::abs(out.found.handles() - out.expected.handles());
     };
-    raw = extract_zero(shape, o.most_triangles, is_right);
+    raw = extract_zero(shape, o.most_triangles, count_faults);
+    out.found = mesh::find_connectivity(raw.surface);
     if (out.is_as_expected() || out.overlapping > 0) break;
     if (attempt + 1 < o.attempts) out.fineness *= kFiner;
   }
