@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/disjoint_sets.hpp"
+#include "core/mesh/components.hpp"
 
 namespace acinus::implicit {
 
 void leave_out_cavities(ZeroSurface& z) {
   mesh::Surface& s = z.surface;
-  DisjointSets parts(s.node.size());
-  for (const auto& [a, b, c] : s.triangle) {
-    parts.join(a, b);
-    parts.join(b, c);
-  }
-  std::vector<int> part(s.node.size());
-  for (int k = 0; k < static_cast<int>(part.size()); ++k) part[k] = parts.find(k);
+  const std::vector<int> part = mesh::find_parts(s);
   std::vector<double> volume(s.node.size(), 0);  // [part] six times that
   for (const auto& [a, b, c] : s.triangle) {
     const Vec3& from = s.node[part[a]];

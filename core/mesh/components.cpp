@@ -30,16 +30,23 @@ Surface compacted(const std::vector<Vec3>& node, std::vector<std::array<int, 3>>
 
 }  // namespace
 
-std::vector<Surface> split_components(const Surface& surface) {
+std::vector<int> find_parts(const Surface& surface) {
   DisjointSets sets(surface.node.size());
   for (const auto& [a, b, c] : surface.triangle) {
     sets.join(a, b);
     sets.join(a, c);
   }
+  std::vector<int> part(surface.node.size());
+  for (int k = 0; k < static_cast<int>(part.size()); ++k) part[k] = sets.find(k);
+  return part;
+}
+
+std::vector<Surface> split_components(const Surface& surface) {
+  const std::vector<int> part_of_node = find_parts(surface);
   std::map<int, std::size_t> body;
   std::vector<std::vector<std::array<int, 3>>> triangle;
   for (const auto& t : surface.triangle) {
-    const std::size_t b = body.try_emplace(sets.find(t[0]), triangle.size()).first->second;
+    const std::size_t b = body.try_emplace(part_of_node[t[0]], triangle.size()).first->second;
     if (b == triangle.size()) triangle.emplace_back();
     triangle[b].push_back(t);
   }

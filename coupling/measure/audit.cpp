@@ -53,11 +53,8 @@ Bodies prepare(const AuditFrame& frame) {
     check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
   Bodies bodies;
   for (const AuditMesh& m : frame.meshes) bodies.cell.emplace_back(m.node, m.triangle);
-  for (std::size_t i = 0; i < frame.statics.size(); ++i) {
-    check_finite(frame.statics[i].node, fmt::format("static mesh {}", i));
-    bodies.fixed.emplace_back(frame.statics[i].node, frame.statics[i].triangle);
-    check(bodies.fixed.back().closed(), fmt::format("audit: static mesh {} is not closed", i));
-  }
+  for (std::size_t i = 0; i < frame.statics.size(); ++i)
+    bodies.fixed.push_back(prepare_static(frame.statics[i], fmt::format("static mesh {}", i)));
   if (!frame.vessels || frame.vessel_surface) return bodies;
   const mesh::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)
@@ -272,6 +269,13 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
 }
 
 }  // namespace
+
+mesh::AuditBody prepare_static(const AuditStatic& body, const std::string& what) {
+  check_finite(body.node, what);
+  mesh::AuditBody prepared(body.node, body.triangle);
+  check(prepared.closed(), fmt::format("audit: {} is not closed", what));
+  return prepared;
+}
 
 AuditResult audit(const AuditFrame& frame, const Ranks& ranks) {
   AuditResult result;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/mesh/audit_body.hpp"
@@ -40,6 +41,10 @@ struct AuditStatic {  ///< a closed mesh that does not move
   bool inside = false;  ///< cells live inside it; triangles are outward all the same
 };
 
+/// @param what  it is, for messages. Throws Error if a coordinate is not finite or it is not
+/// closed.
+mesh::AuditBody prepare_static(const AuditStatic& body, const std::string& what);
+
 /// Everything in one frame. Spans may be empty; they must outlive the call.
 struct AuditFrame {
   std::span<const AuditMesh> meshes;
@@ -47,7 +52,7 @@ struct AuditFrame {
   std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
   const mesh::Network* vessels = nullptr;
   /// The surface of the vessels, where cells meet that; cones then only name the nearest segment.
-  /// It takes long to prepare: once for all frames of a run.
+  /// Of prepare_static, once for all frames of a run: it takes long.
   const mesh::AuditBody* vessel_surface = nullptr;
   std::span<const AuditWall> walls;
   std::span<const AuditStatic> statics;

@@ -220,7 +220,8 @@ std::vector<coupling::KnownIndentation> explained_indentations(const coupling::W
 std::optional<mesh::AuditBody> prepare_vessel_surface(const contact::Boundary& boundary) {
   const contact::WallMesh* wall = boundary.vessels.wall.get();
   if (wall == nullptr) return std::nullopt;
-  return mesh::AuditBody(wall->surface.body.node, *wall->surface.triangle);
+  return coupling::prepare_static({wall->surface.body.node, *wall->surface.triangle},
+                                  "surface of the vessels");
 }
 
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,

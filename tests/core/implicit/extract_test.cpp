@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/implicit/cavities.hpp"
@@ -23,12 +25,11 @@ struct Ball {
   double radius, size;
 };
 
-/// The union of balls, each a part.
-Shape balls(const std::vector<Ball>& ball) {
+/// A union of bodies about these balls, each a part.
+/// @param distance  um, to a part
+Shape union_of(const std::vector<Ball>& ball, std::function<double(const Vec3&, int)> distance) {
   Shape shape;
-  shape.distance = [&ball](const Vec3& x, int k) {
-    return (x - ball[k].center).norm() - ball[k].radius;
-  };
+  shape.distance = std::move(distance);
   shape.value = [distance = shape.distance](const Vec3& x, std::span<const int> parts) {
     double least = std::numeric_limits<double>::infinity();
     for (const int k : parts) least = std::min(least, distance(x, k));
@@ -40,6 +41,11 @@ Shape balls(const std::vector<Ball>& ball) {
     shape.reach.push_back(0);
   }
   return shape;
+}
+
+Shape balls(const std::vector<Ball>& ball) {
+  return union_of(
+      ball, [&ball](const Vec3& x, int k) { return (x - ball[k].center).norm() - ball[k].radius; });
 }
 
 constexpr std::size_t kMost = 10'000'000;
@@ -102,16 +108,10 @@ TEST(ExtractZero, IsClosedWhereSizesDiffer) {
 /// A thick shell loses its inner wall, a ball beside it nothing.
 TEST(LeaveOutCavities, KeepsWhatFacesOutward) {
   const std::vector<Ball> two{{Vec3::Zero(), 2, 0.4}, {Vec3(5, 0, 0), 1, 0.4}};
-  Shape shape = balls(two);
-  shape.distance = [&two](const Vec3& x, int k) {
+  const Shape shape = union_of(two, [&two](const Vec3& x, int k) {
     const double r = (x - two[k].center).norm();
     return k == 0 ? std::max(r - 2, 1 - r) : r - 1;
-  };
-  shape.value = [distance = shape.distance](const Vec3& x, std::span<const int> parts) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const int k : parts) least = std::min(least, distance(x, k));
-    return least;
-  };
+  });
   ZeroSurface z = extract_zero(shape, kMost);
   EXPECT_EQ(mesh::find_connectivity(z.surface).parts, 3);
   leave_out_cavities(z);
