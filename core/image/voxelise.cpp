@@ -28,16 +28,34 @@ Box box_of(const mesh::Surface& s) {
   return box;
 }
 
-/// 1 where the centre of a voxel is inside: lines along x are cut with all triangles, upward and
-/// downward crossings counted. The lines pass the centres by a little, so as not to meet nodes.
+/// Lines along x through every voxel, in y and in z: where a face lies along a plane of the
+/// lattice, a share is right to half a line.
+constexpr int kLines = 4;
+
+/// Adds the part of a line between two places, in voxels, to the voxels along it.
+void add_interval(double from, double to, Grid& g, std::size_t first) {
+  constexpr double kWeight = 1.0 / (kLines * kLines);
+  from = std::max(from, 0.0);
+  to = std::min(to, static_cast<double>(g.size[0]));
+  for (int x = static_cast<int>(from); x < to; ++x)
+    g.value[first + static_cast<std::size_t>(x)] +=
+        kWeight * (std::min(to, x + 1.0) - std::max(from, static_cast<double>(x)));
+}
+
+/// What of every voxel is inside: lines along x are cut with all triangles, upward and downward
+/// crossings counted. Lines lie aside of regular places by a little, so as not to meet nodes.
 void fill_inside(const mesh::Surface& body, const Vec3& corner, BodyShare& share) {
-  constexpr double kAside = 1.3e-7, kAsideZ = 0.7e-7;  // of a voxel
+  constexpr double kAside = 1.3e-7, kAsideZ = 0.7e-7;  // lines
   Grid& g = share.grid;
-  std::vector<std::vector<std::pair<double, int>>> crossing(static_cast<std::size_t>(g.size[1]) *
-                                                            g.size[2]);
-  const auto place = [&](const Vec3& x) -> Vec3 {  // in voxels, centres at whole numbers
-    return (x - corner).cwiseQuotient(g.voxel) - Vec3(0.5, 0.5, 0.5) -
-           Vec3(share.low[0], share.low[1], share.low[2]) - Vec3(0, kAside, kAsideZ);
+  const int n_y = kLines * g.size[1], n_z = kLines * g.size[2];
+  std::vector<std::vector<std::pair<double, int>>> crossing(static_cast<std::size_t>(n_y) * n_z);
+  const auto line_of = [&](int y, int z) -> auto& {
+    return crossing[static_cast<std::size_t>(z) * n_y + y];
+  };
+  const Vec3 low(share.low[0], share.low[1], share.low[2]);
+  const auto place = [&](const Vec3& x) -> Vec3 {  // x in voxels, y and z in lines, from the corner
+    const Vec3 v = (x - corner).cwiseQuotient(g.voxel) - low;
+    return {v[0], kLines * v[1] - 0.5 - kAside, kLines * v[2] - 0.5 - kAsideZ};
   };
   for (const auto& [i, j, k] : body.triangle) {
     const std::array<Vec3, 3> v{place(body.node[i]), place(body.node[j]), place(body.node[k])};
@@ -49,27 +67,27 @@ void fill_inside(const mesh::Surface& body, const Vec3& corner, BodyShare& share
     const double area = side(v[0], v[1], v[2][1], v[2][2]);
     if (area == 0) continue;
     const int y_first = std::max(0, static_cast<int>(std::ceil(y_low))),
-              y_last = std::min(g.size[1] - 1, static_cast<int>(std::floor(y_high))),
+              y_last = std::min(n_y - 1, static_cast<int>(std::floor(y_high))),
               z_first = std::max(0, static_cast<int>(std::ceil(z_low))),
-              z_last = std::min(g.size[2] - 1, static_cast<int>(std::floor(z_high)));
+              z_last = std::min(n_z - 1, static_cast<int>(std::floor(z_high)));
     for (int z = z_first; z <= z_last; ++z)
       for (int y = y_first; y <= y_last; ++y) {
         const std::array<double, 3> w{side(v[1], v[2], y, z) / area, side(v[2], v[0], y, z) / area,
                                       side(v[0], v[1], y, z) / area};
         if (w[0] < 0 || w[1] < 0 || w[2] < 0) continue;
-        crossing[static_cast<std::size_t>(z) * g.size[1] + y].emplace_back(
-            w[0] * v[0][0] + w[1] * v[1][0] + w[2] * v[2][0], area > 0 ? -1 : 1);
+        line_of(y, z).emplace_back(w[0] * v[0][0] + w[1] * v[1][0] + w[2] * v[2][0],
+                                   area > 0 ? -1 : 1);
       }
   }
-  for (int z = 0; z < g.size[2]; ++z)
-    for (int y = 0; y < g.size[1]; ++y) {
-      auto& line = crossing[static_cast<std::size_t>(z) * g.size[1] + y];
+  for (int z = 0; z < n_z; ++z)
+    for (int y = 0; y < n_y; ++y) {
+      auto& line = line_of(y, z);
       std::ranges::sort(line);
       int winding = 0;
-      std::size_t at = 0;
-      for (int x = 0; x < g.size[0]; ++x) {
-        for (; at < line.size() && line[at].first <= x; ++at) winding += line[at].second;
-        g.value[g.index({x, y, z})] = winding > 0 ? 1 : 0;
+      for (std::size_t c = 0; c + 1 < line.size(); ++c) {
+        winding += line[c].second;
+        if (winding > 0)
+          add_interval(line[c].first, line[c + 1].first, g, g.index({0, y / kLines, z / kLines}));
       }
     }
 }
