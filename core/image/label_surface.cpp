@@ -20,8 +20,6 @@
 namespace acinus::image {
 namespace {
 
-/// Longest edge of tetrahedra over the mean edge of the triangles that they are cut in.
-constexpr double kTetrahedra = 4;
 constexpr std::size_t kMostTriangles = 2'000'000;
 
 double volume_of(const mesh::Surface& s) { return mesh::compute_volume(s.node, s.triangle); }
@@ -70,7 +68,7 @@ mesh::Surface surface_at(const Grid& grid, double level, double steepest, double
   implicit::Shape shape;
   shape.value = [&](const Vec3& x, std::span<const int>) { return grid.at(x) - level; };
   shape.distance = [&](const Vec3& x, int) { return (grid.at(x) - level) / steepest; };
-  shape.size = {kTetrahedra * edge};
+  shape.size = {implicit::kTetrahedra * edge};
   shape.reach = {0};
   Box box;
   box.include(grid.origin);

@@ -14,6 +14,9 @@
 
 namespace acinus::implicit {
 
+/// Longest edge of the tetrahedra over the mean edge of the triangles that they are cut in.
+inline constexpr double kTetrahedra = 4;
+
 /// A place where triangles must be smaller than its parts ask for.
 struct FineBall {
   Vec3 center = Vec3::Zero();  ///< um

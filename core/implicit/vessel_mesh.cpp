@@ -25,9 +25,6 @@
 namespace acinus::implicit {
 namespace {
 
-/// Longest edge of the tetrahedra over the mean edge of the triangles that they are cut in.
-constexpr double kTetrahedra = 4;
-
 void check_network(const mesh::Network& network) {
   check(!network.segment.empty(), "a network without segments has no surface");
   for (std::size_t s = 0; s < network.segment.size(); ++s)

@@ -41,9 +41,9 @@ void check_finite(std::span<const Vec3> nodes, const std::string& what) {
           Exit::kCannotContinue);
 }
 
-/// All bodies of a frame under one numbering: cells, spheres, vessel segments, statics.
+/// The bodies of a frame that are made for it.
 struct Bodies {
-  std::vector<mesh::AuditBody> cell, fixed;
+  std::vector<mesh::AuditBody> cell;
   std::vector<RoundCone> cone;
 };
 
@@ -53,8 +53,6 @@ Bodies prepare(const AuditFrame& frame) {
     check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
   Bodies bodies;
   for (const AuditMesh& m : frame.meshes) bodies.cell.emplace_back(m.node, m.triangle);
-  for (std::size_t i = 0; i < frame.statics.size(); ++i)
-    bodies.fixed.push_back(prepare_static(frame.statics[i], fmt::format("static mesh {}", i)));
   if (!frame.vessels || frame.vessel_surface) return bodies;
   const mesh::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)
@@ -104,9 +102,9 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
       for (const Vec3& x : cell.node) keep(depth_behind(w, x, 0));
       ++wall;
     }
-    for (std::size_t f = 0; f < bodies.fixed.size(); ++f, ++wall)
+    for (std::size_t f = 0; f < frame.statics.size(); ++f, ++wall)
       if (frame.statics[f].inside) {
-        const mesh::AuditBody &body = bodies.cell[c], &fixed = bodies.fixed[f];
+        const mesh::AuditBody &body = bodies.cell[c], &fixed = frame.statics[f].body;
         keep(surface_depth(body, fixed, mesh::Location::kOutside));
         keep(surface_depth(fixed, body, mesh::Location::kInside));
       }
@@ -120,14 +118,14 @@ double depth_in_fixed(const AuditSphere& sphere, const mesh::AuditBody& fixed,
   return sphere.radius + (fixed.locate(sphere.center) == forbidden ? distance : -distance);
 }
 
-void audit_spheres_at_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& result) {
+void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
   for (const AuditSphere& s : frame.spheres) {
     std::int64_t wall = 0;
     const auto keep = [&](double depth) { keep_worst(result.cbm_wall, depth, s.id, wall++); };
     for (const AuditWall& w : frame.walls) keep(depth_behind(w, s.center, s.radius));
-    for (std::size_t f = 0; f < bodies.fixed.size(); ++f) {
+    for (std::size_t f = 0; f < frame.statics.size(); ++f) {
       const double depth = depth_in_fixed(
-          s, bodies.fixed[f],
+          s, frame.statics[f].body,
           frame.statics[f].inside ? mesh::Location::kOutside : mesh::Location::kInside);
       keep(depth);
       keep_worst(result.center_in_static, depth - s.radius, s.id, static_cast<std::int64_t>(f));
@@ -179,7 +177,7 @@ std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
   for (const mesh::AuditBody& b : bodies.cell) box.push_back(b.box);
   for (const AuditSphere& s : frame.spheres) box.push_back(sphere_box(s.center, s.radius));
   for (const RoundCone& c : bodies.cone) box.push_back(c.box());
-  for (const mesh::AuditBody& b : bodies.fixed) box.push_back(b.box);
+  for (const AuditStatic& s : frame.statics) box.push_back(s.body.box);
   const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
   const std::size_t fixed = cone + bodies.cone.size();
   std::vector<Pair> pair;
@@ -220,7 +218,7 @@ double pair_depth(const AuditFrame& frame, const Bodies& bodies, const Pair& pai
     case Pair::PairKind::kCellVessel:
       return vessel_depth(bodies.cell[pair.a], bodies.cone[pair.b]);
     case Pair::PairKind::kCellFixed:
-      return body_depth(bodies.cell[pair.a], bodies.fixed[pair.b]);
+      return body_depth(bodies.cell[pair.a], frame.statics[pair.b].body);
     case Pair::PairKind::kSphereSphere:
       return sphere_overlap(frame.spheres[pair.a], frame.spheres[pair.b]);
     case Pair::PairKind::kSphereVessel:
@@ -270,9 +268,11 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
 
 }  // namespace
 
-mesh::AuditBody prepare_static(const AuditStatic& body, const std::string& what) {
-  check_finite(body.node, what);
-  mesh::AuditBody prepared(body.node, body.triangle);
+mesh::AuditBody prepare_static(std::span<const Vec3> node,
+                               std::span<const std::array<int, 3>> triangle,
+                               const std::string& what) {
+  check_finite(node, what);
+  mesh::AuditBody prepared(node, triangle);
   check(prepared.closed(), fmt::format("audit: {} is not closed", what));
   return prepared;
 }
@@ -283,7 +283,7 @@ AuditResult audit(const AuditFrame& frame, const Ranks& ranks) {
   audit_shapes(frame, bodies, ranks, result);
   audit_walls(frame, bodies, result);
   audit_vessel_surface(frame, bodies, ranks, result);
-  audit_spheres_at_walls(frame, bodies, result);
+  audit_spheres_at_walls(frame, result);
   std::vector<Pair> pairs = find_pairs(frame, bodies);
   const std::vector<double> depth = share_among<double>(
       ranks, pairs.size(), [&](std::size_t k) { return pair_depth(frame, bodies, pairs[k]); });

@@ -35,15 +35,16 @@ struct KnownIndentation {
   std::int64_t mesh_id = 0, sphere_id = 0;
   double depth = 0;  ///< um
 };
-struct AuditStatic {  ///< a closed mesh that does not move
-  std::span<const Vec3> node;
-  std::span<const std::array<int, 3>> triangle;
-  bool inside = false;  ///< cells live inside it; triangles are outward all the same
-};
-
-/// @param what  it is, for messages. Throws Error if a coordinate is not finite or it is not
+/// A closed mesh that does not move. @param triangle  outward  @param what  it is, for messages
+/// The spans must outlive what comes back. Throws Error if a coordinate is not finite or it is not
 /// closed.
-mesh::AuditBody prepare_static(const AuditStatic& body, const std::string& what);
+mesh::AuditBody prepare_static(std::span<const Vec3> node,
+                               std::span<const std::array<int, 3>> triangle,
+                               const std::string& what);
+struct AuditStatic {
+  mesh::AuditBody body;  ///< of prepare_static, once for all frames of a run: it takes long
+  bool inside = false;   ///< cells live inside it
+};
 
 /// Everything in one frame. Spans may be empty; they must outlive the call.
 struct AuditFrame {
@@ -51,8 +52,8 @@ struct AuditFrame {
   std::span<const AuditSphere> spheres;
   std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
   const mesh::Network* vessels = nullptr;
-  /// The surface of the vessels, where cells meet that; cones then only name the nearest segment.
-  /// Of prepare_static, once for all frames of a run: it takes long.
+  /// The surface of the vessels, of prepare_static, where cells meet that; cones then only name the
+  /// nearest segment.
   const mesh::AuditBody* vessel_surface = nullptr;
   std::span<const AuditWall> walls;
   std::span<const AuditStatic> statics;

@@ -217,15 +217,25 @@ std::vector<coupling::KnownIndentation> explained_indentations(const coupling::W
 
 }  // namespace
 
-std::optional<mesh::AuditBody> prepare_vessel_surface(const contact::Boundary& boundary) {
-  const contact::WallMesh* wall = boundary.vessels.wall.get();
-  if (wall == nullptr) return std::nullopt;
-  return coupling::prepare_static({wall->surface.body.node, *wall->surface.triangle},
-                                  "surface of the vessels");
+StaticBodies prepare_static_bodies(const contact::Boundary& boundary) {
+  StaticBodies bodies;
+  if (const contact::WallMesh* wall = boundary.vessels.wall.get())
+    bodies.vessel_surface = coupling::prepare_static(
+        wall->surface.body.node, *wall->surface.triangle, "surface of the vessels");
+  for (const contact::StaticMesh& m : boundary.meshes) {
+    auto& outward = bodies.outward.emplace_back(*m.triangle);
+    if (m.inside)
+      for (auto& t : outward) std::swap(t[1], t[2]);
+    bodies.mesh.push_back(
+        {coupling::prepare_static(m.body.node, outward,
+                                  fmt::format("static mesh {}", bodies.mesh.size())),
+         m.inside});
+  }
+  return bodies;
 }
 
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,
-                                  const Snapshot& snapshot, const mesh::AuditBody* vessel_surface) {
+                                  const Snapshot& snapshot, const StaticBodies& bodies) {
   const contact::Boundary& boundary = world.params.boundary;
   const double time = std::max(0.0, snapshot.time);
   std::vector<coupling::AuditMesh> meshes;
@@ -237,15 +247,6 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
     spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
                        snapshot.cells[k].strength, snapshot.cells[k].parent});
   const std::vector<coupling::AuditWall> walls = coupling::make_audit_walls(boundary, time);
-  std::vector<std::vector<std::array<int, 3>>> outward;
-  std::vector<coupling::AuditStatic> statics;
-  outward.reserve(boundary.meshes.size());
-  for (const contact::StaticMesh& m : boundary.meshes) {
-    outward.push_back(*m.triangle);
-    if (m.inside)
-      for (auto& t : outward.back()) std::swap(t[1], t[2]);
-    statics.push_back({m.body.node, outward.back(), m.inside});
-  }
   coupling::AuditFrame frame;
   frame.meshes = meshes;
   frame.spheres = spheres;
@@ -253,9 +254,9 @@ coupling::AuditResult audit_world(const coupling::World& world, const coupling::
       explained_indentations(world, snapshot);
   frame.indentations = indentations;
   frame.vessels = &boundary.vessels.network;
-  frame.vessel_surface = vessel_surface;
+  frame.vessel_surface = bodies.vessel_surface ? &*bodies.vessel_surface : nullptr;
   frame.walls = walls;
-  frame.statics = statics;
+  frame.statics = bodies.mesh;
   return coupling::audit(frame, world.ranks);
 }
 

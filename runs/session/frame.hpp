@@ -1,7 +1,9 @@
 #pragma once
 /// What a frame of the run file holds of a world, and what the audit sees of it.
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "core/io/frame.hpp"
 #include "core/mesh/audit_body.hpp"
@@ -19,14 +21,17 @@ mesh::Surface draw_boundary(const contact::Boundary& boundary);
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,
                      const Snapshot& snapshot, const mesh::Surface& boundary);
 
-/// The surface of the vessels as the audit sees it, as long as the boundary lives; none where cells
-/// touch cones.
-std::optional<mesh::AuditBody> prepare_vessel_surface(const contact::Boundary& boundary);
+/// The closed meshes of a boundary as the audit sees them, as long as the boundary lives.
+struct StaticBodies {
+  std::optional<mesh::AuditBody> vessel_surface;  ///< none: cells touch cones
+  std::vector<coupling::AuditStatic> mesh;
+  std::vector<std::vector<std::array<int, 3>>> outward;  ///< [mesh] its triangles
+};
+StaticBodies prepare_static_bodies(const contact::Boundary& boundary);
 
 /// Independent check of overlaps at this moment. @pre take_snapshot of the same moment
-/// @param vessel_surface  of prepare_vessel_surface; null: cells touch cones
+/// @param bodies  of the world's boundary
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& work,
-                                  const Snapshot& snapshot,
-                                  const mesh::AuditBody* vessel_surface = nullptr);
+                                  const Snapshot& snapshot, const StaticBodies& bodies);
 
 }  // namespace acinus::runs

@@ -9,7 +9,6 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "runs/build/state_file.hpp"
-#include "runs/session/frame.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"
 #include "runs/session/summary.hpp"
@@ -97,9 +96,8 @@ Excess Recorder::write_frame(bool last) {
   const auto scope = work.timings.scope("frames and audit");
   const Snapshot snapshot = take_snapshot(world, work);
   dcm::copy_all_nodes(world.state.dcm, work.dcm);
-  if (!vessel_surface_) vessel_surface_ = prepare_vessel_surface(world.params.boundary);
-  const coupling::AuditResult audit =
-      audit_world(world, work, snapshot, vessel_surface_ ? &*vessel_surface_ : nullptr);
+  if (!static_bodies_) static_bodies_ = prepare_static_bodies(world.params.boundary);
+  const coupling::AuditResult audit = audit_world(world, work, snapshot, *static_bodies_);
   add_audit(totals_, audit);
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/io/run_file.hpp"
-#include "core/mesh/audit_body.hpp"
 #include "core/mesh/surface.hpp"
 #include "core/timing.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/build/notes.hpp"
 #include "runs/experiments/observe.hpp"
+#include "runs/session/frame.hpp"
 #include "runs/session/run_scene.hpp"
 #include "runs/session/soundness.hpp"
 #include "runs/session/totals.hpp"
@@ -68,7 +68,7 @@ class Recorder {
   const Scene& scene_;
   const RunOptions& options_;
   coupling::Simulation& simulation_;
-  std::optional<mesh::AuditBody> vessel_surface_;  ///< prepared with the first frame
+  std::optional<StaticBodies> static_bodies_;  ///< prepared with the first frame
   mesh::Surface drawn_boundary_;
   std::optional<io::RunFile> file_;  ///< none: another process writes
   RunTotals totals_;

@@ -211,11 +211,17 @@ TEST(Audit, PipettesCountTheFarthestNode) {
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, std::hypot(1, 2.25) - 2);
 }
 
+std::vector<AuditStatic> block_and_room(const Surface& block, const Surface& room) {
+  std::vector<AuditStatic> statics;
+  statics.push_back({prepare_static(block.node, block.triangle, "block"), false});
+  statics.push_back({prepare_static(room.node, room.triangle, "room"), true});
+  return statics;
+}
+
 TEST(Audit, StaticMeshesFromOutsideAndInside) {
   const Surface block = brick({0, 0, 0}, {50, 50, 10}), room = brick({-9, -9, -9}, {60, 60, 60});
   AuditFrame frame;
-  std::vector<AuditStatic> statics{{block.node, block.triangle, false},
-                                   {room.node, room.triangle, true}};
+  const std::vector<AuditStatic> statics = block_and_room(block, room);
   frame.statics = statics;
   EXPECT_EQ(audit_bodies({brick({5, 5, 10}, {9, 9, 14})}, frame).dcm_wall.depth_um, 0);
   auto r = audit_bodies({brick({5, 5, 9.5}, {9, 9, 14})}, frame);
@@ -228,9 +234,7 @@ TEST(Audit, StaticMeshesFromOutsideAndInside) {
   EXPECT_DOUBLE_EQ(r.dcm_wall.depth_um, 25);
   Surface open = block;
   open.triangle.pop_back();
-  statics = {{open.node, open.triangle, false}};
-  frame.statics = statics;
-  EXPECT_THROW(audit_bodies({block}, frame), Error);
+  EXPECT_THROW(prepare_static(open.node, open.triangle, "an open mesh"), Error);
 }
 
 TEST(Audit, SpheresAgainstCellsAndEachOther) {
@@ -277,8 +281,7 @@ TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
   EXPECT_NEAR(r.cbm_wall.depth_um, 2, 1e-13);
   EXPECT_EQ(r.cbm_wall.ids, (Ids{7, 0}));
   const Surface block = brick({25, -20, 0}, {60, 20, 40}), room = brick({-9, -30, 0}, {60, 30, 90});
-  const std::vector<AuditStatic> statics{{block.node, block.triangle, false},
-                                         {room.node, room.triangle, true}};
+  const std::vector<AuditStatic> statics = block_and_room(block, room);
   frame.walls = {};
   frame.statics = statics;
   r = audit(
@@ -290,8 +293,7 @@ TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
 
 TEST(Audit, CentresOnTheWrongSideOfStaticMeshesAreTold) {
   const Surface block = brick({0, 0, 0}, {50, 50, 50}), room = brick({-9, -9, -9}, {90, 90, 90});
-  const std::vector<AuditStatic> statics{{block.node, block.triangle, false},
-                                         {room.node, room.triangle, true}};
+  const std::vector<AuditStatic> statics = block_and_room(block, room);
   AuditFrame frame;
   frame.statics = statics;
   // The large one reaches deeper into the block, but the small one's centre is in it.

@@ -49,8 +49,10 @@ struct Watched {
   /// Measures the snapshot as it is now.
   void look(double time = 0) {
     snapshot.time = time;
-    row =
-        observe_frame({scene, world, work, snapshot, audit_world(world, work, snapshot)}, observer);
+    row = observe_frame(
+        {scene, world, work, snapshot,
+         audit_world(world, work, snapshot, prepare_static_bodies(world.params.boundary))},
+        observer);
   }
   double operator[](const std::string& name) const {
     const auto at = std::ranges::find(row, name, &io::SeriesValue::name);

@@ -28,7 +28,9 @@ Excess find_at(mesh::Surface surface, bool inside) {
   coupling::Workspace work;
   coupling::size_workspace(world, work);
   const Snapshot snapshot = take_snapshot(world, work);
-  return find_excess(audit_world(world, work, snapshot), world, work);
+  return find_excess(
+      audit_world(world, work, snapshot, prepare_static_bodies(world.params.boundary)), world,
+      work);
 }
 
 TEST(Soundness, ASphereMayLeanOnAStaticMesh) {
@@ -64,7 +66,9 @@ TEST(Soundness, ANucleusOutsideItsCortexIsFound) {
     coupling::Workspace work;
     coupling::size_workspace(world, work);
     const Snapshot snapshot = take_snapshot(world, work);
-    return find_excess(audit_world(world, work, snapshot), world, work);
+    return find_excess(
+        audit_world(world, work, snapshot, prepare_static_bodies(world.params.boundary)), world,
+        work);
   };
   EXPECT_EQ(find().depth_um, 0);
   std::vector<Vec3> node;
