@@ -59,7 +59,8 @@ Progress::Progress(const RunOptions& options, double end, const Ranks& ranks)
       ranks_(ranks),
       end_(end),
       started_(wall_seconds()),
-      terminal_(isatty(STDOUT_FILENO) != 0) {}
+      // mpirun gives its processes a terminal even where it writes to a file itself.
+      terminal_(ranks.size() == 1 && isatty(STDOUT_FILENO) != 0) {}
 
 void Progress::begin(const coupling::World& world) {
   started_ = wall_seconds();

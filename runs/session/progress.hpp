@@ -1,5 +1,6 @@
 #pragma once
-/// Progress of a run: one line on a terminal, one line a minute otherwise, or JSON lines.
+/// Progress of a run: one line on a terminal, one line a minute otherwise and from several
+/// processes, or JSON lines.
 
 #include <string>
 

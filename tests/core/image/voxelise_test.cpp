@@ -8,6 +8,7 @@
 #include "core/mesh/measures.hpp"
 #include "core/mesh/topology.hpp"
 #include "core/threads.hpp"
+#include "tests/reference/brick.hpp"
 
 namespace acinus::image {
 namespace {
@@ -61,12 +62,7 @@ TEST(Voxelise, PaintsWhatIsInside) {
 TEST(Voxelise, WithNoiseKeepsTheVolumeBetweenFacesAlongTheLattice) {
   const Vec3 side(14, 15, 16);
   for (const double more : {0.2, 0.4, 0.6, 0.8}) {
-    mesh::Surface s;
-    for (int k = 0; k < 8; ++k)
-      s.node.push_back(
-          (side + Vec3::Constant(more)).cwiseProduct(Vec3(k & 1, (k >> 1) & 1, (k >> 2) & 1)));
-    s.triangle = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                  {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    const mesh::Surface s = reference::brick(Vec3::Zero(), side + Vec3::Constant(more));
     const double exact = mesh::compute_volume(s.node, s.triangle);
     Voxelise how;
     how.blur = 0.4;
