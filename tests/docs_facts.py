@@ -76,9 +76,7 @@ class Facts:
 
     def ask(self, program):
         """Commands, options and keys from the program itself."""
-        listed = call(program, "--help").split("Subcommands:")[-1]
-        for name in re.findall(r"^  (\w+)  ", listed, re.M):
-            self.commands[name] = options_of(call(program, name, "--help")) if name != "bench" else {}
+        self.ask_commands(program)
         self.schema = {kind: json.loads(call(program, "schema", *more)) for kind, more in
                        (("scene", ()), ("study", ("--study",)))}
         short = [line.split()[0] for more in ((), ("study",)) for line in call(program, "explain", *more).splitlines()]
@@ -86,6 +84,15 @@ class Facts:
         for path in [name.split(".") for name in short] + [[w for w in key if w != "*"] for key in self.full_keys]:
             self.keys |= {".".join(path[k:]) for k in range(len(path))}
         self.blocks = {w for key in self.keys for w in key.split(".")[:-1]}
+
+    def ask_commands(self, program, *above):
+        """Names are those of all words: "run", "mesh", "mesh vessels"."""
+        _, _, listed = call(program, *above, "--help").partition("Subcommands:")
+        for name in re.findall(r"^  (\w+)  ", listed, re.M):
+            words = (*above, name)
+            self.commands[" ".join(words)] = options_of(call(program, *words, "--help")) if name != "bench" else {}
+            if name != "bench":
+                self.ask_commands(program, *words)
 
     def is_written(self, name):
         """Whether a source names this file, as a whole or as another file's name with an ending."""

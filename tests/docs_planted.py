@@ -14,7 +14,9 @@ elif words[0] == "schema":
 elif words[0] == "explain":
     print("study.sweep.key  none" if words[1:] == ["study"] else "time.end  1 h\nwall.opens  auto")
 elif words == ["--help"]:
-    print("Options:\n  --quiet  less\nSubcommands:\n  run    a scene\n  study  a study\n  bench  measure")
+    print("Options:\n  --quiet  less\nSubcommands:\n  run    a scene\n  study  a study\n  mesh   surfaces\n  bench  measure")
+elif words == ["mesh", "--help"]:
+    print("Options:\n  -h,--help  help\nSubcommands:\n  wrap   a mesh")
 else:
     print("Options:\n  -h,--help  help\n  --out DIR  folder\n  --set PATH=VALUE  change\n  --quiet    less")
 '''
@@ -26,7 +28,7 @@ RIGHT = r"""# Top
 See `core/x.hpp`, core/x, `docs/*.md`, `core/`, `x.hpp`, `out.csv`, `plots/` and `runs/<name>/y.json`.
 The scene `clump`, the study `grow`, the test `golden_b`, label `slow`, `--quiet`, key `end`, `cells.dead`.
 `time.end`, `wall.opens`, `walls.opens`, `walls.0.opens`, `time.*`, `time.end=3 h`, `h5py.File`, `.end`.
-`acinus run clump --set time.end=1 --out x.run`, `acinus bench fast`, `ctest -L slow`, `cmake --preset dev`.
+`acinus run clump --set time.end=1 --out x.run`, `acinus bench fast`, `acinus mesh wrap x.stl --out y.stl`, `ctest -L slow`, `cmake --preset dev`.
 
     ./acinus.sh run clump --quiet && ./acinus.sh test -R golden_a  # --no-such is said here
     tool --foreign x | acinus study grow \
@@ -65,6 +67,8 @@ WRONG = [  # one line each, with a part of what is to be said about it
     ("`acinus run lump`", "no such scene ships"),
     ("`acinus study clump`", "no such study ships"),
     ("`acinus run clump --loud`", "no such option"),
+    ("`acinus mesh wrap x.stl --loud`", "no such option"),
+    ("`acinus mesh --out y.stl`", "no such option"),
     ("`acinus run clump --set time.ned=1`", "no such scene key"),
     ("`acinus bench slow`", "no such benchmark"),
     ("`ctest -L fast`", "no test has"),

@@ -219,7 +219,9 @@ class Page:
     def check_acinus(self, words, is_script):
         if not words or PLACEHOLDER.match(words[0]) or words[0] in ("--help", "--version"):
             return
-        if words[0] in self.facts.commands:
+        if " ".join(words[:2]) in self.facts.commands:
+            yield from self.check_arguments(" ".join(words[:2]), words[2:])
+        elif words[0] in self.facts.commands:
             yield from self.check_arguments(words[0], words[1:])
         elif not (is_script and words[0] in self.facts.starter):
             yield f"acinus {words[0]}: no such command"

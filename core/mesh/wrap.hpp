@@ -1,5 +1,5 @@
 #pragma once
-/// A closed surface about one that is torn, crosses itself or is in pieces.
+/// A closed surface about one that has holes, crosses itself or is in pieces.
 
 #include "core/mesh/surface.hpp"
 

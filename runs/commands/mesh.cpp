@@ -120,7 +120,7 @@ void add_common(CLI::App& command, MeshArguments& a) {
 
 Command add_mesh(CLI::App& app) {
   CLI::App* command =
-      add_command(app, "mesh", "make closed surfaces: of vessels, about torn meshes",
+      add_command(app, "mesh", "make closed surfaces: of vessels, about meshes with holes",
                   "acinus mesh vessels tree.swc --out tree.vtp");
   command->require_subcommand(1);
   const auto arguments = std::make_shared<MeshArguments>();
@@ -150,7 +150,7 @@ Command add_mesh(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0));
   add_common(*vessels, *arguments);
   CLI::App* wrap = add_command(
-      *command, "wrap", "one closed surface about meshes that are torn or cross themselves",
+      *command, "wrap", "one closed surface about meshes that have holes or cross themselves",
       "acinus mesh wrap dirty.stl --alpha \"5 um\" --offset \"0.2 um\" --out clean.stl");
   wrap->add_option("FILE", arguments->what, "surfaces (.vtk, .obj, .stl, .ply)")->required();
   wrap->add_option("--alpha", arguments->alpha,
