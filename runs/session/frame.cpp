@@ -1,5 +1,7 @@
 #include "runs/session/frame.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
