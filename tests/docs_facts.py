@@ -87,12 +87,14 @@ class Facts:
 
     def ask_commands(self, program, *above):
         """Names are those of all words: "run", "mesh", "mesh vessels"."""
-        _, _, listed = call(program, *above, "--help").partition("Subcommands:")
-        for name in re.findall(r"^  (\w+)  ", listed, re.M):
-            words = (*above, name)
-            self.commands[" ".join(words)] = options_of(call(program, *words, "--help")) if name != "bench" else {}
-            if name != "bench":
-                self.ask_commands(program, *words)
+        text = call(program, *above, "--help")
+        if above:
+            self.commands[" ".join(above)] = options_of(text)
+        for name in re.findall(r"^  (\w+)  ", text.partition("Subcommands:")[2], re.M):
+            if name == "bench":
+                self.commands[name] = {}
+            else:
+                self.ask_commands(program, *above, name)
 
     def is_written(self, name):
         """Whether a source names this file, as a whole or as another file's name with an ending."""

@@ -13,6 +13,11 @@ namespace acinus::mesh {
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CgalMesh = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
+inline Vec3 place_of(const CgalMesh& mesh, CgalMesh::Vertex_index v) {
+  const auto& p = mesh.point(v);
+  return {p.x(), p.y(), p.z()};
+}
+
 /// @pre check_manifold
 inline CgalMesh to_cgal(const Surface& s) {
   CgalMesh mesh;
@@ -28,8 +33,7 @@ inline Surface from_cgal(const CgalMesh& mesh) {
   std::vector<int> number(mesh.num_vertices() + mesh.number_of_removed_vertices(), -1);
   for (const auto v : mesh.vertices()) {
     number[v] = static_cast<int>(out.node.size());
-    const auto& p = mesh.point(v);
-    out.node.emplace_back(p.x(), p.y(), p.z());
+    out.node.push_back(place_of(mesh, v));
   }
   for (const auto f : mesh.faces()) {
     std::array<int, 3> corner{};

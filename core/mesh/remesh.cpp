@@ -20,11 +20,6 @@ namespace {
 
 using Vertex = CgalMesh::Vertex_index;
 
-Vec3 place_of(const CgalMesh& mesh, Vertex v) {
-  const auto& p = mesh.point(v);
-  return {p.x(), p.y(), p.z()};
-}
-
 /// Whether the triangles about v, but for those that `other` shares, stay small and turn little
 /// when v goes to a place.
 bool may_move(const CgalMesh& mesh, Vertex v, Vertex other, const Vec3& to, double longest) {

@@ -11,7 +11,7 @@
 namespace acinus::implicit {
 namespace {
 
-constexpr unsigned kAtOnce = 10;
+constexpr unsigned kAtOnce = 20;
 
 /// A hundred networks, some of a thousand segments, so many to a test.
 class RandomNetworks : public testing::TestWithParam<unsigned> {};
