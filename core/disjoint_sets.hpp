@@ -2,6 +2,7 @@
 /// Numbers joined into sets.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace acinus {
 
 /// Numbers [0, n), each in a set of its own until it is joined to others. The lowest number of a
-/// set stands for it.
+/// set stands for it, so the order of joins does not matter: threads may join at the same time.
 class DisjointSets {
  public:
   DisjointSets() = default;
@@ -23,16 +24,28 @@ class DisjointSets {
 
   /// The number that stands for the set of this one.
   int find(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    for (int up = parent(k).load(kRelaxed); up != k;) {
+      // Whatever others do meanwhile, a parent is only ever replaced by one further up.
+      const int above = parent(up).load(kRelaxed);
+      if (above != up) parent(k).store(above, kRelaxed);
+      k = up;
+      up = above;
+    }
     return k;
   }
   bool is_joined(int k) const { return parent_[k] != k; }  ///< to a lower one
   void join(int a, int b) {
-    const auto [low, high] = std::minmax({find(a), find(b)});
-    parent_[high] = low;
+    for (;;) {
+      auto [low, high] = std::minmax({find(a), find(b)});
+      if (low == high) return;
+      // Another thread may have put the higher one below something else since.
+      if (parent(high).compare_exchange_strong(high, low, kRelaxed)) return;
+    }
   }
 
  private:
+  static constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
+  std::atomic_ref<int> parent(int k) { return std::atomic_ref(parent_[k]); }
   std::vector<int> parent_;
 };
 

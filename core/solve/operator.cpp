@@ -1,27 +1,14 @@
 #include "core/solve/operator.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/exact_sum.hpp"
 #include "core/solve/kernels.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
-namespace {
-
-/// The points of own blocks among [first, last).
-class OwnPoints {
- public:
-  OwnPoints(const System& s, std::size_t first, std::size_t last)
-      : s_(s), from_(s.row_of(first) * kLanes), to_(s.row_of(last) * kLanes) {}
-  bool has(Point p) const { return p >= from_ && p < to_ && s_.owns(p); }
-
- private:
-  const System& s_;
-  std::size_t from_, to_;
-};
-
-}  // namespace
 
 template <class T>
 Operator::PackedVectors<T> Operator::packed() const {
@@ -37,6 +24,19 @@ void Operator::for_each_range(F f) {
 template <class F>
 void Operator::for_each_range(F f) const {
   for_each_part(range_.size(), [&](std::size_t k) { f(range_[k]); });
+}
+
+template <class F>
+double Operator::sum_ranges(F f) const {
+  std::vector<ExactSum> sum(range_.size());
+  for_each_part(range_.size(), [&](std::size_t k) {
+    ExactSum own;
+    f(range_[k], own);
+    sum[k] = own;
+  });
+  for (std::size_t k = 1; k < sum.size(); ++k) sum[0].add(sum[k]);
+  system_->ownership.ranks.sum(std::span(sum).first(1));
+  return sum[0].value();
 }
 
 template <class F>
@@ -72,29 +72,62 @@ void Operator::divide() {
     }
     range_[k].last_block = b;
   }
+  range_of_row_.assign(s.n_row, -1);
+  for (std::size_t k = 0; k < n; ++k)
+    for_each_block(range_[k], [&](std::size_t, std::size_t first_row, std::size_t n_row) {
+      std::fill_n(range_of_row_.begin() + static_cast<std::ptrdiff_t>(first_row), n_row,
+                  static_cast<int>(k));
+    });
+}
+
+/// Gives the ranges what joins points of theirs, in its order: each thread sorts a part of all.
+template <class Ends>
+void Operator::share(std::size_t n, std::vector<Share> ThreadRange::*to, const Ends& ends) {
+  const std::size_t n_range = range_.size();
+  share_.resize(n_range * n_range);  // by part, then by range
+  const auto range_of = [&](Point p) { return p == kNowhere ? -1 : range_of_row_[p / kLanes]; };
+  for_each_part(n_range, [&](std::size_t part) {
+    const auto mine = std::span(share_).subspan(part * n_range, n_range);
+    for (auto& list : mine) list.clear();
+    const auto give = [&](int range, Share share) {
+      if (range >= 0) mine[static_cast<std::size_t>(range)].push_back(share);
+    };
+    for (std::size_t l = part * n / n_range; l < (part + 1) * n / n_range; ++l) {
+      const auto [end_a, end_b] = ends(l);
+      const int a = range_of(end_a), b = range_of(end_b);
+      const auto number = static_cast<std::uint32_t>(l);
+      if (a == b) {
+        give(a, {number, 1, 1});
+      } else {
+        give(a, {number, 1, 0});
+        give(b, {number, 0, 1});
+      }
+    }
+  });
+  for_each_part(n_range, [&](std::size_t range) {
+    std::vector<Share>& list = range_[range].*to;
+    std::swap(list, share_[range]);
+    for (std::size_t part = 1; part < n_range; ++part) {
+      const std::vector<Share>& more = share_[part * n_range + range];
+      list.insert(list.end(), more.begin(), more.end());
+    }
+  });
 }
 
 /// Finds the contacts of each range: all of them, or those with a matrix.
 void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
-  // Every thread picks out its own: reading all contacts is cheaper than sorting them.
-  for_each_range([&](ThreadRange& range) {
-    const OwnPoints own(s, range.first_block, range.last_block);
-    auto pick = [&](std::size_t l, Point at_a, Point at_b, std::vector<Share>& mine) {
-      const bool a = own.has(at_a), b = own.has(at_b);
-      if (a || b) mine.push_back({static_cast<std::uint32_t>(l), a, b});
-    };
-    range.link.clear();
-    range.point_link.clear();
-    for (std::size_t l = 0; l < s.links.size(); ++l) {
-      const Link& k = s.links.link[l];
-      if (!with_matrix || has_matrix(k, s.stiffness_scale))
-        pick(l, k.a.point[0], k.b.point[0], range.link);
-    }
-    for (std::size_t l = 0; l < s.point_links.size(); ++l) {
-      const PointLink& k = s.point_links[l];
-      if (!with_matrix || has_matrix(k, s.stiffness_scale)) pick(l, k.a, k.b, range.point_link);
-    }
+  constexpr std::array kNone{kNowhere, kNowhere};
+  const auto counts = [&](const auto& l) {
+    return !with_matrix || has_matrix(l, s.stiffness_scale);
+  };
+  share(s.links.size(), &ThreadRange::link, [&](std::size_t l) {
+    const Link& k = s.links.link[l];
+    return counts(k) ? std::array{k.a.point[0], k.b.point[0]} : kNone;
+  });
+  share(s.point_links.size(), &ThreadRange::point_link, [&](std::size_t l) {
+    const PointLink& k = s.point_links[l];
+    return counts(k) ? std::array{k.a, k.b} : kNone;
   });
 }
 
@@ -103,17 +136,14 @@ void Operator::merge_links() {
   const System& s = *system_;
   merger_.merge(s, merge_);
   const PointPairs& pairs = merge_.pairs;
+  share(pairs.row.size(), &ThreadRange::pair, [&](std::size_t k) {
+    const PointPairs::Row& row = pairs.row[k];
+    return std::array{row.a, pairs.b[row.first]};
+  });
   for_each_range([&](ThreadRange& range) {
-    const OwnPoints own(s, range.first_block, range.last_block);
     range.single.clear();
     for (const Share l : range.link)
       if (!is_merged(s, s.links.link[l.link])) range.single.push_back(l);
-    range.pair.clear();
-    for (std::size_t k = 0; k < pairs.row.size(); ++k) {
-      const PointPairs::Row& row = pairs.row[k];
-      const bool a = own.has(row.a), b = own.has(pairs.b[row.first]);
-      if (a || b) range.pair.push_back({static_cast<std::uint32_t>(k), a, b});
-    }
   });
   merged_ = true;
 }
@@ -156,7 +186,6 @@ void Operator::compute_inverse() {
 
 void Operator::start(const System& system) {
   system_ = &system;
-  partial_.resize(system.block.size());
   scratch_.resize(system.n_row * kLanes);
   divide();
   merged_ = false;
@@ -166,13 +195,14 @@ void Operator::prepare(const System& system) {
   start(system);
   share_links(true);
   exchange_.plan(system);
-  external_.clear();
-  external_point_.clear();
-  for (std::size_t l = 0; l < system.links.size(); ++l)
-    if (!system.links.link[l].b.exists()) external_.push_back(static_cast<std::uint32_t>(l));
-  for (std::size_t l = 0; l < system.point_links.size(); ++l)
-    if (system.point_links[l].b == kNowhere)
-      external_point_.push_back(static_cast<std::uint32_t>(l));
+  for_each_range([&](ThreadRange& range) {
+    range.external.clear();
+    for (const Share l : range.link)
+      if (!system.links.link[l.link].b.exists()) range.external.push_back(l.link);
+    range.external_point.clear();
+    for (const Share l : range.point_link)
+      if (system.point_links[l.link].b == kNowhere) range.external_point.push_back(l.link);
+  });
   compute_inverse();
 }
 
@@ -183,14 +213,6 @@ InverseView Operator::inverse_of(std::size_t block) const {
     if (!b.still && b.first_row * kPointStride < u.size())
       view.vector[view.n_family++] = u.data() + b.first_row * kPointStride;
   return view;
-}
-
-double Operator::sum_partials() const {
-  ExactSum sum;
-  for (const auto& [first, last] : system_->own)
-    for (std::size_t b = first; b < last; ++b) sum.add(partial_[b]);
-  system_->ownership.ranks.sum(std::span(&sum, 1));
-  return sum.value();
 }
 
 template <class T>
@@ -211,7 +233,7 @@ double Operator::apply(In<T> x, Out<T> y) const {
   const System& s = *system_;
   const PackedVectors<T> work = pack<T>(x);
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
-  for_each_range([&](const ThreadRange& range) {
+  return sum_ranges([&](const ThreadRange& range, ExactSum& sum) {
     const float* edge = nullptr;
     if constexpr (std::is_same_v<T, float>) {
       if (merged_) {
@@ -223,11 +245,10 @@ double Operator::apply(In<T> x, Out<T> y) const {
                    work.y);
     multiply_links(point_links_of(range), scales, work.x, work.y);
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
-      partial_[b] = multiply_block(view_block(s, b, edge), x.data() + row * kPointStride,
-                                   work.y + row * kLanes, y.data() + row * kPointStride);
+      sum.add(multiply_block(view_block(s, b, edge), x.data() + row * kPointStride,
+                             work.y + row * kLanes, y.data() + row * kPointStride));
     });
   });
-  return sum_partials();
 }
 
 void Operator::apply_within(std::span<const double> x, std::span<double> y) const {
@@ -272,17 +293,14 @@ void Operator::apply_external(std::span<const double> x, std::span<double> y,
                    load3(x.data() + i * kPointStride));
     });
   });
-  auto add = [&](const Stencil& at, const auto& l) {
+  for_each_external([&](const Stencil& at, const auto& l) {
     Vec3 r = Vec3::Zero();
     for (int k = 0; k < at.n; ++k) r += at.weight[k] * load_point(x.data(), at.address[k]);
     const Vec3 n(l.normal[0], l.normal[1], l.normal[2]);
     const Vec3 f = scales.stiffness * static_cast<double>(l.stiffness) * n.dot(r) * n +
                    scales.friction * static_cast<double>(l.friction) * r;
     for (int k = 0; k < at.n; ++k) add_point(y.data(), at.address[k], at.weight[k] * f);
-  };
-  for (const std::uint32_t l : external_) add(stencil_of(s.links.link[l]), s.links.link[l]);
-  for (const std::uint32_t l : external_point_)
-    add({1, {address_of(s.point_links[l].a)}, {1}}, s.point_links[l]);
+  });
 }
 
 void Operator::add_link_forces(System& system) {
@@ -304,26 +322,24 @@ void Operator::add_link_forces(System& system) {
 
 template <class T>
 double Operator::precondition(In<T> r, Out<T> z) const {
-  for_each_range([&](const ThreadRange& range) {
+  return sum_ranges([&](const ThreadRange& range, ExactSum& sum) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
-      partial_[b] = precondition_block(inverse_of(b), r.data() + row * kPointStride,
-                                       z.empty() ? nullptr : z.data() + row * kPointStride);
+      sum.add(precondition_block(inverse_of(b), r.data() + row * kPointStride,
+                                 z.empty() ? nullptr : z.data() + row * kPointStride));
     });
   });
-  return sum_partials();
 }
 
 template <class T>
 double Operator::descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const {
-  for_each_range([&](const ThreadRange& range) {
+  return sum_ranges([&](const ThreadRange& range, ExactSum& sum) {
     for_each_block(range, [&](std::size_t b, std::size_t row, std::size_t) {
       const std::size_t at = row * kPointStride;
-      partial_[b] = descend_block(inverse_of(b), alpha,
-                                  DescentBlock<T>{p.data() + at, q.data() + at, x.data() + at,
-                                                  r.data() + at, z.data() + at});
+      sum.add(descend_block(inverse_of(b), alpha,
+                            DescentBlock<T>{p.data() + at, q.data() + at, x.data() + at,
+                                            r.data() + at, z.data() + at}));
     });
   });
-  return sum_partials();
 }
 
 template <class T>
@@ -338,13 +354,12 @@ void Operator::redirect(In<T> z, double beta, Out<T> p) const {
 
 template <class T>
 double Operator::dot(In<T> a, In<T> b) const {
-  for_each_range([&](const ThreadRange& range) {
-    for_each_block(range, [&](std::size_t k, std::size_t row, std::size_t n) {
-      partial_[k] =
-          dot_range(a.data() + row * kPointStride, b.data() + row * kPointStride, n * kPointStride);
+  return sum_ranges([&](const ThreadRange& range, ExactSum& sum) {
+    for_each_block(range, [&](std::size_t, std::size_t row, std::size_t n) {
+      sum.add(dot_range(a.data() + row * kPointStride, b.data() + row * kPointStride,
+                        n * kPointStride));
     });
   });
-  return sum_partials();
 }
 
 #define ACINUS_INSTANTIATE(T)                                                               \

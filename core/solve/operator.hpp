@@ -72,6 +72,20 @@ class Operator {
   void apply_friction(std::span<const double> x, std::span<double> y) const;
   void apply_external_friction(std::span<const double> x, std::span<double> y) const;
 
+  /// f(stencil, link) for every contact of own points with boundary that has a matrix, those of a
+  /// point in their order.
+  template <class F>
+  void for_each_external(const F& f) const {
+    for (const ThreadRange& range : range_)
+      for (const std::uint32_t l : range.external)
+        f(stencil_of(system_->links.link[l]), system_->links.link[l]);
+    for (const ThreadRange& range : range_)
+      for (const std::uint32_t l : range.external_point) {
+        const PointLink& link = system_->point_links[l];
+        f(Stencil{1, {address_of(link.a)}, {1}}, link);
+      }
+  }
+
   /// Gets the points of other processes that own ones are in contact with.
   void fetch(std::span<double> x) const { exchange_.fetch(x); }
 
@@ -88,6 +102,7 @@ class Operator {
     std::size_t first_block = 0, last_block = 0;
     std::vector<Share> link, point_link;
     std::vector<Share> single, pair;  ///< in float: links that are not merged, and rows of pairs
+    std::vector<std::uint32_t> external, external_point;  ///< links with boundary
   };
   /// Two vectors on packed points, [n_point] each; scratch of a product.
   template <class T>
@@ -102,6 +117,8 @@ class Operator {
   SymBlock* diagonal() const;
   void start(const System& system);
   void divide();
+  template <class Ends>
+  void share(std::size_t n, std::vector<Share> ThreadRange::*to, const Ends& ends);
   void share_links(bool with_matrix);
   void compute_inverse();
   LinkSet<Link> links_of(const ThreadRange& range) const;
@@ -110,23 +127,25 @@ class Operator {
   void for_each_range(F f);
   template <class F>
   void for_each_range(F f) const;
+  /// The sum over all processes of what f(range, sum) adds for every range.
+  template <class F>
+  double sum_ranges(F f) const;
   /// f(block, first point row, number of points) for the blocks of a range.
   template <class F>
   void for_each_block(const ThreadRange& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
-  double sum_partials() const;
   void apply_external(std::span<const double> x, std::span<double> y, LinkScales scales) const;
 
   const System* system_ = nullptr;
   std::vector<ThreadRange> range_;
-  bool merged_ = false;  ///< products in float use merge_
+  std::vector<int> range_of_row_;          ///< [n_row] -1: of another process
+  std::vector<std::vector<Share>> share_;  ///< scratch of share
+  bool merged_ = false;                    ///< products in float use merge_
   LinkMerger merger_;
   MergedLinks merge_;
-  std::vector<std::uint32_t> external_, external_point_;  ///< links with boundary
-  std::vector<float> inverse_;                            ///< [n_row][6][lane]
+  std::vector<float> inverse_;  ///< [n_row][6][lane]
   /// [family][rows of its blocks][3][lane], as InverseView wants them.
   std::vector<std::vector<float>> rank_one_;
-  mutable std::vector<double> partial_;  ///< [n_block] scratch of a dot product
   PointExchange exchange_;
   /// One cache line per point, for whatever is being worked out: packed vectors in double (two
   /// halves of a line) or float, or the diagonal blocks. Never two of them at once.

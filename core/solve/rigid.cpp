@@ -20,19 +20,28 @@ int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWo
   };
   DisjointSets& sets = work.sets;
   sets.reset(active.size());
-  int last_a = -1, last_b = -1;  // links come sorted by pair of cells
-  auto join = [&](Point at_a, Point at_b) {
-    if (at_b == kNowhere) return;
-    const int a = cell_of(at_a), b = cell_of(at_b);
-    if (a == last_a && b == last_b) return;
-    last_a = a;
-    last_b = b;
-    sets.join(a, b);
+  // Contacts come sorted by pair of cells.
+  const auto join_all = [&](const auto& links, const auto& ends) {
+    const std::size_t n_part = count_threads(s.n_row);
+    for_each_part(n_part, [&](std::size_t part) {
+      int last_a = -1, last_b = -1;
+      for (std::size_t l = part * links.size() / n_part; l < (part + 1) * links.size() / n_part;
+           ++l) {
+        const auto [end_a, end_b] = ends(links[l]);
+        if (end_b == kNowhere) continue;
+        const int a = cell_of(end_a), b = cell_of(end_b);
+        if (a == last_a && b == last_b) continue;
+        last_a = a;
+        last_b = b;
+        sets.join(a, b);
+      }
+    });
   };
-  for (const Link& l : s.links.link) join(l.a.point[0], l.b.point[0]);
-  // Pairs of spheres are listed before they touch, some steps sooner or later.
-  for (const PointLink& l : s.point_links)
-    if (has_matrix(l, s.stiffness_scale)) join(l.a, l.b);
+  join_all(s.links.link, [](const Link& l) { return std::array{l.a.point[0], l.b.point[0]}; });
+  join_all(s.point_links, [&](const PointLink& l) {
+    // Pairs of spheres are listed before they touch, some steps sooner or later.
+    return std::array{l.a, has_matrix(l, s.stiffness_scale) ? l.b : kNowhere};
+  });
   if (!s.ownership.is_whole()) {  // each process knows the contacts of its own cells
     std::vector<std::array<int, 2>> own, all;
     for (int c = 0; c < static_cast<int>(sets.size()); ++c)
@@ -242,7 +251,7 @@ class RigidModes {
   void find_ties() {
     work_.tie.clear();
     work_.tie_of_cell.assign(work_.group.size(), -1);
-    const auto add = [&](const Stencil& stencil, const auto& l) {
+    op_.for_each_external([&](const Stencil& stencil, const auto& l) {
       const std::size_t cell = cell_of(stencil.address[0]);
       const int g = work_.group[cell];
       if (g < 0) return;
@@ -259,11 +268,7 @@ class RigidModes {
         work_.tie.push_back(Mat6::Zero());
       }
       work_.tie[static_cast<std::size_t>(tie)] += z.transpose() * m * z;
-    };
-    for (const Link& l : s_.links.link)
-      if (!l.b.exists()) add(stencil_of(l), l);
-    for (const PointLink& l : s_.point_links)
-      if (l.b == kNowhere) add({1, {address_of(l.a)}, {1}}, l);
+    });
   }
 
   const Operator& op_;
