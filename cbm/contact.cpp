@@ -213,7 +213,7 @@ void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, solve::System& system) {
   double* force = system.force.data() + in.first_row * kPointStride;
-  for (std::size_t k = 0; k < work.force.size(); ++k) force[k] += work.force[k];
+  for_each_number(work.force.size(), [&](std::size_t k) { force[k] += work.force[k]; });
   system.point_links.resize(work.pair.size());
   for (const Contact& k : contacts.sphere_obstacle()) {
     if (meets_moving_vessel(in, k)) continue;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/sphere.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::cbm {
 
@@ -63,7 +64,8 @@ std::vector<double> radii_at(const State& s, double time) {
 
 void find_radii(const State& s, double time, std::vector<double>& radius) {
   radius.resize(s.n_cell());
-  for (std::size_t c = 0; c < radius.size(); ++c) radius[c] = sphere_radius(s.volume[c].at(time));
+  for_each_index(radius.size(), worth_threads(s.n_row()),
+                 [&](std::size_t c) { radius[c] = sphere_radius(s.volume[c].at(time)); });
 }
 
 std::vector<double> strengths_at(const State& s, double time) {
