@@ -196,11 +196,11 @@ void CoarseSpace::add_cells(const Operator& op) {
 /// is for itself, since which follow each other depends on the process.
 template <class L, class Sides>
 void CoarseSpace::add_contacts(const std::vector<L>& links, const Sides& sides) {
-  struct Run {
+  struct PairRun {
     int a, b;
     std::size_t first, last;
   };
-  std::vector<Run> run;
+  std::vector<PairRun> run;
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (!has_matrix(links[l], system_->stiffness_scale)) continue;
     const auto [a, b] = cells_of(links[l]);
@@ -210,7 +210,7 @@ void CoarseSpace::add_contacts(const std::vector<L>& links, const Sides& sides) 
       run.push_back({a, b, l, l + 1});
   }
   const System& s = *system_;
-  const auto work_out = [&](const Run& r, std::vector<ContactModes>& contact) {
+  const auto work_out = [&](const PairRun& r, std::vector<ContactModes>& contact) {
     contact.clear();
     for (std::size_t l = r.first; l < r.last; ++l) {
       const L& link = links[l];
@@ -244,7 +244,7 @@ void CoarseSpace::add_contacts(const std::vector<L>& links, const Sides& sides) 
   std::vector<PairBlocks> blocks(std::min(run.size(), kBatch));
   const std::size_t n_part = count_threads(s.n_row);
   for (std::size_t first = 0; first < run.size(); first += kBatch) {
-    const std::span<const Run> batch =
+    const std::span<const PairRun> batch =
         std::span(run).subspan(first, std::min(kBatch, run.size() - first));
     for_each_index(batch.size(), n_part > 1, [&](std::size_t k) {
       thread_local std::vector<ContactModes> contact;
