@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/solve/contact_modes.hpp"
 #include "core/solve/kernels.hpp"
 #include "core/solve/link_kernels.hpp"
 #include "core/threads.hpp"
@@ -50,6 +49,12 @@ ACINUS_KERNEL void prolong_block(int n, const float* arm, const double* in, doub
   prolong_points<double>(n, arm, in, z);
 }
 
+Mat3 cross_matrix(const Vec3& v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
 }  // namespace
 
 void CoarseSpace::place_cells(std::span<const double> position,
@@ -88,13 +93,6 @@ void CoarseSpace::place_cells(std::span<const double> position,
 
 int CoarseSpace::cell_of(Point p) const {
   return cell_[system_->block_of(p) * kLanes + p % kLanes];
-}
-
-std::array<int, 2> CoarseSpace::cells_of(const Link& l) const {
-  return {cell_of(l.a.point[0]), l.b.exists() ? cell_of(l.b.point[0]) : -1};
-}
-std::array<int, 2> CoarseSpace::cells_of(const PointLink& l) const {
-  return {cell_of(l.a), l.b != kNowhere ? cell_of(l.b) : -1};
 }
 
 void CoarseSpace::find_neighbours() {
@@ -192,103 +190,68 @@ void CoarseSpace::add_cells(const Operator& op) {
   }
 }
 
-/// Adds a kind of contacts. Those that join the same two cells stand together; each with boundary
-/// is for itself, since which follow each other depends on the process.
-template <class L, class Sides>
-void CoarseSpace::add_contacts(const std::vector<L>& links, const Sides& sides) {
-  struct PairRun {
-    int a, b;
-    std::size_t first, last;
-  };
-  std::vector<PairRun> run;
-  for (std::size_t l = 0; l < links.size(); ++l) {
-    if (!has_matrix(links[l], system_->stiffness_scale)) continue;
-    const auto [a, b] = cells_of(links[l]);
-    if (!run.empty() && b >= 0 && run.back().a == a && run.back().b == b)
-      run.back().last = l + 1;
-    else
-      run.push_back({a, b, l, l + 1});
-  }
-  const System& s = *system_;
-  const auto work_out = [&](const PairRun& r, std::vector<ContactModes>& contact) {
-    contact.clear();
-    for (std::size_t l = r.first; l < r.last; ++l) {
-      const L& link = links[l];
-      ContactModes m;
-      m.k = s.stiffness_scale * static_cast<double>(link.stiffness);
-      m.g = s.friction_scale * static_cast<double>(link.friction);
-      if (m.k == 0 && m.g == 0) continue;
-      const Vec3 n(static_cast<double>(link.normal[0]), static_cast<double>(link.normal[1]),
-                   static_cast<double>(link.normal[2]));
-      const auto [p, q] = sides(link, r.a, r.b);
-      const Vec3 turn_p = p.cross(n), turn_q = q.cross(n);
-      m.arm[0] = 1;
-      for (int c = 0; c < 3; ++c) {
-        m.u[c] = m.v[c] = n[c];
-        m.u[3 + c] = turn_p[c];
-        m.v[3 + c] = turn_q[c];
-        m.arm[ContactModes::kFirst + c] = p[c];
-        m.arm[ContactModes::kSecond + c] = q[c];
-      }
-      contact.push_back(m);
-    }
-    PairSums sums;
-    sum_contacts(contact.size(), contact.data(), sums);
-    return blocks_of(sums);
-  };
-  const auto slot = [&](int row, int column) -> Mat6& {
-    const auto from = column_.begin() + start_[row], to = column_.begin() + start_[row + 1];
-    return block_[static_cast<std::size_t>(std::lower_bound(from, to, column) - column_.begin())];
-  };
-  constexpr std::size_t kBatch = 2048;  // runs: what is worked out stays in the cache
-  std::vector<PairBlocks> blocks(std::min(run.size(), kBatch));
-  const std::size_t n_part = count_threads(s.n_row);
-  for (std::size_t first = 0; first < run.size(); first += kBatch) {
-    const std::span<const PairRun> batch =
-        std::span(run).subspan(first, std::min(kBatch, run.size() - first));
-    for_each_index(batch.size(), n_part > 1, [&](std::size_t k) {
-      thread_local std::vector<ContactModes> contact;
-      blocks[k] = work_out(batch[k], contact);
-    });
-    // Every part adds to the rows of its own cells, in their order.
-    for_each_part(n_part, [&](std::size_t part) {
-      const auto mine = [&](int c) {
-        return c >= 0 && static_cast<std::size_t>(c) % n_part == part && owns(c);
-      };
-      for (std::size_t k = 0; k < batch.size(); ++k) {
-        const auto [a, b] = std::pair(batch[k].a, batch[k].b);
-        const auto& [aa, ab, bb] = blocks[k];
-        if (mine(a)) slot(a, a) += aa;
-        if (mine(b)) slot(b, b) += bb;
-        if (b < 0 || !mine(std::max(a, b))) continue;
-        if (a == b)
-          slot(a, a) -= ab + ab.transpose();
-        else if (a > b)
-          slot(a, b) -= ab;
-        else
-          slot(b, a) -= ab.transpose();
-      }
-    });
-  }
-}
-
 void CoarseSpace::add_links(std::span<const double> position) {
-  // turning by omega moves a place by omega x arm
-  const auto arm = [&](int c, const Vec3& x) -> Vec3 {
-    if (c < 0 || size_[c] == 0) return Vec3::Zero();
-    return (x - center_[c]) / size_[c];
-  };
-  const auto at = [&](Point p) { return load_point(position.data(), address_of(p)); };
-  const auto place = [&](const Side& side) -> Vec3 {
-    const Vec3 last = at(side.point[2]);
+  const System& s = *system_;
+  auto place = [&](const Side& side) -> Vec3 {
+    const Vec3 last = load_point(position.data(), address_of(side.point[2]));
     const double w0 = static_cast<double>(side.weight[0]), w1 = static_cast<double>(side.weight[1]);
-    return last + w0 * (at(side.point[0]) - last) + w1 * (at(side.point[1]) - last);
+    return last + w0 * (load_point(position.data(), address_of(side.point[0])) - last) +
+           w1 * (load_point(position.data(), address_of(side.point[1])) - last);
   };
-  add_contacts(system_->links.link, [&](const Link& l, int a, int b) {
-    return std::pair(arm(a, place(l.a)), b >= 0 ? arm(b, place(l.b)) : Vec3(Vec3::Zero()));
-  });
-  add_contacts(system_->point_links, [&](const PointLink& l, int a, int b) {
-    return std::pair(arm(a, at(l.a)), b >= 0 ? arm(b, at(l.b)) : Vec3(Vec3::Zero()));
+  // turning by omega moves a place by omega x arm
+  auto arm = [&](int c, const Vec3& x) -> Vec3 {
+    const std::size_t k = c;
+    return size_[k] > 0 ? Vec3((x - center_[k]) / size_[k]) : Vec3::Zero();
+  };
+  auto slot = [&](int a, int b) {
+    const std::size_t row = std::max(a, b);
+    const auto from = column_.begin() + start_[row], to = column_.begin() + start_[row + 1];
+    return static_cast<std::size_t>(std::lower_bound(from, to, std::min(a, b)) - column_.begin());
+  };
+  // Every part looks at all links and adds to the rows of its own cells, in their order.
+  const std::size_t n_part = std::min(count_threads(s.n_row), center_.size());
+  const auto owner = [&](int c) { return static_cast<std::size_t>(c) % n_part; };
+  auto add = [&](std::size_t part, int a, int b, const auto& place_a, const auto& place_b,
+                 const auto& l) {
+    const bool mine_a = owner(a) == part, mine_b = b >= 0 && owner(b) == part;
+    if (!mine_a && !mine_b) return;
+    const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
+                 static_cast<double>(l.normal[2]));
+    const double k = s.stiffness_scale * static_cast<double>(l.stiffness);
+    const double g = s.friction_scale * static_cast<double>(l.friction);
+    if (k == 0 && g == 0) return;
+    // J^T (k n n^T + g I) J with J = [I, -arm x]
+    auto respond = [&](const Vec3& p, const Vec3& q) {
+      Vec6 u, v;
+      u << n, p.cross(n);
+      v << n, q.cross(n);
+      Mat6 m = k * u * v.transpose();
+      m.topLeftCorner<3, 3>() += g * Mat3::Identity();
+      m.bottomLeftCorner<3, 3>() += g * cross_matrix(p);
+      m.topRightCorner<3, 3>() -= g * cross_matrix(q);
+      m.bottomRightCorner<3, 3>() -= g * cross_matrix(p) * cross_matrix(q);
+      return m;
+    };
+    const Vec3 p = arm(a, place_a());
+    if (mine_a) block_[slot(a, a)] += respond(p, p);
+    if (b < 0) return;
+    const Vec3 q = arm(b, place_b());
+    if (mine_b) block_[slot(b, b)] += respond(q, q);
+    if (a == b)
+      block_[slot(a, a)] -= respond(p, q) + respond(q, p);
+    else if (owner(std::max(a, b)) == part)
+      block_[slot(a, b)] -= a > b ? respond(p, q) : respond(q, p);
+  };
+  for_each_part(n_part, [&](std::size_t part) {
+    for (const Link& l : s.links.link)
+      add(
+          part, cell_of(l.a.point[0]), l.b.exists() ? cell_of(l.b.point[0]) : -1,
+          [&] { return place(l.a); }, [&] { return place(l.b); }, l);
+    const auto at = [&](Point k) { return load_point(position.data(), address_of(k)); };
+    for (const PointLink& l : s.point_links)
+      add(
+          part, cell_of(l.a), l.b != kNowhere ? cell_of(l.b) : -1, [&] { return at(l.a); },
+          [&] { return at(l.b); }, l);
   });
 }
 

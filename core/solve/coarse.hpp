@@ -8,7 +8,6 @@
 /// process has the factor of all cells: it works out the rows of its own and gets the others.
 
 #include <Eigen/Dense>
-#include <array>
 #include <span>
 #include <vector>
 
@@ -35,16 +34,11 @@ class CoarseSpace {
   double add_of(std::span<const T> r, std::span<T> z) const;
   void place_cells(std::span<const double> position, std::span<const std::uint8_t> active);
   int cell_of(Point p) const;
-  /// The cells that a contact joins; -1: none.
-  std::array<int, 2> cells_of(const Link& l) const;
-  std::array<int, 2> cells_of(const PointLink& l) const;
   bool owns(int cell) const { return system_->ownership.owns(block_of_cell_[cell]); }
   void find_neighbours();
   void gather_rows();
   void gather_cells(std::vector<Vec6>& v) const;
   void add_cells(const Operator& op);
-  template <class L, class Sides>
-  void add_contacts(const std::vector<L>& links, const Sides& sides);
   void add_links(std::span<const double> position);
   void factor();
   void solve(std::vector<Vec6>& v) const;
