@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/exact_sum.hpp"
 #include "core/solve/kernels.hpp"
@@ -28,14 +30,16 @@ void Operator::for_each_range(F f) const {
 
 template <class F>
 double Operator::sum_ranges(F f) const {
-  std::vector<ExactSum> sum(range_.size());
+  thread_local std::vector<ExactSum> kept;  // a step asks for no memory
+  kept.assign(range_.size(), {});
+  const std::span<ExactSum> sum(kept);
   for_each_part(range_.size(), [&](std::size_t k) {
     ExactSum own;
     f(range_[k], own);
     sum[k] = own;
   });
   for (std::size_t k = 1; k < sum.size(); ++k) sum[0].add(sum[k]);
-  system_->ownership.ranks.sum(std::span(sum).first(1));
+  system_->ownership.ranks.sum(sum.first(1));
   return sum[0].value();
 }
 
