@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contact/jkr_lanes.hpp"
+#include "core/make_room.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::cbm {
@@ -116,10 +117,6 @@ class RangeSearch {
                   static_cast<std::ptrdiff_t>((to + kLanes - 1) / kLanes * kPointStride),
               0.0);
     touching_.clear();
-    // The set changes little; doubling as it grows would waste memory.
-    const std::size_t own =
-        s_.touching.size() * (to - from) / std::max<std::size_t>(1, s_.n_cell());
-    touching_.reserve(own + own / 8);
   }
 
   void push(std::size_t k) {
@@ -196,7 +193,10 @@ class RangeSearch {
     const bool own = a >= first_;
     if (own) write_link(k, l);
     if (batch_.touching[l] == 0) return;
-    if (own) touching_.emplace_back(a, b);
+    if (own) {
+      make_room(touching_, 1);
+      touching_.emplace_back(a, b);
+    }
     auto add = [&](int cell, double sign) {
       if (cell < first_ || cell >= last_) return;
       const std::size_t i = cell;

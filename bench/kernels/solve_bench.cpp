@@ -37,10 +37,10 @@ BENCHMARK_TEMPLATE(multiply_block, float)->Apply(clump_sizes);
 template <class T>
 void multiply_links(benchmark::State& state) {
   const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
-  std::vector<solve::Share> share;
+  solve::ShareLists share(1);
   for (std::size_t l = 0; l < s.links.size(); ++l)
     if (has_matrix(s.links.link[l], s.stiffness_scale))
-      share.push_back({static_cast<std::uint32_t>(l), 1, s.links.link[l].b.exists()});
+      share[0].push_back({static_cast<std::uint32_t>(l), 1, s.links.link[l].b.exists()});
   const Points<T> x(s.n_row * kLanes, {T(1e-3), T(1e-3), T(1e-3), 0});
   Points<T> y(x.size());
   for (auto _ : state) {
@@ -48,7 +48,7 @@ void multiply_links(benchmark::State& state) {
                           {s.stiffness_scale, s.friction_scale}, x.data(), y.data());
     benchmark::ClobberMemory();
   }
-  count(state, "contacts", share.size());
+  count(state, "contacts", share[0].size());
 }
 BENCHMARK_TEMPLATE(multiply_links, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(multiply_links, float)->Apply(clump_sizes);

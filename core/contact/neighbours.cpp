@@ -7,6 +7,7 @@
 
 #include "core/contact/box_pairs.hpp"
 #include "core/lanes.hpp"
+#include "core/make_room.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::contact {
@@ -119,10 +120,12 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
             const std::size_t j = g.item[e];
             if (j <= i && (foreign.empty() || j == i || foreign[j] == 0)) continue;
             if (!are_near(position, radius, margin, i, j)) continue;
-            if (j > i)
+            if (j > i) {
+              make_room(part[k], 1);
               part[k].emplace_back(static_cast<int>(i), static_cast<int>(j));
-            else
+            } else {
               before[k].emplace_back(static_cast<int>(j), static_cast<int>(i));
+            }
           }
         }
       std::sort(part[k].begin() + static_cast<std::ptrdiff_t>(first), part[k].end());

@@ -101,14 +101,13 @@ class CubeExtraction {
     out.fine.first = near_.fine.size();
     for (std::size_t k = fine.first; k < fine.last; ++k) {
       const int ball = near_.fine[k];
-      const double d = find_distance(fine_[ball], x);
-      const double reach = lattice_.reach(lattice_.last_fine[ball], level);
-      bisect = bisect || d <= reach;
-      if (d <= reach) near_.fine.push_back(ball);
+      if (!is_within(fine_[ball], x, lattice_.reach(lattice_.last_fine[ball], level))) continue;
+      bisect = true;
+      near_.fine.push_back(ball);
     }
     out.fine.last = near_.fine.size();
     // What matters to this tetrahedron, or to the middles of all that come of it.
-    const double farthest = bisect ? lattice_.to_go(level) : extent;
+    const double farthest = bisect ? lattice_.ahead[level] : extent;
     out.parts.first = near_.part.size();
     for (std::size_t k = 0; k < distance_.size(); ++k) {
       const int part = near_.part[parts.first + k];
@@ -122,7 +121,8 @@ class CubeExtraction {
     }
     part_.coarsest = std::min(part_.coarsest, level);
     if (find_missed_ && a.is_inside() == b.is_inside() && changes_between(a, b, span_of(out.parts)))
-      part_.missed.push_back({x, 0, kShorter * kLongest[level % 3] * lattice_.side[level]});
+      part_.missed.push_back(
+          {{x, 0, kShorter * kLongest[level % 3] * lattice_.side[level]}, a.is_inside()});
     return out;
   }
 
@@ -235,8 +235,16 @@ class CubeExtraction {
 
 }  // namespace
 
-double find_distance(const FineBall& ball, const Vec3& x) {
-  return std::max(0.0, (x - ball.center).norm() - ball.radius);
+bool is_within(const FineBall& ball, const Vec3& x, double reach) {
+  const double farthest = ball.radius + reach;
+  return reach >= 0 && (x - ball.center).squaredNorm() <= farthest * farthest;
+}
+
+bool is_on_face(std::uint64_t key, const CubeLattice& lattice) {
+  const std::uint64_t within = 2 * static_cast<std::uint64_t>(lattice.unit()) - 1;
+  for (int k = 0; k < 3; ++k, key >>= kPlaceBits + 1)
+    if ((key & within) == 0) return true;
+  return false;
 }
 
 CubePart extract_cube(const Shape& shape, std::span<const FineBall> fine,

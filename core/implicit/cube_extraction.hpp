@@ -18,6 +18,12 @@ struct Nearby {
   std::vector<int> part, fine;
 };
 
+/// An edge along which the function has another sign than at both ends.
+struct MissedEdge {
+  FineBall middle;      ///< that makes it a corner
+  bool is_gap = false;  ///< both ends are inside
+};
+
 /// What one root cube contributes: nodes on edges, some of which other cubes have as well.
 struct CubePart {
   std::vector<std::uint64_t> key;  ///< [node] the same in all cubes
@@ -26,13 +32,14 @@ struct CubePart {
   std::vector<std::array<int, 3>> triangle;
   int coarsest =
       std::numeric_limits<int>::max();  ///< level of the tetrahedra that are not bisected
-  /// Middles of edges along which the function has another sign than at both ends, to become
-  /// corners.
-  std::vector<FineBall> missed;
+  std::vector<MissedEdge> missed;
 };
 
-/// um, 0 within.
-double find_distance(const FineBall& ball, const Vec3& x);
+/// Whether a place is no farther from a ball than that, um; below 0: none is.
+bool is_within(const FineBall& ball, const Vec3& x, double reach);
+
+/// Whether other root cubes may have the node of a key as well.
+bool is_on_face(std::uint64_t key, const CubeLattice& lattice);
 
 /// @param fine  Shape::fine, and what has been added to it
 /// @param find_missed  CubePart::missed is wanted

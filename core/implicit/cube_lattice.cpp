@@ -48,7 +48,10 @@ CubeLattice make_lattice(const Shape& shape) {
   for (const double size : shape.size) l.last.push_back(l.level_of(size));
   for (const FineBall& ball : shape.fine) l.last_fine.push_back(l.level_of(ball.size));
   l.spacing = std::ldexp(l.root, -l.halvings);
-  for (int k = 0; k <= 3 * l.halvings; ++k) l.side.push_back(std::ldexp(l.root, -(k / 3)));
+  for (int k = 0; k <= 3 * l.halvings; ++k) {
+    l.side.push_back(std::ldexp(l.root, -(k / 3)));
+    l.ahead.push_back(kToGo[static_cast<std::size_t>(k) % 3] * l.side.back());
+  }
   return l;
 }
 

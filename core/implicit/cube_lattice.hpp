@@ -34,18 +34,18 @@ struct CubeLattice {
   int halvings = 0;            ///< of that side, until places are one apart
   double spacing = 1;          ///< um, of places
   std::vector<double> side;    ///< [level] um, of the cube that a bisection is in
+  std::vector<double> ahead;   ///< [level] um, kToGo
   std::vector<int> last;       ///< [part] the level at which tetrahedra are small enough
   std::vector<int> last_fine;  ///< [fine ball]
   Place n_root{};
 
   int unit() const { return 1 << halvings; }
   Vec3 position(const Place& p) const { return origin + spacing * Vec3(p[0], p[1], p[2]); }
-  double to_go(int level) const { return kToGo[level % 3] * side[level]; }
   /// How near to what asks for the level `end` the middle of a bisection of this level is
   /// necessary.
   double reach(int end, int level) const {
     if (level >= end) return -1;
-    return to_go(level) - to_go(end) + kMargin * side[end];
+    return ahead[level] - ahead[end] + kMargin * side[end];
   }
   /// The level of tetrahedra whose edges are no longer than this, um; or the last there is.
   int level_of(double size) const;

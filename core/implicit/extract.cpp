@@ -46,7 +46,7 @@ void for_each_cube(const CubeLattice& l, const Box& box, const Call& call) {
 Cubes find_cubes(const Shape& shape, const CubeLattice& l) {
   Cubes cubes;
   for (int part = 0; part < static_cast<int>(shape.box.size()); ++part) {
-    const double reach = l.to_go(0) + 2 * shape.reach[part];
+    const double reach = l.ahead[0] + 2 * shape.reach[part];
     for_each_cube(l, shape.box[part].grown(reach), [&](const Place& cube, const Vec3& center) {
       if (shape.distance(center, part) <= reach) cubes[cube].nearby.part.push_back(part);
     });
@@ -64,7 +64,7 @@ void add_fine(std::span<const FineBall> fine, std::size_t first, const CubeLatti
     const Box box = sphere_box(ball.center, ball.radius + std::max(0.0, reach));
     for_each_cube(l, box, [&](const Place& place, const Vec3& center) {
       const auto near = cubes.find(place);
-      if (near == cubes.end() || find_distance(ball, center) > reach) return;
+      if (near == cubes.end() || !is_within(ball, center, reach)) return;
       RootCube& cube = near->second;
       cube.nearby.fine.push_back(static_cast<int>(k));
       const Vec3 apart = (ball.center - center).cwiseAbs().array() - 0.5 * l.root;
@@ -97,25 +97,23 @@ void extract(const Shape& shape, std::span<const FineBall> fine, const CubeLatti
 }
 
 /// Nodes that several cubes have become one.
-ZeroSurface join(const Cubes& cubes) {
+ZeroSurface join(const Cubes& cubes, const CubeLattice& lattice) {
   ZeroSurface out;
-  std::size_t n_node = 0;
-  for (const auto& [place, cube] : cubes) n_node += cube.part.node.size();
   std::pmr::monotonic_buffer_resource memory;
-  std::pmr::unordered_map<std::uint64_t, int> number(&memory);
-  number.reserve(n_node);
+  std::pmr::unordered_map<std::uint64_t, int> number(&memory);  ///< of those on faces
   std::vector<int> global;
   for (const auto& [place, cube] : cubes) {
     const CubePart& p = cube.part;
     global.resize(p.node.size());
     for (std::size_t k = 0; k < p.node.size(); ++k) {
-      const auto [at, fresh] =
-          number.try_emplace(p.key[k], static_cast<int>(out.surface.node.size()));
-      if (fresh) {
-        out.surface.node.push_back(p.node[k]);
-        out.edge.push_back(p.edge[k]);
+      global[k] = static_cast<int>(out.surface.node.size());
+      if (is_on_face(p.key[k], lattice)) {
+        const auto [at, fresh] = number.try_emplace(p.key[k], global[k]);
+        global[k] = at->second;
+        if (!fresh) continue;
       }
-      global[k] = at->second;
+      out.surface.node.push_back(p.node[k]);
+      out.edge.push_back(p.edge[k]);
     }
     for (const auto& [a, b, c] : p.triangle)
       out.surface.triangle.push_back({global[a], global[b], global[c]});
@@ -135,7 +133,7 @@ ZeroSurface extract_zero(const Shape& shape, std::size_t most, const CountFaults
   long fewest = 0;
   for (int round = 1;; ++round) {
     extract(shape, fine, lattice, most, count_faults != nullptr, cubes);
-    ZeroSurface z = join(cubes);
+    ZeroSurface z = join(cubes, lattice);
     const long faults = count_faults ? count_faults(z) : 0;
     if (round == 1 || faults < fewest) {
       fewest = faults;
@@ -143,8 +141,15 @@ ZeroSurface extract_zero(const Shape& shape, std::size_t most, const CountFaults
     }
     if (fewest == 0 || round == kMostRounds) return out;
     const std::size_t first = fine.size();
-    for (const auto& [place, cube] : cubes)
-      fine.insert(fine.end(), cube.part.missed.begin(), cube.part.missed.end());
+    // Gaps first: across these surfaces are joined that should not be. Where a wall bulges between
+    // two corners outside there is hardly ever a fault.
+    const auto add_missed = [&](bool gap) {
+      for (const auto& [place, cube] : cubes)
+        for (const MissedEdge& edge : cube.part.missed)
+          if (edge.is_gap == gap) fine.push_back(edge.middle);
+    };
+    add_missed(true);
+    if (round > 1 || fine.size() == first) add_missed(false);
     if (fine.size() == first) return out;
     for (std::size_t k = first; k < fine.size(); ++k)
       lattice.last_fine.push_back(lattice.level_of(fine[k].size));

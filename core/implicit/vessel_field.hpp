@@ -2,6 +2,7 @@
 /// Vessels as a function of space: negative inside the union of their round cones.
 
 #include <span>
+#include <vector>
 
 #include "core/implicit/vessel_pieces.hpp"
 #include "core/mesh/network.hpp"
@@ -35,6 +36,7 @@ class VesselField {
  private:
   const mesh::Network& vessels_;
   const VesselPieces& pieces_;
+  std::vector<mesh::ConeWall> cone_;  ///< [piece]
   double rounding_ = 0, widest_ = 0;
 };
 

@@ -164,14 +164,13 @@ VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOption
   }
   const NearbyPieces nearby(pieces.network, shape, o.edge);
   const Distance distance = [&](const Vec3& x) { return field->value(x, nearby.at(x)); };
+  fit(distance, raw);
+  out.surface = std::move(raw.surface);
   if (o.edge > 0) {
-    out.surface = mesh::remesh(raw.surface, o.edge);
-    out.remeshed = mesh::find_connectivity(out.surface) == out.found &&
-                   fit_without_crossing(distance, out.surface);
-  }
-  if (!out.remeshed) {
-    fit(distance, raw);
-    out.surface = std::move(raw.surface);
+    mesh::Surface even = mesh::remesh(out.surface, o.edge);
+    out.remeshed =
+        mesh::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
+    if (out.remeshed) out.surface = std::move(even);
   }
   return out;
 }

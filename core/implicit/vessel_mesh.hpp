@@ -11,7 +11,7 @@
 namespace acinus::implicit {
 
 struct VesselMeshOptions {
-  double fineness = 0.3;  ///< edges over the radius of the vessel
+  double fineness = 0.4;  ///< edges over the radius of the vessel
   double edge = 0;        ///< um, of all triangles alike; 0: each vessel its own
   double rounding = 0.1;  ///< VesselField
   int attempts = 3;       ///< ever finer, until the surface has the parts and loops of the network

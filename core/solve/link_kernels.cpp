@@ -71,7 +71,8 @@ ACINUS_INLINE void multiply(const L& l, const LinkScales& s, bool to_a, bool to_
 template <class L, class T>
 ACINUS_INLINE void multiply_all(const LinkSet<L>& set, const LinkScales& scales, const Packed<T>* x,
                                 Packed<T>* y) {
-  for (const Share s : set.share) multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
+  for (const std::vector<Share>& list : set.share)
+    for (const Share s : list) multiply(set.link[s.link], scales, s.a != 0, s.b != 0, x, y);
 }
 
 ACINUS_INLINE void add_block(SymBlock* to, Point p, float w, const SymBlock& m) {
@@ -93,12 +94,13 @@ ACINUS_INLINE void add_side(SymBlock* to, Point p, const SymBlock& m) { add_bloc
 
 template <class L>
 ACINUS_INLINE void add_diagonal_of(const LinkSet<L>& set, const LinkScales& scales, SymBlock* d) {
-  for (const Share s : set.share) {
-    const L& l = set.link[s.link];
-    const SymBlock m = matrix_of(l, scales);
-    if (s.a) add_side(d, l.a, m);
-    if (s.b && exists(l)) add_side(d, l.b, m);
-  }
+  for (const std::vector<Share>& list : set.share)
+    for (const Share s : list) {
+      const L& l = set.link[s.link];
+      const SymBlock m = matrix_of(l, scales);
+      if (s.a) add_side(d, l.a, m);
+      if (s.b && exists(l)) add_side(d, l.b, m);
+    }
 }
 
 template <class T>
@@ -132,39 +134,41 @@ ACINUS_KERNEL void multiply_links(const LinkSet<PointLink>& set, LinkScales scal
   multiply_all(set, scales, x, y);
 }
 
-ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, std::span<const Share> share,
+ACINUS_KERNEL void multiply_pairs(const PointPairs& pairs, const ShareLists& share,
                                   const Packed<float>* x, Packed<float>* y) {
   using Eight = float __attribute__((vector_size(32)));
-  for (const Share s : share) {
-    const PointPairs::Row row = pairs.row[s.link];
-    const Four<float> xa = load4(x + row.a);
-    Four<float> sum = {};
-    for (std::uint32_t k = row.first; k < row.last; ++k) {
-      const Point b = pairs.b[k];
-      const Four<float> r = xa - load4(x + b);
-      Eight m;
-      __builtin_memcpy(&m, pairs.block[k].data(), sizeof(m));
-      // The columns of the block; what they hold in the fourth place is not read.
-      const Four<float> f = r[0] * __builtin_shufflevector(m, m, 0, 1, 2, 6) +
-                            r[1] * __builtin_shufflevector(m, m, 1, 3, 4, 6) +
-                            r[2] * __builtin_shufflevector(m, m, 2, 4, 5, 6);
-      sum += f;
-      if (s.b) add4(y, b, -f);
+  for (const std::vector<Share>& list : share)
+    for (const Share s : list) {
+      const PointPairs::Row row = pairs.row[s.link];
+      const Four<float> xa = load4(x + row.a);
+      Four<float> sum = {};
+      for (std::uint32_t k = row.first; k < row.last; ++k) {
+        const Point b = pairs.b[k];
+        const Four<float> r = xa - load4(x + b);
+        Eight m;
+        __builtin_memcpy(&m, pairs.block[k].data(), sizeof(m));
+        // The columns of the block; what they hold in the fourth place is not read.
+        const Four<float> f = r[0] * __builtin_shufflevector(m, m, 0, 1, 2, 6) +
+                              r[1] * __builtin_shufflevector(m, m, 1, 3, 4, 6) +
+                              r[2] * __builtin_shufflevector(m, m, 2, 4, 5, 6);
+        sum += f;
+        if (s.b) add4(y, b, -f);
+      }
+      if (s.a) add4(y, row.a, sum);
     }
-    if (s.a) add4(y, row.a, sum);
-  }
 }
 
 void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
                 Packed<double>* y) {
-  for (const Share s : set.share) {
-    const Link& l = set.link[s.link];
-    if (exists(l) == external) continue;
-    const Vec3 v = load[s.link].force * load[s.link].normal;
-    const Four<double> f = {v.x(), v.y(), v.z(), 0};
-    if (s.a) scatter(l.a, f, y);
-    if (s.b && !external) scatter(l.b, -f, y);
-  }
+  for (const std::vector<Share>& list : set.share)
+    for (const Share s : list) {
+      const Link& l = set.link[s.link];
+      if (exists(l) == external) continue;
+      const Vec3 v = load[s.link].force * load[s.link].normal;
+      const Four<double> f = {v.x(), v.y(), v.z(), 0};
+      if (s.a) scatter(l.a, f, y);
+      if (s.b && !external) scatter(l.b, -f, y);
+    }
 }
 
 ACINUS_KERNEL void add_diagonal(const LinkSet<Link>& set, LinkScales scales, SymBlock* d) {

@@ -17,11 +17,14 @@ struct Share {
   std::uint32_t a : 1, b : 1;
 };
 
+/// One thread's shares, as lists that follow each other.
+using ShareLists = std::vector<std::vector<Share>>;
+
 /// One thread's share of the contacts.
 template <class L>
 struct LinkSet {
   std::span<const L> link;
-  std::span<const Share> share;
+  const ShareLists& share;
 };
 
 /// What contact coefficients are multiplied by.
@@ -101,7 +104,7 @@ struct PointPairs {
 
 /// Adds the forces of the pairs, for the rows of a share and on the points it owns: all second
 /// points of a row belong to one cell.
-void multiply_pairs(const PointPairs& pairs, std::span<const Share> share, const Packed<float>* x,
+void multiply_pairs(const PointPairs& pairs, const ShareLists& share, const Packed<float>* x,
                     Packed<float>* y);
 
 void add_diagonal(const LinkSet<Link>& set, LinkScales scales, SymBlock* diagonal);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/exact_sum.hpp"
+#include "core/make_room.hpp"
 #include "core/solve/kernels.hpp"
 #include "core/threads.hpp"
 
@@ -84,17 +85,25 @@ void Operator::divide() {
     });
 }
 
-/// Gives the ranges what joins points of theirs, in its order: each thread sorts a part of all.
+/// Gives the ranges what joins points of theirs, in its order: each thread sorts a part of all, and
+/// a range has a list from each.
 template <class Ends>
-void Operator::share(std::size_t n, std::vector<Share> ThreadRange::*to, const Ends& ends) {
+void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& ends) {
   const std::size_t n_range = range_.size();
-  share_.resize(n_range * n_range);  // by part, then by range
+  for (ThreadRange& range : range_) (range.*to).resize(n_range);
   const auto range_of = [&](Point p) { return p == kNowhere ? -1 : range_of_row_[p / kLanes]; };
   for_each_part(n_range, [&](std::size_t part) {
-    const auto mine = std::span(share_).subspan(part * n_range, n_range);
-    for (auto& list : mine) list.clear();
-    const auto give = [&](int range, Share share) {
-      if (range >= 0) mine[static_cast<std::size_t>(range)].push_back(share);
+    thread_local ShareLists mine;  // side by side while they are filled
+    mine.resize(n_range);
+    for (std::size_t k = 0; k < n_range; ++k) {
+      std::swap(mine[k], (range_[k].*to)[part]);
+      mine[k].clear();
+    }
+    const auto give = [lists = mine.data()](int range, Share share) {
+      if (range < 0) return;
+      std::vector<Share>& list = lists[range];
+      if (list.size() == list.capacity()) make_room(list, 1);
+      list.push_back(share);
     };
     for (std::size_t l = part * n / n_range; l < (part + 1) * n / n_range; ++l) {
       const auto [end_a, end_b] = ends(l);
@@ -107,14 +116,7 @@ void Operator::share(std::size_t n, std::vector<Share> ThreadRange::*to, const E
         give(b, {number, 0, 1});
       }
     }
-  });
-  for_each_part(n_range, [&](std::size_t range) {
-    std::vector<Share>& list = range_[range].*to;
-    std::swap(list, share_[range]);
-    for (std::size_t part = 1; part < n_range; ++part) {
-      const std::vector<Share>& more = share_[part * n_range + range];
-      list.insert(list.end(), more.begin(), more.end());
-    }
+    for (std::size_t k = 0; k < n_range; ++k) std::swap(mine[k], (range_[k].*to)[part]);
   });
 }
 
@@ -145,9 +147,12 @@ void Operator::merge_links() {
     return std::array{row.a, pairs.b[row.first]};
   });
   for_each_range([&](ThreadRange& range) {
-    range.single.clear();
-    for (const Share l : range.link)
-      if (!is_merged(s, s.links.link[l.link])) range.single.push_back(l);
+    range.single.resize(range.link.size());
+    for (std::size_t k = 0; k < range.link.size(); ++k) {
+      range.single[k].clear();
+      for (const Share l : range.link[k])
+        if (!is_merged(s, s.links.link[l.link])) range.single[k].push_back(l);
+    }
   });
   merged_ = true;
 }
@@ -201,11 +206,13 @@ void Operator::prepare(const System& system) {
   exchange_.plan(system);
   for_each_range([&](ThreadRange& range) {
     range.external.clear();
-    for (const Share l : range.link)
-      if (!system.links.link[l.link].b.exists()) range.external.push_back(l.link);
+    for (const std::vector<Share>& list : range.link)
+      for (const Share l : list)
+        if (!system.links.link[l.link].b.exists()) range.external.push_back(l.link);
     range.external_point.clear();
-    for (const Share l : range.point_link)
-      if (system.point_links[l.link].b == kNowhere) range.external_point.push_back(l.link);
+    for (const std::vector<Share>& list : range.point_link)
+      for (const Share l : list)
+        if (system.point_links[l.link].b == kNowhere) range.external_point.push_back(l.link);
   });
   compute_inverse();
 }

@@ -100,8 +100,8 @@ class Operator {
   /// What one thread works on: the own blocks of a range.
   struct ThreadRange {
     std::size_t first_block = 0, last_block = 0;
-    std::vector<Share> link, point_link;
-    std::vector<Share> single, pair;  ///< in float: links that are not merged, and rows of pairs
+    ShareLists link, point_link;
+    ShareLists single, pair;  ///< in float: links that are not merged, and rows of pairs
     std::vector<std::uint32_t> external, external_point;  ///< links with boundary
   };
   /// Two vectors on packed points, [n_point] each; scratch of a product.
@@ -118,7 +118,7 @@ class Operator {
   void start(const System& system);
   void divide();
   template <class Ends>
-  void share(std::size_t n, std::vector<Share> ThreadRange::*to, const Ends& ends);
+  void share(std::size_t n, ShareLists ThreadRange::*to, const Ends& ends);
   void share_links(bool with_matrix);
   void compute_inverse();
   LinkSet<Link> links_of(const ThreadRange& range) const;
@@ -138,9 +138,8 @@ class Operator {
 
   const System* system_ = nullptr;
   std::vector<ThreadRange> range_;
-  std::vector<int> range_of_row_;          ///< [n_row] -1: of another process
-  std::vector<std::vector<Share>> share_;  ///< scratch of share
-  bool merged_ = false;                    ///< products in float use merge_
+  std::vector<int> range_of_row_;  ///< [n_row] -1: of another process
+  bool merged_ = false;            ///< products in float use merge_
   LinkMerger merger_;
   MergedLinks merge_;
   std::vector<float> inverse_;  ///< [n_row][6][lane]

@@ -53,7 +53,7 @@ void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
 
 /// Lays the surface about the vessels that cells touch, if they do.
 /// Facets stand beside the cones by a share of the radius that falls with the square of their edge:
-/// half as long as for files, pressures differ by 1 % from those at the cones, not 2 %
+/// shorter than for files, pressures differ by 1 % from those at the cones, not 2 %
 /// (docs/images.md).
 void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
   if (scene.vessels.contact != VesselWalls::kMesh || vessels.network.segment.empty()) return;

@@ -24,7 +24,8 @@ namespace {
 
 struct MeshArguments {
   std::string what, out, unit = "1 um", edge, alpha, offset;
-  double fineness = 0.3, rounding = 0.1;
+  double fineness = implicit::VesselMeshOptions{}.fineness;
+  double rounding = implicit::VesselMeshOptions{}.rounding;
   int threads = 0;
   bool quiet = false;
 };
@@ -139,7 +140,7 @@ Command add_mesh(CLI::App& app) {
       ->type_name("LENGTH");
   vessels
       ->add_option("--fineness", arguments->fineness,
-                   "side of a triangle over the radius of its vessel (default: 0.3)")
+                   "side of a triangle over the radius of its vessel (default: 0.4)")
       ->type_name("SHARE")
       ->check(CLI::Range(0.05, 1.0));
   vessels

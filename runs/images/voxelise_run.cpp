@@ -69,7 +69,8 @@ std::optional<mesh::Surface> vessels_of(const io::RunReader& run, const std::str
         fmt::format("{}: its vessels bend, and a frame does not say where to; leave them out with "
                     "--no-vessels.",
                     folder));
-  return implicit::make_vessel_mesh(network, {}).surface;
+  constexpr double kFineness = 0.3;  // a voxel may be small beside what is good enough to look at
+  return implicit::make_vessel_mesh(network, {.fineness = kFineness}).surface;
 }
 
 }  // namespace
