@@ -1,58 +1,86 @@
 #include "cbm/state.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "core/sphere.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::cbm {
 
-State make_state(const std::vector<NewCell>& cells) {
+namespace {
+
+State make_size(std::size_t n) {
   State s;
-  s.position.assign((cells.size() + kLanes - 1) / kLanes * kPointStride, 0.0);
-  s.lineage.reserve(cells.size());
-  s.type.reserve(cells.size());
-  s.volume.reserve(cells.size());
-  s.strength.reserve(cells.size());
-  s.young.reserve(cells.size());
-  s.pull.reserve(cells.size());
+  s.position.assign((n + kLanes - 1) / kLanes * kPointStride, 0.0);
+  s.lineage.resize(n);
+  s.type.resize(n);
+  s.volume.resize(n);
+  s.young.resize(n);
+  s.strength.resize(n);
+  s.pull.resize(n);
+  return s;
+}
+
+/// The pairs that touch among cells of other states, by their new numbers, ascending.
+std::vector<std::pair<int, int>> find_touching(std::span<const CellRef> cells) {
+  std::map<const State*, std::vector<int>> new_index;  // [cell of that state], -1: left out
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    new_index.try_emplace(cells[k].state, cells[k].state->n_cell(), -1)
+        .first->second[cells[k].cell] = static_cast<int>(k);
+  const auto for_each_pair = [&](const auto& f) {
+    for (const auto& [from, index] : new_index)
+      for (const auto& [a, b] : from->touching) {
+        const int i = index[a];
+        const int j = b < 0 ? b : index[b];
+        if (i >= 0 && (b < 0 || j >= 0)) f(b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j));
+      }
+  };
+  // Sorted by their first cells in one go; each has few.
+  std::vector<std::size_t> next(cells.size() + 1, 0);
+  for_each_pair([&](int a, int) { ++next[a + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  const std::vector<std::size_t> start = next;
+  std::vector<std::pair<int, int>> pairs(next.back());
+  for_each_pair([&](int a, int b) { pairs[next[a]++] = {a, b}; });
+  const auto at = [&](std::size_t k) { return pairs.begin() + static_cast<std::ptrdiff_t>(k); };
+  for_each_index(cells.size(), worth_threads(cells.size() / kLanes),
+                 [&](std::size_t k) { std::sort(at(start[k]), at(start[k + 1])); });
+  return pairs;
+}
+
+}  // namespace
+
+State make_state(const std::vector<NewCell>& cells) {
+  State s = make_size(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) {
     store_point(s.position.data(), cell_address(0, c), cells[c].center);
-    s.lineage.push_back(cells[c].lineage);
-    s.type.push_back(cells[c].type);
-    s.volume.push_back(Ramp::constant(sphere_volume(cells[c].radius)));
-    s.strength.push_back(cells[c].strength);
-    s.young.push_back(cells[c].young);
-    s.pull.push_back(cells[c].pull);
+    s.lineage[c] = cells[c].lineage;
+    s.type[c] = cells[c].type;
+    s.volume[c] = Ramp::constant(sphere_volume(cells[c].radius));
+    s.strength[c] = cells[c].strength;
+    s.young[c] = cells[c].young;
+    s.pull[c] = cells[c].pull;
   }
   return s;
 }
 
 State compose(std::span<const CellRef> cells) {
-  State s;
-  s.position.assign((cells.size() + kLanes - 1) / kLanes * kPointStride, 0.0);
-  std::map<const State*, std::vector<int>> new_index;  // [cell of that state], -1: left out
-  for (std::size_t k = 0; k < cells.size(); ++k) {
+  State s = make_size(cells.size());
+  for_each_index(cells.size(), worth_threads(s.n_row()), [&](std::size_t k) {
     const auto& [from, cell, type] = cells[k];
     store_point(s.position.data(), cell_address(0, k), center_of(*from, cell));
-    s.lineage.push_back(from->lineage[cell]);
-    s.type.push_back(type < 0 ? from->type[cell] : type);
-    s.volume.push_back(from->volume[cell]);
-    s.young.push_back(from->young[cell]);
-    s.strength.push_back(from->strength[cell]);
-    s.pull.push_back(from->pull[cell]);
-    auto& index = new_index.try_emplace(from, from->n_cell(), -1).first->second;
-    index[cell] = static_cast<int>(k);
-  }
-  for (const auto& [from, index] : new_index)
-    for (const auto& [a, b] : from->touching) {
-      const int i = index[a];
-      const int j = b < 0 ? b : index[b];
-      if (i < 0 || (b >= 0 && j < 0)) continue;
-      s.touching.emplace_back(b < 0 ? i : std::min(i, j), b < 0 ? b : std::max(i, j));
-    }
-  std::ranges::sort(s.touching);
+    s.lineage[k] = from->lineage[cell];
+    s.type[k] = type < 0 ? from->type[cell] : type;
+    s.volume[k] = from->volume[cell];
+    s.young[k] = from->young[cell];
+    s.strength[k] = from->strength[cell];
+    s.pull[k] = from->pull[cell];
+  });
+  s.touching = find_touching(cells);
   return s;
 }
 

@@ -20,12 +20,12 @@ void complete_body(const State& state, std::size_t k, ContactWorkspace& work) {
 void refresh_bodies(const State& state, ContactWorkspace& work) {
   std::size_t n = 0;
   for (std::size_t l = 0; l < state.n_lane(); ++l) n += state.active(l) ? 1 : 0;
-  if (work.body.size() != n) {
-    work.body.assign(n, {});
+  if (work.lane_of_body.size() != n) {
     work.lane_of_body.clear();
     for (std::size_t l = 0; l < state.n_lane(); ++l)
       if (state.active(l)) work.lane_of_body.push_back(l);
   }
+  work.body.resize(n);
   work.is_complete.assign(n, 0);
   for_each_index(n, worth_threads(state.n_row()), [&](std::size_t k) {
     contact::SurfaceBody& b = work.body[k];

@@ -14,6 +14,8 @@ namespace {
 /// Extra distance, um, at which bodies count as near each other: how far two may come closer before
 /// pairs are looked for again.
 constexpr double kReserve = 2;
+/// Pairs of bodies that are looked for among those there were before by all threads.
+constexpr std::size_t kWorthThreads = 500;
 
 bool is_constrained(const ListInput& in, std::size_t body) {
   return body >= in.body.size() || (!in.constrained.empty() && in.constrained[body] != 0);
@@ -118,17 +120,17 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
     return k < was.size() ? was[k] : body - static_cast<int>(was.size() - lists.body.size());
   };
   const auto bodies_of = [](const contact::Candidates& c) { return std::pair(c.body_a, c.body_b); };
-  for (std::size_t k = 0; k < next.pair.size(); ++k) {
+  for_each_index(next.pair.size(), next.pair.size() > kWorthThreads, [&](std::size_t k) {
     contact::Candidates& c = next.pair[k];
     const std::pair before(number_before(c.body_a), number_before(c.body_b));
     const auto found = std::ranges::lower_bound(lists.pair, before, {}, bodies_of);
-    if (found == lists.pair.end() || bodies_of(*found) != before) continue;
+    if (found == lists.pair.end() || bodies_of(*found) != before) return;
     next.age[k] = lists.age[found - lists.pair.begin()];
     const auto [a, b] = bodies_of(c);
     c = std::move(*found);
     c.body_a = a;
     c.body_b = b;
-  }
+  });
   lists = std::move(next);
   count_lists(lists);
 }
@@ -160,20 +162,22 @@ const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapsho
   return &lists.body[body].snapshot[snapshot];
 }
 
-/// The place of a new snapshot of a body.
-int add_snapshot(const contact::SurfaceBody& now, ListedBody& body) {
+/// A free place for a new snapshot of a body, free no more.
+int take_place(ListedBody& body) {
   std::size_t place = 0;
   while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
   if (place == body.snapshot.size()) body.snapshot.emplace_back();
-  ListSnapshot& s = body.snapshot[place];
+  body.snapshot[place].lists = 1;
+  return static_cast<int>(place);
+}
+
+void take_snapshot(const contact::SurfaceBody& now, ListSnapshot& s) {
   s.origin = 0.5 * (now.box.low + now.box.high);
   s.node.clear();
   s.node.reserve(now.node.size());
   for (const Vec3& x : now.node) s.node.emplace_back((x - s.origin).cast<float>());
   s.mean = Vec3::Zero();
   s.spread = 0;
-  s.lists = 1;  // not free
-  return static_cast<int>(place);
 }
 
 /// Finds the segments within reach of every site of a body.
@@ -236,9 +240,14 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   std::vector<std::size_t>&expired = scratch.expired, &segments_expired = scratch.segments_expired;
   expired.clear();
   segments_expired.clear();
-  for (std::size_t k = 0; k < lists.pair.size(); ++k)
-    if (!lists.age[k].made() || relative_motion(lists, k) + range - lists.age[k].range > skin)
-      expired.push_back(k);
+  std::vector<std::uint8_t>& is_expired = scratch.is_expired;
+  is_expired.resize(lists.pair.size());
+  for_each_index(is_expired.size(), is_expired.size() > kWorthThreads, [&](std::size_t k) {
+    const ListAge& age = lists.age[k];
+    is_expired[k] = !age.made() || relative_motion(lists, k) + range - age.range > skin ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < is_expired.size(); ++k)
+    if (is_expired[k] != 0) expired.push_back(k);
   if (!in.network.segment.empty()) {
     // Half the skin is for the body, half for how far vessels move, each way from where they were.
     const double room = in.network_moves ? 0.5 * skin : skin;
@@ -259,7 +268,7 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
   latest.assign(n_body, -1);
   const auto snapshot_now = [&](std::size_t body) {
     if (body >= n_body) return -1;
-    if (latest[body] < 0) latest[body] = add_snapshot(in.body[body], lists.body[body]);
+    if (latest[body] < 0) latest[body] = take_place(lists.body[body]);
     return latest[body];
   };
   scratch.to_fill.clear();
@@ -270,6 +279,9 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
     scratch.to_fill.push_back(&list);
   }
   for (std::size_t k : segments_expired) lists.segment_age[k] = {snapshot_now(k), -1, range};
+  for_each_index(n_body, shared, [&](std::size_t k) {
+    if (latest[k] >= 0) take_snapshot(in.body[k], lists.body[k].snapshot[latest[k]]);
+  });
   count_lists(lists);
   contact::fill_candidates(in.body, in.fixed, in.options, scratch.to_fill);
   for_each_index(segments_expired.size(), shared, [&](std::size_t e) {

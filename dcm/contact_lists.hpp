@@ -48,6 +48,7 @@ struct ListAge {
 
 /// Scratch of refresh_lists.
 struct ListScratch {
+  std::vector<std::uint8_t> is_expired;  ///< [pair]
   std::vector<std::size_t> expired, segments_expired;
   std::vector<int> latest;  ///< [body] the snapshot of this moment, -1: none
   std::vector<contact::Candidates*> to_fill;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/make_room.hpp"
 #include "core/threads.hpp"
 #include "dcm/tensions.hpp"
 #include "dcm/terms/area.hpp"
@@ -163,8 +164,8 @@ void size_rank_one(const State& state, std::span<const Params> params, solve::Sy
                     (any_nucleus(params, &Nucleus::bulk_modulus) ? 1 : 0) +
                     (any_nucleus(params, &Nucleus::area_modulus) ? 1 : 0) + (pull_springs ? 1 : 0));
   for (solve::RankOne& family : s.rank_one) {
-    family.vector.resize(state.position.size());
-    family.coefficient.resize(state.n_lane());
+    set_size(family.vector, state.position.size());
+    set_size(family.coefficient, state.n_lane());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sphere.hpp"
+#include "core/threads.hpp"
 #include "dcm/mesh_pattern.hpp"
 
 namespace acinus::dcm {
@@ -24,74 +25,95 @@ void place_points(State& s, std::size_t lane, F f) {
 /// Stable grouping: a group is open while it has a free lane and its type and meshes match.
 class Grouping {
  public:
-  /// A free lane for one more cell, in a new group if need be.
-  std::size_t add(State& s, const Group& like) {
-    for (auto& [group, lane] : open_) {
-      const Group& g = s.group[group];
-      if (g.type == like.type && g.topology == like.topology && g.nucleus == like.nucleus) {
-        if (lane % kLanes != 0) return lane++;
-        group = s.group.size();
-        lane = open_group(s, like);
-        return lane++;
-      }
-    }
-    open_.emplace_back(s.group.size(), 0);
-    open_.back().second = open_group(s, like);
-    return open_.back().second++;
+  /// A lane for one more cell, in a new group if need be.
+  std::size_t add(std::int64_t lineage, const Group& like) {
+    const std::size_t lane = find_lane(like);
+    lineage_[lane] = lineage;
+    return lane;
   }
 
- private:
-  static std::size_t open_group(State& s, const Group& like) {
-    const std::size_t lane = s.n_lane(), first = s.n_row();
-    s.group.push_back({like.topology, first, like.type, like.nucleus});
-    const std::size_t n = lane + kLanes;
-    s.lineage.resize(n, kEmptyLane);
+  /// A state with these groups, all cells at rest about the origin.
+  State make_state() && {
+    State s;
+    s.group = std::move(group_);
+    s.lineage = std::move(lineage_);
+    const std::size_t n = s.n_lane();
     s.volume.resize(n, Ramp::constant(4.0 / 3 * kPi));
     s.birth.resize(n);
     s.tension.resize(n);
     s.pull.resize(n, Vec3::Zero());
-    s.position.resize((first + like.n_point()) * kPointStride, 0.0);
-    for (std::size_t l = lane; l < n; ++l) place_points(s, l, [](const Vec3& x) { return x; });
+    s.position.resize(n_row_ * kPointStride);
+    for_each_index(n, worth_threads(n_row_),
+                   [&](std::size_t l) { place_points(s, l, [](const Vec3& x) { return x; }); });
+    return s;
+  }
+
+ private:
+  std::size_t find_lane(const Group& like) {
+    for (auto& [group, lane] : open_) {
+      const Group& g = group_[group];
+      if (g.type == like.type && g.topology == like.topology && g.nucleus == like.nucleus) {
+        if (lane % kLanes != 0) return lane++;
+        group = group_.size();
+        lane = open_group(like);
+        return lane++;
+      }
+    }
+    open_.emplace_back(group_.size(), 0);
+    open_.back().second = open_group(like);
+    return open_.back().second++;
+  }
+  std::size_t open_group(const Group& like) {
+    const std::size_t lane = lineage_.size();
+    group_.push_back({like.topology, n_row_, like.type, like.nucleus});
+    lineage_.resize(lane + kLanes, kEmptyLane);
+    n_row_ += static_cast<std::size_t>(like.n_point());
     return lane;
   }
+  std::vector<Group> group_;
+  std::vector<std::int64_t> lineage_;
+  std::size_t n_row_ = 0;
   std::vector<std::pair<std::size_t, std::size_t>> open_;  ///< (group, its next lane)
 };
 
 }  // namespace
 
 State make_state(const std::vector<NewCell>& cells) {
-  State s;
   Grouping grouping;
-  for (const NewCell& c : cells) {
-    const std::size_t lane = grouping.add(s, {c.topology, 0, c.type, c.nucleus});
-    s.lineage[lane] = c.lineage;
-    s.volume[lane] = Ramp::constant(4.0 / 3 * kPi * c.radius * c.radius * c.radius);
-    s.pull[lane] = c.pull;
-    place_points(s, lane,
+  std::vector<std::size_t> lane;
+  for (const NewCell& c : cells)
+    lane.push_back(grouping.add(c.lineage, {c.topology, 0, c.type, c.nucleus}));
+  State s = std::move(grouping).make_state();
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const NewCell& c = cells[k];
+    s.volume[lane[k]] = Ramp::constant(4.0 / 3 * kPi * c.radius * c.radius * c.radius);
+    s.pull[lane[k]] = c.pull;
+    place_points(s, lane[k],
                  [&c](const Vec3& x) -> Vec3 { return c.center + c.radius * (c.rotation * x); });
   }
   return s;
 }
 
 State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane) {
-  State s;
   Grouping grouping;
   lane.clear();
   for (const CellRef& c : cells) {
-    const State& from = *c.state;
-    const Group& g = from.group[c.lane / kLanes];
-    const std::size_t to =
-        grouping.add(s, {g.topology, 0, c.type < 0 ? g.type : c.type, g.nucleus});
-    lane.push_back(to);
-    s.lineage[to] = from.lineage[c.lane];
-    s.volume[to] = from.volume[c.lane];
-    s.birth[to] = from.birth[c.lane];
-    s.tension[to] = from.tension[c.lane];
-    s.pull[to] = from.pull[c.lane];
-    for (int i = 0; i < g.n_point(); ++i)
-      store_point(s.position.data(), node_address(s, to, i),
-                  load_point(from.position.data(), node_address(from, c.lane, i)));
+    const Group& g = c.state->group[c.lane / kLanes];
+    lane.push_back(grouping.add(c.state->lineage[c.lane],
+                                {g.topology, 0, c.type < 0 ? g.type : c.type, g.nucleus}));
   }
+  State s = std::move(grouping).make_state();
+  for_each_index(cells.size(), worth_threads(s.n_row()), [&](std::size_t k) {
+    const State& from = *cells[k].state;
+    const std::size_t at = cells[k].lane, to = lane[k];
+    s.volume[to] = from.volume[at];
+    s.birth[to] = from.birth[at];
+    s.tension[to] = from.tension[at];
+    s.pull[to] = from.pull[at];
+    for (int i = 0; i < from.group[at / kLanes].n_point(); ++i)
+      store_point(s.position.data(), node_address(s, to, i),
+                  load_point(from.position.data(), node_address(from, at, i)));
+  });
   return s;
 }
 

@@ -8,6 +8,7 @@
 #include <exception>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "runs/session/together.hpp"
 
 namespace acinus::runs {
@@ -19,6 +20,7 @@ int run_program(Work work) {
   // A file-size limit then shows as a failed write, which is reported, instead of killing the
   // program.
   std::signal(SIGXFSZ, SIG_IGN);
+  keep_freed_memory();
   try {
     return work();
   } catch (const FailedElsewhere& failed) {

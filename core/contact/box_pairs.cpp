@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
+
+#include "core/threads.hpp"
 
 namespace acinus::contact {
 namespace {
+
+/// Boxes that are looked at by all threads.
+constexpr std::size_t kWorthThreads = 500;
 
 using Key = std::uint64_t;
 using CellIndex = std::array<std::int64_t, 3>;
@@ -63,20 +69,28 @@ double widest(std::span<const Box> boxes) {
 }  // namespace
 
 std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double margin) {
-  std::vector<std::pair<int, int>> pairs;
-  if (boxes.size() < 2) return pairs;
+  const std::size_t n = boxes.size();
+  if (n < 2) return {};
   std::vector<BoxGrid::Item> item;
   const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low, item);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Box reach = boxes[i].grown(margin);
-    const std::size_t first = pairs.size();
-    grid.for_each_near(grid.cell(boxes[i]), [&](int j) {
-      if (j > static_cast<int>(i) && reach.overlaps(boxes[j]))
-        pairs.emplace_back(static_cast<int>(i), j);
-    });
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
-  }
-  return pairs;
+  // In the order of the boxes, whoever finds them.
+  const std::size_t n_part = n < kWorthThreads ? 1 : static_cast<std::size_t>(thread_count());
+  std::vector<std::vector<std::pair<int, int>>> found(n_part);
+  for_each_part(n_part, [&](std::size_t part) {
+    std::vector<std::pair<int, int>>& pairs = found[part];
+    for (std::size_t i = part * n / n_part; i < (part + 1) * n / n_part; ++i) {
+      const Box reach = boxes[i].grown(margin);
+      const std::size_t first = pairs.size();
+      grid.for_each_near(grid.cell(boxes[i]), [&](int j) {
+        if (j > static_cast<int>(i) && reach.overlaps(boxes[j]))
+          pairs.emplace_back(static_cast<int>(i), j);
+      });
+      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
+    }
+  });
+  for (std::size_t part = 1; part < n_part; ++part)
+    found[0].insert(found[0].end(), found[part].begin(), found[part].end());
+  return std::move(found[0]);
 }
 
 std::vector<std::pair<int, int>> find_pairs_between(std::span<const Box> a, std::span<const Box> b,

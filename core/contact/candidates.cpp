@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -324,20 +325,27 @@ std::vector<Candidates> list_pairs(std::span<const SurfaceBody> bodies,
   std::vector<Box> boxes, fixed_boxes;
   for (const SurfaceBody& b : bodies) boxes.push_back(b.box);
   for (const SurfaceBody& b : fixed) fixed_boxes.push_back(b.box);
-  std::vector<std::pair<int, int>> pairs;
-  for (auto [a, b] : find_pairs(boxes, margin)) {
-    pairs.emplace_back(a, b);
-    pairs.emplace_back(b, a);
-  }
-  for (auto [a, b] : find_pairs_between(boxes, fixed_boxes, margin))
-    pairs.emplace_back(a, b + static_cast<int>(bodies.size()));
-  if (o.self_range > 0)
-    for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
-      if (bodies[a].topology != nullptr) pairs.emplace_back(a, a);
-  std::ranges::sort(pairs);
-  std::vector<Candidates> lists(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    std::tie(lists[k].body_a, lists[k].body_b) = pairs[k];
+  const auto n = static_cast<int>(bodies.size());
+  const std::vector<std::pair<int, int>> both = find_pairs(boxes, margin);
+  const std::vector<std::pair<int, int>> probed = find_pairs_between(boxes, fixed_boxes, margin);
+  // f(a, b) for all pairs, those of each a ascending: pairs come in order of their first bodies.
+  const auto for_each_pair = [&](const auto& f) {
+    for (const auto& [a, b] : both) f(b, a);
+    if (o.self_range > 0)
+      for (int a = 0; a < n; ++a)
+        if (bodies[a].topology != nullptr) f(a, a);
+    for (const auto& [a, b] : both) f(a, b);
+    for (const auto& [a, b] : probed) f(a, b + n);
+  };
+  std::vector<std::size_t> next(bodies.size() + 1, 0);
+  for_each_pair([&](int a, int) { ++next[a + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Candidates> lists(next.back());
+  for_each_pair([&](int a, int b) {
+    Candidates& list = lists[next[a]++];
+    list.body_a = a;
+    list.body_b = b;
+  });
   return lists;
 }
 

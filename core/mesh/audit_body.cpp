@@ -4,12 +4,12 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 
 #include "core/error.hpp"
 
@@ -53,15 +53,24 @@ struct AuditBody::Surface {
 };
 
 std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box) {
-  std::vector<int> order(box.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](std::size_t k) -> const Box& { return box[order[k]]; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return box[a].low.x() < box[b].low.x(); });
+  using Handle =
+      CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Box*,
+                                                  CGAL::Box_intersection_d::ID_FROM_HANDLE>;
+  constexpr std::ptrdiff_t kSweep = 500;  // so few are sorted along one axis and swept
+  std::vector<Handle> handle;
+  handle.reserve(box.size());
+  for (const Box& b : box)
+    handle.emplace_back(
+        CGAL::Bbox_3(b.low.x(), b.low.y(), b.low.z(), b.high.x(), b.high.y(), b.high.z()), &b);
+  const auto number_of = [&](const Handle& h) { return static_cast<int>(h.handle() - box.data()); };
   std::vector<std::pair<int, int>> pair;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t j = i + 1; j < order.size() && at(j).low.x() <= at(i).high.x(); ++j)
-      if (at(i).overlaps(at(j))) pair.push_back(std::minmax({order[i], order[j]}));
+  CGAL::box_self_intersection_d(
+      handle.begin(), handle.end(),
+      [&](const Handle& a, const Handle& b) {
+        pair.push_back(std::minmax({number_of(a), number_of(b)}));
+      },
+      kSweep, CGAL::Box_intersection_d::CLOSED);
+  std::ranges::sort(pair);
   return pair;
 }
 

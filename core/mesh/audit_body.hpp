@@ -13,8 +13,7 @@
 
 namespace acinus::mesh {
 
-/// Index pairs i < j of boxes that meet, found by a sweep along x; the order depends on the boxes
-/// only.
+/// Index pairs i < j of boxes that meet, ascending.
 std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box);
 
 enum class Location { kInside, kOn, kOutside };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/numbers.hpp"
 #include "core/stop.hpp"
 
 namespace acinus::solve {
@@ -41,7 +42,7 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
                  int& iterations, CgVectors<T>& v) {
   const std::size_t n = residual.size();
   for (auto* a : {&v.correction, &v.residual, &v.direction, &v.preconditioned, &v.product})
-    a->resize(n);
+    set_size(*a, n);
   for_each_own_number(op.system(), [&](std::size_t k) {
     v.correction[k] = 0;
     v.residual[k] = static_cast<T>(residual[k] / plan.size);
@@ -108,8 +109,8 @@ constexpr const char* kIndefinite = "the matrix is not positive definite";
 
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
                   const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse) {
-  work.residual.assign(b.begin(), b.end());
-  work.product.resize(b.size());
+  copy_numbers(b, work.residual);
+  set_size(work.product, b.size());
   const double rhs = std::sqrt(op.precondition(work.residual, {}));
   CgResult result;
   if (!std::isfinite(rhs)) return fail(result, "the right-hand side is not finite");

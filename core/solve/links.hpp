@@ -72,12 +72,8 @@ struct Links {
 
   std::size_t size() const { return link.size(); }
   void resize(std::size_t n) {
-    if (n > link.size()) {
-      make_room(link, n - link.size());
-      make_room(load, n - load.size());
-    }
-    link.resize(n);
-    load.resize(n);
+    set_size(link, n);
+    set_size(load, n);
     closed.clear();
   }
   bool is_closed(std::size_t l) const { return !closed.empty() && closed[l] != 0; }

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/make_room.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
@@ -68,23 +69,29 @@ bool is_merged(const System& s, const Link& l) {
 
 /// Finds contacts in a row that join the same cells, and sorts them by pairs of cells.
 void LinkMerger::find_runs(const System& s) {
-  run_.clear();
-  bool open = false;
-  for (std::size_t l = 0; l < s.links.size(); ++l) {
-    const Link& k = s.links.link[l];
-    if (!is_merged(s, k)) {
-      open = false;
-      continue;
-    }
-    const std::uint64_t a = cell_of(s, k.a.point[0]), b = cell_of(s, k.b.point[0]);
-    const std::uint64_t cells = std::min(a, b) << 32 | std::max(a, b);
-    const auto i = static_cast<std::uint32_t>(l);
-    if (open && run_.back().cells == cells && run_.back().swapped == (a > b))
-      run_.back().last = i + 1;
+  const auto add = [](std::vector<LinkRun>& runs, const LinkRun& next) {
+    if (!runs.empty() && runs.back().last == next.first && runs.back().cells == next.cells &&
+        runs.back().swapped == next.swapped)
+      runs.back().last = next.last;
     else
-      run_.push_back({cells, i, i + 1, a > b});
-    open = true;
-  }
+      runs.push_back(next);
+  };
+  const std::size_t n_part = count_threads(s.n_row), n = s.links.size();
+  found_.resize(n_part);
+  for_each_part(n_part, [&](std::size_t part) {
+    std::vector<LinkRun>& runs = found_[part];
+    runs.clear();
+    for (std::size_t l = part * n / n_part; l < (part + 1) * n / n_part; ++l) {
+      const Link& k = s.links.link[l];
+      if (!is_merged(s, k)) continue;
+      const std::uint64_t a = cell_of(s, k.a.point[0]), b = cell_of(s, k.b.point[0]);
+      const auto i = static_cast<std::uint32_t>(l);
+      add(runs, {std::min(a, b) << 32 | std::max(a, b), i, i + 1, a > b});
+    }
+  });
+  run_.clear();
+  for (const std::vector<LinkRun>& runs : found_)  // one may go on in the next part
+    for (const LinkRun& r : runs) add(run_, r);
   std::ranges::sort(run_, {}, [](const LinkRun& r) { return std::pair(r.cells, r.first); });
   group_.clear();
   for (std::size_t k = 0; k < run_.size(); ++k)
@@ -122,7 +129,7 @@ void LinkMerger::add_across(const System& s, PointPairs& pairs) {
 
 void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
   const std::size_t n_block = s.block.size();
-  edge.resize(s.spring.size() / kSpringStride * kEdgeStride);
+  set_size(edge, s.spring.size() / kSpringStride * kEdgeStride);
   end_.clear();
   for (std::uint32_t k = 0; k < run_.size(); ++k) {
     const std::uint64_t low = run_[k].cells >> 32, high = run_[k].cells & 0xffffffff;

@@ -50,11 +50,12 @@ class LinkMerger {
   void add_across(const System& system, PointPairs& pairs);
   void add_within(const System& system, std::vector<float>& edge);
 
-  std::vector<LinkRun> run_;           ///< by pair of cells
-  std::vector<std::size_t> group_;     ///< where in run_ each pair of cells starts
-  std::vector<RunEnd> end_;            ///< by block
-  std::vector<PointPairs> part_;       ///< [other threads than the first]
-  std::vector<PointPairTable> table_;  ///< [thread]
+  std::vector<std::vector<LinkRun>> found_;  ///< [thread]
+  std::vector<LinkRun> run_;                 ///< by pair of cells
+  std::vector<std::size_t> group_;           ///< where in run_ each pair of cells starts
+  std::vector<RunEnd> end_;                  ///< by block
+  std::vector<PointPairs> part_;             ///< [other threads than the first]
+  std::vector<PointPairTable> table_;        ///< [thread]
 };
 
 }  // namespace acinus::solve

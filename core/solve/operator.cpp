@@ -102,7 +102,7 @@ void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& end
     const auto give = [lists = mine.data()](int range, Share share) {
       if (range < 0) return;
       std::vector<Share>& list = lists[range];
-      if (list.size() == list.capacity()) make_room(list, 1);
+      make_room(list, 1);
       list.push_back(share);
     };
     for (std::size_t l = part * n / n_range; l < (part + 1) * n / n_range; ++l) {
@@ -159,10 +159,10 @@ void Operator::merge_links() {
 
 void Operator::compute_inverse() {
   const System& s = *system_;
-  inverse_.resize(s.n_row * kSymStride);
+  set_size(inverse_, s.n_row * kSymStride);
   rank_one_.resize(s.rank_one.size());
   for (std::size_t k = 0; k < rank_one_.size(); ++k)
-    rank_one_[k].resize(s.rank_one[k].vector.size());
+    set_size(rank_one_[k], s.rank_one[k].vector.size());
   SymBlock* const diagonal_blocks = diagonal();
   const LinkScales scales{s.stiffness_scale, s.friction_scale};
   for_each_range([&](const ThreadRange& range) {
@@ -195,7 +195,7 @@ void Operator::compute_inverse() {
 
 void Operator::start(const System& system) {
   system_ = &system;
-  scratch_.resize(system.n_row * kLanes);
+  set_size(scratch_, system.n_row * kLanes);
   divide();
   merged_ = false;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/numbers.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::solve {
@@ -42,13 +43,13 @@ void set_blocks(System& system, std::vector<Block> blocks) {
   for (std::size_t b = 0; b < system.block.size(); ++b)
     system.block_of_row.insert(system.block_of_row.end(), system.block[b].pattern->n_point,
                                static_cast<int>(b));
-  system.force.resize(system.n_dof());
-  system.external_force.resize(system.n_dof());
-  system.medium.resize(system.n_row * kLanes);
-  system.spring.resize(n_spring * kSpringStride);
-  system.hinge.assign(n_hinge * kHingeStride, 0.0f);
-  system.face.assign(n_face * kFaceStride, 0.0f);
-  system.beam.assign(n_beam * kBeamStride, 0.0f);
+  set_size(system.force, system.n_dof());
+  set_size(system.external_force, system.n_dof());
+  set_size(system.medium, system.n_row * kLanes);
+  set_size(system.spring, n_spring * kSpringStride);
+  assign_zeros(system.hinge, n_hinge * kHingeStride);
+  assign_zeros(system.face, n_face * kFaceStride);
+  assign_zeros(system.beam, n_beam * kBeamStride);
   clear_loads(system);
 }
 
@@ -71,14 +72,13 @@ void gather_rows(const System& s, std::span<double> x) {
 }
 
 void clear_loads(System& system) {
-  auto clear = [](auto& v) { for_each_number(v.size(), [&](std::size_t k) { v[k] = 0; }); };
-  clear(system.force);
-  clear(system.external_force);
-  clear(system.medium);
-  clear(system.spring);
+  clear_numbers(system.force);
+  clear_numbers(system.external_force);
+  clear_numbers(system.medium);
+  clear_numbers(system.spring);
   for (RankOne& r : system.rank_one) {
-    clear(r.vector);
-    clear(r.coefficient);
+    clear_numbers(r.vector);
+    clear_numbers(r.coefficient);
   }
   system.links.clear();
 }

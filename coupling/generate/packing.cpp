@@ -6,11 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/threads.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -117,22 +117,24 @@ std::vector<Vec3> make_box(const BoxParameters& p, const Uniform& uniform) {
 
 std::vector<int> space_filling_order(std::span<const Vec3> point) {
   constexpr int kBits = 16;
-  std::vector<int> order(point.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (point.empty()) return order;
+  constexpr std::size_t kWorthThreads = 500;
+  if (point.empty()) return {};
   Vec3 low = point[0], high = point[0];
   for (const Vec3& x : point) low = low.cwiseMin(x), high = high.cwiseMax(x);
   const double side = (high - low).maxCoeff();
   const double scale = side > 0 ? (1 << kBits) / side : 0.0;
-  std::vector<std::uint64_t> key(point.size());
-  for (std::size_t i = 0; i < point.size(); ++i) {
+  std::vector<std::pair<std::uint64_t, int>> key(point.size());
+  for_each_index(point.size(), point.size() > kWorthThreads, [&](std::size_t i) {
     std::array<std::uint32_t, 3> cell{};
     for (int axis = 0; axis < 3; ++axis)
       cell[axis] = static_cast<std::uint32_t>(
           std::min((point[i][axis] - low[axis]) * scale, (1 << kBits) - 1.0));
-    key[i] = hilbert_key(cell, kBits);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
+    key[i] = {hilbert_key(cell, kBits), static_cast<int>(i)};
+  });
+  std::ranges::sort(key);
+  std::vector<int> order;
+  order.reserve(key.size());
+  for (const auto& [at, i] : key) order.push_back(i);
   return order;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/numbers.hpp"
 #include "core/stop.hpp"
 #include "core/threads.hpp"
 #include "coupling/step/acceptance.hpp"
@@ -101,8 +102,7 @@ void commit(double step, const Effort& effort, World& world, Workspace& w) {
   std::swap(s.cbm.touching, w.cbm.touching);
   s.leader = w.leader;
   s.leader_interval = w.leader_interval;
-  s.last_move.resize(w.move.size());
-  for_each_number(w.move.size(), [&](std::size_t k) { s.last_move[k] = w.move[k]; });
+  copy_numbers(w.move, s.last_move);
   s.clock.time += step;
   s.clock.last_step = step;
   s.clock.accepted += 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/numbers.hpp"
 #include "core/threads.hpp"
 #include "core/time_grid.hpp"
 #include "coupling/step/closing.hpp"
@@ -38,7 +39,7 @@ void extrapolate_moves(const World& world, double step, bool all, const Workspac
   const double ratio = step / s.clock.last_step;
   const double others = all ? std::min(1.0, ratio) : 0.0;
   const double constrained = w.constraint.prescribed_velocity ? ratio : 0.0;
-  move.resize(s.last_move.size());
+  set_size(move, s.last_move.size());
   for_each_number(move.size(), [&](std::size_t k) { move[k] = others * s.last_move[k]; });
   if (!w.constraint.applies()) return;
   for_each_cell(s, [&](const Cell& c) {
@@ -55,14 +56,16 @@ void extrapolate_moves(const World& world, double step, bool all, const Workspac
 void assemble_ahead(World& world, double step, bool all, Workspace& w) {
   State& s = world.state;
   LinearisationPoint& point = w.linearisation;
-  for (auto* v : {&point.friction, &point.pair_friction, &point.product}) v->resize(w.move.size());
+  for (auto* v : {&point.friction, &point.pair_friction, &point.product})
+    set_size(*v, w.move.size());
   extrapolate_moves(world, step, all, w, point.move);
-  const std::vector<double> dcm = s.dcm.position, cbm = s.cbm.position;
+  copy_numbers(s.dcm.position, point.dcm_position);
+  copy_numbers(s.cbm.position, point.cbm_position);
   const TreeState tree = s.tree;
   if (all) move_points(s, point.move);
   find_all_contacts(world, step, w);
   assemble(world, step, w);
-  w.cg.product.resize(w.move.size());
+  set_size(w.cg.product, w.move.size());
   if (all) {
     w.op.apply_friction(point.move, point.friction);
     w.op.apply_external_friction(point.move, w.cg.product);
@@ -74,8 +77,8 @@ void assemble_ahead(World& world, double step, bool all, Workspace& w) {
     point.pair_friction[k] = point.friction[k] - w.cg.product[k];
   });
   remove_constraint(w, point.move, point.friction);
-  s.dcm.position = dcm;
-  s.cbm.position = cbm;
+  copy_numbers(point.dcm_position, s.dcm.position);
+  copy_numbers(point.cbm_position, s.cbm.position);
   s.tree = tree;
 }
 
@@ -87,7 +90,7 @@ Attempt try_linearly_implicit(World& world, double step, bool extrapolate, Works
   if (all || (w.constraint.prescribed_velocity && has_last_move(world.state))) {
     assemble_ahead(world, step, all, w);
   } else {
-    w.linearisation = {};
+    w.linearisation.move.clear();
     find_all_contacts(world, step, w);
     assemble(world, step, w);
   }

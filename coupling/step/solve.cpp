@@ -1,4 +1,5 @@
 #include "coupling/step/solve.hpp"
+#include "core/make_room.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +20,7 @@ Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
   if (!point.is_ahead()) return solve_system(world, w, cg_iterations);
   // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole way. The way
   // of constrained cells is known: what ties them would drown all other forces.
-  w.rest_of_move.resize(w.move.size());
+  set_size(w.rest_of_move, w.move.size());
   for_each_own_number(w.system, [&](std::size_t k) { w.rest_of_move[k] = point.move[k]; });
   std::swap(w.rest_of_move, w.move);
   place_constrained({}, w);

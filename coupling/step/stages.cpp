@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/contact/wall_mesh.hpp"
+#include "core/numbers.hpp"
 #include "coupling/step/foreign.hpp"
 #include "coupling/world/leaders.hpp"
 #include "coupling/world/sharing.hpp"
@@ -195,12 +196,11 @@ void size_workspace(const World& world, Workspace& w) {
   solve::set_blocks(w.system, std::move(blocks));
   find_foreign_cells(world, w);
   w.active = active_lanes(s);
-  w.rhs.assign(w.system.n_dof(), 0.0);
-  w.move.assign(w.system.n_dof(), 0.0);
+  assign_zeros(w.rhs, w.system.n_dof());
+  assign_zeros(w.move, w.system.n_dof());
   w.trial.reset();
   w.awake.reset();
   w.sleepers.reset();
-  w.dcm.body.clear();
   w.dcm.lane_of_body.clear();
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();

@@ -1,5 +1,7 @@
 #include "coupling/world/population.hpp"
 
+#include "core/numbers.hpp"
+#include "core/threads.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/world/cell.hpp"
 
@@ -12,7 +14,13 @@ T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
   return index < values.size() ? values[index] : otherwise;
 }
 
-void sort_along_curve(std::vector<Member>& members, const std::vector<Vec3>& center) {
+/// @param center_of  place of a member
+template <class CenterOf>
+void sort_along_curve(std::vector<Member>& members, const CenterOf& center_of) {
+  constexpr std::size_t kWorthThreads = 200;
+  std::vector<Vec3> center(members.size());
+  for_each_index(members.size(), members.size() > kWorthThreads,
+                 [&](std::size_t k) { center[k] = center_of(members[k]); });
   std::vector<Member> sorted;
   sorted.reserve(members.size());
   for (int k : space_filling_order(center)) sorted.push_back(members[k]);
@@ -35,7 +43,7 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
   const std::size_t n_cell = s.dcm.n_lane() + s.cbm.n_cell();
   s.leader.assign(n_cell, 0);
   s.cycle.assign(n_cell, Cycle{});
-  s.last_move.assign(s.dcm.position.size() + s.cbm.position.size(), 0.0);
+  assign_zeros(s.last_move, s.dcm.position.size() + s.cbm.position.size());
   const auto copy_cell = [&](const State& from, std::size_t at, std::size_t to) {
     s.leader[to] = value_of(from.leader, at, std::uint8_t{0});
     s.cycle[to] = value_of(from.cycle, at, Cycle{});
@@ -47,23 +55,25 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
     s.asleep.resize(n_cell, 0);
     s.asleep[to] = 1;
   };
-  for (std::size_t k = 0; k < dcm.size(); ++k) {
+  for (std::size_t k = 0; k < dcm.size(); ++k) copy_cell(*dcm[k].state, dcm[k].index, lane[k]);
+  for (std::size_t k = 0; k < cbm.size(); ++k)
+    copy_cell(*cbm[k].state, cell_index(*cbm[k].state, cbm[k].index), cell_index(s, k));
+  const bool shared = worth_threads(s.dcm.n_row() + s.cbm.n_row());
+  for_each_index(dcm.size(), shared, [&](std::size_t k) {
     const State& from = *dcm[k].state;
-    copy_cell(from, dcm[k].index, lane[k]);
-    if (!has_last_move(from)) continue;
+    if (!has_last_move(from)) return;
     const int n_point = from.dcm.group[dcm[k].index / kLanes].n_point();
     for (int i = 0; i < n_point; ++i)
       store_point(s.last_move.data(), dcm::node_address(s.dcm, lane[k], i),
                   load_point(from.last_move.data(), dcm::node_address(from.dcm, dcm[k].index, i)));
-  }
-  for (std::size_t k = 0; k < cbm.size(); ++k) {
+  });
+  for_each_index(cbm.size(), shared, [&](std::size_t k) {
     const State& from = *cbm[k].state;
-    copy_cell(from, cell_index(from, cbm[k].index), cell_index(s, k));
-    if (!has_last_move(from)) continue;
+    if (!has_last_move(from)) return;
     store_point(
         s.last_move.data(), cbm::cell_address(s.dcm.n_row(), k),
         load_point(from.last_move.data(), cbm::cell_address(from.dcm.n_row(), cbm[k].index)));
-  }
+  });
   s.clock = like.clock;
   s.balance = like.balance;
   s.leader_interval = like.leader_interval;
@@ -78,12 +88,8 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
 }
 
 void sort_by_place(std::vector<Member>& dcm, std::vector<Member>& cbm) {
-  std::vector<Vec3> center;
-  for (const auto& [state, lane, type] : dcm) center.push_back(dcm::cell_center(state->dcm, lane));
-  sort_along_curve(dcm, center);
-  center.clear();
-  for (const auto& [state, cell, type] : cbm) center.push_back(cbm::center_of(state->cbm, cell));
-  sort_along_curve(cbm, center);
+  sort_along_curve(dcm, [](const Member& m) { return dcm::cell_center(m.state->dcm, m.index); });
+  sort_along_curve(cbm, [](const Member& m) { return cbm::center_of(m.state->cbm, m.index); });
 }
 
 std::vector<Member> list_dcm(const State& s) {

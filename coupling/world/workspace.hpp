@@ -23,10 +23,11 @@ struct Subworld;
 
 /// Where a step was linearised, as displacements from the present positions; empty: there.
 struct LinearisationPoint {
-  std::vector<double> move;           ///< [n_row][3][lane] um
-  std::vector<double> friction;       ///< Gamma/h times it, nN
-  std::vector<double> product;        ///< Gamma/h + K times it, nN
-  std::vector<double> pair_friction;  ///< of that what cells exert on each other
+  std::vector<double> move;                        ///< [n_row][3][lane] um
+  std::vector<double> friction;                    ///< Gamma/h times it, nN
+  std::vector<double> product;                     ///< Gamma/h + K times it, nN
+  std::vector<double> pair_friction;               ///< of that what cells exert on each other
+  std::vector<double> dcm_position, cbm_position;  ///< um, where all were before
   bool is_ahead() const { return !move.empty(); }
 };
 

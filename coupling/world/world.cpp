@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/make_room.hpp"
 #include "core/threads.hpp"
 
 namespace acinus::coupling {
@@ -64,7 +65,7 @@ std::vector<double> gather_positions(const State& s) {
 void gather_positions(const State& s, std::vector<double>& out) {
   const auto &dcm = s.dcm.position, &cbm = s.cbm.position;
   const std::size_t n_cell = dcm.size() + cbm.size();
-  out.resize(count_unknowns(s));
+  set_size(out, count_unknowns(s));
   for_each_number(dcm.size(), [&](std::size_t k) { out[k] = dcm[k]; });
   for_each_number(cbm.size(), [&](std::size_t k) { out[dcm.size() + k] = cbm[k]; });
   if (!s.tree.node.empty()) copy_places(s.tree, std::span(out).subspan(n_cell));

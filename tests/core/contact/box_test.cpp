@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/threads.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::contact {
@@ -40,6 +41,15 @@ TEST(FindPairs, FindsWhatTryingEveryPairFinds) {
     std::printf("margin %.1f: %zu pairs of 500 boxes\n", margin, expected.size());
     EXPECT_GT(expected.size(), 100u);
   }
+}
+
+TEST(FindPairs, AreTheSameOnThreeThreads) {
+  const auto boxes = random_boxes(45, 3000, 60);
+  const auto pairs = find_pairs(boxes, 0.5);
+  set_threads(3);
+  EXPECT_EQ(find_pairs(boxes, 0.5), pairs);
+  set_threads(1);
+  EXPECT_GT(pairs.size(), 1000u);
 }
 
 TEST(FindPairs, BetweenTwoSets) {

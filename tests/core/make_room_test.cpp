@@ -1,0 +1,53 @@
+/// Arrays that are a little longer every step move seldom and stand nearly full.
+
+#include "core/make_room.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/numbers.hpp"
+
+namespace acinus {
+namespace {
+
+/// How often an array moves that n more elements are added to, one at a time.
+template <class Add>
+int count_moves(std::vector<double>& v, int n, const Add& add) {
+  int moves = 0;
+  for (int k = 0; k < n; ++k) {
+    const double* const before = v.data();
+    add(v);
+    moves += v.data() != before;
+    EXPECT_LE(v.capacity(), v.size() + v.size() / 16 + 1);
+  }
+  return moves;
+}
+
+TEST(MakeRoom, AnArrayThatDoublesMovesTwelveTimes) {
+  std::vector<double> one_by_one(1000), written_anew(1000);
+  // 1000 to 2000 in steps of a sixteenth: log 2 / log (17/16) = 11.4.
+  EXPECT_LE(count_moves(one_by_one, 1000, [](auto& v) { set_size(v, v.size() + 1); }), 13);
+  EXPECT_LE(count_moves(written_anew, 1000,
+                        [](auto& v) {
+                          const std::size_t n = v.size() + 1;
+                          v.clear();
+                          set_size(v, n);
+                        }),
+            13);
+}
+
+TEST(MakeRoom, ZerosReplaceWhatWasThere) {
+  std::vector<double> v(500, 3.0);
+  assign_zeros(v, 700);
+  EXPECT_EQ(v, std::vector<double>(700, 0.0));
+  v.assign(900, 2.0);
+  assign_zeros(v, 20);
+  EXPECT_EQ(v, std::vector<double>(20, 0.0));
+  const std::vector<double> from{1, 2, 3};
+  copy_numbers(from, v);
+  EXPECT_EQ(v, from);
+}
+
+}  // namespace
+}  // namespace acinus
