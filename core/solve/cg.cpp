@@ -79,11 +79,9 @@ void add_correction(const System& s, double size, const std::vector<T>& correcti
 }
 
 /// r = b - A x; returns its squared norm.
-double find_residual(const Operator& op, std::span<const double> b, std::span<double> x,
+double find_residual(const Operator& op, std::span<const double> b, std::span<const double> product,
                      CgWorkspace& work) {
-  op.apply<double>(x, work.product);
-  for_each_own_number(op.system(),
-                      [&](std::size_t k) { work.residual[k] = b[k] - work.product[k]; });
+  for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = b[k] - product[k]; });
   return op.precondition(work.residual, {});
 }
 
@@ -108,7 +106,8 @@ constexpr const char* kIndefinite = "the matrix is not positive definite";
 }  // namespace
 
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse) {
+                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse,
+                  std::span<const double> product) {
   copy_numbers(b, work.residual);
   set_size(work.product, b.size());
   const double rhs = std::sqrt(op.precondition(work.residual, {}));
@@ -123,7 +122,12 @@ CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
   bool stopped = false;
   double before = std::numeric_limits<double>::infinity();
   for (int pass = 0;; ++pass) {
-    const double rho = find_residual(op, b, x, work), size = std::sqrt(rho);
+    if (product.empty()) {
+      op.apply<double>(x, work.product);
+      product = work.product;
+    }
+    const double rho = find_residual(op, b, product, work), size = std::sqrt(rho);
+    product = {};
     if (!is_size(rho)) return fail(result, kIndefinite);
     result.residual = size / rhs;
     if (result.residual <= options.tolerance) return result;

@@ -52,7 +52,9 @@ struct CgWorkspace {
 /// @param op  its contacts are merged when passes in float turn out long
 /// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
 ///                The stop is measured with the diagonal blocks either way.
+/// @param product  A x of the start value if it is known, else empty; not in the workspace
 CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse = nullptr);
+                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse = nullptr,
+                  std::span<const double> product = {});
 
 }  // namespace acinus::solve

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/mesh/audit_body.hpp"
@@ -52,7 +54,11 @@ Bodies prepare(const AuditFrame& frame) {
   for (const AuditSphere& s : frame.spheres)
     check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
   Bodies bodies;
-  for (const AuditMesh& m : frame.meshes) bodies.cell.emplace_back(m.node, m.triangle);
+  std::vector<std::optional<mesh::AuditBody>> cell(frame.meshes.size());
+  for_each_part(cell.size(), [&](std::size_t c) {
+    cell[c].emplace(frame.meshes[c].node, frame.meshes[c].triangle);
+  });
+  for (std::optional<mesh::AuditBody>& c : cell) bodies.cell.push_back(std::move(*c));
   if (!frame.vessels || frame.vessel_surface) return bodies;
   const mesh::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)

@@ -1,6 +1,8 @@
 #include "coupling/step/closing.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "core/threads.hpp"
 
@@ -18,6 +20,22 @@ Vec3 rest_of_move(const Workspace& w, Address a) {
   const Vec3 move = load_point(w.move.data(), a);
   return w.linearisation.is_ahead() ? Vec3(move - load_point(w.linearisation.move.data(), a))
                                     : move;
+}
+
+/// The longest of them, um.
+double largest_rest(const Workspace& w) {
+  std::atomic<double> largest2 = 0;
+  const std::size_t n_row = w.system.n_row, n_part = count_threads(n_row);
+  for_each_part(n_part, [&](std::size_t part) {
+    double here = 0;
+    for (std::size_t row = part * n_row / n_part; row < (part + 1) * n_row / n_part; ++row)
+      for (int lane = 0; lane < kLanes; ++lane)
+        here = std::max(here, rest_of_move(w, make_address(row, lane)).squaredNorm());
+    double known = largest2;
+    while (here > known && !largest2.compare_exchange_weak(known, here)) {
+    }
+  });
+  return std::sqrt(largest2);
 }
 
 /// Replaces the law of a contact and adds the change of its force to the system.
@@ -45,12 +63,15 @@ double gap_after(const Workspace& w, const solve::Link& link) {
 
 bool activate_closing(Workspace& w) {
   solve::Links& links = w.system.links;
+  // No gap changes by more than its two sides move; their weights are rounded to float.
+  const double reach = 2.001 * largest_rest(w);
   // 1: closes, 2: is active and opens
   std::vector<std::uint8_t> change(links.size(), 0);
   std::atomic<bool> wrong = false;
   for_each_index(links.size(), worth_threads(w.system.n_row), [&](std::size_t l) {
     const solve::LinkLoad& load = links.load[l];
     if (!(load.closed_stiffness > 0) || load.clearance <= 0) return;
+    if (load.clearance + kShallow > reach && !links.is_closed(l)) return;
     const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], load);
     if (links.is_closed(l)) {
       change[l] = end > 0 ? 2 : 0;

@@ -13,7 +13,8 @@ constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
 /// Solves for the whole displacement from the guess in w.move.
-Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
+/// @param is_ahead  the guess is where the step was linearised, if it was ahead
+Status solve_from_guess(const World& world, Workspace& w, bool is_ahead, int& cg_iterations) {
   for_each_own_number(
       w.system, [&](std::size_t k) { w.rhs[k] = w.system.force[k] + w.system.external_force[k]; });
   LinearisationPoint& point = w.linearisation;
@@ -29,7 +30,10 @@ Status solve_from_guess(const World& world, Workspace& w, int& cg_iterations) {
   place_constrained({}, w);
   for_each_own_number(w.system,
                       [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
-  const Status status = solve_system(world, w, cg_iterations);
+  const bool is_known = is_ahead && !w.constraint.applies() && w.constraint.anchored_row.empty();
+  const Status status =
+      solve_system(world, w, cg_iterations,
+                   is_known ? std::span<const double>(point.product) : std::span<const double>());
   for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] -= point.product[k]; });
   place_constrained(point.move, w);
   return status;
@@ -48,15 +52,16 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
     std::ranges::fill(w.move, 0.0);
   }
   place_constrained({}, w);  // of a guess their ties would make a huge force
-  return solve_from_guess(world, w, cg_iterations);
+  return solve_from_guess(world, w, true, cg_iterations);
 }
 
 Status solve_again(const World& world, Workspace& w, int& cg_iterations) {
   place_constrained({}, w);
-  return solve_from_guess(world, w, cg_iterations);
+  return solve_from_guess(world, w, false, cg_iterations);
 }
 
-Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
+Status solve_system(const World& world, Workspace& w, int& cg_iterations,
+                    std::span<const double> product) {
   const auto scope = w.timings.scope("solve");
   solve::CgOptions options = world.params.numerics.cg;
   // Cells afloat in liquid hang together by little else than adhesion: such a system is no easier
@@ -67,7 +72,7 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations) {
   const bool coarse = world.state.clock.coarse;
   if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
-      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, coarse ? &w.coarse : nullptr);
+      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, coarse ? &w.coarse : nullptr, product);
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.

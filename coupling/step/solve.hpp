@@ -1,6 +1,8 @@
 #pragma once
 /// Stage 6: the displacement of a step from the assembled system.
 
+#include <span>
+
 #include "core/error.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
@@ -16,6 +18,8 @@ Status solve_again(const World& world, Workspace& work, int& cg_iterations);
 
 /// Solves for work.move from the guess it holds and the right-hand side in work.rhs, then puts the
 /// rigid motion of every cluster right.
-Status solve_system(const World& world, Workspace& work, int& cg_iterations);
+/// @param product  the matrix times the guess if it is known, else empty
+Status solve_system(const World& world, Workspace& work, int& cg_iterations,
+                    std::span<const double> product = {});
 
 }  // namespace acinus::coupling

@@ -277,6 +277,26 @@ TEST(Cg, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST(Cg, AProductOfTheGuessThatIsKnownChangesNothing) {
+  for (const Precision precision : kBoth) {
+    Solved s(precision), t(precision);
+    s.x = t.x = random_vector_of(s.system, 14);
+    s.run(1e-8);
+    std::vector<double> product(t.x.size());
+    t.op.apply(t.x, product);
+    t.result = solve_cg(t.op, t.rhs, t.x, {1e-8, 2000, precision}, t.work, nullptr, product);
+    EXPECT_EQ(s.x, t.x);
+    EXPECT_EQ(s.work.residual, t.work.residual);
+    EXPECT_EQ(s.result.iterations, t.result.iterations);
+    EXPECT_GT(s.result.iterations, 3);
+    // What is not the product is not taken for the residual found at the end.
+    std::ranges::fill(product, 0.0);
+    t.x = random_vector_of(t.system, 14);
+    t.result = solve_cg(t.op, t.rhs, t.x, {1e-8, 2000, precision}, t.work, nullptr, product);
+    EXPECT_LT(t.true_residual(), 1e-7);
+  }
+}
+
 TEST(Cg, FailsOnANonFiniteRightHandSide) {
   for (double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Solved s;
