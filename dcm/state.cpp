@@ -32,7 +32,7 @@ class Grouping {
     return lane;
   }
 
-  /// A state with these groups, all cells at rest about the origin.
+  /// A state with these groups, at rest in empty lanes; points of cells are left to place.
   State make_state() && {
     State s;
     s.group = std::move(group_);
@@ -43,8 +43,9 @@ class Grouping {
     s.tension.resize(n);
     s.pull.resize(n, Vec3::Zero());
     s.position.resize(n_row_ * kPointStride);
-    for_each_index(n, worth_threads(n_row_),
-                   [&](std::size_t l) { place_points(s, l, [](const Vec3& x) { return x; }); });
+    for_each_index(n, worth_threads(n_row_), [&](std::size_t l) {
+      if (!s.active(l)) place_points(s, l, [](const Vec3& x) { return x; });
+    });
     return s;
   }
 

@@ -8,7 +8,6 @@
 
 #include "core/numbers.hpp"
 #include "core/stop.hpp"
-#include "core/threads.hpp"
 #include "coupling/step/acceptance.hpp"
 #include "coupling/step/attempt.hpp"
 #include "coupling/step/balance.hpp"

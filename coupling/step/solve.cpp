@@ -13,8 +13,8 @@ constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
 /// Solves for the whole displacement from the guess in w.move.
-/// @param is_ahead  the guess is where the step was linearised, if it was ahead
-Status solve_from_guess(const World& world, Workspace& w, bool is_ahead, int& cg_iterations) {
+/// @param from_point  the guess is where the step was linearised, if that was ahead
+Status solve_from_guess(const World& world, Workspace& w, bool from_point, int& cg_iterations) {
   for_each_own_number(
       w.system, [&](std::size_t k) { w.rhs[k] = w.system.force[k] + w.system.external_force[k]; });
   LinearisationPoint& point = w.linearisation;
@@ -30,7 +30,7 @@ Status solve_from_guess(const World& world, Workspace& w, bool is_ahead, int& cg
   place_constrained({}, w);
   for_each_own_number(w.system,
                       [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
-  const bool is_known = is_ahead && !w.constraint.applies() && w.constraint.anchored_row.empty();
+  const bool is_known = from_point && !w.constraint.applies() && w.constraint.anchored_row.empty();
   const Status status =
       solve_system(world, w, cg_iterations,
                    is_known ? std::span<const double>(point.product) : std::span<const double>());
