@@ -87,8 +87,10 @@ struct Reach {
 
   bool includes(const Vec3& center, double radius) const {
     const Vec3 outside = (center - middle).cwiseAbs() - half;
-    return (outside[0] <= radius) & (outside[1] <= radius) & (outside[2] <= radius) &
-           (center.dot(axis) - limit <= radius);
+    // Without branches: which of the four decides cannot be foreseen.
+    const int inside = int{outside[0] <= radius} & int{outside[1] <= radius} &
+                       int{outside[2] <= radius} & int{center.dot(axis) - limit <= radius};
+    return inside != 0;
   }
 };
 
