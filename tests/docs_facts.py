@@ -67,8 +67,8 @@ class Facts:
                 continue
             text = read(os.path.join(self.root, path))
             for variable, values in re.findall(r"foreach\((\w+)\s+([^)]*)\)", text):
-                for value in values.split():
-                    text += f"\n{text}".replace("${" + variable + "}", value) if f"${{{variable}}}" in text else ""
+                use = "${" + variable + "}"
+                text += "".join("\n" + text.replace(use, value) for value in values.split()) if use in text else ""
             names = re.findall(r"(?:acinus_test\(|add_test\(NAME\s+)([\w$]+)", text)
             self.tests |= {name for name in names if "$" not in name}
             for labels in re.findall(r'LABELS\s+"?([\w;]+)', text):
