@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cbm/vessel_contact.hpp"
 #include "core/contact/wall_mesh.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/mesh/segment_shape.hpp"
@@ -82,22 +83,25 @@ class ObstacleSearch {
   }
 
   /// Adds a contact, complete.
-  void add(Contact k, const contact::SphereForce& law, double friction, double slope) {
+  /// @param by_overlap  dE^/d overlap of its own, kPa/um
+  void add(Contact k, const contact::SphereForce& law, double friction, double slope,
+           double by_overlap = 0) {
     const std::size_t i = k.a;
     k.touching = kPi * law.contact_radius * law.contact_radius;
     k.force = law.force;
-    k.slope = std::max(0.0, law.stiffness);
+    k.slope = std::max(0.0, law.stiffness) + std::max(0.0, law.force_by_modulus) * by_overlap;
     k.friction = static_cast<float>(friction * k.touching);
     couple(i, law, slope);
     out_.push_back(k);
     work_.contact_area[i] += k.touching;
   }
 
-  /// @param recess  um, by which a wall is met later than at the radius
-  /// @param slope   of its modulus over that of the cell
-  /// @param share   of its force
+  /// @param recess      um, by which a wall is met later than at the radius
+  /// @param slope       of its modulus over that of the cell
+  /// @param share       of its force
+  /// @param by_overlap  dE^/d overlap, kPa/um
   void meet(const Contact& k, const contact::SpherePair& pair, double recess = 0, double slope = 1,
-            double share = 1) {
+            double share = 1, double by_overlap = 0) {
     const std::size_t i = k.a;
     const int key = boundary_key(k.partner, k.b);
     const bool before = k.partner == Partner::kVessel
@@ -109,7 +113,7 @@ class ObstacleSearch {
                                             share * in_.cells.strength_of(i));
     if (!law.touching) return;
     work_.touching.emplace_back(k.a, key);
-    add(k, law, params_of(i).vessel_friction, slope);
+    add(k, law, params_of(i).vessel_friction, slope, by_overlap);
   }
 
   void meet_face(const Contact& k, const contact::Material& material, double shape) {
@@ -216,13 +220,19 @@ class ObstacleSearch {
     return (1 - x) * (1 - x) * (1 + 2 * x);
   }
 
-  /// The contact of a sphere with a segment, and what counts of it.
+  /// The contact of a sphere with a segment. @param share  of its force
   void press(std::size_t i, int segment, const contact::Gap& g, double share) {
     const contact::Material& m = in_.boundary.vessels.material;
-    meet(contact_with(Partner::kVessel, i, segment, g.gap, g.normal),
-         contact::vessel_pair(body(i), {g.radius, m.young, m.poisson},
-                              in_.options.adhesion_factor * m.adhesion),
-         0, 1, share);
+    const Contact k = contact_with(Partner::kVessel, i, segment, g.gap, g.normal);
+    const double adhesion = in_.options.adhesion_factor * m.adhesion;
+    const StiffnessLaw& law = params_of(i).correction;
+    if (!law.corrects() || !law.single_overlaps) {
+      meet(k, contact::vessel_pair(body(i), {g.radius, m.young, m.poisson}, adhesion), 0, 1, share);
+      return;
+    }
+    const VesselPair own = corrected_vessel_pair(law, in_.state.young[i], work_.modulus[i], body(i),
+                                                 m, g.radius, -k.gap, adhesion);
+    meet(k, own.pair, 0, own.own ? 0 : 1, share, own.modulus_by_overlap);
   }
 
   const ContactInput& in_;

@@ -44,7 +44,7 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
   for (std::size_t k = 0, n = found.size(); k < n; ++k) {
     Contact& o = found[k].contact;
     // No deeper than contacts are looked for, with room for what pushes behind it.
-    const double limit = std::min(yield_limit(wall, found[k].radius), c.max_depth / 2);
+    const double limit = std::min(contact::yield_limit(wall, found[k].radius), c.max_depth / 2);
     const double k_bed = wall_stiffness(c.repulsion, wall, found[k].radius, depth_at(o.b));
     if (o.guard) {
       o.stiffness = c.repulsion;

@@ -7,18 +7,14 @@
 /// with r the vessel's radius and d the indentation of the pair over r at the start of the step.
 /// [VanLiedekerke2020, Table 1: E_sin]
 
-#include "core/contact/boundary.hpp"
+#include "core/contact/vessel_yield.hpp"
 
 namespace acinus::dcm {
 
-/// Smallest indentation, in radii, that enters the stiffness: a Hertz contact begins with none.
+/// Smallest indentation, in radii, that enters the stiffness: a Hertz contact begins with none. The
+/// largest is contact::kMostIndentation: a bed that went on softening would give way without end
+/// under a uniform pressure p, whose balance lies at (3 pi p / 4 E*)^2 r.
 inline constexpr double kLeastIndentation = 0.01;
-
-/// Largest that does, and the deepest a wall yields: what is linear in small indentations says
-/// nothing beyond. A bed that went on softening would give way without end under a uniform pressure
-/// p, whose balance lies at (3 pi p / 4 E*)^2 r; one that went on yielding lets a cell close over
-/// a thin vessel.
-inline constexpr double kMostIndentation = 0.15;
 
 /// The series stiffness k, nN/um^3. The pressure rises with the indentation by k / 2 to k, so the
 /// matrix of a step, in which k stands still, is once to twice as stiff as the contact. A rigid
@@ -27,8 +23,5 @@ inline constexpr double kMostIndentation = 0.15;
 /// @param indentation  um, deepest point of the cell in the vessel
 double wall_stiffness(double repulsion, const contact::Material& wall, double radius,
                       double indentation);
-
-/// Depth, um, to which a wall yields; beyond it the surfaces push with k_rep. 0 if it is rigid.
-double yield_limit(const contact::Material& wall, double radius);
 
 }  // namespace acinus::dcm

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/io/disk.hpp"
+#include "core/io/svg_text.hpp"
 
 namespace acinus::io {
 namespace {
@@ -18,26 +19,6 @@ constexpr double kLeft = 80, kRight = 190, kTop = 40, kBottom = 60;
 /// Colours that differ in print and for the colour blind.
 constexpr std::array<const char*, 8> kColor{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                             "#e69f00", "#56b4e9", "#000000", "#999999"};
-
-std::string escape(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 /// One axis: from values to places on the page.
 struct Axis {
@@ -78,12 +59,6 @@ struct Axis {
     return log ? fmt::format("{:.3g}", std::pow(10, tick)) : fmt::format("{:.4g}", tick);
   }
 };
-
-std::string text(double x, double y, const std::string& anchor, const std::string& words,
-                 const std::string& more = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                     anchor, more, escape(words));
-}
 
 /// The plane the lines are drawn on.
 struct Page {
@@ -148,19 +123,19 @@ std::string draw_axes(const Page& page, const Plot& plot) {
   for (double t : page.x.ticks()) {
     const double at = page.x.place(t, kLeft, right);
     out += fmt::format("<path d=\"M{0:.1f} {1} V{2}\" stroke=\"#ddd\"/>\n", at, kTop, bottom);
-    out += text(at, bottom + 18, "middle", page.x.label(t));
+    out += svg_text(at, bottom + 18, "middle", page.x.label(t));
   }
   for (double t : page.y.ticks()) {
     const double at = page.y.place(t, bottom, kTop);
     out += fmt::format("<path d=\"M{0} {1:.1f} H{2}\" stroke=\"#ddd\"/>\n", kLeft, at, right);
-    out += text(kLeft - 6, at + 4, "end", page.y.label(t));
+    out += svg_text(kLeft - 6, at + 4, "end", page.y.label(t));
   }
   out += fmt::format(
       "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n",
       kLeft, kTop, right - kLeft, bottom - kTop);
-  out += text((kLeft + right) / 2, kHeight - 16, "middle", plot.x_label);
-  return out + text(20, (kTop + bottom) / 2, "middle", plot.y_label,
-                    fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kTop + bottom) / 2));
+  out += svg_text((kLeft + right) / 2, kHeight - 16, "middle", plot.x_label);
+  return out + svg_text(20, (kTop + bottom) / 2, "middle", plot.y_label,
+                        fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kTop + bottom) / 2));
 }
 
 /// Room for the longest name, in whole steps so that most plots are equally wide.
@@ -171,16 +146,13 @@ double legend_width(const Plot& plot) {
   return std::min(std::max(kRight, 60 * std::ceil(needed / 60)), 550.0);
 }
 
-}  // namespace
-
-std::string draw_plot(const Plot& plot) {
-  Page page{{plot.log_x}, {plot.log_y}};
-  Axis &x = page.x, &y = page.y;
+/// Widens the axes of a page to all points and bands of a plot.
+void include_all(const Plot& plot, Page& page) {
   const auto include = [&](double px, double py) {
-    const auto sx = x.scaled(px), sy = y.scaled(py);
+    const auto sx = page.x.scaled(px), sy = page.y.scaled(py);
     if (!sx || !sy) return;
-    x.include(*sx);
-    y.include(*sy);
+    page.x.include(*sx);
+    page.y.include(*sy);
   };
   for (const PlotLine& line : plot.line) {
     for (const auto& [px, py] : line.point) include(px, py);
@@ -189,20 +161,45 @@ std::string draw_plot(const Plot& plot) {
       include(line.point[k].first, line.band[k].second);
     }
   }
+}
+
+double width_of(const Plot& plot, const Page& page) {
+  constexpr double kMargin = 16;
+  return page.right + (plot.legend ? legend_width(plot) : kMargin);
+}
+
+double height_of(const Plot& plot) {
+  return std::max(kHeight, kTop + 14 + 18 * static_cast<double>(plot.line.size()));
+}
+
+std::string legend_entry(const Page& page, const PlotLine& line, std::size_t k, const char* color,
+                         const char* dash) {
+  const double at = kTop + 14 + 18 * static_cast<double>(k);
+  std::string out;
+  if (line.joined)
+    out = fmt::format("<path d=\"M{:.1f} {:.1f} h22\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
+                      page.right + 10, at - 4, color, dash);
+  else
+    out = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"6\" height=\"6\" fill=\"{}\"/>\n",
+                      page.right + 18, at - 7, color);
+  return out + svg_text(page.right + 38, at, "start", line.name);
+}
+
+/// The plot on a page whose axes include its points.
+std::string draw(const Plot& plot, Page page) {
   const double middle = (kLeft + page.right) / 2;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
       "{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n",
-      page.right + legend_width(plot),
-      std::max(kHeight, kTop + 14 + 18 * static_cast<double>(plot.line.size())));
-  out += text(middle, 24, "middle", plot.title, " font-size=\"15\"");
-  if (x.low > x.high) {
-    out += text(middle, kHeight / 2, "middle", "no points");
+      width_of(plot, page), height_of(plot));
+  out += svg_text(middle, 24, "middle", plot.title, " font-size=\"15\"");
+  if (page.x.low > page.x.high) {
+    out += svg_text(middle, kHeight / 2, "middle", "no points");
     return out + "</svg>\n";
   }
-  x.widen();
-  y.widen();
+  page.x.widen();
+  page.y.widen();
   out += draw_axes(page, plot);
   const auto color_of = [](std::size_t k) { return kColor[k % kColor.size()]; };
   for (std::size_t k = 0; k < plot.line.size(); ++k)  // bands below all lines
@@ -210,18 +207,42 @@ std::string draw_plot(const Plot& plot) {
   for (std::size_t k = 0; k < plot.line.size(); ++k) {
     // more lines than colours: the later rounds are dashed
     const char* dash = k < kColor.size() ? "" : " stroke-dasharray=\"5 3\"";
-    const PlotLine& line = plot.line[k];
-    out += draw_line(page, line, color_of(k), dash);
-    const double at = kTop + 14 + 18 * static_cast<double>(k);
-    if (line.joined)
-      out += fmt::format("<path d=\"M{:.1f} {:.1f} h22\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
-                         page.right + 10, at - 4, color_of(k), dash);
-    else
-      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"6\" height=\"6\" fill=\"{}\"/>\n",
-                         page.right + 18, at - 7, color_of(k));
-    out += text(page.right + 38, at, "start", line.name);
+    out += draw_line(page, plot.line[k], color_of(k), dash);
+    if (plot.legend) out += legend_entry(page, plot.line[k], k, color_of(k), dash);
   }
   return out + "</svg>\n";
+}
+
+}  // namespace
+
+std::string draw_plot(const Plot& plot) {
+  Page page{{plot.log_x}, {plot.log_y}};
+  include_all(plot, page);
+  return draw(plot, page);
+}
+
+std::string draw_panels(std::vector<Plot> plots) {
+  Page all{{plots.front().log_x}, {plots.front().log_y}};
+  for (const Plot& plot : plots) include_all(plot, all);
+  double width = 0, height = 0;
+  std::string out;
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    Plot& plot = plots[k];
+    plot.legend = k + 1 == plots.size();
+    Page page{{plot.log_x}, {plot.log_y}};
+    include_all(plot, page);
+    if (page.x.low <= page.x.high) page.y = all.y;
+    std::string panel = draw(plot, page);
+    panel.insert(std::string("<svg ").size(), fmt::format("x=\"{}\" ", width));
+    out += panel;
+    width += width_of(plot, page);
+    height = std::max(height, height_of(plot));
+  }
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+             "viewBox=\"0 0 {0} {1}\">\n",
+             width, height) +
+         out + "</svg>\n";
 }
 
 void write_plot(const std::string& file, const Plot& plot) {

@@ -22,11 +22,15 @@ struct Plot {
   std::string title, x_label, y_label;  ///< labels carry the unit
   bool log_x = false, log_y = false;    ///< points that are not positive are then left out
   std::vector<PlotLine> line;
+  bool legend = true;
 };
 
 /// The plot as SVG text, 720 wide and 480 high, wider and higher where the legend needs it. Points
 /// that are not finite are left out; a plot without points says so.
 std::string draw_plot(const Plot& plot);
+
+/// Plots of the same lines side by side, with one range of y and one legend. @pre at least one
+std::string draw_panels(std::vector<Plot> plots);
 
 /// Writes draw_plot(plot).   @throws Error(kFileError)
 void write_plot(const std::string& file, const Plot& plot);

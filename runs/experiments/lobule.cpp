@@ -73,9 +73,11 @@ void sample_sections(const ObservedFrame& frame, Observables& o) {
   Measures& m = o.measures;
   const LobuleRoom& room = *o.room;
   const std::vector<CellMeasure>& cells = frame.snapshot.cells;
-  if (!o.grid)
-    o.grid = make_lesion_grid(room, o.start.at("lesion_radius_slices_surface_um"),
-                              coupling::vessels_at_rest(frame.world.params));
+  if (!o.grid) {
+    const mesh::Network& vessels = coupling::vessels_at_rest(frame.world.params);
+    o.grid = make_lesion_grid(room, o.start.at("lesion_radius_slices_surface_um"), vessels);
+    o.lattice = make_flood_lattice(*o.grid, room, vessels);
+  }
   std::vector<Ball> balls;
   for (const CellMeasure& c : cells)
     if (!c.deformable) balls.push_back({c.center, c.radius});
@@ -89,6 +91,9 @@ void sample_sections(const ObservedFrame& frame, Observables& o) {
   m["lesion_area_open_um2"].push_back(opening.area);
   m["lesion_area_open"].push_back(relative("lesion_area_open_um2", opening.area));
   m["lesion_area_seen"].push_back(relative("lesion_area_seen_um2", opening.seen));
+  const double flooded = measure_flooded_area(*o.lattice, sections);
+  m["lesion_area_flooded_um2"].push_back(flooded);
+  m["lesion_area_flooded"].push_back(relative("lesion_area_flooded_um2", flooded));
   m["front_radius_mean_um"].push_back(opening.front);
   m["front_roughness_um"].push_back(opening.roughness);
 
@@ -169,7 +174,7 @@ std::vector<std::string> layer_names() {
 
 std::vector<std::string> closing_areas() {
   std::vector<std::string> names{"lesion_area_relative", "lesion_area_surface", "lesion_area_open",
-                                 "lesion_area_seen"};
+                                 "lesion_area_seen", "lesion_area_flooded"};
   for (const LesionReading& r : lesion_readings())
     for (const char* ending : {"", "_floor"}) names.push_back("lesion_area_" + r.name + ending);
   return names;

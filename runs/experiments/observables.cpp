@@ -173,16 +173,21 @@ List lesion() {
                   {"lesion_area_" + r.name, "1", "(r / r0)^2, " + r.meaning},
                   {"lesion_area_" + r.name + "_floor", "1",
                    "((r - floor) / (r0 - floor))^2, " + r.meaning}});
-  append(list,
-         {{"lesion_area_open_um2", "um^2",
-           "horizontal area inside the initial lesion outside vessels that no cell covers, mean "
-           "over height"},
-          {"lesion_area_open", "1", "the same relative to the first frame"},
-          {"front_radius_mean_um", "um",
-           "mean over angle and height of the distance from the axis to the first cell surface, "
-           "one cell diameter beyond the initial lesion at most"},
-          {"front_roughness_um", "um", "standard deviation of that distance"},
-          {"lesion_area_seen", "1", "area up to that distance relative to the first frame"}});
+  append(
+      list,
+      {{"lesion_area_open_um2", "um^2",
+        "horizontal area inside the initial lesion outside vessels that no cell covers, mean "
+        "over height"},
+       {"lesion_area_open", "1", "the same relative to the first frame"},
+       {"front_radius_mean_um", "um",
+        "mean over angle and height of the distance from the axis to the first cell surface, "
+        "one cell diameter beyond the initial lesion at most"},
+       {"front_roughness_um", "um", "standard deviation of that distance"},
+       {"lesion_area_seen", "1", "area up to that distance relative to the first frame"},
+       {"lesion_area_flooded_um2", "um^2",
+        "horizontal area inside the initial lesion that is connected to the central vein through "
+        "cubes of one cell radius of which cells cover less than half, mean over height"},
+       {"lesion_area_flooded", "1", "the same relative to the first frame"}});
   for (const std::string& layer : layer_names()) {
     append(list,
            {{"cells_layer_" + layer, "1", "cells in this layer from the lesion's edge"},

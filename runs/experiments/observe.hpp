@@ -12,6 +12,7 @@
 #include "coupling/life/life.hpp"
 #include "coupling/measure/audit.hpp"
 #include "runs/experiments/experiment.hpp"
+#include "runs/experiments/flooded_area.hpp"
 #include "runs/experiments/lobule_room.hpp"
 #include "runs/experiments/open_area.hpp"
 
@@ -42,6 +43,7 @@ struct Observables {
   // Made when first needed, from what does not change:
   std::optional<LobuleRoom> room;
   std::optional<LesionGrid> grid;
+  std::optional<FloodLattice> lattice;
 };
 
 /// Measures a frame of the run phase: adds to all series and returns the row of /observables, time

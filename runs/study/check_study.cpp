@@ -29,6 +29,12 @@ class Checker {
         add(pointer + "/name", "another plot has this name");
       check_plot(study.plots[k], pointer);
     }
+    for (std::size_t k = 0; k < study.maps.size(); ++k) {
+      const std::string pointer = fmt::format("/maps/{}", k);
+      if (!names.insert(study.maps[k].name).second)
+        add(pointer + "/name", "another plot or map has this name");
+      check_map(study.maps[k], pointer);
+    }
     std::set<std::string> ids;
     for (std::size_t k = 0; k < study.expectations.size(); ++k) {
       const std::string pointer = fmt::format("/expectations/{}", k);
@@ -70,6 +76,13 @@ class Checker {
 
   void check_plot(const StudyPlot& plot, const std::string& pointer) {
     const bool known = check_observable(plot.observable, pointer + "/observable");
+    for (std::size_t k = 0; k < plot.beside.size(); ++k) {
+      const std::string place = fmt::format("{}/beside/{}", pointer, k);
+      if (check_observable(plot.beside[k], place) && known &&
+          plan_.units.at(plot.beside[k]) != plan_.units.at(plot.observable))
+        add(place, fmt::format("is in {}, the observable of the plot in {}",
+                               plan_.units.at(plot.beside[k]), plan_.units.at(plot.observable)));
+    }
     for (std::size_t k = 0; k < plot.variants.size(); ++k)
       check_variant(plot.variants[k], fmt::format("{}/variants/{}", pointer, k), false);
     std::string x_unit = "s";
@@ -84,6 +97,21 @@ class Checker {
     for (std::size_t k = 0; k < plot.reference.size() && known; ++k)
       check_reference(plot.reference[k], fmt::format("{}/reference/{}", pointer, k), x_unit,
                       plan_.units.at(plot.observable));
+  }
+
+  void check_map(const StudyMap& map, const std::string& pointer) {
+    for (std::size_t k = 0; k < map.variants.size(); ++k)
+      check_variant(map.variants[k], fmt::format("{}/variants/{}", pointer, k), false);
+    for (const auto& [key, name] : {std::pair{&map.x, "/x"}, {&map.y, "/y"}})
+      if (!key->empty() && !unit_of_key(*key))
+        add(pointer + name, "is no key of a scene with one number as value");
+    check_measure(map.measure, pointer + "/measure");
+    if (!map.low && !map.high)
+      add(pointer + "/low", "is missing, and so is high: what is expected?");
+    if (!plan_.units.contains(map.measure.observable)) return;
+    const std::string unit = unit_of(map.measure, plan_.units);
+    if (map.low) check_number(*map.low, unit, pointer + "/low");
+    if (map.high) check_number(*map.high, unit, pointer + "/high");
   }
 
   void check_reference(const StudyReference& r, const std::string& pointer,
@@ -135,6 +163,8 @@ class Checker {
       add(pointer + "/over", "a measure has minus or over, not both");
       return;
     }
+    if (e.every_seed && e.least_seeds > 0)
+      add(pointer + "/least_seeds", "every_seed asks for all of them: give one of the two");
     if (!e.low && !e.high) add(pointer + "/low", "is missing, and so is high: what is expected?");
     if (!plan_.units.contains(e.measure.observable)) return;
     std::string unit = unit_of(e.measure, plan_.units);

@@ -282,6 +282,12 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyE
   return out;
 }
 
+int seeds_within(const Measured& m, std::optional<double> low, std::optional<double> high) {
+  return static_cast<int>(std::ranges::count_if(m.by_seed, [&](const auto& seed) {
+    return (!low || seed.second >= *low) && (!high || seed.second <= *high);
+  }));
+}
+
 std::string show_value(double v, const std::string& unit) {
   if (std::isinf(v)) return v > 0 ? "never" : "before what never happens";
   if (unit == "1") return fmt::format("{:.4g}", v);

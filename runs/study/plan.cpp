@@ -20,6 +20,7 @@
 #include "runs/scene/reader.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/study/check_study.hpp"
+#include "runs/study/expand_claims.hpp"
 #include "runs/study/registry.hpp"
 
 namespace acinus::runs {
@@ -127,6 +128,7 @@ class Planner {
     plan_.variants = make_variants(study, report_);
     if (!file.empty()) add_runs(file);
     if (!plan_.runs.empty()) check_study(plan_, report_);
+    expand_claims(study, plan_.variants, report_);
     Faults all;
     try {
       report_.finish();

@@ -62,6 +62,9 @@ void describe_plot(Visitor& v, StudyPlot& b) {
          b.name);
   v.text({.name = "title", .meaning = "above the plot", .automatic = "its name"}, b.title);
   v.text({.name = "observable", .meaning = "what is plotted", .required = true}, b.observable);
+  v.texts({.name = "beside",
+           .meaning = "observables of further panels at its side, in the same unit and range"},
+          b.beside);
   v.texts({.name = "variants",
            .meaning = "one line each, mean and band over seeds; [] = all; NAME/* = all made from "
                       "NAME by sweeps"},
@@ -86,24 +89,8 @@ void describe_plot(Visitor& v, StudyPlot& b) {
          b.reference, describe_reference);
 }
 
-void describe_measure(Visitor& v, StudyMeasure& b) {
-  v.text({.name = "kind",
-          .meaning =
-              "value at a time; first_below, first_above: when the level is first passed; mean, "
-              "min, max over a window; distance: largest between the mean curves of two variants; "
-              "outside: largest distance of the mean curve from the space between those of two "
-              "others; band: widest spread over seeds; p_value: of the t-test between two "
-              "variants, paired where both have the same seeds",
-          .choices = "value|first_below|first_above|mean|min|max|distance|outside|band|p_value"},
-         b.kind);
-  v.text({.name = "observable", .meaning = "what is looked at", .required = true}, b.observable);
-  v.text({.name = "variant", .meaning = "whose runs", .required = true}, b.variant);
-  v.when(needs_other(b), "kind = distance, outside or p_value", [&b](Visitor& w) {
-    w.text({.name = "other", .meaning = "the second variant", .required = true}, b.other);
-  });
-  v.when(b.kind == "outside", "kind = outside", [&b](Visitor& w) {
-    w.text({.name = "another", .meaning = "the third variant", .required = true}, b.another);
-  });
+/// Level, moment and window of a measure, by its kind.
+void describe_moment(Visitor& v, StudyMeasure& b) {
   v.when(b.kind == "first_below" || b.kind == "first_above", "kind = first_below or first_above",
          [&b](Visitor& w) {
            w.value({.name = "level",
@@ -139,10 +126,66 @@ void describe_measure(Visitor& v, StudyMeasure& b) {
          });
 }
 
+void describe_measure(Visitor& v, StudyMeasure& b) {
+  v.text({.name = "kind",
+          .meaning =
+              "value at a time; first_below, first_above: when the level is first passed; mean, "
+              "min, max over a window; distance: largest between the mean curves of two variants; "
+              "outside: largest distance of the mean curve from the space between those of two "
+              "others; band: widest spread over seeds; p_value: of the t-test between two "
+              "variants, paired where both have the same seeds",
+          .choices = "value|first_below|first_above|mean|min|max|distance|outside|band|p_value"},
+         b.kind);
+  v.text({.name = "observable", .meaning = "what is looked at", .required = true}, b.observable);
+  v.text({.name = "variant", .meaning = "whose runs", .required = true}, b.variant);
+  v.when(needs_other(b), "kind = distance, outside or p_value", [&b](Visitor& w) {
+    w.text({.name = "other", .meaning = "the second variant", .required = true}, b.other);
+  });
+  v.when(b.kind == "outside", "kind = outside", [&b](Visitor& w) {
+    w.text({.name = "another", .meaning = "the third variant", .required = true}, b.another);
+  });
+  describe_moment(v, b);
+}
+
+void describe_map_measure(Visitor& v, StudyMeasure& b) {
+  v.text({.name = "kind",
+          .meaning = "value at a time; first_below, first_above: when the level is first passed; "
+                     "mean, min, max over a window",
+          .choices = "value|first_below|first_above|mean|min|max"},
+         b.kind);
+  v.text({.name = "observable", .meaning = "observable that is measured", .required = true},
+         b.observable);
+  describe_moment(v, b);
+}
+
+void describe_map(Visitor& v, StudyMap& b) {
+  v.text({.name = "name", .meaning = "of the file in plots/", .required = true, .is_name = true},
+         b.name);
+  v.text({.name = "title", .meaning = "above the map", .automatic = "its name"}, b.title);
+  v.texts({.name = "variants",
+           .meaning = "one field each, at its values of both keys; NAME/* = all made from NAME by "
+                      "sweeps; [] = all"},
+          b.variants);
+  v.text({.name = "x", .meaning = "scene key of the columns", .required = true}, b.x);
+  v.text({.name = "y", .meaning = "scene key of the rows", .required = true}, b.y);
+  block(v, {.name = "measure", .meaning = "measured in every run", .required = true}, b.measure,
+        describe_map_measure);
+  v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
+          b.low);
+  v.value({.name = "high", .meaning = "largest value that bears it out", .automatic = "any"},
+          b.high);
+}
+
 void describe_expectation(Visitor& v, StudyExpectation& b) {
   v.text({.name = "id", .meaning = "short name of the claim", .required = true, .is_name = true},
          b.id);
   v.text({.name = "claim", .meaning = "what is claimed, in a sentence", .required = true}, b.claim);
+  v.text({.name = "each",
+          .meaning = "label of a sweep: the claim is judged for each of its values, too, with the "
+                     "variants that the sweep made of those named here",
+          .automatic = "judged once",
+          .is_name = true},
+         b.each);
   block(v, {.name = "measure", .meaning = "what is measured", .required = true}, b.measure,
         describe_measure);
   optional_block(v, {.name = "minus", .meaning = "second measure, subtracted; null = none"},
@@ -156,6 +199,10 @@ void describe_expectation(Visitor& v, StudyExpectation& b) {
   v.flag({.name = "every_seed",
           .meaning = "every seed must lie within low and high, not only their mean"},
          b.every_seed);
+  v.integer({.name = "least_seeds",
+             .meaning = "so many seeds must lie within low and high; 0: their mean must",
+             .range = {.low = 0}},
+            b.least_seeds);
 }
 
 }  // namespace
@@ -190,6 +237,11 @@ void describe(Visitor& v, Study& s) {
           s.observables);
   blocks(v, {.name = "plots", .meaning = "curves with mean and band over seeds", .item = "plot"},
          s.plots, describe_plot);
+  blocks(v,
+         {.name = "maps",
+          .meaning = "heat maps: share of the seeds that bear a claim out, over two scene keys",
+          .item = "map"},
+         s.maps, describe_map);
   blocks(v,
          {.name = "expectations",
           .meaning = "claims and what decides about them",

@@ -38,6 +38,7 @@ struct StudyReference {
 
 struct StudyPlot {
   std::string name, title, observable;
+  std::vector<std::string> beside;    ///< observables of further panels, in the unit of the first
   std::vector<std::string> variants;  ///< empty = all
   std::string x_label, y_label;
   bool log_y = false;
@@ -60,13 +61,25 @@ inline bool needs_other(const StudyMeasure& m) {
   return m.kind == "distance" || m.kind == "outside" || m.kind == "p_value";
 }
 
+/// Heat map of a claim over two scene keys: share of the seeds for which a measure is within
+/// bounds.
+struct StudyMap {
+  std::string name, title;
+  std::vector<std::string> variants;  ///< one field each
+  std::string x, y;                   ///< scene keys
+  StudyMeasure measure;               ///< of every variant; kinds with a value per seed only
+  std::optional<Node> low, high;
+};
+
 /// A claim: what is measured and what is expected of it.
 struct StudyExpectation {
   std::string id, claim;
+  std::string each;  ///< label of a sweep: judged for each of its values, too; "" = none
   StudyMeasure measure;
   std::optional<StudyMeasure> minus, over;
   std::optional<Node> low, high;
   bool every_seed = false;
+  int least_seeds = 0;  ///< so many seeds must lie within the bounds; 0 = their mean
 };
 
 struct Study {
@@ -79,6 +92,7 @@ struct Study {
   std::vector<StudySweep> sweeps;
   std::vector<std::string> observables;  ///< empty = all
   std::vector<StudyPlot> plots;
+  std::vector<StudyMap> maps;
   std::vector<StudyExpectation> expectations;
 };
 

@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/io/disk.hpp"
 #include "runs/study/check_study.hpp"
 #include "runs/study/scene_value.hpp"
 
@@ -176,6 +178,25 @@ io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot
   return plot;
 }
 
+namespace {
+
+/// The plot, with further panels of the same variants at its side; titles name their observables.
+std::string draw_with_panels(const StudyPlan& plan, const StudyData& data,
+                             const StudyPlot& wanted) {
+  if (wanted.beside.empty()) return io::draw_plot(make_plot(plan, data, wanted));
+  std::vector<io::Plot> panels{make_plot(plan, data, wanted)};
+  for (const std::string& observable : wanted.beside) {
+    StudyPlot panel = wanted;
+    panel.observable = observable;
+    panel.reference.clear();
+    panels.push_back(make_plot(plan, data, panel));
+    panels.back().title = panels.back().y_label;
+  }
+  return io::draw_panels(std::move(panels));
+}
+
+}  // namespace
+
 std::vector<std::string> write_plots(const StudyPlan& plan, const StudyData& data,
                                      const std::string& root) {
   std::vector<StudyPlot> wanted = plan.study.plots;
@@ -196,7 +217,7 @@ std::vector<std::string> write_plots(const StudyPlan& plan, const StudyData& dat
   std::vector<std::string> files;
   for (const StudyPlot& plot : wanted) {
     files.push_back(plot.name + ".svg");
-    io::write_plot(root + "/plots/" + files.back(), make_plot(plan, data, plot));
+    io::write_text_file(root + "/plots/" + files.back(), draw_with_panels(plan, data, plot));
   }
   return files;
 }

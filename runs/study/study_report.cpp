@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "acinus_version.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/file_lock.hpp"
 #include "runs/study/study_data.hpp"
+#include "runs/study/study_maps.hpp"
 #include "runs/study/study_plots.hpp"
 #include "runs/study/study_progress.hpp"
 #include "runs/study/verdicts.hpp"
@@ -132,7 +134,10 @@ std::string head(const StudyPlan& plan, const StudyData& data, const ReportCount
 }
 
 std::string plot_list(const std::vector<std::string>& files) {
-  std::string text = "## Plots\n\nLine: mean over the seeds; band: smallest to largest.\n\n";
+  std::string text =
+      "## Plots\n\nLine: mean over the seeds; band: smallest to largest. Maps: share of the seeds "
+      "that "
+      "bear the claim out, with their mean (the median if some never do).\n\n";
   for (const std::string& file : files) text += fmt::format("![{0}](plots/{0})\n\n", file);
   return files.empty() ? "" : text;
 }
@@ -155,7 +160,8 @@ ReportCounts write_study_report(const StudyPlan& plan, const std::string& root) 
   write_table(plan, data, root);
   write_runs(plan, data, root);
   write_verdicts(verdicts, root);
-  const std::vector<std::string> plots = write_plots(plan, data, root);
+  std::vector<std::string> plots = write_plots(plan, data, root);
+  std::ranges::copy(write_maps(plan, data, root), std::back_inserter(plots));
   io::write_text_file(root + "/report.md", head(plan, data, n) + verdict_table(verdicts) +
                                                unfinished(plan, data) + plot_list(plots) +
                                                variant_table(plan, data) + start_list(plan, data));

@@ -81,6 +81,10 @@ std::string plain(const Node& value) {
   return value.kind == Node::Kind::kText ? value.text : shown(value);
 }
 
+std::string label_of(const StudySweep& sweep) {
+  return sweep.label.empty() ? sweep.key.substr(sweep.key.find_last_of("./") + 1) : sweep.label;
+}
+
 void check_seeds(const std::vector<std::int64_t>& seeds, const std::string& pointer,
                  Report& report) {
   std::set<std::int64_t> seen;
@@ -142,17 +146,19 @@ class Maker {
       report_.add(place_of(report_, pointer, "of"), pointer + "/of", "no variant is named");
     if (sweep.values.empty())
       report_.add(place_of(report_, pointer, "values"), pointer + "/values", "no value is given");
-    const std::string label =
-        sweep.label.empty() ? sweep.key.substr(sweep.key.find_last_of("./") + 1) : sweep.label;
+    std::vector<std::string> swept;
+    for (std::size_t base : bases) swept.push_back(variants_[base].name);
     for (std::size_t base : bases)
       for (std::size_t i = 0; i < sweep.values.size(); ++i) {
         Variant v = variants_[base];
-        const std::string part = fmt::format("{}={}", label, plain(sweep.values[i]));
+        const std::string part = name_of_value(sweep, sweep.values[i]);
         v.name += "/" + part;
         v.folder = safe_name(v.folder + "/" + part);
         v.title += ", " + part;
         v.pointer = fmt::format("{}/values/{}", pointer, i);
         v.set.push_back({{sweep.key, sweep.values[i].origin, sweep.values[i]}, v.pointer});
+        // A start that is swept along has the value, too.
+        if (std::ranges::find(swept, v.start) != swept.end()) v.start += "/" + part;
         add(v, sweep.values[i]);
       }
   }
@@ -209,6 +215,10 @@ class Maker {
 };
 
 }  // namespace
+
+std::string name_of_value(const StudySweep& sweep, const Node& value) {
+  return fmt::format("{}={}", label_of(sweep), plain(value));
+}
 
 std::vector<Variant> make_variants(const Study& study, Report& report) {
   return Maker(study, report).make();

@@ -26,6 +26,9 @@ struct Variant {
   std::string start;  ///< "" = a start of its own
 };
 
+/// Part of a variant's name for a value of a sweep: "leader_force=0.3 nN".
+std::string name_of_value(const StudySweep& sweep, const Node& value);
+
 /// All variants in the order of their names, those of a sweep after the ones it is made of.
 /// Unknown names, circles, doubled names and seeds go into the report.
 std::vector<Variant> make_variants(const Study& study, Report& report);

@@ -57,6 +57,7 @@ std::string describe_bounds(const Verdict& v) {
   } else if (v.expected_high) {
     text = "at most " + show_value(*v.expected_high, unit);
   }
+  if (v.least_seeds > 0) return fmt::format("{}, at least {} seeds", text, v.least_seeds);
   return text + (v.every_seed ? ", every seed" : "");
 }
 
@@ -78,6 +79,10 @@ ClaimStatus check_claim(Verdict& v) {
   }
   if (std::isinf(high) && high > 0 && m.note.empty())
     m.note = fmt::format("never before {}", show_value(m.known_until, "s"));
+  if (v.least_seeds > 0)
+    return seeds_within(m, v.expected_low, v.expected_high) >= v.least_seeds
+               ? ClaimStatus::kHolds
+               : ClaimStatus::kDoesNotHold;
   const bool above = !v.expected_low || low >= *v.expected_low;
   const bool below = !v.expected_high || high <= *v.expected_high;
   return above && below ? ClaimStatus::kHolds : ClaimStatus::kDoesNotHold;
@@ -92,6 +97,7 @@ std::vector<Verdict> check_claims(const StudyPlan& plan, const StudyData& data) 
     v.id = e.id;
     v.claim = e.claim;
     v.every_seed = e.every_seed;
+    v.least_seeds = e.least_seeds;
     v.how = describe_measure(e.measure);
     if (e.minus) v.how += ", minus " + describe_measure(*e.minus);
     if (e.over) v.how += ", over " + describe_measure(*e.over);

@@ -16,6 +16,7 @@ struct Verdict {
   std::string expected;  ///< "from 0.1 to 0.3", "at most 6 d"
   std::optional<double> expected_low, expected_high;
   bool every_seed = false;
+  int least_seeds = 0;  ///< as in StudyExpectation
   Measured measured;
   ClaimStatus status = ClaimStatus::kNotMeasured;
 };

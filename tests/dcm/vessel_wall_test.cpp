@@ -141,8 +141,8 @@ TEST(VesselWall, ForceIsMinusEnergyGradientAtFrozenStiffness) {
 
 TEST(VesselWall, YieldsBy15PercentOfItsRadiusAndNoMore) {
   const double limit = 0.15 * 4.7;
-  EXPECT_EQ(yield_limit(wall(0.6), 4.7), limit);
-  EXPECT_EQ(yield_limit(wall(kInfinite), 4.7), 0);
+  EXPECT_EQ(contact::yield_limit(wall(0.6), 4.7), limit);
+  EXPECT_EQ(contact::yield_limit(wall(kInfinite), 4.7), 0);
   const Clump c = cell_on_vessel(0.6, 1.2);
   int stops = 0;
   for (std::size_t l = 0; l < c.links.size(); ++l) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/topology.hpp"
+#include "runs/experiments/flooded_area.hpp"
 #include "runs/experiments/open_area.hpp"
 #include "runs/experiments/plates.hpp"
 #include "tests/reference/brick.hpp"
@@ -143,6 +144,49 @@ TEST(OpenArea, RaysThatMeetNothingEndOneDiameterBeyond) {
   EXPECT_NEAR(o.front, 104, kRoundOff);
   EXPECT_NEAR(o.roughness, 0, 1e-5);
   EXPECT_NEAR(o.seen, o.area, 1e-9);
+}
+
+double flooded_area(const LesionGrid& grid, std::span<const contact::SurfaceBody> bodies,
+                    std::span<const Ball> balls, const mesh::Network& vessels = {}) {
+  return measure_flooded_area(make_flood_lattice(grid, pie(), vessels),
+                              make_sections(bodies, balls, grid.height));
+}
+
+TEST(FloodedArea, OfAnEmptyLesionIsAllOfIt) {
+  const LesionGrid grid = make_lesion_grid(pie(), 120, {});
+  const double all = kPi / 6 * (120 * 120 - 100);
+  // Points of 16 um^2 are in or out as a whole; the rim is 360 um long: 45 of them if all erred
+  // one way.
+  EXPECT_NEAR(flooded_area(grid, {}, {}), all, 0.02 * all);
+}
+
+TEST(FloodedArea, EndsAtAWallAndPassesThroughADoor) {
+  const LesionGrid grid = make_lesion_grid(pie(), 120, {});
+  const double all = flooded_area(grid, {}, {});
+  const Brick wall(Vec3(60, -200, -10), Vec3(84, 200, 100));
+  const double before = flooded_area(grid, wall.bodies(), {});
+  const double front = 60 * 60 * std::tan(kPi / 6) - kPi / 6 * 100;
+  // The front lies on faces of cubes; their points are as above.
+  EXPECT_NEAR(before, front, 0.05 * front) << "what lies behind the wall is not reached";
+  const Brick left(Vec3(60, -200, -10), Vec3(84, -12, 100)),
+      right(Vec3(60, 24, -10), Vec3(84, 200, 100));
+  std::vector<contact::SurfaceBody> both{left.body, right.body};
+  const double with_door = flooded_area(grid, both, {});
+  EXPECT_GT(with_door, all - 24 * 130) << "through 36 um: all but the wall";
+  const Brick narrow(Vec3(60, -200, -10), Vec3(84, -2, 100)),
+      other(Vec3(60, 2, -10), Vec3(84, 200, 100));
+  both = {narrow.body, other.body};
+  EXPECT_NEAR(flooded_area(grid, both, {}), before, 1e-9) << "4 um are less than a cube";
+}
+
+TEST(FloodedArea, LeavesOutVessels) {
+  mesh::Network vessels;
+  vessels.node = {Vec3(60, 0, -20), Vec3(60, 0, 100)};
+  vessels.segment = {{0, 1}};
+  vessels.radius = {{10, 10}};
+  const LesionGrid grid = make_lesion_grid(pie(), 120, vessels);
+  // Points of 4 um in a circle of 10: its rim crosses some 16 of them.
+  EXPECT_NEAR(flooded_area(grid, {}, {}) - flooded_area(grid, {}, {}, vessels), kPi * 100, 60);
 }
 
 TEST(Plates, ThicknessIsAreaOverWidthOfTheLines) {

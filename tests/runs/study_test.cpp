@@ -19,6 +19,7 @@
 #include "runs/study/registry.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/study_data.hpp"
+#include "runs/study/study_maps.hpp"
 #include "runs/study/study_plots.hpp"
 #include "runs/study/verdicts.hpp"
 
@@ -434,6 +435,64 @@ TEST_F(Claims, PlotsLeaveOutRunsThatFailedAndSaySo) {
   ASSERT_EQ(plot.line.size(), 2u);
   EXPECT_TRUE(plot.line[1].name.ends_with(" (1 of 2 seeds)")) << plot.line[1].name;
   EXPECT_EQ(plot.line[1].band[1].first, plot.line[1].band[1].second);
+}
+
+TEST_F(Claims, MapsShowTheShareOfSeedsWithinBounds) {
+  const StudyPlan p = parse(text_with(R"("maps": [ { "name": "m", "x": "motility.grid",
+    "y": "time.end", "measure": { "observable": "overlap_cbm_cbm_um", "at": "1 h" }, "high": "3 um" } ])"));
+  io::HeatMap map = make_map(p, data(), p.study.maps[0]);
+  ASSERT_EQ(map.column.size(), 2u) << "30 and 60 s";
+  ASSERT_EQ(map.row.size(), 1u);
+  EXPECT_EQ(map.field[0][1].share, 0.5) << "slow: 2 and 4 um after an hour";
+  EXPECT_EQ(map.field[0][1].text[1], "1 of 2 seeds");
+  StudyData d = data();
+  d[2].status.state = RunState::kFailed;
+  map = make_map(p, d, p.study.maps[0]);
+  EXPECT_FALSE(map.field[0][1].share) << "a failed run is not a seed less";
+  expect_fault(text_with(R"("maps": [ { "name": "m", "x": "cells", "y": "time.end",
+    "measure": { "observable": "overlap_cbm_cbm_um" } } ])"),
+               {"/maps/0/x", "is no key of a scene with one number as value", "/maps/0/low"});
+}
+
+TEST_F(Claims, SoManySeedsMustLieWithinBounds) {
+  const std::string slow = R"("variant": "slow", "at": "1 h")";  // 2 and 4 um
+  EXPECT_EQ(checked(slow, R"("high": "3 um", "least_seeds": 1)").status, ClaimStatus::kHolds);
+  EXPECT_EQ(checked(slow, R"("high": "3 um", "least_seeds": 2)").status, ClaimStatus::kDoesNotHold);
+  EXPECT_EQ(checked(slow, R"("high": "3 um", "least_seeds": 1)").expected,
+            "at most 3 um, at least 1 seeds");
+  expect_fault(text_with(R"("expectations": [ { "id": "A", "claim": "c", "every_seed": true,
+    "least_seeds": 1, "measure": { "observable": "overlap_cbm_cbm_um", "variant": "slow" },
+    "low": "0 um" } ])"),
+               {"/expectations/0/least_seeds", "give one of the two"});
+}
+
+TEST(Study, JudgesAClaimForEachValueOfASweep) {
+  const std::string sweep =
+      R"("sweeps": [ { "of": ["slow", "fast"], "key": "time.end", "label": "T", "values": ["1 h", "90 min"] } ],)";
+  const std::string claim =
+      R"("expectations": [ { "id": "A", "claim": "c", "each": "T", "low": 0,
+      "measure": { "observable": "overlap_cbm_cbm_um", "variant": "slow" },
+      "over": { "observable": "overlap_cbm_cbm_um", "variant": "fast" } } ])";
+  const StudyPlan plan = parse(text_with(sweep + claim));
+  ASSERT_EQ(plan.study.expectations.size(), 3u);
+  EXPECT_EQ(plan.study.expectations[1].id, "A/T=1 h");
+  EXPECT_EQ(plan.study.expectations[2].measure.variant, "slow/T=90 min");
+  EXPECT_EQ(plan.study.expectations[2].over->variant, "fast/T=90 min");
+  const std::string one =
+      R"("sweeps": [ { "of": ["slow"], "key": "time.end", "label": "T", "values": ["1 h"] } ],)";
+  expect_fault(text_with(one + claim), {"/expectations/0/each", "no variant fast/T=1 h"});
+  expect_fault(text_with(claim), {"/expectations/0/each", "no sweep with this label"});
+}
+
+TEST(Study, SweptVariantsStartFromTheirTwins) {
+  const StudyPlan plan = parse(text_with(
+      R"("sweeps": [ { "of": ["a", "b"], "key": "motility.grid", "label": "g", "values": ["20 s"] } ])",
+      R"("a": { "set": { "start_up.enabled": true } }, "b": { "extends": "a", "start": "a" })"));
+  const auto variant = [&](const char* name) {
+    return plan.variants[find_variants(plan.variants, name).at(0)];
+  };
+  EXPECT_EQ(variant("b").start, "a");
+  EXPECT_EQ(variant("b/g=20 s").start, "a/g=20 s");
 }
 
 TEST_F(Claims, VerdictsAreJsonWithoutNaN) {

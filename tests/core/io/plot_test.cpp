@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "core/io/heat_map.hpp"
 
 namespace acinus::io {
 namespace {
@@ -58,6 +61,29 @@ TEST(Plot, OnePointGetsAnAxisOfItsOwn) {
   const std::string svg = draw_plot({"one", "x", "y", false, false, {{"a", {{3, 7}}, true, true}}});
   EXPECT_EQ(count(svg, "<circle"), 1u);
   EXPECT_EQ(count(svg, "nan"), 0u);
+}
+
+TEST(Plot, PanelsShareOneRangeAndOneLegend) {
+  Plot low{"low", "x", "y", false, false, {{"a", {{0, 0}, {30, 0.1}}}, {"b", {{0, 0}, {30, 0.2}}}}};
+  Plot high = low;
+  high.title = "high";
+  high.line[0].point[1].second = 1;
+  const std::string svg = draw_panels({low, high});
+  EXPECT_EQ(count(svg, "<svg"), 3u);
+  EXPECT_EQ(count(svg, ">a<"), 1u);
+  EXPECT_EQ(count(svg, ">b<"), 1u);
+  EXPECT_EQ(count(svg, ">0.8<"), 2u) << "both axes go up to 1";
+}
+
+TEST(HeatMap, ShowsFieldsScaleAndWhatIsNotKnown) {
+  HeatMap map{"closing", "W", "force", "seeds below", {"1 mN/m", "2 mN/m"}, {"0.3 nN"}, {}};
+  map.field = {{{0.8, {"3 d", "4 of 5 seeds"}}, {std::nullopt, {"not measured"}}}};
+  const std::string svg = draw_heat_map(map);
+  for (const char* word : {"closing", ">W<", ">force<", "1 mN/m", "2 mN/m", "0.3 nN",
+                           "4 of 5 seeds", "not measured", "100 %", "seeds below"})
+    EXPECT_EQ(count(svg, word), 1u) << word;
+  EXPECT_EQ(count(svg, "url(#unknown)"), 1u);
+  EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
 }
 
 }  // namespace

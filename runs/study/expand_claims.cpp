@@ -1,0 +1,78 @@
+#include "runs/study/expand_claims.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace acinus::runs {
+namespace {
+
+/// Endings such as "/W=1e-5 J/m^2" of the variants that sweeps with this label made of `base`.
+std::vector<std::string> swept_endings(const Study& study, const std::vector<Variant>& variants,
+                                       const std::string& base, const std::string& label) {
+  std::vector<std::string> endings;
+  for (const StudySweep& sweep : study.sweeps)
+    for (const Node& value : sweep.values) {
+      const std::string part = name_of_value(sweep, value), ending = "/" + part;
+      if (part.starts_with(label + "=") && !find_variants(variants, base + ending).empty())
+        endings.push_back(ending);
+    }
+  return endings;
+}
+
+void append_to_variants(StudyMeasure& m, const std::string& ending) {
+  for (std::string* name : {&m.variant, &m.other, &m.another})
+    if (!name->empty()) *name += ending;
+}
+
+std::vector<std::string> variants_of(const StudyExpectation& e) {
+  std::vector<std::string> names;
+  const auto add = [&](const StudyMeasure& m) {
+    for (const std::string* name : {&m.variant, &m.other, &m.another})
+      if (!name->empty()) names.push_back(*name);
+  };
+  add(e.measure);
+  if (e.minus) add(*e.minus);
+  if (e.over) add(*e.over);
+  return names;
+}
+
+StudyExpectation copy_for(const StudyExpectation& original, const std::string& ending) {
+  StudyExpectation copy = original;
+  copy.each.clear();
+  copy.id += ending;
+  copy.claim += ", " + ending.substr(1);
+  append_to_variants(copy.measure, ending);
+  if (copy.minus) append_to_variants(*copy.minus, ending);
+  if (copy.over) append_to_variants(*copy.over, ending);
+  return copy;
+}
+
+}  // namespace
+
+void expand_claims(Study& study, const std::vector<Variant>& variants, Report& report) {
+  std::vector<StudyExpectation> all;
+  for (std::size_t k = 0; k < study.expectations.size(); ++k) {
+    const StudyExpectation& original = study.expectations[k];
+    all.push_back(original);
+    if (original.each.empty()) continue;
+    const auto complain = [&](const std::string& message) {
+      const std::string pointer = fmt::format("/expectations/{}/each", k);
+      if (const Node* node = report.find(pointer)) report.add_value(*node, pointer, message);
+    };
+    const std::vector<std::string> endings =
+        swept_endings(study, variants, original.measure.variant, original.each);
+    if (endings.empty())
+      complain(fmt::format("no sweep with this label is made of {}", original.measure.variant));
+    for (const std::string& ending : endings) {
+      all.push_back(copy_for(original, ending));
+      for (const std::string& name : variants_of(all.back()))
+        if (find_variants(variants, name).empty())
+          complain(fmt::format("there is no variant {}: sweep all that the claim names", name));
+    }
+  }
+  study.expectations = std::move(all);
+}
+
+}  // namespace acinus::runs
