@@ -154,9 +154,24 @@ class ObstacleSearch {
       meet_face(k, wall.material, shape);
       return;
     }
+    meet_mirror(k, g.gap);
+  }
+
+  /// A mirror stands for an equal cell, which a law stiffens as it does any single neighbour.
+  /// @param gap  um, of the centre
+  void meet_mirror(const Contact& k, double gap) {
+    const std::size_t i = k.a;
     const double share = in_.cells.strength_of(i);
-    if (g.gap >= radius(i) || share <= 0) return;
-    add(k, weaken(contact::mirror_wall_force(body(i), g.gap), share), 0, 1);
+    if (gap >= radius(i) || share <= 0) return;
+    const Modulus& crowd = work_.modulus[i];
+    const Modulus modulus = modulus_toward(params_of(i).correction, in_.state.young[i], crowd,
+                                           contact::mirror_wall_compression(radius(i), gap));
+    const bool own = modulus.value > crowd.value;
+    contact::SphereBody stiffened = body(i);
+    stiffened.young = modulus.value;
+    const double poisson = params_of(i).poisson;
+    const double by_overlap = own ? modulus.slope / radius(i) / (1 - poisson * poisson) : 0;
+    add(k, weaken(contact::mirror_wall_force(stiffened, gap), share), 0, own ? 0 : 1, by_overlap);
   }
 
   void meet_mesh(std::size_t i, std::size_t index, const Vec3& x) {

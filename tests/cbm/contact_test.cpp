@@ -381,6 +381,29 @@ TEST(Walls, MeetCrowdedSpheresNearerAndStiffer) {
       << "an equal cell stands behind a mirror, no wall";
 }
 
+TEST(Walls, AMirrorStiffensASphereAsASingleNeighbourDoes) {
+  const StiffnessLaw law{{}, {{0.05, 0}, {0.15, 2}, {0.2, 5}}, 0.2, 0.2};
+  const auto at = [&](double height) {
+    Spheres s({sphere({0, 0, height}, 12, 0.05)});
+    s.params[0].poisson = 0.47;
+    s.params[0].correction = law;
+    contact::Plane p;
+    p.material.mirror = true;
+    s.boundary.planes = {p};
+    s.find();
+    return s.obstacle()[0];
+  };
+  // 6 um: an overlap of 0.5 with the image, 0.3 beyond the range, where the law is at its cap.
+  const double modulus = corrected_modulus(law, 0.05, 0.3).value;
+  EXPECT_NEAR(at(6).force, contact::mirror_wall_force({12, modulus, 0.47}, 6).force, 1e-9);
+  // The force follows from the height alone there, and the slope is its own.
+  constexpr double h = 1e-5;
+  for (const double height : {8.4, 8.0, 5.0})
+    EXPECT_NEAR(at(height).slope, (at(height - h).force - at(height + h).force) / (2 * h),
+                1e-5 * at(height).slope)
+        << height;
+}
+
 TEST(Walls, CoupleByTheModulusOfTheFace) {
   const StiffnessLaw law{{}, {{0.01, 0}, {0.03, 1}}, 0.3, 0.2};
   Spheres s({sphere({0, 0, 9}, 12, 0.05)});
