@@ -3,7 +3,7 @@ import { plot, runColour } from "./plots.js";
 import { make } from "./text.js";
 
 // What an experiment is about, first what it is named after.
-const FIRST = [/^lesion_area/, /^lesion_radius/, /^open_area/, /^front/, /^radius_of_gyration/, /_strain$/, /^force/, /^length/, /^suction/, /^gap/, /^position/, /height/, /sphericity/, /pressure_mean/];
+const FIRST = [/^lesion_radius/, /^open_area/, /^front/, /^radius_of_gyration/, /_strain$/, /^force/, /^length/, /^suction/, /^gap/, /^position/, /height/, /sphericity/, /pressure_mean/];
 
 const several = (runs) => runs.length > 1;
 
@@ -41,6 +41,17 @@ function observable(runs, name) {
   return plot(titleOf(name), runs.find((r) => r.observables[name])?.observables[name].unit ?? "", curves);
 }
 
+// Areas of a lesion, and how they are drawn: the first is what "closed" means.
+const LESION_AREAS = [["lesion_area_relative", "nearest cell of each slice (closed: below 0.05)", undefined],
+  ["lesion_area_rings_centre_floor", "nearest cell of each ring", [7, 4]],
+  ["lesion_area_flooded", "open to the central vein", [2, 3]]];
+
+function lesion(runs) {
+  const curves = LESION_AREAS.flatMap(([name, label, dash]) => runs.flatMap((run, k) => run.observables[name] ? [{
+    ...run.observables[name], label: several(runs) ? `${run.name}: ${label}` : label, colour: runColour(k), dash }] : []));
+  return plot("Lesion area over that at the start", "", curves);
+}
+
 // Plots of whatever the experiment measures: the telling ones, and one to choose.
 function measured(runs) {
   const names = [...new Set(runs.flatMap((r) => Object.keys(r.observables)))].filter((n) => runs.some((r) => varies(r.observables[n])));
@@ -69,6 +80,7 @@ const differences = (c) => ({ time: c.time.slice(1), value: c.value.slice(1).map
 
 export function curves(runs) {
   const plots = [
+    lesion(runs),
     ...measured(runs),
     plot("Cells", "", fromSeries(runs, [["dcm_cells", "deformable"], ["cbm_cells", "spheres"], ["asleep", "asleep"]].filter(([n]) => runs.some((r) => varies(r.series[n]))))),
     band(runs, "pressure", "Contact pressure of the cells, 5 to 95 %", "Pa", 1000),

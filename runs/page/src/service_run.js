@@ -2,7 +2,7 @@
 import { plot } from "./plots.js";
 import { bytes, duration, make } from "./text.js";
 
-const FIRST = ["lesion_area_relative", "lesion_area", "cells", "radius_of_gyration_um", "mean_pressure_Pa", "contact_pressure_mean_dcm_Pa"];
+const FIRST = ["lesion_area_relative", "lesion_area_flooded", "lesion_area", "cells", "radius_of_gyration_um", "mean_pressure_Pa", "contact_pressure_mean_dcm_Pa"];
 const PLOTS = 2;
 const REFRESH = 3000; // ms between looks at a run that goes on
 
