@@ -15,7 +15,12 @@ std::string trimmed(std::string_view text) {
 }
 
 void HeaderFields::add(std::string_view name, std::string_view value, std::size_t place) {
-  field_[mesh::lower_case(trimmed(name))] = {trimmed(value), place};
+  const std::string key = mesh::lower_case(trimmed(name));
+  const auto [entry, is_new] = field_.try_emplace(key, HeaderLine{trimmed(value), place});
+  if (!is_new && entry->second.value != trimmed(value))
+    file_.fail_at(place, fmt::format("the header says {} twice, {} and {}. {}", trimmed(name),
+                                     mesh::in_quotes(entry->second.value),
+                                     mesh::in_quotes(trimmed(value)), advice_));
 }
 
 std::string HeaderFields::text(const std::string& name) const {
@@ -38,6 +43,26 @@ std::vector<double> HeaderFields::numbers(const std::string& name) const {
     at = end;
   }
   return out;
+}
+
+std::array<std::int64_t, 3> HeaderFields::sizes(const std::string& name) const {
+  constexpr double kMost = 1e15;
+  const std::vector<double> all = numbers(name);
+  if (all.size() != 3) fail(name, fmt::format("{} needs three numbers", name));
+  std::array<std::int64_t, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(all[k] >= 1 && all[k] <= kMost && all[k] == std::floor(all[k])))
+      fail(name, fmt::format("{} has {}; whole numbers from 1 are needed", name, all[k]));
+    out[k] = static_cast<std::int64_t>(all[k]);
+  }
+  return out;
+}
+
+std::optional<double> HeaderFields::number(const std::string& name) const {
+  const std::vector<double> all = numbers(name);
+  if (all.empty()) return std::nullopt;
+  if (all.size() != 1 || std::isnan(all[0])) fail(name, fmt::format("{} needs one number", name));
+  return all[0];
 }
 
 void HeaderFields::fail(const std::string& name, const std::string& what) const {

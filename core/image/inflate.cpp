@@ -25,11 +25,14 @@ Bytef* writable(const char* p) {  // zlib does not write what it reads, but says
 std::string inflate_bytes(const std::string& path, std::string_view stream, std::size_t size) {
   z_stream z{};
   if (inflateInit2(&z, kAnyHeader) != Z_OK) throw std::bad_alloc();
-  // One byte more than asked for tells a stream that is too long.
-  std::string out(size + 1, '\0');
+  constexpr std::size_t kStart = 1 << 20;
+  // Grows with what comes out: a header may announce anything. One byte more than asked for tells
+  // a stream that is too long.
+  std::string out;
   std::size_t taken = 0, made = 0;
   int status = Z_OK;
   while (status == Z_OK) {
+    if (made == out.size()) out.resize(std::min(size + 1, std::max(kStart, 2 * made)));
     const std::size_t in = std::min(stream.size() - taken, kMostAtOnce);
     const std::size_t room = std::min(out.size() - made, kMostAtOnce);
     z.next_in = writable(stream.data() + taken);
@@ -39,9 +42,12 @@ std::string inflate_bytes(const std::string& path, std::string_view stream, std:
     status = inflate(&z, Z_NO_FLUSH);
     taken += in - z.avail_in;
     made += room - z.avail_out;
+    const bool next_member = status == Z_STREAM_END && stream.substr(taken).starts_with("\x1f\x8b");
+    if (next_member) status = inflateReset(&z);
+    if (made > size) break;
   }
   inflateEnd(&z);
-  check(status == Z_STREAM_END || status == Z_BUF_ERROR,
+  check(status == Z_STREAM_END || status == Z_BUF_ERROR || made > size,
         fmt::format("{}: the compressed data are damaged near byte {} of them. Write the file "
                     "again.",
                     path, taken));
@@ -49,6 +55,11 @@ std::string inflate_bytes(const std::string& path, std::string_view stream, std:
         fmt::format("{}: the compressed data hold {} bytes where {} are announced. The file is "
                     "truncated, or its sizes or type are wrong.",
                     path, made > size ? "more" : fmt::format("{}", made), size));
+  check(status == Z_STREAM_END && stream.find_first_not_of('\0', taken) == stream.npos,
+        fmt::format("{}: the compressed data {}. The file is truncated or damaged.", path,
+                    status == Z_STREAM_END
+                        ? fmt::format("end {} bytes before the file", stream.size() - taken)
+                        : "have no end"));
   out.resize(size);
   return out;
 }

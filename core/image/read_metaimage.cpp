@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,34 +66,84 @@ Scalar type_of(const HeaderFields& header) {
                                          mesh::in_quotes(header.text("elementtype"))));
 }
 
+/// The sides of a voxel. Two fields may say them.
+void take_steps(const HeaderFields& h, ImageFile& out) {
+  std::array<std::vector<double>, 2> said{h.numbers("elementspacing"), h.numbers("elementsize")};
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!said[k].empty() && said[k].size() != 3)
+      h.fail(k == 0 ? "elementspacing" : "elementsize", "three numbers are needed");
+  if (!said[0].empty() && !said[1].empty() && said[0] != said[1])
+    out.step_fault = fmt::format("ElementSpacing says {}, ElementSize {}", h.text("elementspacing"),
+                                 h.text("elementsize"));
+  const std::vector<double>& step = said[0].empty() ? said[1] : said[0];
+  if (!step.empty()) out.step = Vec3(step[0], step[1], step[2]);
+  const std::string unit = h.text("distanceunits");
+  out.unit = Vec3::Constant(unit_by_name(unit));
+  if (!unit.empty() && unit != "?" && out.unit[0] == 0)
+    out.note.push_back("DistanceUnits = " + mesh::in_quotes(unit) + " is no unit that is known");
+  for (const char* name : {"transformmatrix", "orientation", "rotation"}) {
+    const std::vector<double> m = h.numbers(name);
+    if (m.size() == 9) note_axes(Eigen::Map<const Eigen::Matrix3d>(m.data()), name, out);
+  }
+}
+
+/// Bytes of a file of data that are the voxels', by HeaderSize.
+std::string_view take_stored(const HeaderFields& h, const ImageBytes& data, ImageFile& out) {
+  const double skip = h.number("headersize").value_or(0);
+  std::string_view stored = data.stored;
+  if (skip == 0) return stored;
+  const auto size = static_cast<double>(stored.size());
+  const auto length = static_cast<double>(count_voxels(data.path, out.size) * bytes_of(out.type));
+  if (skip < 0 && data.compressed)
+    h.fail("headersize", "HeaderSize = -1 (data at the end) needs data without compression");
+  const double from = skip < 0 ? size - length : skip;
+  if (!(from >= 0 && from <= size))
+    h.fail("headersize", fmt::format("{} has {} bytes only", data.path, stored.size()));
+  if (skip < 0 && from > 0)
+    out.note.push_back(fmt::format("HeaderSize = -1: the first {:.0f} bytes of {} are passed over",
+                                   from, data.path));
+  stored.remove_prefix(static_cast<std::size_t>(from));
+  return stored;
+}
+
+/// CompressedDataSize, where it is said, is what there is.
+void check_stored(const HeaderFields& h, const ImageBytes& data) {
+  const std::optional<double> size = h.number("compresseddatasize");
+  if (!size || !data.compressed || *size == static_cast<double>(data.stored.size())) return;
+  h.fail("compresseddatasize",
+         fmt::format("CompressedDataSize says {} bytes, but there are {}: the file is truncated or "
+                     "damaged",
+                     *size, data.stored.size()));
+}
+
 void check_supported(const HeaderFields& h) {
   if (h.numbers("ndims") != std::vector<double>{3})
     h.fail("ndims", fmt::format("the image has {} dimensions; three are needed",
                                 mesh::in_quotes(h.text("ndims"))));
   if (h.has("elementnumberofchannels") && h.numbers("elementnumberofchannels") != std::vector{1.0})
     h.fail("elementnumberofchannels", "several channels a voxel are not read");
+  if (h.has("binarydata") && !is_true(h, "binarydata"))
+    h.fail("binarydata", "numbers written as text (BinaryData = False) are not read");
+  if (h.number("elementtointensityfunctionslope").value_or(1) != 1 ||
+      h.number("elementtointensityfunctionoffset").value_or(0) != 0)
+    h.fail("elementtointensityfunctionslope",
+           "its numbers are to be scaled (ElementToIntensityFunction), labels must be as they are");
+  if (h.has("binarydatabyteordermsb") && h.has("elementbyteordermsb") &&
+      is_true(h, "binarydatabyteordermsb") != is_true(h, "elementbyteordermsb"))
+    h.fail("elementbyteordermsb", "BinaryDataByteOrderMSB and ElementByteOrderMSB disagree");
 }
 
 }  // namespace
 
 ImageFile read_metaimage(const std::string& path) {
   mesh::InputFile file(path);
+  file.skip_byte_order_mark();
   const HeaderFields h = read_header(file);
   check_supported(h);
   ImageFile out;
   out.type = type_of(h);
-  const std::vector<double> size = h.numbers("dimsize");
-  const std::string spacing = h.has("elementspacing") ? "elementspacing" : "elementsize";
-  const std::vector<double> step = h.numbers(spacing);
-  if (size.size() != 3) h.fail("dimsize", "DimSize needs three numbers");
-  if (!step.empty() && step.size() != 3) h.fail(spacing, "the spacing needs three numbers");
-  for (std::size_t k = 0; k < 3; ++k) {
-    constexpr double kMost = 1e15;
-    if (!(size[k] >= 1 && size[k] <= kMost)) h.fail("dimsize", "DimSize must be 1 or more");
-    out.size[k] = static_cast<std::int64_t>(size[k]);
-    if (!step.empty()) out.step[static_cast<int>(k)] = step[k];
-  }
-  out.unit = unit_by_name(h.text("distanceunits"));
+  out.size = h.sizes("dimsize");
+  take_steps(h, out);
 
   ImageBytes data;
   data.path = path;
@@ -101,6 +152,9 @@ ImageFile read_metaimage(const std::string& path) {
   const std::string name = h.text(kData);
   if (mesh::lower_case(name) == "local") {
     data.stored = file.bytes().substr(file.position());
+    if (h.number("headersize").value_or(0) > 0)
+      h.fail("headersize", "HeaderSize is for data in a file of their own, not for LOCAL");
+    check_stored(h, data);
     take_bytes(data, out);
     return out;
   }
@@ -109,17 +163,8 @@ ImageFile read_metaimage(const std::string& path) {
   data.path = (std::filesystem::path(path).parent_path() / name).string();
   const mesh::InputFile raw(data.path);
   data.stored = raw.bytes();
-  const std::vector<double> skip = h.numbers("headersize");
-  if (!skip.empty() && !data.compressed) {  // -1: the data are at the end
-    const std::size_t length = count_voxels(path, out.size) * bytes_of(out.type);
-    const double from = skip[0] < 0
-                            ? static_cast<double>(raw.bytes().size()) - static_cast<double>(length)
-                            : skip[0];
-    if (!(from >= 0 && from <= static_cast<double>(raw.bytes().size())))
-      h.fail("headersize", fmt::format("{} has {} bytes only", data.path, raw.bytes().size()));
-    data.stored.remove_prefix(static_cast<std::size_t>(from));
-    data.stored = data.stored.substr(0, length);
-  }
+  data.stored = take_stored(h, data, out);
+  check_stored(h, data);
   take_bytes(data, out);
   return out;
 }

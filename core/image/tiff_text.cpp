@@ -4,122 +4,127 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/image/image_formats.hpp"
+#include "core/image/json_statements.hpp"
 #include "core/mesh/input_file.hpp"
 
 namespace acinus::image {
 namespace {
 
-/// The value of an attribute within one tag of XML.
-std::optional<std::string> find_attribute(std::string_view tag, std::string_view name) {
-  std::size_t at = 0;
-  while ((at = tag.find(name, at)) != tag.npos) {
-    const std::size_t end = at + name.size();
-    const bool begins = at > 0 && std::isspace(static_cast<unsigned char>(tag[at - 1])) != 0;
-    if (begins && end + 1 < tag.size() && tag[end] == '=' &&
-        (tag[end + 1] == '"' || tag[end + 1] == '\'')) {
-      const std::size_t close = tag.find(tag[end + 1], end + 2);
-      if (close != tag.npos) return std::string(tag.substr(end + 2, close - end - 2));
-    }
-    at = end;
+/// "key=value" on a line of its own; nothing where there is none. Throws Error at two that differ.
+std::optional<std::string> find_line(const std::string& path, const std::string& text,
+                                     const std::string& key) {
+  std::optional<std::string> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (!line.starts_with(key + "=")) continue;
+    const std::string value = line.substr(key.size() + 1);
+    check(!found || *found == value,
+          fmt::format("{}: ImageJ says {}={} and {}={}. Write the image again.", path, key,
+                      found.value_or(""), key, value));
+    found = value;
   }
-  return std::nullopt;
+  return found;
 }
 
-double number_of(const std::string& path, const std::string& name, const std::string& text) {
-  double value = 0;
-  check(mesh::parse_double(text, value) && value > 0,
-        fmt::format("{}: OME says {} = {}; a number above 0 is needed. Give --voxel, or write the "
-                    "image again.",
-                    path, name, mesh::in_quotes(text)));
-  return value;
-}
-
-/// "&#181;m" and "&#xB5;m" are micrometres as well.
-std::string plain_unit(std::string text) {
-  for (const char* micro : {"&#181;", "&#xB5;", "&#xb5;", "&#956;", "&micro;"})
-    if (text.starts_with(micro)) return text.replace(0, std::string_view(micro).size(), "u");
-  return text;
-}
-
-void read_ome(const std::string& path, std::string_view text, TiffText& out) {
-  const std::size_t begin = text.find("<Pixels");
-  check(begin != text.npos,
-        fmt::format("{}: its OME description has no Pixels. Write the image again.", path));
-  const std::string_view tag = text.substr(begin, text.find('>', begin) - begin);
-  const std::array<std::pair<const char*, std::int64_t*>, 3> sizes{
-      {{"SizeZ", &out.slices}, {"SizeC", &out.channels}, {"SizeT", &out.times}}};
-  for (const auto& [name, value] : sizes)
-    if (const auto t = find_attribute(tag, name))
-      *value = static_cast<std::int64_t>(number_of(path, name, *t));
-  if (const auto order = find_attribute(tag, "DimensionOrder"); order && order->size() == 5)
-    out.order = order->substr(2);
-  const std::array<const char*, 3> axis{"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
-  for (int k = 0; k < 3; ++k) {
-    const std::string name = axis[static_cast<std::size_t>(k)];
-    const auto size = find_attribute(tag, name);
-    if (!size) continue;
-    const std::string unit = plain_unit(find_attribute(tag, name + "Unit").value_or("um"));
-    const double um = unit_by_name(unit);
-    check(um > 0, fmt::format("{}: OME says {}Unit = {}, which is not known. Give --voxel.", path,
-                              name, mesh::in_quotes(unit)));
-    out.step[k] = um * number_of(path, name, *size);
+/// Units by axis: "unit" is that of x, and of the others where they have none of their own.
+void take_imagej_units(const std::string& path, const std::string& text, TiffText& out) {
+  constexpr std::array<const char*, 3> kKeys{"unit", "yunit", "zunit"};
+  const std::string first = find_line(path, text, "unit").value_or("");
+  for (std::size_t k = 0; k < kKeys.size(); ++k) {
+    const std::string unit = find_line(path, text, kKeys[k]).value_or(first);
+    out.unit[static_cast<int>(k)] = unit_by_name(unit);
+    const bool known = unit.empty() || out.unit[static_cast<int>(k)] > 0;
+    if (!known && out.step_fault.empty())
+      out.step_fault =
+          fmt::format("ImageJ says {}={}, which is no unit that is known", kKeys[k], unit);
   }
 }
 
-/// "key=value" on a line of its own.
-std::optional<std::string> find_line(const std::string& text, const std::string& key) {
-  const std::size_t at = ("\n" + text).find("\n" + key + "=");
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t first = at + key.size() + 1;
-  const std::size_t end = std::min(text.find_first_of("\r\n", first), text.size());
-  return text.substr(first, end - first);
-}
-
-void read_imagej(const std::string& text, TiffText& out) {
+void read_imagej(const std::string& path, const std::string& text, TiffText& out) {
   const std::array<std::pair<const char*, std::int64_t*>, 4> sizes{{{"slices", &out.slices},
                                                                     {"channels", &out.channels},
                                                                     {"frames", &out.times},
                                                                     {"images", &out.images}}};
+  constexpr std::int64_t kMost = 1 << 24;
   for (const auto& [key, value] : sizes)
-    if (const auto t = find_line(text, key)) {
-      std::int64_t n = 0;
-      if (mesh::parse_integer(*t, n) && n > 0) *value = n;
-    }
-  const double unit = unit_by_name(find_line(text, "unit").value_or(""));
-  if (!(unit > 0)) return;
-  out.pixel_unit = unit;
+    if (const auto t = find_line(path, text, key))
+      check(mesh::parse_integer(*t, *value) && *value > 0 && *value <= kMost,
+            fmt::format("{}: ImageJ says {}={}; a whole number from 1 is needed. Write the image "
+                        "again.",
+                        path, key, mesh::in_quotes(*t)));
+  if (out.images == 0)
+    out.images = std::max<std::int64_t>(out.slices, 1) * out.channels * out.times;
+  if (out.slices == 0 && out.images % (out.channels * out.times) == 0)
+    out.slices = out.images / (out.channels * out.times);
+  take_imagej_units(path, text, out);
   double spacing = 0;
-  if (mesh::parse_double(find_line(text, "spacing").value_or(""), spacing) && spacing > 0)
-    out.step[2] = unit * spacing;
+  if (mesh::parse_double(find_line(path, text, "spacing").value_or(""), spacing) &&
+      std::isfinite(spacing))
+    out.step[2] = std::abs(spacing);  // ImageJ takes it so as well
+}
+
+/// Pages of tifffile: all axes but the last two, whose names may be said.
+void read_shape(const std::string& path, const TiffShape& shape, TiffText& out) {
+  std::string axes = shape.axes;
+  std::vector<std::int64_t> length = shape.length;
+  if (!axes.empty() && axes.back() == 'S') {  // numbers of a pixel; libtiff counts them as well
+    axes.pop_back();
+    length.pop_back();
+  }
+  if (length.size() < 2) return;
+  out.width = length.back();
+  out.height = length[length.size() - 2];
+  out.images = 1;
+  out.slices = 1;
+  std::string order;
+  std::size_t long_axes = 0;
+  for (std::size_t k = length.size() - 2; k-- > 0;) {
+    out.images *= length[k];
+    if (length[k] == 1) continue;
+    ++long_axes;
+    const char axis = axes.empty() ? 'Z' : axes[k] == 'I' || axes[k] == 'Q' ? 'Z' : axes[k];
+    check((axis == 'Z' || axis == 'C' || axis == 'T') && order.find(axis) == order.npos,
+          fmt::format("{}: its description says {} pages by the axes {} with {} lengths above 1; "
+                      "Z, C and T are read. {}",
+                      path, out.images, axes.empty() ? "without names" : mesh::in_quotes(axes),
+                      long_axes, "Save one stack, or name the axes (tifffile: axes=\"CZYX\")."));
+    order += axis;
+    (axis == 'Z' ? out.slices : axis == 'C' ? out.channels : out.times) = length[k];
+  }
+  for (const char axis : {'C', 'Z', 'T'})
+    if (order.find(axis) == order.npos) order += axis;
+  out.order = order;
 }
 
 }  // namespace
 
-std::int64_t TiffText::page(std::int64_t slice, std::int64_t channel) const {
-  std::int64_t page = 0, stride = 1;
+std::int64_t TiffText::plane(std::int64_t slice, std::int64_t channel) const {
+  std::int64_t plane = 0, stride = 1;
   for (const char axis : order) {
     const std::int64_t index = axis == 'Z'   ? slice
                                : axis == 'C' ? channel % channels
                                              : channel / channels;
-    page += stride * index;
+    plane += stride * index;
     stride *= axis == 'Z' ? slices : axis == 'C' ? channels : times;
   }
-  return page;
+  return plane;
 }
 
 TiffText read_tiff_text(const std::string& path, const std::string& description) {
+  if (std::optional<TiffText> ome = read_ome_text(path, description)) return *ome;
   TiffText out;
-  if (description.find("<OME") != std::string::npos) {
-    out.is_ome = true;
-    read_ome(path, description, out);
-  } else if (description.starts_with("ImageJ")) {
+  if (description.starts_with("ImageJ")) {
     out.is_imagej = true;
-    read_imagej(description, out);
+    read_imagej(path, description, out);
+  } else if (const std::optional<TiffShape> shape = read_tiff_shape(description)) {
+    read_shape(path, *shape, out);
   }
   return out;
 }

@@ -1,9 +1,12 @@
 #pragma once
-/// What the description of a TIFF stack says about it: OME's XML, or ImageJ's lines.
+/// Statements of the description of a TIFF stack: OME's XML, ImageJ's lines, tifffile's shape.
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "core/image/scalar.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::image {
@@ -13,16 +16,28 @@ struct TiffText {
   bool is_ome = false, is_imagej = false;
   std::int64_t slices = 0, channels = 1, times = 1;  ///< slices 0: all pages
   std::string order = "CZT";                         ///< of pages, the fastest first
-  Vec3 step = Vec3::Zero();                          ///< um; 0 where it does not say
-  double pixel_unit = 0;    ///< um in the unit of the file's resolution; 0: not said (ImageJ)
-  std::int64_t images = 0;  ///< ImageJ: pages there are meant to be; 0: not said
+  Vec3 step = Vec3::Zero();  ///< in units of the description; 0 where it does not say
+  Vec3 unit = Vec3::Zero();  ///< um in such a unit, by axis; 0: not said
+  std::string step_fault;    ///< of sizes that cannot be used, as a unit that is not known
+  std::int64_t images = 0;   ///< ImageJ, tifffile: pages there are meant to be; 0: not said
+  std::int64_t width = 0, height = 0;  ///< pixels of a page; 0: not said
+  std::optional<Scalar> type;          ///< of numbers, where it is said
+  /// OME's TiffData: page of a plane in the order of the description; kElsewhere, kNowhere. Empty:
+  /// in that order.
+  std::vector<std::int64_t> page_of_plane;
+  static constexpr std::int64_t kNowhere = -1, kElsewhere = -2;
 
-  /// Page of a slice of a channel; times count as channels: c + channels * t.
-  std::int64_t page(std::int64_t slice, std::int64_t channel) const;
+  std::int64_t planes() const { return slices * channels * times; }
+  /// Number of a slice of a channel in the order of the description; times count as channels:
+  /// c + channels * t.
+  std::int64_t plane(std::int64_t slice, std::int64_t channel) const;
 };
 
 /// @param description  of the first page
-/// Throws Error where OME's sizes are no numbers, or a unit is not known.
+/// Throws Error where sizes are no numbers, or planes are given twice.
 TiffText read_tiff_text(const std::string& path, const std::string& description);
+
+/// As read_tiff_text, for OME's XML [OME-TIFF]; nothing for any other text.
+std::optional<TiffText> read_ome_text(const std::string& path, const std::string& description);
 
 }  // namespace acinus::image

@@ -25,6 +25,34 @@
 namespace acinus::implicit {
 namespace {
 
+/// Far more triangles than are allowed would take for ever to be counted.
+void check_extent(const mesh::Network& network, const VesselMeshOptions& o) {
+  constexpr double kMargin = 10;  // the estimate is rough
+  double all = 0, most = 0;
+  std::size_t worst = 0;
+  for (std::size_t s = 0; s < network.segment.size(); ++s) {
+    const auto& [a, b] = network.segment[s];
+    const double length = (network.node[b] - network.node[a]).norm();
+    const double r = 0.5 * (network.radius[s][0] + network.radius[s][1]);
+    // Triangles of side f r on 2 pi r L, each of half the square of it.
+    const double n = 4 * kPi * length / (o.fineness * o.fineness * r);
+    all += n;
+    if (n > most) {
+      most = n;
+      worst = s;
+    }
+  }
+  check(all <= kMargin * static_cast<double>(o.most_triangles),
+        fmt::format(
+            "the surface would have some {:.2g} triangles; at most {} are made. Segment {} "
+            "alone needs {:.2g}: it is {:.4g} um long with a radius of {:.4g} um. Check "
+            "its nodes and the unit of the file.",
+            all, o.most_triangles, worst, most,
+            (network.node[network.segment[worst][1]] - network.node[network.segment[worst][0]])
+                .norm(),
+            0.5 * (network.radius[worst][0] + network.radius[worst][1])));
+}
+
 void check_network(const mesh::Network& network) {
   check(!network.segment.empty(), "a network without segments has no surface");
   for (std::size_t s = 0; s < network.segment.size(); ++s)
@@ -134,6 +162,7 @@ bool fit_without_crossing(const Distance& distance, mesh::Surface& surface) {
 VesselMesh make_vessel_mesh(const mesh::Network& network, const VesselMeshOptions& o) {
   constexpr double kFiner = 0.6;
   check_network(network);
+  check_extent(network, o);
   VesselMesh out;
   out.expected = mesh::find_connectivity(network);
   out.fineness = o.fineness;

@@ -16,10 +16,17 @@ struct VolumeInfo {
   bool is_real = false, has_sign = false;
   /// um, attribute element_size_um, in the order of the shape; empty where it is not there.
   std::vector<double> element_size;
+  std::string axis_tags;                ///< attribute axistags, JSON of vigra and ilastik
+  std::vector<std::string> axis_label;  ///< attribute DIMENSION_LABELS, or axes; in that order
+  std::vector<std::string> codec;       ///< filters that the library here cannot undo
+  /// Bytes that the numbers take in the file; 0: none were ever written.
+  double stored = 0;
+  std::int64_t chunks = 0, chunks_written = 0;  ///< what is not written reads as 0
+  std::string fault;                            ///< a contradiction between shape and storage
 };
 
-/// All datasets of numbers with three or more axes, by name.
-/// Throws Error(kFileError) if the file is not HDF5, or damaged.
+/// All datasets of numbers with two or more axes, by name.
+/// Throws Error(kFileError) if the file is not HDF5, cut short or damaged.
 std::vector<VolumeInfo> list_volumes(const std::string& path);
 
 /// The numbers of one, in this machine's byte order.

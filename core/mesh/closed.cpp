@@ -61,10 +61,10 @@ void check_edges(const Surface& surface, const std::string& where) {
   if (first) {
     throw Error(
         fmt::format("{}: not a closed surface: {} open edges (one triangle) and {} non-manifold "
-                    "edges (more than two "
-                    "triangles); first {}. Every edge of a body must join exactly two triangles. "
-                    "Close the holes or remove "
-                    "the extra faces in the program that made the mesh.",
+                    "edges (more than two triangles); first {}. Every edge of a body must join "
+                    "exactly two triangles. Close the holes in the program that made the mesh; "
+                    "bodies that share a wall need all their faces each, turned outward, in a "
+                    "solid, object, group or polyhedron of its own.",
                     where, n_open, n_crowded, edge_text(surface, *first)));
   }
   if (first_turned) {

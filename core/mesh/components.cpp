@@ -7,9 +7,7 @@
 #include "core/disjoint_sets.hpp"
 
 namespace acinus::mesh {
-namespace {
 
-// The given triangles with only the nodes they use, in their order.
 Surface compacted(const std::vector<Vec3>& node, std::vector<std::array<int, 3>> triangle) {
   std::vector<int> used;
   used.reserve(triangle.size() * 3);
@@ -27,8 +25,6 @@ Surface compacted(const std::vector<Vec3>& node, std::vector<std::array<int, 3>>
   out.triangle = std::move(triangle);
   return out;
 }
-
-}  // namespace
 
 std::vector<int> find_parts(const Surface& surface) {
   DisjointSets sets(surface.node.size());

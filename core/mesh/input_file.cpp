@@ -48,6 +48,13 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
   check(size > 0, fmt::format("{}: the file is empty.", path_));
 }
 
+void InputFile::skip_byte_order_mark() {
+  const std::string_view text = bytes_;
+  if (text.starts_with("\xef\xbb\xbf")) position_ = 3;
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    fail("the file is UTF-16 text. Save it as UTF-8 or plain ASCII.");
+}
+
 std::string_view InputFile::next_token() {
   while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
   last_ = position_;
@@ -122,6 +129,11 @@ void InputFile::fail(const std::string& message) const { fail_at(last_, message)
 
 void InputFile::fail_at(std::size_t position, const std::string& message) const {
   throw Error(where(position) + ": " + message);
+}
+
+bool is_coordinate(const Vec3& x) {
+  constexpr double kMost = 1e15;
+  return x.allFinite() && x.cwiseAbs().maxCoeff() < kMost;
 }
 
 bool parse_double(std::string_view token, double& value) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/vec.hpp"
+
 namespace acinus::mesh {
 
 /// Reads the whole file at construction; the cursor then walks over its bytes. Tokens are separated
@@ -22,6 +24,10 @@ class InputFile {
   std::size_t remaining() const { return bytes_.size() - position_; }
   bool binary() const { return binary_; }
   void set_binary(bool binary) { binary_ = binary; }
+
+  /// Moves the cursor behind a byte order mark, as Windows editors put it in front of UTF-8 text.
+  /// Throws where the mark says UTF-16. For files of text only, before anything is read.
+  void skip_byte_order_mark();
 
   /// The next token, empty at the end of the file.
   std::string_view next_token();
@@ -52,6 +58,11 @@ class InputFile {
   std::size_t last_ = 0;  ///< where the last token began
   bool binary_ = false;
 };
+
+/// Whether numbers can be the coordinates of a place: finite, and not so large that products of
+/// three of them are not.
+bool is_coordinate(const Vec3& x);
+inline constexpr const char* kCoordinateRule = "coordinates must be finite and below 1e15";
 
 /// The whole token as a number; false when it is not one. Too small becomes 0, too large infinite.
 bool parse_double(std::string_view token, double& value);

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/mesh/radius_array.hpp"
 #include "core/mesh/read_vmv.hpp"
 #include "core/mesh/vtk_legacy.hpp"
 
@@ -14,78 +16,38 @@ namespace acinus::mesh {
 
 namespace {
 
-constexpr const char* kRadiusNames = "\"radius\", \"radii\", \"r\", \"diameter\" or \"diameters\"";
-
-struct RadiusArray {
-  const VtkArray* array = nullptr;
-  bool per_point = false;
-  double factor = 1;  ///< 0.5 for diameters
-};
-
-std::string list_arrays(const VtkLegacy& vtk) {
-  std::string text;
-  for (const auto& [arrays, section] :
-       {std::pair{&vtk.point_data, "POINT_DATA"}, std::pair{&vtk.cell_data, "CELL_DATA"}}) {
-    for (const VtkArray& array : *arrays) {
-      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", in_quotes(array.name), section);
-    }
+/// Throws where radii that segments use are none.
+void check_radii(const VtkLegacy& vtk, const RadiusArray& radius) {
+  BadRadii bad(radius.per_point ? "node" : "segment");
+  for (std::size_t i = 0; radius.per_point && i < vtk.point.size(); ++i)
+    if (!BadRadii::is_good(radius.at(i)))
+      bad.add(i, fmt::format("node {}", i), radius.array->value[i]);
+  for (std::size_t c = 0; !radius.per_point && c < vtk.lines.size(); ++c) {
+    // Cell data count the vertices first, then the lines.
+    const std::size_t i = vtk.vertices.size() + c;
+    if (BadRadii::is_good(radius.at(i))) continue;
+    const std::vector<int> line = vtk.nodes_of(vtk.lines, c, fmt::format("line {}", c));
+    bad.add(i,
+            line.empty() ? fmt::format("segment {}", c)
+                         : fmt::format("segment {} (nodes {}-{})", c, line.front(), line.back()),
+            radius.array->value[i]);
   }
-  return text.empty() ? "none" : text;
+  if (bad.any())
+    vtk.file.fail_at(vtk.position(radius.array->place, bad.place()),
+                     bad.message(in_quotes(radius.array->name)));
 }
 
-RadiusArray find_radius(const VtkLegacy& vtk) {
-  for (const bool per_point : {true, false}) {
-    const auto& arrays = per_point ? vtk.point_data : vtk.cell_data;
-    for (const auto& [name, factor] :
-         {std::pair{"radius", 1.0}, std::pair{"radii", 1.0}, std::pair{"r", 1.0},
-          std::pair{"diameter", 0.5}, std::pair{"diameters", 0.5}}) {
-      for (const VtkArray& array : arrays) {
-        if (lower_case(array.name) != name) continue;
-        if (array.components != 1) {
-          vtk.file.fail_at(array.place.begin,
-                           fmt::format("array {} has {} components; a radius has 1. Save it as a "
-                                       "scalar.",
-                                       in_quotes(array.name), array.components));
-        }
-        return {&array, per_point, factor};
-      }
-    }
-  }
-  throw Error(fmt::format(
-      "{}: no radius array. Arrays found: {}. Give every point or every line a radius: a scalar "
-      "array in POINT_DATA or CELL_DATA called {}.",
-      vtk.file.path(), list_arrays(vtk), kRadiusNames));
-}
-
-double checked_radius(const VtkLegacy& vtk, const RadiusArray& radius, std::size_t i,
-                      const std::string& owner) {
-  const double value = radius.array->value[i];
-  if (!std::isfinite(value) || value <= 0) {
-    vtk.file.fail_at(
-        vtk.position(radius.array->place, i),
-        fmt::format(
-            "{} has {} {}; it must be a finite number above 0. Repair the value or remove the {}.",
-            owner, in_quotes(radius.array->name), value, radius.per_point ? "node" : "segment"));
-  }
-  return radius.factor * value;
-}
-
-Network read_vtk_network(const std::string& path) {
+Network read_vtk_network(const std::string& path, const std::string& radius_array) {
   const VtkLegacy vtk = read_vtk_legacy(
       path, {"POLYDATA"}, "Save the vessels as lines (in ParaView: Extract Surface, then save).");
   if (vtk.lines.size() == 0) {
     throw Error(fmt::format(
         "{}: the file has no LINES. Save the vessel segments as lines of POLYDATA.", path));
   }
-  const RadiusArray radius = find_radius(vtk);
+  const RadiusArray radius = find_radius(vtk, radius_array);
+  check_radii(vtk, radius);
   Network out;
   out.node = vtk.point;
-  std::vector<double> node_radius;
-  if (radius.per_point) {
-    for (std::size_t i = 0; i < vtk.point.size(); ++i) {
-      node_radius.push_back(checked_radius(vtk, radius, i, fmt::format("node {}", i)));
-    }
-  }
   for (std::size_t c = 0; c < vtk.lines.size(); ++c) {
     const std::string what = fmt::format("line {}", c);
     const std::vector<int> line = vtk.nodes_of(vtk.lines, c, what);
@@ -100,15 +62,11 @@ Network read_vtk_network(const std::string& path) {
                          fmt::format("{} joins node {} to itself. Remove it.", what, line[k]));
       }
       out.segment.push_back({line[k], line[k + 1]});
-      if (radius.per_point) {
-        out.radius.push_back({node_radius[line[k]], node_radius[line[k + 1]]});
-      } else {
-        // Cell data count the vertices first, then the lines.
-        const double r =
-            checked_radius(vtk, radius, vtk.vertices.size() + c,
-                           fmt::format("segment {} (nodes {}-{})", c, line.front(), line.back()));
-        out.radius.push_back({r, r});
-      }
+      const auto end = [&](std::size_t i) {
+        return radius.at(radius.per_point ? static_cast<std::size_t>(line[i])
+                                          : vtk.vertices.size() + c);
+      };
+      out.radius.push_back({end(k), end(k + 1)});
     }
   }
   return out;
@@ -120,11 +78,42 @@ struct SwcNode {
   std::size_t place = 0;
 };
 
-std::optional<SwcNode> read_swc_line(InputFile& file, Vec3& x) {
+/// Comments between nodes that hold the numbers of a node: a damaged digit makes one of "3 ...".
+void check_hidden_node(const InputFile& file, std::size_t place, std::string_view line) {
+  std::istringstream words{std::string(line.substr(1))};
+  std::size_t n = 0;
+  for (std::string word; words >> word; ++n) {
+    double value = 0;
+    if (!parse_double(word, value)) return;
+  }
+  constexpr std::size_t kFewest = 6;
+  if (n >= kFewest)
+    file.fail_at(place, "a comment holds the numbers of a node. Remove the line, or the \"#\".");
+}
+
+/// "# SCALE 1 1 1" is the one statement of a header that changes lengths.
+void check_swc_comment(const InputFile& file, std::size_t place, std::string_view line) {
+  std::istringstream words{std::string(line.substr(1))};
+  std::string key;
+  words >> key;
+  if (lower_case(key) != "scale") return;
+  for (double value = 1; words >> value;)
+    if (value != 1)
+      file.fail_at(place, fmt::format("the header says {}, which is not followed. Multiply the "
+                                      "coordinates, or give the unit, and remove this line.",
+                                      in_quotes(line)));
+}
+
+std::optional<SwcNode> read_swc_line(InputFile& file, bool is_first, Vec3& x) {
   const std::size_t begin = file.position();
   const std::string_view line = file.next_line();
   const std::size_t first = line.find_first_not_of(" \t\r");
-  if (first == line.npos || line[first] == '#') return std::nullopt;
+  if (first == line.npos) return std::nullopt;
+  if (line[first] == '#') {
+    check_swc_comment(file, begin, line.substr(first));
+    if (!is_first) check_hidden_node(file, begin, line.substr(first));
+    return std::nullopt;
+  }
   SwcNode node;
   node.place = begin;
   std::array<double, 7> value{};
@@ -158,41 +147,43 @@ std::optional<SwcNode> read_swc_line(InputFile& file, Vec3& x) {
   }
   x = Vec3(value[2], value[3], value[4]);
   node.radius = value[5];
-  if (!x.allFinite()) {
-    file.fail_at(
-        begin,
-        fmt::format(
-            "node {} has the coordinates ({}, {}, {}); they must be finite numbers. Repair or "
-            "remove the node.",
-            node.id, x.x(), x.y(), x.z()));
-  }
-  if (!std::isfinite(node.radius) || node.radius <= 0) {
-    file.fail_at(
-        begin,
-        fmt::format(
-            "node {} has the radius {}; it must be a finite number above 0. Repair the value or "
-            "remove the node.",
-            node.id, node.radius));
-  }
+  if (!is_coordinate(x))
+    file.fail_at(begin, fmt::format("node {} has the coordinates ({}, {}, {}); {}. Repair or "
+                                    "remove the node.",
+                                    node.id, x.x(), x.y(), x.z(), kCoordinateRule));
   return node;
 }
 
+/// SWC says no number of nodes: a line without an end is the only sign of a file that was cut.
+void check_swc_end(const InputFile& file) {
+  if (file.bytes().back() == '\n' || file.bytes().back() == '\r') return;
+  file.fail_at(file.bytes().size(),
+               "the last line has no end, so the file may be truncated within a number. If it is "
+               "complete, end it with a new line.");
+}
+
 Network read_swc(InputFile& file) {
+  file.skip_byte_order_mark();
+  check_swc_end(file);
+  BadRadii bad("node");
   Network out;
   std::vector<SwcNode> nodes;
   std::unordered_map<std::int64_t, int> index;
   while (file.remaining() > 0) {
     Vec3 x;
-    const std::optional<SwcNode> node = read_swc_line(file, x);
+    const std::optional<SwcNode> node = read_swc_line(file, nodes.empty(), x);
     if (!node) continue;
     if (!index.try_emplace(node->id, static_cast<int>(nodes.size())).second) {
       file.fail_at(
           node->place,
           fmt::format("node {} is defined a second time. Give every node its own id.", node->id));
     }
+    if (!BadRadii::is_good(node->radius))
+      bad.add(node->place, fmt::format("node {}", node->id), node->radius);
     nodes.push_back(*node);
     out.node.push_back(x);
   }
+  if (bad.any()) file.fail_at(bad.place(), bad.message("the radius"));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].parent < 0) continue;  // a root
     const auto parent = index.find(nodes[i].parent);
@@ -217,13 +208,18 @@ Network read_swc(InputFile& file) {
 
 }  // namespace
 
-Network read_network(const std::string& path) {
+Network read_network(const std::string& path, const std::string& radius_array) {
   InputFile file(path);
   const std::string extension = extension_of(path);
-  if (extension == ".swc") return read_swc(file);
-  if (extension == ".vmv") return read_vmv(file);
+  const bool swc = extension == ".swc", vmv = extension == ".vmv";
+  check(radius_array.empty() || !(swc || vmv),
+        fmt::format("{}: an array of radii ({}) can be named for VTK files only; here every line "
+                    "has its radius. Leave the name out.",
+                    path, in_quotes(radius_array)));
+  if (swc) return read_swc(file);
+  if (vmv) return read_vmv(file);
   if (extension == ".vtk" || extension == ".vtp" || extension == ".vtu" || is_vtk_legacy(file)) {
-    return read_vtk_network(path);
+    return read_vtk_network(path, radius_array);
   }
   throw Error(
       fmt::format("{}: vessel networks are read from legacy VTK (.vtk), SWC (.swc) and VMV (.vmv), "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -108,7 +109,7 @@ PlyType next_type(InputFile& file) {
 
 /// Leaves the cursor behind the header.
 std::pair<Encoding, std::vector<Element>> read_header(InputFile& file) {
-  if (file.next_token() != "ply")
+  if (lower_case(file.next_token()) != "ply")
     file.fail("the file does not begin with \"ply\". Is it a PLY file?");
   Encoding encoding = Encoding::kText;
   std::vector<Element> elements;
@@ -151,21 +152,32 @@ std::pair<Encoding, std::vector<Element>> read_header(InputFile& file) {
   return {encoding, std::move(elements)};
 }
 
+/// Values of a property: one, or as many as stand before a list.
+std::int64_t length_of(InputFile& file, const Property& p, PlyValues& values) {
+  if (!p.count) return 1;
+  const std::size_t place = file.position();
+  const double n = values.next(*p.count, "a length of a list");
+  if (!(n >= 0 && n <= static_cast<double>(file.remaining()) && n == std::floor(n)))
+    file.fail_at(place, fmt::format("a list of {} says {} values; {} bytes follow. The file is "
+                                    "truncated or damaged.",
+                                    in_quotes(p.name), n, file.remaining()));
+  return static_cast<std::int64_t>(n);
+}
+
 void read_vertex(InputFile& file, const Element& e, PlyValues& values, std::int64_t number,
                  Surface& out) {
   Vec3 x = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   const std::size_t place = file.position();
   for (const Property& p : e.property) {
-    const std::int64_t n =
-        p.count ? static_cast<std::int64_t>(values.next(*p.count, "a length of a list")) : 1;
+    const std::int64_t n = length_of(file, p, values);
     for (std::int64_t k = 0; k < n; ++k) {
       const double value = values.next(p.type, p.name);
       if (p.name.size() == 1 && p.name[0] >= 'x' && p.name[0] <= 'z') x[p.name[0] - 'x'] = value;
     }
   }
-  if (!x.allFinite())
-    file.fail_at(place, fmt::format("vertex {} is at ({}, {}, {}); it needs finite x, y and z.",
-                                    number, x[0], x[1], x[2]));
+  if (!is_coordinate(x))
+    file.fail_at(place, fmt::format("vertex {} is at ({}, {}, {}); it needs x, y and z, and {}.",
+                                    number, x[0], x[1], x[2], kCoordinateRule));
   out.node.push_back(x);
 }
 
@@ -174,9 +186,9 @@ void read_face(InputFile& file, const Element& e, PlyValues& values, std::int64_
   std::vector<int> corner;
   const std::size_t place = file.position();
   for (const Property& p : e.property) {
-    const double n = p.count ? values.next(*p.count, "a number of corners") : 1;
+    const std::int64_t n = length_of(file, p, values);
     const bool is_face = p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
-    for (std::int64_t k = 0; k < static_cast<std::int64_t>(n); ++k) {
+    for (std::int64_t k = 0; k < n; ++k) {
       const double value = values.next(p.type, "a corner of a face");
       if (!is_face) continue;
       if (!(value >= 0 && value < static_cast<double>(out.node.size())))
@@ -186,35 +198,42 @@ void read_face(InputFile& file, const Element& e, PlyValues& values, std::int64_
       corner.push_back(static_cast<int>(value));
     }
   }
-  add_polygon(file, place, fmt::format("face {}", number), corner, out);
+  const std::string fault = add_polygon(corner, out);
+  if (!fault.empty()) file.fail_at(place, fmt::format("face {}{}", number, fault));
 }
 
 }  // namespace
 
-Surface read_ply(const std::string& path) {
+Soup read_ply(const std::string& path) {
   InputFile file(path);
+  file.skip_byte_order_mark();
   const auto [encoding, elements] = read_header(file);
   if (encoding != Encoding::kText) file.set_binary(true);
   PlyValues values(file, encoding);
-  Surface out;
+  Soup soup;
   for (const Element& e : elements) {
-    if (!e.property.empty())
-      file.check_room(static_cast<std::uint64_t>(e.n), e.property.size(), e.name);
+    if (e.n > 0 && e.property.empty())
+      file.fail(fmt::format("{} elements {} without properties are announced. The file is damaged.",
+                            e.n, in_quotes(e.name)));
+    file.check_room(static_cast<std::uint64_t>(e.n), e.property.size(), e.name);
     for (std::int64_t k = 0; k < e.n; ++k) {
       if (e.name == "vertex") {
-        read_vertex(file, e, values, k, out);
+        read_vertex(file, e, values, k, soup.surface);
       } else if (e.name == "face") {
-        read_face(file, e, values, k, out);
+        read_face(file, e, values, k, soup.surface);
       } else {
         for (const Property& p : e.property) {
-          const double n = p.count ? values.next(*p.count, "a length of a list") : 1;
-          for (std::int64_t i = 0; i < static_cast<std::int64_t>(n); ++i)
-            values.next(p.type, p.name);
+          const std::int64_t n = length_of(file, p, values);
+          for (std::int64_t i = 0; i < n; ++i) values.next(p.type, p.name);
         }
       }
     }
   }
-  return out;
+  if (!file.peek_token().empty())
+    file.fail_at(file.position(),
+                 fmt::format("the file goes on behind all the elements that its header announces. "
+                             "A count is wrong or the file is damaged."));
+  return soup;
 }
 
 }  // namespace acinus::mesh

@@ -13,22 +13,30 @@ namespace acinus::mesh {
 
 namespace {
 
-// STL repeats every corner: those with the same coordinates become one node.
+/// STL repeats every corner: those of a solid with the same coordinates become one node.
 class CornerMerger {
  public:
+  void start_solid() {
+    index_.clear();
+    ++solid_;
+  }
   int add(const Vec3& x) {
-    const auto [entry, is_new] = index_.try_emplace({x.x() + 0.0, x.y() + 0.0, x.z() + 0.0},
-                                                    static_cast<int>(soup.node.size()));
-    if (is_new) soup.node.push_back(x);
+    auto& node = soup.surface.node;
+    const auto [entry, is_new] =
+        index_.try_emplace({x.x() + 0.0, x.y() + 0.0, x.z() + 0.0}, static_cast<int>(node.size()));
+    if (is_new) node.push_back(x);
     return entry->second;
   }
   void add_facet(const std::array<int, 3>& t) {
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) soup.triangle.push_back(t);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
+    soup.surface.triangle.push_back(t);
+    soup.group.push_back(solid_);
   }
-  Surface soup;
+  Soup soup;
 
  private:
   std::map<std::array<double, 3>, int> index_;  // + 0.0 turns -0 into 0
+  int solid_ = 0;
 };
 
 void read_stl_binary(InputFile& file, std::uint64_t n_facet, CornerMerger& merger) {
@@ -45,12 +53,10 @@ void read_stl_binary(InputFile& file, std::uint64_t n_facet, CornerMerger& merge
         }
         x[static_cast<int>(k)] = static_cast<double>(std::bit_cast<float>(raw));
       }
-      if (!x.allFinite()) {
-        file.fail_at(
-            begin,
-            fmt::format("facet {} has a corner ({}, {}, {}); coordinates must be finite. Write the "
-                        "file again.",
-                        f, x.x(), x.y(), x.z()));
+      if (!is_coordinate(x)) {
+        file.fail_at(begin,
+                     fmt::format("facet {} has a corner ({}, {}, {}); {}. Write the file again.", f,
+                                 x.x(), x.y(), x.z(), kCoordinateRule));
       }
       triangle[corner] = merger.add(x);
     }
@@ -64,17 +70,17 @@ void read_stl_text(InputFile& file, CornerMerger& merger) {
   for (std::string_view token = file.next_token(); !token.empty(); token = file.next_token()) {
     const std::string word = lower_case(token);
     if (word == "solid" || word == "endsolid") {
+      if (word == "solid") merger.start_solid();
       file.next_line();
       finished = word == "endsolid";
     } else if (word == "vertex") {
       const std::size_t begin = file.position();
       Vec3 x;
       for (int k = 0; k < 3; ++k) x[k] = file.next_double("a coordinate of a vertex");
-      if (!x.allFinite()) {
+      if (!is_coordinate(x)) {
         file.fail_at(file.token_position(begin, 0),
-                     fmt::format("a vertex is ({}, {}, {}); coordinates must be finite. "
-                                 "Repair the line.",
-                                 x.x(), x.y(), x.z()));
+                     fmt::format("a vertex is ({}, {}, {}); {}. Repair the line.", x.x(), x.y(),
+                                 x.z(), kCoordinateRule));
       }
       corner.push_back(merger.add(x));
     } else if (word == "endloop") {
@@ -99,7 +105,7 @@ void read_stl_text(InputFile& file, CornerMerger& merger) {
 
 }  // namespace
 
-Surface read_stl(const std::string& path) {
+Soup read_stl(const std::string& path) {
   InputFile file(path);
   CornerMerger merger;
   std::uint64_t n_facet = 0;
@@ -109,7 +115,8 @@ Surface read_stl(const std::string& path) {
   }
   // A binary header may begin with "solid" too; its exact size decides.
   const bool exact = file.bytes().size() >= 84 && file.bytes().size() == 84 + 50 * n_facet;
-  if (!exact && file.peek_token() == "solid") {
+  if (!exact) file.skip_byte_order_mark();
+  if (!exact && lower_case(file.peek_token()) == "solid") {
     read_stl_text(file, merger);
   } else {
     if (!exact) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/mesh/radius_array.hpp"
 
 namespace acinus::mesh {
 namespace {
@@ -18,12 +19,19 @@ class VmvParser {
   Network read() {
     while (file_.remaining() > 0) {
       const std::string_view word = file_.next_token();
-      if (word == "$VERT_LIST_BEGIN") {
+      if (word == "$NUM_VERTS") {
+        said_nodes_ = file_.next_integer("a number of nodes");
+      } else if (word == "$NUM_STRANDS") {
+        said_strands_ = file_.next_integer("a number of strands");
+      } else if (word == "$VERT_LIST_BEGIN") {
         read_nodes();
       } else if (word == "$STRANDS_LIST_BEGIN") {
         read_strands();
-      }  // sizes are counted; connectivity and simulated radii are not needed
+      }  // connectivity and simulated radii are not needed
     }
+    if (bad_.any()) file_.fail_at(bad_.place(), bad_.message("the radius"));
+    check_count("$NUM_VERTS", said_nodes_, static_cast<std::int64_t>(out_.node.size()));
+    check_count("$NUM_STRANDS", said_strands_, n_strand_);
     check(!out_.node.empty(),
           fmt::format("{}: no list of nodes: VMV files have $VERT_LIST_BEGIN, lines \"number x y z "
                       "radius\" and $VERT_LIST_END.",
@@ -41,6 +49,12 @@ class VmvParser {
     if (file_.remaining() == 0 || file_.peek_token().empty())
       throw Error(fmt::format("{}: the file ends before {}. It is truncated.", file_.path(), end));
     return file_.peek_token() == end;
+  }
+
+  void check_count(const char* key, std::int64_t said, std::int64_t found) const {
+    check(said < 0 || said == found,
+          fmt::format("{}: {} says {}, but the list has {}. The file is truncated or damaged.",
+                      file_.path(), key, said, found));
   }
 
   /// The tokens of the next line that has any.
@@ -73,11 +87,11 @@ class VmvParser {
                                          "radius\". Repair it.",
                                          in_quotes(words.empty() ? "" : words[0])));
       const Vec3 x(value[0], value[1], value[2]);
-      if (!x.allFinite() || !std::isfinite(value[3]) || value[3] <= 0)
-        file_.fail_at(place, fmt::format("node {} has the coordinates ({}, {}, {}) and the radius "
-                                         "{}; all must be finite, the radius above 0. Repair or "
+      if (!is_coordinate(x))
+        file_.fail_at(place, fmt::format("node {} has the coordinates ({}, {}, {}); {}. Repair or "
                                          "remove it.",
-                                         id, value[0], value[1], value[2], value[3]));
+                                         id, x[0], x[1], x[2], kCoordinateRule));
+      if (!BadRadii::is_good(value[3])) bad_.add(place, fmt::format("node {}", id), value[3]);
       if (!number_.try_emplace(id, static_cast<int>(out_.node.size())).second)
         file_.fail_at(place, fmt::format("node {} is defined a second time. Give every node its "
                                          "own number.",
@@ -92,6 +106,7 @@ class VmvParser {
     while (!at_end("$STRANDS_LIST_END")) {
       std::size_t place = 0;
       const std::vector<std::string_view> words = next_words(place);
+      ++n_strand_;
       int last = -1;
       for (std::size_t k = 1; k < words.size(); ++k) {
         std::int64_t id = 0;
@@ -110,18 +125,28 @@ class VmvParser {
         }
         last = node;
       }
+      constexpr std::size_t kFewest = 3;
+      if (words.size() < kFewest)
+        file_.fail_at(place, fmt::format("a strand has {} nodes; a line of the list of strands is "
+                                         "\"number node node ...\" with two or more. Repair it.",
+                                         words.empty() ? 0 : words.size() - 1));
     }
     file_.next_token();
   }
 
   InputFile& file_;
   Network out_;
-  std::vector<double> radius_;                    ///< [node]
+  BadRadii bad_{"node"};
+  std::int64_t said_nodes_ = -1, said_strands_ = -1, n_strand_ = 0;  ///< -1: not said
+  std::vector<double> radius_;                                       ///< [node]
   std::unordered_map<std::int64_t, int> number_;  ///< of the node with a number of the file
 };
 
 }  // namespace
 
-Network read_vmv(InputFile& file) { return VmvParser(file).read(); }
+Network read_vmv(InputFile& file) {
+  file.skip_byte_order_mark();
+  return VmvParser(file).read();
+}
 
 }  // namespace acinus::mesh

@@ -15,6 +15,10 @@ namespace acinus::mesh {
 
 void VtkParser::attribute_count(Attributes kind) {
   const std::string name = kind == Attributes::kPoint ? "POINT_DATA" : "CELL_DATA";
+  if (!seen_points_)
+    file_.fail(name +
+               " stands before POINTS; data come behind the points and cells that they "
+               "belong to. Write the file again.");
   attributes_ = kind;
   n_tuple_ = count("the count of " + name);
   const std::size_t n_cell = out_.vertices.size() + out_.lines.size() + out_.polygons.size() +
@@ -32,9 +36,18 @@ void VtkParser::keep(VtkArray array) {
   if (attributes_ == Attributes::kCell) out_.cell_data.push_back(std::move(array));
 }
 
+void VtkParser::check_owner(const std::string& keyword) {
+  if (attributes_ == Attributes::kNone)
+    file_.fail(
+        fmt::format("{} stands before POINT_DATA and CELL_DATA, so nothing says what it "
+                    "belongs to. Write the file again.",
+                    in_quotes(keyword)));
+}
+
 bool VtkParser::attribute(const std::string& keyword) {
   static constexpr VtkType kByte = {"unsigned_char", 1, VtkType::kUnsigned};
   if (keyword == "scalars") {
+    check_owner(keyword);
     scalars();
     return true;
   }
@@ -48,10 +61,11 @@ bool VtkParser::attribute(const std::string& keyword) {
   const auto* kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                   [&](const auto& entry) { return keyword == entry.first; });
   if (kind == std::end(kKinds)) return false;
+  const bool table = keyword == "lookup_table";
+  if (!table) check_owner(keyword);
   VtkArray array;
   array.name = decode_vtk_name(file_.next_token());
   const std::string what = "array " + in_quotes(array.name);
-  const bool table = keyword == "lookup_table";
   const std::uint64_t n = table ? count("the size of " + what) : n_tuple_;
   const auto components = kind->second > 0 ? static_cast<std::uint64_t>(kind->second)
                                            : count("the number of components of " + what);

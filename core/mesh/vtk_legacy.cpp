@@ -39,7 +39,8 @@ void VtkParser::start_data() {
 }
 
 void VtkParser::header(const std::vector<std::string>& allowed, const std::string& remedy) {
-  const std::string_view start = file_.bytes().substr(0, 512);
+  file_.skip_byte_order_mark();
+  const std::string_view start = file_.bytes().substr(file_.position(), 512);
   if (start.find("<VTKFile") != start.npos || start.rfind("<?xml", 0) == 0) {
     file_.fail(
         "the file is VTK XML (.vtp, .vtu, ...), which is not read. Save it as legacy VTK (.vtk), "
@@ -75,6 +76,23 @@ void VtkParser::header(const std::vector<std::string>& allowed, const std::strin
   file_.set_binary(lower_case(mode) == "binary");
 }
 
+void VtkParser::check_order(const std::string& keyword) {
+  const bool repeats = keyword == "point_data" || keyword == "cell_data" || keyword == "field" ||
+                       keyword == "metadata";
+  if (repeats) return;
+  if (std::find(seen_.begin(), seen_.end(), keyword) != seen_.end())
+    file_.fail(
+        fmt::format("the section {} comes a second time. The file is damaged, or two are "
+                    "in one: write it again.",
+                    keyword));
+  if (attributes_ != Attributes::kNone)
+    file_.fail(
+        fmt::format("the section {} stands behind POINT_DATA or CELL_DATA, which must come "
+                    "last. Write the file again.",
+                    keyword));
+  seen_.push_back(keyword);
+}
+
 void VtkParser::sections() {
   static constexpr std::pair<const char*, void (*)(VtkParser&)> kSections[] = {
       {"points", [](VtkParser& p) { p.points(); }},
@@ -93,6 +111,7 @@ void VtkParser::sections() {
     const auto* section = std::find_if(std::begin(kSections), std::end(kSections),
                                        [&](const auto& entry) { return keyword == entry.first; });
     if (section != std::end(kSections)) {
+      check_order(keyword);
       section->second(*this);
     } else if (!attribute(keyword)) {
       file_.fail(
@@ -119,13 +138,11 @@ void VtkParser::points() {
   out_.point.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     out_.point[i] = Vec3(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-    if (out_.point[i].allFinite()) continue;
+    if (is_coordinate(out_.point[i])) continue;
     file_.fail_at(
         out_.position(place, 3 * i),
-        fmt::format(
-            "node {} has the coordinates ({}, {}, {}); they must be finite numbers. Repair or "
-            "remove the node.",
-            i, xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]));
+        fmt::format("node {} has the coordinates ({}, {}, {}); {}. Repair or remove the node.", i,
+                    xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2], kCoordinateRule));
   }
   seen_points_ = true;
 }
@@ -157,7 +174,9 @@ std::vector<int> VtkLegacy::nodes_of(const VtkCells& list, std::size_t c,
 }
 
 bool is_vtk_legacy(const InputFile& file) {
-  return lower_case(file.bytes().substr(0, 14)) == "# vtk datafile";
+  std::string_view start = file.bytes();
+  if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);
+  return lower_case(start.substr(0, 14)) == "# vtk datafile";
 }
 
 VtkLegacy read_vtk_legacy(const std::string& path, const std::vector<std::string>& allowed,

@@ -39,6 +39,8 @@ class VtkParser {
   void cell_types();
   void attribute_count(Attributes kind);
   bool attribute(const std::string& keyword);
+  void check_owner(const std::string& keyword);
+  void check_order(const std::string& keyword);
   void scalars();
   void field();
   void metadata();
@@ -47,6 +49,7 @@ class VtkParser {
   VtkLegacy& out_;
   InputFile& file_;
   bool seen_points_ = false;
+  std::vector<std::string> seen_;  ///< sections of points and cells, in lower case
   Attributes attributes_ = Attributes::kNone;
   std::uint64_t n_tuple_ = 0;
 };

@@ -29,7 +29,10 @@ def main(words=None):
         elif a.command == "physicell-law":
             print(physicell.write_law(acinus.Law(a.law), a.file, a.drag))
         else:
-            print(physicell.write_scene(physicell.read_cells(a.output), a.scene, a.model))
+            cells = physicell.read_cells(a.output)
+            for note in cells["notes"]:
+                print(f"acinus: note: {note}", file=sys.stderr)
+            print(physicell.write_scene(cells, a.scene, a.model))
     except (acinus.AcinusError, OSError) as error:
         print(f"acinus: {error}", file=sys.stderr)
         return 2

@@ -23,20 +23,23 @@ from acinus.simularium import write_simularium
 PROGRAM = os.environ["ACINUS"]
 
 
-def write_physicell(folder, cells, number=3):
-    """As PhysiCell 1.14 writes a frame: XML with labels, cells in a MATLAB file of version 4."""
-    labels = [("ID", 1), ("position", 3), ("total_volume", 1), ("cell_type", 1), ("pressure", 1)]
-    table = np.zeros((7, len(cells)))
+def write_physicell(folder, cells, number=3, rows=None, minutes=90.0, stamp="", head="", called=None):
+    """As PhysiCell 1.14 writes a frame: XML with labels, cells in a MATLAB file of version 4. rows: further ones by name."""
+    rows = rows or {}
+    labels = [("ID", 1), ("position", 3), ("total_volume", 1), ("cell_type", 1), ("pressure", 1)] + [(row, 1) for row in rows]
+    table = np.zeros((7 + len(rows), len(cells)))
     for column, (x, y, z, volume, kind) in zip(table.T, cells):
-        column[:] = [0, x, y, z, volume, kind, 0.5]
+        column[:7] = [0, x, y, z, volume, kind, 0.5]
+    for k, values in enumerate(rows.values()):
+        table[7 + k] = values
     table[0] = np.arange(len(cells))
     index, text = 0, ""
     for name, size in labels:
         text += f'<label index="{index}" size="{size}" units="none">{name}</label>'
         index += size
-    name = f"output{number:08d}"
+    name = called or f"output{number:08d}"
     (folder / f"{name}.xml").write_text(
-        f'<MultiCellDS version="2"><metadata><current_time units="min">90.0</current_time></metadata><cellular_information><cell_populations>'
+        f'<MultiCellDS version="2"><metadata><current_time units="min">{minutes}</current_time>{stamp and f"<created>{stamp}</created>"}</metadata>{head}<cellular_information><cell_populations>'
         f'<cell_population type="individual"><custom><simplified_data type="matlab" source="PhysiCell" data_version="2"><cell_types>'
         f'<type ID="0" type="0">tumor cell</type><type ID="1" type="1">stroma</type></cell_types><labels>{text}</labels><filename>{name}_cells.mat</filename>'
         f"</simplified_data></custom></cell_population></cell_populations></cellular_information></MultiCellDS>")
@@ -51,7 +54,7 @@ class FromPhysiCell(unittest.TestCase):
         self.addCleanup(self.keep.cleanup)
 
     def test_cells_become_a_scene_that_runs(self):
-        write_physicell(self.folder, [(0, 0, 0, 2494, 0)], 1)
+        write_physicell(self.folder, [(0, 0, 0, 2494, 0)], 1, minutes=30.0)
         write_physicell(self.folder, [(0, 0, 0, 2494, 0), (18, 0, 0, 2494, 0), (0, 17, 3, 4000, 1)])
         cells = physicell.read_cells(self.folder)  # the last frame
         self.assertEqual(cells["time"], 5400)
@@ -65,6 +68,57 @@ class FromPhysiCell(unittest.TestCase):
             start = acinus.Run(run).cells(frame=0)
             np.testing.assert_allclose(np.sort(np.asarray(start["center_x"])), [0, 0, 18], atol=0.2)
             np.testing.assert_allclose(np.sort(np.asarray(start["volume"])), [2494, 2494, 4000], rtol=0.02)
+
+    def read(self, cells, **more):
+        write_physicell(self.folder, cells, **more)
+        return physicell.read_cells(self.folder)
+
+    def test_dead_cells_are_left_out_and_counted(self):
+        six = [(20 * k, 0, 0, 2494, 0) for k in range(6)]
+        cells = self.read(six, rows={"cycle_model": [5, 100, 101, 5, 9999, 5], "current_phase": [4, 100, 103, 104, 9999, 14]})
+        self.assertEqual(list(cells["id"]), [0, 4, 5])  # 9999 is a cycle of the user's own
+        self.assertIn("3 of 6 cells are dead", cells["notes"][0])
+        self.assertEqual(list(self.read(six, rows={"dead": [0, 0, 1, 0, 1, 0]})["id"]), [0, 1, 3, 5])
+        self.assertIn("all are taken as living", self.read(six)["notes"][0])
+        dead = self.read(six[:1], rows={"dead": [1]})
+        with self.assertRaisesRegex(acinus.BadInput, "1 of 1 cells are dead"):
+            physicell.write_scene(dead, str(self.folder / "none.json"))
+
+    def test_cells_outside_the_domain_or_fixed_are_told(self):
+        head = "<microenvironment><domain><mesh><bounding_box>-50 -50 -10 50 50 10</bounding_box></mesh></domain></microenvironment>"
+        cells = self.read([(0, 0, 0, 2494, 0), (60, 0, 0, 2494, 0), (20, 0, 11, 2494, 0)], rows={"dead": [0, 0, 0], "is_movable": [0, 1, 1]}, head=head)
+        self.assertEqual(list(cells["id"]), [0])
+        self.assertEqual([note[:9] for note in cells["notes"]], ["2 living ", "1 cells d"])
+
+    def test_frames_of_an_earlier_run_are_passed_over(self):
+        one, two = [(0, 0, 0, 2494, 0)], [(0, 0, 0, 2494, 0), (30, 0, 0, 2494, 0)]
+        for number, stamp in ((0, "2024-05-02T10:00:00Z"), (1, "2024-05-02T10:05:00Z"), (2, "2024-05-01T09:10:00Z"), (3, "2024-05-01T09:15:00Z")):
+            write_physicell(self.folder, one if number < 2 else two, number, minutes=60.0 * number, stamp=stamp)
+        cells = physicell.read_cells(self.folder)
+        self.assertEqual((cells["time"], len(cells["id"])), (3600, 1))
+        self.assertIn("output00000002.xml and what comes after it are left over", cells["notes"][0])
+        write_physicell(self.folder, two, called="final", minutes=200.0, stamp="2024-05-01T09:16:00Z")
+        cells = physicell.read_cells(self.folder)
+        self.assertEqual(cells["time"], 3600)
+        self.assertIn("final.xml is left over", cells["notes"][1])
+        write_physicell(self.folder, two, called="final", minutes=70.0, stamp="2024-05-02T10:06:00Z")
+        self.assertEqual(physicell.read_cells(self.folder)["time"], 4200)  # the end of this run
+
+    def test_frames_without_stamps_go_by_the_times_of_files(self):
+        for number, written in ((0, 2000), (1, 2010), (2, 1500)):
+            os.utime(write_physicell(self.folder, [(0, 0, 0, 2494, 0)], number, minutes=60.0 * number), (written, written))
+        self.assertEqual(physicell.read_cells(self.folder)["time"], 3600)
+        os.utime(write_physicell(self.folder, [(0, 0, 0, 2494, 0)], called="final", minutes=600.0), (2020, 2020))
+        with self.assertRaisesRegex(acinus.BadInput, "of two runs"):
+            physicell.read_cells(self.folder)
+
+    def test_units_are_followed_or_refused(self):
+        file = write_physicell(self.folder, [(0, 0, 0, 2494, 0)])
+        text = file.read_text()
+        file.write_text(text.replace('units="min">90.0', 'units="hr">2'))
+        self.assertEqual(physicell.read_cells(file)["time"], 7200)
+        file.write_text(text.replace('size="3" units="none"', 'size="3" units="mm"'))
+        self.assertRaisesRegex(acinus.BadInput, "position is in mm", physicell.read_cells, file)
 
     def test_damage_is_told(self):
         file = write_physicell(self.folder, [(0, 0, 0, 2494, 0)])

@@ -17,7 +17,7 @@ namespace acinus::runs {
 namespace {
 
 mesh::Network read_vessels(const VesselBlock& v) {
-  mesh::Network n = mesh::read_network(v.file);
+  mesh::Network n = mesh::read_network(v.file, v.radius_array);
   n = mesh::transform_network(n, {v.unit, v.scale, v.radius_scale, v.center, v.shift});
   if (v.crop) n = mesh::crop_network(n, *v.crop);
   check(!n.segment.empty(),

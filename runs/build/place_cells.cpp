@@ -10,6 +10,7 @@
 #include "core/contact/box_pairs.hpp"
 #include "core/contact/nearest_gap.hpp"
 #include "core/error.hpp"
+#include "core/mesh/bodies.hpp"
 #include "core/mesh/measures.hpp"
 #include "core/mesh/read_surface.hpp"
 #include "core/random.hpp"
@@ -130,7 +131,15 @@ void choose_models(const Scene& scene, const mesh::Network& vessels,
 
 std::vector<mesh::Surface> read_cell_surfaces(const Scene& scene) {
   if (scene.cells.source != CellSource::kMeshes) return {};
-  return mesh::read_closed_surfaces(scene.cells.file, scene.cells.unit);
+  std::vector<mesh::Surface> bodies =
+      mesh::read_closed_surfaces(scene.cells.file, scene.cells.unit);
+  const mesh::Nested n = mesh::find_nested(bodies);
+  check(n.inner < 0,
+        fmt::format("{}: body {} lies inside body {}: a nucleus or another inner surface. Every "
+                    "surface is a cell here: leave inner ones out; nuclei are a setting of the "
+                    "cell type (dcm.nucleus).",
+                    scene.cells.file, n.inner, n.outer));
+  return bodies;
 }
 
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,

@@ -84,13 +84,21 @@ int run(const ImportArguments& a) {
   return 0;
 }
 
+/// An option that changes nothing is a mistake of the user's.
+void check_effects(const CLI::App& command, const ImportArguments& a) {
+  check(command.count("--nodes") == 0 || a.model != "cbm",
+        "--nodes is for deformable cells, and --model cbm makes none. Leave one out.");
+  check(command.count("--unit") == 0 || command.count("--voxel") == 0,
+        "--unit has no effect beside --voxel, which says all. Leave one out.");
+}
+
 void add_reading(CLI::App& command, ImportArguments& a) {
   command
       .add_option("--voxel", a.voxel,
                   "sides of a voxel, \"0.5 um\" or \"0.5 um, 0.5 um, 1 um\" (default: as the file "
                   "says)")
       ->type_name("LENGTHS");
-  command.add_option("--unit", a.unit, "unit of the voxel sizes in the file, where it has none")
+  command.add_option("--unit", a.unit, "unit of the voxel sizes in the file, whatever it says")
       ->type_name("LENGTH");
   command
       .add_option("--channel", a.import.read.channel,
@@ -99,6 +107,12 @@ void add_reading(CLI::App& command, ImportArguments& a) {
       ->check(CLI::Range(0, 100000));
   command.add_option("--dataset", a.import.read.dataset, "where in an HDF5 file the labels are")
       ->type_name("PATH");
+  command
+      .add_option("--background", a.import.background,
+                  "the label that is background besides 0; 0: no other is (default: one that "
+                  "encloses the image is asked about)")
+      ->type_name("N")
+      ->check(CLI::Range(0u, 4294967295u));
 }
 
 }  // namespace
@@ -150,7 +164,10 @@ Command add_import(CLI::App& app) {
   command->add_flag("--split", a.import.split, "every connected piece of a label is a cell");
   add_threads(*command, a.threads);
   command->add_flag("--quiet", a.quiet, "errors and warnings only");
-  return {command, [arguments] { return runs::run(*arguments); }};
+  return {command, [arguments, command] {
+            check_effects(*command, *arguments);
+            return runs::run(*arguments);
+          }};
 }
 
 }  // namespace acinus::runs

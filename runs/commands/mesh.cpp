@@ -23,11 +23,11 @@ namespace acinus::runs {
 namespace {
 
 struct MeshArguments {
-  std::string what, out, unit = "1 um", edge, alpha, offset;
+  std::string what, out, unit = "1 um", edge, alpha, offset, radius_array;
   double fineness = implicit::VesselMeshOptions{}.fineness;
   double rounding = implicit::VesselMeshOptions{}.rounding;
   int threads = 0;
-  bool quiet = false;
+  bool quiet = false, unit_given = false;
 };
 
 void start(const MeshArguments& a) {
@@ -49,6 +49,10 @@ void tell(const MeshArguments& a, const mesh::Surface& s, const mesh::Connectivi
 mesh::Network find_network(const MeshArguments& a) {
   const std::string ending = mesh::extension_of(a.what);
   if (ending.empty() || ending == ".json") {  // a scene, or the name of a shipped one
+    check(a.radius_array.empty() && !a.unit_given,
+          fmt::format("{}: --unit and --vessel-radius-array are for a network file; a scene says "
+                      "vessels.unit and vessels.radius_array itself. Leave them out.",
+                      a.what));
     const Scene scene = read_scene(find_scene_file(a.what), {});
     mesh::Network n = build_network(scene);
     check(!n.segment.empty(), fmt::format("{}: the scene has no vessels", a.what));
@@ -56,7 +60,8 @@ mesh::Network find_network(const MeshArguments& a) {
   }
   mesh::NetworkTransform to_um;
   to_um.unit = quantity_of("--unit", a.unit, kLength);
-  return mesh::resample_network(mesh::transform_network(mesh::read_network(a.what), to_um));
+  return mesh::resample_network(
+      mesh::transform_network(mesh::read_network(a.what, a.radius_array), to_um));
 }
 
 int mesh_vessels(const MeshArguments& a) {
@@ -95,12 +100,17 @@ int mesh_wrap(const MeshArguments& a) {
       all.triangle.push_back({first + i, first + j, first + k});
     for (const Vec3& x : s.node) box.include(x);
   }
-  constexpr double kAlphas = 50, kOffsets = 20;
+  constexpr double kAlphas = 50, kOffsets = 20, kFinest = 2000;
   const double extent = (box.high - box.low).norm();
   const double alpha =
       a.alpha.empty() ? extent / kAlphas : quantity_of("--alpha", a.alpha, kLength);
   const double offset =
       a.offset.empty() ? alpha / kOffsets : quantity_of("--offset", a.offset, kLength);
+  check(extent > 0 && extent <= kFinest * alpha && extent <= kFinest * kOffsets * offset,
+        fmt::format("{}: is {:.4g} um across; --alpha {:.4g} um and --offset {:.4g} um must be at "
+                    "least {:.4g} and {:.4g} um for it, or the surface never ends. Check the unit, "
+                    "or nodes far away.",
+                    a.what, extent, alpha, offset, extent / kFinest, extent / kFinest / kOffsets));
   const mesh::Surface wrapped = mesh::wrap(all, alpha, offset);
   io::write_surface(a.out, wrapped);
   tell(a, wrapped, mesh::find_connectivity(wrapped), wall_seconds() - before);
@@ -149,6 +159,10 @@ Command add_mesh(CLI::App& app) {
                    "0.1)")
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 1.0));
+  vessels
+      ->add_option("--vessel-radius-array", arguments->radius_array,
+                   "name of the array of radii in a VTK file (default: one of the usual names)")
+      ->type_name("NAME");
   add_common(*vessels, *arguments);
   CLI::App* wrap = add_command(
       *command, "wrap", "one closed surface about meshes that have holes or cross themselves",
@@ -162,6 +176,7 @@ Command add_mesh(CLI::App& app) {
       ->type_name("LENGTH");
   add_common(*wrap, *arguments);
   return {command, [arguments, vessels] {
+            arguments->unit_given = vessels->count("--unit") > 0;
             return vessels->parsed() ? mesh_vessels(*arguments) : mesh_wrap(*arguments);
           }};
 }

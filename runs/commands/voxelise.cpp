@@ -73,7 +73,11 @@ Command add_voxelise(CLI::App& app) {
   command->add_flag("--no-vessels", a.no_vessels, "cells only");
   add_threads(*command, a.threads);
   command->add_flag("--quiet", a.quiet, "errors only");
-  return {command, [arguments] { return runs::run(*arguments); }};
+  return {command, [arguments, command] {
+            check(command->count("--seed") == 0 || arguments->voxelise.how.noise > 0,
+                  "--seed is that of the noise, and there is none. Give --noise, or leave it out.");
+            return runs::run(*arguments);
+          }};
 }
 
 }  // namespace acinus::runs

@@ -12,6 +12,7 @@
 #include "core/mesh/remesh.hpp"
 #include "core/sphere.hpp"
 #include "core/threads.hpp"
+#include "runs/images/background.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -49,7 +50,9 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
   if (!o.vessels.empty()) {
     image::ReadImage read = o.read;
     read.voxel = cells.voxel;
-    const LabelImage other = image::read_image(o.vessels, read);
+    read.unit = 0;
+    read.second = true;
+    const LabelImage other = image::read_image(o.vessels, read, &warned);
     check(other.size == cells.size,
           fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
                       o.vessels, other.size[0], other.size[1], other.size[2], o.image,
@@ -124,6 +127,7 @@ class Sorting {
       keep[k] = 1;
       kept.push_back(p);
     }
+    warn_of_giant(kept);
     if (o_.split) number_anew(pieces, keep, kept);
     for (const image::PieceRow& row : pieces.row)
       if (keep[row.piece] == 0)
@@ -135,13 +139,18 @@ class Sorting {
   double volume(const Piece& p) const {
     return static_cast<double>(p.n_voxel) * image_.voxel_volume();
   }
-  /// um^3, of the labels that have the size of cells: specks do not count, however many.
+  /// um^3, of the labels that have the size of cells: specks do not count, however many, nor does
+  /// one piece that is larger than all others together.
   double median_volume(const Pieces& pieces) const {
     std::vector<double> all;
     for (const Piece& p : pieces.piece) all.push_back(volume(p));
     std::ranges::sort(all, std::greater());
     double total = 0, sum = 0;
     for (const double v : all) total += v;
+    if (all.size() > 2 && 2 * all.front() > total) {
+      total -= all.front();
+      all.erase(all.begin());
+    }
     for (const double v : all)  // half of all voxels are in pieces at least as large
       if ((sum += v) >= 0.5 * total) return v;
     return all.back();
@@ -156,6 +165,21 @@ class Sorting {
     if (volume(p) < smallest) return fmt::format("a speck: smaller than {:.3g} um^3", smallest);
     if (p.at_border && !o_.keep_border) return "cut off by the border of the image";
     return {};
+  }
+  /// A background that is no 0 and does not enclose the image passes for a cell.
+  void warn_of_giant(const std::vector<Piece>& kept) {
+    constexpr double kGiant = 100;
+    std::vector<double> all;
+    for (const Piece& p : kept) all.push_back(volume(p));
+    if (all.size() < 3) return;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::ranges::nth_element(all, middle);
+    for (const Piece& p : kept)
+      if (volume(p) > kGiant * *middle)
+        tissue_.warned.push_back(
+            fmt::format("label {} has {:.0f} times the volume of the cell in the middle: if it is "
+                        "the background, give --background {}",
+                        p.label, volume(p) / *middle, p.label));
   }
   /// Pieces of one label become labels of their own, the main one keeps it.
   void number_anew(const Pieces& pieces, const std::vector<char>& keep, std::vector<Piece>& kept) {
@@ -290,7 +314,8 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
 
 ImportedTissue import_image(const ImportOptions& o) {
   ImportedTissue tissue;
-  LabelImage image = image::read_image(o.image, o.read);
+  LabelImage image = image::read_image(o.image, o.read, &tissue.warned);
+  clear_background(o, image);
   tissue.size = image.size;
   tissue.voxel = image.voxel;
   check_uneven(image, tissue.warned);

@@ -17,6 +17,8 @@ struct ImportOptions {
   image::ReadImage read;
   std::string vessels;            ///< an image of the same size, not 0 inside vessels; "" = none
   image::Label vessel_label = 0;  ///< or the label of vessels in the image; 0 = none
+  /// A label that is background besides 0; 0: no other is, however it looks.
+  std::optional<image::Label> background;
   CellModel model = CellModel::kDcm;
   int nodes = 162;           ///< of a cell's mesh
   double smallest = 0;       ///< um^3; smaller labels are specks; 0: a tenth of the median

@@ -114,6 +114,9 @@ void describe_vessels(Visitor& v, VesselBlock& b) {
        .meaning = "network file, relative to the scene's folder; \"\" = none, or the lobule's own",
        .is_file = true},
       b.file);
+  v.text({.name = "radius_array",
+          .meaning = "name of the array of radii in a VTK file; \"\" = one of the usual names"},
+         b.radius_array);
   v.real({.name = "unit",
           .meaning = "length of one unit of the file",
           .dimension = kLength,

@@ -70,6 +70,7 @@ void check_vessels(const Scene& scene, Report& report) {
   if (!scene.vessels.file.empty() || scene.lobule) return;
   const VesselBlock given = scene.vessels, plain;
   const std::pair<const char*, bool> keys[] = {
+      {"radius_array", given.radius_array != plain.radius_array},
       {"unit", given.unit != plain.unit},
       {"scale", given.scale != plain.scale},
       {"radius_scale", given.radius_scale != plain.radius_scale},

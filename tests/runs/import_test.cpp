@@ -182,6 +182,68 @@ TEST(ImportImage, RefusesImagesWithoutCells) {
                   "all voxels are 0, the background");
 }
 
+/// The two balls with 1 added to every label: 1 is outside.
+image::LabelImage raised(const std::vector<LabelledBall>& all) {
+  image::LabelImage image = balls(all);
+  for (image::Label& l : image.label) ++l;
+  return image;
+}
+
+TEST(ImportImage, AsksAboutALabelThatEnclosesTheImage) {
+  const TempFolder folder;
+  ImportOptions o = options_for(folder, raised(kTwo));
+  const std::string message = message_of([&] { import_image(o); });
+  EXPECT_CONTAINS(message, "label 1 fills 96 % of the image");
+  EXPECT_CONTAINS(message, "--background 1");
+  o.background = 1;
+  const ImportedTissue t = import_image(o);
+  ASSERT_EQ(t.cell.size(), 2u);
+  EXPECT_EQ(t.cell[0].label, 4u);
+  EXPECT_NEAR(t.cell[0].volume, sphere_volume(8), 0.03 * sphere_volume(8));
+  o.background = 7;
+  EXPECT_CONTAINS(message_of([&] { import_image(o); }), "--background 7: no voxel has this label");
+  o.background = 0;  // it is a cell, cut off by the border
+  EXPECT_CONTAINS(why(import_image(o), 1), "cut off by the border");
+}
+
+TEST(ImportImage, DoesNotTakeTheUsualVolumeFromOneGiant) {
+  const TempFolder folder;
+  // A lumen of 28 cells' volume that no border cuts, with a label of its own.
+  std::vector<LabelledBall> all{{1, {40, 20, 20}, 15}, {2, {10, 10, 20}, 5}, {3, {10, 30, 20}, 5}};
+  const ImportedTissue t = import_image(options_for(folder, balls(all)));
+  EXPECT_EQ(t.cell.size(), 3u);
+  all[0].radius = 19;
+  all.push_back({4, {10, 20, 10}, 3.5});
+  all.push_back({5, {10, 20, 30}, 3.5});
+  const ImportedTissue warned = import_image(options_for(folder, balls(all)));
+  ASSERT_EQ(warned.warned.size(), 1u);
+  EXPECT_CONTAINS(warned.warned[0], "--background 1");
+}
+
+TEST(ImportImage, NeverTakesATightCropForABackground) {
+  const TempFolder folder;
+  const image::LabelImage one = image::make_image({16, 16, 16}, Vec3::Ones(), [](const Vec3& x) {
+    return (x - Vec3(8, 8, 8)).norm() < 8 ? image::Label{1} : image::Label{0};
+  });
+  ImportOptions o = options_for(folder, one);
+  o.keep_border = true;
+  EXPECT_EQ(import_image(o).cell.size(), 1u);
+}
+
+TEST(ImportImage, ReadsVesselsWithTheChoicesOfTheCells) {
+  const TempFolder folder;
+  ImportOptions o = options_for(folder, balls(kTwo));
+  o.read.unit = 2;
+  o.vessels = folder.path() + "/vessels.tif";
+  image::write_image(o.vessels, balls({{1, {30, 36, 20}, 3}}));
+  const ImportedTissue t = import_image(o);
+  EXPECT_NEAR(t.voxel[0], 2, 1e-12);
+  EXPECT_EQ(t.vessel.size(), 1u);
+  ASSERT_EQ(t.warned.size(), 2u);
+  EXPECT_CONTAINS(t.warned[0], "the file says units of 1 um; 2 um is taken, as --unit says");
+  EXPECT_CONTAINS(t.warned[1], "vessels.tif: the file says voxels of 1 x 1 x 1 um; 2 x 2 x 2 um");
+}
+
 TEST(ImportImage, SmoothsHolesAway) {
   const TempFolder folder;
   image::LabelImage image = balls(kTwo);

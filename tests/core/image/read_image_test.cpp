@@ -209,14 +209,17 @@ TEST(TiffText, OfOmeSaysOrderAndSizes) {
       "a.tif",
       R"(<?xml version="1.0"?><OME xmlns="x"><Image><Pixels ID="P" DimensionOrder="XYCZT" SizeC="2"
          SizeT="3" SizeX="5" SizeY="4" SizeZ="7" PhysicalSizeX="500" PhysicalSizeXUnit="nm"
-         PhysicalSizeY="0.25" PhysicalSizeZ="1.5" PhysicalSizeZUnit="&#181;m" Type="uint16"/>)");
+         PhysicalSizeY="0.25" PhysicalSizeZ="1.5" PhysicalSizeZUnit="&#181;m" Type="uint16"/>
+         </Image></OME>)");
   EXPECT_TRUE(t.is_ome);
   EXPECT_EQ(t.slices, 7);
-  EXPECT_NEAR((t.step - Vec3(0.5, 0.25, 1.5)).norm(), 0, 1e-12);
-  EXPECT_EQ(t.page(3, 1), 1 + 2 * 3);           // channel 1 of time 0
-  EXPECT_EQ(t.page(3, 5), 1 + 2 * 3 + 14 * 2);  // channel 1 of time 2
-  EXPECT_CONTAINS(message_of([] { read_tiff_text("a.tif", "<OME><Pixels SizeZ=\"x\"/>"); }),
-                  "OME says SizeZ = \"x\"");
+  EXPECT_NEAR((t.step.cwiseProduct(t.unit) - Vec3(0.5, 0.25, 1.5)).norm(), 0, 1e-12);
+  EXPECT_EQ(t.plane(3, 1), 1 + 2 * 3);           // channel 1 of time 0
+  EXPECT_EQ(t.plane(3, 5), 1 + 2 * 3 + 14 * 2);  // channel 1 of time 2
+  EXPECT_CONTAINS(message_of([] {
+                    read_tiff_text("a.tif", "<OME><Image><Pixels SizeZ=\"x\"/></Image></OME>");
+                  }),
+                  "says SizeZ = \"x\"");
 }
 
 TEST(TiffText, OfImageJSaysSpacing) {
@@ -226,9 +229,9 @@ TEST(TiffText, OfImageJSaysSpacing) {
   EXPECT_TRUE(t.is_imagej);
   EXPECT_EQ(t.slices, 6);
   EXPECT_EQ(t.channels, 2);
-  EXPECT_EQ(t.pixel_unit, 1);
+  EXPECT_EQ(t.unit, Vec3(1, 1, 1));
   EXPECT_EQ(t.step[2], 2.5);
-  EXPECT_EQ(t.page(2, 1), 5);
+  EXPECT_EQ(t.plane(2, 1), 5);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <numeric>
 #include <random>
@@ -255,6 +256,109 @@ TEST(ReadNetwork, BadTextFilesAreRefusedWithPlaceAndRemedy) {
   for (std::size_t size = 0; size < text.size() - 2; ++size) {
     EXPECT_THROW(read_network(folder.write("t.vtk", text.substr(0, size))), Error) << size;
   }
+}
+
+std::string with_arrays(const std::string& arrays) { return kHeader + kPoints + kLines + arrays; }
+
+TEST(ReadNetwork, RadiiOfVmtkAndMicrovesselChasteAreKnown) {
+  const TempFolder folder;
+  const std::string point = "POINT_DATA 4\nFIELD f 2\n";
+  const auto first = [&](const std::string& arrays, const std::string& name = {}) {
+    return read_network(folder.write("a.vtk", with_arrays(arrays)), name).radius[0];
+  };
+  const std::array<double, 2> tapered{1, 2}, even{2, 2};
+  EXPECT_EQ(first(point + "Flow 1 4 float\n9 9 9 9\nMaximumInscribedSphereRadius 1 4 float\n"
+                          "1 2 3 4\n"),
+            tapered);
+  EXPECT_EQ(first(point + "Node%20Radius 1 4 float\n1 2 3 4\nVessel%20Id 1 4 int\n5 6 7 8\n"),
+            tapered);
+  EXPECT_EQ(first("CELL_DATA 2\nFIELD f 1\nVessel%20Radius 1 2 float\n2 3\n"), even);
+  EXPECT_EQ(first("CELL_DATA 2\nFIELD f 1\nmean_radius_um 1 2 float\n2 3\n"), even);
+  const std::string both = point +
+                           "inner_radius 1 4 float\n1 2 3 4\nouter_radius 1 4 float\n"
+                           "5 6 7 8\n";
+  EXPECT_CONTAINS(message_of([&] { first(both); }), "--vessel-radius-array");
+  EXPECT_EQ(first(both, "Inner_Radius"), tapered);
+  EXPECT_EQ(
+      first(point + "a 1 4 float\n9 9 9 9\nOuterDiameter 1 4 float\n2 4 6 8\n", "OuterDiameter"),
+      tapered);
+  EXPECT_CONTAINS(message_of([&] { first(both, "width"); }), "no array \"width\". Arrays found");
+  EXPECT_CONTAINS(message_of([&] {
+                    read_network(folder.write("a.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1 1\n"), "r");
+                  }),
+                  "for VTK files only");
+}
+
+TEST(ReadNetwork, ArraysOfRadiiThatContradictAreNotChosenBetween) {
+  const TempFolder folder;
+  const auto text = [](const char* diameters) {
+    return with_arrays(std::string("POINT_DATA 4\nFIELD f 2\nradius 1 4 float\n1 2 3 4\n"
+                                   "diameter 1 4 float\n") +
+                       diameters);
+  };
+  EXPECT_EQ(read_network(folder.write("a.vtk", text("2 4 6 8\n"))).radius[0][1], 2);
+  EXPECT_CONTAINS(refusal(folder.write("a.vtk", text("2 4 6 6\n"))),
+                  "node 3 has the radius 4 by the array \"radius\" and 3 by \"diameter\"");
+}
+
+TEST(ReadNetwork, AllRadiiThatAreNoneAreToldAtOnce) {
+  const TempFolder folder;
+  const std::string vtk = refusal(folder.write(
+      "a.vtk", with_arrays("POINT_DATA 4\nSCALARS radius float\nLOOKUP_TABLE default\n0 1 nan -2"
+                           "\n")));
+  EXPECT_CONTAINS(vtk, "node 0 has \"radius\" 0");
+  EXPECT_CONTAINS(vtk, "So for 2 more: node 2 (nan), node 3 (-2).");
+  const std::string swc = refusal(
+      folder.write("a.swc", "1 1 0 0 0 0 -1\n2 1 5 0 0 1 1\n3 1 9 0 0 0 2\n4 1 12 0 0 -1 3\n"));
+  EXPECT_CONTAINS(swc, "a.swc:1: node 1 has the radius 0");
+  EXPECT_CONTAINS(swc, "So for 2 more: node 3 (0), node 4 (-1).");
+  const std::string vmv =
+      refusal(folder.write("a.vmv",
+                           "$VERT_LIST_BEGIN\n1 0 0 0 0\n2 5 0 0 1\n3 9 0 0 0\n$VERT_LIST_END\n"
+                           "$STRANDS_LIST_BEGIN\n1 1 2 3\n$STRANDS_LIST_END\n"));
+  EXPECT_CONTAINS(vmv, "So for 1 more: node 3 (0).");
+}
+
+TEST(ReadNetwork, StatementsOfHeadersAreFollowedOrRefused) {
+  const TempFolder folder;
+  const std::string mark = "\xef\xbb\xbf", swc = "1 1 0 0 0 1 -1\n2 1 5 0 0 1 1\n";
+  EXPECT_EQ(read_network(folder.write("a.swc", mark + "# SCALE 1.0 1.0 1.0\n" + swc)).node.size(),
+            2u);
+  EXPECT_CONTAINS(refusal(folder.write("a.swc", "# SCALE 0.5 0.5 1\n" + swc)),
+                  "a.swc:1: the header says \"# SCALE 0.5 0.5 1\"");
+  EXPECT_CONTAINS(refusal(folder.write("a.swc", swc + "3 1 9 0 0 1 2")),
+                  "the last line has no end");
+  EXPECT_CONTAINS(refusal(folder.write("a.swc", swc + "# 1 9 0 0 1 2\n")),
+                  "a comment holds the numbers of a node");
+  EXPECT_CONTAINS(refusal(folder.write("b.swc", std::string("\xfe\xff\0#", 4) + swc)), "UTF-16");
+  const std::string vmv =
+      "$VERT_LIST_BEGIN\n1 0 0 0 2\n2 5 0 0 1\n$VERT_LIST_END\n"
+      "$STRANDS_LIST_BEGIN\n1 1 2\n$STRANDS_LIST_END\n";
+  EXPECT_EQ(read_network(folder.write("a.vmv", mark + "$NUM_VERTS 2\n" + vmv)).node.size(), 2u);
+  EXPECT_CONTAINS(refusal(folder.write("a.vmv", "$NUM_VERTS 3\n" + vmv)),
+                  "$NUM_VERTS says 3, but the list has 2");
+  EXPECT_CONTAINS(refusal(folder.write("a.vmv", "$NUM_STRANDS 2\n" + vmv)),
+                  "$NUM_STRANDS says 2, but the list has 1");
+  EXPECT_EQ(read_network(folder.write("a.vtk", mark + kHeader + kPoints + kLines + kCellRadius))
+                .node.size(),
+            4u);
+}
+
+TEST(ReadNetwork, SectionsInAnotherOrderAreTold) {
+  const TempFolder folder;
+  const auto vtk = [&](const std::string& text) {
+    return refusal(folder.write("a.vtk", kHeader + text));
+  };
+  EXPECT_CONTAINS(vtk("POINT_DATA 4\n" + kPoints + kLines), "a.vtk:5: POINT_DATA stands before");
+  EXPECT_CONTAINS(vtk(kPoints + kLines + "SCALARS radius float\nLOOKUP_TABLE default\n1 1 1 1\n"),
+                  "a.vtk:11: \"scalars\" stands before POINT_DATA and CELL_DATA");
+  EXPECT_CONTAINS(vtk(kPoints + kLines + kPoints), "the section points comes a second time");
+  EXPECT_CONTAINS(vtk(kPoints +
+                      "POINT_DATA 4\nSCALARS radius float\nLOOKUP_TABLE default\n1 1 1 "
+                      "1\n" +
+                      kLines),
+                  "the section lines stands behind POINT_DATA or CELL_DATA");
+  EXPECT_CONTAINS(vtk("POINTS 2 float\n0 0 0 3e24 0 0\n"), "node 1 has the coordinates (3e+24");
 }
 
 TEST(ReadNetwork, DamagedFilesNeverCrash) {
