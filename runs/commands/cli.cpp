@@ -62,9 +62,12 @@ int run_cli(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Of several processes one says what is wrong.
-    std::ostringstream nowhere;
-    const bool root = !started_by_mpirun() || Ranks::world().is_root();
-    const int code = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
+    std::ostringstream out, wrong;
+    const int code = app.exit(error, out, wrong);
+    if (!started_by_mpirun() || Ranks::world().is_root()) {
+      fmt::print("{}", out.str());
+      fmt::print(stderr, "{}", wrong.str());
+    }
     return static_cast<int>(code == 0 ? Exit::kDone : Exit::kBadInput);
   }
   for (const Command& command : commands)
