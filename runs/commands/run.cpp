@@ -1,5 +1,6 @@
 /// acinus run
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -50,6 +51,13 @@ void check_effect(const RunArguments& arguments, const Scene& scene, const Ranks
         fmt::format("--until \"{}\": the scene ends before, at time.end = {:.6g} s. Leave the "
                     "option out, or raise the end with --set time.end=\"{}\"",
                     arguments.until, scene.time.end, arguments.until));
+  check(
+      !run.until_cells ||
+          std::ranges::any_of(scene.cell_types,
+                              [](const auto& type) { return type.second.cycle.time > 0; }),
+      fmt::format("--until-cells {}: no cell type has a cycle (acinus explain cell.cycle.time), so "
+                  "that there are never more cells. Leave the option out.",
+                  run.until_cells.value_or(0)));
   check(
       arguments.sharing.empty() || !ranks.is_alone(),
       "--sharing: there is one process, which shares nothing. Start several with mpirun, or leave "
