@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <string_view>
@@ -33,15 +34,43 @@ void remember(int signal) {
   g_count = g_count + 1;
 }
 
-void handle_with(void (*handler)(int)) {
-  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) std::signal(signal, handler);
+struct sigaction action_of(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  return action;
 }
 
-void end_process(int /*signal*/) {
-  constexpr std::string_view kText =
-      "acinus: stopped by the wall-time limit while a run was prepared\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, kText.data(), kText.size());
+/// For handlers: async-signal-safe.
+void write_error(std::string_view text) {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+}
+
+void end_at_limit(int /*signal*/) {
+  write_error("acinus: stopped by the wall-time limit while a run was prepared\n");
   _exit(static_cast<int>(Exit::kStopped));
+}
+
+void end_at_signal(int signal) {
+  const char* name = sigabbrev_np(signal);
+  write_error("acinus: stopped by ");
+  write_error(name != nullptr ? "SIG" : "a real-time signal");
+  write_error(name != nullptr ? name : "");
+  write_error(" while a run was prepared\n");
+  _exit(static_cast<int>(Exit::kStopped));
+}
+
+bool is_any_of(int signal, std::initializer_list<int> list) {
+  return std::ranges::find(list, signal) != list.end();
+}
+
+/// Whether a signal keeps what was set for it.
+bool keeps(int signal, const struct sigaction& set) {
+  for (const auto ours : {static_cast<void (*)(int)>(SIG_DFL), &remember, &end_at_signal})
+    if (set.sa_handler == ours) return false;
+  if (set.sa_handler == SIG_IGN) return !is_any_of(signal, {SIGINT, SIGQUIT});
+  return !is_any_of(signal, {SIGINT, SIGQUIT, SIGTERM});
 }
 
 /// @param seconds  0: no alarm
@@ -56,16 +85,38 @@ void set_alarm(double seconds) {
 
 }  // namespace
 
+std::vector<int> stop_signals() {
+  std::vector<int> all{SIGHUP,  SIGINT,    SIGQUIT, SIGUSR1,   SIGUSR2, SIGALRM, SIGTERM,
+                       SIGXCPU, SIGVTALRM, SIGPROF, SIGSTKFLT, SIGPOLL, SIGPWR};
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) all.push_back(signal);
+  return all;
+}
+
+SignalHandlers::SignalHandlers(void (*handler)(int)) {
+  const struct sigaction ours = action_of(handler);
+  for (const int signal : stop_signals()) {
+    struct sigaction set {};
+    if (sigaction(signal, nullptr, &set) != 0 || keeps(signal, set)) continue;
+    sigaction(signal, &ours, nullptr);
+    before_.emplace_back(signal, set);
+  }
+}
+
+SignalHandlers::~SignalHandlers() {
+  for (const auto& [signal, set] : before_) sigaction(signal, &set, nullptr);
+}
+
 StopSignals::StopSignals() {
   if (g_depth++ > 0) return;
   g_last = 0;
   g_count = 0;
   if (g_agreement == Agreement::kStop) g_agreement = Agreement::kGoOn;
-  handle_with(remember);
+  handlers_.emplace(remember);
 }
 
 StopSignals::~StopSignals() {
-  if (--g_depth == 0) handle_with(SIG_DFL);
+  handlers_.reset();
+  --g_depth;
 }
 
 int count_stop_signals() { return g_count; }
@@ -86,21 +137,28 @@ bool stop_requested() {
 
 std::string describe_stop() {
   if (!stop_requested()) return {};
-  if (has_signal()) return fmt::format("signal {}", static_cast<int>(g_last));
+  if (has_signal()) {
+    const char* name = sigabbrev_np(g_last);
+    return fmt::format("signal {}{}", static_cast<int>(g_last),
+                       name != nullptr ? fmt::format(" (SIG{})", name) : "");
+  }
   return is_asked_to_stop() ? "the wall-time limit" : "a request to another process";
 }
 
 ExitAtLimit::ExitAtLimit() {
   if (g_limit == kNever) return;
   constexpr double kAtOnce = 1e-3;  // s
-  std::signal(SIGALRM, end_process);
+  const struct sigaction action = action_of(end_at_limit);
+  sigaction(SIGALRM, &action, &before_);
   set_alarm(std::max(g_limit - wall_seconds(), kAtOnce));
 }
 
 ExitAtLimit::~ExitAtLimit() {
   if (g_limit == kNever) return;
   set_alarm(0);
-  std::signal(SIGALRM, SIG_DFL);
+  sigaction(SIGALRM, &before_, nullptr);
 }
+
+ExitAtSignal::ExitAtSignal() : handlers_(end_at_signal) {}
 
 }  // namespace acinus

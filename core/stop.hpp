@@ -2,18 +2,43 @@
 /// What asks a process to stop: signals and a limit on its wall time. Both reach the process as a
 /// whole, so this is the one state that is not passed around; long computations look at it.
 
+#include <csignal>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace acinus {
 
-/// While one of these lives SIGTERM, SIGINT and SIGUSR1 are counted and do nothing else. They nest:
-/// what a run within a study was asked, the study was asked too.
+/// The signals that ask a process to stop: all whose default ends it, but for crashes (SIGSEGV,
+/// SIGABRT and so on), SIGKILL, SIGPIPE and SIGXFSZ. The last two show as failed writes.
+std::vector<int> stop_signals();
+
+/// Gives stop signals a handler while it lives. A signal that was ignored stays so (nohup), but for
+/// SIGINT and SIGQUIT, which shells ignore for every job in the background; a handler of somebody
+/// else stays too, but for those of SIGINT, SIGQUIT and SIGTERM.
+class SignalHandlers {
+ public:
+  explicit SignalHandlers(void (*handler)(int));
+  ~SignalHandlers();
+  SignalHandlers(const SignalHandlers&) = delete;
+  SignalHandlers& operator=(const SignalHandlers&) = delete;
+
+ private:
+  std::vector<std::pair<int, struct sigaction>> before_;
+};
+
+/// While one of these lives stop signals are counted and do nothing else. They nest: what a run
+/// within a study was asked, the study was asked too.
 class StopSignals {
  public:
   StopSignals();
   ~StopSignals();
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  std::optional<SignalHandlers> handlers_;  ///< of the outermost
 };
 
 /// How many came since the outermost StopSignals was made.
@@ -36,7 +61,7 @@ class WallTimeLimit {
 /// Whether a signal was counted or the limit has passed: what goes on must come to an end, and what
 /// is there be saved. Of processes that share a run: whether one of them was, as they agreed.
 bool stop_requested();
-/// "signal 15", "the wall-time limit"; empty: none.
+/// "signal 15 (SIGTERM)", "the wall-time limit"; empty: none.
 std::string describe_stop();
 
 /// Whether this process was, whatever others know. For what makes them agree.
@@ -53,6 +78,18 @@ class ExitAtLimit {
   ~ExitAtLimit();
   ExitAtLimit(const ExitAtLimit&) = delete;
   ExitAtLimit& operator=(const ExitAtLimit&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
+/// The same for stop signals.
+class ExitAtSignal {
+ public:
+  ExitAtSignal();
+
+ private:
+  SignalHandlers handlers_;
 };
 
 }  // namespace acinus

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "runs/session/standard_streams.hpp"
 #include "runs/session/together.hpp"
 
 namespace acinus::runs {
@@ -16,11 +17,7 @@ namespace acinus::runs {
 /// Turns every exception into a message and an exit code.
 /// @param work  a function of nothing that returns the exit code
 template <class Work>
-int run_program(Work work) {
-  // A file-size limit then shows as a failed write, which is reported, instead of killing the
-  // program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  keep_freed_memory();
+int exit_code_of(Work work) {
   try {
     return work();
   } catch (const FailedElsewhere& failed) {
@@ -34,6 +31,17 @@ int run_program(Work work) {
     fmt::print(stderr, "internal error\n");
   }
   return static_cast<int>(Exit::kInternal);
+}
+
+/// The same, for all that a program does.
+template <class Work>
+int run_program(Work work) {
+  // A file-size limit then shows as a failed write, which is reported, instead of killing the
+  // program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  guard_standard_streams();
+  keep_freed_memory();
+  return finish_printing(exit_code_of(work));
 }
 
 }  // namespace acinus::runs

@@ -25,6 +25,32 @@ void sync(const std::string& path, int flags) {
   if (error != 0 && error != EINVAL) fail_on_disk(path, "write to disk", error);
 }
 
+/// A device or a pipe takes bytes; a file in its place would put an end to it.
+bool is_stream(const std::string& path) {
+  namespace fs = std::filesystem;
+  // Whatever stands behind these.
+  for (const char* own : {"/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/self/fd/"})
+    if (path.starts_with(own)) return true;
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void append(const std::string& path, std::string_view text) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor < 0) fail_on_disk(path, "open", errno);
+  int error = 0;
+  while (!text.empty() && error == 0) {
+    const ssize_t n = write(descriptor, text.data(), text.size());
+    if (n >= 0)
+      text.remove_prefix(static_cast<std::size_t>(n));
+    else if (errno != EINTR)
+      error = errno;
+  }
+  ::close(descriptor);
+  if (error != 0) fail_on_disk(path, "write", error);
+}
+
 }  // namespace
 
 std::string make_temporary_folder(const std::string& prefix) {
@@ -35,6 +61,7 @@ std::string make_temporary_folder(const std::string& prefix) {
 }
 
 void write_text_file(const std::string& path, std::string_view text) {
+  if (is_stream(path)) return append(path, text);
   const std::string partial = path + ".tmp";
   const RemoveUnlessMoved cleanup{partial};
   const int descriptor = open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -13,7 +13,8 @@ namespace acinus::io {
 /// files.
 std::string make_temporary_folder(const std::string& prefix);
 
-/// Replaces the content of `path` in one step: readers see the old text or the new one.
+/// Replaces the content of `path` in one step: readers see the old text or the new one. A device or
+/// a pipe gets the text.
 void write_text_file(const std::string& path, std::string_view text);
 std::string read_text_file(const std::string& path);
 

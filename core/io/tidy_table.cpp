@@ -5,6 +5,7 @@
 
 #include "core/io/disk.hpp"
 #include "core/io/hdf5.hpp"
+#include "core/io/page_sums.hpp"
 
 namespace acinus::io {
 namespace {
@@ -32,7 +33,8 @@ struct Writer {
 
 void write_tidy_table(const std::string& path, const std::vector<TidyColumn>& columns) {
   const std::string partial = path + ".tmp";
-  const RemoveUnlessMoved cleanup{partial};
+  // The sums of pages are for files that are written on; of this one they would only lie about.
+  const RemoveUnlessMoved cleanup{partial}, sums{h5::sums_of(partial)};
   h5::File file = h5::File::create(partial, h5::Format::kEarliest);
   for (const TidyColumn& column : columns)
     std::visit(Writer{file, "/" + column.name, column.unit}, column.value);

@@ -1,6 +1,7 @@
 """Simulations driven from Python: the module that `./acinus.sh python` builds (docs/python.md)."""
 import json
 import os
+import warnings
 
 import numpy as np
 
@@ -135,10 +136,14 @@ def calibrate(scene, out, set=None, cells=0, relaxation=True, threads=1):
 def compare(*runs):
     """`acinus compare`: how runs differ from the first one, one row per run and quantity.
 
-    runs: run folders or acinus.Run. difference is relative unless absolute is True.
+    runs: run folders or acinus.Run. difference is relative unless absolute is True. A row whose not_measured is not empty is no
+    ground for a verdict: it says why, for example that a run failed or was stopped before its end. Such things are warned of too.
     """
     folders = [r.folder if isinstance(r, Run) else os.fspath(r) for r in runs]
-    rows = _native().compare(folders)
-    names = ("run", "quantity", "unit", "reference", "value", "difference", "absolute")
-    columns = {name: np.array([row[k] for row in rows], dtype=object if k < 3 else bool if k == 6 else float) for k, name in enumerate(names)}
+    rows, notes = _native().compare(folders)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    kinds = {"run": object, "quantity": object, "unit": object, "reference": float, "value": float, "difference": float, "absolute": bool,
+             "not_measured": object}
+    columns = {name: np.array([row[k] for row in rows], dtype=kind) for k, (name, kind) in enumerate(kinds.items())}
     return make_table(columns, {})

@@ -150,14 +150,15 @@ int calibrate(const std::string& scene_name, const std::string& out,
   return runs::calibrate(runs::read_scene(runs::find_scene_file(scene_name), set), options);
 }
 
-py::list compare(const std::vector<std::string>& folders) {
+/// Rows of the table, and what is to be known about them.
+py::tuple compare(const std::vector<std::string>& folders) {
   const runs::Comparison c = runs::compare_runs(folders, {});
   py::list rows;
   for (std::size_t r = 0; r < c.difference.size(); ++r)
     for (const runs::Difference& d : c.difference[r])
       rows.append(py::make_tuple(c.runs[r + 1], d.name, d.unit, d.reference, d.value, d.difference,
-                                 d.absolute));
-  return rows;
+                                 d.absolute, d.not_measured));
+  return py::make_tuple(rows, c.notes);
 }
 
 using Release = py::call_guard<py::gil_scoped_release>;

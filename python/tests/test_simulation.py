@@ -108,6 +108,11 @@ class Programs(unittest.TestCase):
             self.assertEqual(runs[0].status, "completed")
             table = acinus.compare(*runs)
             self.assertIn("pressure", list(table["quantity"]))
+            self.assertEqual(set(table["not_measured"]), {""})
+            shorter = acinus.simulate("two_cells", f"{folder}/shorter.run", {"time.end": "5 min", "output.every": "5 min", "seed": 1})
+            with self.assertWarnsRegex(UserWarning, "ends at 0.1667 h, but the last frame that all runs have is at 0.08333 h"):
+                table = acinus.compare(runs[0], shorter)
+            self.assertNotIn("", set(table["not_measured"]))
             with self.assertRaises(acinus.BadInput):
                 acinus.simulate("two_cells", runs[0].folder)  # holds results
 

@@ -13,6 +13,7 @@
 #include "core/stop.hpp"
 #include "runs/build/build_correction.hpp"
 #include "runs/calibrate/calibrate.hpp"
+#include "runs/session/read_summary.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -68,6 +69,18 @@ std::string key_of(const Scene& scene, const LawParameters& p) {
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
+/// Why one of the runs of a calibration could not go on.
+std::string find_failure(const std::string& law_file) {
+  const fs::path folder = fs::path(law_file).replace_extension(".calibration");
+  std::error_code code;
+  for (const fs::directory_entry& run : fs::directory_iterator(folder, code)) {
+    if (!fs::exists(run.path() / "summary.json", code)) continue;
+    const RunSummary summary = read_summary(run.path().string());
+    if (summary.status == "failed") return summary.cause;
+  }
+  return "see the runs in " + folder.string();
+}
+
 }  // namespace
 
 int resolve_corrections(Scene& scene, int threads, bool quiet) {
@@ -90,7 +103,12 @@ int resolve_corrections(Scene& scene, int threads, bool quiet) {
       options.threads = threads;
       options.quiet = quiet;
       options.command_line = "stiffness_correction auto";
-      if (const int stop = calibrate(made_for_law(scene), options)) return stop;
+      const int stop = calibrate(made_for_law(scene), options);
+      check(stop != static_cast<int>(Exit::kCannotContinue),
+            fmt::format("cell_types.{}: no law of its spheres could be calibrated: {}", name,
+                        find_failure(file)),
+            Exit::kCannotContinue);
+      if (stop != 0) return stop;
     }
     type.cbm.stiffness_correction = file;
   }

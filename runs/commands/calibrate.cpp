@@ -21,14 +21,6 @@ struct CalibrateArguments {
   std::string check_friction, relaxation_time, max_walltime;
 };
 
-/// Without --fresh, which would throw away what there is.
-std::string command_to_go_on(std::string command_line) {
-  const std::string fresh = " --fresh";
-  if (const auto at = command_line.find(fresh); at != std::string::npos)
-    command_line.erase(at, fresh.size());
-  return command_line;
-}
-
 int run(CalibrateArguments& arguments) {
   CalibrateOptions& options = arguments.options;
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
@@ -39,7 +31,8 @@ int run(CalibrateArguments& arguments) {
     options.calibration.relaxation_time =
         quantity_of("--relaxation-time", arguments.relaxation_time, kTime);
   const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
-  return tell_how_to_go_on(calibrate(scene, options), command_to_go_on(options.command_line),
+  // --fresh would throw away what there is.
+  return tell_how_to_go_on(calibrate(scene, options), without_flag(options.command_line, "--fresh"),
                            options.quiet);
 }
 
@@ -81,17 +74,20 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
           "relative error up to which one term is enough and no table is made (default: 0.1)")
       ->type_name("E")
       ->check(CLI::Range(0.0, 10.0));
-  command->add_flag("!--no-relaxation", o.calibration.relaxation,
-                    "leave out how long the clump takes to relax");
+  CLI::Option* none = command->add_flag("!--no-relaxation", o.calibration.relaxation,
+                                        "leave out how long the clump takes to relax");
   command
       ->add_option("--check-friction", arguments->check_friction,
                    "also the relaxation with this cell-cell friction, e.g. \"1e11 N s/m^3\"")
-      ->type_name("FRICTION");
+      ->type_name("FRICTION")
+      ->excludes(none);
   command
       ->add_option("--relaxation-time", arguments->relaxation_time,
                    "also look for the cell-cell friction with which the relaxation's exponential "
                    "fit has this time, e.g. \"5 h\" (see docs/calibration.md first)")
-      ->type_name("TIME");
+      ->type_name("TIME")
+      ->excludes(none)
+      ->excludes("--check-friction");
   add_wall_time_limit(*command, arguments->max_walltime);
   command->add_flag("--fresh", o.fresh, "do not go on from what an earlier attempt left");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");

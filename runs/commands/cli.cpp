@@ -28,6 +28,15 @@ bool started_by_mpirun() {
   return size != nullptr && std::atoi(size) > 1;
 }
 
+/// An empty word comes from a variable of a shell that is not set; it means nothing here.
+void check_words(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& word : option->results())
+      check(!word.empty(),
+            fmt::format("{} \"\": is empty. Give a value, or leave it out.", option->get_name()));
+  for (const CLI::App* part : command.get_subcommands()) check_words(*part);
+}
+
 }  // namespace
 
 int run_cli(int argc, const char* const* argv) {
@@ -62,9 +71,12 @@ int run_cli(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Of several processes one says what is wrong.
-    std::ostringstream nowhere;
-    const bool root = !started_by_mpirun() || Ranks::world().is_root();
-    const int code = root ? app.exit(error) : app.exit(error, nowhere, nowhere);
+    std::ostringstream out, wrong;
+    const int code = app.exit(error, out, wrong);
+    if (!started_by_mpirun() || Ranks::world().is_root()) {
+      fmt::print("{}", out.str());
+      fmt::print(stderr, "{}", wrong.str());
+    }
     return static_cast<int>(code == 0 ? Exit::kDone : Exit::kBadInput);
   }
   for (const Command& command : commands)
@@ -75,6 +87,7 @@ int run_cli(int argc, const char* const* argv) {
             "shares its work among processes.",
             command.app->get_name()));
       };
+      check_words(*command.app);
       // Benchmarks are another program, which says itself what it is for.
       const std::string name = command.app->get_name();
       if (name != "run" && name != "bench" && started_by_mpirun()) together(Ranks::world(), refuse);

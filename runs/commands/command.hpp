@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,16 +26,16 @@ inline CLI::App* add_command(CLI::App& app, const char* name, const char* meanin
   return command;
 }
 
-inline void add_set(CLI::App& command, std::vector<std::string>& set) {
-  command
+inline CLI::Option* add_set(CLI::App& command, std::vector<std::string>& set) {
+  return command
       .add_option("--set", set,
                   "replace a value of the scene, e.g. --set time.end=\"2 h\"; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }
 
-inline void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "threads (default: all cores)")
+inline CLI::Option* add_threads(CLI::App& command, int& threads) {
+  return command.add_option("--threads", threads, "threads (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
 }
@@ -54,6 +55,16 @@ double flag_value(const char* flag, const std::string& text, Parse parse) {
 
 inline double quantity_of(const char* flag, const std::string& text, const Dimension& dimension) {
   return flag_value(flag, text, [&](const std::string& t) { return parse_quantity(t, dimension); });
+}
+
+/// A command line without one of its words.
+inline std::string without_flag(const std::string& command_line, const std::string& flag) {
+  const std::string words = command_line + " ", found = " " + flag + " ";
+  const std::size_t at = words.find(found);
+  return at == std::string::npos
+             ? command_line
+             : command_line.substr(0, at) +
+                   command_line.substr(std::min(command_line.size(), at + flag.size() + 1));
 }
 
 /// Says how to go on with a job that was stopped and is taken up where it was by the same command.

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "runs/commands/command.hpp"
 #include "runs/scene/library.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 struct CompareArguments {
   std::vector<std::string> folders, tolerances, set;
-  std::string scene, out;
+  std::string scene, out, until;
   CompareScenes scenes;
 };
 
@@ -38,6 +39,8 @@ std::map<std::string, double> read_tolerances(const std::vector<std::string>& te
 int run(CompareArguments& arguments) {
   std::vector<std::string> folders = arguments.folders;
   const std::map<std::string, double> tolerance = read_tolerances(arguments.tolerances);
+  std::optional<double> until;
+  if (!arguments.until.empty()) until = quantity_of("--until", arguments.until, kTime);
   if (!arguments.scene.empty()) {
     check(folders.empty(), "compare takes run folders or --scene, not both");
     CompareScenes& options = arguments.scenes;
@@ -47,7 +50,7 @@ int run(CompareArguments& arguments) {
       return tell_how_to_go_on(stop, options.command_line, options.quiet);
     if (arguments.out.empty()) arguments.out = options.folder + "/compare.json";
   }
-  const Comparison comparison = compare_runs(folders, tolerance);
+  const Comparison comparison = compare_runs(folders, tolerance, until);
   fmt::print("{}", comparison_table(comparison));
   if (!arguments.out.empty()) write_comparison(comparison, arguments.out);
   return static_cast<int>(comparison.passes() ? Exit::kDone : Exit::kBeyond);
@@ -91,9 +94,14 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
       ->add_flag("--equal-drag", o.equal_drag,
                  "with --scene: spheres get the medium and cell friction of deformable cells")
       ->needs(scene);
-  add_set(*command, arguments->set);
-  add_threads(*command, o.threads);
-  command->add_flag("--quiet", o.quiet, "the table only");
+  command
+      ->add_option("--until", arguments->until,
+                   "judge this simulated time, e.g. \"2 h\", in place of the end; all runs need a "
+                   "frame there")
+      ->type_name("TIME");
+  add_set(*command, arguments->set)->needs(scene);
+  add_threads(*command, o.threads)->needs(scene);
+  command->add_flag("--quiet", o.quiet, "with --scene: the table only")->needs(scene);
   return {command, [arguments, &command_line] {
             arguments->scenes.command_line = command_line;
             return run(*arguments);

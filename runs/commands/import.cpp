@@ -10,6 +10,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/commands/voxel_flag.hpp"
 #include "runs/images/import_image.hpp"
+#include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -71,7 +72,7 @@ void tell(const ImportArguments& a, const ImportedTissue& t,
     fmt::print("{} vessel surface{}, touched by {} cells\n", t.vessel.size(),
                t.vessel.size() == 1 ? "" : "s", at_vessel);
   tell_left_out(t, a.out);
-  fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds, written.front());
+  fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds, quote_for_shell(written.front()));
 }
 
 int run(const ImportArguments& a) {

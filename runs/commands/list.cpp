@@ -5,6 +5,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/registry.hpp"
+#include "runs/session/shell_quote.hpp"
 #include "runs/study/library.hpp"
 
 namespace acinus::runs {
@@ -28,7 +29,7 @@ int list() {
 int copy(const std::string& name, const std::string& folder) {
   const std::vector<std::string> written = copy_scene(name, folder);
   for (const std::string& file : written) fmt::print("wrote {}\n", file);
-  fmt::print("run it with: acinus run {}\n", written.front());
+  fmt::print("run it with: acinus run {}\n", quote_for_shell(written.front()));
   return 0;
 }
 

@@ -46,12 +46,12 @@ int grow(const OpenVtOptions& o) {
 
 int run(OpenVtArguments& a) {
   const WallTimeLimit limit(read_wall_time_limit(a.max_walltime));
+  check(a.what == "monolayer" || !a.openvt.cells,
+        "--cells is for monolayer: a row has eleven cells. Leave it out.");
   if (a.openvt.out.empty()) a.openvt.out = fmt::format("openvt_{}_{}.run", a.what, a.openvt.model);
   const int code = a.what == "relax11" ? relax(a.openvt) : grow(a.openvt);
-  if (code == static_cast<int>(Exit::kStopped) && !a.openvt.quiet)
-    fmt::print("stopped; continue with: {}{}\n", a.openvt.command_line,
-               a.openvt.resume ? "" : " --resume");
-  return code;
+  const std::string again = without_flag(a.openvt.command_line, "--overwrite");
+  return tell_how_to_go_on(code, again + (a.openvt.resume ? "" : " --resume"), a.openvt.quiet);
 }
 
 }  // namespace

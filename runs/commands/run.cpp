@@ -1,9 +1,12 @@
 /// acinus run
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "core/stop.hpp"
+#include "core/time_grid.hpp"
 #include "core/units.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/commands/command.hpp"
@@ -41,6 +44,26 @@ void check_launcher(const Ranks& ranks) {
   }
 }
 
+/// Options that the scene or the launcher leave without effect.
+void check_effect(const RunArguments& arguments, const Scene& scene, const Ranks& ranks) {
+  const RunOptions& run = arguments.run;
+  check(!run.until_s || *run.until_s <= scene.time.end + kSameTime,
+        fmt::format("--until \"{}\": the scene ends before, at time.end = {:.6g} s. Leave the "
+                    "option out, or raise the end with --set time.end=\"{}\"",
+                    arguments.until, scene.time.end, arguments.until));
+  check(
+      !run.until_cells ||
+          std::ranges::any_of(scene.cell_types,
+                              [](const auto& type) { return type.second.cycle.time > 0; }),
+      fmt::format("--until-cells {}: no cell type has a cycle (acinus explain cell.cycle.time), so "
+                  "that there are never more cells. Leave the option out.",
+                  run.until_cells.value_or(0)));
+  check(
+      arguments.sharing.empty() || !ranks.is_alone(),
+      "--sharing: there is one process, which shares nothing. Start several with mpirun, or leave "
+      "the option out.");
+}
+
 int run(RunArguments& arguments) {
   RunOptions& run = arguments.run;
   if (!arguments.until.empty()) run.until_s = quantity_of("--until", arguments.until, kTime);
@@ -52,10 +75,12 @@ int run(RunArguments& arguments) {
     run.max_memory = flag_value("--max-memory", arguments.max_memory, parse_size);
   if (arguments.sharing == "random") run.sharing = coupling::Sharing::kRandom;
   run.progress_json = arguments.progress == "json";
+  std::optional<ExitAtSignal> nothing_to_save(std::in_place);
   const Ranks ranks = Ranks::world();
   check_launcher(ranks);
   Scene scene = together(ranks, [&] {
     Scene read = read_scene(find_scene_file(run.scene_file), run.set);
+    check_effect(arguments, read, ranks);
     if (run.out.empty()) run.out = read.name + ".run";
     if (ranks.is_root()) check_folder(run.out, run);  // not after hours of calibration
     return read;
@@ -74,6 +99,7 @@ int run(RunArguments& arguments) {
     return ranks.is_root() ? tell_how_to_go_on(stop, run.command_line, run.quiet) : stop;
   if (!ranks.is_root()) resolve();
   const int code = run_scene(scene, run);
+  nothing_to_save.reset();
   if (arguments.report && ranks.is_root()) {
     const std::string page = write_report({.what = {run.out}, .out = run.out + "/report.html"});
     if (!run.quiet) fmt::print("report: {}\n", page);
@@ -118,10 +144,11 @@ Command add_run(CLI::App& app, const std::string& command_line) {
   command->add_flag("--timings", run.timings, "print the time of each stage at the end");
   command->add_flag("--report", arguments->report,
                     "at the end write report.html into the run folder, a page for the browser");
-  command->add_flag("--quiet", run.quiet, "warnings and errors only");
+  CLI::Option* quiet = command->add_flag("--quiet", run.quiet, "warnings and errors only");
   command->add_option("--progress", arguments->progress, "form of the progress lines")
       ->type_name("json")
-      ->check(CLI::IsMember({"json"}));
+      ->check(CLI::IsMember({"json"}))
+      ->excludes(quiet);
   CLI::Option* resume =
       command->add_flag("--resume", run.resume, "go on from the checkpoint in the run folder");
   command->add_flag("--overwrite", run.overwrite, "replace the results in the run folder")

@@ -5,22 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
-#include "core/io/run_reader.hpp"
 #include "core/nearest.hpp"
 #include "core/units.hpp"
 #include "core/vec.hpp"
 #include "runs/build/read_cells.hpp"
+#include "runs/compare/compared_runs.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/writer.hpp"
-#include "runs/session/read_summary.hpp"
 #include "runs/session/stage.hpp"
 
 namespace acinus::runs {
 namespace {
-
-constexpr double kSameFrame = 1;  ///< s
 
 /// Keys that may differ between runs of the same scene: which cells are which model, the constants
 /// of spheres, and how the run was made.
@@ -59,6 +57,7 @@ TissueCenter middle_of(const CellRecords& cells) {
 /// Cells per mm^3 in the ball. Cells count with a border as wide as their radius, so that their
 /// number does not jump when one crosses it.
 double density_in(const CellRecords& cells, const TissueCenter& m) {
+  if (m.radius == 0) return std::numeric_limits<double>::quiet_NaN();  // of one cell
   double count = 0;
   for (const auto& [id, c] : cells)
     count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / m.border, 0.0, 1.0);
@@ -74,36 +73,22 @@ double rms_by_lineage(const CellRecords& a, const CellRecords& b, Squared square
       sum += squared(c, other->second);
       ++n;
     }
-  return n > 0 ? std::sqrt(sum / n) : 0;
+  return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();
 }
 
-struct ComparedRun {
-  RunSummary summary;
-  io::RunReader reader;
-  std::vector<int> frame;  ///< those that all runs have
-};
+/// A difference over the size of the reference; of nothing that differs by nothing 0.
+double ratio(double difference, double size) { return difference == 0 ? 0 : difference / size; }
 
-std::vector<ComparedRun> open_runs(const std::vector<std::string>& folders) {
-  std::vector<ComparedRun> runs;
-  for (const std::string& folder : folders) {
-    RunSummary s = read_summary(folder);
-    runs.push_back({std::move(s), io::RunReader(folder + "/run.vtkhdf"), {}});
-  }
-  auto find = [](const ComparedRun& run, double time) {
-    for (int k = 0; k < run.reader.n_frame(); ++k)
-      if (std::abs(run.reader.time_s(k) - time) <= kSameFrame) return k;
-    return -1;
+/// "3 of 12 cells of A and 0 of 9 of B are not in the other at the end"; empty: both have the same.
+std::string describe_unshared_cells(const std::string& folder_a, const CellRecords& a,
+                                    const std::string& folder_b, const CellRecords& b) {
+  const auto missing = [](const CellRecords& in, const CellRecords& from) {
+    return std::ranges::count_if(in, [&](const auto& c) { return !from.contains(c.first); });
   };
-  for (int k = 0; k < runs[0].reader.n_frame(); ++k) {
-    const double time = runs[0].reader.time_s(k);
-    if (std::ranges::any_of(runs, [&](const ComparedRun& r) { return find(r, time) < 0; }))
-      continue;
-    for (ComparedRun& r : runs) r.frame.push_back(find(r, time));
-  }
-  check(!runs[0].frame.empty(),
-        fmt::format("no frame at the same time in {}. Give the runs the same output.every.",
-                    fmt::join(folders, " and ")));
-  return runs;
+  const auto only_a = missing(a, b), only_b = missing(b, a);
+  if (only_a == 0 && only_b == 0) return {};
+  return fmt::format("{} of {} cells of {} and {} of {} of {} are not in the other at the end",
+                     only_a, a.size(), folder_a, only_b, b.size(), folder_b);
 }
 
 /// Adds rows to the table of differences.
@@ -114,21 +99,38 @@ struct DifferenceTable {
   void add(std::size_t run, Difference row) const {
     if (const auto found = tolerance.find(row.name); found != tolerance.end())
       row.tolerance = found->second;
+    if (row.not_measured.empty()) row.not_measured = out.gap[run - 1];
     out.difference[run - 1].push_back(std::move(row));
   }
-  /// @param difference  over the reference
+  /// What has a tolerance but was not measured in all runs.
+  void add_missing(std::size_t run) const {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [name, value] : tolerance)
+      if (std::ranges::find(out.difference[run - 1], name, &Difference::name) ==
+          out.difference[run - 1].end())
+        add(run, {name,
+                  "",
+                  kNone,
+                  kNone,
+                  kNone,
+                  false,
+                  {},
+                  fmt::format("{} was not measured in every frame of all runs", name)});
+  }
+  /// @param difference    over the reference
+  /// @param not_measured  why there is no verdict, if there is none
   void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
-                double value, double difference) const {
-    add(run, {name, unit, reference, value, difference, false, {}});
+                double value, double difference, const std::string& not_measured = {}) const {
+    add(run, {name, unit, reference, value, difference, false, {}, not_measured});
   }
   void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
                 double value) const {
     relative(run, name, unit, reference, value,
-             reference == value ? 0 : std::abs(value - reference) / std::abs(reference));
+             ratio(std::abs(value - reference), std::abs(reference)));
   }
   void absolute(std::size_t run, const std::string& name, const std::string& unit,
-                double difference) const {
-    add(run, {name, unit, 0, difference, difference, true, {}});
+                double difference, const std::string& not_measured = {}) const {
+    add(run, {name, unit, 0, difference, difference, true, {}, not_measured});
   }
 };
 
@@ -145,7 +147,7 @@ double rms_over_time(const std::vector<double>& reference, const std::vector<dou
     difference += std::pow(value[k] - reference[k], 2);
     size += std::pow(reference[k], 2);
   }
-  return size > 0 ? std::sqrt(difference / size) : 0;
+  return ratio(std::sqrt(difference), std::sqrt(size));
 }
 
 void record_trace(const DifferenceTable& record, std::size_t run, const Trace& t) {
@@ -223,6 +225,7 @@ Traces read_traces(const std::vector<ComparedRun>& runs) {
 }
 
 double rms_of(const CellRecords& cells, double CellRecord::*what) {
+  if (cells.empty()) return 0;
   double sum = 0;
   for (const auto& [id, cell] : cells) sum += std::pow(cell.*what, 2);
   return std::sqrt(sum / static_cast<double>(cells.size()));
@@ -231,20 +234,27 @@ double rms_of(const CellRecords& cells, double CellRecord::*what) {
 /// All rows of one run that come from its cells.
 void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t) {
   const CellRecords &reference = t.end[0], &end = t.end[r];
+  const std::string apart =
+      describe_unshared_cells(record.out.runs[0], reference, record.out.runs[r], end);
+  if (!apart.empty()) record.out.notes.push_back(apart);
   auto by_cell = [&](const char* name, const char* unit, double CellRecord::*what) {
     const double size = rms_of(reference, what);
     const double rms = rms_by_lineage(
         reference, end,
         [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
-    record.relative(r, name, unit, size, rms_of(end, what), rms / size);
+    record.relative(r, name, unit, size, rms_of(end, what), ratio(rms, size), apart);
   };
   const TissueCenter middle = middle_of(reference);
+  const double density = density_in(reference, middle), here = density_in(end, middle);
   record.relative(r, "cells", "1", t.count.value[0].back(), t.count.value[r].back());
   record.absolute(r, "positions", "um",
-                  rms_by_lineage(reference, end, [](const CellRecord& a, const CellRecord& b) {
-                    return (a.center - b.center).squaredNorm();
-                  }));
-  record.relative(r, "density", "1/mm^3", density_in(reference, middle), density_in(end, middle));
+                  rms_by_lineage(reference, end,
+                                 [](const CellRecord& a, const CellRecord& b) {
+                                   return (a.center - b.center).squaredNorm();
+                                 }),
+                  apart);
+  record.relative(r, "density", "1/mm^3", density, here, ratio(std::abs(here - density), density),
+                  std::isfinite(density) ? "" : "the density of a single cell is not defined");
   record_trace(record, r, t.pressure);
   by_cell("cell_pressure", "Pa", &CellRecord::pressure);
   record_trace(record, r, t.force);
@@ -252,9 +262,9 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
   record_trace(record, r, t.contacts);
 }
 
-/// Drag of every run, and where it is not the same scene or not at its end.
+/// Drag of every run, and where it is not the same scene or has frames that others have not.
 void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellRecords>& end,
-                   Comparison& c) {
+                   std::optional<double> until, Comparison& c) {
   const std::string reference = runs[0].reader.provenance().at("scene");
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const std::string scene = runs[r].reader.provenance().at("scene");
@@ -263,13 +273,32 @@ void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellR
           end[r], [&](const auto& cell) { return cell.second.deformable == deformable; });
     };
     c.drag.push_back(drag_of(scene, has(true), has(false)));
-    if (runs[r].summary.status != "completed")
-      c.notes.push_back(fmt::format("{} is {}", c.runs[r], runs[r].summary.status));
+    if (const std::string frames = describe_unshared_frames(runs[r], until); !frames.empty())
+      c.notes.push_back(frames);
     if (r == 0) continue;
     const std::vector<std::string> other = list_scene_differences(reference, scene, may_differ);
     if (!other.empty())
       c.notes.push_back(fmt::format("{} is not the scene of {}: {}", c.runs[r], c.runs[0],
                                     fmt::join(other, "; ")));
+  }
+}
+
+/// Which runs have no verdict, since they or the reference did not get to what is judged. That some
+/// run did not get there explains why the others have no frame in common with it.
+void find_gaps(const std::vector<ComparedRun>& runs, std::optional<double> until, Comparison& c) {
+  std::vector<Gap> gap;
+  for (const ComparedRun& run : runs) gap.push_back(find_gap(run, until));
+  std::string first;
+  for (const Gap& g : gap)
+    if (g.own) {
+      c.notes.push_back(g.why);
+      if (first.empty()) first = g.why;
+    }
+  for (const Gap& g : gap)
+    if (first.empty() && !g.why.empty()) c.notes.push_back(first = g.why);
+  for (std::size_t r = 1; r < runs.size(); ++r) {
+    const bool none = gap[r].why.empty() && gap[0].why.empty();
+    c.gap.push_back(none ? "" : gap[r].own ? gap[r].why : gap[0].own ? gap[0].why : first);
   }
 }
 
@@ -299,13 +328,15 @@ bool Comparison::passes() const {
 }
 
 Comparison compare_runs(const std::vector<std::string>& folders,
-                        const std::map<std::string, double>& tolerance) {
+                        const std::map<std::string, double>& tolerance,
+                        std::optional<double> until) {
   check(folders.size() >= 2, "compare needs two run folders or more, the reference first");
   check_names(tolerance);
-  const std::vector<ComparedRun> runs = open_runs(folders);
+  const std::vector<ComparedRun> runs = open_compared_runs(folders, until);
   Comparison c;
   c.runs = folders;
   c.difference.resize(folders.size() - 1);
+  find_gaps(runs, until, c);
   c.frames = static_cast<int>(runs[0].frame.size());
   c.from = runs[0].reader.time_s(runs[0].frame.front());
   c.to = runs[0].reader.time_s(runs[0].frame.back());
@@ -317,7 +348,8 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   compare_measures(runs, record, c);
   for (std::size_t r = 1; r < runs.size(); ++r)
     record.relative(r, "cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s);
-  describe_runs(runs, traces.end, c);
+  for (std::size_t r = 1; r < runs.size(); ++r) record.add_missing(r);
+  describe_runs(runs, traces.end, until, c);
   return c;
 }
 

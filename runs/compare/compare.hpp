@@ -18,7 +18,8 @@ struct Difference {
   double difference = 0;            ///< |value - reference| over |reference| unless absolute
   bool absolute = false;            ///< difference is in the unit: distances
   std::optional<double> tolerance;  ///< of difference
-  bool passes() const { return !tolerance || difference <= *tolerance; }
+  std::string not_measured;  ///< why there is no verdict, which is never a pass; empty: there is
+  bool passes() const { return !tolerance || (not_measured.empty() && difference <= *tolerance); }
 };
 
 /// What one cell costs to move through the medium, and what cells cost to slide.
@@ -40,6 +41,8 @@ struct Comparison {
   double from = 0, to = 0;        ///< s, of the frames compared
   int frames = 0;
   std::vector<std::vector<Difference>> difference;  ///< [run - 1]
+  std::vector<std::string>
+      gap;  ///< [run - 1], how it or the reference falls short of what is judged
   std::vector<Trace> trace;
   std::vector<std::vector<Drag>> drag;  ///< [run], of the models it has
   std::vector<std::string> notes;       ///< where the scenes are not the same, and so on
@@ -49,11 +52,15 @@ struct Comparison {
 /// Names that --tolerance knows, with their meaning.
 const std::map<std::string, std::string>& comparable_quantities();
 
-/// Compares the frames that all runs have (same time to a second).
+/// Compares the frames that all runs have. A verdict needs all of them completed, with the same
+/// end; what tells cells apart needs the same cells there.
 /// @param tolerance  by name; what is not named has no verdict
-/// @throws Error: a folder that is no run, fewer than two runs, no frame in common, an unknown name
+/// @param until      s, judge this moment in place of the end; runs must have a frame there
+/// @throws Error: a folder without a finished run, fewer than two runs, no frame in common, an
+///         unknown name
 Comparison compare_runs(const std::vector<std::string>& folders,
-                        const std::map<std::string, double>& tolerance);
+                        const std::map<std::string, double>& tolerance,
+                        std::optional<double> until = {});
 
 /// Drag of a scene's models, from its canonical JSON.
 std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool has_cbm);

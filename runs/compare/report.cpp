@@ -3,10 +3,12 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/io/disk.hpp"
 #include "core/io/plot.hpp"
 #include "runs/compare/compare.hpp"
+#include "runs/scene/json_text.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -15,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
+std::string show_number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.5g}", v); }
+
 std::string show(const Difference& d) {
   if (d.absolute) return fmt::format("{:.3g} {}", d.difference, d.unit);
   return std::isfinite(d.difference) ? fmt::format("{:.1f} %", 100 * d.difference) : "undefined";
@@ -22,9 +26,21 @@ std::string show(const Difference& d) {
 
 std::string verdict(const Difference& d) {
   if (!d.tolerance) return "";
-  return fmt::format("{} ({})", d.passes() ? "within" : "BEYOND",
+  return fmt::format("{} ({})",
+                     !d.not_measured.empty() ? "NOT MEASURED"
+                     : d.passes()            ? "within"
+                                             : "BEYOND",
                      d.absolute ? fmt::format("{:g} {}", *d.tolerance, d.unit)
                                 : fmt::format("{:g} %", 100 * *d.tolerance));
+}
+
+/// Why tolerances have no verdict, each reason once.
+std::set<std::string> reasons_of(const Comparison& c) {
+  std::set<std::string> reasons;
+  for (const auto& run : c.difference)
+    for (const Difference& d : run)
+      if (d.tolerance && !d.not_measured.empty()) reasons.insert(d.not_measured);
+  return reasons;
 }
 
 }  // namespace
@@ -41,11 +57,14 @@ std::string comparison_table(const Comparison& c) {
     t += fmt::format("\n{}\n  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", c.runs[r + 1], "quantity",
                      "reference", "here", "unit", "difference", "verdict");
     for (const Difference& d : c.difference[r])
-      t += fmt::format("  {:14} {:>12} {:>12.5g} {:7} {:>12}  {}\n", d.name,
-                       d.absolute ? std::string("-") : fmt::format("{:.5g}", d.reference), d.value,
-                       d.unit, show(d), verdict(d));
+      t += fmt::format("  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", d.name,
+                       d.absolute ? "-" : show_number(d.reference), show_number(d.value), d.unit,
+                       show(d), verdict(d));
   }
-  for (const std::string& note : c.notes) t += "note: " + note + "\n";
+  const std::set<std::string> reasons = reasons_of(c);
+  for (const std::string& why : reasons) t += "not measured: " + why + "\n";
+  for (const std::string& note : c.notes)
+    if (!reasons.contains(note)) t += "note: " + note + "\n";
   return t;
 }
 
@@ -74,6 +93,7 @@ void write_comparison(const Comparison& c, const std::string& file) {
       if (d.tolerance) {
         row["tolerance"] = *d.tolerance;
         row["passes"] = d.passes();
+        if (!d.not_measured.empty()) row["not_measured"] = d.not_measured;
       }
       j["differences"].push_back(row);
     }
@@ -84,7 +104,7 @@ void write_comparison(const Comparison& c, const std::string& file) {
     io::Plot plot{trace.name, "time, h", trace.name + ", " + trace.unit, false, false, {}};
     for (std::size_t r = 0; r < c.runs.size(); ++r) {
       values[c.runs[r]] = trace.value[r];
-      io::PlotLine line{c.runs[r], {}, false, true};
+      io::PlotLine line{as_utf8(c.runs[r]), {}, false, true};
       for (std::size_t k = 0; k < trace.time.size(); ++k)
         line.point.emplace_back(trace.time[k] / 3600, trace.value[r][k]);
       plot.line.push_back(line);
@@ -92,7 +112,7 @@ void write_comparison(const Comparison& c, const std::string& file) {
     j["traces"][trace.name] = {{"time_s", trace.time}, {"unit", trace.unit}, {"value", values}};
     io::write_plot(fmt::format("{}_{}.svg", stem, trace.name), plot);
   }
-  io::write_text_file(file, j.dump(1) + "\n");
+  io::write_text_file(file, j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace acinus::runs

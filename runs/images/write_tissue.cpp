@@ -14,6 +14,7 @@
 #include "core/io/surface_file.hpp"
 #include "core/sphere.hpp"
 #include "runs/images/import_image.hpp"
+#include "runs/scene/json_text.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -26,7 +27,17 @@ constexpr const char *kScene = "scene.json", *kCells = "cells.vtk", *kVessels = 
 /// um, with the digits that a voxel deserves.
 std::string length(double um) { return fmt::format("\"{:.6g} um\"", um); }
 
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string quoted(const std::string& text) { return nlohmann::json(as_utf8(text)).dump(); }
+
+/// Takes a folder away again unless it was finished.
+struct UnfinishedFolder {
+  std::string folder;
+  bool finished = false;
+  ~UnfinishedFolder() {
+    std::error_code ignored;
+    if (!finished) std::filesystem::remove_all(folder, ignored);
+  }
+};
 
 double mean_radius(const ImportedTissue& t) {
   double volume = 0;
@@ -135,6 +146,7 @@ std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptio
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) io::fail_on_disk(folder, "make the folder", error.value());
+  UnfinishedFolder made{folder};
   std::vector<std::string> written;
   const auto path_of = [&](const char* name) {
     return written.emplace_back((fs::path(folder) / name).string());
@@ -158,6 +170,7 @@ std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptio
   if (!t.left_out.empty()) io::write_text_file(path_of(kLeftOut), left_out_text(t));
   io::write_text_file(scene, scene_text(t, o, name));
   read_scene(scene);  // throws where it could not be run
+  made.finished = true;
   return written;
 }
 

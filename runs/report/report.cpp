@@ -13,6 +13,7 @@
 #include "runs/report/page.hpp"
 #include "runs/report/picture.hpp"
 #include "runs/report/run_part.hpp"
+#include "runs/scene/json_text.hpp"
 
 namespace acinus::runs {
 namespace fs = std::filesystem;
@@ -54,13 +55,15 @@ std::string write_report(const ReportOptions& options) {
   std::vector<std::string> folders;
   for (const std::string& path : options.what)
     if (kind_of(path) == ItemKind::kRun) folders.push_back(path);
-  const std::size_t page = empty_page_size();
-  check(options.bytes > page + 100'000,
+  check(!folders.empty() || (!options.most_frames && !options.bytes),
+        "--frames and --limit are for runs, and none is named. Leave them out.");
+  const std::size_t page = empty_page_size(), bytes = options.bytes.value_or(8'000'000);
+  check(bytes > page + 100'000,
         fmt::format("--limit: the page without data takes {:.1f} MB. Allow more.", 1e-6 * page));
-  FrameLimits limits{.most_frames = options.most_frames};
+  FrameLimits limits{.most_frames = options.most_frames.value_or(50)};
   // Curves, tables and texts take about a tenth.
-  limits.bytes = (options.bytes - page) * 9 / 10 / std::max<std::size_t>(1, folders.size());
-  Json data{{"version", ACINUS_VERSION}, {"limit", options.bytes}, {"items", Json::array()}};
+  limits.bytes = (bytes - page) * 9 / 10 / std::max<std::size_t>(1, folders.size());
+  Json data{{"version", ACINUS_VERSION}, {"limit", bytes}, {"items", Json::array()}};
   for (const std::string& path : options.what) {
     switch (kind_of(path)) {
       case ItemKind::kRun: {
@@ -80,8 +83,8 @@ std::string write_report(const ReportOptions& options) {
   std::string title = data["items"][0]["name"].get<std::string>();
   if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
   const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
-  io::write_text_file(out,
-                      write_page(title, data.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  io::write_text_file(
+      out, write_page(as_utf8(title), data.dump(-1, ' ', false, Json::error_handler_t::replace)));
   if (!options.png.empty()) take_picture(out, options.png);
   return out;
 }

@@ -2,18 +2,19 @@
 /// `acinus report`: one page that shows runs, laws and studies without a network.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace acinus::runs {
 
 struct ReportOptions {
-  std::vector<std::string> what;  ///< run folders, law files, study folders
-  std::string out = "";           ///< HTML file; "" = named after the first
-  std::string png = "";           ///< picture of the page; "" = none
-  std::string title = "";         ///< of the first; "" = its file name
-  int most_frames = 50;
-  std::size_t bytes = 8'000'000;  ///< of the page
+  std::vector<std::string> what;          ///< run folders, law files, study folders
+  std::string out = "";                   ///< HTML file; "" = named after the first
+  std::string png = "";                   ///< picture of the page; "" = none
+  std::string title = "";                 ///< of the first; "" = its file name
+  std::optional<int> most_frames = {};    ///< of a run; empty = 50
+  std::optional<std::size_t> bytes = {};  ///< of the page; empty = 8 MB
 };
 
 /// @return the HTML file

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
 #include "runs/report/other_parts.hpp"
+#include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
 namespace fs = std::filesystem;
@@ -53,7 +54,7 @@ Json describe_study(const std::string& folder) {
   check(fs::exists(root / "runs.csv", code),
         fmt::format(
             "{}: is a study without results. `acinus study FILE --out {} --report` writes them.",
-            folder, folder),
+            folder, quote_for_shell(folder)),
         Exit::kFileError);
   Json j{
       {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -137,7 +139,11 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override {
     return add_integer(false, value, static_cast<double>(value));
   }
+  /// A whole number is one however it is written: programs write 1.0 or 1e3.
   bool number_float(number_float_t value, const string_t&) override {
+    constexpr double kExact = 1ULL << 53;  // beyond, a double is one of several whole numbers
+    if (std::floor(value) == value && std::abs(value) <= kExact)
+      return add_integer(value < 0, static_cast<std::uint64_t>(std::abs(value)), value);
     Node node;
     node.kind = Node::Kind::kNumber;
     node.number = value;

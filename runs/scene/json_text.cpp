@@ -58,6 +58,11 @@ bool is_utf8(std::string_view text, std::size_t* wrong_byte) {
   return true;
 }
 
+std::string as_utf8(std::string text) {
+  for (std::size_t wrong = 0; !is_utf8(text, &wrong);) text[wrong] = '?';
+  return text;
+}
+
 std::string pointer_part(std::string_view name) {
   constexpr std::size_t kLongest = 80;
   std::string cut(name.substr(0, kLongest));

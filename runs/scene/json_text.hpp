@@ -33,7 +33,7 @@ struct Node {
   Kind kind = Kind::kNull;
   bool boolean = false;
   bool negative = false;            ///< kInteger: the value is -(magnitude)
-  std::uint64_t magnitude = 0;      ///< kInteger
+  std::uint64_t magnitude = 0;      ///< kInteger; of 1.0 or 1e3 up to 2^53
   double number = 0;                ///< kInteger and kNumber
   std::string text;                 ///< kText, valid UTF-8
   std::vector<Node> items;          ///< kList
@@ -78,5 +78,8 @@ std::string pointer_part(std::string_view name);
 
 /// Whether the bytes are UTF-8; if not, the offset of the first wrong byte.
 bool is_utf8(std::string_view text, std::size_t* wrong_byte = nullptr);
+
+/// The text with a question mark for every byte that is not UTF-8: names of files need not be.
+std::string as_utf8(std::string text);
 
 }  // namespace acinus::runs

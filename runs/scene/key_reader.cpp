@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/nearest.hpp"
@@ -61,7 +62,10 @@ class KeyReader final : public Visitor {
     if (node->kind == Kind::kInteger && !node->negative) {
       value = node->magnitude;
     } else {
-      report_.add_value(*node, pointer_of(key), "must be a whole number from 0 to 2^64 - 1");
+      const bool rounded = node->kind == Kind::kNumber && std::floor(node->number) == node->number;
+      report_.add_value(*node, pointer_of(key),
+                        std::string("must be a whole number from 0 to 2^64 - 1") +
+                            (rounded ? ", beyond 2^53 written without point and exponent" : ""));
     }
   }
 

@@ -127,14 +127,19 @@ std::vector<std::string> copy_scene(const std::string& name, const std::string& 
                       (fs::path(folder) / file).string()));
   }
   std::vector<std::string> written;
+  const bool is_new = !fs::exists(folder);
   for (const fs::path& file : needed) {
-    const fs::path target = fs::path(folder) / file;
+    written.push_back((fs::path(folder) / file).string());
+    const fs::path target = written.back();
     std::error_code code;
     if (target.has_parent_path()) fs::create_directories(target.parent_path(), code);
     if (!code) fs::copy_file(from / file, target, code);
-    check(!code, fmt::format("{}: cannot be written: {}", target.string(), code.message()),
-          Exit::kFileError);
-    written.push_back(target.string());
+    if (!code) continue;
+    std::error_code ignored;  // nothing half made stays behind
+    for (const std::string& made : written) fs::remove(made, ignored);
+    if (is_new) fs::remove_all(folder, ignored);
+    throw Error(fmt::format("{}: cannot be written: {}", target.string(), code.message()),
+                Exit::kFileError);
   }
   return written;
 }

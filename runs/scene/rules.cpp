@@ -7,14 +7,11 @@
 
 #include "core/nearest.hpp"
 #include "core/units.hpp"
-#include "runs/scene/frame_times.hpp"
 
 namespace acinus::runs {
 namespace {
 
 std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
-
-std::string time_text(double value) { return "\"" + format_quantity(value, kTime, "s") + "\""; }
 
 std::string adhesion_text(double value) {
   return "\"" + format_quantity(value, kTension, "J/m^2") + "\"";
@@ -35,26 +32,6 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
     report.add_relation({fmt::format("{}/{}", low_pointer, axis), above}, length(low[axis]),
                         fmt::format("must be below {} = {}", above, length(high[axis])));
   }
-}
-
-void check_time(const Scene& scene, Report& report) {
-  const coupling::Numerics& numerics = scene.numerics;
-  if (numerics.max_step < numerics.min_step) {
-    report.add_relation({"/time/step", "/time/min_step"}, time_text(numerics.max_step),
-                        fmt::format("must not be below /time/min_step = {}. Raise step or lower "
-                                    "min_step",
-                                    time_text(numerics.min_step)));
-  }
-}
-
-/// Something must let go of what is measured to relax.
-void check_relaxation(const Scene& scene, Report& report) {
-  if (scene.experiment != Experiment::kRelaxation) return;
-  const double opens = next_opening(scene, -1);
-  if (opens < scene.time.end) return;
-  report.add_relation({"/experiment", "/walls", "/capsule", "/time/end"}, "",
-                      "needs a wall or a capsule that opens before /time/end (acinus explain "
-                      "wall.opens)");
 }
 
 /// Whether anything in the scene may touch anything else.
@@ -319,8 +296,7 @@ void check_region(const Region& region, const std::string& pointer, Report& repo
 }
 
 void check_rules(const Scene& scene, Report& report) {
-  check_time(scene, report);
-  check_relaxation(scene, report);
+  check_times(scene, report);
   check_vessels(scene, report);
   check_flexible_vessels(scene, report);
   check_integrator(scene, report);

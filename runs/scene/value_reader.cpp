@@ -38,6 +38,14 @@ Range possible_sizes(Dimension dimension) {
   return {.low = 1e-15, .high = dimension == kLength ? 1e6 : large ? 1e24 : 1e12};
 }
 
+/// @param largest  that fits into the program's number
+std::string whole_number_rule(const Node& node, const char* largest) {
+  const bool is_number = node.kind == Kind::kInteger || node.kind == Kind::kNumber;
+  if (!is_number || std::floor(node.number) != node.number)
+    return "must be a whole number, without quotes";
+  return fmt::format("is beyond the largest whole number here, {}", largest);
+}
+
 }  // namespace
 
 bool ValueReader::is_object(const Node& node, const std::string& pointer) const {
@@ -111,9 +119,8 @@ void ValueReader::read_vector(const Key& key, const Node& node, const std::strin
 void ValueReader::read_integer(const Key& key, const Node& node, const std::string& pointer,
                                int& value) const {
   constexpr double kLargest = std::numeric_limits<int>::max();
-  if ((node.kind != Kind::kInteger && node.kind != Kind::kNumber) ||
-      std::floor(node.number) != node.number || std::abs(node.number) > kLargest) {
-    report_.add_value(node, pointer, "must be a whole number, without quotes");
+  if (node.kind != Kind::kInteger || std::abs(node.number) > kLargest) {
+    report_.add_value(node, pointer, whole_number_rule(node, "2147483647"));
     return;
   }
   const int number = static_cast<int>(node.number);
@@ -132,7 +139,7 @@ bool ValueReader::read_long(const Key& key, const Node& node, const std::string&
                             std::int64_t& value) const {
   constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   if (node.kind != Kind::kInteger || node.magnitude > kLargest) {
-    report_.add_value(node, pointer, "must be a whole number, without quotes");
+    report_.add_value(node, pointer, whole_number_rule(node, "2^63 - 1"));
     return false;
   }
   const auto magnitude = static_cast<std::int64_t>(node.magnitude);

@@ -8,12 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "runs/scene/json_text.hpp"
 #include "runs/scene/registry.hpp"
 
 namespace acinus::runs {
 namespace {
 
-std::string in_quotes(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string in_quotes(const std::string& text) { return nlohmann::json(as_utf8(text)).dump(); }
 
 class JsonWriter final : public Visitor {
  public:

@@ -73,7 +73,8 @@ Child::Child(const std::vector<std::string>& words, const ChildOptions& options)
   const int out_file = options.progress.empty() ? error_file : open_output(options.progress);
   const pid_t parent = getpid();
   id_ = fork();
-  if (id_ == 0) {  // only async-signal-safe calls from here on
+  if (id_ == 0) {              // only async-signal-safe calls from here on
+    signal(SIGTERM, SIG_DFL);  // by which it is asked to stop, even if this process ignores it
     if (options.follows_parent) {
       prctl(PR_SET_PDEATHSIG, SIGTERM);
       if (getppid() != parent) _exit(127);  // it ended before that was known

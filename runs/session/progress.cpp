@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "core/timing.hpp"
+#include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -60,7 +60,7 @@ Progress::Progress(const RunOptions& options, double end, const Ranks& ranks)
       end_(end),
       started_(wall_seconds()),
       // mpirun gives its processes a terminal even where it writes to a file itself.
-      terminal_(ranks.size() == 1 && isatty(STDOUT_FILENO) != 0) {}
+      terminal_(ranks.size() == 1 && can_rewrite_lines()) {}
 
 void Progress::begin(const coupling::World& world) {
   started_ = wall_seconds();

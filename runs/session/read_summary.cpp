@@ -2,16 +2,51 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/io/checkpoint.hpp"
 #include "core/io/disk.hpp"
+#include "runs/session/run_folder.hpp"
+#include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
 
+namespace {
+
+/// Why a folder has no summary: that is written when a run ends.
+Error missing_summary(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  if (!fs::is_directory(folder, code))
+    return Error(
+        fmt::format("{}: no such folder. Name a run folder that `acinus run` wrote.", folder),
+        Exit::kFileError);
+  if (is_being_written(folder))
+    return Error(fmt::format("{}: the run goes on and has no summary.json yet. Wait until it ends.",
+                             folder));
+  if (io::has_checkpoint(folder))
+    return Error(fmt::format(
+        "{0}: the run did not end, it was killed: it has a checkpoint but no summary.json. Go on "
+        "with it: acinus run SCENE --resume --out {1}",
+        folder, quote_for_shell(folder)));
+  if (fs::exists(folder + "/run.log", code))
+    return Error(fmt::format("{}: the run did not end, it was killed before its first checkpoint: "
+                             "there is no summary.json. Run it again with --overwrite.",
+                             folder));
+  return Error(fmt::format("{}: holds no run: there is no summary.json. Name a run folder that "
+                           "`acinus run` wrote.",
+                           folder),
+               Exit::kFileError);
+}
+
+}  // namespace
+
 RunSummary read_summary(const std::string& folder) {
   const std::string file = folder + "/summary.json";
+  if (std::error_code code; !std::filesystem::exists(file, code)) throw missing_summary(folder);
   const std::string text = io::read_text_file(file);
   RunSummary s;
   s.folder = folder;

@@ -54,6 +54,8 @@ std::string resume_command(const RunOptions& options) {
   std::string command = "acinus run " + quote_for_shell(options.scene_file) + " --resume --out " +
                         quote_for_shell(options.out);
   for (const std::string& change : options.set) command += " --set " + quote_for_shell(change);
+  if (options.until_s) command += fmt::format(" --until '{} s'", *options.until_s);
+  if (options.until_cells) command += fmt::format(" --until-cells {}", *options.until_cells);
   return command;
 }
 

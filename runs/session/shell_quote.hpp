@@ -6,13 +6,8 @@
 namespace acinus::runs {
 
 /// The word as a shell takes it: in quotes where it has anything that shells read otherwise.
-inline std::string quote_for_shell(const std::string& word) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=-+,:";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string inside;
-  for (const char c : word) inside += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return "'" + inside + "'";
-}
+/// Control characters and bytes that are not UTF-8 become escapes of $'...', so that the result is
+/// one line of text.
+std::string quote_for_shell(const std::string& word);
 
 }  // namespace acinus::runs

@@ -31,11 +31,10 @@ int run_stage(const Scene& scene, const StageOptions& options) {
       before && !options.fresh) {
     if (before->status == "completed") return static_cast<int>(Exit::kDone);
     if (before->status == "failed") {
-      if (!options.quiet)
-        fmt::print(
-            "{}: an earlier run of this scene could not go on ({}/run.log says why); remove "
-            "the folder to run it again\n",
-            options.folder, options.folder);
+      fmt::print(stderr,
+                 "{}: an earlier run of this scene could not go on: {} Remove the folder to run it "
+                 "again.\n",
+                 options.folder, before->cause);
       return static_cast<int>(Exit::kCannotContinue);
     }
     run.resume = before->status == "stopped";

@@ -186,7 +186,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
   j["timings"] = timings;
   j["measures"] = list_measures(in);
-  io::write_text_file(folder + "/summary.json", j.dump(2) + "\n");
+  io::write_text_file(folder + "/summary.json",
+                      j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace acinus::runs

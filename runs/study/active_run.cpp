@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -80,6 +81,19 @@ std::string last_line(const std::string& file) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   const std::size_t before = text.find_last_of('\n');
   return before == std::string::npos ? text : text.substr(before + 1);
+}
+
+std::string printed_cause(const std::string& file) {
+  constexpr std::size_t kMost = 4000;  // bytes; what comes first is nearest to the cause
+  std::error_code code;
+  if (!fs::is_regular_file(file, code)) return {};
+  std::istringstream text(io::read_text_file(file));
+  std::string cause;
+  for (std::string line; std::getline(text, line);)
+    if (!line.starts_with("acinus: warning: "))
+      cause += (cause.empty() || line.empty() ? "" : "\n") + line;
+  if (cause.size() > kMost) cause = cause.substr(0, kMost) + " ... (all of it: " + file + ")";
+  return cause;
 }
 
 }  // namespace acinus::runs

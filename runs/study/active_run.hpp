@@ -50,6 +50,10 @@ RunProgress read_progress(const ActiveRun& run);
 /// The last line that a program printed, "" if none.
 std::string last_line(const std::string& file);
 
+/// Why a program ended, from all that it printed on stderr: everything but warnings.
+/// @return "" if nothing
+std::string printed_cause(const std::string& file);
+
 /// Removes everything that a run left in its folder but the claim.
 void clear_run(const std::string& folder);
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "core/time_grid.hpp"
 #include "core/unit_scale.hpp"
 #include "runs/study/check_study.hpp"
 
@@ -21,6 +23,7 @@ struct RunCurve {
   std::int64_t seed = 0;
   const TimeCurve* curve = nullptr;
   bool complete = false;
+  double until = 0;  ///< s, end of what was recorded
 };
 
 /// The curves of a variant; `note` says which is missing.
@@ -36,14 +39,14 @@ std::vector<RunCurve> find_curves(const StudyPlan& plan, const StudyData& data,
     if (plan.variant_of(run).name != variant) continue;
     const RunData& d = data[k];
     const auto curve = d.curve.find(observable);
-    if (d.status.state == RunState::kFailed) {
-      miss(run, "failed");
+    if (has_failed(d.status.state)) {
+      miss(run, name_of(d.status.state));
     } else if (curve == d.curve.end() || curve->second.time.empty()) {
       miss(run, d.status.state == RunState::kDone ? "did not measure " + observable
                                                   : std::string("is ") + name_of(d.status.state));
     } else {
-      found.push_back(
-          {static_cast<std::int64_t>(run.seed), &curve->second, d.status.state == RunState::kDone});
+      found.push_back({static_cast<std::int64_t>(run.seed), &curve->second,
+                       d.status.state == RunState::kDone, d.until});
     }
   }
   return found;
@@ -51,10 +54,16 @@ std::vector<RunCurve> find_curves(const StudyPlan& plan, const StudyData& data,
 
 double first_time(const TimeCurve& curve) { return std::max(0.0, curve.time.front()); }
 
-/// The time a measure looks at; the end only of runs that are done.
+/// Times that are the same in curves of this length.
+double same_time(const TimeCurve& curve) {
+  constexpr double kMost = 1, kShare = 1e-3;  // s; of the duration
+  return std::clamp(kShare * (curve.time.back() - curve.time.front()), kSameTime, kMost);
+}
+
+/// The time a measure looks at; the end only of runs that are done, and have a value there.
 std::optional<double> time_of(const RunCurve& s, const std::optional<double>& asked) {
   if (asked) return asked;
-  if (!s.complete) return std::nullopt;
+  if (!s.complete || s.curve->time.back() < s.until - same_time(*s.curve)) return std::nullopt;
   return s.curve->time.back();
 }
 
@@ -117,6 +126,26 @@ std::vector<TimeCurve> windows(const std::vector<RunCurve>& sources, const Study
     out.push_back(*w);
   }
   return out;
+}
+
+/// Why curves cannot be laid over each other for all of their length: they do not begin or end
+/// together. Empty: they do, or the claim says from when and until when.
+std::string find_unequal_ends(const StudyMeasure& m, const std::vector<RunCurve>& runs) {
+  double low[2] = {kNever, kNever}, high[2] = {-kNever, -kNever}, same = kNever;
+  for (const RunCurve& s : runs) {
+    same = std::min(same, same_time(*s.curve));
+    for (const auto& [k, t] : {std::pair{0, first_time(*s.curve)}, {1, s.curve->time.back()}}) {
+      low[k] = std::min(low[k], t);
+      high[k] = std::max(high[k], t);
+    }
+  }
+  if (!m.until && high[1] - low[1] > same)
+    return fmt::format("the runs end at different times, from {} to {}: give the claim an until",
+                       show_value(low[1], "s"), show_value(high[1], "s"));
+  if (!m.from && high[0] - low[0] > same)
+    return fmt::format("the runs begin at different times, from {} to {}: give the claim a from",
+                       show_value(low[0], "s"), show_value(high[0], "s"));
+  return {};
 }
 
 std::set<double> times_of(const std::vector<TimeCurve>& curves) {
@@ -228,7 +257,13 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyM
   if (m.kind == "outside") c = find_curves(plan, data, m.another, m.observable, missing);
   if (!missing.empty()) return none(out, missing);
   if (a.empty() || (needs_other(m) && b.empty())) return none(out, "no runs");
-  std::string note = "the runs have not come so far, or ended before";
+  std::string note = "the runs have not come so far, ended before, or have no value there";
+  if ((needs_other(m) || m.kind == "band") && m.kind != "p_value") {
+    std::vector<RunCurve> all = a;
+    for (const auto* more : {&b, &c}) all.insert(all.end(), more->begin(), more->end());
+    if (const std::string unequal = find_unequal_ends(m, all); !unequal.empty())
+      return none(out, unequal);
+  }
   if (needs_other(m) || m.kind == "band") {
     out.value = m.kind == "p_value"    ? p_value(a, b, m, note)
                 : m.kind == "outside"  ? largest_excess(windows(a, m), windows(b, m), windows(c, m))

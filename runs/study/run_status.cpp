@@ -1,5 +1,7 @@
 #include "runs/study/run_status.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -73,10 +75,23 @@ const char* name_of(RunState state) {
       return "done";
     case RunState::kFailed:
       return "failed";
+    case RunState::kRefused:
+      return "refused";
+    case RunState::kKilled:
+      return "killed";
     case RunState::kStale:
       return "of another scene or version";
   }
   return "";
+}
+
+bool has_failed(RunState state) {
+  return state == RunState::kFailed || state == RunState::kRefused || state == RunState::kKilled;
+}
+
+bool is_left(RunState state) {
+  return state == RunState::kToDo || state == RunState::kToResume || state == RunState::kRefused ||
+         state == RunState::kKilled;
 }
 
 RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
@@ -94,6 +109,8 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
     return status;
   }
   status.cause = record->value("cause", "");
+  if (!status.cause.empty())
+    status.state = record->value("killed", false) ? RunState::kKilled : RunState::kRefused;
   if (io::has_checkpoint(folder)) status.state = RunState::kToResume;
   take_summary(folder, status);
   if (status.state == RunState::kDone || status.state == RunState::kFailed) return status;
@@ -103,7 +120,7 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
 }
 
 void write_record(const std::string& root, const StudyPlan& plan, const StudyRun& run,
-                  const std::string& cause) {
+                  const AttemptEnd& end) {
   Json j;
   j["study"] = plan.study.name;
   j["variant"] = plan.variant_of(run).name;
@@ -111,12 +128,19 @@ void write_record(const std::string& root, const StudyPlan& plan, const StudyRun
   j["identity"] = run.identity;
   j["version"] = ACINUS_VERSION;
   if (run.source >= 0) j["start"] = plan.runs[run.source].name;
-  if (!cause.empty()) j["cause"] = cause;
-  io::write_text_file(record_file(root, run), j.dump(2) + "\n");
+  if (!end.cause.empty()) j["cause"] = end.cause;
+  if (end.killed) j["killed"] = true;
+  io::write_text_file(record_file(root, run),
+                      j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::string claim_file(const std::string& root, const StudyRun& run) {
   return folder_of(root, run) + "/claim.lock";
+}
+
+std::string describe_missing_start(const StudyRun& source, const RunStatus& status) {
+  return fmt::format("{}, from whose start it goes on, left none{}{}", source.name,
+                     status.cause.empty() ? "" : ": ", status.cause);
 }
 
 bool has_start(const std::string& root, const StudyRun& run) {

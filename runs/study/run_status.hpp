@@ -12,10 +12,17 @@ enum class RunState {
   kToResume,  ///< stopped or killed, with a checkpoint
   kRunning,   ///< another process holds the folder
   kDone,
-  kFailed,  ///< the simulation could not go on
-  kStale,   ///< results of another scene or version
+  kFailed,   ///< the simulation could not go on
+  kRefused,  ///< ended before its first checkpoint, with an error
+  kKilled,   ///< ended before its first checkpoint, by a signal
+  kStale,    ///< results of another scene or version
 };
 const char* name_of(RunState state);
+/// Whether the last attempt failed; that says nothing about the next one of what was refused or
+/// killed.
+bool has_failed(RunState state);
+/// Whether a start of the study takes the run up.
+bool is_left(RunState state);
 
 struct RunStatus {
   RunState state = RunState::kToDo;
@@ -31,12 +38,21 @@ struct RunStatus {
 /// @param held  the caller has the run's claim: no other process can be running it
 RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held = false);
 
+/// How the last attempt at a run ended, if it is not done.
+struct AttemptEnd {
+  std::string cause;  ///< "" = it goes on
+  bool killed = false;
+};
+
 /// What a run folder says about whose it is, written before its first step.
 void write_record(const std::string& root, const StudyPlan& plan, const StudyRun& run,
-                  const std::string& cause = "");
+                  const AttemptEnd& end = {});
 
 /// The file whose lock says that a process takes care of a run.
 std::string claim_file(const std::string& root, const StudyRun& run);
+
+/// Why a run cannot go on from the start of another one, the source: that left none.
+std::string describe_missing_start(const StudyRun& source, const RunStatus& status);
 
 /// Whether the state at t = 0 that others start from stands in the folder of this very run.
 bool has_start(const std::string& root, const StudyRun& run);

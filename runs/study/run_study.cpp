@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/threads.hpp"
+#include "runs/scene/json_text.hpp"
+#include "runs/session/shell_quote.hpp"
 #include "runs/study/expected_cost.hpp"
 #include "runs/study/library.hpp"
 #include "runs/study/run_status.hpp"
@@ -72,6 +74,10 @@ int run_study(StudyOptions options) {
   if (options.out.empty()) options.out = plan.study.name + ".study";
   options.out = fs::absolute(options.out).lexically_normal().string();
   if (options.jobs <= 0) options.jobs = std::max(1, processor_count() / options.child.threads);
+  for (const std::string& name : {options.out, options.file})
+    check(is_utf8(name), fmt::format("{}: the name is not UTF-8, but studies write it into scene "
+                                     "files. Rename it, or choose another --out.",
+                                     as_utf8(name)));
   const std::vector<ChosenRun> chosen = choose_runs(plan, choice);
   check_study_folder(options.out, plan);
   if (options.dry_run) {
@@ -90,8 +96,8 @@ int run_study(StudyOptions options) {
     fmt::print(
         "task {} of {}: {} done, {} failed, {} left; when all tasks are done: acinus study "
         "{} --out {} --report\n",
-        choice.task, choice.tasks, result.done, result.failed, result.left, options.file,
-        options.out);
+        choice.task, choice.tasks, result.done, result.failed, result.left,
+        quote_for_shell(options.file), quote_for_shell(options.out));
   }
   if (result.stopped) return static_cast<int>(Exit::kStopped);
   return static_cast<int>(result.failed > 0 ? Exit::kCannotContinue : Exit::kDone);

@@ -58,8 +58,7 @@ class Scheduler {
   bool calibrate() {
     std::vector<const StudyRun*> runs;
     for (const ChosenRun& c : waiting_) {
-      const RunState state = inspect_run(options_.root, plan_.runs[c.run]).state;
-      if (state == RunState::kToDo || state == RunState::kToResume)
+      if (is_left(inspect_run(options_.root, plan_.runs[c.run]).state))
         runs.push_back(&plan_.runs[c.run]);
     }
     return find_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
@@ -115,8 +114,9 @@ class Scheduler {
       if (is_pending(source) ||
           inspect_run(options_.root, source_of(run)).state == RunState::kRunning)
         return false;
-      fail(c, fmt::format("{}, from whose start it goes on, left none{}", source_of(run).name,
-                          failed_.contains(source) ? "" : "; remove its folder to run it again"));
+      const RunStatus of_source = inspect_run(options_.root, source_of(run));
+      fail(c, describe_missing_start(source_of(run), of_source) +
+                  (failed_.contains(source) ? "" : "; remove its folder to run it again"));
       return true;
     }
     const std::string folder = options_.root + "/" + run.folder;
@@ -136,7 +136,10 @@ class Scheduler {
     if (status.state == RunState::kDone) return count(c, true);
     const bool again = options_.overwrite && again_.insert(c.run).second;
     if (status.state == RunState::kFailed && !again) return fail(c, status.cause);
-    if (const auto law = no_law_.find(run.name); law != no_law_.end()) return fail(c, law->second);
+    if (const auto law = no_law_.find(run.name); law != no_law_.end()) {
+      write_record(options_.root, plan_, run, {law->second, false});
+      return fail(c, law->second);
+    }
     active_.push_back(start_run(plan_, c.run, options_.root, std::move(claim),
                                 status.state == RunState::kToResume, options_.child));
     chosen_[c.run] = c;
@@ -174,8 +177,9 @@ class Scheduler {
       progress_.add(run, status.cpu_s);
       return count(c, true);
     }
-    std::string cause = last_line(ended.folder + "/output.txt");
-    if (end.signal != 0) cause = fmt::format("ended by signal {}", end.signal);
+    std::string cause = printed_cause(ended.folder + "/output.txt");
+    if (end.signal != 0)
+      cause = fmt::format("ended by signal {}{}{}", end.signal, cause.empty() ? "" : ": ", cause);
     if (end.code == static_cast<int>(Exit::kStopped)) {
       cause = "stopped from outside, with a checkpoint";
     } else if (end.code == static_cast<int>(Exit::kBadInput) && run.source >= 0 &&
@@ -186,7 +190,7 @@ class Scheduler {
     if (status.state == RunState::kFailed) cause = status.cause;
     if (cause.empty()) cause = fmt::format("exit code {}", end.code);
     if (count_stop_signals() == 0) {
-      write_record(options_.root, plan_, run, cause);
+      write_record(options_.root, plan_, run, {cause, end.signal != 0});
       fail(c, cause);
     }
   }

@@ -17,8 +17,9 @@
 namespace acinus::runs {
 namespace {
 
-/// A text as a field of a CSV file [RFC 4180].
-std::string field(const std::string& text) {
+/// A text as a field of a CSV file [RFC 4180], on one line: not every reader knows of more.
+std::string field(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -34,7 +35,9 @@ double factor(const std::string& from, const std::string& to) {
 
 RunData read_run(const StudyPlan& plan, const StudyRun& run, const std::string& root) {
   RunData data{inspect_run(root, run), {}, 0};
-  if (data.status.state == RunState::kStale || data.status.state == RunState::kToDo) return data;
+  if (data.status.state == RunState::kStale || data.status.state == RunState::kToDo ||
+      data.status.state == RunState::kRefused)
+    return data;
   const std::string file = root + "/" + run.folder + "/run.vtkhdf";
   if (!std::filesystem::exists(file)) return data;
   try {
@@ -71,6 +74,15 @@ bool is_wanted(const Study& study, const std::string& observable) {
 StudyData read_study_data(const StudyPlan& plan, const std::string& root) {
   StudyData data;
   for (const StudyRun& run : plan.runs) data.push_back(read_run(plan, run, root));
+  // What waits for a start that failed was refused before it had a folder to tell so.
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    RunStatus& status = data[k].status;
+    if (plan.runs[k].source < 0 || status.state != RunState::kToDo) continue;
+    const std::size_t source = plan.runs[k].source;
+    if (!has_failed(data[source].status.state) || has_start(root, plan.runs[source])) continue;
+    status.state = RunState::kRefused;
+    status.cause = describe_missing_start(plan.runs[source], data[source].status);
+  }
   return data;
 }
 

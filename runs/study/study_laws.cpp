@@ -18,12 +18,9 @@ bool find_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet
     if (!asks) continue;
     Scene scene = run->scene;  // its law's file must not enter the run's identity
     try {
-      const int code = resolve_corrections(scene, threads, quiet);
-      if (code == static_cast<int>(Exit::kStopped)) return true;
-      if (code != 0)
-        failed[run->name] = fmt::format("its law could not be calibrated (exit code {})", code);
+      if (resolve_corrections(scene, threads, quiet) != 0) return true;  // it was stopped
     } catch (const Error& error) {
-      failed[run->name] = fmt::format("its law could not be calibrated: {}", error.what());
+      failed[run->name] = error.what();
     }
   }
   return false;

@@ -71,7 +71,7 @@ CurvesOfVariant curves_of(const StudyPlan& plan, const StudyData& data, std::siz
     if (plan.runs[k].variant != variant) continue;
     ++out.n_run;
     const RunState state = data[k].status.state;
-    if (state == RunState::kFailed || (to_the_end && state != RunState::kDone)) continue;
+    if (has_failed(state) || (to_the_end && state != RunState::kDone)) continue;
     const auto found = data[k].curve.find(observable);
     if (found != data[k].curve.end() && !found->second.time.empty())
       out.curve.push_back(&found->second);

@@ -1,12 +1,12 @@
 #include "runs/study/study_progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <vector>
 
 #include "core/timing.hpp"
+#include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {
 
@@ -19,11 +19,7 @@ std::string short_duration(double s) {
 }
 
 StudyProgress::StudyProgress(const StudyPlan& plan, const std::string& root, int jobs, bool quiet)
-    : plan_(plan),
-      costs_(plan, root),
-      jobs_(jobs),
-      quiet_(quiet),
-      terminal_(isatty(STDOUT_FILENO) != 0) {}
+    : plan_(plan), costs_(plan, root), jobs_(jobs), quiet_(quiet), terminal_(can_rewrite_lines()) {}
 
 void StudyProgress::show(const StudyCounts& counts, const std::vector<ActiveRun>& active) {
   const double now = wall_seconds();

@@ -95,7 +95,9 @@ std::string unfinished(const StudyPlan& plan, const StudyData& data) {
   return "## Runs that are not done\n\n| run | state | recorded until | cause "
          "|\n|---|---|---|---|\n" +
          text +
-         "\nA failed run is tried again with `--overwrite`, or once its folder is removed.\n\n";
+         "\nA failed run is tried again with `--overwrite`, or once its folder is removed; one "
+         "that was "
+         "refused or killed whenever the study is started.\n\n";
 }
 
 /// Where shared starts come from, run by run.
@@ -154,9 +156,9 @@ ReportCounts write_study_report(const StudyPlan& plan, const std::string& root) 
        : v.status == ClaimStatus::kDoesNotHold ? n.does_not_hold
                                                : n.not_measured);
   for (const RunData& d : data)
-    ++(d.status.state == RunState::kDone     ? n.done
-       : d.status.state == RunState::kFailed ? n.failed
-                                             : n.missing);
+    ++(d.status.state == RunState::kDone ? n.done
+       : has_failed(d.status.state)      ? n.failed
+                                         : n.missing);
   write_table(plan, data, root);
   write_runs(plan, data, root);
   write_verdicts(verdicts, root);

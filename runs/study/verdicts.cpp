@@ -143,7 +143,8 @@ void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& roo
     if (!v.measured.note.empty()) j["note"] = v.measured.note;
     all.push_back(j);
   }
-  io::write_text_file(root + "/verdicts.json", all.dump(2) + "\n");
+  io::write_text_file(root + "/verdicts.json",
+                      all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace acinus::runs

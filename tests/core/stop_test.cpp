@@ -23,11 +23,61 @@ TEST(Stop, ASignalAsksWhileSomeoneCounts) {
       EXPECT_TRUE(stop_requested());
     }
     EXPECT_TRUE(stop_requested()) << "the outer one was asked too";
-    EXPECT_EQ(describe_stop(), "signal " + std::to_string(SIGUSR1));
+    EXPECT_EQ(describe_stop(), "signal " + std::to_string(SIGUSR1) + " (SIGUSR1)");
     EXPECT_EQ(count_stop_signals(), 1);
   }
   EXPECT_FALSE(stop_requested());
   EXPECT_EQ(describe_stop(), "");
+}
+
+void (*handler_of(int signal))(int) {
+  struct sigaction set {};
+  sigaction(signal, nullptr, &set);
+  return set.sa_handler;
+}
+
+TEST(Stop, EverySignalAsksAndGetsBackWhatWasSet) {
+  int sent = 0;
+  {
+    const StopSignals counted;
+    for (const int signal : stop_signals()) {
+      std::raise(signal);
+      EXPECT_EQ(count_stop_signals(), ++sent) << signal;
+    }
+    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP})
+      EXPECT_EQ(handler_of(crash), SIG_DFL) << crash;
+  }
+  for (const int signal : stop_signals()) EXPECT_EQ(handler_of(signal), SIG_DFL) << signal;
+}
+
+TEST(Stop, WhatWasIgnoredStaysIgnoredButForTheKeyboard) {
+  for (const int signal : stop_signals()) std::signal(signal, SIG_IGN);
+  {
+    const StopSignals counted;
+    for (const int signal : stop_signals()) {
+      const int before = count_stop_signals();
+      std::raise(signal);
+      EXPECT_EQ(count_stop_signals() > before, signal == SIGINT || signal == SIGQUIT) << signal;
+    }
+  }
+  for (const int signal : stop_signals()) {
+    EXPECT_EQ(handler_of(signal), SIG_IGN) << signal;
+    std::signal(signal, SIG_DFL);
+  }
+}
+
+void somebody_elses(int) {}
+
+TEST(Stop, AProfilersHandlerStays) {
+  std::signal(SIGPROF, somebody_elses);
+  std::signal(SIGINT, somebody_elses);
+  {
+    const StopSignals counted;
+    EXPECT_EQ(handler_of(SIGPROF), somebody_elses);
+    EXPECT_NE(handler_of(SIGINT), somebody_elses) << "Python's would come too late";
+  }
+  EXPECT_EQ(handler_of(SIGINT), somebody_elses);
+  for (const int signal : {SIGPROF, SIGINT}) std::signal(signal, SIG_DFL);
 }
 
 TEST(Stop, TheEarliestLimitCounts) {
@@ -43,7 +93,7 @@ TEST(Stop, TheEarliestLimitCounts) {
   EXPECT_FALSE(stop_requested());
 }
 
-TEST(StopDeathTest, ThePreparationOfARunEndsAtTheLimit) {
+TEST(StopDeathTest, ThePreparationOfARunEndsAtTheLimitAndAtSignals) {
   EXPECT_EXIT(
       {
         const WallTimeLimit limit(0.05);
@@ -51,6 +101,23 @@ TEST(StopDeathTest, ThePreparationOfARunEndsAtTheLimit) {
         for (;;) pause();
       },
       testing::ExitedWithCode(75), "stopped by the wall-time limit");
+  for (const int signal : {SIGHUP, SIGTERM, SIGXCPU, SIGALRM})
+    EXPECT_EXIT(
+        {
+          const ExitAtSignal nothing_to_save;
+          std::raise(signal);
+        },
+        testing::ExitedWithCode(75), "stopped by SIG[A-Z]+ while a run was prepared");
+  EXPECT_EXIT(
+      {
+        const ExitAtSignal nothing_to_save;
+        {
+          const StopSignals counted;
+          std::raise(SIGHUP);
+        }
+        std::raise(SIGHUP);
+      },
+      testing::ExitedWithCode(75), "SIGHUP");
   const ExitAtLimit without;  // no limit, no alarm
   EXPECT_EQ(alarm(0), 0u);
 }

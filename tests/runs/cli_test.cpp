@@ -3,14 +3,18 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "runs/commands/command.hpp"
+#include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -30,6 +34,18 @@ Outcome call(const std::string& arguments) {
   }
   const int status = pclose(pipe);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+}
+
+std::string output_of_bash(const std::string& line) {
+  // popen() asks sh, which need not know $'...'.
+  const std::string file = testing::TempDir() + "line" + std::to_string(getpid()) + ".sh";
+  std::ofstream(file) << line;
+  FILE* pipe = popen(("bash " + file).c_str(), "r");
+  std::string text;
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) text += static_cast<char>(c);
+  pclose(pipe);
+  std::remove(file.c_str());
+  return text;
 }
 
 /// The commands, as the program's help lists them.
@@ -105,6 +121,57 @@ TEST(Cli, ReadersExitWithZero) {
     EXPECT_EQ(outcome.code, 0) << arguments << "\n" << outcome.text;
     EXPECT_NE(outcome.text, "") << arguments;
   }
+}
+
+TEST(Cli, OptionsWithoutEffectAreRefused) {
+  for (const std::string& arguments : std::vector<std::string>{
+           "run " + kScene + " --until 900d", "run " + kScene + " --until-cells 50",
+           "run " + kScene + " --out ''", "run ''", "new two_cells ''", "explain ''",
+           "check " + kScene + " --set ''", "mesh vessels lobule_hybrid --out ''",
+           "run " + kScene + " --sharing random", "run " + kScene + " --quiet --progress json",
+           "openvt relax11 --cells 20", "explain --markdown radius", "study example --tasks 2",
+           "study example --task 1", "study example --dry-run --overwrite",
+           "study example --report --jobs 2"}) {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.text;
+    EXPECT_NE(outcome.text, "") << arguments;
+  }
+}
+
+TEST(Cli, WordsInQuotesAreTheSameWordsToAShell) {
+  for (const std::string& word : std::vector<std::string>{
+           "", "plain", "a b", "it's", "$HOME", "`ls`", "a\\b", "line\nend", "\t",
+           "Sch\xe4"
+           "del",
+           "\x7f",
+           "na\xc3\xaf"
+           "ve",
+           "~", "-x", "#", "!", "a;b&c|d", "*?[x]{1,2}", "'\n\\\xff"}) {
+    EXPECT_EQ(quote_for_shell(word).find('\n'), std::string::npos) << "one line";
+    EXPECT_EQ(output_of_bash("printf %s " + quote_for_shell(word)), word);
+  }
+  EXPECT_EQ(without_flag("acinus calibrate --fresh --out a", "--fresh"),
+            "acinus calibrate --out a");
+  EXPECT_EQ(without_flag("acinus calibrate --fresh", "--fresh"), "acinus calibrate");
+  EXPECT_EQ(without_flag("acinus calibrate --freshly", "--fresh"), "acinus calibrate --freshly");
+}
+
+TEST(Cli, PeriodsThatFillTheDiskOrNeverEndAreRefused) {
+  const auto text_of = [](const std::string& set) {
+    const Outcome outcome = call("check " + kScene + " --set time.end=1h --set '" + set + "'");
+    EXPECT_EQ(outcome.code, 2) << set << "\n" << outcome.text;
+    return outcome.text;
+  };
+  EXPECT_NE(
+      text_of("output.every=1e-9 s")
+          .find("/output/every = \"1e-9 s\": asks for 3.6e+12 frames until /time/end = \"3600 "
+                "s\"; at most 1e+06 are possible. Raise it to at least \"0.0036 s\""),
+      std::string::npos)
+      << text_of("output.every=1e-9 s");
+  for (const char* key :
+       {"motility.random=true\' --set \'motility.grid", "life.grid", "output.every"})
+    EXPECT_NE(text_of(std::string(key) + "=1e-7 s").find(" asks for "), std::string::npos) << key;
+  EXPECT_EQ(call("check " + kScene + " --set time.end=1h --set 'output.every=0.0036 s'").code, 0);
 }
 
 TEST(Cli, CheckPrintsTheReportOfTheReader) {

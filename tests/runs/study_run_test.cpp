@@ -71,6 +71,21 @@ class StudyRun : public program::ProgramTest {
   }
 };
 
+bool await_file(const fs::path& file) {
+  for (int look = 0; look < 3000; ++look, usleep(10'000))
+    if (std::error_code code; fs::file_size(file, code) > 0 && !code) return true;
+  return false;
+}
+
+/// The first process that another one started.
+pid_t child_of(pid_t parent) {
+  std::ifstream children("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) +
+                         "/children");
+  pid_t child = 0;
+  children >> child;
+  return child;
+}
+
 bool has(const Outcome& outcome, const std::string& part) {
   return outcome.text.find(part) != std::string::npos;
 }
@@ -144,6 +159,87 @@ TEST_F(StudyRun, AFailedRunIsReportedAndStopsNothing) {
   EXPECT_NE(text("s/runs.csv").find("fast/seed_1,fast,1,failed"), std::string::npos);
 }
 
+TEST_F(StudyRun, ARefusedRunIsReportedWithItsWholeCause) {
+  const std::string near =
+      R"([{"position": ["0 um", "0 um", "0 um"]}, {"position": ["1 um", "0 um", "0 um"]}])";
+  std::string refused = kPairs;
+  refused.replace(refused.find("\"motility.grid\": \"30 s\""), 23, "\"cells.list\": " + near);
+  write("refused.json", refused);
+  const Outcome o = call(words("refused.json", "s"));
+  EXPECT_EQ(o.code, 3) << o.text;
+  for (const std::string& told : {o.text, text("s/report.md"), text("s/runs.csv")}) {
+    EXPECT_NE(told.find("start 1 um apart"), std::string::npos) << told;
+    EXPECT_NE(told.find("Move these cells"), std::string::npos) << told;
+  }
+  EXPECT_NE(text("s/report.md").find("| fast/seed_1 | refused | - | "), std::string::npos);
+  EXPECT_NE(text("s/runs.csv").find("fast/seed_2,fast,2,refused,"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(text("s/runs.csv"), '\n'), 5) << "one line a run";
+  EXPECT_TRUE(has(o, "2 runs done, 2 failed, 0 missing")) << o.text;
+  EXPECT_EQ(json("s/verdicts.json")[0]["note"], "fast/seed_1 refused, fast/seed_2 refused");
+  const Outcome list = call(words("refused.json", "s", {"--dry-run"}));
+  EXPECT_TRUE(has(list, "refused")) << list.text;
+  // It is tried again, without being asked to.
+  EXPECT_TRUE(has(call(words("refused.json", "s")), "start 1 um apart"));
+}
+
+TEST_F(StudyRun, WhatWaitsForAStartThatFailedNamesTheFirstCause) {
+  std::string shared = kShared;
+  const std::string before = "\"start_up.enabled\": true";
+  shared.insert(shared.find(before), R"("walls": [{"point": ["0 um", "0 um", "2 um"]}], )");
+  write("broken.json", shared);
+  const Outcome o = call(words("broken.json", "s"));
+  EXPECT_EQ(o.code, 3) << o.text;
+  for (const std::string& told : {o.text, text("s/report.md"), text("s/runs.csv")})
+    for (const char* run : {"same/seed_1", "later/seed_2"}) {
+      const std::size_t at = told.find(run);
+      ASSERT_NE(at, std::string::npos) << told;
+      const std::string rest = told.substr(at, 400);
+      EXPECT_NE(rest.find("from whose start it goes on, left none: "), std::string::npos) << told;
+      EXPECT_NE(rest.find("inside wall"), std::string::npos) << told;
+    }
+  EXPECT_EQ(text("s/runs.csv").find("to do"), std::string::npos) << text("s/runs.csv");
+}
+
+TEST_F(StudyRun, ARunThatWasKilledBeforeItsFirstCheckpointSaysSo) {
+  std::string slow = kPairs;
+  slow.replace(slow.find("20 min"), 6, "900 d");
+  write("slow.json", slow);
+  Process study(path("."),
+                words("slow.json", "s", {"--only", "slow", "--checkpoint-every", "1 h"}));
+  ASSERT_TRUE(await_file(path("s/runs/slow/seed_1/progress.txt")));
+  kill(child_of(study.id()), SIGKILL);
+  ASSERT_TRUE(study.await("slow/seed_1 failed: ended by signal 9"));
+  study.send(SIGTERM);
+  study.wait();
+  EXPECT_NE(text("s/runs.csv").find("slow/seed_1,slow,1,killed,"), std::string::npos)
+      << text("s/runs.csv");
+}
+
+TEST_F(StudyRun, OptionsWithoutEffectAreRefused) {
+  expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
+  for (const Words& more : {Words{"--dry-run", "--overwrite"},
+                            {"--dry-run", "--quiet"},
+                            {"--dry-run", "--checkpoint-every", "1min"},
+                            {"--tasks", "2"},
+                            {"--report"}})  // with --jobs
+    EXPECT_EQ(call(words("pairs.json", "s", more)).code, 2) << more[0];
+  expect_done(call({"study", "pairs.json", "--out", "s", "--report"}));
+}
+
+TEST_F(StudyRun, NamesThatAreNotUtf8AreRefusedBeforeAnythingIsMade) {
+  const Outcome o = call(words("pairs.json", "s\xe4"));
+  EXPECT_EQ(o.code, 2) << o.text;
+  EXPECT_TRUE(has(o, "s?: the name is not UTF-8")) << o.text;
+  EXPECT_FALSE(fs::exists(path("s\xe4")));
+}
+
+TEST_F(StudyRun, TheCommandThatReportsTasksIsQuoted) {
+  const Outcome o = call(words("pairs.json", "my study", {"--task", "1", "--tasks", "4"}));
+  EXPECT_TRUE(has(o, "acinus study pairs.json --out '" + path("my study").string() + "' --report"))
+      << o.text;
+  EXPECT_EQ(names_in("my study").size(), 2U) << "study.json and runs";
+}
+
 TEST_F(StudyRun, KilledAndStartedAgainItWritesTheSameTable) {
   expect_done(call(words("pairs.json", "whole")));
   for (const int signal : {SIGKILL, SIGTERM}) {
@@ -195,7 +291,7 @@ TEST_F(StudyRun, TasksShareOneFolder) {
   }
   expect_done(call(words("pairs.json", "s", {"--task", "3", "--tasks", "3"})));
   EXPECT_FALSE(fs::exists(path("s/table.csv")));
-  expect_done(call(words("pairs.json", "s", {"--report"})));
+  expect_done(call({"study", "pairs.json", "--out", "s", "--report"}));
   expect_same_tables("whole", "s");
 }
 
@@ -207,7 +303,7 @@ TEST_F(StudyRun, TasksWaitForTheStartsOfOneAnother) {
     expect_done(a.wait());
     expect_done(b.wait());
   }
-  expect_done(call(words("shared.json", "s", {"--report"})));
+  expect_done(call({"study", "shared.json", "--out", "s", "--report"}));
   expect_same_tables("whole", "s");
 }
 

@@ -413,6 +413,49 @@ TEST_F(Claims, MissingAndFailedRunsAreNeverAPass) {
       << "a run that was cut short has passed one hour";
 }
 
+TEST_F(Claims, CurvesThatEndApartAreNotLaidOverEachOther) {
+  StudyData d = data();
+  TimeCurve& late = d[2].curve.at("overlap_cbm_cbm_um");  // slow/seed_2
+  late = {{0, 3600}, {1, 4}};
+  d[2].until = 3600;
+  const std::string low = R"("low": "0 um")", over = R"(, "other": "slow")";
+  const auto status = [&](const std::string& measure, const StudyData& of) {
+    return checked(measure, low, of).status;
+  };
+  const std::string distance = R"("kind": "distance", "variant": "fast")" + over,
+                    band = R"("kind": "band", "variant": "slow")";
+  for (const std::string& measure : {distance, band}) {
+    EXPECT_EQ(status(measure, data()), ClaimStatus::kHolds) << measure;
+    EXPECT_EQ(status(measure, d), ClaimStatus::kNotMeasured) << measure;
+    EXPECT_EQ(status(measure + R"(, "until": "1 h")", d), ClaimStatus::kHolds) << measure;
+  }
+  EXPECT_EQ(checked(band, low, d).measured.note,
+            "the runs end at different times, from 1 h to 2 h: give the claim an until");
+  // The same for their beginnings.
+  d = data();
+  d[2].curve.at("overlap_cbm_cbm_um") = {{3600, 7200}, {4, 5}};
+  EXPECT_EQ(status(band, d), ClaimStatus::kNotMeasured);
+  EXPECT_EQ(status(band + R"(, "from": "1 h")", d), ClaimStatus::kHolds);
+}
+
+TEST_F(Claims, TheEndIsThatOfTheRunAndNotOfTheLastValue) {
+  StudyData d = data();
+  d[2].curve.at("overlap_cbm_cbm_um") = {{0, 3600}, {1, 4}};  // recorded until 2 h
+  for (const char* kind : {"value", "mean", "max", "min", "band"}) {
+    const Verdict v = checked(std::string("\"kind\": \"") + kind + R"(", "variant": "slow")",
+                              R"("low": "0 um")", d);
+    EXPECT_EQ(v.status, ClaimStatus::kNotMeasured) << kind;
+    EXPECT_NE(v.measured.note, "") << kind;
+  }
+  for (const RunState state : {RunState::kRefused, RunState::kKilled}) {
+    d = data();
+    d[1].status.state = state;
+    const Verdict v = checked(R"("variant": "slow")", R"("low": "0 um")", d);
+    EXPECT_EQ(v.status, ClaimStatus::kNotMeasured);
+    EXPECT_EQ(v.measured.note, std::string("slow/seed_1 ") + name_of(state));
+  }
+}
+
 TEST_F(Claims, PlotsHaveMeanBandAndReferencePoints) {
   const StudyPlan p =
       parse(text_with(R"("plots": [ { "name": "m", "observable": "overlap_cbm_cbm_um",

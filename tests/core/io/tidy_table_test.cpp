@@ -29,6 +29,12 @@ TEST(TidyTable, TheSameRowsMakeTheSameBytes) {
   EXPECT_EQ(file.read_text_rows("/run", 0, 2)[1], "a,b \xC2\xB5");
 }
 
+TEST(TidyTable, NothingElseStaysBehind) {
+  write_tidy_table(path("alone"), {{"value", "um", std::vector<double>{1}}});
+  for (const char* end : {".sums", ".tmp", ".tmp.sums", ".tmp.journal"})
+    EXPECT_NE(access((path("alone") + end).c_str(), F_OK), 0) << end;
+}
+
 TEST(TidyTable, MayBeEmpty) {
   write_tidy_table(path("empty"), {{"run", "", std::vector<std::string>{}},
                                    {"value", "um", std::vector<double>{}}});
