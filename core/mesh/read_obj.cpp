@@ -83,8 +83,8 @@ bool is_keyword(const std::string& word) {
   return std::ranges::find(kKnown, word) != kKnown.end();
 }
 
-/// Faces use nodes that are there, and the last nodes of the file are in a face: OBJ says no
-/// numbers, so that only this tells a file that was cut short.
+/// Throws Error at faces with nodes that are not in the file, and where its last nodes are in no
+/// face: OBJ states no counts, and a file that was cut short shows itself by these alone.
 void check_corners(const InputFile& file, const std::vector<ObjFace>& faces, std::size_t n_node) {
   std::size_t n_bad = 0, first_bad = 0, last_used = 0;
   int bad_node = 0;
