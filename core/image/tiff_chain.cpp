@@ -114,7 +114,10 @@ class Walker {
   Directory read(std::uint64_t at, const std::string& name) {
     const std::uint64_t head = big_ ? 8 : 2, each = big_ ? 20 : 12, tail = big_ ? 8 : 4;
     const auto beyond = [&] {
-      fail(fmt::format("{} is said to be at byte {}, but the file has {}", name, at, size_));
+      fail(
+          fmt::format("{} is said to begin at byte {} and goes beyond the end of the file, which "
+                      "has {}",
+                      name, at, size_));
     };
     if (!fits(at, head)) beyond();
     const std::uint64_t n = number(at, head);
