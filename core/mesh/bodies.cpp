@@ -61,13 +61,13 @@ std::vector<std::array<int, 2>> pair_round_edge(std::span<const HalfEdge> half,
   return 2 * pairs.size() == side.size() ? pairs : std::vector<std::array<int, 2>>{};
 }
 
-struct Patch {
+struct EdgePart {
   std::vector<int> triangle;  ///< ascending
   bool closed = true;
 };
 
 /// Pieces of some triangles that hang together at edges, ordered by their first.
-std::vector<Patch> split_at_edges(const Surface& surface, const std::vector<int>& some) {
+std::vector<EdgePart> split_at_edges(const Surface& surface, const std::vector<int>& some) {
   std::vector<Triangle> triangle;
   for (const int t : some) triangle.push_back(surface.triangle[static_cast<std::size_t>(t)]);
   const std::vector<HalfEdge> half = make_half_edges(triangle);
@@ -88,7 +88,7 @@ std::vector<Patch> split_at_edges(const Surface& surface, const std::vector<int>
     for (const HalfEdge& h : edge) sets.join(edge[0].triangle, h.triangle);
   }
   std::map<int, std::size_t> number;
-  std::vector<Patch> pieces;
+  std::vector<EdgePart> pieces;
   for (std::size_t t = 0; t < triangle.size(); ++t) {
     const auto [entry, is_new] = number.try_emplace(sets.find(static_cast<int>(t)), pieces.size());
     if (is_new) pieces.emplace_back();
@@ -142,22 +142,22 @@ std::vector<Surface> split_bodies(const Soup& soup) {
   std::map<int, std::vector<int>> by_group;
   for (std::size_t t = 0; t < soup.surface.triangle.size(); ++t)
     by_group[soup.group.empty() ? 0 : soup.group[t]].push_back(static_cast<int>(t));
-  std::vector<Patch> pieces;
+  std::vector<EdgePart> pieces;
   std::vector<int> open;
   for (const auto& [group, triangles] : by_group)
-    for (Patch& p : split_at_edges(soup.surface, triangles)) {
+    for (EdgePart& p : split_at_edges(soup.surface, triangles)) {
       if (!p.closed) open.insert(open.end(), p.triangle.begin(), p.triangle.end());
       pieces.push_back(std::move(p));
     }
   Surface joined = soup.surface;
   std::ranges::sort(open);
   if (!open.empty() && (join_by_place(open, joined) || by_group.size() > 1)) {
-    std::erase_if(pieces, [](const Patch& p) { return !p.closed; });
-    for (Patch& p : split_at_edges(joined, open)) pieces.push_back(std::move(p));
+    std::erase_if(pieces, [](const EdgePart& p) { return !p.closed; });
+    for (EdgePart& p : split_at_edges(joined, open)) pieces.push_back(std::move(p));
   }
-  std::ranges::sort(pieces, {}, [](const Patch& p) { return p.triangle.front(); });
+  std::ranges::sort(pieces, {}, [](const EdgePart& p) { return p.triangle.front(); });
   std::vector<Surface> bodies;
-  for (const Patch& p : pieces) {
+  for (const EdgePart& p : pieces) {
     std::vector<Triangle> triangle;
     for (const int t : p.triangle) triangle.push_back(joined.triangle[static_cast<std::size_t>(t)]);
     bodies.push_back(compacted(joined.node, std::move(triangle)));

@@ -200,12 +200,11 @@ Network read_swc(InputFile& file) {
     const SwcNode& first = nodes[orphan.front()];
     file.fail_at(
         first.place,
-        fmt::format(
-            "node {} has the parent {}, which is {}.{} Name an existing node, or "
-            "-1 for a root.",
-            first.id, first.parent,
-            first.parent == first.id ? "the node itself" : "not in the file",
-            orphan.size() > 1 ? fmt::format(" So for {} more nodes.", orphan.size() - 1) : ""));
+        fmt::format("node {} has the parent {}, which is {}.{} Name an existing node, or "
+                    "-1 for a root.",
+                    first.id, first.parent,
+                    first.parent == first.id ? "the node itself" : "not in the file",
+                    orphan.size() > 1 ? fmt::format(" So for {} more.", orphan.size() - 1) : ""));
   }
   check(!out.segment.empty(),
         fmt::format("{}: the file has {} nodes but no segment. Give nodes a parent: id type x y z "
