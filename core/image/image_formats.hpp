@@ -16,7 +16,7 @@ struct ImageFile {
   std::array<std::int64_t, 3> size{};
   Vec3 step = Vec3::Zero();  ///< sides of a voxel in units of the file; 0 where it does not say
   Vec3 unit = Vec3::Zero();  ///< um in such a unit, by axis; 0: the file does not say
-  /// Of statements about the sides that cannot be used: contradictions, unknown units. Empty: none.
+  /// Reason why the sides cannot be used: a contradiction, an unknown unit. Empty: none.
   std::string step_fault;
   Scalar type = Scalar::kU8;
   std::vector<Label> label;       ///< [z][y][x]
@@ -50,7 +50,8 @@ ImageFile read_hdf5(const std::string& path, const std::string& dataset,
 /// angles, or make a mirror image: neither is followed.
 void note_axes(const Eigen::Matrix3d& axes, const std::string& named, ImageFile& file);
 
-/// Cells need a stack: told before anything else that a single slice lacks.
+/// Throws Error for an image of one slice: cells need a stack. Called before other checks, whose
+/// failures would follow from it.
 /// @param others  channels and times of the slice
 void check_stack(const std::string& path, const std::array<std::int64_t, 3>& size,
                  std::int64_t others = 1);

@@ -26,8 +26,8 @@ std::string inflate_bytes(const std::string& path, std::string_view stream, std:
   z_stream z{};
   if (inflateInit2(&z, kAnyHeader) != Z_OK) throw std::bad_alloc();
   constexpr std::size_t kStart = 1 << 20;
-  // Grows with what comes out: a header may announce anything. One byte more than asked for tells
-  // a stream that is too long.
+  // Grows with the bytes that are inflated: a header may announce any number. One byte more than
+  // asked for reveals a stream that is too long.
   std::string out;
   std::size_t taken = 0, made = 0;
   int status = Z_OK;

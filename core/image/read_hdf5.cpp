@@ -32,7 +32,7 @@ bool named(const io::VolumeInfo& v, const std::string& dataset) {
 io::VolumeInfo choose(const std::string& path, const std::string& said, bool lenient) {
   std::vector<io::VolumeInfo> volumes = io::list_volumes(path);
   const std::string dataset = lenient && volumes.size() == 1 ? "" : said;
-  // Tables have two axes as well: told only where there is nothing else.
+  // Tables have two axes as well: datasets with three come first.
   if (dataset.empty() &&
       std::ranges::any_of(volumes, [](const auto& v) { return v.shape.size() > 2; }))
     std::erase_if(volumes, [](const auto& v) { return v.shape.size() < 3; });

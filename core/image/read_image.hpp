@@ -10,10 +10,10 @@
 namespace acinus::image {
 
 struct ReadImage {
-  std::string dataset;        ///< HDF5: where in the file; "" = the only one
+  std::string dataset{};      ///< HDF5: where in the file; "" = the only one
   std::int64_t channel = -1;  ///< from 0, where there are several
   /// um, sides of a voxel, whatever the file says.
-  std::optional<Vec3> voxel;
+  std::optional<Vec3> voxel{};
   double unit = 0;  ///< um in a unit of the file's sizes, whatever the file says; 0 = not said
   /// A second image read with the choices made for a first: dataset and channel count only where
   /// the file has several.

@@ -55,14 +55,37 @@ bool is_label(T value) {
     return value <= kMostLabel;
 }
 
+/// The number at a byte.
 template <class T>
-[[noreturn]] void fail_at_voxel(const std::string& path, T value, std::size_t at,
-                                const Voxel& size) {
+T value_at(std::span<const std::byte> bytes, std::size_t at, bool swap) {
+  std::array<std::byte, sizeof(T)> one;
+  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), one.begin());
+  if (swap) std::ranges::reverse(one);
+  T value;
+  std::memcpy(&value, one.data(), sizeof(T));
+  return value;
+}
+
+/// Number of values that are no labels, from a place on.
+template <class T>
+std::size_t count_bad(std::span<const std::byte> bytes, bool swap) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T))
+    n += is_label(value_at<T>(bytes, at, swap)) ? 0 : 1;
+  return n;
+}
+
+/// @param rest  of the voxels that were read together, from the one that is no label on
+template <class T>
+[[noreturn]] void fail_at_voxel(const std::string& path, std::span<const std::byte> rest, bool swap,
+                                std::size_t at, const Voxel& size) {
   const std::size_t x = at % size[0], row = at / size[0], y = row % size[1], z = row / size[1];
-  throw Error(
-      fmt::format("{}: voxel ({}, {}, {}) holds {}; labels are whole numbers from 0, the "
-                  "background, to {}. Give the segmentation, not the picture it was made from.",
-                  path, x, y, z, +value, kMostLabel));
+  const std::size_t more = count_bad<T>(rest, swap) - 1;
+  throw Error(fmt::format(
+      "{}: voxel ({}, {}, {}) holds {}{}; labels are whole numbers from 0, the background, to {}. "
+      "Give the segmentation, not the picture it was made from.",
+      path, x, y, z, +value_at<T>(rest, 0, swap),
+      more > 0 ? fmt::format(", and at least {} more are none either", more) : "", kMostLabel));
 }
 
 }  // namespace
@@ -85,13 +108,9 @@ void append_labels(const std::string& path, std::span<const std::byte> bytes, Sc
                    bool swap, const Voxel& size, std::vector<Label>& out) {
   with_type(type, [&](auto t) {
     using T = decltype(t);
-    std::array<std::byte, sizeof(T)> one;
     for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
-      std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), one.begin());
-      if (swap) std::ranges::reverse(one);
-      T value;
-      std::memcpy(&value, one.data(), sizeof(T));
-      if (!is_label(value)) fail_at_voxel(path, value, out.size(), size);
+      const T value = value_at<T>(bytes, at, swap);
+      if (!is_label(value)) fail_at_voxel<T>(path, bytes.subspan(at), swap, out.size(), size);
       out.push_back(static_cast<Label>(value));
     }
   });

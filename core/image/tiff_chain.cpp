@@ -25,13 +25,13 @@ std::uint64_t bytes_of_type(std::uint16_t type) {
   return type < kBytes.size() ? kBytes[type] : 0;
 }
 
-struct Entry {
+struct TagEntry {
   std::uint16_t type = 0;
   std::uint64_t count = 0, place = 0;  ///< byte of the first value in the file
 };
 
 struct Directory {
-  std::map<std::uint16_t, Entry> entry;
+  std::map<std::uint16_t, TagEntry> entry;
   std::uint64_t end = 0, next = 0;
 };
 
@@ -114,7 +114,10 @@ class Walker {
   Directory read(std::uint64_t at, const std::string& name) {
     const std::uint64_t head = big_ ? 8 : 2, each = big_ ? 20 : 12, tail = big_ ? 8 : 4;
     const auto beyond = [&] {
-      fail(fmt::format("{} is said to be at byte {}, but the file has {}", name, at, size_));
+      fail(
+          fmt::format("{} is said to begin at byte {} and goes beyond the end of the file, which "
+                      "has {}",
+                      name, at, size_));
     };
     if (!fits(at, head)) beyond();
     const std::uint64_t n = number(at, head);
@@ -125,7 +128,7 @@ class Walker {
     Directory d;
     d.end = at + head + each * n + tail;
     for (std::uint64_t k = 0; k < n; ++k, raw += each) {
-      Entry e;
+      TagEntry e;
       e.type = static_cast<std::uint16_t>(decode(raw + 2, 2));
       e.count = decode(raw + 4, big_ ? 8 : 4);
       const std::uint64_t inside = big_ ? 8 : 4, own = at + head + each * k + (big_ ? 12 : 8);
@@ -142,7 +145,7 @@ class Walker {
   std::vector<std::uint64_t> values(const Directory& d, std::uint16_t tag) {
     const auto found = d.entry.find(tag);
     if (found == d.entry.end()) return {};
-    const Entry& e = found->second;
+    const TagEntry& e = found->second;
     const std::uint64_t one = bytes_of_type(e.type);
     if (one == 0 || e.count > size_ || !fits(e.place, e.count * one)) return {};
     const std::string text = bytes(e.place, e.count * one);

@@ -37,7 +37,7 @@ struct TiffText {
 /// Throws Error where sizes are no numbers, or planes are given twice.
 TiffText read_tiff_text(const std::string& path, const std::string& description);
 
-/// As read_tiff_text, for OME's XML [OME-TIFF]; nothing for any other text.
+/// Reads OME's XML [OME-TIFF]; returns nothing for any other text. Throws as read_tiff_text.
 std::optional<TiffText> read_ome_text(const std::string& path, const std::string& description);
 
 }  // namespace acinus::image

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/io/foreign_text.hpp"
 #include "core/io/hdf5.hpp"
 
 namespace acinus::io {
@@ -35,40 +35,12 @@ std::vector<double> element_size_of(const h5::Handle& dataset) {
   return size;
 }
 
-/// An attribute of one or some texts; empty where it is not there or is no text.
-std::vector<std::string> texts_of(const h5::Handle& dataset, const char* name) {
-  constexpr hssize_t kMost = 32;
-  constexpr std::size_t kMostBytes = 1 << 16;
-  if (H5Aexists(dataset.id(), name) <= 0) return {};
-  const h5::Handle attribute(H5Aopen(dataset.id(), name, H5P_DEFAULT), H5Aclose);
-  const h5::Handle space(H5Aget_space(attribute.id()), H5Sclose);
-  const h5::Handle type(H5Aget_type(attribute.id()), H5Tclose);
-  const hssize_t n = H5Sget_simple_extent_npoints(space.id());
-  if (n < 1 || n > kMost || H5Tget_class(type.id()) != H5T_STRING) return {};
-  std::vector<std::string> out(static_cast<std::size_t>(n));
-  if (H5Tis_variable_str(type.id()) > 0) {
-    std::vector<char*> text(out.size(), nullptr);
-    if (H5Aread(attribute.id(), type.id(), text.data()) < 0) return {};
-    for (std::size_t k = 0; k < out.size(); ++k)
-      if (text[k] != nullptr) out[k].assign(text[k], strnlen(text[k], kMostBytes));
-    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, text.data());
-    return out;
-  }
-  const std::size_t width = H5Tget_size(type.id());
-  if (width == 0 || width > kMostBytes) return {};
-  std::vector<char> text(width * out.size());
-  if (H5Aread(attribute.id(), type.id(), text.data()) < 0) return {};
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k].assign(&text[k * width], strnlen(&text[k * width], width));
-  return out;
-}
-
 /// Names of axes that stand in the file without JSON.
-std::vector<std::string> labels_of(const h5::Handle& dataset) {
-  std::vector<std::string> labels = texts_of(dataset, "DIMENSION_LABELS");
+std::vector<std::string> labels_of(const std::string& path, const h5::Handle& dataset) {
+  std::vector<std::string> labels = read_foreign_texts(path, dataset, "DIMENSION_LABELS");
   const bool said = std::ranges::any_of(labels, [](const auto& t) { return !t.empty(); });
   if (said) return labels;
-  labels = texts_of(dataset, "axes");
+  labels = read_foreign_texts(path, dataset, "axes");
   if (labels.size() != 1) return labels;
   std::vector<std::string> letters;  // "zyx" in one text
   for (const char c : labels[0]) letters.emplace_back(1, c);
@@ -91,7 +63,9 @@ std::string name_of_filter(H5Z_filter_t id, const char* stored) {
 }
 
 /// Codecs, bytes and chunks of a dataset.
-void look_at_storage(const h5::Handle& dataset, const h5::Handle& space, VolumeInfo& v) {
+/// @param file_size  bytes of the file, which no number in it can be trusted beyond
+void look_at_storage(const h5::Handle& dataset, const h5::Handle& space, double file_size,
+                     VolumeInfo& v) {
   const h5::Handle list(H5Dget_create_plist(dataset.id()), H5Pclose);
   for (int k = 0; k < H5Pget_nfilters(list.id()); ++k) {
     std::array<char, 64> name{};
@@ -107,6 +81,10 @@ void look_at_storage(const h5::Handle& dataset, const h5::Handle& space, VolumeI
   for (const std::int64_t n : v.shape) bytes *= static_cast<double>(n);
   if (layout == H5D_VIRTUAL || H5Pget_external_count(list.id()) > 0)
     v.fault = "its numbers are in other files; copy them into one";
+  if (v.stored > file_size)
+    v.fault =
+        fmt::format("{:.0f} bytes of numbers are announced in a file of {:.0f}: it is damaged",
+                    v.stored, file_size);
   if (layout == H5D_CONTIGUOUS && v.stored > 0 && v.stored != bytes)
     v.fault =
         fmt::format("its shape needs {:.0f} bytes, but {:.0f} are stored: the file is damaged",
@@ -134,7 +112,7 @@ void look_at_storage(const h5::Handle& dataset, const h5::Handle& space, VolumeI
                           v.chunks, v.chunks_written);
 }
 
-/// As h5::fail, with advice for files that this program did not write.
+/// Throws Error(kFileError) with advice for files that this program did not write.
 [[noreturn]] void fail(const std::string& path, const std::string& attempted) {
   H5Eclear2(H5E_DEFAULT);
   throw Error(fmt::format("{}: cannot {}. The file is cut short or damaged, or another program is "
@@ -180,10 +158,10 @@ void look_at(const h5::File& file, const std::string& name, std::vector<VolumeIn
   v.is_real = kind == H5T_FLOAT;
   v.has_sign = !v.is_real && H5Tget_sign(type.id()) != H5T_SGN_NONE;
   v.element_size = element_size_of(dataset);
-  const std::vector<std::string> tags = texts_of(dataset, "axistags");
+  const std::vector<std::string> tags = read_foreign_texts(file.path(), dataset, "axistags");
   if (tags.size() == 1) v.axis_tags = tags[0];
-  v.axis_label = labels_of(dataset);
-  look_at_storage(dataset, space, v);
+  v.axis_label = labels_of(file.path(), dataset);
+  look_at_storage(dataset, space, static_cast<double>(std::filesystem::file_size(file.path())), v);
   found.push_back(std::move(v));
 }
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
 
+#include "core/box.hpp"
 #include "core/disjoint_sets.hpp"
 #include "core/mesh/closed.hpp"
 #include "core/mesh/components.hpp"
@@ -33,24 +33,24 @@ std::vector<std::array<int, 2>> pair_round_edge(std::span<const HalfEdge> half,
   };
   const Vec3 u = across(half[0]).normalized(), v = axis.cross(u);
   if (!u.allFinite() || !axis.allFinite()) return {};
-  struct Side {
+  struct EdgeSide {
     double angle = 0;
     bool ends = false;  ///< the solid lies at lower angles
     int triangle = 0;
   };
-  std::vector<Side> side;
+  std::vector<EdgeSide> side;
   for (const HalfEdge& h : half) {
     const Vec3 r = across(h);
     double angle = std::atan2(r.dot(v), r.dot(u));
     if (angle < -kSame) angle += 2 * std::numbers::pi;
     side.push_back({angle, h.forward == outward, h.triangle});
   }
-  std::ranges::stable_sort(side, {}, &Side::angle);
+  std::ranges::stable_sort(side, {}, &EdgeSide::angle);
   for (std::size_t begin = 0, end = 0; begin < side.size(); begin = end) {
     while (end < side.size() && side[end].angle - side[begin].angle <= kSame) ++end;
     std::stable_partition(side.begin() + static_cast<std::ptrdiff_t>(begin),
                           side.begin() + static_cast<std::ptrdiff_t>(end),
-                          [](const Side& s) { return s.ends; });
+                          [](const EdgeSide& s) { return s.ends; });
   }
   if (side[0].ends) std::rotate(side.begin(), side.begin() + 1, side.end());
   std::vector<std::array<int, 2>> pairs;
@@ -61,13 +61,13 @@ std::vector<std::array<int, 2>> pair_round_edge(std::span<const HalfEdge> half,
   return 2 * pairs.size() == side.size() ? pairs : std::vector<std::array<int, 2>>{};
 }
 
-struct Piece {
+struct EdgePart {
   std::vector<int> triangle;  ///< ascending
   bool closed = true;
 };
 
 /// Pieces of some triangles that hang together at edges, ordered by their first.
-std::vector<Piece> split_at_edges(const Surface& surface, const std::vector<int>& some) {
+std::vector<EdgePart> split_at_edges(const Surface& surface, const std::vector<int>& some) {
   std::vector<Triangle> triangle;
   for (const int t : some) triangle.push_back(surface.triangle[static_cast<std::size_t>(t)]);
   const std::vector<HalfEdge> half = make_half_edges(triangle);
@@ -88,7 +88,7 @@ std::vector<Piece> split_at_edges(const Surface& surface, const std::vector<int>
     for (const HalfEdge& h : edge) sets.join(edge[0].triangle, h.triangle);
   }
   std::map<int, std::size_t> number;
-  std::vector<Piece> pieces;
+  std::vector<EdgePart> pieces;
   for (std::size_t t = 0; t < triangle.size(); ++t) {
     const auto [entry, is_new] = number.try_emplace(sets.find(static_cast<int>(t)), pieces.size());
     if (is_new) pieces.emplace_back();
@@ -115,20 +115,13 @@ bool join_by_place(const std::vector<int>& some, Surface& surface) {
   return any;
 }
 
-struct Box {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-};
-
 Box box_of(const Surface& s) {
   Box box;
-  for (const Vec3& x : s.node) {
-    box.low = box.low.cwiseMin(x);
-    box.high = box.high.cwiseMax(x);
-  }
+  for (const Vec3& x : s.node) box.include(x);
   return box;
 }
 
-/// Whether a closed surface goes round a point: the solid angle of its triangles
+/// True for a point inside a closed surface, by the solid angle of its triangles
 /// [VanOosterom1983].
 bool encloses(const Surface& s, const Vec3& x) {
   double sum = 0;
@@ -149,22 +142,22 @@ std::vector<Surface> split_bodies(const Soup& soup) {
   std::map<int, std::vector<int>> by_group;
   for (std::size_t t = 0; t < soup.surface.triangle.size(); ++t)
     by_group[soup.group.empty() ? 0 : soup.group[t]].push_back(static_cast<int>(t));
-  std::vector<Piece> pieces;
+  std::vector<EdgePart> pieces;
   std::vector<int> open;
   for (const auto& [group, triangles] : by_group)
-    for (Piece& p : split_at_edges(soup.surface, triangles)) {
+    for (EdgePart& p : split_at_edges(soup.surface, triangles)) {
       if (!p.closed) open.insert(open.end(), p.triangle.begin(), p.triangle.end());
       pieces.push_back(std::move(p));
     }
   Surface joined = soup.surface;
   std::ranges::sort(open);
   if (!open.empty() && (join_by_place(open, joined) || by_group.size() > 1)) {
-    std::erase_if(pieces, [](const Piece& p) { return !p.closed; });
-    for (Piece& p : split_at_edges(joined, open)) pieces.push_back(std::move(p));
+    std::erase_if(pieces, [](const EdgePart& p) { return !p.closed; });
+    for (EdgePart& p : split_at_edges(joined, open)) pieces.push_back(std::move(p));
   }
-  std::ranges::sort(pieces, {}, [](const Piece& p) { return p.triangle.front(); });
+  std::ranges::sort(pieces, {}, [](const EdgePart& p) { return p.triangle.front(); });
   std::vector<Surface> bodies;
-  for (const Piece& p : pieces) {
+  for (const EdgePart& p : pieces) {
     std::vector<Triangle> triangle;
     for (const int t : p.triangle) triangle.push_back(joined.triangle[static_cast<std::size_t>(t)]);
     bodies.push_back(compacted(joined.node, std::move(triangle)));

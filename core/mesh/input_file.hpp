@@ -59,8 +59,7 @@ class InputFile {
   bool binary_ = false;
 };
 
-/// Whether numbers can be the coordinates of a place: finite, and not so large that products of
-/// three of them are not.
+/// True for finite coordinates that are small enough for products of three to be finite too.
 bool is_coordinate(const Vec3& x);
 inline constexpr const char* kCoordinateRule = "coordinates must be finite and below 1e15";
 

@@ -105,7 +105,10 @@ RadiusArray find_radius(const VtkLegacy& vtk, const std::string& name) {
       vtk.file.path(), list_arrays(vtk)));
 }
 
-bool BadRadii::is_good(double radius) { return std::isfinite(radius) && radius > 0; }
+bool BadRadii::is_good(double radius) {
+  constexpr double kMost = 1e15;  // as of coordinates
+  return radius > 0 && radius < kMost;
+}
 
 void BadRadii::add(std::size_t place, const std::string& name, double value) {
   constexpr std::size_t kNamed = 5;

@@ -184,20 +184,27 @@ Network read_swc(InputFile& file) {
     out.node.push_back(x);
   }
   if (bad.any()) file.fail_at(bad.place(), bad.message("the radius"));
+  std::vector<std::size_t> orphan;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].parent < 0) continue;  // a root
     const auto parent = index.find(nodes[i].parent);
     if (parent == index.end() || nodes[i].parent == nodes[i].id) {
-      file.fail_at(
-          nodes[i].place,
-          fmt::format("node {} has the parent {}, which is {}. Name an existing node, or -1 for "
-                      "a root.",
-                      nodes[i].id, nodes[i].parent,
-                      parent == index.end() ? "not in the file" : "the node itself"));
+      orphan.push_back(i);
+      continue;
     }
     const int up = parent->second;
     out.segment.push_back({up, static_cast<int>(i)});
     out.radius.push_back({nodes[up].radius, nodes[i].radius});
+  }
+  if (!orphan.empty()) {
+    const SwcNode& first = nodes[orphan.front()];
+    file.fail_at(
+        first.place,
+        fmt::format("node {} has the parent {}, which is {}.{} Name an existing node, or "
+                    "-1 for a root.",
+                    first.id, first.parent,
+                    first.parent == first.id ? "the node itself" : "not in the file",
+                    orphan.size() > 1 ? fmt::format(" So for {} more.", orphan.size() - 1) : ""));
   }
   check(!out.segment.empty(),
         fmt::format("{}: the file has {} nodes but no segment. Give nodes a parent: id type x y z "

@@ -83,10 +83,11 @@ bool is_keyword(const std::string& word) {
   return std::ranges::find(kKnown, word) != kKnown.end();
 }
 
-/// Faces use nodes that are there, and the last nodes of the file are in a face: OBJ says no
-/// numbers, so that only this tells a file that was cut short.
-void check_corners(const InputFile& file, const std::vector<ObjFace>& faces, std::size_t n_node) {
-  std::size_t n_bad = 0, first_bad = 0, last_used = 0;
+/// Throws Error at faces with nodes that are not in the file, and where its last nodes are in no
+/// face: OBJ states no counts, and a file that was cut short shows itself by these alone.
+void check_corners(const InputFile& file, const std::vector<ObjFace>& faces, std::size_t last_used,
+                   std::size_t n_node) {
+  std::size_t n_bad = 0, first_bad = 0;
   int bad_node = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (const int node : faces[f].corner) {
@@ -119,6 +120,7 @@ Soup read_obj(const std::string& path) {
   std::vector<ObjFace> faces;  // cut after all nodes are known: OBJ allows nodes behind faces
   std::map<std::array<std::string, 2>, int> number;  // by the last names after o and g
   std::array<std::string, 2> name;
+  std::size_t last_used = 0;  ///< by what is no face
   while (file.remaining() > 0) {
     const std::size_t place = file.position();
     const std::vector<std::string> word = next_words(file);
@@ -128,6 +130,9 @@ Soup read_obj(const std::string& path) {
     } else if (word[0] == "f") {
       faces.push_back(parse_face(file, place, word, surface.node.size()));
       faces.back().group = number.try_emplace(name, static_cast<int>(number.size())).first->second;
+    } else if (word[0] == "l" || word[0] == "p") {  // lines and points use nodes as well
+      for (const int node : parse_face(file, place, word, surface.node.size()).corner)
+        last_used = std::max(last_used, static_cast<std::size_t>(node) + 1);
     } else if (word[0] == "g" || word[0] == "o") {
       name[word[0] == "g" ? 1 : 0] = fmt::format("{}", fmt::join(word, " "));
     } else if (!is_keyword(word[0])) {
@@ -136,7 +141,7 @@ Soup read_obj(const std::string& path) {
                                       in_quotes(word[0])));
     }
   }
-  check_corners(file, faces, surface.node.size());
+  check_corners(file, faces, last_used, surface.node.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::string fault = add_polygon(faces[f].corner, surface);
     if (!fault.empty()) file.fail_at(faces[f].place, fmt::format("face {}{}", f + 1, fault));

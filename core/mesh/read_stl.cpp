@@ -67,11 +67,12 @@ void read_stl_binary(InputFile& file, std::uint64_t n_facet, CornerMerger& merge
 void read_stl_text(InputFile& file, CornerMerger& merger) {
   std::vector<int> corner;
   bool finished = false;
+  std::string name, end_name;  // of the last solid, where it begins and where it ends
   for (std::string_view token = file.next_token(); !token.empty(); token = file.next_token()) {
     const std::string word = lower_case(token);
     if (word == "solid" || word == "endsolid") {
       if (word == "solid") merger.start_solid();
-      file.next_line();
+      (word == "solid" ? name : end_name) = lower_case(file.next_line());
       finished = word == "endsolid";
     } else if (word == "vertex") {
       const std::size_t begin = file.position();
@@ -99,8 +100,10 @@ void read_stl_text(InputFile& file, CornerMerger& merger) {
           in_quotes(token)));
     }
   }
-  if (!finished || !corner.empty())
-    file.fail("the file ends before \"endsolid\". It looks truncated.");
+  // A file without counts that was cut within its last line, between two solids.
+  const bool cut = file.bytes().back() != '\n' && end_name != name && name.starts_with(end_name);
+  if (!finished || !corner.empty() || cut)
+    file.fail("the file ends before \"endsolid\" and its name. It looks truncated.");
 }
 
 }  // namespace

@@ -71,7 +71,14 @@ int mesh_vessels(const MeshArguments& a) {
   o.fineness = a.fineness;
   o.rounding = a.rounding;
   if (!a.edge.empty()) o.edge = quantity_of("--edge", a.edge, kLength);
-  const implicit::VesselMesh m = implicit::make_vessel_mesh(find_network(a), o);
+  const mesh::Network network = find_network(a);
+  const implicit::VesselMesh m = [&] {
+    try {
+      return implicit::make_vessel_mesh(network, o);
+    } catch (const Error& error) {  // which knows no file
+      throw Error(fmt::format("{}: {}", a.what, error.what()), error.code());
+    }
+  }();
   io::write_surface(a.out, m.surface);
   tell(a, m.surface, m.found, wall_seconds() - before);
   if (o.edge > 0 && !m.remeshed)

@@ -168,7 +168,7 @@ class Sorting {
   }
   /// A background that is no 0 and does not enclose the image passes for a cell.
   void warn_of_giant(const std::vector<Piece>& kept) {
-    constexpr double kGiant = 100;
+    constexpr double kGiant = 50;
     std::vector<double> all;
     for (const Piece& p : kept) all.push_back(volume(p));
     if (all.size() < 3) return;

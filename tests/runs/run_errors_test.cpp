@@ -315,6 +315,27 @@ TEST_F(RunErrors, VesselFilesMustBeUsable) {
   expect_refused({"vessels.file=net.png"}, {"net.png", ".vtk", ".swc"});
 }
 
+TEST_F(RunErrors, OptionsThatHaveNoEffectAreRefused) {
+  write("tree.swc", "1 0 0 0 0 1 -1\n2 0 9 0 0 1 1\n");
+  const std::vector<std::pair<Words, std::string>> all{
+      {{"import", "a.tif", "--out", "o", "--model", "cbm", "--nodes", "162"}, "--nodes is for"},
+      {{"import", "a.tif", "--out", "o", "--voxel", "1 um", "--unit", "1 um"}, "--unit has no"},
+      {{"import", "a.tif", "--out", "o", "--dataset", "labels"}, "--dataset names"},
+      {{"mesh", "vessels", "pair.json", "--out", "v.stl", "--unit", "1 mm"}, "a network file"},
+      {{"mesh", "vessels", "pair.json", "--out", "v.stl", "--vessel-radius-array", "r"},
+       "a network file"},
+      {{"mesh", "vessels", "tree.swc", "--out", "v.stl", "--vessel-radius-array", "r"},
+       "for VTK files only"},
+      {{"voxelise", "a.run", "--out", "l.tif", "--seed", "3"}, "--noise"}};
+  for (const auto& [words, part] : all) {
+    const Outcome outcome = call(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.text;
+    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+  }
+  expect_refused({"vessels.file=tree.swc", "vessels.radius_array=r"}, {"for VTK files only"});
+  expect_refused({"vessels.radius_array=r"}, {"/vessels/radius_array", "/vessels/file"});
+}
+
 constexpr const char* kOpenTetrahedron =
     "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
 

@@ -10,12 +10,12 @@
 namespace acinus::image {
 
 struct Hdf5Dataset {
-  std::vector<hsize_t> shape;
-  std::vector<std::uint32_t> value;
-  std::string tags;                 ///< attribute axistags
-  std::vector<std::string> labels;  ///< attribute DIMENSION_LABELS
-  std::vector<double> step;         ///< attribute element_size_um
-  std::vector<hsize_t> chunk;
+  std::vector<hsize_t> shape{};
+  std::vector<std::uint32_t> value{};
+  std::string tags{};                 ///< attribute axistags
+  std::vector<std::string> labels{};  ///< attribute DIMENSION_LABELS
+  std::vector<double> step{};         ///< attribute element_size_um
+  std::vector<hsize_t> chunk{};
   H5Z_filter_t filter = 0;
   bool written = true;
 };

@@ -180,6 +180,12 @@ TEST(ReadImage, SaysWhichVoxelIsNoLabel) {
                                                     "LOCAL\n" +
                                                     bytes)),
                   "voxel (3, 1, 1) holds 2.5; labels are whole numbers");
+  for (std::size_t k = 56; k < 60; ++k) std::memcpy(&bytes[4 * k], &wrong, 4);
+  EXPECT_CONTAINS(refusal(folder.write("a.mha", header +
+                                                    "ElementType = MET_FLOAT\nElementDataFile = "
+                                                    "LOCAL\n" +
+                                                    bytes)),
+                  "voxel (3, 1, 1) holds 2.5, and at least 4 more");
   bytes = image_bytes<std::int16_t>(image);
   bytes[1] = '\xff';
   EXPECT_CONTAINS(refusal(folder.write("b.mha", header +

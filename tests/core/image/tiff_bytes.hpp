@@ -11,10 +11,10 @@
 namespace acinus::image {
 
 struct TiffHow {
-  std::string description;                      ///< of the first page
-  std::map<std::uint16_t, std::uint32_t> tags;  ///< further ones, or others, of every page
-  double per_unit = 0;                          ///< resolution along x and y; 0: none
-  std::vector<int> slices;                      ///< which, in the order of pages; empty: all
+  std::string description{};                      ///< of the first page
+  std::map<std::uint16_t, std::uint32_t> tags{};  ///< further ones, or others, of every page
+  double per_unit = 0;                            ///< resolution along x and y; 0: none
+  std::vector<int> slices{};                      ///< which, in the order of pages; empty: all
 };
 
 /// A classic TIFF of 16 bits a pixel: of every page its data, then its directory.

@@ -249,6 +249,7 @@ TEST(ReadSurface, TellsAnObjThatWasCutByItsLastNodes) {
   const std::string text = obj({box(Vec3::Zero(), kSize)}, "");
   EXPECT_CONTAINS(refusal(folder.write("a.obj", text + "v 1 2 3\nv 4 5 6\n")),
                   "nodes 9 to 10, the last of the file, are in no face");
+  expect_cells(folder.write("c.obj", text + "v 1 2 3\nv 4 5 6\nl 9 10\n"), 1);
   EXPECT_CONTAINS(refusal(folder.write("b.obj", text + "F 1 2 3\n")), "b.obj:21: found \"F\"");
 }
 

@@ -312,6 +312,10 @@ TEST(ReadNetwork, AllRadiiThatAreNoneAreToldAtOnce) {
       folder.write("a.swc", "1 1 0 0 0 0 -1\n2 1 5 0 0 1 1\n3 1 9 0 0 0 2\n4 1 12 0 0 -1 3\n"));
   EXPECT_CONTAINS(swc, "a.swc:1: node 1 has the radius 0");
   EXPECT_CONTAINS(swc, "So for 2 more: node 3 (0), node 4 (-1).");
+  EXPECT_CONTAINS(refusal(folder.write("b.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1 9\n3 1 9 0 0 1 9\n")),
+                  "node 2 has the parent 9, which is not in the file. So for 1 more.");
+  EXPECT_CONTAINS(refusal(folder.write("c.swc", "1 1 0 0 0 1 -1\n2 1 5 0 0 1e308 1\n")),
+                  "node 2 has the radius 1e+308");
   const std::string vmv =
       refusal(folder.write("a.vmv",
                            "$VERT_LIST_BEGIN\n1 0 0 0 0\n2 5 0 0 1\n3 9 0 0 0\n$VERT_LIST_END\n"
