@@ -2,14 +2,57 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <ranges>
+#include <string_view>
+
+#include "runs/scene/registry.hpp"
 
 namespace acinus::runs {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<std::string> split(std::string_view text, char by) {
+  std::vector<std::string> parts;
+  for (const auto part : std::views::split(text, by)) parts.emplace_back(part.begin(), part.end());
+  return parts;
+}
+
+bool is_number(const std::string& token) {
+  return !token.empty() && std::ranges::all_of(token, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The registry's default of the key at a JSON pointer, as JSON text; "" if it has none.
+std::string default_of(const std::string& pointer) {
+  std::vector<std::string> tokens = split(std::string_view(pointer).substr(1), '/');
+  std::erase_if(tokens, is_number);
+  for (const Entry& entry : all_entries()) {
+    const std::vector<std::string> names = split(entry.path, '.');
+    if (std::ranges::equal(names, tokens, [](const std::string& name, const std::string& token) {
+          return name == token || name.starts_with('<');
+        }))
+      return entry.initial;
+  }
+  return {};
+}
+
+/// True for the default of a key, and for a block all of whose keys have theirs.
+bool is_default(const std::string& pointer, const Json& value) {
+  if (value.is_object())
+    return std::ranges::all_of(value.items(), [&](const auto& member) {
+      return is_default(pointer + "/" + member.key(), member.value());
+    });
+  const std::string text = default_of(pointer);
+  return !text.empty() && Json::parse(text, nullptr, false) == value;
+}
+
+}  // namespace
 
 std::vector<std::string> list_scene_differences(
     const std::string& then_text, const std::string& now_text,
     const std::function<bool(const std::string& path)>& may_differ) {
-  using Json = nlohmann::json;
   const Json then = Json::parse(then_text), now = Json::parse(now_text);
   std::vector<std::string> lines;
   for (const Json& change : Json::diff(then, now)) {
@@ -23,6 +66,7 @@ std::vector<std::string> list_scene_differences(
       if (lines.empty() || lines.back() != line) lines.push_back(line);
       continue;
     }
+    if (!then.contains(at) && is_default(path, now.at(at))) continue;
     lines.push_back(fmt::format("{}: {} -> {}", path,
                                 then.contains(at) ? then[at].dump() : "absent",
                                 now.contains(at) ? now[at].dump() : "absent"));

@@ -158,9 +158,14 @@ class Planner {
         for (const std::int64_t seed : variant.seeds) {
           scene.seed = static_cast<std::uint64_t>(seed);
           set_canonical(scene);
-          plan_.runs.push_back({v, scene.seed, fmt::format("{}/seed_{}", variant.name, seed),
-                                fmt::format("runs/{}/seed_{}", variant.folder, seed), scene, -1,
-                                scene.hash});
+          plan_.runs.push_back({v,
+                                scene.seed,
+                                fmt::format("{}/seed_{}", variant.name, seed),
+                                fmt::format("runs/{}/seed_{}", variant.folder, seed),
+                                scene,
+                                -1,
+                                scene.hash,
+                                {}});
         }
       } catch (const Error& error) {
         scene_faults_.push_back(error);
@@ -189,10 +194,12 @@ class Planner {
         check_start(run, plan_.runs[run.source]);
     }
     for (StudyRun& run : plan_.runs) {
+      run.lineage.emplace_back(run.folder, run.scene.resolved_json);
       std::size_t steps = 0;  // a circle is reported elsewhere
       for (int s = run.source; s >= 0 && ++steps <= plan_.runs.size();) {
         const StudyRun& source = plan_.runs[s];
         run.identity += "<" + source.scene.hash;
+        run.lineage.emplace_back(source.folder, source.scene.resolved_json);
         s = source.source;
       }
     }

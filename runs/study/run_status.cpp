@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +13,7 @@
 #include "core/io/checkpoint.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/file_lock.hpp"
+#include "runs/scene/differences.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
 
@@ -36,9 +39,30 @@ std::optional<Json> read_record(const std::string& root, const StudyRun& run) {
   return j;
 }
 
-bool belongs(const Json& record, const StudyRun& run) {
-  return record.value("identity", "") == run.identity &&
-         record.value("version", "") == ACINUS_VERSION;
+/// Keys that say nothing about results; the start is compared by the lineage.
+bool is_without_effect(const std::string& pointer) {
+  return pointer == "/name" || pointer == "/description" || pointer == "/start_up/from";
+}
+
+/// True if the folders of a run and of those it starts from hold these very scenes. Their hashes
+/// also differ by descriptions and by keys that are younger than a run.
+bool has_same_scenes(const std::string& root, const StudyRun& run) {
+  return std::ranges::all_of(run.lineage, [&](const auto& member) {
+    const std::string file = root + "/" + member.first + "/scene.json";
+    std::error_code code;
+    if (!fs::is_regular_file(file, code)) return false;
+    try {
+      return list_scene_differences(io::read_text_file(file), member.second, is_without_effect)
+          .empty();
+    } catch (const std::exception&) {
+      return false;  // damaged, so not known to be this scene
+    }
+  });
+}
+
+bool belongs(const std::string& root, const Json& record, const StudyRun& run) {
+  if (record.value("version", "") != ACINUS_VERSION) return false;
+  return record.value("identity", "") == run.identity || has_same_scenes(root, run);
 }
 
 void take_summary(const std::string& folder, RunStatus& status) {
@@ -104,7 +128,7 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
     if (fs::exists(folder + "/run.vtkhdf", code)) status.state = RunState::kStale;
     return status;
   }
-  if (!belongs(*record, run)) {
+  if (!belongs(root, *record, run)) {
     status.state = RunState::kStale;
     return status;
   }
@@ -146,7 +170,7 @@ std::string describe_missing_start(const StudyRun& source, const RunStatus& stat
 bool has_start(const std::string& root, const StudyRun& run) {
   const std::optional<Json> record = read_record(root, run);
   std::error_code code;
-  return record && belongs(*record, run) &&
+  return record && belongs(root, *record, run) &&
          fs::is_regular_file(folder_of(root, run) + "/start.h5", code);
 }
 

@@ -118,6 +118,22 @@ TEST_F(StudyRun, FinishedRunsAreNotRunAgain) {
   EXPECT_FALSE(fs::exists(path("s/runs/fast/seed_2")));
 }
 
+TEST_F(StudyRun, DescriptionsAndKeysYoungerThanARunMakeNoOtherScene) {
+  expect_done(call(words("pairs.json", "s")));
+  // As a run of a program without motility.directions, and of a scene with another description.
+  const std::string run = "s/runs/slow/seed_1";
+  Json scene = json(run + "/scene.json"), record = json(run + "/study_run.json");
+  scene["description"] = "two spheres";
+  ASSERT_EQ(scene["motility"].erase("directions"), 1u);
+  record["identity"] = "of a scene with other texts";
+  write(run + "/scene.json", scene.dump());
+  write(run + "/study_run.json", record.dump());
+  EXPECT_TRUE(has(call(words("pairs.json", "s", {"--dry-run"})), "4 runs, 0 left"));
+  scene["motility"]["grid"] = "61 s";
+  write(run + "/scene.json", scene.dump());
+  EXPECT_TRUE(has(call(words("pairs.json", "s", {"--dry-run"})), "of another scene or version"));
+}
+
 TEST_F(StudyRun, RefusesWhatIsInTheWay) {
   write("other.json", std::string(kPairs).replace(std::string(kPairs).find("pairs"), 5, "other"));
   expect_done(call(words("pairs.json", "s", {"--only", "slow"})));
