@@ -32,11 +32,13 @@ const mesh::Topology& topology_of(const State& s, std::size_t lane) {
   return *s.dcm.group[lane / kLanes].topology;
 }
 
-/// Whether the last step crossed the grid. Follows from the clock alone, so a resumed run looks at
-/// the same times as one that was never stopped.
-bool is_due(const State& s, double grid) {
-  if (s.clock.phase != Phase::kRun || !(s.clock.last_step > 0)) return false;
-  return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), grid);
+/// Cells whose meshes are due for a check: none, those that have not forgotten the shape they were
+/// given, or all. Follows from the clock alone, so a resumed run checks at the same times as one
+/// that was never stopped.
+enum class Due { kNone, kYoung, kAll };
+Due find_due(const State& s, double grid) {
+  if (s.clock.phase != Phase::kRun || !(s.clock.last_step > 0)) return Due::kNone;
+  return crosses_grid(time_of(s) - s.clock.last_step, time_of(s), grid) ? Due::kAll : Due::kYoung;
 }
 
 /// Area over what the cell's membrane takes for rest at this moment.
@@ -115,11 +117,12 @@ std::string describe(const dcm::Mended& m) {
 
 }  // namespace
 
-std::vector<std::size_t> find_suspicious(const State& s) {
+std::vector<std::size_t> find_suspicious(const State& s, bool only_young) {
   const std::size_t n = s.dcm.n_lane();
   std::vector<std::uint8_t> suspicious(n, 0);
   for_each_index(n, worth_threads(s.dcm.n_row()), [&](std::size_t l) {
     if (!s.dcm.active(l)) return;
+    if (only_young && s.dcm.birth[l].is_forgotten(s.clock.time)) return;
     thread_local std::vector<Vec3> node;
     dcm::copy_nodes(s.dcm, l, node);
     suspicious[l] =
@@ -135,9 +138,11 @@ std::vector<std::size_t> find_suspicious(const State& s) {
 
 void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   State& s = world.state;
-  if (!world.params.life.remesh || !is_due(s, world.params.life.grid)) return;
+  if (!world.params.life.remesh) return;
+  const Due due = find_due(s, world.params.life.grid);
+  if (due == Due::kNone) return;
   const auto scope = work.timings.scope("mesh health");
-  const std::vector<std::size_t> lanes = find_suspicious(s);
+  const std::vector<std::size_t> lanes = find_suspicious(s, due == Due::kYoung);
   if (lanes.empty()) return;
   State before = s;
   std::vector<dcm::Mended> mended(lanes.size());
@@ -150,6 +155,7 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   std::vector<std::int64_t> changed;
   for (std::size_t k = 0; k < lanes.size(); ++k) {
     const std::int64_t lineage = s.dcm.lineage[lanes[k]];
+    if (!mended[k].ok && due == Due::kYoung) continue;  // named once a grid interval
     mending.events.push_back(
         {mended[k].ok ? "remeshed" : "mesh_degenerate", {lineage}, describe(mended[k])});
     if (!mended[k].ok) continue;

@@ -315,6 +315,31 @@ TEST(MeshHealth, CellsInAPackedClumpAreMendedInPlaceForAnyNumberOfThreads) {
   set_threads(1);
 }
 
+/// Daughters settle by up to the length of an edge, and a triangle that collapses folds the cell
+/// within minutes: longer than the grid of life.
+TEST(MeshHealth, CellsThatRememberTheirBirthAreMendedAfterEveryStep) {
+  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const std::vector<Vec3> node = make_spoiled(t, {"sphere", Damage::kEdge, 0, ""});
+  for (const bool young : {true, false}) {
+    World world = make_test_world({{Vec3(30, -20, 10)}});
+    world.params.life.grid = 600;
+    Workspace work;
+    size_workspace(world, work);
+    set_nodes(world, 0, node);
+    world.state.clock.phase = Phase::kRun;
+    world.state.clock.time = 330;
+    world.state.clock.last_step = 20;  // no grid point within it
+    if (young)
+      world.state.dcm.birth[0] =
+          dcm::make_birth_shape(t, node, kRadius, 1, {1, 0, 0, dcm::kForgetShape});
+    LifeReport report;
+    mend_meshes(world, work, report);
+    EXPECT_EQ(report.events.size(), young ? 1u : 0u);
+    EXPECT_EQ(find_suspicious(world.state).empty(), young);
+    EXPECT_TRUE(find_suspicious(world.state, true).empty()) << "no young cell is left so";
+  }
+}
+
 /// One cell grows to eight; whatever growth and division do to meshes is no reason to mend them.
 TEST(MeshHealth, GrowingClumpIsNeverTouched) {
   World world = make_test_world({{Vec3(0, 0, 0)}});
