@@ -65,7 +65,7 @@ bool is_any_of(int signal, std::initializer_list<int> list) {
   return std::ranges::find(list, signal) != list.end();
 }
 
-/// Whether a signal keeps what was set for it.
+/// Test for a signal that keeps what was set for it.
 bool keeps(int signal, const struct sigaction& set) {
   for (const auto ours : {static_cast<void (*)(int)>(SIG_DFL), &remember, &end_at_signal})
     if (set.sa_handler == ours) return false;

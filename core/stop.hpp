@@ -28,8 +28,8 @@ class SignalHandlers {
   std::vector<std::pair<int, struct sigaction>> before_;
 };
 
-/// While one of these lives stop signals are counted and do nothing else. They nest: what a run
-/// within a study was asked, the study was asked too.
+/// Counter of stop signals, which do nothing else while it lives. Counters nest: a signal to a run
+/// within a study counts for the study too.
 class StopSignals {
  public:
   StopSignals();
@@ -83,7 +83,7 @@ class ExitAtLimit {
   struct sigaction before_ {};
 };
 
-/// The same for stop signals.
+/// Exit with code 75 at a stop signal while it lives and there is nothing to save yet.
 class ExitAtSignal {
  public:
   ExitAtSignal();

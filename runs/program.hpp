@@ -33,7 +33,7 @@ int exit_code_of(Work work) {
   return static_cast<int>(Exit::kInternal);
 }
 
-/// The same, for all that a program does.
+/// Runs a whole program: streams and memory set up, exceptions and lost output as exit codes.
 template <class Work>
 int run_program(Work work) {
   // A file-size limit then shows as a failed write, which is reported, instead of killing the

@@ -28,7 +28,7 @@ void sync(const std::string& path, int flags) {
 /// A device or a pipe takes bytes; a file in its place would put an end to it.
 bool is_stream(const std::string& path) {
   namespace fs = std::filesystem;
-  // Whatever stands behind these.
+  // Descriptors of this process.
   for (const char* own : {"/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/self/fd/"})
     if (path.starts_with(own)) return true;
   std::error_code code;

@@ -69,7 +69,7 @@ std::string key_of(const Scene& scene, const LawParameters& p) {
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
-/// Why one of the runs of a calibration could not go on.
+/// Cause of the failure of a calibration's run.
 std::string find_failure(const std::string& law_file) {
   const fs::path folder = fs::path(law_file).replace_extension(".calibration");
   std::error_code code;

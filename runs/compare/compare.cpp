@@ -102,7 +102,7 @@ struct DifferenceTable {
     if (row.not_measured.empty()) row.not_measured = out.gap[run - 1];
     out.difference[run - 1].push_back(std::move(row));
   }
-  /// What has a tolerance but was not measured in all runs.
+  /// Adds rows of quantities with a tolerance that were not measured in all runs.
   void add_missing(std::size_t run) const {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : tolerance)
@@ -283,18 +283,19 @@ void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellR
   }
 }
 
-/// Which runs have no verdict, since they or the reference did not get to what is judged. That some
-/// run did not get there explains why the others have no frame in common with it.
-void find_gaps(const std::vector<ComparedRun>& runs, std::optional<double> until, Comparison& c) {
-  std::vector<Gap> gap;
-  for (const ComparedRun& run : runs) gap.push_back(find_gap(run, until));
+/// Finds the runs without a verdict: they, or the reference, did not get to the judged moment. A
+/// run that falls short itself is the cause where others have no frame in common with it.
+void find_shortfalls(const std::vector<ComparedRun>& runs, std::optional<double> until,
+                     Comparison& c) {
+  std::vector<Shortfall> gap;
+  for (const ComparedRun& run : runs) gap.push_back(find_shortfall(run, until));
   std::string first;
-  for (const Gap& g : gap)
+  for (const Shortfall& g : gap)
     if (g.own) {
       c.notes.push_back(g.why);
       if (first.empty()) first = g.why;
     }
-  for (const Gap& g : gap)
+  for (const Shortfall& g : gap)
     if (first.empty() && !g.why.empty()) c.notes.push_back(first = g.why);
   for (std::size_t r = 1; r < runs.size(); ++r) {
     const bool none = gap[r].why.empty() && gap[0].why.empty();
@@ -336,7 +337,7 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   Comparison c;
   c.runs = folders;
   c.difference.resize(folders.size() - 1);
-  find_gaps(runs, until, c);
+  find_shortfalls(runs, until, c);
   c.frames = static_cast<int>(runs[0].frame.size());
   c.from = runs[0].reader.time_s(runs[0].frame.front());
   c.to = runs[0].reader.time_s(runs[0].frame.back());

@@ -53,7 +53,7 @@ struct Comparison {
 const std::map<std::string, std::string>& comparable_quantities();
 
 /// Compares the frames that all runs have. A verdict needs all of them completed, with the same
-/// end; what tells cells apart needs the same cells there.
+/// end; quantities of single cells need the same cells there.
 /// @param tolerance  by name; what is not named has no verdict
 /// @param until      s, judge this moment in place of the end; runs must have a frame there
 /// @throws Error: a folder without a finished run, fewer than two runs, no frame in common, an

@@ -79,7 +79,7 @@ std::vector<ComparedRun> open_compared_runs(const std::vector<std::string>& fold
   return runs;
 }
 
-Gap find_gap(const ComparedRun& run, std::optional<double> until) {
+Shortfall find_shortfall(const ComparedRun& run, std::optional<double> until) {
   const RunSummary& s = run.summary;
   const double last = run.time_of_last(), end = end_of(run.reader), same = same_frame(run.reader);
   if (until && end < *until - same)

@@ -25,13 +25,13 @@ struct ComparedRun {
 std::vector<ComparedRun> open_compared_runs(const std::vector<std::string>& folders,
                                             std::optional<double> until);
 
-/// Why the last of the common frames is not the moment that is judged: the end of the run, or
+/// Reason why the last of the common frames is not the judged moment: the end of the run, or
 /// `until`.
-struct Gap {
-  std::string why;   ///< empty: it is
-  bool own = false;  ///< the run itself did not get there; else it is the others that have no frame
+struct Shortfall {
+  std::string why;   ///< empty: none
+  bool own = false;  ///< the run itself did not get there; else others have no frame there
 };
-Gap find_gap(const ComparedRun& run, std::optional<double> until);
+Shortfall find_shortfall(const ComparedRun& run, std::optional<double> until);
 
 /// "2 of 9 frames of X are at times that all runs have"; empty: all of them are.
 std::string describe_unshared_frames(const ComparedRun& run, std::optional<double> until);

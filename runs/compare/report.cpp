@@ -34,7 +34,7 @@ std::string verdict(const Difference& d) {
                                 : fmt::format("{:g} %", 100 * *d.tolerance));
 }
 
-/// Why tolerances have no verdict, each reason once.
+/// Reasons for missing verdicts, each once.
 std::set<std::string> reasons_of(const Comparison& c) {
   std::set<std::string> reasons;
   for (const auto& run : c.difference)

@@ -11,8 +11,7 @@ namespace acinus::runs {
 /// Adds every broken rule to the report. Rules about keys that are already reported are left out.
 void check_rules(const Scene& scene, Report& report);
 
-/// The part about times: of steps, and after which something comes again. @pre called by
-/// check_rules
+/// The part about steps and the times between frames and other events. @pre called by check_rules
 void check_times(const Scene& scene, Report& report);
 
 /// The part about growth, division and death. @pre called by check_rules

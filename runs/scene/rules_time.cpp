@@ -23,24 +23,26 @@ void check_steps(const Scene& scene, Report& report) {
   }
 }
 
-/// A time after which something comes again, and how often it may.
+/// Time between two events of a kind, and the largest number of them.
 struct Period {
   const char* pointer;
-  double value;      ///< s
-  double most;       ///< times in a run
-  const char* what;  ///< that comes
+  double value;                      ///< s
+  double most;                       ///< events in a run
+  const char* what;                  ///< name of the events
+  double shortest = 10 * kSameTime;  ///< s; closer events are taken for one
 };
 
-/// What comes again and again must come an end: a slip of the unit would fill the disk, or make
-/// steps so short that the run never gets anywhere.
+/// Bounds the number of frames and of other periodic events: a slip of the unit would fill the
+/// disk, or make steps so short that the run never ends.
 void check_periods(const Scene& scene, Report& report) {
-  constexpr double kMostFrames = 1e6, kMostLooks = 1e8, kShortest = 10 * kSameTime;
+  constexpr double kMostFrames = 1e6, kMostLooks = 1e8, kMostSteps = 1e9;
   double span = scene.time.end, start_up = 0;
   if (scene.start_up.enabled)
     start_up =
         scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_settle;
   if (scene.output.start_up) span += start_up;
   std::vector<Period> periods{{"/output/every", scene.output.every, kMostFrames, "frames"}};
+  periods.push_back({"/time/step", scene.numerics.max_step, kMostSteps, "steps", 0});
   if (scene.motility.random)
     periods.push_back({"/motility/grid", scene.motility.grid, kMostLooks, "random forces"});
   if (scene.motility.leader_force > 0)
@@ -49,7 +51,7 @@ void check_periods(const Scene& scene, Report& report) {
   if (scene.moving_zoom)
     periods.push_back({"/moving_zoom/every", scene.moving_zoom->grid, kMostLooks, "looks"});
   for (const Period& p : periods) {
-    const double least = std::max(span / p.most, kShortest);
+    const double least = std::max(span / p.most, p.shortest);
     if (p.value >= least) continue;
     report.add_relation(
         {p.pointer, "/time/end"}, time_text(p.value),
@@ -60,7 +62,7 @@ void check_periods(const Scene& scene, Report& report) {
   }
 }
 
-/// Something must let go of what is measured to relax.
+/// Relaxation needs a wall or a capsule that opens.
 void check_relaxation(const Scene& scene, Report& report) {
   if (scene.experiment != Experiment::kRelaxation) return;
   const double opens = next_opening(scene, -1);

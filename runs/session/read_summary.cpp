@@ -16,7 +16,7 @@ namespace acinus::runs {
 
 namespace {
 
-/// Why a folder has no summary: that is written when a run ends.
+/// Error for a folder without a summary, which is written when a run ends.
 Error missing_summary(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code code;

@@ -35,7 +35,7 @@ int write_all(int descriptor, const char* text, std::size_t size) {
     if (n >= 0) {
       text += n;
       size -= static_cast<std::size_t>(n);
-    } else if (errno == EAGAIN) {  // whoever shares the pipe made it non-blocking
+    } else if (errno == EAGAIN) {  // another process that has the pipe made it non-blocking
       pollfd room{descriptor, POLLOUT, 0};
       poll(&room, 1, -1);
     } else if (errno != EINTR) {

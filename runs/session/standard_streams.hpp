@@ -13,7 +13,7 @@ void guard_standard_streams();
 /// @return `code`; that of a file error where `code` is 0 and something could not be printed
 int finish_printing(int code);
 
-/// Whether a line of the standard output can be written over: on a terminal that knows control
+/// Test for a standard output whose lines can be written over: a terminal that knows control
 /// sequences, which TERM=dumb denies.
 bool can_rewrite_lines();
 

@@ -50,7 +50,7 @@ RunProgress read_progress(const ActiveRun& run);
 /// The last line that a program printed, "" if none.
 std::string last_line(const std::string& file);
 
-/// Why a program ended, from all that it printed on stderr: everything but warnings.
+/// Cause of a program's end: all that it printed on stderr but warnings.
 /// @return "" if nothing
 std::string printed_cause(const std::string& file);
 

@@ -60,7 +60,7 @@ double same_time(const TimeCurve& curve) {
   return std::clamp(kShare * (curve.time.back() - curve.time.front()), kSameTime, kMost);
 }
 
-/// The time a measure looks at; the end only of runs that are done, and have a value there.
+/// Time at which a measure is taken; the end only of runs that are done and have a value there.
 std::optional<double> time_of(const RunCurve& s, const std::optional<double>& asked) {
   if (asked) return asked;
   if (!s.complete || s.curve->time.back() < s.until - same_time(*s.curve)) return std::nullopt;
@@ -128,8 +128,8 @@ std::vector<TimeCurve> windows(const std::vector<RunCurve>& sources, const Study
   return out;
 }
 
-/// Why curves cannot be laid over each other for all of their length: they do not begin or end
-/// together. Empty: they do, or the claim says from when and until when.
+/// Reason why curves cannot be compared over all of their length: they do not begin or end
+/// together. Empty: they do, or the claim has a window.
 std::string find_unequal_ends(const StudyMeasure& m, const std::vector<RunCurve>& runs) {
   double low[2] = {kNever, kNever}, high[2] = {-kNever, -kNever}, same = kNever;
   for (const RunCurve& s : runs) {

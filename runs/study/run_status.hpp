@@ -18,10 +18,9 @@ enum class RunState {
   kStale,    ///< results of another scene or version
 };
 const char* name_of(RunState state);
-/// Whether the last attempt failed; that says nothing about the next one of what was refused or
-/// killed.
+/// Test for a failed attempt; the next one of a run that was refused or killed may do better.
 bool has_failed(RunState state);
-/// Whether a start of the study takes the run up.
+/// Test for a run that the next start of the study takes up.
 bool is_left(RunState state);
 
 struct RunStatus {
@@ -38,7 +37,7 @@ struct RunStatus {
 /// @param held  the caller has the run's claim: no other process can be running it
 RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held = false);
 
-/// How the last attempt at a run ended, if it is not done.
+/// End of the last attempt at a run that is not done.
 struct AttemptEnd {
   std::string cause;  ///< "" = it goes on
   bool killed = false;
@@ -51,7 +50,7 @@ void write_record(const std::string& root, const StudyPlan& plan, const StudyRun
 /// The file whose lock says that a process takes care of a run.
 std::string claim_file(const std::string& root, const StudyRun& run);
 
-/// Why a run cannot go on from the start of another one, the source: that left none.
+/// Message for a run whose source, the run from whose start it goes on, left none.
 std::string describe_missing_start(const StudyRun& source, const RunStatus& status);
 
 /// Whether the state at t = 0 that others start from stands in the folder of this very run.

@@ -74,7 +74,7 @@ bool is_wanted(const Study& study, const std::string& observable) {
 StudyData read_study_data(const StudyPlan& plan, const std::string& root) {
   StudyData data;
   for (const StudyRun& run : plan.runs) data.push_back(read_run(plan, run, root));
-  // What waits for a start that failed was refused before it had a folder to tell so.
+  // Runs that wait for a start that failed have no folder that could say so.
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     RunStatus& status = data[k].status;
     if (plan.runs[k].source < 0 || status.state != RunState::kToDo) continue;

@@ -168,8 +168,8 @@ TEST(Cli, PeriodsThatFillTheDiskOrNeverEndAreRefused) {
                 "s\"; at most 1e+06 are possible. Raise it to at least \"0.0036 s\""),
       std::string::npos)
       << text_of("output.every=1e-9 s");
-  for (const char* key :
-       {"motility.random=true\' --set \'motility.grid", "life.grid", "output.every"})
+  for (const char* key : {"motility.random=true\' --set \'motility.grid", "life.grid",
+                          "output.every", "time.min_step=1e-7 s\' --set \'time.step"})
     EXPECT_NE(text_of(std::string(key) + "=1e-7 s").find(" asks for "), std::string::npos) << key;
   EXPECT_EQ(call("check " + kScene + " --set time.end=1h --set 'output.every=0.0036 s'").code, 0);
 }

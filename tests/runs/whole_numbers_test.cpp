@@ -39,7 +39,7 @@ TEST(WholeNumbers, AreRefusedForWhatIsWrongWithThem) {
   };
   EXPECT_TRUE(has(refused("seed=1.5"), "/seed = 1.5: must be a whole number from 0"));
   EXPECT_TRUE(has(refused("seed=-1.0"), "/seed = -1: must be a whole number from 0"));
-  // Rounded already: which whole number was meant cannot be told.
+  // Rounded already: it stands for several whole numbers.
   EXPECT_TRUE(has(refused("seed=1e19"), "beyond 2^53 written without point and exponent"));
   EXPECT_TRUE(has(refused("time.until_cells=1e10"), "is beyond the largest whole number here"));
   EXPECT_TRUE(has(refused("time.until_cells=0.5"), "must be a whole number"));
