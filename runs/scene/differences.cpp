@@ -4,13 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
+#include "runs/scene/bounded_json.hpp"
+
 namespace acinus::runs {
 
 std::vector<std::string> list_scene_differences(
     const std::string& then_text, const std::string& now_text,
     const std::function<bool(const std::string& path)>& may_differ) {
   using Json = nlohmann::json;
-  const Json then = Json::parse(then_text), now = Json::parse(now_text);
+  const Json then = parse_or_discard<Json>(then_text), now = Json::parse(now_text);
+  check(then.is_object(), "the scene that was kept is damaged: it is no JSON object.",
+        Exit::kFileError);
   std::vector<std::string> lines;
   for (const Json& change : Json::diff(then, now)) {
     const std::string path = change["path"];

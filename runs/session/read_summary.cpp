@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {
 
@@ -16,7 +17,7 @@ RunSummary read_summary(const std::string& folder) {
   RunSummary s;
   s.folder = folder;
   try {
-    const nlohmann::json j = nlohmann::json::parse(text);
+    const auto j = parse_bounded<nlohmann::json>(text, file);
     s.scene = j.at("scene");
     s.hash = j.at("scene_hash");
     s.version = j.at("version");
