@@ -2,6 +2,8 @@
 
 #include "runs/compare/compare.hpp"
 
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <map>
 #include <memory>
@@ -9,6 +11,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/session/guarded.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -96,7 +99,9 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
   command->add_flag("--quiet", o.quiet, "the table only");
   return {command, [arguments, &command_line] {
             arguments->scenes.command_line = command_line;
-            return run(*arguments);
+            if (!arguments->scene.empty()) return run(*arguments);
+            return run_guarded(fmt::format("{}", fmt::join(arguments->folders, ", ")),
+                               [&] { return run(*arguments); });
           }};
 }
 

@@ -10,6 +10,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/commands/voxel_flag.hpp"
 #include "runs/images/import_image.hpp"
+#include "runs/session/guarded.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -150,7 +151,9 @@ Command add_import(CLI::App& app) {
   command->add_flag("--split", a.import.split, "every connected piece of a label is a cell");
   add_threads(*command, a.threads);
   command->add_flag("--quiet", a.quiet, "errors and warnings only");
-  return {command, [arguments] { return runs::run(*arguments); }};
+  return {command, [arguments] {
+            return run_guarded(arguments->import.image, [&] { return runs::run(*arguments); });
+          }};
 }
 
 }  // namespace acinus::runs

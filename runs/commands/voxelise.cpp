@@ -10,6 +10,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/commands/voxel_flag.hpp"
 #include "runs/images/voxelise_run.hpp"
+#include "runs/session/guarded.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -73,7 +74,9 @@ Command add_voxelise(CLI::App& app) {
   command->add_flag("--no-vessels", a.no_vessels, "cells only");
   add_threads(*command, a.threads);
   command->add_flag("--quiet", a.quiet, "errors only");
-  return {command, [arguments] { return runs::run(*arguments); }};
+  return {command, [arguments] {
+            return run_guarded(arguments->voxelise.folder, [&] { return runs::run(*arguments); });
+          }};
 }
 
 }  // namespace acinus::runs
