@@ -46,8 +46,11 @@ choose_build_dir() {
   elif [[ -d $here/build && -w $here/build ]] || [[ ! -e $here/build && -w $here ]]; then
     build=$here/build
   else
+    # Not below /tmp: another user could have put a program there under the same name.
+    [[ -n ${XDG_CACHE_HOME:-${HOME:-}} ]] ||
+      die "cannot write beside this script, and neither HOME nor XDG_CACHE_HOME says where else; set ACINUS_BUILD_DIR"
     checksum=$(printf '%s' "$here" | cksum)
-    build=${XDG_CACHE_HOME:-${HOME:-/tmp}/.cache}/acinus/build-${checksum%% *}
+    build=${XDG_CACHE_HOME:-${HOME:-}/.cache}/acinus/build-${checksum%% *}
   fi
   # A library's code is compiled otherwise than a program's.
   [[ $preset != python ]] || build=${build%/}-python

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/json_size.hpp"
 
 namespace acinus::calibration {
 namespace {
@@ -125,6 +126,8 @@ std::vector<TableEntry> read_table(const Json& json, const std::string& where) {
 
 Json parse(const std::string& path) {
   const std::string text = io::read_text_file(path);
+  const std::string fault = fault_of_json_size(text);
+  check(fault.empty(), fmt::format("{}: {}: no law file. Calibrate again", path, fault));
   try {
     return Json::parse(text, nullptr, true, true);
   } catch (const Json::parse_error& e) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <span>
 
@@ -175,11 +176,14 @@ std::string CheckpointData::fault_of_name(const std::string& name) const {
                        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
                      });
   if (!plain) return "\"" + name + "\" cannot name an array of a checkpoint";
-  for (const auto& [other, unused] : value_) {
-    if (other == name || other.starts_with(name + "/") || name.starts_with(other + "/"))
-      return "checkpoint arrays \"" + name + "\" and \"" + other + "\" clash";
-  }
-  return {};
+  const auto clash = [&](const std::string& other) {
+    return "checkpoint arrays \"" + name + "\" and \"" + other + "\" clash";
+  };
+  for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1))
+    if (contains(name.substr(0, end))) return clash(name.substr(0, end));
+  const auto below = value_.lower_bound(name + "/");
+  if (below != value_.end() && below->first.starts_with(name + "/")) return clash(below->first);
+  return contains(name) ? clash(name) : std::string();
 }
 
 void CheckpointData::add(const std::string& name, Value value) {
@@ -236,6 +240,8 @@ double CheckpointData::number(const std::string& name) const {
   const auto& value = numbers(name);
   check(value.size() == 1,
         fmt::format("{}: \"{}\" has {} values, 1 is needed", source_, name, value.size()),
+        Exit::kFileError);
+  check(!std::isnan(value[0]), fmt::format("{}: \"{}\" is no number", source_, name),
         Exit::kFileError);
   return value[0];
 }

@@ -64,7 +64,8 @@ void write_text_file(const std::string& path, std::string_view text) {
   if (is_stream(path)) return append(path, text);
   const std::string partial = path + ".tmp";
   const RemoveUnlessMoved cleanup{partial};
-  const int descriptor = open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor =
+      open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) fail_on_disk(partial, "create", errno);
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
   int error = write_all(descriptor, bytes, text.size(), 0) ? 0 : errno;

@@ -5,22 +5,41 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/io/disk.hpp"
 
 namespace acinus::io {
 namespace {
 
+/// Over no link, and no pipe: what holds a lock signs it.
+/// @return -1 with errno set
+int open_regular(const std::string& path, int flags) {
+  const int descriptor =
+      open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, 0666);
+  struct stat status {};
+  if (descriptor >= 0 && (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))) {
+    close(descriptor);
+    errno = ELOOP;
+    return -1;
+  }
+  return descriptor;
+}
+
 int open_file(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor = open_regular(path, O_RDWR | O_CREAT);
+  check(descriptor >= 0 || errno != ELOOP,
+        path + ": is a link or no regular file, and cannot be a lock. Remove it.",
+        Exit::kFileError);
   if (descriptor < 0) fail_on_disk(path, "open", errno);
   return descriptor;
 }
@@ -50,10 +69,13 @@ std::string describe_this_process() {
 }
 
 std::string first_line(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  return line;
+  std::array<char, 512> text{};
+  const int descriptor = open_regular(path, O_RDONLY);
+  if (descriptor < 0) return "";
+  const ssize_t n = pread(descriptor, text.data(), text.size(), 0);
+  close(descriptor);
+  const std::string line(text.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  return line.substr(0, line.find('\n'));
 }
 
 /// Whether the line names a process that may hold something: not one of this machine that ended
@@ -111,7 +133,7 @@ FileLock FileLock::take(const std::string& path) {
 }
 
 bool is_locked(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open_regular(path, O_RDONLY);
   if (descriptor < 0) return false;
   const bool free = lock(descriptor, LOCK_SH | LOCK_NB);
   close(descriptor);

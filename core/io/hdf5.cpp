@@ -1,11 +1,14 @@
 #include "core/io/hdf5.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <mutex>
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "core/io/hdf5_form.hpp"
 
 namespace acinus::io::h5 {
 namespace {
@@ -17,6 +20,7 @@ void start_library() {
                       // instead
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    H5Lunregister(H5L_TYPE_EXTERNAL);  // no file makes this program open others
   });
 }
 
@@ -119,6 +123,12 @@ void File::fail_here(const std::string& attempted) const {
   fail(path_, attempted, first_error(*state_));
 }
 
+void File::refuse(const std::string& found) const {
+  throw Error(
+      fmt::format("{}: {}. The file is damaged or was not written by acinus.", path_, found),
+      Exit::kFileError);
+}
+
 void File::flush() {
   if (H5Fflush(id(), H5F_SCOPE_GLOBAL) < 0 || state_->error != 0) fail_here("write to disk");
 }
@@ -170,14 +180,13 @@ Handle File::open_dataset(const std::string& name) const {
 }
 
 std::vector<hsize_t> File::shape(const std::string& name) const {
-  const Handle dataset = open_dataset(name);
-  const Handle space(H5Dget_space(dataset.id()), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space.id());
-  if (rank < 1 || rank > 2) fail_here("read dataset " + name + " as rows");
-  std::vector<hsize_t> result(rank);
-  H5Sget_simple_extent_dims(space.id(), result.data(), nullptr);
-  if (rank == 2 && result[1] == 0) fail_here("read dataset " + name + ", whose rows are empty,");
-  return result;
+  constexpr hsize_t kMostRows = hsize_t{1} << 62, kMostComponents = 4096;
+  const Form form = form_of_dataset(open_dataset(name).id());
+  const std::vector<hsize_t>& extent = form.extent;
+  const bool are_rows = (extent.size() == 1 || extent.size() == 2) && extent[0] <= kMostRows &&
+                        (extent.size() == 1 || (extent[1] > 0 && extent[1] <= kMostComponents));
+  if (!are_rows) refuse(fmt::format("dataset {} holds {}, no rows", name, describe(form)));
+  return extent;
 }
 
 std::int64_t File::n_row(const std::string& name) const {
@@ -268,26 +277,28 @@ void File::write_text_rows(const std::string& name, std::int64_t first_row,
   write_raw(name, type.id(), first_row, static_cast<std::int64_t>(value.size()), packed.data());
 }
 
-void File::read_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n,
-                    void* value) const {
+void File::check_rows(const std::string& name, hsize_t n_row, std::int64_t first,
+                      std::int64_t n) const {
+  const auto end = static_cast<hsize_t>(first) + static_cast<hsize_t>(n);
+  check(first >= 0 && n >= 0 && end <= n_row,
+        fmt::format("{}: dataset {} has {} rows, but rows up to {} should be there. The file is "
+                    "damaged or incomplete.",
+                    path_, name, n_row, end),
+        Exit::kFileError);
+}
+
+void File::read_raw(const Handle& dataset, const std::string& name, hid_t type,
+                    std::int64_t first_row, std::int64_t n, void* value) const {
   if (n == 0) return;
   const auto dims = shape(name);
   const hsize_t start[2] = {static_cast<hsize_t>(first_row), 0};
   const hsize_t count[2] = {static_cast<hsize_t>(n), dims.size() == 2 ? dims[1] : 1};
-  if (first_row < 0 || n < 0 || start[0] + count[0] > dims[0]) {
-    throw Error(path_ + ": dataset " + name + " has " + std::to_string(dims[0]) +
-                    " rows, but rows up to " + std::to_string(first_row + n) +
-                    " should be there. The file is damaged or incomplete.",
-                Exit::kFileError);
-  }
-  const Handle dataset = open_dataset(name);
   const Handle file_space(H5Dget_space(dataset.id()), H5Sclose);
   const Handle memory_space(H5Screate_simple(static_cast<int>(dims.size()), count, nullptr),
                             H5Sclose);
-  H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start, nullptr, count, nullptr);
-  if (H5Dread(dataset.id(), type, memory_space.id(), file_space.id(), H5P_DEFAULT, value) < 0) {
+  if (H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
+      H5Dread(dataset.id(), type, memory_space.id(), file_space.id(), H5P_DEFAULT, value) < 0)
     fail_here("read dataset " + name);
-  }
 }
 
 template <class T>
@@ -297,14 +308,19 @@ bool File::holds(const std::string& name) const {
   return H5Tequal(type.id(), stored_type<T>()) > 0;
 }
 
-void File::check_size(const std::string& name, double bytes) const {
-  constexpr double kMostPacked = 1100;  // deflate makes data at most 1032 times smaller
+void File::check_storage(const Handle& dataset, const std::string& name, double bytes) const {
   hsize_t size = 0;
+  if (bytes == 0) return;
   if (H5Fget_filesize(id(), &size) < 0) fail_here("find its size");
-  check(bytes <= kMostPacked * static_cast<double>(size),
-        path_ + ": dataset " + name +
-            " claims to be larger than the file can hold. The file is damaged.",
-        Exit::kFileError);
+  const auto file_size = static_cast<double>(size);
+  if (bytes > most_from_file(file_size))
+    refuse(fmt::format("dataset {} claims to be larger than the file can hold", name));
+  if (writing_) return;  // what this session wrote may not be stored yet
+  if (const std::string fault = fault_of_storage(dataset.id(), bytes, file_size); !fault.empty())
+    refuse(fmt::format("dataset {}: {}", name, fault));
+  handed_out_ += bytes;
+  if (handed_out_ > most_from_file(file_size))
+    refuse("its datasets claim more than the file can hold");
 }
 
 template <class T>
@@ -316,32 +332,30 @@ std::vector<T> File::read_rows(const std::string& name, std::int64_t first_row,
                 Exit::kFileError);
   }
   const auto dims = shape(name);
-  // A damaged index must not make us ask for more memory than the dataset can hold.
-  const std::int64_t possible = std::clamp<std::int64_t>(n, 0, static_cast<std::int64_t>(dims[0]));
+  check_rows(name, dims[0], first_row, n);
   const hsize_t per_row = dims.size() == 2 ? dims[1] : 1;
-  check_size(name, static_cast<double>(possible) * static_cast<double>(per_row) * sizeof(T));
-  std::vector<T> value(static_cast<std::size_t>(possible) * per_row);
-  read_raw(name, native_type<T>(), first_row, n, value.data());
+  const Handle dataset = open_dataset(name);
+  check_storage(dataset, name, static_cast<double>(n) * static_cast<double>(per_row) * sizeof(T));
+  std::vector<T> value(static_cast<std::size_t>(n) * per_row);
+  read_raw(dataset, name, native_type<T>(), first_row, n, value.data());
   return value;
 }
 
 std::vector<std::string> File::read_text_rows(const std::string& name, std::int64_t first_row,
                                               std::int64_t n) const {
-  std::size_t width = 0;
-  {
-    const Handle dataset = open_dataset(name);
-    const Handle type(H5Dget_type(dataset.id()), H5Tclose);
-    if (H5Tget_class(type.id()) != H5T_STRING) fail_here("read dataset " + name + " as text");
-    width = H5Tget_size(type.id());
-  }
-  const std::size_t possible = std::clamp<std::int64_t>(n, 0, n_row(name));
-  check_size(name, static_cast<double>(width) * static_cast<double>(possible));
-  std::string packed(width * possible, '\0');
-  const Handle type = text_type(width, H5T_CSET_UTF8);
-  read_raw(name, type.id(), first_row, n, packed.data());
+  const Handle dataset = open_dataset(name);
+  const Form form = form_of_dataset(dataset.id());
+  if (!form.is_text() || form.extent.size() != 1)
+    refuse(fmt::format("dataset {} holds {}, where a column of texts of fixed length is expected",
+                       name, describe(form)));
+  check_rows(name, shape(name)[0], first_row, n);
+  check_storage(dataset, name, static_cast<double>(n) * static_cast<double>(form.width));
+  std::string packed(form.width * static_cast<std::size_t>(n), '\0');
+  const Handle type = text_type(form.width, H5T_CSET_UTF8);
+  read_raw(dataset, name, type.id(), first_row, n, packed.data());
   std::vector<std::string> value;
-  for (std::size_t i = 0; i < possible; ++i)
-    value.push_back(trim(packed.data() + i * width, width));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+    value.push_back(trim(packed.data() + i * form.width, form.width));
   return value;
 }
 

@@ -118,7 +118,7 @@ class File {
   std::vector<std::string> read_text_rows(const std::string& name, std::int64_t first_row,
                                           std::int64_t n) const;
 
-  /// A scalar text dataset with unit "text"; replaces an existing one.
+  /// One text of fixed length with unit "text"; replaces an existing one.
   void write_text(const std::string& name, std::string_view text);
   std::string read_text(const std::string& name) const;
 
@@ -133,6 +133,8 @@ class File {
   void write_hash(const std::string& object, const std::string& name, std::uint64_t value);
   std::vector<std::int64_t> read_attribute(const std::string& object,
                                            const std::string& name) const;
+  /// One number that is not negative.
+  std::int64_t read_count(const std::string& object, const std::string& name) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;
   std::uint64_t read_hash(const std::string& object, const std::string& name) const;
   bool has_attribute(const std::string& object, const std::string& name) const;
@@ -149,21 +151,28 @@ class File {
  private:
   File(std::string path, std::unique_ptr<StagedState> state, Handle handle, bool writing);
   [[noreturn]] void fail_here(const std::string& attempted) const;
+  /// Throws Error(kFileError) for what no file of this program holds.
+  [[noreturn]] void refuse(const std::string& found) const;
   Handle open_dataset(const std::string& name) const;
   Handle create_dataset(const std::string& name, hid_t type, const Storage& storage,
                         std::string_view unit);
   void write_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n_value,
                  const void* value);
-  /// Refuses to make room for more than the file can hold: a damaged file may claim anything.
-  void check_size(const std::string& name, double bytes) const;
-  void read_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n,
-                void* value) const;
+  /// Refuses to make room for more than is stored: a damaged file may claim anything.
+  void check_storage(const Handle& dataset, const std::string& name, double bytes) const;
+  /// Refuses rows that are not there.
+  void check_rows(const std::string& name, hsize_t n_row, std::int64_t first, std::int64_t n) const;
+  /// @pre check_rows, check_storage
+  void read_raw(const Handle& dataset, const std::string& name, hid_t type, std::int64_t first_row,
+                std::int64_t n, void* value) const;
   std::vector<hsize_t> shape(const std::string& dataset) const;
+  Handle open_attribute(const std::string& object, const std::string& name) const;
 
   std::string path_;
   std::unique_ptr<StagedState> state_;  // outlives handle_: members are destroyed in reverse order
   Handle handle_;
   bool writing_;
+  mutable double handed_out_ = 0;  ///< bytes read so far: many names may share one storage
 };
 
 }  // namespace acinus::io::h5

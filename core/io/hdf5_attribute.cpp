@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
 #include "core/io/hdf5.hpp"
+#include "core/io/hdf5_form.hpp"
 
 namespace acinus::io::h5 {
 namespace {
@@ -50,42 +53,55 @@ void File::write_hash(const std::string& object, const std::string& name, std::u
   }
 }
 
+Handle File::open_attribute(const std::string& object, const std::string& name) const {
+  Handle attribute(H5Aopen_by_name(id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose);
+  if (!attribute.valid()) fail_here("read attribute " + name + " of " + object);
+  return attribute;
+}
+
 std::vector<std::int64_t> File::read_attribute(const std::string& object,
                                                const std::string& name) const {
-  const Handle attribute(
-      H5Aopen_by_name(id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) fail_here("read attribute " + name + " of " + object);
-  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
-  const hssize_t n = H5Sget_simple_extent_npoints(space.id());
-  if (n < 0 || n > 64) fail_here("read attribute " + name + " of " + object);
-  std::vector<std::int64_t> value(n);
-  if (H5Aread(attribute.id(), H5T_NATIVE_INT64, value.data()) < 0) {
+  constexpr double kMost = 64;
+  const Handle attribute = open_attribute(object, name);
+  const Form form = form_of_attribute(attribute.id());
+  if (form.type != H5T_INTEGER || form.width > sizeof(std::int64_t) || form.n_value() > kMost)
+    refuse(fmt::format("attribute {} of {} holds {}, where a few whole numbers are expected", name,
+                       object, describe(form)));
+  std::vector<std::int64_t> value(static_cast<std::size_t>(form.n_value()));
+  if (!value.empty() && H5Aread(attribute.id(), H5T_NATIVE_INT64, value.data()) < 0)
     fail_here("read attribute " + name + " of " + object);
-  }
   return value;
 }
 
+std::int64_t File::read_count(const std::string& object, const std::string& name) const {
+  const std::vector<std::int64_t> value = read_attribute(object, name);
+  if (value.size() != 1 || value[0] < 0)
+    refuse(fmt::format("attribute {} of {} is no count", name, object));
+  return value[0];
+}
+
 std::uint64_t File::read_hash(const std::string& object, const std::string& name) const {
-  const Handle attribute(
-      H5Aopen_by_name(id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute = open_attribute(object, name);
+  const Form form = form_of_attribute(attribute.id());
+  if (form.type != H5T_INTEGER || form.width != sizeof(std::uint64_t) || form.n_value() != 1)
+    refuse(fmt::format("attribute {} of {} holds {}, where one whole number is expected", name,
+                       object, describe(form)));
   std::uint64_t value = 0;
-  const Handle space(attribute.valid() ? H5Aget_space(attribute.id()) : -1, H5Sclose);
-  if (!space.valid() || H5Sget_simple_extent_npoints(space.id()) != 1 ||
-      H5Aread(attribute.id(), H5T_NATIVE_UINT64, &value) < 0) {
+  if (H5Aread(attribute.id(), H5T_NATIVE_UINT64, &value) < 0)
     fail_here("read attribute " + name + " of " + object);
-  }
   return value;
 }
 
 std::string File::read_text_attribute(const std::string& object, const std::string& name) const {
-  const Handle attribute(
-      H5Aopen_by_name(id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) fail_here("read attribute " + name + " of " + object);
+  constexpr std::size_t kMostBytes = 1 << 20;
+  const Handle attribute = open_attribute(object, name);
+  const Form form = form_of_attribute(attribute.id());
+  if (!form.is_text() || form.n_value() != 1 || form.width > kMostBytes)
+    refuse(fmt::format("attribute {} of {} holds {}, where one text of fixed length is expected",
+                       name, object, describe(form)));
+  std::string text(form.width, '\0');
   const Handle type(H5Aget_type(attribute.id()), H5Tclose);
-  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) {
-    fail_here("read attribute " + name + " of " + object + " as fixed-length text");
-  }
-  std::string text(H5Tget_size(type.id()), '\0');
   if (H5Aread(attribute.id(), type.id(), text.data()) < 0)
     fail_here("read attribute " + name + " of " + object);
   text.resize(strnlen(text.data(), text.size()));
@@ -115,14 +131,15 @@ void File::write_text(const std::string& name, std::string_view text) {
 
 std::string File::read_text(const std::string& name) const {
   const Handle dataset = open_dataset(name);
+  const Form form = form_of_dataset(dataset.id());
+  if (!form.is_text() || form.n_value() != 1)
+    refuse(fmt::format("dataset {} holds {}, where one text of fixed length is expected", name,
+                       describe(form)));
+  check_storage(dataset, name, static_cast<double>(form.width));
+  std::string text(form.width, '\0');
   const Handle type(H5Dget_type(dataset.id()), H5Tclose);
-  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) {
-    fail_here("read dataset " + name + " as fixed-length text");
-  }
-  std::string text(H5Tget_size(type.id()), '\0');
-  if (H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) {
+  if (H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
     fail_here("read dataset " + name);
-  }
   text.resize(strnlen(text.data(), text.size()));
   return text;
 }

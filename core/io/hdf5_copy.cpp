@@ -19,7 +19,12 @@ void File::copy_rows_from(const File& source, const std::string& name, std::int6
   const Handle list(H5Dget_create_plist(from.id()), H5Pclose);
   hsize_t chunk[2] = {0, 0};
   const int rank = static_cast<int>(dims.size());
-  if (H5Pget_chunk(list.id(), rank, chunk) != rank) fail_here(attempted);
+  if (H5Pget_chunk(list.id(), rank, chunk) != rank || chunk[0] == 0) fail_here(attempted);
+  hsize_t file_size = 0;
+  if (H5Fget_filesize(source.id(), &file_size) < 0) fail_here(attempted);
+  // Rows are written without gaps of whole chunks: there are at most as many as bytes.
+  if (static_cast<hsize_t>(n) / chunk[0] > file_size)
+    source.refuse("dataset " + name + " claims more rows than the file can hold");
   hsize_t limit[2] = {H5S_UNLIMITED, rank == 2 ? dims[1] : 0};
   dims[0] = static_cast<hsize_t>(n);
   const Handle space(H5Screate_simple(rank, dims.data(), limit), H5Sclose);
@@ -37,6 +42,7 @@ void File::copy_rows_from(const File& source, const std::string& name, std::int6
       source.fail_here("read dataset " + name);
     }
     if (address == HADDR_UNDEF) continue;  // padding that was never written
+    if (size > file_size) source.refuse("dataset " + name + " has a chunk larger than the file");
     buffer.resize(size);
     if (H5Dread_chunk(from.id(), H5P_DEFAULT, corner, &skipped_filters, buffer.data()) < 0) {
       source.fail_here("read dataset " + name);

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
 
 namespace acinus::io::h5 {
 namespace {
@@ -40,7 +41,8 @@ bool write_journal(const std::string& path, const Journal& journal) {
   put(&hash, sizeof hash);
 
   const std::string name = journal_of(path);
-  const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor =
+      open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) return false;
   bool written = write_all(descriptor, bytes.data(), bytes.size(), 0);
   int error = errno;
@@ -58,7 +60,7 @@ bool write_journal(const std::string& path, const Journal& journal) {
 Journal read_journal(const std::string& path) {
   const std::string name = journal_of(path);
   if (access(name.c_str(), F_OK) != 0) return {};
-  const std::string bytes = read_text_file(name);
+  const std::string bytes = read_text_beside(name);
   if (bytes.size() < kHead + kTail || (bytes.size() - kHead - kTail) % kRecord != 0) return {};
   const auto number_at = [&](std::size_t i) {
     std::uint64_t value = 0;
@@ -72,6 +74,12 @@ Journal read_journal(const std::string& path) {
     std::memcpy(journal.page[number_at(i)].data(), bytes.data() + i + sizeof(std::uint64_t), kPage);
   }
   return journal;
+}
+
+bool is_possible(const Journal& journal, std::uint64_t file_size) {
+  if (journal.page.empty()) return true;
+  const std::uint64_t n = journal.page.size(), pages = (file_size + kPage - 1) / kPage + n;
+  return journal.end <= pages * kPage && journal.page.rbegin()->first < pages;
 }
 
 void remove_journal(const std::string& path) { unlink(journal_of(path).c_str()); }

@@ -29,6 +29,9 @@ bool write_journal(const std::string& path, const Journal& journal);
 /// No pages when there is no journal or it is not complete: the file itself is then untouched.
 Journal read_journal(const std::string& path);
 
+/// Checks the pages of a journal against the size of the file: none may lie far beyond its end.
+bool is_possible(const Journal& journal, std::uint64_t file_size);
+
 /// Does nothing when there is none.
 void remove_journal(const std::string& path);
 

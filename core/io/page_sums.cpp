@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
 
 namespace acinus::io::h5 {
 namespace {
@@ -42,7 +43,7 @@ std::string sums_of(const std::string& path) { return path + ".sums"; }
 PageSums PageSums::read(const std::string& path) {
   PageSums sums;
   if (access(sums_of(path).c_str(), F_OK) != 0) return sums;
-  const std::string bytes = read_text_file(sums_of(path));
+  const std::string bytes = read_text_beside(sums_of(path));
   if (bytes.size() < kHead * kWord) return sums;
   std::vector<std::uint64_t> word(bytes.size() / kWord);
   std::memcpy(word.data(), bytes.data(), word.size() * kWord);
@@ -103,7 +104,8 @@ void PageSums::set(std::uint64_t page, std::span<const std::byte> content) {
 }
 
 bool PageSums::write(const std::string& path) {
-  const int descriptor = open(sums_of(path).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  const int descriptor =
+      open(sums_of(path).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) return false;
   const auto put = [&](const std::uint64_t* word, std::size_t n, std::uint64_t at) {
     return write_all(descriptor, reinterpret_cast<const std::byte*>(word), n * kWord, at * kWord);

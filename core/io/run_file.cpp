@@ -75,7 +75,8 @@ RunFile RunFile::open_for_append(const std::string& path, const RunFileCounts& k
     const File old = File::open(path, Access::kAppend);  // puts a killed session's journal in place
     check_run_schema(old);
     const RunFileCounts found = read_counts(old);
-    if (keep.frame > found.frame || keep.series > found.series || keep.event > found.event ||
+    if (std::min({keep.frame, keep.series, keep.event, keep.observable}) < 0 ||
+        keep.frame > found.frame || keep.series > found.series || keep.event > found.event ||
         keep.observable > found.observable) {
       throw Error(fmt::format("{}: holds {} frames, {} samples, {} events, {} rows of observables, "
                               "but {}, {}, {}, {} are to be continued. It belongs to another run "

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -47,10 +48,10 @@ bool is_possible(const FrameIndex& f, std::int64_t cells_begin, std::int64_t int
   };
   return in(f.n_connectivity, 0, kMost) && in(f.n_cell, 0, f.n_connectivity) &&
          (f.n_connectivity - f.n_cell) % 2 == 0 && in(f.n_sphere(), 0, f.n_point) &&
-         in(f.n_point, 0, kMost) && in(f.point_offset, 0, kMost) && in(f.cell_offset, 0, kMost) &&
-         in(f.connectivity_offset, 0, kMost) && in(f.cells_end, cells_begin, kMost) &&
-         in(f.interface_end, interface_begin, kMost) && are_rows(f.point_data_offset) &&
-         are_rows(f.cell_data_offset);
+         std::isfinite(f.time_s) && in(f.n_point, 0, kMost) && in(f.point_offset, 0, kMost) &&
+         in(f.cell_offset, 0, kMost) && in(f.connectivity_offset, 0, kMost) &&
+         in(f.cells_end, cells_begin, kMost) && in(f.interface_end, interface_begin, kMost) &&
+         are_rows(f.point_data_offset) && are_rows(f.cell_data_offset);
 }
 
 std::vector<std::string> table_datasets(const TableInfo& info, const std::string& where) {
@@ -92,10 +93,17 @@ void check_run_schema(const File& file) {
 
 RunFileCounts read_counts(const File& file) {
   const bool observes = file.exists(kObservables);  // not before schema version 1.1
-  return {file.read_attribute("/VTKHDF/Steps", "NSteps").at(0),
-          file.read_attribute(kSeries, "n_row").at(0),
-          file.read_attribute("/events", "n_row").at(0),
-          observes ? file.read_attribute(kObservables, "n_row").at(0) : 0};
+  const RunFileCounts counts{file.read_count("/VTKHDF/Steps", "NSteps"),
+                             file.read_count(kSeries, "n_row"), file.read_count("/events", "n_row"),
+                             observes ? file.read_count(kObservables, "n_row") : 0};
+  // Every row has a time of eight bytes, which are not compressed.
+  const auto most = static_cast<std::int64_t>(std::filesystem::file_size(file.path()) / 8);
+  check(std::max({counts.frame, counts.series, counts.event, counts.observable}) <= most,
+        fmt::format("{}: counts more frames, samples or events than it can hold. The file is "
+                    "damaged.",
+                    file.path()),
+        Exit::kFileError);
+  return counts;
 }
 
 RunLayout read_layout(const File& file) {
@@ -110,10 +118,10 @@ RunLayout read_layout(const File& file) {
 std::vector<FrameIndex> read_frame_index(const File& file, const RunLayout& layout,
                                          std::int64_t n_frame) {
   const auto read = [&](const std::string& name, std::int64_t first = 0) {
-    return file.read_rows<std::int64_t>(name, first, n_frame);
+    return read_column<std::int64_t>(file, name, first, n_frame);
   };
   const std::string steps = "/VTKHDF/Steps/";
-  const auto time = file.read_rows<double>(steps + "Values", 0, n_frame);
+  const auto time = read_column<double>(file, steps + "Values", 0, n_frame);
   std::vector<FrameIndex> frame(time.size());
   const auto part = read(steps + "PartOffsets"), point = read(steps + "PointOffsets");
   const auto cell = read(steps + "CellOffsets"),

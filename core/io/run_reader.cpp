@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/io/run_rows.hpp"
@@ -13,16 +14,33 @@ namespace {
 using h5::Access;
 using h5::File;
 
+/// Refuses what no frame holds: the writer takes finite numbers only, and consumers sort them.
+template <class T>
+std::vector<T> finite(const File& file, const std::string& name, std::vector<T> value) {
+  check(std::ranges::all_of(value, [](T x) { return std::isfinite(x); }),
+        fmt::format("{}: dataset {} has a number that is not finite. The file is damaged.",
+                    file.path(), name),
+        Exit::kFileError);
+  return value;
+}
+
+template <class T>
+std::vector<T> read_finite(const File& file, const std::string& name, std::int64_t first,
+                           std::int64_t n) {
+  return finite(file, name, file.read_rows<T>(name, first, n));
+}
+
 Table read_table(const File& file, const std::string& where, const TableInfo& info,
                  std::int64_t begin, std::int64_t end) {
   Table table;
   for (const auto& id : info.ids) {
-    table.ids.push_back({id, file.read_rows<std::int64_t>(where + "/" + id, begin, end - begin)});
+    table.ids.push_back(
+        {id, read_column<std::int64_t>(file, where + "/" + id, begin, end - begin)});
   }
   for (const auto& column : info.columns) {
     table.columns.push_back(
         {column.name, column.unit, column.components,
-         file.read_rows<double>(where + "/" + column.name, begin, end - begin)});
+         read_finite<double>(file, where + "/" + column.name, begin, end - begin)});
   }
   return table;
 }
@@ -60,31 +78,30 @@ Frame RunReader::frame(int k) const {
   frame.time_s = f.time_s;
   frame.n_sphere = f.n_sphere();
   frame.n_mesh_node = f.n_point - f.n_sphere();
-  frame.point = file.read_rows<float>("/VTKHDF/Points", f.point_offset, f.n_point);
-  const auto id = file.read_rows<std::int64_t>("/VTKHDF/Connectivity", f.connectivity_offset,
-                                               3 * f.n_triangle());
+  frame.point = read_finite<float>(file, "/VTKHDF/Points", f.point_offset, f.n_point);
+  const auto id = read_column<std::int64_t>(file, "/VTKHDF/Connectivity", f.connectivity_offset,
+                                            3 * f.n_triangle());
   check(
       std::ssize(frame.point) == 3 * f.n_point &&
-          std::ranges::all_of(id, [&](std::int64_t i) { return i >= 0 && i < f.n_point; }),
+          std::ranges::all_of(id, [&](std::int64_t i) { return i >= 0 && i < frame.n_mesh_node; }),
       fmt::format("{}: triangles of frame {} have corners that are not there. The file is damaged.",
                   path_, k),
       Exit::kFileError);
   for (std::size_t i = 0; i + 2 < id.size(); i += 3)
     frame.triangle.push_back({id[i], id[i + 1], id[i + 2]});
   for (const auto& field : layout_.point_data) {
-    frame.point_data.push_back(
-        {field.name, field.unit, field.components,
-         file.read_rows<float>("/VTKHDF/PointData/" + field.name,
-                               f.point_data_offset.at(field.name), f.n_point)});
+    frame.point_data.push_back({field.name, field.unit, field.components,
+                                read_finite<float>(file, "/VTKHDF/PointData/" + field.name,
+                                                   f.point_data_offset.at(field.name), f.n_point)});
   }
   const auto where = [&](const std::string& name) { return f.cell_data_offset.at(name); };
   frame.cell_id =
-      file.read_rows<std::int64_t>("/VTKHDF/CellData/cell_id", where("cell_id"), f.n_cell);
-  frame.kind = file.read_rows<std::uint8_t>("/VTKHDF/CellData/kind", where("kind"), f.n_cell);
+      read_column<std::int64_t>(file, "/VTKHDF/CellData/cell_id", where("cell_id"), f.n_cell);
+  frame.kind = read_column<std::uint8_t>(file, "/VTKHDF/CellData/kind", where("kind"), f.n_cell);
   for (const auto& field : layout_.cell_data) {
     frame.cell_data.push_back(
         {field.name, field.unit, field.components,
-         file.read_rows<float>("/VTKHDF/CellData/" + field.name, where(field.name), f.n_cell)});
+         read_finite<float>(file, "/VTKHDF/CellData/" + field.name, where(field.name), f.n_cell)});
   }
   const auto begin = [&](auto end) { return k == 0 ? 0 : frame_[k - 1].*end; };
   frame.cells =

@@ -76,7 +76,7 @@ SampleRows read_readable_samples(const File& file, const std::string& group,
   attempt.in_blocks(what, n_row, [&](std::int64_t first, std::int64_t n) {
     std::vector<std::vector<double>> column;
     for (const std::string& name : samples.names.name)
-      column.push_back(file.read_rows<double>(group + "/" + name, first, n));
+      column.push_back(read_column<double>(file, group + "/" + name, first, n));
     for (std::int64_t row = 0; row < n; ++row)
       for (const auto& values : column) samples.value.push_back(values[row]);
   });

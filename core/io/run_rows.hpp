@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/io/frame.hpp"
 #include "core/io/hdf5.hpp"
 #include "core/io/run_file.hpp"
@@ -39,6 +40,18 @@ void create_sample_rows(h5::File& file, const std::string& group, const RowNames
 std::string sidecar_of(const std::string& path);
 /// Puts a complete new run file, with the checksums of its pages, in the place of an old one.
 void replace_run_file(const std::string& from, const std::string& to);
+
+/// Rows of a dataset with one value each.
+/// @throws Error(kFileError) where rows are missing, or have several values
+template <class T>
+std::vector<T> read_column(const h5::File& file, const std::string& name, std::int64_t first,
+                           std::int64_t n) {
+  std::vector<T> value = file.read_rows<T>(name, first, n);
+  check(std::ssize(value) == n,
+        file.path() + ": dataset " + name + " has rows of several values. The file is damaged.",
+        Exit::kFileError);
+  return value;
+}
 
 /// One frame on its way into the file.
 struct FrameWrite {

@@ -83,9 +83,14 @@ RowNames read_sample_names(const File& file, const std::string& group) {
   RowNames names;
   if (!file.exists(group) || !file.has_attribute(group, kColumns)) return names;
   const std::string text = file.read_text_attribute(group, kColumns);
+  std::set<std::string> seen;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     names.name.push_back(text.substr(begin, end - begin));
+    check(!names.name.back().empty() && seen.insert(names.name.back()).second,
+          fmt::format("{}: the columns of {} have no name, or one twice. The file is damaged.",
+                      file.path(), group),
+          Exit::kFileError);
     names.unit.push_back(file.read_text_attribute(group + "/" + names.name.back(), "unit"));
     begin = end + 1;
   }
@@ -96,7 +101,7 @@ std::map<std::string, std::vector<double>> read_samples(const File& file, const 
                                                         std::int64_t n_row) {
   std::map<std::string, std::vector<double>> result;
   for (const auto& name : read_sample_names(file, group).name)
-    result[name] = file.read_rows<double>(group + "/" + name, 0, n_row);
+    result[name] = read_column<double>(file, group + "/" + name, 0, n_row);
   return result;
 }
 
@@ -110,15 +115,15 @@ void copy_samples(const File& from, File& to, const std::string& group, std::int
 }
 
 std::vector<Event> read_events(const File& file, std::int64_t first, std::int64_t n) {
-  const auto time = file.read_rows<double>("/events/time", first, n);
+  const auto time = read_column<double>(file, "/events/time", first, n);
   const auto code = file.read_text_rows("/events/code", first, n);
   const auto message = file.read_text_rows("/events/message", first, n);
-  const auto offset = file.read_rows<std::int64_t>("/events/cell_offset", first, n + 1);
+  const auto offset = read_column<std::int64_t>(file, "/events/cell_offset", first, n + 1);
   check(offset.front() >= 0 && std::ranges::is_sorted(offset),
         file.path() + ": the cells of events are out of order. The file is damaged.",
         Exit::kFileError);
-  const auto cell = file.read_rows<std::int64_t>("/events/cell_id", offset.front(),
-                                                 offset.back() - offset.front());
+  const auto cell = read_column<std::int64_t>(file, "/events/cell_id", offset.front(),
+                                              offset.back() - offset.front());
   std::vector<Event> event;
   for (std::size_t i = 0; i < time.size(); ++i) {
     const auto at = [&](std::size_t k) { return cell.begin() + (offset[k] - offset.front()); };
@@ -162,7 +167,8 @@ std::int64_t write_events(File& file, std::int64_t first_row, std::int64_t n_cel
 }
 
 std::int64_t copy_events(const File& from, File& to, std::int64_t n_row) {
-  const std::int64_t n_cell = from.read_rows<std::int64_t>("/events/cell_offset", n_row, 1).at(0);
+  const std::int64_t n_cell =
+      read_column<std::int64_t>(from, "/events/cell_offset", n_row, 1).at(0);
   to.create_group("/events");
   for (const char* name : {"/events/time", "/events/code", "/events/message"})
     to.copy_rows_from(from, name, n_row);

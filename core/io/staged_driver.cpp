@@ -144,9 +144,13 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t list, haddr_t max_addr
     remove_journal(name);
     PageSums::remove(name);
   }
-  file->descriptor = open(name, mode | O_CLOEXEC, 0666);
+  if ((mode & O_CREAT) != 0) mode |= O_NOFOLLOW;  // else a link would make another file go
+  // A pipe would wait for a writer for ever, and has no bytes to go back to.
+  file->descriptor = open(name, mode | O_CLOEXEC | O_NONBLOCK, 0666);
   struct stat status {};
-  if (file->descriptor < 0 || fstat(file->descriptor, &status) != 0) {
+  const bool opened = file->descriptor >= 0 && fstat(file->descriptor, &status) == 0;
+  if (opened && !S_ISREG(status.st_mode)) errno = S_ISDIR(status.st_mode) ? EISDIR : ESPIPE;
+  if (!opened || !S_ISREG(status.st_mode)) {
     fail(file.get());
     if (file->descriptor >= 0) ::close(file->descriptor);
     return nullptr;
@@ -159,6 +163,10 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t list, haddr_t max_addr
   try {
     file->staged = read_journal(name);  // of a session that was killed; else empty
     file->sums = PageSums::read(name);
+    if (!is_possible(file->staged, file->committed)) {
+      errno = EBADMSG;
+      fail(file.get());
+    }
   } catch (...) {  // exceptions must not cross the C library
     errno = EIO;
     fail(file.get());

@@ -10,6 +10,8 @@ from acinus.errors import AcinusError, Damaged, NotFound
 
 #: A run that goes on may be writing while we open: tried again so often, s apart.
 ATTEMPTS, PAUSE = 5, 0.1
+#: Compressed data is at most so many times smaller.
+MOST_PACKED = 1100
 #: Groups and datasets that are missing, of another kind or shape, or cannot be unpacked.
 WHAT_DAMAGE_RAISES = (AttributeError, IndexError, KeyError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
 
@@ -79,4 +81,7 @@ def read_rows(dataset, first, last):
     if not 0 <= first <= last <= dataset.shape[0]:
         raise Damaged(f"{dataset.file.filename}: {dataset.name} has {dataset.shape[0]} rows, but rows {first} to {last} should "
                       "be there. The file is damaged or incomplete.")
+    row = dataset.dtype.itemsize * int(np.prod(dataset.shape[1:], dtype=float))
+    if (last - first) * row > MOST_PACKED * max(dataset.id.get_storage_size(), 1000):
+        raise Damaged(f"{dataset.file.filename}: {dataset.name} claims more than is stored of it. The file is damaged.")
     return dataset[first:last]

@@ -1,10 +1,10 @@
 """A law of the stiffness of spheres, as `acinus calibrate` writes it."""
-import json
 import os
 
 import numpy as np
 
 from acinus.errors import Damaged, NotFound
+from acinus.json_text import read_json
 
 NEEDED = ("a0_kPa", "a1_kPa", "power", "overlap_range")
 
@@ -17,12 +17,9 @@ class Law:
         path = os.fspath(path)
         self.file = os.path.join(path, "law.json") if os.path.isdir(path) else path
         try:
-            with open(self.file, encoding="utf-8") as file:
-                self.json = json.load(file)
+            self.json = read_json(self.file, "Calibrate again.")
         except FileNotFoundError:
             raise NotFound(f"{self.file}: there is no such law. `acinus calibrate --out law.json` makes one.") from None
-        except ValueError as error:
-            raise Damaged(f"{self.file}: is not JSON ({error}). Calibrate again.") from error
         missing = [key for key in NEEDED if key not in self.json]
         if missing:
             raise Damaged(f'{self.file}: has no "{missing[0]}". `acinus calibrate` writes whole law files.')

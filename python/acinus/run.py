@@ -1,5 +1,4 @@
 """A run folder, read."""
-import json
 import os
 
 import numpy as np
@@ -7,6 +6,7 @@ import numpy as np
 from acinus.errors import Damaged, NoSuchItem, NotFound
 from acinus.frame import read_frame
 from acinus.hdf5 import open_run_file, read_rows, text_of, texts_of, unit_of
+from acinus.json_text import parse_json, read_json
 from acinus.lineage import make_lineage
 from acinus.tables import make_table
 
@@ -122,7 +122,7 @@ class Run:
     @property
     def scene(self):
         """The scene with every default filled in."""
-        return json.loads(self.provenance["scene"])
+        return parse_json(self.provenance.get("scene", ""), f"{self.file}: its scene", "Copy the file again.")
 
     @property
     def summary(self):
@@ -132,12 +132,9 @@ class Run:
         """
         path = os.path.join(self.folder, SUMMARY)
         try:
-            with open(path, encoding="utf-8") as file:
-                return json.load(file)
+            return read_json(path, "`acinus run SCENE --resume` writes it again.")
         except FileNotFoundError:
             raise NotFound(f"{path}: is not there: the run goes on or was killed. `acinus run SCENE --resume` ends it.") from None
-        except ValueError as error:
-            raise Damaged(f"{path}: is not JSON ({error}). `acinus run SCENE --resume` writes it again.") from error
 
     @property
     def status(self):

@@ -1,11 +1,11 @@
 """The folder of a study, read."""
 import csv
-import json
 import os
 
 import numpy as np
 
 from acinus.errors import Damaged, NoSuchItem, NotFound
+from acinus.json_text import read_json
 from acinus.run import Run
 from acinus.tables import make_table
 
@@ -33,12 +33,9 @@ class Study:
         """A list of claims: what was expected, what came out, and whether it holds."""
         path = os.path.join(self.folder, "verdicts.json")
         try:
-            with open(path, encoding="utf-8") as file:
-                return json.load(file)
+            return read_json(path, "The same `acinus study` command writes it again.", list)
         except FileNotFoundError:
             return []
-        except ValueError as error:
-            raise Damaged(f"{path}: is not JSON ({error}). The same `acinus study` command writes it again.") from error
 
     def run(self, variant, seed):
         """The Run of a variant and seed."""
@@ -55,6 +52,8 @@ class Study:
                 rows = list(csv.DictReader(file))
         except FileNotFoundError:
             raise NotFound(f"{path}: is not there. The same `acinus study` command writes it.") from None
+        except (csv.Error, UnicodeDecodeError) as error:
+            raise Damaged(f"{path}: is no table ({error}). The same `acinus study` command writes it again.") from error
         columns = {}
         for key in rows[0] if rows else ():
             convert = NUMBERS.get(key, str)

@@ -195,8 +195,12 @@ class Faults(Family):
         (gone / "summary.json").unlink()
         with self.assertRaisesRegex(acinus.NotFound, "--resume"):
             acinus.Run(gone).summary
-        (gone / "summary.json").write_text("{")
-        with self.assertRaisesRegex(acinus.Damaged, "is not JSON"):
+        for text in ("{", "[" * 200000, "[]", "3", "\0", '{"a": 1' + "0" * 6000 + "}"):
+            (gone / "summary.json").write_text(text)
+            with self.assertRaises(acinus.Damaged):
+                acinus.Run(gone).summary
+        (gone / "summary.json").write_bytes(b'{"a": "\xff"}')
+        with self.assertRaises(acinus.Damaged):
             acinus.Run(gone).summary
 
 
@@ -246,6 +250,10 @@ class OtherFiles(unittest.TestCase):
         path.write_text(json.dumps(law))
         with self.assertRaisesRegex(acinus.Damaged, 'has no "power"'):
             acinus.Law(path)
+        for text in ("[" * 200000, '{"a":' * 100000, "[1]"):
+            path.write_text(text)
+            with self.assertRaises(acinus.Damaged):
+                acinus.Law(path)
         with self.assertRaises(acinus.NotFound):
             acinus.Law(self.root / "none.json")
 
@@ -262,6 +270,13 @@ class OtherFiles(unittest.TestCase):
         self.assertEqual(study.verdicts(), [])
         with self.assertRaisesRegex(acinus.NoSuchItem, "variants are a"):
             study.run("b", 1)
+        for text in ("[" * 200000, "{}", "["):
+            (self.root / "verdicts.json").write_text(text)
+            with self.assertRaises(acinus.Damaged):
+                study.verdicts()
+        (self.root / "runs.csv").write_bytes(b"run,variant\n\xff,b\n")
+        with self.assertRaises(acinus.Damaged):
+            study.runs()
 
 
 if __name__ == "__main__":

@@ -170,7 +170,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   world.state.tree = coupling::at_rest(p.tree);
   coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
   if (!scene.start_up.from.empty()) {
-    built.notes.said.push_back(take_start(scene, world.state));
+    built.notes.said.push_back(take_start(scene, types_of(p), world.state));
     coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
     coupling::begin_life(world);
     return built;

@@ -76,7 +76,7 @@ void save_start(const std::string& folder, const Scene& scene, const coupling::S
   io::save_state_file(folder + "/start.h5", data);
 }
 
-std::string take_start(const Scene& scene, coupling::State& state) {
+std::string take_start(const Scene& scene, const StateTypes& types, coupling::State& state) {
   const io::CheckpointData data = io::load_state_file(scene.start_up.from + "/start.h5");
   std::string differences;
   for (const std::string& line :
@@ -88,7 +88,7 @@ std::string take_start(const Scene& scene, coupling::State& state) {
                     "What shapes the start must be the same: let this scene make its own "
                     "start-up, or start from another run.",
                     data.source(), differences));
-  get_state(data, state);
+  get_state(data, types, state);
   return fmt::format("cells at t = 0 taken from {} (state {})", scene.start_up.from,
                      data.text("state_hash"));
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "coupling/world/world.hpp"
+#include "runs/build/check_state.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
@@ -17,7 +18,7 @@ void save_start(const std::string& folder, const Scene& scene, const coupling::S
 /// the start must not.
 /// @return what was done, for the log
 /// @throws Error(kBadInput) naming the keys that differ, Error(kFileError) for a damaged file
-std::string take_start(const Scene& scene, coupling::State& state);
+std::string take_start(const Scene& scene, const StateTypes& types, coupling::State& state);
 
 /// Whether a key of a canonical scene (its pointer) may differ between this scene and that of the
 /// run it starts from. Cells that start at any age have its size, so their cycle must be the same.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.hpp"
 #include "runs/build/state_numbers.hpp"
@@ -10,6 +11,16 @@
 
 namespace acinus::runs {
 namespace {
+
+/// A number of a file as one that an int can hold.
+int as_int(const io::CheckpointData& d, const char* what, std::int64_t value) {
+  check(value >= 0 && value <= std::numeric_limits<int>::max(),
+        fmt::format("{}: {} holds {}, which cannot be. The file is damaged; resume from the "
+                    "previous checkpoint or start anew.",
+                    d.source(), what, value),
+        Exit::kFileError);
+  return static_cast<int>(value);
+}
 
 /// Only shapes that are still remembered are kept: lane, then weight, area, edges and triangles.
 void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
@@ -102,7 +113,7 @@ dcm::NucleusMesh nucleus_of(const io::CheckpointData& d, std::size_t group) {
   check_same(d, "dcm/nucleus_nodes", group < nodes.size() ? 1 : 0, 1);
   check_same(d, "dcm/nucleus_size", size.size(), nodes.size());
   if (nodes[group] == 0) return {};
-  return {&mesh::shared_icosphere(static_cast<int>(nodes[group])), size[group]};
+  return {&mesh::shared_icosphere(as_int(d, "dcm/nucleus_nodes", nodes[group])), size[group]};
 }
 
 /// Lengths of links at birth, of the cells that remember their shape. @pre get_birth_shapes
@@ -124,8 +135,8 @@ void get_shells(const io::CheckpointData& d, dcm::State& s) {
   const std::vector<std::int64_t>& group = d.integers("dcm/group");
   std::size_t rows = 0;
   for (std::size_t k = 0; k + 1 < group.size(); k += 2) {
-    const mesh::Topology& topology = mesh::shared_icosphere(static_cast<int>(group[k + 1]));
-    s.group.push_back({&topology, rows, static_cast<int>(group[k]), nucleus_of(d, k / 2)});
+    const mesh::Topology& topology = mesh::shared_icosphere(as_int(d, "dcm/group", group[k + 1]));
+    s.group.push_back({&topology, rows, as_int(d, "dcm/group", group[k]), nucleus_of(d, k / 2)});
     rows += static_cast<std::size_t>(s.group.back().n_point());
   }
   const std::size_t n = s.group.size() * kLanes;
@@ -148,7 +159,8 @@ void get_spheres(const io::CheckpointData& d, cbm::State& s) {
   const std::size_t n = s.lineage.size();
   s.position = d.numbers("cbm/position");
   const std::vector<std::int64_t>& type = d.integers("cbm/type");
-  s.type.assign(type.begin(), type.end());
+  s.type.clear();
+  for (const std::int64_t t : type) s.type.push_back(as_int(d, "cbm/type", t));
   s.volume = unflatten(d.numbers("cbm/volume"));
   s.strength = unflatten(d.numbers("cbm/strength"));
   s.young = d.numbers("cbm/young");
@@ -160,8 +172,11 @@ void get_spheres(const io::CheckpointData& d, cbm::State& s) {
   check_same(d, "cbm/young", s.young.size(), n);
   check_same(d, "cbm/pull", s.pull.size(), n);
   const std::vector<std::int64_t>& t = d.integers("cbm/touching");
+  // A partner that is a boundary is negative.
   for (std::size_t k = 0; k + 1 < t.size(); k += 2)
-    s.touching.emplace_back(static_cast<int>(t[k]), static_cast<int>(t[k + 1]));
+    s.touching.emplace_back(
+        as_int(d, "cbm/touching", t[k]),
+        t[k + 1] < 0 ? ~as_int(d, "cbm/touching", ~t[k + 1]) : as_int(d, "cbm/touching", t[k + 1]));
 }
 
 void put_life(const coupling::State& s, io::CheckpointData& d) {
@@ -211,8 +226,9 @@ void get_life(const io::CheckpointData& d, coupling::State& s) {
              &duration = numbers("life/duration"), &wait = numbers("life/wait_until");
   s.cycle.clear();
   for (std::size_t k = 0; k < n; ++k)
-    s.cycle.push_back({parent[k], founder[k], static_cast<coupling::Fate>(fate[k]), birth[k],
-                       volume[k], duration[k], wait[k]});
+    s.cycle.push_back({parent[k], founder[k],
+                       static_cast<coupling::Fate>(std::min(as_int(d, "life/fate", fate[k]), 127)),
+                       birth[k], volume[k], duration[k], wait[k]});
   s.life_interval = d.count("life/interval");
   s.next_lineage = d.count("life/next_lineage");
   s.divisions = d.count("life/divisions");
@@ -329,16 +345,17 @@ void put_state(const coupling::State& s, io::CheckpointData& d) {
   d.put_number("settle/time", s.settle_time);
 }
 
-void get_state(const io::CheckpointData& d, coupling::State& s) {
+void get_state(const io::CheckpointData& d, const StateTypes& types, coupling::State& s) {
   get_shells(d, s.dcm);
   get_spheres(d, s.cbm);
   get_tree(d, s.tree);
   get_life(d, s);
   get_zoom(d, s);
-  s.clock.phase = static_cast<coupling::Phase>(d.count("clock/phase"));
+  s.clock.phase = static_cast<coupling::Phase>(as_int(d, "clock/phase", d.count("clock/phase")));
   s.clock.coarse = d.count("clock/coarse") != 0;
   if (d.contains("clock/events_due"))  // files of 0.1.0 have none
-    s.clock.due = static_cast<coupling::EventsDue>(d.count("clock/events_due"));
+    s.clock.due = static_cast<coupling::EventsDue>(
+        std::min(as_int(d, "clock/events_due", d.count("clock/events_due")), 255));
   visit_numbers(s.clock, s.balance,
                 [&](const char* name, double& value) { value = d.number(name); });
   visit_counts(s.clock, [&](const char* name, auto& value) { value = d.count(name); });
@@ -348,6 +365,7 @@ void get_state(const io::CheckpointData& d, coupling::State& s) {
   s.leader_interval = d.count("leaders/interval");
   s.settle_pressure = d.numbers("settle/pressure");
   s.settle_time = d.number("settle/time");
+  check_state(s, types, d.source());
 }
 
 }  // namespace acinus::runs

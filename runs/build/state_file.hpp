@@ -3,13 +3,16 @@
 
 #include "core/io/checkpoint.hpp"
 #include "coupling/world/world.hpp"
+#include "runs/build/check_state.hpp"
 
 namespace acinus::runs {
 
 void put_state(const coupling::State& state, io::CheckpointData& data);
 
 /// Replaces the state of a world built from the same scene.
-/// @throws Error when the data does not fit the world (another set of cells)
-void get_state(const io::CheckpointData& data, coupling::State& state);
+/// @param types  cell types of that world
+/// @throws Error(kFileError) when the data does not fit the world (another set of cells), or holds
+///         what no run could have written
+void get_state(const io::CheckpointData& data, const StateTypes& types, coupling::State& state);
 
 }  // namespace acinus::runs

@@ -119,7 +119,7 @@ class Folders {
 
   coupling::World compressed_world() const {
     coupling::World world = build_world(compression_, Ranks::serial()).world;
-    get_state(io::load_checkpoint(path(kDeformable)).data, world.state);
+    get_state(io::load_checkpoint(path(kDeformable)).data, types_of(world.params), world.state);
     return world;
   }
 

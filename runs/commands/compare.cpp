@@ -2,6 +2,8 @@
 
 #include "runs/compare/compare.hpp"
 
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <map>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/session/guarded.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -104,7 +107,9 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
   command->add_flag("--quiet", o.quiet, "with --scene: the table only")->needs(scene);
   return {command, [arguments, &command_line] {
             arguments->scenes.command_line = command_line;
-            return run(*arguments);
+            if (!arguments->scene.empty()) return run(*arguments);
+            return run_guarded(fmt::format("{}", fmt::join(arguments->folders, ", ")),
+                               [&] { return run(*arguments); });
           }};
 }
 

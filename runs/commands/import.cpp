@@ -10,6 +10,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/commands/voxel_flag.hpp"
 #include "runs/images/import_image.hpp"
+#include "runs/session/guarded.hpp"
 #include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
@@ -167,7 +168,7 @@ Command add_import(CLI::App& app) {
   command->add_flag("--quiet", a.quiet, "errors and warnings only");
   return {command, [arguments, command] {
             check_effects(*command, *arguments);
-            return runs::run(*arguments);
+            return run_guarded(arguments->import.image, [&] { return runs::run(*arguments); });
           }};
 }
 

@@ -2,10 +2,13 @@
 
 #include "runs/report/report.hpp"
 
+#include <fmt/ranges.h>
+
 #include <memory>
 
 #include "runs/commands/command.hpp"
 #include "runs/commands/sizes.hpp"
+#include "runs/session/guarded.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -52,7 +55,10 @@ Command add_report(CLI::App& app) {
                    "size of the page; frames are left out to keep it (default: 8MB)")
       ->type_name("SIZE");
   command->add_flag("--quiet", arguments->quiet, "errors only");
-  return {command, [arguments] { return runs::run(*arguments); }};
+  return {command, [arguments] {
+            return run_guarded(fmt::format("{}", fmt::join(arguments->report.what, ", ")),
+                               [&] { return runs::run(*arguments); });
+          }};
 }
 
 }  // namespace acinus::runs

@@ -1,11 +1,13 @@
 /// acinus serve
 
 #include <memory>
+#include <new>
 
 #include "runs/commands/command.hpp"
 #include "runs/commands/sizes.hpp"
 #include "runs/commands/wall_time.hpp"
 #include "runs/serve/server.hpp"
+#include "runs/serve/submission.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 struct ServeArguments {
   ServeOptions serve;
   bool no_token = false;
+  std::string prepare;  ///< run folder of a submission; "" = serve
   std::string checkpoint_every, max_walltime, max_memory, max_run_disk, max_disk, max_body;
 };
 
@@ -28,7 +31,15 @@ int run(ServeArguments& a) {
   read(o.max_disk, "--max-disk", a.max_disk, parse_size);
   read(o.max_body, "--max-body", a.max_body, parse_size);
   o.token = !a.no_token;
-  serve(o);
+  if (a.prepare.empty()) {
+    serve(o);
+    return 0;
+  }
+  try {
+    prepare_submission(a.prepare, o);
+  } catch (const std::bad_alloc&) {
+    throw Error("to check this submission takes more memory than this service allows.");
+  }
   return 0;
 }
 
@@ -84,6 +95,7 @@ Command add_serve(CLI::App& app) {
   command->add_option("--max-body", a.max_body, "most of one request (default: 16MB)")
       ->type_name("SIZE");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
+  command->add_option("--prepare", a.prepare)->group("");  // by the service itself; not for users
   return {command, [arguments] { return runs::run(*arguments); }};
 }
 

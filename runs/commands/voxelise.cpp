@@ -10,6 +10,7 @@
 #include "runs/commands/command.hpp"
 #include "runs/commands/voxel_flag.hpp"
 #include "runs/images/voxelise_run.hpp"
+#include "runs/session/guarded.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -76,7 +77,7 @@ Command add_voxelise(CLI::App& app) {
   return {command, [arguments, command] {
             check(command->count("--seed") == 0 || arguments->voxelise.how.noise > 0,
                   "--seed is that of the noise, and there is none. Give --noise, or leave it out.");
-            return runs::run(*arguments);
+            return run_guarded(arguments->voxelise.folder, [&] { return runs::run(*arguments); });
           }};
 }
 

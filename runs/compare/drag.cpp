@@ -2,9 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/units.hpp"
 #include "core/vec.hpp"
 #include "runs/compare/compare.hpp"
+#include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -17,9 +19,9 @@ double quantity(const Json& j, Dimension dimension) {
 
 }  // namespace
 
-std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool has_cbm) {
+std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool has_cbm) try {
   std::vector<Drag> out;
-  const Json j = Json::parse(resolved_scene);
+  const Json j = parse_bounded<Json>(resolved_scene, "the scene of a run");
   const Json& type = j.at("cell_types").begin().value();
   const double radius = quantity(type.at("radius"), kLength), surface = 4 * kPi * radius * radius;
   for (const char* model : {"dcm", "cbm"}) {
@@ -29,6 +31,9 @@ std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool 
                    quantity(j.at("friction").at(pair), kFrictionPerArea)});
   }
   return out;
+} catch (const Json::exception&) {
+  throw Error("the scene that a run keeps is damaged: it lacks what every scene has.",
+              Exit::kFileError);
 }
 
 }  // namespace acinus::runs

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/implicit/vessel_mesh.hpp"
@@ -29,14 +30,14 @@ Vec3 point_of(const io::Frame& f, std::int64_t k) {
 /// Closed surfaces by lineage.
 std::map<std::int64_t, mesh::Surface> surfaces_of(const io::Frame& f) {
   std::map<std::int64_t, mesh::Surface> out;
-  std::map<std::int64_t, int> number;  // of nodes, each of one cell
+  std::map<std::pair<std::int64_t, std::int64_t>, int> number;  // of a node among those of a cell
   for (std::size_t t = 0; t < f.triangle.size(); ++t) {
     if (f.kind[t] != kDeformable) continue;
     mesh::Surface& s = out[f.cell_id[t]];
     std::array<int, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [at, fresh] =
-          number.try_emplace(f.triangle[t][k], static_cast<int>(s.node.size()));
+          number.try_emplace({f.cell_id[t], f.triangle[t][k]}, static_cast<int>(s.node.size()));
       if (fresh) s.node.push_back(point_of(f, f.triangle[t][k]));
       corner[k] = at->second;
     }

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/sphere.hpp"
 #include "runs/report/checks.hpp"
 #include "runs/report/thin.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/writer.hpp"
@@ -47,6 +49,7 @@ Json curves(const std::map<std::string, std::vector<double>>& columns,
 
 /// Quantiles over the cells of a frame: 5, 25, 50, 75, 95 %.
 void add_quantiles(Json& band, double time_s, std::vector<double> values) {
+  std::erase_if(values, [](double x) { return !std::isfinite(x); });  // they have no order
   if (values.empty()) return;
   std::ranges::sort(values);
   band["time"].push_back(short_number(time_s));
@@ -121,11 +124,28 @@ Json describe_events(const std::vector<io::Event>& events) {
 /// What of the scene is not as a scene that says nothing has it.
 std::vector<std::string> differences_from_defaults(const std::string& scene) {
   Scene plain;
-  const Json types = Json::parse(scene).value("cell_types", Json::object());
+  const Json types = parse_bounded<Json>(scene, "scene").value("cell_types", Json::object());
+  check(types.is_object(), "its cell types are none.", Exit::kFileError);
   for (const auto& [name, type] : types.items()) plain.cell_types[name] = {};
   set_canonical(plain);
   return list_scene_differences(plain.resolved_json, scene,
                                 [](const std::string&) { return false; });
+}
+
+/// The scene that the run keeps; a line in `damage` where it is none.
+void describe_scene(RunRecord& run, const std::string& text, Json& j) {
+  Json scene = parse_or_discard<Json>(text);
+  std::string fault;
+  try {
+    check(scene.is_object(), "is no JSON object.", Exit::kFileError);
+    j["differences"] = differences_from_defaults(text);
+    j["scene"] = std::move(scene);
+  } catch (const Error& error) {
+    fault = error.what();
+  } catch (const nlohmann::json::exception& error) {
+    fault = error.what();
+  }
+  if (!fault.empty()) run.damage.push_back("scene: " + fault);
 }
 
 }  // namespace
@@ -136,23 +156,24 @@ Json short_number(double value) {
 }
 
 Json describe_run(RunRecord& run, const FrameLimits& limits) {
-  const Json summary =
-      run.summary.empty() ? Json::object() : Json::parse(run.summary, nullptr, false);
-  if (summary.is_discarded()) run.damage.push_back("summary.json: is no JSON");
+  Json summary = run.summary.empty() ? Json::object() : parse_or_discard<Json>(run.summary);
+  if (!summary.is_object()) {
+    run.damage.push_back("summary.json: is no JSON object");
+    summary = Json::object();
+  }
   const PackedRun packed = pack_frames(run, limits);
   Json j;
   j["type"] = "run";
   j["folder"] = run.folder;
   j["name"] = std::filesystem::path(run.folder).lexically_normal().filename().string();
   j["going_on"] = run.going_on;
-  j["summary"] = summary.is_object() ? summary : Json::object();
+  j["summary"] = std::move(summary);
   // Their curves come from the run file, with their times.
   for (const char* key : {"measures", "measure_units"}) j["summary"].erase(key);
   j["provenance"] = run.provenance;
   j["provenance"].erase("scene");
   if (const auto scene = run.provenance.find("scene"); scene != run.provenance.end()) {
-    j["scene"] = Json::parse(scene->second, nullptr, false);
-    j["differences"] = differences_from_defaults(scene->second);
+    describe_scene(run, scene->second, j);
   }
   j["checks"] = list_checks(j["summary"]);
   j["series"] = curves(run.series, {});

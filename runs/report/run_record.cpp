@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
 #include "runs/session/run_folder.hpp"
 
 namespace acinus::runs {
@@ -34,19 +34,26 @@ RunRecord read_run_record(const std::string& folder) {
   run.folder = folder;
   const std::string file = folder + "/run.vtkhdf", summary = folder + "/summary.json";
   std::error_code code;
-  const bool has_file = fs::exists(file, code), has_summary = fs::exists(summary, code);
+  const bool has_file = fs::exists(fs::symlink_status(file, code)),
+             has_summary = fs::exists(fs::symlink_status(summary, code));
   check(has_file || has_summary,
         fmt::format("{}: holds neither run.vtkhdf nor summary.json. Name a folder that "
                     "`acinus run` wrote.",
                     folder),
         Exit::kFileError);
   attempt(run, "lock of the folder", [&] { run.going_on = is_being_written(folder); });
-  if (has_summary) attempt(run, "summary", [&] { run.summary = io::read_text_file(summary); });
+  if (has_summary)
+    attempt(run, "summary", [&] { run.summary = io::read_text_inside(folder, "summary.json"); });
   if (!has_file) {
     run.damage.emplace_back("run.vtkhdf is missing: no frames, no tables");
     return run;
   }
-  attempt(run, "run file", [&] { run.reader.emplace(file); });
+  attempt(run, "run file", [&] {
+    check(io::is_file_inside(folder, "run.vtkhdf"),
+          file + ": is a link or no regular file, and is not followed. Name the folder it lies in.",
+          Exit::kFileError);
+    run.reader.emplace(file);
+  });
   if (!run.reader) return run;
   attempt(run, "provenance", [&] { run.provenance = run.reader->provenance(); });
   attempt(run, "series", [&] { run.series = run.reader->series(); });

@@ -6,8 +6,9 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
 #include "runs/report/other_parts.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/session/shell_quote.hpp"
 
 namespace acinus::runs {
@@ -34,9 +35,9 @@ std::string take_field(std::istringstream& line) {
 }
 
 /// Rows of a CSV file, the header first.
-Json read_csv(const fs::path& file) {
+Json read_csv(const std::string& folder, const std::string& name) {
   Json rows = Json::array();
-  std::istringstream text(io::read_text_file(file.string()));
+  std::istringstream text(io::read_text_inside(folder, name));
   for (std::string line; std::getline(text, line);) {
     std::istringstream in(line);
     Json row = Json::array();
@@ -58,19 +59,20 @@ Json describe_study(const std::string& folder) {
         Exit::kFileError);
   Json j{
       {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};
-  j["runs"] = read_csv(root / "runs.csv");
+  j["runs"] = read_csv(folder, "runs.csv");
   j["verdicts"] = Json::array();
   if (fs::exists(root / "verdicts.json", code))
-    j["verdicts"] =
-        Json::parse(io::read_text_file((root / "verdicts.json").string()), nullptr, false);
+    j["verdicts"] = parse_or_discard<Json>(io::read_text_inside(folder, "verdicts.json"));
   std::vector<fs::path> plots;
-  for (const fs::directory_entry& entry : fs::directory_iterator(root / "plots", code))
-    if (entry.path().extension() == ".svg") plots.push_back(entry.path());
+  if (io::is_folder_inside(folder, "plots"))
+    for (const fs::directory_entry& entry : fs::directory_iterator(root / "plots", code))
+      if (entry.path().extension() == ".svg") plots.push_back(entry.path());
   std::ranges::sort(plots);
   j["plots"] = Json::array();
   for (const fs::path& plot : plots)
     j["plots"].push_back(
-        {{"name", plot.stem().string()}, {"svg", io::read_text_file(plot.string())}});
+        {{"name", plot.stem().string()},
+         {"svg", io::read_text_inside(folder, "plots/" + plot.filename().string())}});
   return j;
 }
 

@@ -7,6 +7,8 @@
 #include <ranges>
 #include <string_view>
 
+#include "core/error.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/scene/registry.hpp"
 
 namespace acinus::runs {
@@ -53,7 +55,9 @@ bool is_default(const std::string& pointer, const Json& value) {
 std::vector<std::string> list_scene_differences(
     const std::string& then_text, const std::string& now_text,
     const std::function<bool(const std::string& path)>& may_differ) {
-  const Json then = Json::parse(then_text), now = Json::parse(now_text);
+  const Json then = parse_or_discard<Json>(then_text), now = Json::parse(now_text);
+  check(then.is_object(), "the scene that was kept is damaged: it is no JSON object.",
+        Exit::kFileError);
   std::vector<std::string> lines;
   for (const Json& change : Json::diff(then, now)) {
     const std::string path = change["path"];

@@ -3,23 +3,24 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <boost/beast/core/detail/base64.hpp>
 #include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
+#include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {
 namespace {
 
-constexpr const char* kCookie = "acinus_token=";
+constexpr std::size_t kMostToken = 4096;  ///< bytes
 
 std::string decode_base64(const std::string& text) {
   namespace base64 = boost::beast::detail::base64;
@@ -28,13 +29,13 @@ std::string decode_base64(const std::string& text) {
   return out;
 }
 
-std::string cookie_token(const HttpRequest& request) {
-  const std::string cookies = request.header("cookie");
+std::string session_of(const ServiceAccess& access, const HttpRequest& request) {
+  const std::string cookies = request.header("cookie"), name = access.cookie + "=";
   for (std::size_t at = 0; at < cookies.size();) {
     const std::size_t end = std::min(cookies.find(';', at), cookies.size());
     std::string one = cookies.substr(at, end - at);
     one.erase(0, one.find_first_not_of(' '));
-    if (one.starts_with(kCookie)) return one.substr(std::strlen(kCookie));
+    if (one.starts_with(name)) return one.substr(name.size());
     at = end + 1;
   }
   return "";
@@ -74,9 +75,13 @@ std::string make_token() {
 }
 
 std::string keep_token(const std::string& file) {
-  std::error_code code;
-  if (std::filesystem::exists(file, code)) {
-    std::string token = io::read_text_file(file);
+  struct stat status {};
+  if (lstat(file.c_str(), &status) == 0) {
+    check(S_ISREG(status.st_mode) && status.st_uid == geteuid() && (status.st_mode & 077) == 0,
+          fmt::format("{}: others made it or can read or write it, so it may be no secret. Remove "
+                      "it, and a new one is made.",
+                      file));
+    std::string token = io::read_text_beside(file, kMostToken);
     while (!token.empty() && token.back() == '\n') token.pop_back();
     check(token.size() >= 16,
           fmt::format("{}: holds no token of 16 characters or more. Remove it, and a new one is "
@@ -85,7 +90,8 @@ std::string keep_token(const std::string& file) {
     return token;
   }
   const std::string token = make_token(), line = token + "\n";
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const int descriptor =
+      open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (descriptor < 0) io::fail_on_disk(file, "be made", errno);
   const bool written =
       io::write_all(descriptor, reinterpret_cast<const std::byte*>(line.data()), line.size(), 0);
@@ -130,7 +136,7 @@ std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& 
     return same_secret(token, access.token)
                ? std::nullopt
                : std::optional(refused("the token is not that of this service"));
-  if (!same_secret(cookie_token(request), access.token))
+  if (!access.sessions.knows(session_of(access, request)))
     return refused("a token is needed: the line that `acinus serve` prints has it");
   // A browser sends cookies along whoever made it ask; what changes something must say who did.
   if (!request.reads() && origin.empty() && request.header("sec-fetch-site") != "same-origin")
@@ -139,14 +145,14 @@ std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& 
 }
 
 HttpReply log_in(const ServiceAccess& access, const HttpRequest& request) {
-  const nlohmann::json form = nlohmann::json::parse(request.body, nullptr, false);
-  const bool given = form.is_object() && form.contains("token") && form["token"].is_string();
-  if (!given || !same_secret(form["token"].get<std::string>(), access.token))
+  if (access.token.empty()) return error_reply(404, "NotFound", "this service asks for no token");
+  const auto form = parse_or_discard<nlohmann::json>(request.body);
+  if (!same_secret(text_at(form, "token"), access.token))
     return refused("the token is not that of this service");
   HttpReply reply;
   reply.status = 204;
-  reply.headers.emplace_back(
-      "Set-Cookie", fmt::format("{}{}; HttpOnly; SameSite=Strict; Path=/", kCookie, access.token));
+  reply.headers.emplace_back("Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/",
+                                                       access.cookie, access.sessions.open()));
   return reply;
 }
 

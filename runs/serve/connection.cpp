@@ -8,6 +8,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
+#include <boost/beast/core/file_posix.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -20,7 +21,10 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <utility>
+
+#include "core/io/inside.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -30,10 +34,16 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 
 constexpr auto kPatience = std::chrono::seconds(30);  ///< with a client that sends or takes slowly
-constexpr auto kLinger = std::chrono::seconds(2);     ///< with what comes after the reply
+constexpr auto kStrangerPatience = std::chrono::seconds(10);  ///< with one of whom nothing is known
+constexpr auto kRoomPoll = std::chrono::milliseconds(20);
+constexpr auto kLinger = std::chrono::seconds(2);  ///< with what comes after the reply
 constexpr auto kEventPoll = std::chrono::milliseconds(500);
 constexpr std::uint32_t kMostHeader = 16384;      ///< bytes
 constexpr std::uint64_t kMostStrangeBody = 4096;  ///< bytes, of whom nothing is known
+
+constexpr std::array kSingle{"host",           "origin",        "authorization",
+                             "content-length", "content-type",  "transfer-encoding",
+                             "expect",         "sec-fetch-site"};
 
 HttpRequest take_head(const http::request_header<>& head) {
   HttpRequest request;
@@ -42,8 +52,14 @@ HttpRequest take_head(const http::request_header<>& head) {
   for (const auto& field : head) {
     std::string name(field.name_string());
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    request.headers[name] = std::string(field.value());
+    const auto [known, fresh] = request.headers.emplace(name, field.value());
+    // Servers that read the other one would see another request.
+    if (!fresh && std::ranges::count(kSingle, name) > 0)
+      request.fault = fmt::format("the head has {} twice", name);
   }
+  const std::string coding = request.header("transfer-encoding");
+  if (!coding.empty() && (coding != "chunked" || request.headers.contains("content-length")))
+    request.fault = "the only Transfer-Encoding is chunked, and then without Content-Length";
   return request;
 }
 
@@ -62,8 +78,19 @@ http::response<Body> make_head(const HttpReply& reply, bool keep_alive) {
 
 class Connection {
  public:
-  Connection(asio::ip::tcp::socket socket, Routes& routes, const ServeOptions& options)
-      : stream_(std::move(socket)), routes_(routes), options_(options) {}
+  Connection(asio::ip::tcp::socket socket, Routes& routes, const ServeOptions& options,
+             Connections& connections)
+      : stream_(std::move(socket)),
+        routes_(routes),
+        options_(options),
+        connections_(connections),
+        stranger_(connections.add_stranger([this] { stream_.close(); })) {}
+  ~Connection() {
+    become_known();
+    give_room();
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
 
   Task<void> serve() {
     while (co_await serve_one()) {
@@ -85,27 +112,69 @@ class Connection {
     while (!failed_) co_await stream_.async_read_some(asio::buffer(bytes), token());
   }
 
+  void become_known() {
+    if (stranger_) connections_.forget_stranger(*std::exchange(stranger_, std::nullopt));
+  }
+
+  void give_room() { connections_.give_room(std::exchange(room_, 0)); }
+
+  /// Waits until a body may be received.
+  Task<bool> take_room(double bytes) {
+    asio::steady_timer timer(stream_.get_executor());
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!connections_.take_room(bytes)) {
+      if (std::chrono::steady_clock::now() > end) co_return false;
+      timer.expires_after(kRoomPoll);
+      co_await timer.async_wait(token());
+    }
+    room_ = bytes;
+    co_return true;
+  }
+
+  /// Reads the body: of strangers, a few bytes.
+  Task<bool> take_body(http::request_parser<http::string_body>& parser, bool allowed) {
+    if (!allowed) parser.body_limit(kMostStrangeBody);
+    if (allowed && !parser.is_done()) {
+      const double length = static_cast<double>(
+          parser.content_length().value_or(static_cast<std::uint64_t>(options_.max_body)));
+      stream_.expires_never();
+      if (length <= options_.max_body && !co_await take_room(length)) {
+        co_await send(error_reply(503, "Busy", "too much is being received; try again"), false);
+        co_return false;
+      }
+      stream_.expires_after(kPatience);
+    }
+    if (parser.get()[http::field::expect] == "100-continue") {
+      http::response<http::empty_body> go_on{http::status::continue_, 11};
+      co_await http::async_write(stream_, go_on, token());
+    }
+    co_await http::async_read(stream_, buffer_, parser, token());
+    if (!failed_) co_return true;
+    co_await refuse_what_is_no_request();
+    co_return false;
+  }
+
   /// @return whether there may be another one
   Task<bool> serve_one() {
     http::request_parser<http::string_body> parser;
     parser.header_limit(kMostHeader);
     parser.body_limit(static_cast<std::uint64_t>(options_.max_body));
-    stream_.expires_after(kPatience);
+    stream_.expires_after(stranger_ ? kStrangerPatience : kPatience);
     co_await http::async_read_header(stream_, buffer_, parser, token());
     if (failed_) co_return co_await refuse_what_is_no_request();
     HttpRequest request = take_head(parser.get());
     head_only_ = request.method == "HEAD";
-    if (!routes_.is_allowed(request)) parser.body_limit(kMostStrangeBody);
-    if (request.header("expect") == "100-continue") {
-      http::response<http::empty_body> go_on{http::status::continue_, 11};
-      co_await http::async_write(stream_, go_on, token());
-    }
-    co_await http::async_read(stream_, buffer_, parser, token());
-    if (failed_) co_return co_await refuse_what_is_no_request();
+    if (!request.fault.empty())
+      co_return co_await send(error_reply(400, "BadRequest", request.fault), false);
+    const bool allowed = routes_.is_allowed(request);
+    if (allowed) become_known();
+    const bool received = co_await take_body(parser, allowed);
+    if (!received) co_return false;
     request.body = std::move(parser.get().body());
     const bool keep_alive = parser.get().keep_alive();
     stream_.expires_never();  // an evaluation may take hours
-    const HttpReply reply = co_await answer(request);
+    const HttpReply reply = co_await answer(std::move(request));
+    give_room();
     co_return co_await send(reply, keep_alive);
   }
 
@@ -125,7 +194,7 @@ class Connection {
   }
 
   /// What is our fault ends one request, not the service.
-  Task<HttpReply> answer(const HttpRequest& request) {
+  Task<HttpReply> answer(HttpRequest request) {
     std::string fault;
     try {
       co_return co_await routes_.answer(request);
@@ -148,8 +217,13 @@ class Connection {
 
   Task<bool> send_file(const HttpReply& reply, bool keep_alive) {
     auto response = make_head<http::file_body>(reply, keep_alive);
-    response.body().open(reply.file.c_str(), beast::file_mode::scan, failed_);
-    if (failed_) {
+    io::Descriptor found = io::open_inside(reply.folder, reply.file);
+    if (found.valid()) {
+      beast::file_posix file;
+      file.native_handle(found.release());
+      response.body().reset(std::move(file), failed_);
+    }
+    if (!response.body().is_open() || failed_) {
       const HttpReply gone = error_reply(404, "NotFound", "the file is gone");
       co_return co_await send(gone, keep_alive);
     }
@@ -198,13 +272,16 @@ class Connection {
   const ServeOptions& options_;
   beast::error_code failed_;
   bool head_only_ = false;
+  Connections& connections_;
+  std::optional<Connections::Stranger> stranger_;
+  double room_ = 0;  ///< bytes that the connections count for it
 };
 
 }  // namespace
 
 Task<void> serve_connection(asio::ip::tcp::socket socket, Routes& routes,
-                            const ServeOptions& options) {
-  Connection connection(std::move(socket), routes, options);
+                            const ServeOptions& options, Connections& connections) {
+  Connection connection(std::move(socket), routes, options, connections);
   co_await connection.serve();
 }
 

@@ -4,12 +4,13 @@
 #include <boost/asio/ip/tcp.hpp>
 
 #include "runs/serve/async.hpp"
+#include "runs/serve/connections.hpp"
 #include "runs/serve/routes.hpp"
 
 namespace acinus::runs {
 
 /// Answers requests until the client goes, is too slow or sends what is no HTTP.
 Task<void> serve_connection(boost::asio::ip::tcp::socket socket, Routes& routes,
-                            const ServeOptions& options);
+                            const ServeOptions& options, Connections& connections);
 
 }  // namespace acinus::runs

@@ -10,12 +10,13 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/timing.hpp"
+#include "runs/serve/run_end.hpp"
 #include "runs/session/child.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
@@ -31,26 +32,11 @@ constexpr auto kLook = std::chrono::seconds(1);
 constexpr int kMostKills = 5;      ///< in a row, without getting any further
 constexpr double kGrace = 60;      ///< s that a run may take to end beyond its limits
 constexpr int kLooksPerSize = 10;  ///< the size of a folder is looked at less often
+/// Address space of a run beyond the memory it may use: the program, stacks, pools of threads.
+/// The run keeps its limit itself; this is for one that does not.
+constexpr double kRoom = 4e9, kRoomOfThread = 2e8;
 
-std::string output_file(const std::string& folder) { return folder + "/output.txt"; }
 std::string progress_file(const std::string& folder) { return folder + "/progress.txt"; }
-
-/// What a run that could not even begin has told, without the program's name.
-std::string told(const std::string& folder) {
-  std::string line = last_line(output_file(folder));
-  if (line.starts_with("acinus: ")) line.erase(0, 8);
-  return line;
-}
-
-/// Why a run stopped by itself.
-std::string why_stopped(const std::string& folder) {
-  try {
-    if (const std::string cause = read_summary(folder).cause; !cause.empty())
-      return cause + ", by the limits of this service";
-  } catch (const Error&) {  // before its first checkpoint
-  }
-  return told(folder);
-}
 
 }  // namespace
 
@@ -60,6 +46,8 @@ struct Dispatcher::Active {
   Child child;
   asio::posix::stream_descriptor ended;  ///< readable when the child has ended
   double started = wall_seconds();
+  /// Summaries before this are of earlier attempts. Clocks of file systems may be a little behind.
+  FileTime began = FileTime::clock::now() - std::chrono::seconds(1);
   double limit_s;  ///< wall time, of this attempt
   int looks = 0;
   bool to_stop = false;  ///< by a client
@@ -75,18 +63,18 @@ Dispatcher::Dispatcher(asio::io_context& io, const ServeOptions& options, JobSto
       options_(options),
       store_(store),
       disk_bytes_(JobStore::size_of(store.folder())),
+      cache_bytes_(JobStore::size_of(store.cache_folder())),
       timers_(std::make_unique<Timers>(Timers{asio::steady_timer(io)})) {
   for (RunJob& job : store_.load(warnings_)) {
     const std::string folder = store_.run_folder(job.id);
-    std::error_code code;
     job.bytes = JobStore::size_of(folder);
     // A run may have ended while no service looked.
-    if (fs::exists(folder + "/summary.json", code) && job.state != JobState::kStopped) try {
-        const RunSummary summary = read_summary(folder);
-        job.time_s = job.end_s = summary.simulated_s;
-        job.dcm = summary.dcm;
-        job.cbm = summary.cbm;
-      } catch (const Error&) {  // torn: the run is resumed from its checkpoint
+    // A torn one: the run is resumed from its checkpoint.
+    if (job.state != JobState::kStopped)
+      if (const auto summary = find_summary(folder, FileTime::min())) {
+        job.time_s = job.end_s = summary->simulated_s;
+        job.dcm = summary->dcm;
+        job.cbm = summary->cbm;
       }
     jobs_[job.id] = std::make_unique<RunJob>(job);
   }
@@ -117,8 +105,25 @@ void Dispatcher::check_room() const {
                     1e-9 * disk_bytes_));
 }
 
+void Dispatcher::measure(RunJob& job) {
+  disk_bytes_ -= job.bytes;
+  job.bytes = JobStore::size_of(store_.run_folder(job.id));
+  disk_bytes_ += job.bytes;
+}
+
+void Dispatcher::measure(const std::string& id) {
+  if (RunJob* job = find(id)) measure(*job);
+}
+
+void Dispatcher::fail(RunJob& job, const std::string& cause) {
+  job.failed = true;
+  job.cause = cause;
+  move(job, JobState::kFailed);
+}
+
 RunJob& Dispatcher::submit(RunJob job) {
   store_.accept(job);
+  disk_bytes_ += job.bytes;
   const std::string id = job.id;
   RunJob& kept = *(jobs_[id] = std::make_unique<RunJob>(std::move(job)));
   ++revision_;
@@ -140,10 +145,8 @@ void Dispatcher::start_what_can() {
     if (is_being_written(store_.run_folder(id))) continue;
     try {
       start(*job);
-    } catch (const Error& error) {
-      job->failed = true;
-      job->cause = error.what();
-      move(*job, JobState::kFailed);
+    } catch (const std::exception& error) {
+      fail(*job, error.what());
     }
   }
 }
@@ -151,11 +154,11 @@ void Dispatcher::start_what_can() {
 void Dispatcher::start(RunJob& job) {
   const std::string folder = store_.run_folder(job.id);
   std::error_code ignored;
-  if (fs::exists(folder + "/summary.json", ignored)) {
-    const RunSummary summary = read_summary(folder);
-    if (summary.status == "completed" || summary.status == "failed")
-      return finish_as(job, summary.status == "completed" ? 0 : 3);
-  }
+  // It may have ended while no service looked.
+  if (const auto summary = find_summary(folder, FileTime::min()))
+    if (summary->status == "completed" || summary->status == "failed")
+      return finish_as(job, summary->status == "completed" ? 0 : 3, FileTime::min());
+  job.cause.clear();
   const double limit_s = options_.max_walltime_s - job.used_s;
   if (limit_s <= 0) {
     job.cause = "the wall-time limit of this service (--max-walltime)";
@@ -181,9 +184,11 @@ void Dispatcher::start(RunJob& job) {
                                        "--until-cells",
                                        std::to_string(options_.max_cells),
                                        io::has_checkpoint(folder) ? "--resume" : "--overwrite"};
-  Child child(
-      words,
-      {.output = output_file(folder), .progress = progress_file(folder), .follows_parent = true});
+  Child child(words, {.output = output_file(folder),
+                      .progress = progress_file(folder),
+                      .follows_parent = true,
+                      .most_memory = options_.max_memory + kRoom + kRoomOfThread * options_.threads,
+                      .largest_file = 2 * options_.max_run_bytes});
   auto active = std::make_unique<Active>(io_, std::move(child), limit_s);
   wait_for_end(job, *(active_[job.id] = std::move(active)));
 }
@@ -191,7 +196,12 @@ void Dispatcher::start(RunJob& job) {
 void Dispatcher::wait_for_end(RunJob& job, Active& active) {
   active.ended.async_wait(asio::posix::stream_descriptor::wait_read,
                           [this, &job](const boost::system::error_code& failed) {
-                            if (!failed) finish(job);
+                            if (failed) return;
+                            try {
+                              finish(job);
+                            } catch (const std::exception& error) {
+                              fail(job, error.what());
+                            }
                           });
 }
 
@@ -201,9 +211,10 @@ void Dispatcher::finish(RunJob& job) {
   const ChildEnd end = active->child.collect();
   job.used_s += wall_seconds() - active->started;
   const std::string folder = store_.run_folder(job.id);
-  disk_bytes_ -= job.bytes;
-  job.bytes = JobStore::size_of(folder);
-  disk_bytes_ += job.bytes;
+  measure(job);
+  disk_bytes_ -= cache_bytes_;
+  cache_bytes_ = JobStore::size_of(store_.cache_folder());
+  disk_bytes_ += cache_bytes_;
   job.left_s = -1;
   job.phase.clear();
   job.cause = active->too_much;
@@ -211,29 +222,27 @@ void Dispatcher::finish(RunJob& job) {
     move(job, JobState::kWaiting);
   } else if (end.code == static_cast<int>(Exit::kStopped) ||
              (end.signal != 0 && (active->to_stop || !active->too_much.empty()))) {
-    if (job.cause.empty() && !active->to_stop) job.cause = why_stopped(folder);
+    if (job.cause.empty() && !active->to_stop) job.cause = why_stopped(folder, active->began);
     move(job, JobState::kStopped);
   } else if (end.signal != 0) {
     wait_again_after_kill(job);
   } else if (end.code == static_cast<int>(Exit::kBadInput) && is_being_written(folder)) {
     move(job, JobState::kWaiting);
   } else {
-    finish_as(job, end.code);
+    finish_as(job, end.code, active->began);
   }
   if (ending_ && active_.empty() && all_ended_) return all_ended_();
   start_what_can();
 }
 
-void Dispatcher::finish_as(RunJob& job, int code) {
+void Dispatcher::finish_as(RunJob& job, int code, FileTime since) {
   const std::string folder = store_.run_folder(job.id);
   job.failed = code != 0;
-  try {
-    const RunSummary summary = read_summary(folder);
-    job.time_s = summary.simulated_s;
-    job.dcm = summary.dcm;
-    job.cbm = summary.cbm;
-    if (code != 0) job.cause = summary.cause;
-  } catch (const Error&) {  // it did not get so far
+  if (const auto summary = find_summary(folder, since)) {
+    job.time_s = summary->simulated_s;
+    job.dcm = summary->dcm;
+    job.cbm = summary->cbm;
+    if (code != 0) job.cause = summary->cause;
   }
   if (job.failed && job.cause.empty()) job.cause = told(folder);
   if (job.failed && job.cause.empty()) job.cause = fmt::format("exit code {}", code);
@@ -241,7 +250,7 @@ void Dispatcher::finish_as(RunJob& job, int code) {
     job.cause = fmt::format("ended at {} cells, the limit of this service", options_.max_cells);
   if (!job.failed && job.evaluation && on_evaluated) try {
       on_evaluated(job, folder);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       job.failed = true;
       job.cause = error.what();
     }
@@ -261,32 +270,42 @@ void Dispatcher::look_again() {
   timers_->look.expires_after(kLook);
   timers_->look.async_wait([this](const boost::system::error_code& failed) {
     if (failed) return;
+    // Whatever goes wrong with one run, the others are looked after.
     for (const auto& [id, active] : active_) look(*jobs_.at(id), *active);
-    start_what_can();
+    try {
+      start_what_can();
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "acinus: warning: {}\n", error.what());
+    }
     look_again();
   });
 }
 
 void Dispatcher::look(RunJob& job, Active& active) {
-  const std::string folder = store_.run_folder(job.id);
-  const std::string line = take_progress_line(progress_file(folder));
-  const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
-  if (j.is_object() && j.value("wall_s", -1.0) >= 0) {
-    const RunProgress progress = parse_progress(line);
-    const bool news = progress.time_s != job.time_s || j.value("phase", "") != job.phase;
-    job.time_s = progress.time_s;
-    job.end_s = progress.end_s;
-    job.left_s = progress.left_s.value_or(-1);
-    job.phase = j.value("phase", "");
-    job.dcm = j.value("dcm", 0);
-    job.cbm = j.value("cbm", 0);
-    if (news) ++job.revision, ++revision_;
+  try {
+    read_news(job);
+    if (++active.looks % kLooksPerSize == 0) measure(job);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "acinus: warning: run {}: {}\n", job.id, error.what());
   }
-  if (++active.looks % kLooksPerSize == 0) {
-    disk_bytes_ -= job.bytes;
-    job.bytes = JobStore::size_of(folder);
-    disk_bytes_ += job.bytes;
-  }
+  keep_limits(job, active);
+}
+
+void Dispatcher::read_news(RunJob& job) {
+  const RunProgress progress =
+      parse_progress(take_progress_line(progress_file(store_.run_folder(job.id))));
+  if (!progress.said) return;
+  const bool news = progress.time_s != job.time_s || progress.phase != job.phase;
+  job.time_s = progress.time_s;
+  job.end_s = progress.end_s;
+  job.left_s = progress.left_s.value_or(-1);
+  job.phase = progress.phase;
+  job.dcm = progress.dcm;
+  job.cbm = progress.cbm;
+  if (news) ++job.revision, ++revision_;
+}
+
+void Dispatcher::keep_limits(RunJob& job, Active& active) {
   if (job.bytes > options_.max_run_bytes && active.too_much.empty()) {
     active.too_much =
         fmt::format("{:.3g} GB on disk, more than this service allows for one run (--max-run-disk)",
@@ -311,9 +330,17 @@ void Dispatcher::stop(RunJob& job) {
 }
 
 void Dispatcher::resume(RunJob& job) {
-  check(job.state == JobState::kStopped,
-        fmt::format("the run is {}; only one that was stopped can be resumed", name_of(job.state)));
+  const std::string folder = store_.run_folder(job.id);
+  const bool again = job.state == JobState::kFailed && io::has_checkpoint(folder);
+  check(job.state == JobState::kStopped || again,
+        fmt::format("the run is {}; only one that was stopped, or failed with a checkpoint, can be "
+                    "resumed",
+                    name_of(job.state)));
   check_room();
+  // Else its end would be taken for that of the new attempt.
+  std::error_code ignored;
+  if (again) fs::remove(folder + "/summary.json", ignored);
+  job.failed = false;
   job.cause.clear();
   job.kills = 0;
   move(job, JobState::kWaiting);

@@ -2,6 +2,7 @@
 /// The queue at work: starts waiting runs as child processes, follows them, stops and resumes them.
 
 #include <boost/asio/io_context.hpp>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -36,6 +37,10 @@ class Dispatcher {
   void remove(RunJob& job);
 
   RunJob* find(const std::string& id);
+  /// Updates the size of a job's folder.
+  void measure(const std::string& id);
+  /// Counts what was written beside the runs.
+  void add_disk(double bytes) { disk_bytes_ += bytes; }
   /// All jobs, oldest first.
   const std::map<std::string, std::unique_ptr<RunJob>>& jobs() const { return jobs_; }
   /// Counts every change of any job.
@@ -52,10 +57,15 @@ class Dispatcher {
   void start(RunJob& job);
   void wait_for_end(RunJob& job, Active& active);
   void finish(RunJob& job);
-  void finish_as(RunJob& job, int code);
+  /// @param since  summaries before are of earlier attempts
+  void finish_as(RunJob& job, int code, std::filesystem::file_time_type since);
   void wait_again_after_kill(RunJob& job);
   void look_again();
   void look(RunJob& job, Active& active);
+  void read_news(RunJob& job);
+  void keep_limits(RunJob& job, Active& active);
+  void measure(RunJob& job);
+  void fail(RunJob& job, const std::string& cause);
   void move(RunJob& job, JobState to);
 
   boost::asio::io_context& io_;
@@ -66,6 +76,7 @@ class Dispatcher {
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
   double disk_bytes_ = 0;
+  double cache_bytes_ = 0;  ///< of them, what runs calibrated
   bool ending_ = false;
   std::function<void()> all_ended_;
   struct Timers;

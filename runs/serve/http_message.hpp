@@ -17,6 +17,7 @@ struct HttpRequest {
   std::vector<std::string> path;               ///< "/runs/ID" as {"runs", "ID"}, as it was sent
   std::map<std::string, std::string> headers;  ///< names in lower case
   std::string body;
+  std::string fault;                                  ///< of its head; "" = none
   std::string header(const std::string& name) const;  ///< "" = none
   bool reads() const { return method == "GET" || method == "HEAD"; }
 };
@@ -28,7 +29,8 @@ struct HttpReply {
   int status = 200;
   std::string type = "application/json";
   std::string body;
-  std::string file;    ///< sent instead of the body; "" = none
+  std::string folder;  ///< of the file
+  std::string file;    ///< inside the folder, sent instead of the body; "" = none
   EventSource events;  ///< sent instead of both; empty = none
   std::vector<std::pair<std::string, std::string>> headers;
 };

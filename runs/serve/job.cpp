@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -64,7 +65,7 @@ void write_job(const std::string& folder, const RunJob& job) {
 RunJob read_job(const std::string& folder) {
   RunJob job;
   try {
-    const nlohmann::json j = nlohmann::json::parse(io::read_text_file(record_file(folder)));
+    const auto j = parse_or_discard<nlohmann::json>(io::read_text_file(record_file(folder)));
     job.id = j.at("id");
     job.name = j.at("name");
     job.scene = j.at("scene");

@@ -1,8 +1,11 @@
 #include "runs/serve/job_store.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -49,8 +52,32 @@ void make_folder(const std::string& folder) {
         Exit::kFileError);
 }
 
+/// Makes the data folder, for this account only: others with the right to write could put a token
+/// or a run there, others with the right to read could keep its locks.
+void make_own_folder(const std::string& folder) {
+  const fs::path parent = fs::path(folder).parent_path();
+  if (!parent.empty()) make_folder(parent.string());
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    io::fail_on_disk(folder, "make the folder", errno);
+  struct stat status {};
+  if (stat(folder.c_str(), &status) != 0) io::fail_on_disk(folder, "open", errno);
+  check(S_ISDIR(status.st_mode), fmt::format("--data {}: is no folder.", folder));
+  check(status.st_uid == geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0,
+        fmt::format("--data {}: belongs to another user, or others may write in it: they could "
+                    "put a token of their own there. Choose another --data, or take the right to "
+                    "write from others (chmod go-w) after a look at what is in it.",
+                    folder));
+  if ((status.st_mode & 077) != 0 && chmod(folder.c_str(), 0700) != 0)
+    io::fail_on_disk(folder, "be closed to others", errno);
+}
+
+std::string without_slash(std::string folder) {
+  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
+  return folder;
+}
+
 io::FileLock hold(const std::string& folder) {
-  make_folder(folder);
+  make_own_folder(folder);
   std::optional<io::FileLock> lock = io::FileLock::try_take(folder + "/service.lock", 1);
   if (!lock)
     throw Error(fmt::format("--data {}: {} serves this folder. Choose another one, or end it.",
@@ -65,8 +92,8 @@ std::string queue_file(const std::string& folder, const char* queue, const std::
 }  // namespace
 
 JobStore::JobStore(const std::string& folder)
-    : folder_(fs::absolute(folder).lexically_normal().string()), lock_(hold(folder_)) {
-  while (folder_.size() > 1 && folder_.back() == '/') folder_.pop_back();
+    : folder_(without_slash(fs::absolute(folder).lexically_normal().string())),
+      lock_(hold(folder_)) {
   make_folder(folder_ + "/runs");
   make_folder(results_folder());
   for (const char* queue : kQueues) make_folder(folder_ + "/queue/" + queue);

@@ -4,6 +4,7 @@
 ///     runs/ID/        a run folder, with job.json and what the client sent in input/
 ///     queue/STATE/ID  an empty file, renamed from state to state
 ///     results/KEY     what evaluations found
+///     cache/          laws that runs calibrated
 ///
 /// A run exists once its file in the queue does.
 
@@ -18,13 +19,15 @@ namespace acinus::runs {
 
 class JobStore {
  public:
-  /// Makes the folder where needed, and holds it.
-  /// @throws Error(kBadInput) if another service holds it, kFileError
+  /// Makes the folder where needed, closes it to other users, and holds it.
+  /// @throws Error(kBadInput) if another service holds it or others may write in it, kFileError
   explicit JobStore(const std::string& folder);
 
   const std::string& folder() const { return folder_; }
   std::string run_folder(const std::string& id) const { return folder_ + "/runs/" + id; }
   std::string results_folder() const { return folder_ + "/results"; }
+  /// Folder of the laws that runs calibrate.
+  std::string cache_folder() const { return folder_ + "/cache"; }
 
   /// All jobs by id, as a service that ended in whatever way left them: those that were running
   /// wait. Removes folders of runs that were never accepted. What is damaged is told in `warnings`.

@@ -1,5 +1,8 @@
 #include "runs/serve/job_view.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ranges>
@@ -14,9 +17,27 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kMostListed = 200;
 constexpr int kQuietLooks = 30;  ///< looks without news before a comment is sent
+/// Bounds of a run within a list; GET /runs/ID gives it whole.
+constexpr std::size_t kMostListedSet = 8, kMostListedText = 200;
 constexpr const char* kComment = ": still here\n\n";
 
 std::string dump(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string shortened(const std::string& text) {
+  return text.size() <= kMostListedText ? text : text.substr(0, kMostListedText) + "...";
+}
+
+Json view_shortly(const RunJob& job) {
+  Json j = view_job(job);
+  Json set = Json::array();
+  for (std::size_t k = 0; k < std::min(job.set.size(), kMostListedSet); ++k)
+    set.push_back(shortened(job.set[k]));
+  if (job.set.size() > kMostListedSet)
+    set.push_back(fmt::format("... and {} more", job.set.size() - kMostListedSet));
+  j["set"] = set;
+  j["cause"] = shortened(job.cause);
+  return j;
+}
 
 }  // namespace
 
@@ -49,7 +70,7 @@ const std::string& JobList::text() {
   for (const auto& [id, job] : std::views::reverse(dispatcher_.jobs())) {
     if (job->evaluation && job->state != JobState::kFailed) continue;
     if (runs.size() == kMostListed) break;
-    runs.push_back(view_job(*job));
+    runs.push_back(view_shortly(*job));
   }
   text_ = dump({{"version", ACINUS_VERSION},
                 {"count", count},

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/run_reader.hpp"
+#include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {
 
@@ -47,7 +48,7 @@ std::optional<RunResult> find_result(const std::string& file) {
   if (!std::filesystem::is_regular_file(file, code)) return std::nullopt;
   try {
     RunResult result;
-    const nlohmann::json j = nlohmann::json::parse(io::read_text_file(file));
+    const auto j = parse_or_discard<nlohmann::json>(io::read_text_file(file));
     for (const auto& [name, one] : j.items()) {
       result.unit[name] = one.at("unit");
       result.curve[name] = {one.at("time_s").get<std::vector<double>>(),

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/io/inside.hpp"
 #include "runs/page/page_assets.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/serve/submission.hpp"
@@ -30,8 +31,11 @@ using Path = std::vector<std::string>;
 constexpr std::array kFiles{"scene.json", "summary.json", "run.vtkhdf", "run.vtkhdf.sums",
                             "run.xmf",    "run.log",      "output.txt", "checkpoint.h5",
                             "start.h5",   "report.html"};
-constexpr double kReportLimit = 120;  ///< s of wall time
-constexpr int kMostReports = 2;       ///< made at a time
+constexpr double kReportLimit = 120;   ///< s of wall time
+constexpr double kReportMemory = 8e9;  ///< bytes of address space
+constexpr int kMostReports = 2;        ///< made at a time
+/// The script is one line of others' work, too.
+constexpr const char* kServiceNotice = "/*! Licences: /page/licences.txt */\n";
 constexpr auto kPoll = std::chrono::milliseconds(50);
 
 HttpReply not_found(const std::string& message) { return error_reply(404, "NotFound", message); }
@@ -87,7 +91,8 @@ Routes::Routes(asio::io_context& io, const ServeOptions& options, const ServiceA
       store_(store),
       dispatcher_(dispatcher),
       list_(dispatcher),
-      um_bridge_(io, options, store, dispatcher) {}
+      um_bridge_(io, options, store, dispatcher),
+      preparation_(options, store) {}
 
 Task<HttpReply> Routes::answer(const HttpRequest& request) {
   if (std::optional<HttpReply> refusal = refuse(access_, request)) {
@@ -109,7 +114,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
       co_return reply;
     }
     if (path[0] == "runs" && path.size() == 1) {
-      if (request.method == "POST") co_return submit(request);
+      if (request.method == "POST") co_return co_await submit(request);
       if (!request.reads()) co_return wrong_method("GET, POST");
       co_return text_reply("application/json", list_.text() + "\n");
     }
@@ -134,17 +139,27 @@ HttpReply Routes::answer_page(const HttpRequest& request) {
   if (!request.reads()) return wrong_method("GET");
   if (path.empty()) return page(kServicePage, kPagePolicy);
   if (path == Path{"login"}) return page(kLoginPage, kLoginPolicy);
-  if (path == Path{"page", "service.js"}) return text_reply("text/javascript", kServiceScript);
+  if (path == Path{"page", "service.js"})
+    return text_reply("text/javascript", std::string(kServiceNotice) + std::string(kServiceScript));
+  if (path == Path{"page", "licences.txt"})
+    return text_reply("text/plain; charset=utf-8", kPageLicences);
   if (path == Path{"page", "service.css"}) return text_reply("text/css", kServiceStyle);
   return not_found("the page has no such part");
 }
 
-HttpReply Routes::submit(const HttpRequest& request) {
+Task<HttpReply> Routes::submit(const HttpRequest& request) {
   dispatcher_.check_room();
-  const RunJob& job = dispatcher_.submit(prepare_submission(request.body, options_, store_));
+  RunJob prepared = co_await preparation_.prepare(request.body);
+  try {
+    dispatcher_.check_room();  // it may have filled meanwhile
+  } catch (const Error&) {
+    store_.remove(prepared);
+    throw;
+  }
+  const RunJob& job = dispatcher_.submit(std::move(prepared));
   HttpReply reply = json_reply(201, view_job(job));
   reply.headers.emplace_back("Location", "/runs/" + job.id);
-  return reply;
+  co_return reply;
 }
 
 Task<HttpReply> Routes::answer_run(const HttpRequest& request, const std::string& id,
@@ -187,21 +202,19 @@ HttpReply Routes::series(const RunJob& job) {
 HttpReply Routes::list_files(const std::string& id) {
   Json all = Json::array();
   for (const char* name : kFiles) {
-    std::error_code code;
-    const std::uintmax_t size = fs::file_size(store_.run_folder(id) + "/" + name, code);
-    if (!code) all.push_back({{"name", name}, {"bytes", size}});
+    if (const auto size = io::size_inside(store_.run_folder(id), name))
+      all.push_back({{"name", name}, {"bytes", *size}});
   }
   return json_reply(200, all);
 }
 
 HttpReply Routes::send_file(const std::string& id, const std::string& name) {
   const auto known = std::ranges::find(kFiles, name);
-  std::error_code code;
-  const std::string file = known == kFiles.end() ? "" : store_.run_folder(id) + "/" + *known;
-  if (file.empty() || !fs::is_regular_file(file, code))
+  if (known == kFiles.end() || !io::is_file_inside(store_.run_folder(id), *known))
     return not_found(fmt::format("run {} has no such file; GET /runs/{}/files lists them", id, id));
   HttpReply reply;
-  reply.file = file;
+  reply.folder = store_.run_folder(id);
+  reply.file = *known;
   reply.type = name.ends_with(".json") ? "application/json" : "application/octet-stream";
   reply.headers.emplace_back("Content-Disposition",
                              fmt::format("attachment; filename=\"{}-{}\"", id, name));
@@ -229,7 +242,10 @@ Task<HttpReply> Routes::report(std::string id) {
     const RunJob* job = dispatcher_.find(id);
     const std::string title = job != nullptr ? job->name : id;
     Child child({"report", folder, "--out", fresh, "--title=" + title},
-                {.output = words, .limit_s = kReportLimit, .follows_parent = true});
+                {.output = words,
+                 .limit_s = kReportLimit,
+                 .follows_parent = true,
+                 .most_memory = kReportMemory});
     // Not the descriptor: the coroutine may go before the child does.
     while (!wait_for_any({&child}, 0)) {
       timer.expires_after(kPoll);
@@ -240,9 +256,12 @@ Task<HttpReply> Routes::report(std::string id) {
       co_return error_reply(503, "FileError",
                             fmt::format("no report could be made: {}", last_line(words)));
     fs::rename(fresh, file, ignored);
+    fs::remove(words, ignored);
+    dispatcher_.measure(id);
   }
   HttpReply reply;
-  reply.file = file;
+  reply.folder = folder;
+  reply.file = "report.html";
   reply.type = "text/html; charset=utf-8";
   reply.headers.emplace_back("Content-Security-Policy", kReportPolicy);
   co_return reply;

@@ -11,6 +11,7 @@
 #include "runs/serve/dispatcher.hpp"
 #include "runs/serve/http_message.hpp"
 #include "runs/serve/job_view.hpp"
+#include "runs/serve/preparation.hpp"
 #include "runs/serve/um_bridge.hpp"
 
 namespace acinus::runs {
@@ -20,14 +21,16 @@ class Routes {
   Routes(boost::asio::io_context& io, const ServeOptions& options, const ServiceAccess& access,
          JobStore& store, Dispatcher& dispatcher);
 
-  /// Whether a request may be answered at all, by its head alone: bodies of others are not read.
-  bool is_allowed(const HttpRequest& head) const { return !refuse(access_, head); }
+  /// Authorisation by the head alone: bodies of requests without it are not read.
+  bool is_allowed(const HttpRequest& head) const {
+    return !refuse(access_, head) && head.path != std::vector<std::string>{"login"};
+  }
   /// Never throws for what the request is to blame for.
   Task<HttpReply> answer(const HttpRequest& request);
 
  private:
   HttpReply answer_page(const HttpRequest& request);
-  HttpReply submit(const HttpRequest& request);
+  Task<HttpReply> submit(const HttpRequest& request);
   Task<HttpReply> answer_run(const HttpRequest& request, const std::string& id,
                              const std::string& what);
   Task<HttpReply> report(std::string id);
@@ -42,6 +45,7 @@ class Routes {
   Dispatcher& dispatcher_;
   JobList list_;
   UmBridge um_bridge_;
+  Preparation preparation_;
   /// Reports that are being made. Owned by those that are, too: when the service ends, their
   /// coroutines go with the loop, after this object.
   std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();

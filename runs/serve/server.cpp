@@ -1,7 +1,9 @@
 #include "runs/serve/server.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>
@@ -13,6 +15,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <thread>
 #include <utility>
@@ -22,6 +25,7 @@
 #include "runs/build/memory_need.hpp"
 #include "runs/serve/access.hpp"
 #include "runs/serve/connection.hpp"
+#include "runs/serve/connections.hpp"
 #include "runs/serve/dispatcher.hpp"
 #include "runs/serve/job_store.hpp"
 #include "runs/serve/routes.hpp"
@@ -31,6 +35,15 @@ namespace {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
+
+/// Returns freed memory to the system, unlike a simulation: requests are large and gone soon.
+void return_freed_memory() {
+#if defined(__GLIBC__)
+  constexpr int kLarge = 1 << 17;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, 2 * kLarge);
+#endif
+}
 
 /// Every listener of events holds a socket.
 void allow_many_files() {
@@ -66,13 +79,23 @@ tcp::acceptor listen(asio::io_context& io, const ServeOptions& options) {
   }
 }
 
-Task<void> accept(tcp::acceptor& acceptor, Routes& routes, const ServeOptions& options) {
+void warn_of_address(const ServeOptions& options, const tcp::acceptor& acceptor) {
+  if (!acceptor.local_endpoint().address().is_loopback())
+    fmt::print(stderr,
+               "acinus: warning: --address {}: other machines can reach this service, and what "
+               "they send, the token too, is not encrypted. Put a server with TLS before it.\n",
+               options.address);
+}
+
+Task<void> accept(tcp::acceptor& acceptor, Routes& routes, const ServeOptions& options,
+                  Connections& connections) {
   while (acceptor.is_open()) {
     boost::system::error_code failed;
     tcp::socket socket =
         co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, failed));
     if (!failed) {
-      asio::co_spawn(acceptor.get_executor(), serve_connection(std::move(socket), routes, options),
+      asio::co_spawn(acceptor.get_executor(),
+                     serve_connection(std::move(socket), routes, options, connections),
                      [](const std::exception_ptr&) {});  // a broken connection
     } else if (acceptor.is_open()) {
       // Too many files, perhaps: some will be closed.
@@ -114,12 +137,19 @@ void run(asio::io_context& io) {
 void serve(ServeOptions options) {
   fill_in(options);
   allow_many_files();
+  return_freed_memory();
+  umask(077);               // files and locks of runs are for this account only
+  Connections connections;  // before the loop, with which the last of them go
   asio::io_context io(1);
   tcp::acceptor acceptor = listen(io, options);
   const int port = acceptor.local_endpoint().port();
   JobStore store(options.data);
+  // What runs calibrate counts with the rest.
+  setenv("XDG_CACHE_HOME", store.cache_folder().c_str(), 1);
+  Sessions sessions;
   const ServiceAccess access{options.token ? keep_token(store.folder() + "/token") : "",
-                             allowed_hosts(options.address, port, options.names)};
+                             allowed_hosts(options.address, port, options.names),
+                             fmt::format("acinus_session_{}", port), sessions};
   Dispatcher dispatcher(io, options, store);
   for (const std::string& warning : dispatcher.warnings())
     fmt::print(stderr, "acinus: warning: {}\n", warning);
@@ -131,7 +161,9 @@ void serve(ServeOptions options) {
     std::fflush(stdout);
     dispatcher.end([&] { io.stop(); });
   });
-  asio::co_spawn(io, accept(acceptor, routes, options), [](const std::exception_ptr&) {});
+  asio::co_spawn(io, accept(acceptor, routes, options, connections),
+                 [](const std::exception_ptr&) {});
+  warn_of_address(options, acceptor);
   dispatcher.begin();
   if (!options.quiet) tell(options, access, port);
   run(io);

@@ -7,15 +7,19 @@
 #include <boost/beast/core/detail/base64.hpp>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
 #include "core/nearest.hpp"
 #include "runs/build/memory_need.hpp"
 #include "runs/build/place_cells.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/scene/document.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
@@ -28,15 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Removes the run folder of what is refused.
-struct RemoveUnlessKept {
-  std::string folder;
-  bool keep = false;
-  ~RemoveUnlessKept() {
-    std::error_code ignored;
-    if (!keep) fs::remove_all(folder, ignored);
-  }
-};
+constexpr std::size_t kMostFiles = 100, kMostSet = 200, kMostSetBytes = 64'000;
 
 /// Last names of the keys whose values are paths: "file", "from".
 const std::set<std::string>& path_keys() {
@@ -82,7 +78,15 @@ std::vector<std::string> read_set(const Json& j) {
   std::vector<std::string> set;
   if (!j.contains("set")) return set;
   check(j["set"].is_object(), "\"set\": must be an object, e.g. {\"time.end\": \"2 h\"}");
-  for (const auto& [key, value] : j["set"].items()) set.push_back(key + "=" + value.dump());
+  check(j["set"].size() <= kMostSet,
+        fmt::format("\"set\": has {} changes; at most {} are taken. Send a scene that has them.",
+                    j["set"].size(), kMostSet));
+  std::size_t bytes = 0;
+  for (const auto& [key, value] : j["set"].items()) {
+    set.push_back(key + "=" + value.dump());
+    bytes += set.back().size();
+  }
+  check(bytes <= kMostSetBytes, "\"set\": is too long. Send a scene that has these changes.");
   return set;
 }
 
@@ -90,6 +94,8 @@ void write_files(const Json& j, const std::string& folder) {
   namespace base64 = boost::beast::detail::base64;
   if (!j.contains("files")) return;
   check(j["files"].is_object(), "\"files\": must be an object, {NAME: content in base64}");
+  check(j["files"].size() <= kMostFiles,
+        fmt::format("\"files\": {} files; at most {} are taken.", j["files"].size(), kMostFiles));
   for (const auto& [name, content] : j["files"].items()) {
     const bool plain = !name.empty() && name.size() <= 100 && name.front() != '.' &&
                        std::ranges::all_of(name, [](unsigned char c) {
@@ -176,8 +182,27 @@ std::string result_key(const Scene& scene) {
   return fmt::format("{}-{}-{}", scene.hash, ACINUS_VERSION, ACINUS_GIT);
 }
 
-RunJob prepare_submission(const std::string& body, const ServeOptions& options, JobStore& store) {
-  const Json j = Json::parse(body, nullptr, false);
+void check_names_no_file(const std::string& assignment) {
+  const auto look_at = [&](const std::string& name) {
+    check(
+        !path_keys().contains(name),
+        fmt::format("{}: a model reads no files but those of its study", pointer_part(assignment)));
+  };
+  const std::size_t equal = std::min(assignment.find('='), assignment.size());
+  std::string path = assignment.substr(0, equal), name;
+  std::ranges::replace(path, '/', '.');
+  for (std::istringstream parts(path); std::getline(parts, name, '.');) look_at(name);
+  const std::function<void(const Json&)> look = [&](const Json& value) {
+    if (value.is_object())
+      for (const auto& [member, unused] : value.items()) look_at(member);
+    if (value.is_structured())
+      for (const Json& item : value) look(item);
+  };
+  look(parse_or_discard<Json>(assignment.substr(std::min(equal + 1, assignment.size()))));
+}
+
+void prepare_submission(const std::string& folder, const ServeOptions& options) {
+  const auto j = parse_bounded<Json>(io::read_text_inside(folder, kRequestFile), "the request");
   check(j.is_object(), "the request must be a JSON object, e.g. {\"scene\": \"two_cells\"}");
   for (const auto& [key, value] : j.items())
     check(
@@ -185,9 +210,8 @@ RunJob prepare_submission(const std::string& body, const ServeOptions& options, 
         fmt::format("\"{}\": unknown; allowed are scene, set, name and files", pointer_part(key)));
   RunJob job;
   job.set = read_set(j);
-  job.id = store.make_run_folder();
-  const std::string folder = store.run_folder(job.id), input = folder + "/input";
-  RemoveUnlessKept guard{folder};
+  job.id = fs::path(folder).filename().string();
+  const std::string input = folder + "/input";
   fs::create_directory(input);
   Document document = read_submitted(j, input, job);
   for (const std::string& assignment : job.set) apply_set(document, assignment);
@@ -201,8 +225,7 @@ RunJob prepare_submission(const std::string& body, const ServeOptions& options, 
   if (job.name.empty()) job.name = scene.name;
   job.key = result_key(scene);
   write_scene(scene, folder, job);
-  guard.keep = true;
-  return job;
+  write_job(folder, job);
 }
 
 RunJob prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
@@ -214,6 +237,7 @@ RunJob prepare_evaluation(const Scene& scene, const std::string& key, const Serv
   job.key = key;
   job.evaluation = true;
   write_scene(scene, store.run_folder(job.id), job);
+  job.bytes = JobStore::size_of(store.run_folder(job.id));
   return job;
 }
 

@@ -9,9 +9,11 @@
 #include <boost/asio/this_coro.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/serve/submission.hpp"
 
 namespace acinus::runs {
@@ -23,6 +25,7 @@ using Json = nlohmann::json;
 constexpr std::array kPosts{"ModelInfo",     "InputSizes",   "OutputSizes", "Evaluate",
                             "ApplyJacobian", "ApplyHessian", "Gradient"};
 constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr std::size_t kMostBody = 256'000;  ///< bytes; parsed in the thread that answers all others
 
 HttpReply invalid_input(const std::string& message) {
   return error_reply(400, "InvalidInput", message);
@@ -50,7 +53,11 @@ UmBridge::UmBridge(asio::io_context& io, const ServeOptions& options, JobStore& 
   for (const auto& [id, job] : dispatcher_.jobs())
     if (job->evaluation) job_by_key_[job->key] = id;
   dispatcher_.on_evaluated = [this](const RunJob& job, const std::string& folder) {
-    keep_result(result_file(job.key), read_run_result(folder));
+    const std::string file = result_file(job.key);
+    keep_result(file, read_run_result(folder));
+    std::error_code gone;
+    const auto bytes = std::filesystem::file_size(file, gone);
+    if (!gone) dispatcher_.add_disk(static_cast<double>(bytes));
     // Later: the dispatcher is still busy with it.
     asio::post(io_, [this, id = job.id] {
       if (RunJob* done = dispatcher_.find(id)) {
@@ -82,11 +89,12 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
     for (const auto& [name, model] : models().all()) names.push_back(name);
     co_return json_reply(200, {{"protocolVersion", 1.0}, {"models", names}});
   }
-  const Json body = Json::parse(request.body, nullptr, false);
-  if (!body.is_object()) co_return invalid_input("the request must be a JSON object");
-  const std::string name = body.contains("name") && body["name"].is_string()
-                               ? body["name"].get<std::string>()
-                               : std::string();
+  if (request.body.size() > kMostBody)
+    co_return invalid_input(fmt::format("the request has more than {} bytes", kMostBody));
+  const Json body = parse_or_discard<Json>(request.body);
+  if (!body.is_object())
+    co_return invalid_input("the request must be a JSON object of at most 100 levels");
+  const std::string name = text_at(body, "name");
   const auto found = models().all().find(name);
   if (found == models().all().end())
     co_return error_reply(400, "ModelNotFound",
@@ -104,6 +112,7 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
   std::string fault;
   try {
     const ModelConfig config = read_config(model, body.value("config", Json()));
+    for (const std::string& assignment : config.set) check_names_no_file(assignment);
     if (what == "InputSizes")
       co_return json_reply(200, {{"inputSizes", {config.parameters.size()}}});
     if (what == "OutputSizes") co_return json_reply(200, {{"outputSizes", {config.n_output()}}});

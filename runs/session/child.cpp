@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -43,10 +45,57 @@ std::vector<std::string> environment() {
 }
 
 int open_output(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const int descriptor =
+      open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644);
   check(descriptor >= 0, fmt::format("{}: cannot be written: {}", path, std::strerror(errno)),
         Exit::kFileError);
   return descriptor;
+}
+
+/// Keeps signals from this thread while it lives. Until a new process has forgotten the handlers of
+/// this one, a signal meant for it would reach what they share.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+/// In the new process: signals that have handlers do what they do by default, and none is held
+/// back. Those that are ignored stay so, as nohup wants it.
+void forget_signals() {
+  struct sigaction by_default {};
+  by_default.sa_handler = SIG_DFL;
+  for (int signal = 1; signal < NSIG; ++signal) {
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN)
+      sigaction(signal, &by_default, nullptr);
+  }
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+struct Bound {
+  __rlimit_resource_t what;
+  double most;
+};
+
+/// Sets the limits of a process, which ends if one cannot be set.
+void set_bounds(std::span<const Bound> bounds) {
+  for (const Bound& bound : bounds) {
+    if (!std::isfinite(bound.most)) continue;
+    const rlimit limit{static_cast<rlim_t>(bound.most), static_cast<rlim_t>(bound.most)};
+    if (setrlimit(bound.what, &limit) != 0) _exit(127);
+  }
 }
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
@@ -71,20 +120,30 @@ Child::Child(const std::vector<std::string>& words, const ChildOptions& options)
   const std::vector<char*> argv = pointers(arguments), envp = pointers(variables);
   const int error_file = open_output(options.output);
   const int out_file = options.progress.empty() ? error_file : open_output(options.progress);
+  const std::array bounds{Bound{RLIMIT_AS, options.most_memory},
+                          Bound{RLIMIT_CPU, options.most_cpu_s},
+                          Bound{RLIMIT_FSIZE, options.largest_file}};
   const pid_t parent = getpid();
-  id_ = fork();
-  if (id_ == 0) {              // only async-signal-safe calls from here on
-    signal(SIGTERM, SIG_DFL);  // by which it is asked to stop, even if this process ignores it
-    if (options.follows_parent) {
-      prctl(PR_SET_PDEATHSIG, SIGTERM);
-      if (getppid() != parent) _exit(127);  // it ended before that was known
+  int failed = 0;
+  {
+    const SignalsHeld held;
+    id_ = fork();
+    if (id_ == 0) {  // only async-signal-safe calls from here on
+      forget_signals();
+      if (options.follows_parent) {
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        if (getppid() != parent) _exit(127);  // it ended before that was known
+      }
+      set_bounds(bounds);
+      dup2(out_file, STDOUT_FILENO);
+      dup2(error_file, STDERR_FILENO);
+      // Sockets of clients are none of its business.
+      close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+      execve(options.program.c_str(), argv.data(), envp.data());
+      _exit(127);
     }
-    dup2(out_file, STDOUT_FILENO);
-    dup2(error_file, STDERR_FILENO);
-    execve(options.program.c_str(), argv.data(), envp.data());
-    _exit(127);
+    failed = id_ < 0 ? errno : 0;
   }
-  const int failed = id_ < 0 ? errno : 0;
   close(error_file);
   if (out_file != error_file) close(out_file);
   check(failed == 0,

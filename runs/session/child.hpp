@@ -27,6 +27,11 @@ struct ChildOptions {
   double limit_s = std::numeric_limits<double>::infinity();  ///< wall time, then it is killed
   /// Asked to stop by SIGTERM when this process ends, however it ends.
   bool follows_parent = false;
+  /// Bounds of what it may take: address space and processor time, and the largest file it may
+  /// write. Infinite: those of this process.
+  double most_memory = std::numeric_limits<double>::infinity();   ///< bytes
+  double most_cpu_s = std::numeric_limits<double>::infinity();    ///< s
+  double largest_file = std::numeric_limits<double>::infinity();  ///< bytes
 };
 
 /// The path of a program in the folder of this one.

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/disk.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 
@@ -33,9 +34,10 @@ Error missing_summary(const std::string& folder) {
         "with it: acinus run SCENE --resume --out {1}",
         folder, quote_for_shell(folder)));
   if (fs::exists(folder + "/run.log", code))
-    return Error(fmt::format("{}: the run did not end, it was killed before its first checkpoint: "
-                             "there is no summary.json. Run it again with --overwrite.",
-                             folder));
+    return Error(
+        fmt::format("{}: the run did not end, it was killed before its first checkpoint: "
+                    "there is no summary.json. Run it again with --overwrite.",
+                    folder));
   return Error(fmt::format("{}: holds no run: there is no summary.json. Name a run folder that "
                            "`acinus run` wrote.",
                            folder),
@@ -51,7 +53,7 @@ RunSummary read_summary(const std::string& folder) {
   RunSummary s;
   s.folder = folder;
   try {
-    const nlohmann::json j = nlohmann::json::parse(text);
+    const auto j = parse_bounded<nlohmann::json>(text, file);
     s.scene = j.at("scene");
     s.hash = j.at("scene_hash");
     s.version = j.at("version");

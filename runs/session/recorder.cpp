@@ -64,7 +64,7 @@ Notes Recorder::resume() {
   const io::CheckpointData& data = loaded.data;
   check_same_scene(data, scene_);
   coupling::World& world = simulation_.world();
-  get_state(data, world.state);
+  get_state(data, types_of(world.params), world.state);
   coupling::place_vessels(world.params.tree, world.state.tree, world.params.boundary.vessels);
   simulation_.resize();
   get_totals(data, totals_);

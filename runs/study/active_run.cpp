@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "core/io/inside.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/study/run_status.hpp"
 
@@ -16,6 +20,8 @@ namespace acinus::runs {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kMostCells = 1e9;
 
 }  // namespace
 
@@ -30,6 +36,9 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
                     io::FileLock claim, bool resume, const ChildRunOptions& options) {
   const StudyRun& run = plan.runs[index];
   const std::string folder = root + "/" + run.folder;
+  check(io::is_folder_inside(root, run.folder),
+        folder + ": is reached over a link, and what is there is not replaced. Remove the link.",
+        Exit::kFileError);
   if (!resume) clear_run(folder);
   write_record(root, plan, run);
   Scene scene = run.scene;
@@ -51,13 +60,20 @@ ActiveRun start_run(const StudyPlan& plan, std::size_t index, const std::string&
 
 RunProgress parse_progress(const std::string& line) {
   RunProgress progress;
-  const nlohmann::json j = nlohmann::json::parse(line, nullptr, false);
-  if (!j.is_object()) return progress;
-  progress.time_s = j.value("time_s", 0.0);
-  progress.end_s = j.value("end_s", 0.0);
-  progress.wall_s = j.value("wall_s", 0.0);
-  if (j.contains("eta_s") && j["eta_s"].is_number()) progress.left_s = j["eta_s"].get<double>();
-  progress.starting = j.value("phase", "") != "running";
+  const auto j = parse_or_discard<nlohmann::json>(line);
+  const auto number = [&](const char* key) -> std::optional<double> {
+    if (!j.is_object() || !j.contains(key) || !j[key].is_number()) return std::nullopt;
+    return j[key].get<double>();
+  };
+  progress.wall_s = number("wall_s").value_or(0);
+  progress.said = number("wall_s").value_or(-1) >= 0;
+  progress.time_s = number("time_s").value_or(0);
+  progress.end_s = number("end_s").value_or(0);
+  progress.left_s = number("eta_s");
+  progress.phase = text_at(j, "phase");
+  progress.dcm = static_cast<int>(std::clamp(number("dcm").value_or(0), 0.0, kMostCells));
+  progress.cbm = static_cast<int>(std::clamp(number("cbm").value_or(0), 0.0, kMostCells));
+  progress.starting = progress.phase != "running";
   return progress;
 }
 

@@ -14,8 +14,11 @@ namespace acinus::runs {
 struct RunProgress {
   double time_s = 0, end_s = 0;  ///< simulated
   double wall_s = 0;             ///< since it was started or resumed
+  int dcm = 0, cbm = 0;          ///< cells
+  std::string phase;             ///< what it is busy with
   std::optional<double> left_s;  ///< wall time, by its own estimate
   bool starting = true;          ///< not yet at t = 0, or nothing said
+  bool said = false;             ///< whether there was such a line
 };
 
 /// What every process of a study is told.

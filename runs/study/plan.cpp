@@ -142,6 +142,17 @@ class Planner {
 
  private:
   void add_runs(const std::string& file) {
+    constexpr std::size_t kMostRuns = 20000;
+    std::size_t runs = 0;
+    for (const Variant& variant : plan_.variants) runs += variant.seeds.size();
+    if (runs > kMostRuns) {
+      scene_faults_.emplace_back(
+          fmt::format("{}: variants and seeds make {} runs; a study has at most {}. Take fewer "
+                      "seeds or values, "
+                      "or make several studies.",
+                      label_, runs, kMostRuns));
+      return;
+    }
     Document base;
     try {
       base = read_document(file);

@@ -13,6 +13,7 @@
 #include "core/io/checkpoint.hpp"
 #include "core/io/disk.hpp"
 #include "core/io/file_lock.hpp"
+#include "runs/scene/bounded_json.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
@@ -34,7 +35,7 @@ std::optional<Json> read_record(const std::string& root, const StudyRun& run) {
   const std::string file = record_file(root, run);
   std::error_code code;
   if (!fs::is_regular_file(file, code)) return std::nullopt;
-  Json j = Json::parse(io::read_text_file(file), nullptr, false);
+  Json j = parse_or_discard<Json>(io::read_text_file(file));
   if (!j.is_object()) return std::nullopt;
   return j;
 }
@@ -61,8 +62,8 @@ bool has_same_scenes(const std::string& root, const StudyRun& run) {
 }
 
 bool belongs(const std::string& root, const Json& record, const StudyRun& run) {
-  if (record.value("version", "") != ACINUS_VERSION) return false;
-  return record.value("identity", "") == run.identity || has_same_scenes(root, run);
+  if (text_at(record, "version") != ACINUS_VERSION) return false;
+  return text_at(record, "identity") == run.identity || has_same_scenes(root, run);
 }
 
 void take_summary(const std::string& folder, RunStatus& status) {
@@ -132,9 +133,9 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
     status.state = RunState::kStale;
     return status;
   }
-  status.cause = record->value("cause", "");
+  status.cause = text_at(*record, "cause");
   if (!status.cause.empty())
-    status.state = record->value("killed", false) ? RunState::kKilled : RunState::kRefused;
+    status.state = record->value("killed", Json()) == true ? RunState::kKilled : RunState::kRefused;
   if (io::has_checkpoint(folder)) status.state = RunState::kToResume;
   take_summary(folder, status);
   if (status.state == RunState::kDone || status.state == RunState::kFailed) return status;

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/io/disk.hpp"
+#include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -35,8 +36,8 @@ void check_study_folder(const std::string& root, const StudyPlan& plan) {
   if (fs::is_empty(root, code)) return;
   check(has_study_file(root),
         fmt::format("--out {}: holds something that is no study. Choose another --out.", root));
-  const nlohmann::json j = nlohmann::json::parse(io::read_text_file(root + kFile), nullptr, false);
-  const std::string name = j.is_object() ? j.value("study", "") : "";
+  const std::string name =
+      text_at(parse_or_discard<nlohmann::json>(io::read_text_file(root + kFile)), "study");
   check(name == plan.study.name,
         fmt::format("--out {}: holds the study \"{}\", not \"{}\". Choose another --out.", root,
                     name, plan.study.name));

@@ -11,6 +11,9 @@
 namespace acinus::runs {
 namespace {
 
+constexpr std::size_t kMostVariants = 10000;  ///< of one study
+constexpr std::size_t kMostExtended = 64;     ///< one after the other
+
 /// Keys of a scene that a study sets in its own way.
 const char* instead_of(const std::string& key) {
   if (key == "seed") return "Seeds are listed in the key seeds";
@@ -56,6 +59,9 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
       std::vector<std::string> names;
       for (const auto& [other, unused] : study.variants) names.push_back(other);
       report.add(origin, pointer + "/extends", no_variant(variant.extends, names));
+    } else if (chain.size() > kMostExtended) {
+      report.add(origin, pointer + "/extends",
+                 fmt::format("more than {} variants extend one another", kMostExtended));
     } else if (std::ranges::find(chain, variant.extends) != chain.end()) {
       report.add(origin, pointer + "/extends",
                  fmt::format("variants extend each other in a circle: {}, {}",
@@ -67,12 +73,15 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
   add_settings(variant.set, pointer + "/set", report, out);
 }
 
-std::string safe_name(const std::string& name) {
+/// A folder's name, for anything a study may say: one component that stays where it is put.
+std::string safe_component(const std::string& name) {
+  constexpr std::size_t kLongest = 120;
   constexpr const char* kSafe =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.=/";
-  std::string safe = name;
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.=";
+  std::string safe = name.substr(0, kLongest);
   for (char& c : safe)
     if (std::string_view(kSafe).find(c) == std::string_view::npos) c = '_';
+  if (safe.empty() || safe.front() == '.') safe.insert(safe.begin(), '_');
   return safe;
 }
 
@@ -114,6 +123,7 @@ class Maker {
       add_settings(study_.set, "/set", silent_or_report(name), v.set);
       collect(study_, name, {}, report_, v.set);
       variants_.push_back(v);
+      folders_.insert(v.folder);
     }
     for (std::size_t k = 0; k < study_.sweeps.size(); ++k) add_sweep(k);
     check_starts();
@@ -146,33 +156,39 @@ class Maker {
       report_.add(place_of(report_, pointer, "of"), pointer + "/of", "no variant is named");
     if (sweep.values.empty())
       report_.add(place_of(report_, pointer, "values"), pointer + "/values", "no value is given");
-    std::vector<std::string> swept;
-    for (std::size_t base : bases) swept.push_back(variants_[base].name);
+    if (variants_.size() + bases.size() * sweep.values.size() > kMostVariants) {
+      report_.add(place_of(report_, pointer, "values"), pointer + "/values",
+                  fmt::format("makes more than {} variants. Sweep fewer values, or make several "
+                              "studies",
+                              kMostVariants));
+      return;
+    }
+    std::set<std::string> swept;
+    for (std::size_t base : bases) swept.insert(variants_[base].name);
     for (std::size_t base : bases)
       for (std::size_t i = 0; i < sweep.values.size(); ++i) {
         Variant v = variants_[base];
         const std::string part = name_of_value(sweep, sweep.values[i]);
         v.name += "/" + part;
-        v.folder = safe_name(v.folder + "/" + part);
+        v.folder += "/" + safe_component(part);
         v.title += ", " + part;
         v.pointer = fmt::format("{}/values/{}", pointer, i);
         v.set.push_back({{sweep.key, sweep.values[i].origin, sweep.values[i]}, v.pointer});
         // A start that is swept along has the value, too.
-        if (std::ranges::find(swept, v.start) != swept.end()) v.start += "/" + part;
+        if (swept.contains(v.start)) v.start += "/" + part;
         add(v, sweep.values[i]);
       }
   }
 
   void add(const Variant& v, const Node& value) {
-    for (const Variant& other : variants_)
-      if (other.folder == v.folder) {
-        report_.add_value(value, v.pointer,
-                          fmt::format("makes the variant \"{}\" (folder {}) a second time. Give "
-                                      "one of the sweeps a label",
-                                      v.name, v.folder));
-        return;
-      }
-    variants_.push_back(v);
+    if (folders_.insert(v.folder).second) {
+      variants_.push_back(v);
+      return;
+    }
+    report_.add_value(value, v.pointer,
+                      fmt::format("makes the variant \"{}\" (folder {}) a second time. Give one of "
+                                  "the sweeps a label, or values that differ in letters and digits",
+                                  v.name, v.folder));
   }
 
   void check_starts() {
@@ -212,6 +228,7 @@ class Maker {
   Document none_;
   Report silent_{none_};
   std::vector<Variant> variants_;
+  std::set<std::string> folders_;  ///< of the variants
 };
 
 }  // namespace

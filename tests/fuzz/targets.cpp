@@ -14,6 +14,9 @@
 #include "core/mesh/read_network.hpp"
 #include "core/mesh/read_surface.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/serve/submission.hpp"
+#include "runs/session/read_summary.hpp"
+#include "runs/study/plan.hpp"
 #include "tests/core/image/images.hpp"
 #include "tests/core/io/sample.hpp"
 
@@ -93,6 +96,45 @@ void write_run_files(const std::string& folder) {
   run.close();
 }
 
+void read_study(const std::string& path) { runs::read_study(path); }
+void write_studies(const std::string& folder) {
+  copy_all(ACINUS_SOURCE_DIR "/runs/studies", ".json", folder);
+}
+
+/// A fresh folder beside a file that holds it under another name.
+std::string folder_with(const std::string& path, const std::string& name) {
+  const std::string folder = fs::path(path).replace_extension(".folder").string();
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  fs::copy_file(path, folder + "/" + name);
+  return folder;
+}
+
+void read_summary(const std::string& path) {
+  runs::read_summary(folder_with(path, "summary.json"));
+}
+void write_summaries(const std::string& folder) {
+  std::ofstream(folder + "/summary.json")
+      << R"({"scene": "a", "scene_hash": "0", "version": "1", "git": "b", "status": "completed",
+             "cause": "", "state_hash": "c", "start": {"state_hash": "d"}, "simulated_s": 1,
+             "wall_s": 2, "cpu_s": 3, "cells": {"dcm": 1, "cbm": 2},
+             "measures": {"time_s": [0, 1, null], "wall_s_at_cells": {"10": 1}}})";
+}
+
+void read_submission(const std::string& path) {
+  runs::ServeOptions options;
+  options.max_cells = 50;
+  options.max_memory = 1e9;
+  runs::prepare_submission(folder_with(path, runs::kRequestFile), options);
+}
+void write_submissions(const std::string& folder) {
+  std::ofstream(folder + "/shipped.json")
+      << R"({"scene": "two_cells", "set": {"time.end": "2 h"}, "name": "a"})";
+  std::ofstream(folder + "/own.json")
+      << R"({"scene": {"extends": "two_cells", "time": {"end": "1 h"}, "static_meshes":
+             [{"name": "w", "file": "w.obj"}]}, "files": {"w.obj": "diAwIDAgMAp2IDEgMCAwCg=="}})";
+}
+
 const std::vector<Target>& all_targets() {
   static const std::vector<Target> all{
       {"scene", {".json"}, read_scene, write_scenes},
@@ -101,7 +143,10 @@ const std::vector<Target>& all_targets() {
       {"surface", {".vtk", ".obj", ".stl", ".ply"}, read_surface, write_vtk},
       {"image", {".tif", ".nii", ".mha", ".nrrd"}, read_image, write_images},
       {"checkpoint", {".h5"}, read_checkpoint, write_checkpoints},
-      {"run_file", {".vtkhdf"}, read_run_file, write_run_files}};
+      {"run_file", {".vtkhdf"}, read_run_file, write_run_files},
+      {"study", {".json"}, read_study, write_studies},
+      {"summary", {".json"}, read_summary, write_summaries},
+      {"submission", {".json"}, read_submission, write_submissions}};
   return all;
 }
 

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -14,6 +16,8 @@
 namespace acinus::runs {
 namespace {
 
+constexpr StateTypes kTypes{1, 1};  // of the worlds below
+
 coupling::State two_spheres() {
   return coupling::make_test_world({{Vec3::Zero(), false}, {Vec3(23, 0, 0), false}}).state;
 }
@@ -23,7 +27,7 @@ TEST(StateFile, KeepsTheStrengthOfNewBornSpheres) {
   saved.cbm.strength[1] = {0, 1, 100, 8740};
   io::CheckpointData data;
   put_state(saved, data);
-  get_state(data, loaded);
+  get_state(data, kTypes, loaded);
   EXPECT_EQ(coupling::hash_state(loaded), coupling::hash_state(saved));
   EXPECT_EQ(loaded.cbm.strength[1].at(100 + 2160), 0.25);
 }
@@ -71,7 +75,7 @@ TEST(StateFile, KeepsNuclei) {
   io::CheckpointData data;
   put_state(saved, data);
   coupling::State s;
-  get_state(data, s);
+  get_state(data, kTypes, s);
   EXPECT_EQ(coupling::hash_state(s), coupling::hash_state(saved));
   EXPECT_EQ(s.dcm.group[0].nucleus, saved.dcm.group[0].nucleus);
   EXPECT_EQ(s.dcm.birth[1].link, saved.dcm.birth[1].link);
@@ -82,7 +86,7 @@ TEST(StateFile, KeepsLives) {
   coupling::State s;
   io::CheckpointData data;
   put_state(saved, data);
-  get_state(data, s);
+  get_state(data, kTypes, s);
   EXPECT_EQ(coupling::hash_state(s), coupling::hash_state(saved));
   ASSERT_EQ(s.cycle.size(), saved.cycle.size());
   for (std::size_t k = 0; k < s.cycle.size(); ++k) {
@@ -129,12 +133,82 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
       }
       coupling::State state;
       try {
-        get_state(data, state);
+        get_state(data, kTypes, state);
         ADD_FAILURE() << damaged << (missing ? " is missing" : " is too short");
       } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find(damaged), std::string::npos) << error.what();
       }
     }
+}
+
+/// The data of a state with one array changed.
+template <class T>
+io::CheckpointData with(const coupling::State& state, const std::string& name, std::size_t at,
+                        T value) {
+  io::CheckpointData sound, data;
+  put_state(state, sound);
+  for (const auto& [other, array] : sound.all())
+    std::visit(
+        [&, &key = other](auto v) {
+          if constexpr (std::is_same_v<decltype(v), std::vector<T>>)
+            if (key == name) v.at(at) = value;
+          data.put(key, v);
+        },
+        array);
+  return data;
+}
+
+template <class T>
+void expect_refused(const std::string& name, std::size_t at, T value) {
+  coupling::State state;
+  try {
+    get_state(with(living(), name, at, value), kTypes, state);
+    ADD_FAILURE() << name << " " << at << " is " << value;
+  } catch (const Error& error) {
+    EXPECT_TRUE(error.code() == Exit::kFileError || error.code() == Exit::kBadInput)
+        << error.what();
+  }
+}
+
+TEST(StateFile, RefusesPlacesThatAreNotThere) {
+  for (const std::int64_t type : {1L, -1L, 1L << 40}) {
+    expect_refused("dcm/group", 0, type);
+    expect_refused("cbm/type", 0, type);
+  }
+  expect_refused<std::int64_t>("dcm/group", 1, 43);
+  expect_refused<std::int64_t>("dcm/group", 1, (1L << 32) + 42);
+  expect_refused<std::int64_t>("dcm/birth_lane", 0, 8);
+  expect_refused<std::int64_t>("dcm/birth_lane", 0, -1);
+  for (const std::int64_t phase : {-1L, 4L, 1L << 33}) expect_refused("clock/phase", 0, phase);
+  for (const std::int64_t fate : {-1L, 5L, 256L}) expect_refused("life/fate", 0, fate);
+  expect_refused<std::int64_t>("clock/events_due", 0, 5);
+  expect_refused<std::int64_t>("cbm/lineage", 0, -1);
+  expect_refused<std::int64_t>("clock/accepted", 0, -1);
+}
+
+TEST(StateFile, RefusesNumbersThatAreNone) {
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e300})
+    for (const char* name : {"dcm/position", "cbm/position", "clock/time", "clock/step"})
+      expect_refused(name, 0, bad);
+  for (const double bad : {std::nan(""), -HUGE_VAL})
+    for (const char* name : {"dcm/volume", "cbm/volume", "cbm/young", "cbm/pull"})
+      expect_refused(name, 0, bad);
+  expect_refused("cbm/young", 0, -1.0);
+  expect_refused("clock/step", 0, -1.0);
+  expect_refused("life/wait_until", 0, std::nan(""));
+}
+
+TEST(StateFile, RefusesContactsOfSpheresThatAreNotThere) {
+  coupling::State saved = two_spheres();
+  saved.cbm.touching = {{0, 1}, {1, ~7}};
+  coupling::State state;
+  io::CheckpointData sound;
+  put_state(saved, sound);
+  get_state(sound, kTypes, state);
+  EXPECT_EQ(state.cbm.touching, saved.cbm.touching);
+  for (const std::int64_t partner : {2L, 1L << 40, -(1L << 40)})
+    EXPECT_THROW(get_state(with(saved, "cbm/touching", 1, partner), kTypes, state), Error);
+  EXPECT_THROW(get_state(with<std::int64_t>(saved, "cbm/touching", 0, -1), kTypes, state), Error);
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+#pragma once
+/// JSON of strangers: the one way in which texts other than scenes are parsed.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace acinus::runs {
+
+/// Json: nlohmann::json or nlohmann::ordered_json.
+/// @return the value; one that is_discarded() where the text is no JSON
+/// @throws Error(kBadInput) naming `what` and the bound of core/json_size.hpp that it breaks
+template <class Json>
+Json parse_bounded(const std::string& text, const std::string& what);
+
+/// The same of a file that may be absent, cut off or hostile.
+/// @return a value that is_discarded() for anything but JSON within the bounds
+template <class Json>
+Json parse_or_discard(const std::string& text);
+
+/// A member that is a text; "" where there is none, or it is something else.
+template <class Json>
+std::string text_at(const Json& object, const char* name);
+
+}  // namespace acinus::runs

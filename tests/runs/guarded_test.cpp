@@ -1,0 +1,48 @@
+#include "runs/session/guarded.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "core/error.hpp"
+
+namespace acinus::runs {
+namespace {
+
+TEST(Guarded, GivesTheExitCodeOfTheWork) {
+  EXPECT_EQ(run_guarded("a.h5", [] { return 0; }), 0);
+  EXPECT_EQ(run_guarded("a.h5", [] { return 75; }), 75);
+  EXPECT_EQ(run_guarded("a.h5", []() -> int { throw Error("no"); }), 2);
+  EXPECT_EQ(run_guarded("a.h5", []() -> int { throw Error("no", Exit::kFileError); }), 4);
+}
+
+TEST(Guarded, ACrashIsADamagedFile) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) try {
+      run_guarded("a.h5", [&]() -> int {
+        ::signal(signal, SIG_DFL);
+        return raise(signal);
+      });
+      ADD_FAILURE() << signal;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), Exit::kFileError);
+      EXPECT_EQ(std::string(error.what()).find("a.h5: reading ended with signal"), 0U)
+          << error.what();
+    }
+}
+
+TEST(Guarded, PassesSignalsOn) {
+  const pid_t parent = getpid();
+  const auto work = [parent] {
+    static volatile sig_atomic_t told = 0;
+    ::signal(SIGTERM, [](int) { told = 1; });
+    kill(parent, SIGTERM);
+    for (int k = 0; k < 5000 && told == 0; ++k) usleep(1000);
+    return told == 1 ? 75 : 1;
+  };
+  EXPECT_EQ(run_guarded("a.h5", work), 75);
+}
+
+}  // namespace
+}  // namespace acinus::runs
