@@ -93,7 +93,7 @@ int run_guarded(const std::string& files, const std::function<int()>& work) {
                     files, signal, strsignal(signal)),
         Exit::kFileError);
   // Asked to end, or out of memory: as it would have been without a child.
-  std::signal(signal, SIG_DFL);
+  ::signal(signal, SIG_DFL);
   signals.give_back();
   raise(signal);
   return static_cast<int>(Exit::kStopped);
