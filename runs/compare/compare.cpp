@@ -173,7 +173,8 @@ void compare_measures(const std::vector<ComparedRun>& runs, const DifferenceTabl
     const char *name, *series, *unit;
   };
   for (const Measure& m :
-       {Measure{"lesion_area", "lesion_area_relative", "1"}, Measure{"overlap", "overlap", "1"},
+       {Measure{"lesion_area", "lesion_area_relative", "1"},
+        Measure{"flooded_area", "lesion_area_flooded", "1"}, Measure{"overlap", "overlap", "1"},
         Measure{"normal_force", "normal_force_nN", "nN"}}) {
     Trace trace{m.name, m.unit, {}, {}};
     for (const ComparedRun& r : runs) trace.value.push_back(measured(r, m.series));
@@ -315,7 +316,8 @@ const std::map<std::string, std::string>& comparable_quantities() {
       {"contact_force", "mean contact force of a cell, rms over time"},
       {"cell_force", "contact force of the same cells at the end, rms"},
       {"contacts", "mean number of cells a cell touches, rms over time"},
-      {"lesion_area", "relative lesion area, rms over time"},
+      {"lesion_area", "lesion area by the nearest cells (closed: below 0.05), rms over time"},
+      {"flooded_area", "lesion area that is open to the central vein, rms over time"},
       {"overlap", "overlap of the central cell of a compressed clump, rms over time"},
       {"normal_force", "normal forces on it, rms over time"},
       {"cpu", "CPU time"}};
