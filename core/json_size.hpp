@@ -1,5 +1,5 @@
 #pragma once
-/// Bounds of JSON texts, looked at before they are parsed: parsers and what walks their trees call
+/// Bounds of JSON texts, checked before they are parsed: parsers and visitors of their trees call
 /// themselves once a level, and some look up names one after the other.
 
 #include <cstddef>

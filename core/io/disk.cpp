@@ -131,6 +131,8 @@ const char* disk_advice(int error) {
     case ENOENT:
     case ENOTDIR:
       return "Check the path: the folder or file does not exist";
+    case ESPIPE:
+      return "It is a pipe or a device; a regular file is needed";
     case EISDIR:
       return "Give a file, not a folder";
     case EBADMSG:

@@ -11,7 +11,7 @@ namespace acinus::io::h5 {
 namespace {
 
 constexpr double kMostPacked = 1100;        ///< deflate makes data at most 1032 times smaller
-constexpr double kWithoutSearch = 1 << 20;  ///< bytes that need no look at the chunks
+constexpr double kWithoutSearch = 1 << 20;  ///< bytes for which chunks are not counted
 constexpr int kMostRank = 32;               ///< of HDF5
 
 Form describe_form(hid_t type, hid_t space) {
@@ -28,7 +28,7 @@ Form describe_form(hid_t type, hid_t space) {
   return form;
 }
 
-/// Whether the filters of a chunked dataset are among those that this program writes.
+/// Checks that the filters of a chunked dataset are among those that this program writes.
 /// @param packs  set where one of them makes data smaller
 bool has_known_filters(hid_t list, bool& packs) {
   const int n = H5Pget_nfilters(list);

@@ -12,7 +12,7 @@ namespace acinus::io::h5 {
 
 /// Shape and type of a dataset or an attribute.
 struct Form {
-  H5T_class_t type = H5T_NO_CLASS;  ///< H5T_NO_CLASS: cannot be told
+  H5T_class_t type = H5T_NO_CLASS;  ///< H5T_NO_CLASS: unreadable
   std::size_t width = 0;            ///< bytes of one value
   bool variable = false;            ///< texts whose length the type does not say
   std::vector<hsize_t> extent;      ///< empty: one value

@@ -37,7 +37,7 @@ Descriptor open_inside(const std::string& folder, const std::string& path);
 /// Size of such a file; nothing if there is none.
 std::optional<std::size_t> size_inside(const std::string& folder, const std::string& path);
 
-/// Whether there is such a file.
+/// True for a regular file reached over no link.
 inline bool is_file_inside(const std::string& folder, const std::string& path) {
   return size_inside(folder, path).has_value();
 }
@@ -50,7 +50,7 @@ std::string read_text_inside(const std::string& folder, const std::string& path,
 /// The same of a file by its whole path: it must be no link itself.
 std::string read_text_beside(const std::string& path, std::size_t most = 4'000'000'000);
 
-/// Whether a folder below another is reached over no link. True where it does not exist yet.
+/// True for a folder below another that is reached over no link, or does not exist yet.
 bool is_folder_inside(const std::string& folder, const std::string& path);
 
 }  // namespace acinus::io

@@ -26,6 +26,7 @@ struct RunArguments {
   RunOptions run;
   bool report = false;
   std::string until, checkpoint_every, max_walltime, max_memory, progress, sharing;
+  std::optional<int> max_cells;
 };
 
 /// A launcher that started several processes, and processes that know nothing of each other: each
@@ -81,6 +82,9 @@ int run(RunArguments& arguments) {
   Scene scene = together(ranks, [&] {
     Scene read = read_scene(find_scene_file(run.scene_file), run.set);
     check_effect(arguments, read, ranks);
+    if (arguments.max_cells)  // a limit, so no fault where it has no effect
+      run.until_cells =
+          std::min(run.until_cells.value_or(*arguments.max_cells), *arguments.max_cells);
     if (run.out.empty()) run.out = read.name + ".run";
     if (ranks.is_root()) check_folder(run.out, run);  // not after hours of calibration
     return read;
@@ -122,6 +126,10 @@ Command add_run(CLI::App& app, const std::string& command_line) {
   add_threads(*command, run.threads);
   command->add_option("--until", arguments->until, "stop at this simulated time, e.g. \"2 h\"")
       ->type_name("TIME");
+  command
+      ->add_option("--max-cells", arguments->max_cells,
+                   "limit as --until-cells, without effect where cells do not divide")
+      ->check(CLI::PositiveNumber);
   command->add_option("--until-cells", run.until_cells, "stop when there are this many cells")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000000));

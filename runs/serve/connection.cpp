@@ -63,6 +63,11 @@ HttpRequest take_head(const http::request_header<>& head) {
   return request;
 }
 
+HttpReply too_large() {
+  return error_reply(413, "TooLarge",
+                     "the request is larger than this service allows (--max-body)");
+}
+
 template <class Body>
 http::response<Body> make_head(const HttpReply& reply, bool keep_alive) {
   http::response<Body> head{static_cast<http::status>(reply.status), 11};
@@ -133,13 +138,23 @@ class Connection {
 
   /// Reads the body: of strangers, a few bytes.
   Task<bool> take_body(http::request_parser<http::string_body>& parser, bool allowed) {
-    if (!allowed) parser.body_limit(kMostStrangeBody);
+    if (!allowed) {
+      parser.body_limit(kMostStrangeBody);  // of chunks; the length was compared with the other one
+      if (parser.content_length().value_or(0) > kMostStrangeBody) {
+        const HttpReply reply = too_large();
+        co_await send(reply, false);
+        co_return false;
+      }
+    }
     if (allowed && !parser.is_done()) {
       const double length = static_cast<double>(
           parser.content_length().value_or(static_cast<std::uint64_t>(options_.max_body)));
       stream_.expires_never();
-      if (length <= options_.max_body && !co_await take_room(length)) {
-        co_await send(error_reply(503, "Busy", "too much is being received; try again"), false);
+      bool room = true;
+      if (length <= options_.max_body) room = co_await take_room(length);
+      if (!room) {
+        const HttpReply busy = error_reply(503, "Busy", "too much is being received; try again");
+        co_await send(busy, false);
         co_return false;
       }
       stream_.expires_after(kPatience);
@@ -164,8 +179,10 @@ class Connection {
     if (failed_) co_return co_await refuse_what_is_no_request();
     HttpRequest request = take_head(parser.get());
     head_only_ = request.method == "HEAD";
-    if (!request.fault.empty())
-      co_return co_await send(error_reply(400, "BadRequest", request.fault), false);
+    if (!request.fault.empty()) {
+      const HttpReply reply = error_reply(400, "BadRequest", request.fault);
+      co_return co_await send(reply, false);
+    }
     const bool allowed = routes_.is_allowed(request);
     if (allowed) become_known();
     const bool received = co_await take_body(parser, allowed);
@@ -186,9 +203,7 @@ class Connection {
       co_return false;  // gone, or too slow
     const bool too_long = failed_ == http::error::body_limit;
     const HttpReply reply =
-        error_reply(too_long ? 413 : 400, too_long ? "TooLarge" : "BadRequest",
-                    too_long ? "the request is larger than this service allows (--max-body)"
-                             : failed_.message());
+        too_long ? too_large() : error_reply(400, "BadRequest", failed_.message());
     stream_.expires_after(kPatience);
     co_return co_await send(reply, false);
   }

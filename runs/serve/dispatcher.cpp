@@ -32,8 +32,9 @@ constexpr auto kLook = std::chrono::seconds(1);
 constexpr int kMostKills = 5;      ///< in a row, without getting any further
 constexpr double kGrace = 60;      ///< s that a run may take to end beyond its limits
 constexpr int kLooksPerSize = 10;  ///< the size of a folder is looked at less often
-/// Address space of a run beyond the memory it may use: the program, stacks, pools of threads.
-/// The run keeps its limit itself; this is for one that does not.
+/// Address space of a run beyond the memory it may use: the program, stacks, pools of threads. Size
+/// of one file beyond the disk it may use. Its limits are kept otherwise; this is for a run that
+/// gets around them.
 constexpr double kRoom = 4e9, kRoomOfThread = 2e8;
 
 std::string progress_file(const std::string& folder) { return folder + "/progress.txt"; }
@@ -181,14 +182,14 @@ void Dispatcher::start(RunJob& job) {
                                        fmt::format("{} s", limit_s),
                                        "--max-memory",
                                        fmt::format("{} MB", 1e-6 * options_.max_memory),
-                                       "--until-cells",
+                                       "--max-cells",
                                        std::to_string(options_.max_cells),
                                        io::has_checkpoint(folder) ? "--resume" : "--overwrite"};
   Child child(words, {.output = output_file(folder),
                       .progress = progress_file(folder),
                       .follows_parent = true,
                       .most_memory = options_.max_memory + kRoom + kRoomOfThread * options_.threads,
-                      .largest_file = 2 * options_.max_run_bytes});
+                      .largest_file = options_.max_run_bytes + kRoom});
   auto active = std::make_unique<Active>(io_, std::move(child), limit_s);
   wait_for_end(job, *(active_[job.id] = std::move(active)));
 }

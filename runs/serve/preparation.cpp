@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr int kMostAtOnce = 2;
 constexpr double kLimit = 60;                ///< s of wall and of processor time
 constexpr double kMostMemory = 4e9;          ///< bytes of address space
-constexpr std::size_t kMostWords = 200'000;  ///< bytes of what is told about a bad scene
+constexpr std::size_t kMostWords = 200'000;  ///< bytes of the faults of a scene
 constexpr auto kPoll = std::chrono::milliseconds(4);
 constexpr const char* kWordsFile = "prepare.txt";
 
@@ -50,7 +50,7 @@ struct Counted {
   std::shared_ptr<int> n;
 };
 
-/// Faults as they were told, without the place of the run folder on this machine.
+/// Faults of a submission, without the path of its run folder.
 std::string told_in(const std::string& folder) {
   std::string text;
   try {

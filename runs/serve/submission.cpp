@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <boost/beast/core/detail/base64.hpp>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
@@ -49,6 +49,14 @@ bool stays_inside(const std::string& path) {
   const fs::path p = path;
   return !p.is_absolute() && path.find('\0') == std::string::npos &&
          std::ranges::none_of(p, [](const fs::path& part) { return part == ".."; });
+}
+
+/// "2 h", "1e-5 J/m^2": a value that no file is named by.
+bool is_number_with_unit(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end != text.c_str() && (*end == '\0' || *end == ' ') &&
+         text.find("..") == std::string::npos;
 }
 
 /// Before anything is read: a scene may name files it sent along, or those of shipped scenes.
@@ -183,22 +191,25 @@ std::string result_key(const Scene& scene) {
 }
 
 void check_names_no_file(const std::string& assignment) {
-  const auto look_at = [&](const std::string& name) {
+  // Some names are those of times, too: "from": "2 h".
+  const auto look_at = [&](const std::string& name, const Json& value) {
     check(
-        !path_keys().contains(name),
+        !path_keys().contains(name) || !value.is_string() ||
+            is_number_with_unit(value.get<std::string>()),
         fmt::format("{}: a model reads no files but those of its study", pointer_part(assignment)));
   };
   const std::size_t equal = std::min(assignment.find('='), assignment.size());
-  std::string path = assignment.substr(0, equal), name;
-  std::ranges::replace(path, '/', '.');
-  for (std::istringstream parts(path); std::getline(parts, name, '.');) look_at(name);
+  const std::string path = assignment.substr(0, equal);
+  const auto whole =
+      parse_or_discard<Json>(assignment.substr(std::min(equal + 1, assignment.size())));
+  look_at(path.substr(path.find_last_of("./") + 1), whole);
   const std::function<void(const Json&)> look = [&](const Json& value) {
     if (value.is_object())
-      for (const auto& [member, unused] : value.items()) look_at(member);
+      for (const auto& [name, member] : value.items()) look_at(name, member);
     if (value.is_structured())
       for (const Json& item : value) look(item);
   };
-  look(parse_or_discard<Json>(assignment.substr(std::min(equal + 1, assignment.size()))));
+  look(whole);
 }
 
 void prepare_submission(const std::string& folder, const ServeOptions& options) {

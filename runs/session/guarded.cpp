@@ -18,7 +18,7 @@
 namespace acinus::runs {
 namespace {
 
-/// How a process ends that touches what is not there.
+/// Signals of processes that read or write out of bounds.
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 constexpr std::array kPassedOn{SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGQUIT};
 
@@ -41,7 +41,7 @@ class SignalsTaken {
   sigset_t taken_{}, before_{};
 };
 
-/// In the child. What is thrown is told there, since exceptions do not cross processes.
+/// Does the work in the child, which prints its errors: exceptions do not cross processes.
 int do_work(const std::function<int()>& work) {
   try {
     return work();
@@ -62,7 +62,7 @@ int wait_for(pid_t child, const SignalsTaken& signals) {
     if (ended == child || (ended < 0 && errno != EINTR)) return status;
     siginfo_t info{};
     const int signal = signals.wait(info);
-    // The terminal has told the child itself.
+    // Those of the terminal reach the child anyway.
     if (signal > 0 && signal != SIGCHLD && info.si_code != SI_KERNEL) kill(child, signal);
   }
 }

@@ -9,7 +9,7 @@ namespace acinus::runs {
 
 /// Does the work in a child of this process, to which signals are passed on.
 /// @param files  what is read, for the message
-/// @param work   returns an exit code; an Error that it throws is told and gives its code
+/// @param work   returns an exit code; an Error that it throws is printed and gives its code
 /// @return its exit code
 /// @throws Error(kFileError) if a fault of the process ended it
 int run_guarded(const std::string& files, const std::function<int()>& work);

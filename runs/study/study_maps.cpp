@@ -55,11 +55,11 @@ std::string describe_bounds(const StudyMap& wanted, const StudyPlan& plan) {
 }  // namespace
 
 io::HeatMap make_map(const StudyPlan& plan, const StudyData& data, const StudyMap& wanted) {
-  struct Field {
+  struct MapPlace {
     std::size_t variant;
     double x, y;
   };
-  std::vector<Field> fields;
+  std::vector<MapPlace> fields;
   std::vector<double> xs, ys;
   const std::vector<std::string> all{"*"};
   for (const std::string& name : wanted.variants.empty() ? all : wanted.variants)
@@ -81,7 +81,7 @@ io::HeatMap make_map(const StudyPlan& plan, const StudyData& data, const StudyMa
   for (const double x : xs) map.column.push_back(with_unit(x, wanted.x));
   for (const double y : ys) map.row.push_back(with_unit(y, wanted.y));
   map.field.assign(ys.size(), std::vector<io::HeatField>(xs.size()));
-  for (const Field& f : fields) {
+  for (const MapPlace& f : fields) {
     const auto row = std::ranges::lower_bound(ys, f.y) - ys.begin();
     const auto column = std::ranges::lower_bound(xs, f.x) - xs.begin();
     map.field[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =

@@ -170,7 +170,7 @@ class Maker {
         Variant v = variants_[base];
         const std::string part = name_of_value(sweep, sweep.values[i]);
         v.name += "/" + part;
-        v.folder += "/" + safe_component(part);
+        v.folder.append("/").append(safe_component(part));
         v.title += ", " + part;
         v.pointer = fmt::format("{}/values/{}", pointer, i);
         v.set.push_back({{sweep.key, sweep.values[i].origin, sweep.values[i]}, v.pointer});

@@ -107,10 +107,11 @@ def check_same(program, cases, starts):
 
 
 def check_resume(program):
-    case = [*CASES["hybrid"], "--sharing", "random", "--threads", "1", "--quiet"]
+    alone = [*CASES["hybrid"], "--threads", "1", "--quiet"]
+    case = [*alone, "--sharing", "random"]
     with tempfile.TemporaryDirectory() as folder:
         whole = os.path.join(folder, "whole")
-        call(program, 1, [*case, "--out", whole])
+        call(program, 1, [*alone, "--out", whole])
         part = os.path.join(folder, "part")
         # A file STOP in the folder ends the run after its next step.
         running = subprocess.Popen(command(program, 3, [*case, "--out", part]), env=ENVIRONMENT,
@@ -125,7 +126,7 @@ def check_resume(program):
         for ranks in (5, 1):
             again = os.path.join(folder, f"again{ranks}")
             shutil.copytree(part, again)
-            call(program, ranks, [*case, "--out", again, "--resume"])
+            call(program, ranks, [*(case if ranks > 1 else alone), "--out", again, "--resume"])
             compare(whole, again, f"stopped on 3 processes, resumed on {ranks}", resumed=True)
     print("stopped on 3 processes, resumed on 5 and on 1: as never stopped")
 

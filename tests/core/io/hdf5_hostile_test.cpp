@@ -112,7 +112,7 @@ TEST(Hdf5Hostile, RefusesTextsOfGigabytes) {
   }
 }
 
-/// Chunks that nobody wrote are filled in: 4 kB of file become as much as the shape says.
+/// Chunks that were never written are filled in: 4 kB of file become as much as the shape says.
 TEST(Hdf5Hostile, RefusesMoreThanIsStored) {
   const Folder folder("hdf5_sparse");
   const std::string path = folder / "a.h5";

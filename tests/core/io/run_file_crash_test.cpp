@@ -260,8 +260,8 @@ TEST(RunFileCrash, FullDiskKeepsTheOlderCheckpoint) {
   EXPECT_FALSE(std::filesystem::exists(folder / "checkpoint.h5.tmp"));
 }
 
-TEST(RunFileCrash, DevFullSaysNoSpace) {
-  expect_file_error("No space left on device", [] { RunFile::create("/dev/full", {}); });
+TEST(RunFileCrash, ADeviceIsNoRunFile) {
+  expect_file_error("a regular file is needed", [] { RunFile::create("/dev/full", {}); });
 }
 
 TEST(RunFileCrash, UnwritableFoldersAreNamed) {
