@@ -118,13 +118,14 @@ std::vector<Format> images(const TempFolder& folder) {
                                      "PhysicalSizeX=\"1\" PhysicalSizeY=\"1\" PhysicalSizeZ=\"2\">"
                                      "<TiffData/></Pixels></Image></OME>"}),
                  image_content});
-  all.push_back(
-      {"plain.tif", image::tiff(i), [](const std::string& path) {
-         const LabelImage found = image::read_image(path, {.voxel = Vec3(1, 1, 2)});
-         Content c{fmt::format("{} x {} x {}", found.size[0], found.size[1], found.size[2]), "", false};
-         for (const image::Label l : found.label) add_number(l, c.data);
-         return c;
-       }});
+  all.push_back({"plain.tif", image::tiff(i), [](const std::string& path) {
+                   const LabelImage found = image::read_image(path, {.voxel = Vec3(1, 1, 2)});
+                   Content c{
+                       fmt::format("{} x {} x {}", found.size[0], found.size[1], found.size[2]), "",
+                       false};
+                   for (const image::Label l : found.label) add_number(l, c.data);
+                   return c;
+                 }});
   all.push_back({"plain.nii", image::nifti(i, 3), image_content});
   all.push_back({"packed.nii.gz", image::deflate_bytes(image::nifti(i, 3), true), image_content});
   image::Hdf5Dataset d{{7, 5, 6}, i.label, "", {"z", "y", "x"}, {2, 1, 1}};

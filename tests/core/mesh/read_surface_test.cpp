@@ -192,8 +192,7 @@ TEST(ReadSurface, PlyOfAllKinds) {
     ASSERT_EQ(bodies.size(), 1u);
     EXPECT_NEAR(compute_volume(bodies[0].node, bodies[0].triangle), 6, 1e-14);
   }
-  EXPECT_CONTAINS(refusal(folder.write("cut.ply", big.substr(0, big.size() - 20))),
-                  "truncated");
+  EXPECT_CONTAINS(refusal(folder.write("cut.ply", big.substr(0, big.size() - 20))), "truncated");
   EXPECT_CONTAINS(refusal(folder.write("a.ply", "ply\nformat ascii 1.0\nelement vertex x\n")),
                   "a.ply:3: found \"x\" where a number of elements");
   EXPECT_CONTAINS(refusal(folder.write("b.ply",
