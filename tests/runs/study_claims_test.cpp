@@ -129,14 +129,14 @@ TEST_F(Claims, OneSeedInWhichSomethingNeverHappensDoesNotDecideForAll) {
   v = checked(R"("kind": "first_above", "variant": "slow", "level": "2 um")",
               "\"over\": " + never + R"(, "low": 0, "high": 1)");
   EXPECT_EQ(v.status, ClaimStatus::kNotMeasured);
-  // Two hours were looked at and 2 um come after 40 min on average, so it is sooner by 1 h at
+  // The runs last two hours and reach 2 um after 40 min on average, so it is sooner by 1 h at
   // least.
   const std::string sooner = R"("kind": "first_above", "variant": "slow", "level": "2 um")";
   EXPECT_EQ(checked(sooner, "\"minus\": " + never + R"(, "high": "-30 min")").status,
             ClaimStatus::kHolds);
   EXPECT_EQ(checked(sooner, "\"minus\": " + never + R"(, "high": "-3 h")").status,
             ClaimStatus::kNotMeasured);
-  // Other seeds, so of the means: later by 80 min at least, and nobody knows about 3 h.
+  // Other seeds, so of the means: later by 80 min at least; 3 h are not known.
   const std::string later = R"("kind": "first_above", "variant": "fast", "level": "9 um")";
   const std::string slow =
       R"({ "kind": "first_above", "observable": "overlap_cbm_cbm_um", "variant": "slow", "level": "2 um" })";
