@@ -69,6 +69,10 @@ class ObstacleSearch {
   SphereBody body(std::size_t i) const {
     return {radius(i), work_.modulus[i].value, params_of(i).poisson};
   }
+  /// @param overlap  relative, of the contact alone
+  FaceModulus face_of(std::size_t i, double overlap) const {
+    return modulus_toward(params_of(i).correction, in_.state.young[i], work_.modulus[i], overlap);
+  }
   static SphereBody flat(const contact::Material& m, double shape) {
     return {shape, m.young, m.poisson};
   }
@@ -163,15 +167,11 @@ class ObstacleSearch {
     const std::size_t i = k.a;
     const double share = in_.cells.strength_of(i);
     if (gap >= radius(i) || share <= 0) return;
-    const Modulus& crowd = work_.modulus[i];
-    const Modulus modulus = modulus_toward(params_of(i).correction, in_.state.young[i], crowd,
-                                           contact::mirror_wall_compression(radius(i), gap));
-    const bool own = modulus.value > crowd.value;
-    contact::SphereBody stiffened = body(i);
-    stiffened.young = modulus.value;
+    const FaceModulus face = face_of(i, contact::mirror_wall_compression(radius(i), gap));
     const double poisson = params_of(i).poisson;
-    const double by_overlap = own ? modulus.slope / radius(i) / (1 - poisson * poisson) : 0;
-    add(k, weaken(contact::mirror_wall_force(stiffened, gap), share), 0, own ? 0 : 1, by_overlap);
+    const double by_overlap = face.own ? face.slope / radius(i) / (1 - poisson * poisson) : 0;
+    add(k, weaken(contact::mirror_wall_force({radius(i), face.value, poisson}, gap), share), 0,
+        face.own ? 0 : 1, by_overlap);
   }
 
   void meet_mesh(std::size_t i, std::size_t index, const Vec3& x) {
@@ -245,9 +245,10 @@ class ObstacleSearch {
       meet(k, contact::vessel_pair(body(i), {g.radius, m.young, m.poisson}, adhesion), 0, 1, share);
       return;
     }
-    const VesselPair own = corrected_vessel_pair(law, in_.state.young[i], work_.modulus[i], body(i),
-                                                 m, g.radius, -k.gap, adhesion);
-    meet(k, own.pair, 0, own.own ? 0 : 1, share, own.modulus_by_overlap);
+    const FaceModulus face = face_of(i, -k.gap / (radius(i) + g.radius));
+    const VesselPair bounded = corrected_vessel_pair(
+        face, {radius(i), face.value, params_of(i).poisson}, m, g.radius, -k.gap, adhesion);
+    meet(k, bounded.pair, 0, face.own ? 0 : 1, share, bounded.modulus_by_overlap);
   }
 
   const ContactInput& in_;

@@ -60,18 +60,12 @@ void find_type_factors(std::span<const Params> params, double adhesion_factor,
     factors.push_back({1 - p.poisson * p.poisson, std::sqrt(adhesion_factor * p.adhesion)});
 }
 
-/// What one side of a pair does, by its own overlap or its crowd.
-struct CrowdedFace {
-  Modulus modulus;
-  bool own = false;  ///< by its own overlap
-};
-CrowdedFace face_toward(const ContactInput& in, const ContactWorkspace& work, std::size_t cell,
+FaceModulus face_toward(const ContactInput& in, const ContactWorkspace& work, std::size_t cell,
                         double overlap) {
   const Modulus& crowd = work.modulus[cell];
   if (work.coupling.empty()) return {crowd};  // no type has a law
   const StiffnessLaw& law = in.params[in.state.type[cell]].correction;
-  const Modulus m = modulus_toward(law, in.state.young[cell], crowd, overlap);
-  return {m, m.value > crowd.value};
+  return modulus_toward(law, in.state.young[cell], crowd, overlap);
 }
 
 /// One thread's cells [first, last): all pairs that have a side among them.
@@ -137,8 +131,8 @@ class RangeSearch {
     if (!work_.coupling.empty()) {  // a law corrects
       const double overlap = overlap_now();
       face_[n_] = {face_toward(in_, work_, i, overlap), face_toward(in_, work_, j, overlap)};
-      of_a = &face_[n_][0].modulus;
-      of_b = &face_[n_][1].modulus;
+      of_a = &face_[n_][0];
+      of_b = &face_[n_][1];
     }
     const TypeFactors &of_ta = work_.type_factors[ta], &of_tb = work_.type_factors[tb];
     batch_.compliance[n_] = of_ta.softness / of_a->value + of_tb.softness / of_b->value;
@@ -205,9 +199,8 @@ class RangeSearch {
         work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
       work_.contact_area[i] += batch_.area[l];
       if (work_.coupling.empty()) return;
-      const CrowdedFace& face = face_[l][sign > 0 ? 0 : 1];
-      if (!face.own)
-        work_.coupling[i] = std::max(work_.coupling[i], by_modulus(i, face.modulus, l));
+      const FaceModulus& face = face_[l][sign > 0 ? 0 : 1];
+      if (!face.own) work_.coupling[i] = std::max(work_.coupling[i], by_modulus(i, face, l));
     };
     add(a, 1);
     add(b, -1);
@@ -226,8 +219,8 @@ class RangeSearch {
   void stiffen(std::size_t l) {
     const auto [a, b] = work_.pair[index_[l]];
     double more = 0;
-    if (face_[l][0].own) more += by_modulus(a, face_[l][0].modulus, l);
-    if (face_[l][1].own) more += by_modulus(b, face_[l][1].modulus, l);
+    if (face_[l][0].own) more += by_modulus(a, face_[l][0], l);
+    if (face_[l][1].own) more += by_modulus(b, face_[l][1], l);
     batch_.stiffness[l] += more;
   }
 
@@ -251,7 +244,7 @@ class RangeSearch {
   std::vector<solve::PointLink>& link_;
   std::vector<std::pair<int, int>>& touching_;
   Batch batch_{};
-  std::array<std::array<CrowdedFace, 2>, kLanes> face_{};  ///< of both sides
+  std::array<std::array<FaceModulus, 2>, kLanes> face_{};  ///< of both sides
   double share_[kLanes] = {};  ///< used only when not all strengths are 1
   std::size_t index_[kLanes] = {};
   std::size_t n_ = 0, finger_ = kUnset;
@@ -292,8 +285,7 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
     const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
     const double sum = radius[i] + radius[j];
     auto softness = [&](std::size_t cell, std::size_t type) {
-      return work.type_factors[type].softness /
-             face_toward(in, work, cell, overlap / sum).modulus.value;
+      return work.type_factors[type].softness / face_toward(in, work, cell, overlap / sum).value;
     };
     const contact::SpherePair pair{
         radius[i] * radius[j] / sum, 1 / (softness(i, ta) + softness(j, tb)),

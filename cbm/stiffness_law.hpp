@@ -94,18 +94,24 @@ inline Modulus corrected_modulus(const StiffnessLaw& law, double young, double d
 /// overlap counts: in the clump a law was found in none had more when all had that on average.
 inline constexpr double kOwnOverlap = 1;
 
+/// Modulus of one side of a contact.
+struct FaceModulus : Modulus {
+  bool own = false;  ///< set by the overlap of this contact alone, not by the crowd
+};
+
 /// E~ of a cell toward one neighbour. d is a mean over twelve and says little where one neighbour
 /// is pressed in much deeper than all others, as daughters in dense tissue are: there the cell is
 /// as stiff as if all overlapped as much, less the range of the law.
 /// @param crowd    E~(d) and its slope
 /// @param overlap  of this pair, over the sum of the radii
 /// @return with the slope by `overlap` if that counts, else `crowd`
-inline Modulus modulus_toward(const StiffnessLaw& law, double young, const Modulus& crowd,
-                              double overlap) {
+inline FaceModulus modulus_toward(const StiffnessLaw& law, double young, const Modulus& crowd,
+                                  double overlap) {
   const double beyond = overlap - kOwnOverlap * law.range;
-  if (!law.corrects() || !law.single_overlaps || beyond <= 0) return crowd;
+  if (!law.corrects() || !law.single_overlaps || beyond <= 0) return {crowd};
   const Modulus own = corrected_modulus(law, young, beyond);
-  return own.value > crowd.value ? own : crowd;
+  if (own.value > crowd.value) return {own, true};
+  return {crowd};
 }
 
 /// How a crowded sphere meets a rigid wall: with a face, so nearer and stiffer than a round cap.

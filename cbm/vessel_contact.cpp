@@ -4,32 +4,25 @@
 
 namespace acinus::cbm {
 
-VesselPair corrected_vessel_pair(const StiffnessLaw& law, double young, const Modulus& crowd,
-                                 const contact::SphereBody& cell, const contact::Material& vessel,
-                                 double vessel_radius, double overlap, double adhesion) {
-  const double both = cell.radius + vessel_radius;
-  const Modulus modulus = modulus_toward(law, young, crowd, overlap / both);
-  contact::SphereBody stiffened = cell;
-  stiffened.young = modulus.value;
+VesselPair corrected_vessel_pair(const FaceModulus& face, const contact::SphereBody& cell,
+                                 const contact::Material& vessel, double vessel_radius,
+                                 double overlap, double adhesion) {
   VesselPair out{
-      contact::vessel_pair(stiffened, {vessel_radius, vessel.young, vessel.poisson}, adhesion)};
-  out.own = modulus.value > crowd.value;
-
+      contact::vessel_pair(cell, {vessel_radius, vessel.young, vessel.poisson}, adhesion)};
   const double plane_strain = 1 - cell.poisson * cell.poisson;
-  const double softness = plane_strain / modulus.value;  // s_cell
+  const double softness = plane_strain / cell.young;  // s_cell
   double& reduced = out.pair.modulus;
+  // dE^/dE of the cell over E^ / E, which is E^ s_cell: E^ depends on E through s_cell alone.
+  double by_young = reduced * softness;
   const double limit = contact::yield_limit(vessel, vessel_radius);
   if (overlap * (1 - reduced * softness) > limit) {
     reduced = (1 - limit / overlap) / softness;
     out.modulus_by_overlap = limit / (overlap * overlap * softness);
+    by_young = 1;
   }
-  if (out.own) {
-    // dE^/dE of the sphere: E^ depends on it through s_cell alone, 1/E^ = s_cell + s_vessel below
-    // the limit and E^ proportional to 1/s_cell beyond it.
-    const double share =
-        out.modulus_by_overlap > 0 ? reduced * softness : reduced * softness * reduced * softness;
-    out.modulus_by_overlap += share / plane_strain * modulus.slope / both;
-  }
+  if (face.own)
+    out.modulus_by_overlap +=
+        by_young * reduced * softness / plane_strain * face.slope / (cell.radius + vessel_radius);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -39,14 +40,7 @@ bool is_stream(const std::string& path) {
 void append(const std::string& path, std::string_view text) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (descriptor < 0) fail_on_disk(path, "open", errno);
-  int error = 0;
-  while (!text.empty() && error == 0) {
-    const ssize_t n = write(descriptor, text.data(), text.size());
-    if (n >= 0)
-      text.remove_prefix(static_cast<std::size_t>(n));
-    else if (errno != EINTR)
-      error = errno;
-  }
+  const int error = write_stream(descriptor, text);
   ::close(descriptor);
   if (error != 0) fail_on_disk(path, "write", error);
 }
@@ -85,6 +79,21 @@ std::string read_text_file(const std::string& path) {
   std::fclose(file);
   if (error != 0) fail_on_disk(path, "read", error);
   return text;
+}
+
+int write_stream(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = write(descriptor, text.data(), text.size());
+    if (n >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(n));
+    } else if (errno == EAGAIN) {  // another process that has the pipe made it non-blocking
+      pollfd room{descriptor, POLLOUT, 0};
+      poll(&room, 1, -1);
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
 }
 
 bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::uint64_t address) {

@@ -22,6 +22,9 @@ std::string read_text_file(const std::string& path);
 /// refuses.
 bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::uint64_t address);
 
+/// Writes all of a text to a terminal, pipe or device. Returns 0, or the error number.
+int write_stream(int descriptor, std::string_view text);
+
 /// Renames over an existing file.
 void replace_file(const std::string& from, const std::string& to);
 /// Waits until a file, or the entries of a folder, are on the disk itself.

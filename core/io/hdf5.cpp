@@ -280,7 +280,6 @@ void File::write_text_rows(const std::string& name, std::int64_t first_row,
 void File::check_rows(const std::string& name, hsize_t n_row, std::int64_t first,
                       std::int64_t n) const {
   if (n == 0) return;  // an empty frame wrote no padding up to its place
-  if (n == 0) return;  // an empty frame may begin behind the last row
   const auto end = static_cast<hsize_t>(first) + static_cast<hsize_t>(n);
   check(first >= 0 && n >= 0 && end <= n_row,
         fmt::format("{}: dataset {} has {} rows, but rows up to {} should be there. The file is "

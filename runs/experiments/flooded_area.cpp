@@ -91,6 +91,7 @@ FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
     f.layer.push_back(std::min(f.n[2] - 1, static_cast<int>(z / room.frame.height * f.n[2])));
 
   const double beside_vein = grid.from_radius + edge;
+  const std::vector<Box> boxes = segment_boxes(vessels);
   f.seed.assign(static_cast<std::size_t>(across) * across * f.n[2], 0);
   for (std::size_t k = 0; k < grid.height.size(); ++k)
     for (int y = 0; y < across * f.points; ++y)
@@ -99,7 +100,8 @@ FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
         bool free = in_lesion(grid, room, from_axis);
         const Vec3 place(p.x(), p.y(), grid.height[k]);
         for (std::size_t s = 0; free && s < vessels.segment.size(); ++s)
-          free = contact::gap_to_segment(vessels, static_cast<int>(s), place).gap >= 0;
+          free = !boxes[s].contains(place) ||
+                 contact::gap_to_segment(vessels, static_cast<int>(s), place).gap >= 0;
         f.free.push_back(free ? 1 : 0);
         if (free && from_axis.norm() < beside_vein)
           f.seed[cube_index(f, x / f.points, y / f.points, f.layer[k])] = 1;

@@ -10,17 +10,6 @@ namespace {
 
 constexpr double kAngle = kPi / 180, kSlice = 4, kStep = 2;  // rad, um, um
 
-/// Boxes round the segments.
-std::vector<Box> segment_boxes(const mesh::Network& n) {
-  std::vector<Box> boxes;
-  for (std::size_t s = 0; s < n.segment.size(); ++s) {
-    Box box;
-    for (const int i : n.segment[s]) box.include(n.node[i]);
-    boxes.push_back(box.grown(std::max(n.radius[s][0], n.radius[s][1])));
-  }
-  return boxes;
-}
-
 void mark_vessels(const mesh::Network& network, LesionGrid& g) {
   const std::vector<Box> boxes = segment_boxes(network);
   auto free = g.free.begin();
@@ -42,6 +31,16 @@ void mark_vessels(const mesh::Network& network, LesionGrid& g) {
 }
 
 }  // namespace
+
+std::vector<Box> segment_boxes(const mesh::Network& n) {
+  std::vector<Box> boxes;
+  for (std::size_t s = 0; s < n.segment.size(); ++s) {
+    Box box;
+    for (const int i : n.segment[s]) box.include(n.node[i]);
+    boxes.push_back(box.grown(std::max(n.radius[s][0], n.radius[s][1])));
+  }
+  return boxes;
+}
 
 LesionGrid make_lesion_grid(const LobuleRoom& room, double lesion_radius,
                             const mesh::Network& vessels) {

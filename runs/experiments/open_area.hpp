@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/mesh/network.hpp"
 #include "runs/experiments/lobule_room.hpp"
 #include "runs/experiments/sections.hpp"
@@ -26,6 +27,9 @@ struct LesionGrid {
 /// @param lesion_radius  um, of the initial lesion
 LesionGrid make_lesion_grid(const LobuleRoom& room, double lesion_radius,
                             const mesh::Network& vessels);
+
+/// Boxes that hold the segments of vessels, um.
+std::vector<Box> segment_boxes(const mesh::Network& vessels);
 
 struct Opening {
   double area = 0;       ///< um^2, outside vessels, covered by no cell; mean over height

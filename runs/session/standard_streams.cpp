@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +12,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/io/disk.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -28,23 +28,6 @@ struct Sink {
 // Streams of C belong to the process, so what became of them does too.
 Sink g_out{STDOUT_FILENO}, g_error{STDERR_FILENO};
 
-/// @return 0, or why not all could be written
-int write_all(int descriptor, const char* text, std::size_t size) {
-  while (size > 0) {
-    const ssize_t n = write(descriptor, text, size);
-    if (n >= 0) {
-      text += n;
-      size -= static_cast<std::size_t>(n);
-    } else if (errno == EAGAIN) {  // another process that has the pipe made it non-blocking
-      pollfd room{descriptor, POLLOUT, 0};
-      poll(&room, 1, -1);
-    } else if (errno != EINTR) {
-      return errno;
-    }
-  }
-  return 0;
-}
-
 void drop(Sink& sink, int error) {
   sink.dropped = true;
   if (error == EPIPE) return;
@@ -57,7 +40,7 @@ void drop(Sink& sink, int error) {
 ssize_t print(void* cookie, const char* text, std::size_t size) {
   Sink& sink = *static_cast<Sink*>(cookie);
   if (!sink.dropped) {
-    const int error = sink.closed ? EBADF : write_all(sink.descriptor, text, size);
+    const int error = sink.closed ? EBADF : io::write_stream(sink.descriptor, {text, size});
     if (error != 0) drop(sink, error);
   }
   return static_cast<ssize_t>(size);

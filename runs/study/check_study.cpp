@@ -74,6 +74,17 @@ class Checker {
     }
   }
 
+  /// @param claim  an expectation or a map
+  void check_bound_given(const auto& claim, const std::string& pointer) {
+    if (!claim.low && !claim.high)
+      add(pointer + "/low", "is missing, and so is high: what is expected?");
+  }
+
+  void check_bounds(const auto& claim, const std::string& unit, const std::string& pointer) {
+    if (claim.low) check_number(*claim.low, unit, pointer + "/low");
+    if (claim.high) check_number(*claim.high, unit, pointer + "/high");
+  }
+
   void check_plot(const StudyPlot& plot, const std::string& pointer) {
     const bool known = check_observable(plot.observable, pointer + "/observable");
     for (std::size_t k = 0; k < plot.beside.size(); ++k) {
@@ -106,12 +117,9 @@ class Checker {
       if (!key->empty() && !unit_of_key(*key))
         add(pointer + name, "is no key of a scene with one number as value");
     check_measure(map.measure, pointer + "/measure");
-    if (!map.low && !map.high)
-      add(pointer + "/low", "is missing, and so is high: what is expected?");
-    if (!plan_.units.contains(map.measure.observable)) return;
-    const std::string unit = unit_of(map.measure, plan_.units);
-    if (map.low) check_number(*map.low, unit, pointer + "/low");
-    if (map.high) check_number(*map.high, unit, pointer + "/high");
+    check_bound_given(map, pointer);
+    if (plan_.units.contains(map.measure.observable))
+      check_bounds(map, unit_of(map.measure, plan_.units), pointer);
   }
 
   void check_reference(const StudyReference& r, const std::string& pointer,
@@ -165,7 +173,7 @@ class Checker {
     }
     if (e.every_seed && e.least_seeds > 0)
       add(pointer + "/least_seeds", "every_seed asks for all of them: give one of the two");
-    if (!e.low && !e.high) add(pointer + "/low", "is missing, and so is high: what is expected?");
+    check_bound_given(e, pointer);
     if (!plan_.units.contains(e.measure.observable)) return;
     std::string unit = unit_of(e.measure, plan_.units);
     for (const auto& [second, key] : {std::pair{&e.minus, "/minus"}, {&e.over, "/over"}}) {
@@ -176,8 +184,7 @@ class Checker {
             fmt::format("is in {}, the first measure in {}: they cannot be compared", other, unit));
     }
     if (e.over) unit = "1";
-    if (e.low) check_number(*e.low, unit, pointer + "/low");
-    if (e.high) check_number(*e.high, unit, pointer + "/high");
+    check_bounds(e, unit, pointer);
   }
 
   const StudyPlan& plan_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -21,32 +22,12 @@ std::vector<std::string> swept_endings(const Study& study, const std::vector<Var
   return endings;
 }
 
-void append_to_variants(StudyMeasure& m, const std::string& ending) {
-  for (std::string* name : {&m.variant, &m.other, &m.another})
-    if (!name->empty()) *name += ending;
-}
-
-std::vector<std::string> variants_of(const StudyExpectation& e) {
-  std::vector<std::string> names;
-  const auto add = [&](const StudyMeasure& m) {
-    for (const std::string* name : {&m.variant, &m.other, &m.another})
-      if (!name->empty()) names.push_back(*name);
-  };
-  add(e.measure);
-  if (e.minus) add(*e.minus);
-  if (e.over) add(*e.over);
-  return names;
-}
-
-StudyExpectation copy_for(const StudyExpectation& original, const std::string& ending) {
-  StudyExpectation copy = original;
-  copy.each.clear();
-  copy.id += ending;
-  copy.claim += ", " + ending.substr(1);
-  append_to_variants(copy.measure, ending);
-  if (copy.minus) append_to_variants(*copy.minus, ending);
-  if (copy.over) append_to_variants(*copy.over, ending);
-  return copy;
+/// Calls a function with every name of a variant in a claim.
+void for_each_variant(StudyExpectation& e, const std::function<void(std::string&)>& call) {
+  for (StudyMeasure* m : {&e.measure, e.minus ? &*e.minus : nullptr, e.over ? &*e.over : nullptr})
+    if (m != nullptr)
+      for (std::string* name : {&m->variant, &m->other, &m->another})
+        if (!name->empty()) call(*name);
 }
 
 }  // namespace
@@ -66,10 +47,15 @@ void expand_claims(Study& study, const std::vector<Variant>& variants, Report& r
     if (endings.empty())
       complain(fmt::format("no sweep with this label is made of {}", original.measure.variant));
     for (const std::string& ending : endings) {
-      all.push_back(copy_for(original, ending));
-      for (const std::string& name : variants_of(all.back()))
+      StudyExpectation& copy = all.emplace_back(original);
+      copy.each.clear();
+      copy.id += ending;
+      copy.claim += ", " + ending.substr(1);
+      for_each_variant(copy, [&](std::string& name) {
+        name += ending;
         if (find_variants(variants, name).empty())
           complain(fmt::format("there is no variant {}: sweep all that the claim names", name));
+      });
     }
   }
   study.expectations = std::move(all);

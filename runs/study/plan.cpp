@@ -205,12 +205,11 @@ class Planner {
         check_start(run, plan_.runs[run.source]);
     }
     for (StudyRun& run : plan_.runs) {
-      run.lineage.emplace_back(run.folder, run.scene.resolved_json);
       std::size_t steps = 0;  // a circle is reported elsewhere
       for (int s = run.source; s >= 0 && ++steps <= plan_.runs.size();) {
         const StudyRun& source = plan_.runs[s];
         run.identity += "<" + source.scene.hash;
-        run.lineage.emplace_back(source.folder, source.scene.resolved_json);
+        run.sources.emplace_back(source.folder, source.scene.resolved_json);
         s = source.source;
       }
     }

@@ -23,8 +23,8 @@ struct StudyRun {
   int source = -1;     ///< run whose state at t = 0 it takes; -1 = none
   /// What the run depends on: hash of its scene, and of those it starts from.
   std::string identity;
-  /// Folder below the study's and resolved scene of the run, then of those it starts from.
-  std::vector<std::pair<std::string, std::string>> lineage;
+  /// Folder below the study's and resolved scene of the runs it starts from, nearest first.
+  std::vector<std::pair<std::string, std::string>> sources;
 };
 
 struct StudyPlan {

@@ -147,6 +147,13 @@ void describe_measure(Visitor& v, StudyMeasure& b) {
   describe_moment(v, b);
 }
 
+/// Bounds that bear a claim out.
+void describe_bounds(Visitor& v, std::optional<Node>& low, std::optional<Node>& high) {
+  v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
+          low);
+  v.value({.name = "high", .meaning = "largest value that bears it out", .automatic = "any"}, high);
+}
+
 void describe_map_measure(Visitor& v, StudyMeasure& b) {
   v.text({.name = "kind",
           .meaning = "value at a time; first_below, first_above: when the level is first passed; "
@@ -170,10 +177,7 @@ void describe_map(Visitor& v, StudyMap& b) {
   v.text({.name = "y", .meaning = "scene key of the rows", .required = true}, b.y);
   block(v, {.name = "measure", .meaning = "measured in every run", .required = true}, b.measure,
         describe_map_measure);
-  v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
-          b.low);
-  v.value({.name = "high", .meaning = "largest value that bears it out", .automatic = "any"},
-          b.high);
+  describe_bounds(v, b.low, b.high);
 }
 
 void describe_expectation(Visitor& v, StudyExpectation& b) {
@@ -192,10 +196,7 @@ void describe_expectation(Visitor& v, StudyExpectation& b) {
                  b.minus, describe_measure);
   optional_block(v, {.name = "over", .meaning = "second measure, divided by; null = none"}, b.over,
                  describe_measure);
-  v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
-          b.low);
-  v.value({.name = "high", .meaning = "largest value that bears it out", .automatic = "any"},
-          b.high);
+  describe_bounds(v, b.low, b.high);
   v.flag({.name = "every_seed",
           .meaning = "every seed must lie within low and high, not only their mean"},
          b.every_seed);

@@ -40,7 +40,7 @@ std::optional<Json> read_record(const std::string& root, const StudyRun& run) {
   return j;
 }
 
-/// Keys that say nothing about results; the start is compared by the lineage.
+/// Keys that say nothing about results; the start is compared by the scenes it came from.
 bool is_without_effect(const std::string& pointer) {
   return pointer == "/name" || pointer == "/description" || pointer == "/start_up/from";
 }
@@ -48,17 +48,19 @@ bool is_without_effect(const std::string& pointer) {
 /// True if the folders of a run and of those it starts from hold these very scenes. Their hashes
 /// also differ by descriptions and by keys that are younger than a run.
 bool has_same_scenes(const std::string& root, const StudyRun& run) {
-  return std::ranges::all_of(run.lineage, [&](const auto& member) {
-    const std::string file = root + "/" + member.first + "/scene.json";
+  const auto holds = [&](const std::string& folder, const std::string& scene) {
+    const std::string file = root + "/" + folder + "/scene.json";
     std::error_code code;
     if (!fs::is_regular_file(file, code)) return false;
     try {
-      return list_scene_differences(io::read_text_file(file), member.second, is_without_effect)
-          .empty();
+      return list_scene_differences(io::read_text_file(file), scene, is_without_effect).empty();
     } catch (const std::exception&) {
       return false;  // damaged, so not known to be this scene
     }
-  });
+  };
+  return holds(run.folder, run.scene.resolved_json) &&
+         std::ranges::all_of(
+             run.sources, [&](const auto& source) { return holds(source.first, source.second); });
 }
 
 bool belongs(const std::string& root, const Json& record, const StudyRun& run) {
