@@ -1,5 +1,8 @@
 #include "tests/fuzz/targets.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -17,6 +20,7 @@
 #include "runs/serve/submission.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/study/plan.hpp"
+#include "tests/core/image/hdf5_dataset.hpp"
 #include "tests/core/image/images.hpp"
 #include "tests/core/io/sample.hpp"
 
@@ -43,7 +47,22 @@ void write_scenes(const std::string& folder) {
   copy_all(ACINUS_SOURCE_DIR "/runs/scenes", ".json", folder);
 }
 
-void read_law(const std::string& path) { calibration::read_law(path); }
+/// Check of an accepted file: acinus must be able to go on with the result.
+void must(bool sound, const char* what) {
+  if (!sound) throw std::logic_error(std::string("accepted: ") + what);
+}
+
+bool are_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
+}
+
+void read_law(const std::string& path) {
+  const calibration::Law law = calibration::read_law(path);
+  must(are_finite(std::array{law.a0, law.a1, law.power, law.wall_recess}) && law.a0 > 0,
+       "a law with no finite modulus");
+  for (const calibration::TableEntry& entry : law.table)
+    must(std::isfinite(entry.overlap) && std::isfinite(entry.modulus), "a law with NaN");
+}
 void write_laws(const std::string& folder) {
   calibration::Law law;
   law.a0 = 0.4;
@@ -55,33 +74,87 @@ void write_laws(const std::string& folder) {
   calibration::write_law(law, folder + "/law.json");
 }
 
-void read_network(const std::string& path) { mesh::read_network(path); }
-void read_surface(const std::string& path) { mesh::read_closed_surfaces(path, 1); }
-void read_image(const std::string& path) { image::read_image(path, {.voxel = Vec3(1, 1, 1)}); }
-void write_images(const std::string& folder) {
+void read_network(const std::string& path) {
+  const mesh::Network network = mesh::read_network(path);
+  for (const Vec3& node : network.node) must(node.allFinite(), "a node that is nowhere");
+  for (const auto& [a, b] : network.segment)
+    must(std::min(a, b) >= 0 && std::max(a, b) < static_cast<int>(network.node.size()),
+         "a segment without nodes");
+  for (const auto& [a, b] : network.radius)
+    must(a > 0 && b > 0 && std::isfinite(a + b), "a vessel without a radius");
+}
+
+void read_surface(const std::string& path) {
+  for (const mesh::Surface& body : mesh::read_closed_surfaces(path, 1)) {
+    for (const Vec3& node : body.node) must(node.allFinite(), "a node that is nowhere");
+    for (const auto& face : body.triangle)
+      for (const int node : face)
+        must(node >= 0 && node < static_cast<int>(body.node.size()), "a triangle without nodes");
+  }
+}
+
+void read_image(const std::string& path) {
+  const image::LabelImage image = image::read_image(path, {.voxel = Vec3(1, 1, 1)});
+  const auto& [x, y, z] = image.size;
+  must(x > 0 && y > 0 && z > 0 && image.label.size() == static_cast<std::size_t>(x) * y * z,
+       "an image of another size");
+  must(image.voxel.allFinite() && image.voxel.minCoeff() > 0, "voxels without a size");
+}
+image::LabelImage make_labels() {
   image::LabelImage image;
   image.size = {6, 5, 4};
   image.voxel = Vec3(0.5, 0.5, 1);
   for (image::Label k = 0; k < 6 * 5 * 4; ++k) image.label.push_back(k / 7 * 300);
-  for (const char* name : {"/image.tif", "/image.mha", "/image.nrrd"})
-    image::write_image(folder + name, image);
+  return image;
+}
+void write_tiff(const std::string& folder) {
+  image::write_image(folder + "/image.tif", make_labels());
+}
+void write_nrrd(const std::string& folder) {
+  image::write_image(folder + "/image.nrrd", make_labels());
+}
+void write_metaimage(const std::string& folder) {
+  image::write_image(folder + "/image.mha", make_labels());
+}
+void write_nifti(const std::string& folder) {
   constexpr std::int16_t kMicrons = 3;
-  std::ofstream(folder + "/image.nii", std::ios::binary) << image::nifti(image, kMicrons);
+  std::ofstream(folder + "/image.nii", std::ios::binary) << image::nifti(make_labels(), kMicrons);
+}
+void write_hdf5_image(const std::string& folder) {
+  image::write_dataset(folder + "/plain.h5",
+                       {.shape = {4, 5, 6}, .value = make_labels().label, .step = {1, 0.5, 0.5}});
+  image::write_dataset(folder + "/named.h5", {.shape = {4, 5, 6},
+                                              .value = make_labels().label,
+                                              .labels = {"z", "y", "x"},
+                                              .step = {1, 0.5, 0.5},
+                                              .chunk = {2, 5, 6}});
 }
 void write_vtk(const std::string& folder) { copy_all(ACINUS_TEST_DATA "/files", ".vtk", folder); }
 
-void read_checkpoint(const std::string& path) { io::load_state_file(path); }
-void write_checkpoints(const std::string& folder) {
+io::CheckpointData make_state() {
   io::CheckpointData data;
   data.put("dcm/position", std::vector<double>(300, 1.5));
   data.put("cell/lineage", std::vector<std::int64_t>{1, 2, 3});
   data.put_number("time", 60);
-  io::save_state_file(folder + "/state.h5", data);
+  return data;
+}
+void read_checkpoint(const std::string& path) {
+  must(io::load_state_file(path).all() == make_state().all(), "a state that nobody wrote");
+}
+void write_checkpoints(const std::string& folder) {
+  io::save_state_file(folder + "/state.h5", make_state());
 }
 
 void read_run_file(const std::string& path) {
   const io::RunReader reader(path);
-  for (int k = 0; k < reader.n_frame(); ++k) reader.frame(k);
+  for (int k = 0; k < reader.n_frame(); ++k) {
+    const io::Frame frame = reader.frame(k);
+    must(std::ranges::all_of(frame.point, [](float v) { return std::isfinite(v); }),
+         "a point that is nowhere");
+    for (const auto& face : frame.triangle)
+      for (const std::int64_t node : face)
+        must(node >= 0 && node < frame.n_mesh_node, "a triangle without nodes");
+  }
   reader.series();
   reader.observables();
   reader.events();
@@ -96,7 +169,9 @@ void write_run_files(const std::string& folder) {
   run.close();
 }
 
-void read_study(const std::string& path) { runs::read_study(path); }
+void read_study(const std::string& path) {
+  must(!runs::read_study(path).runs.empty(), "a study without runs");
+}
 void write_studies(const std::string& folder) {
   copy_all(ACINUS_SOURCE_DIR "/runs/studies", ".json", folder);
 }
@@ -111,7 +186,10 @@ std::string folder_with(const std::string& path, const std::string& name) {
 }
 
 void read_summary(const std::string& path) {
-  runs::read_summary(folder_with(path, "summary.json"));
+  const runs::RunSummary summary = runs::read_summary(folder_with(path, "summary.json"));
+  must(are_finite(std::array{summary.simulated_s, summary.wall_s, summary.cpu_s}) &&
+           summary.dcm >= 0 && summary.cbm >= 0,
+       "a summary without numbers");
 }
 void write_summaries(const std::string& folder) {
   std::ofstream(folder + "/summary.json")
@@ -141,9 +219,13 @@ const std::vector<Target>& all_targets() {
       {"law", {".json"}, read_law, write_laws},
       {"network", {".vtk", ".swc", ".vmv"}, read_network, write_vtk},
       {"surface", {".vtk", ".obj", ".stl", ".ply"}, read_surface, write_vtk},
-      {"image", {".tif", ".nii", ".mha", ".nrrd"}, read_image, write_images},
-      {"checkpoint", {".h5"}, read_checkpoint, write_checkpoints},
-      {"run_file", {".vtkhdf"}, read_run_file, write_run_files},
+      {"image_tiff", {".tif"}, read_image, write_tiff},
+      {"image_nifti", {".nii"}, read_image, write_nifti},
+      {"image_nrrd", {".nrrd"}, read_image, write_nrrd},
+      {"image_meta", {".mha"}, read_image, write_metaimage},
+      {"image_hdf5", {".h5"}, read_image, write_hdf5_image, true},
+      {"checkpoint", {".h5"}, read_checkpoint, write_checkpoints, true},
+      {"run_file", {".vtkhdf"}, read_run_file, write_run_files, true},
       {"study", {".json"}, read_study, write_studies},
       {"summary", {".json"}, read_summary, write_summaries},
       {"submission", {".json"}, read_submission, write_submissions}};

@@ -11,10 +11,13 @@ namespace acinus::fuzz {
 struct Target {
   std::string name;
   std::vector<std::string> endings;  ///< of the file; a reader may choose its format by them
-  /// Reads the file. @throws Error on bad content; anything else is a fault
+  /// Reads the file and checks that the result means something. @throws Error on bad content;
+  /// anything else is a fault
   void (*read)(const std::string& path);
   /// Valid files to begin with, written into a folder.
   void (*write_seeds)(const std::string& folder);
+  /// The program reads it in a process of its own, since its library crashes on some bytes.
+  bool guarded = false;
 };
 
 std::span<const Target> targets();
