@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "core/error.hpp"
@@ -22,10 +25,11 @@ namespace acinus::io {
 namespace {
 
 /// Over no link, and no pipe: what holds a lock signs it.
+/// @param mode  of a file that is made
 /// @return -1 with errno set
-int open_regular(const std::string& path, int flags) {
+int open_regular(const std::string& path, int flags, mode_t mode = 0) {
   const int descriptor =
-      open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, 0666);
+      open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, mode);
   struct stat status {};
   if (descriptor >= 0 && (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))) {
     close(descriptor);
@@ -35,8 +39,23 @@ int open_regular(const std::string& path, int flags) {
   return descriptor;
 }
 
+/// Rights of a lock: for all accounts with the right to write in its folder. The right to read a
+/// file is enough to lock it and to keep its owner out, so other accounts have none.
+mode_t mode_of_lock(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  struct stat status {};
+  if (stat(folder.empty() ? "." : folder.c_str(), &status) != 0) return S_IRUSR | S_IWUSR;
+  mode_t mode = S_IRUSR | S_IWUSR;
+  if ((status.st_mode & S_IWGRP) != 0) mode |= S_IRGRP | S_IWGRP;
+  if ((status.st_mode & S_IWOTH) != 0) mode |= S_IROTH | S_IWOTH;
+  return mode;
+}
+
+/// The file, made if needed, with the rights of a lock if it is this user's.
 int open_file(const std::string& path) {
-  const int descriptor = open_regular(path, O_RDWR | O_CREAT);
+  const mode_t mode = mode_of_lock(path);
+  const int descriptor = open_regular(path, O_RDWR | O_CREAT, mode);
+  [[maybe_unused]] const int not_ours = descriptor < 0 ? 0 : fchmod(descriptor, mode);
   check(descriptor >= 0 || errno != ELOOP,
         path + ": is a link or no regular file, and cannot be a lock. Remove it.",
         Exit::kFileError);
@@ -87,6 +106,19 @@ bool names_a_process(const std::string& line) {
   return kill(process, 0) == 0 || errno != ESRCH;
 }
 
+/// True if the system's list of locks has the file: for those who may not open it.
+bool is_listed(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return false;
+  const std::string file =
+      fmt::format(" {:02x}:{:02x}:{} ", major(status.st_dev), minor(status.st_dev), status.st_ino);
+  std::ifstream list("/proc/locks");
+  for (std::string line; std::getline(list, line);)
+    if (line.find("FLOCK") != std::string::npos && line.find(file) != std::string::npos)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 void FileLock::sign() const {
@@ -134,7 +166,7 @@ FileLock FileLock::take(const std::string& path) {
 
 bool is_locked(const std::string& path) {
   const int descriptor = open_regular(path, O_RDONLY);
-  if (descriptor < 0) return false;
+  if (descriptor < 0) return errno == EACCES && is_listed(path);
   const bool free = lock(descriptor, LOCK_SH | LOCK_NB);
   close(descriptor);
   return !free;

@@ -9,7 +9,8 @@ namespace acinus::io {
 
 /// Holds the lock until it is destroyed. Not inherited by programs started meanwhile. The file
 /// names the process while it holds. Over a network file system it holds between machines where the
-/// file system has locks (NFS 3 with a lock service, NFS 4).
+/// file system has locks (NFS 3 with a lock service, NFS 4). Accounts without the right to
+/// write in the folder can neither take nor open it.
 class FileLock {
  public:
   FileLock(FileLock&& other) noexcept;

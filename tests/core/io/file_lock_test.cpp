@@ -1,6 +1,7 @@
 #include "core/io/file_lock.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace acinus::io {
 namespace {
@@ -67,6 +69,49 @@ TEST(FileLock, MovesWithItsOwner) {
   FileLock a = FileLock::take(file);
   const FileLock b = std::move(a);
   EXPECT_TRUE(is_locked(file));
+}
+
+mode_t mode_of(const std::string& file) {
+  struct stat status {};
+  return stat(file.c_str(), &status) == 0 ? status.st_mode & 0777 : 0;
+}
+
+// A lock can be taken through a descriptor that only reads: to read it is to keep its owner out.
+TEST(FileLock, IsForThoseWhoMayWriteInTheFolder) {
+  const std::string folder = path("folder"), file = folder + "/lock";
+  mkdir(folder.c_str(), 0700);
+  const std::vector<std::pair<mode_t, mode_t>> cases{
+      {0700, 0600}, {0755, 0600}, {0775, 0660}, {0770, 0660}, {0777, 0666}};
+  for (const auto& [open, wanted] : cases) {
+    ASSERT_EQ(chmod(folder.c_str(), open), 0);
+    { const FileLock made = FileLock::take(file); }
+    EXPECT_EQ(mode_of(file), wanted) << std::oct << open;
+    ASSERT_EQ(chmod(file.c_str(), 0644), 0);  // as earlier versions left it
+    const FileLock taken = FileLock::take(file);
+    EXPECT_EQ(mode_of(file), wanted) << std::oct << open;
+  }
+}
+
+// Those who may not open a lock see whether somebody holds it.
+TEST(FileLock, IsSeenByReaders) {
+  if (geteuid() != 0) GTEST_SKIP() << "takes an administrator's account";
+  const std::string folder = path("seen"), file = folder + "/lock";
+  mkdir(folder.c_str(), 0755);
+  const auto as_nobody = [&] {
+    const pid_t child = fork();
+    if (child == 0) {
+      constexpr uid_t kNobody = 65534;
+      _exit(setresuid(kNobody, kNobody, kNobody) == 0 ? (is_locked(file) ? 1 : 0) : 2);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  };
+  {
+    const FileLock held = FileLock::take(file);
+    EXPECT_EQ(as_nobody(), 1);
+  }
+  EXPECT_EQ(as_nobody(), 0);
 }
 
 }  // namespace
