@@ -21,4 +21,15 @@ Json parse_or_discard(const std::string& text);
 template <class Json>
 std::string text_at(const Json& object, const char* name);
 
+/// A member that is a number of things.
+/// @throws Error(kBadInput) naming `what` and the member unless it is a whole number from 0 to 2^31
+/// - 1
+template <class Json>
+int count_at(const Json& object, const char* name, const std::string& what);
+
+/// A member that is a time.
+/// @throws Error(kBadInput) naming `what` and the member unless it is a number that is not negative
+template <class Json>
+double seconds_at(const Json& object, const char* name, const std::string& what);
+
 }  // namespace acinus::runs

@@ -62,11 +62,11 @@ RunSummary read_summary(const std::string& folder) {
     s.cause = j.value("cause", "");
     s.state_hash = j.value("state_hash", "");
     if (j.contains("start")) s.start_hash = j.at("start").at("state_hash");
-    s.simulated_s = j.at("simulated_s");
-    s.wall_s = j.at("wall_s");
-    s.cpu_s = j.at("cpu_s");
-    s.dcm = j.at("cells").at("dcm");
-    s.cbm = j.at("cells").at("cbm");
+    s.simulated_s = seconds_at(j, "simulated_s", file);
+    s.wall_s = seconds_at(j, "wall_s", file);
+    s.cpu_s = seconds_at(j, "cpu_s", file);
+    s.dcm = count_at(j.at("cells"), "dcm", file);
+    s.cbm = count_at(j.at("cells"), "cbm", file);
     for (const auto& [name, values] : j.at("measures").items()) {
       if (!values.is_array()) continue;  // wall_s_at_cells is a table
       for (const nlohmann::json& v : values)
