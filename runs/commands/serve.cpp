@@ -1,5 +1,6 @@
 /// acinus serve
 
+#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -36,7 +37,10 @@ int run(ServeArguments& a) {
     return 0;
   }
   try {
-    prepare_submission(a.prepare, o);
+    if (std::filesystem::exists(a.prepare + "/" + kEvaluationFile))
+      prepare_evaluation(a.prepare, o);
+    else
+      prepare_submission(a.prepare, o);
   } catch (const std::bad_alloc&) {
     throw Error("to check this submission takes more memory than this service allows.");
   }

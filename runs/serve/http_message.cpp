@@ -5,16 +5,12 @@
 #include <nlohmann/json.hpp>
 
 namespace acinus::runs {
-namespace {
 
-/// What came from outside need not be UTF-8.
-std::string dump(const nlohmann::ordered_json& value) {
+std::string json_line(const nlohmann::ordered_json& value) {
   return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-}  // namespace
-
-std::string quoted(const std::string& text) { return dump(text); }
+std::string quoted(const std::string& text) { return json_line(text); }
 
 std::string HttpRequest::header(const std::string& name) const {
   const auto found = headers.find(name);
@@ -35,7 +31,7 @@ std::vector<std::string> split_target(std::string_view target) {
 HttpReply json_reply(int status, const nlohmann::ordered_json& value) {
   HttpReply reply;
   reply.status = status;
-  reply.body = dump(value) + "\n";
+  reply.body = json_line(value) + "\n";
   return reply;
 }
 

@@ -43,6 +43,9 @@ HttpReply json_reply(int status, const nlohmann::ordered_json& value);
 HttpReply error_reply(int status, const std::string& type, const std::string& message);
 HttpReply text_reply(const std::string& type, std::string_view text);
 
+/// JSON on one line; bytes that are no UTF-8 become U+FFFD.
+std::string json_line(const nlohmann::ordered_json& value);
+
 /// A text from outside in quotes, for messages.
 std::string quoted(const std::string& text);
 

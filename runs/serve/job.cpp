@@ -73,9 +73,9 @@ RunJob read_job(const std::string& folder) {
     job.key = j.at("key");
     job.evaluation = j.at("evaluation");
     job.created = j.at("created");
-    job.kills = j.at("kills");
-    job.checkpoint_s = j.at("checkpoint_s");
-    job.used_s = j.at("used_s");
+    job.kills = count_at(j, "kills", record_file(folder));
+    job.checkpoint_s = seconds_at(j, "checkpoint_s", record_file(folder));
+    job.used_s = seconds_at(j, "used_s", record_file(folder));
     job.failed = j.at("failed");
     job.cause = j.at("cause");
   } catch (const nlohmann::json::exception& e) {

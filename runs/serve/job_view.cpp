@@ -13,7 +13,7 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kMostListed = 200;
 constexpr int kQuietLooks = 30;  ///< looks without news before a comment is sent
@@ -21,15 +21,13 @@ constexpr int kQuietLooks = 30;  ///< looks without news before a comment is sen
 constexpr std::size_t kMostListedSet = 8, kMostListedText = 200;
 constexpr const char* kComment = ": still here\n\n";
 
-std::string dump(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 std::string shortened(const std::string& text) {
   return text.size() <= kMostListedText ? text : text.substr(0, kMostListedText) + "...";
 }
 
-Json view_shortly(const RunJob& job) {
-  Json j = view_job(job);
-  Json set = Json::array();
+OrderedJson view_shortly(const RunJob& job) {
+  OrderedJson j = view_job(job);
+  OrderedJson set = OrderedJson::array();
   for (std::size_t k = 0; k < std::min(job.set.size(), kMostListedSet); ++k)
     set.push_back(shortened(job.set[k]));
   if (job.set.size() > kMostListedSet)
@@ -41,22 +39,22 @@ Json view_shortly(const RunJob& job) {
 
 }  // namespace
 
-Json view_job(const RunJob& job) {
-  Json j = {{"id", job.id},
-            {"name", job.name},
-            {"scene", job.scene},
-            {"set", job.set},
-            {"created", job.created},
-            {"state", name_of(job.state)},
-            {"phase", job.phase},
-            {"time_s", job.time_s},
-            {"end_s", job.end_s},
-            {"left_s", nullptr},
-            {"cells", {{"dcm", job.dcm}, {"cbm", job.cbm}}},
-            {"bytes", job.bytes},
-            {"wall_s", job.used_s},
-            {"evaluation", job.evaluation},
-            {"cause", job.cause}};
+OrderedJson view_job(const RunJob& job) {
+  OrderedJson j = {{"id", job.id},
+                   {"name", job.name},
+                   {"scene", job.scene},
+                   {"set", job.set},
+                   {"created", job.created},
+                   {"state", name_of(job.state)},
+                   {"phase", job.phase},
+                   {"time_s", job.time_s},
+                   {"end_s", job.end_s},
+                   {"left_s", nullptr},
+                   {"cells", {{"dcm", job.dcm}, {"cbm", job.cbm}}},
+                   {"bytes", job.bytes},
+                   {"wall_s", job.used_s},
+                   {"evaluation", job.evaluation},
+                   {"cause", job.cause}};
   if (job.left_s >= 0) j["left_s"] = job.left_s;
   return j;
 }
@@ -66,16 +64,16 @@ const std::string& JobList::text() {
   revision_ = dispatcher_.revision();
   std::map<std::string, int> count;
   for (const auto& [id, job] : dispatcher_.jobs()) ++count[name_of(job->state)];
-  Json runs = Json::array();
+  OrderedJson runs = OrderedJson::array();
   for (const auto& [id, job] : std::views::reverse(dispatcher_.jobs())) {
     if (job->evaluation && job->state != JobState::kFailed) continue;
     if (runs.size() == kMostListed) break;
     runs.push_back(view_shortly(*job));
   }
-  text_ = dump({{"version", ACINUS_VERSION},
-                {"count", count},
-                {"disk_bytes", dispatcher_.disk_bytes()},
-                {"runs", runs}});
+  text_ = json_line({{"version", ACINUS_VERSION},
+                     {"count", count},
+                     {"disk_bytes", dispatcher_.disk_bytes()},
+                     {"runs", runs}});
   return text_;
 }
 
@@ -87,7 +85,7 @@ EventSource watch_job(Dispatcher& dispatcher, const std::string& id) {
     if (told != job->revision) {
       told = job->revision;
       quiet = 0;
-      return event_text(dump(view_job(*job)));
+      return event_text(json_line(view_job(*job)));
     }
     return ++quiet % kQuietLooks == 0 ? kComment : "";
   };

@@ -10,9 +10,6 @@
 #include "core/nearest.hpp"
 #include "core/unit_scale.hpp"
 #include "core/units.hpp"
-#include "runs/scene/document.hpp"
-#include "runs/scene/library.hpp"
-#include "runs/scene/reader.hpp"
 #include "runs/study/library.hpp"
 #include "runs/study/scene_value.hpp"
 
@@ -114,18 +111,20 @@ ModelConfig read_config(const StudyModel& model, const Json& j) {
   return config;
 }
 
-Scene make_model_scene(const StudyModel& model, const ModelConfig& config,
-                       const std::vector<double>& values) {
-  const StudyRun& run = run_of(model, config.variant);
-  Document document = parse_document(run.scene.resolved_json, run.scene.name, scene_folder());
-  for (const std::string& assignment : config.set) apply_set(document, assignment);
+const Scene& model_scene(const StudyModel& model, const ModelConfig& config) {
+  return run_of(model, config.variant).scene;
+}
+
+std::vector<std::string> model_changes(const ModelConfig& config,
+                                       const std::vector<double>& values) {
+  std::vector<std::string> set = config.set;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const std::string key = config.parameters[k], unit = *unit_of_key(key);
-    apply_set(document, unit == "1" ? fmt::format("{}={}", key, values[k])
-                                    : fmt::format("{}=\"{} {}\"", key, values[k], unit));
+    set.push_back(unit == "1" ? fmt::format("{}={}", key, values[k])
+                              : fmt::format("{}=\"{} {}\"", key, values[k], unit));
   }
-  if (!config.seed.empty()) apply_set(document, "seed=" + config.seed);
-  return read_scene(document, run.scene.name);
+  if (!config.seed.empty()) set.push_back("seed=" + config.seed);
+  return set;
 }
 
 std::vector<double> model_output(const StudyModel& model, const ModelConfig& config,

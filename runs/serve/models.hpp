@@ -45,10 +45,13 @@ class Models {
 /// @throws Error: what is unknown in it, or has the wrong form
 ModelConfig read_config(const StudyModel& model, const nlohmann::json& config);
 
-/// The scene of an evaluation.   @param values  one per parameter, in the units of the keys
-/// @throws Error: all faults of the scene
-Scene make_model_scene(const StudyModel& model, const ModelConfig& config,
-                       const std::vector<double>& values);
+/// The scene of the variant that is evaluated, before its changes.
+const Scene& model_scene(const StudyModel& model, const ModelConfig& config);
+
+/// Changes of that scene for an evaluation, PATH=VALUE.
+/// @param values  one per parameter, in the units of the keys
+std::vector<std::string> model_changes(const ModelConfig& config,
+                                       const std::vector<double>& values);
 
 /// The output, in the model's unit.   @throws Error where the run has no value at such a time
 std::vector<double> model_output(const StudyModel& model, const ModelConfig& config,

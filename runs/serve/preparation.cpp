@@ -28,7 +28,7 @@ constexpr int kMostAtOnce = 2;
 constexpr double kLimit = 60;                ///< s of wall and of processor time
 constexpr double kMostMemory = 4e9;          ///< bytes of address space
 constexpr std::size_t kMostWords = 200'000;  ///< bytes of the faults of a scene
-constexpr auto kPoll = std::chrono::milliseconds(4);
+constexpr auto kPreparationPoll = std::chrono::milliseconds(4);
 constexpr const char* kWordsFile = "prepare.txt";
 
 /// Removes the run folder of what is refused.
@@ -81,15 +81,23 @@ std::string told_in(const std::string& folder) {
 }  // namespace
 
 Task<RunJob> Preparation::prepare(const std::string& body) {
+  return prepare_file(kRequestFile, body);
+}
+
+Task<RunJob> Preparation::prepare_evaluation(const std::string& text) {
+  return prepare_file(kEvaluationFile, text);
+}
+
+Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text) {
   asio::steady_timer timer(co_await asio::this_coro::executor);
   while (*n_running_ >= kMostAtOnce) {
-    timer.expires_after(kPoll);
+    timer.expires_after(kPreparationPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
   const Counted counted(n_running_);
   const std::string folder = store_.run_folder(store_.make_run_folder());
   RemoveUnlessKept guard{folder};
-  io::write_text_file(folder + "/" + kRequestFile, body);
+  io::write_text_file(folder + "/" + name, text);
   Child child({"serve", "--prepare", folder, "--max-cells", std::to_string(options_.max_cells),
                "--max-memory", fmt::format("{} MB", 1e-6 * options_.max_memory)},
               {.output = folder + "/" + kWordsFile,
@@ -100,7 +108,7 @@ Task<RunJob> Preparation::prepare(const std::string& body) {
                .largest_file = 4 * options_.max_body + 64e6});
   // Not the descriptor: the coroutine may go before the child does.
   while (!wait_for_any({&child}, 0)) {
-    timer.expires_after(kPoll);
+    timer.expires_after(kPreparationPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
   const ChildEnd end = child.collect();
@@ -108,7 +116,7 @@ Task<RunJob> Preparation::prepare(const std::string& body) {
   RunJob job = read_job(folder);
   job.id = fs::path(folder).filename().string();
   std::error_code ignored;
-  for (const char* name : {kRequestFile, kWordsFile}) fs::remove(folder + "/" + name, ignored);
+  for (const char* made : {name, kWordsFile}) fs::remove(folder + "/" + made, ignored);
   job.bytes = JobStore::size_of(folder);
   guard.keep = true;
   co_return job;

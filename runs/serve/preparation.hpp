@@ -20,8 +20,12 @@ class Preparation {
   /// @return the job, not yet accepted
   /// @throws Error(kBadInput): what is wrong with it, or that it took too long or too much memory
   Task<RunJob> prepare(const std::string& body);
+  /// The same of an evaluation.   @param text  as evaluation_text() makes it
+  Task<RunJob> prepare_evaluation(const std::string& text);
 
  private:
+  Task<RunJob> prepare_file(const char* name, const std::string& text);
+
   const ServeOptions& options_;
   JobStore& store_;
   /// Submissions that are being prepared. Owned by those, too: when the service ends, their

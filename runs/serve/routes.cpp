@@ -24,7 +24,7 @@ namespace {
 
 namespace asio = boost::asio;
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using Path = std::vector<std::string>;
 
 /// Files of a run folder that may be fetched.
@@ -36,7 +36,7 @@ constexpr double kReportMemory = 8e9;  ///< bytes of address space
 constexpr int kMostReports = 2;        ///< made at a time
 /// The script is one line of others' work, too.
 constexpr const char* kServiceNotice = "/*! Licences: /page/licences.txt */\n";
-constexpr auto kPoll = std::chrono::milliseconds(50);
+constexpr auto kReportPoll = std::chrono::milliseconds(50);
 
 HttpReply not_found(const std::string& message) { return error_reply(404, "NotFound", message); }
 HttpReply wrong_method(const char* allowed) {
@@ -68,8 +68,8 @@ HttpReply page(std::string_view text, const char* policy, int status = 200) {
   return reply;
 }
 
-Json library_of(const std::vector<ShippedScene>& documents) {
-  Json all = Json::array();
+OrderedJson library_of(const std::vector<ShippedScene>& documents) {
+  OrderedJson all = OrderedJson::array();
   for (const ShippedScene& d : documents)
     all.push_back({{"name", d.name}, {"description", d.description}});
   return all;
@@ -91,8 +91,8 @@ Routes::Routes(asio::io_context& io, const ServeOptions& options, const ServiceA
       store_(store),
       dispatcher_(dispatcher),
       list_(dispatcher),
-      um_bridge_(io, options, store, dispatcher),
-      preparation_(options, store) {}
+      preparation_(options, store),
+      um_bridge_(io, options, store, dispatcher, preparation_) {}
 
 Task<HttpReply> Routes::answer(const HttpRequest& request) {
   if (std::optional<HttpReply> refusal = refuse(access_, request)) {
@@ -200,7 +200,7 @@ HttpReply Routes::series(const RunJob& job) {
 }
 
 HttpReply Routes::list_files(const std::string& id) {
-  Json all = Json::array();
+  OrderedJson all = OrderedJson::array();
   for (const char* name : kFiles) {
     if (const auto size = io::size_inside(store_.run_folder(id), name))
       all.push_back({{"name", name}, {"bytes", *size}});
@@ -226,7 +226,7 @@ Task<HttpReply> Routes::report(std::string id) {
   const std::string folder = store_.run_folder(id), file = folder + "/report.html";
   asio::steady_timer timer(co_await asio::this_coro::executor);
   while (making_->contains(id) || static_cast<int>(making_->size()) >= kMostReports) {
-    timer.expires_after(kPoll);
+    timer.expires_after(kReportPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
   if (time_of(file) < time_of(folder + "/run.vtkhdf") || time_of(file) == time_of("")) {
@@ -248,13 +248,13 @@ Task<HttpReply> Routes::report(std::string id) {
                  .most_memory = kReportMemory});
     // Not the descriptor: the coroutine may go before the child does.
     while (!wait_for_any({&child}, 0)) {
-      timer.expires_after(kPoll);
+      timer.expires_after(kReportPoll);
       co_await timer.async_wait(asio::use_awaitable);
     }
     const ChildEnd end = child.collect();
     if (end.code != 0)
       co_return error_reply(503, "FileError",
-                            fmt::format("no report could be made: {}", last_line(words)));
+                            fmt::format("no report could be made: {}", printed_cause(words)));
     fs::rename(fresh, file, ignored);
     fs::remove(words, ignored);
     dispatcher_.measure(id);

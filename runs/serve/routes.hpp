@@ -44,8 +44,8 @@ class Routes {
   JobStore& store_;
   Dispatcher& dispatcher_;
   JobList list_;
-  UmBridge um_bridge_;
   Preparation preparation_;
+  UmBridge um_bridge_;
   /// Reports that are being made. Owned by those that are, too: when the service ends, their
   /// coroutines go with the loop, after this object.
   std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();

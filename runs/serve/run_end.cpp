@@ -8,9 +8,9 @@ namespace acinus::runs {
 std::string output_file(const std::string& folder) { return folder + "/output.txt"; }
 
 std::string told(const std::string& folder) {
-  std::string line = last_line(output_file(folder));
-  if (line.starts_with("acinus: ")) line.erase(0, 8);
-  return line;
+  std::string cause = printed_cause(output_file(folder));
+  if (cause.starts_with("acinus: ")) cause.erase(0, 8);
+  return cause;
 }
 
 std::optional<RunSummary> find_summary(const std::string& folder, FileTime since) {

@@ -14,7 +14,7 @@ using FileTime = std::filesystem::file_time_type;
 /// File that gets what a run prints.
 std::string output_file(const std::string& folder);
 
-/// Last line that a run printed, without the program's name.
+/// All that a run printed on stderr but warnings, without the program's name.
 std::string told(const std::string& folder);
 
 /// Summary of a run folder; nothing if there is none, it is torn, or older than `since`.

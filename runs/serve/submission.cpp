@@ -239,17 +239,25 @@ void prepare_submission(const std::string& folder, const ServeOptions& options) 
   write_job(folder, job);
 }
 
-RunJob prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
-                          JobStore& store) {
+std::string evaluation_text(const std::string& name, const std::string& resolved,
+                            const std::vector<std::string>& set) {
+  return Json{{"name", name}, {"scene", resolved}, {"set", set}}.dump();
+}
+
+void prepare_evaluation(const std::string& folder, const ServeOptions& options) {
+  const auto j = parse_bounded<Json>(io::read_text_inside(folder, kEvaluationFile), "the request");
+  const std::string name = j.at("name");
+  Document document = parse_document(j.at("scene"), name, scene_folder());
+  for (const Json& assignment : j.at("set")) apply_set(document, assignment);
+  const Scene scene = read_scene(document, name);
   check_limits(scene, options);
   RunJob job;
-  job.id = store.make_run_folder();
+  job.id = fs::path(folder).filename().string();
   job.name = scene.name;
-  job.key = key;
+  job.key = result_key(scene);
   job.evaluation = true;
-  write_scene(scene, store.run_folder(job.id), job);
-  job.bytes = JobStore::size_of(store.run_folder(job.id));
-  return job;
+  write_scene(scene, folder, job);
+  write_job(folder, job);
 }
 
 }  // namespace acinus::runs

@@ -11,8 +11,10 @@
 
 namespace acinus::runs {
 
-/// File in a run folder that holds what a client sent, until it is prepared.
+/// Files in a run folder that hold what a client sent, until it is prepared: a submission, or an
+/// evaluation of a model.
 inline constexpr const char* kRequestFile = "request.json";
+inline constexpr const char* kEvaluationFile = "evaluation.json";
 
 /// Reads a submission, {"scene": NAME or {...}, "set": {PATH: VALUE}, "name": ..., "files":
 /// {NAME: base64}}, from the request file of a run folder, checks scene and limits, and completes
@@ -24,9 +26,15 @@ void prepare_submission(const std::string& folder, const ServeOptions& options);
 /// Refuses a change of a scene, PATH=VALUE, that names a file.   @throws Error(kBadInput)
 void check_names_no_file(const std::string& assignment);
 
-/// The same for a scene that is already read, as an evaluation.
-RunJob prepare_evaluation(const Scene& scene, const std::string& key, const ServeOptions& options,
-                          JobStore& store);
+/// Text of an evaluation file.
+/// @param resolved  JSON of the model's scene with every default
+/// @param set       changes, PATH=VALUE
+std::string evaluation_text(const std::string& name, const std::string& resolved,
+                            const std::vector<std::string>& set);
+
+/// Reads an evaluation file of a run folder and completes the folder as prepare_submission() does.
+/// @throws Error(kBadInput): every fault of the scene
+void prepare_evaluation(const std::string& folder, const ServeOptions& options);
 
 /// Identifies the result of a scene: its hash, and the program's version.
 std::string result_key(const Scene& scene);

@@ -24,7 +24,8 @@ using Json = nlohmann::json;
 
 constexpr std::array kPosts{"ModelInfo",     "InputSizes",   "OutputSizes", "Evaluate",
                             "ApplyJacobian", "ApplyHessian", "Gradient"};
-constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr auto kResultPoll = std::chrono::milliseconds(20);
+constexpr std::size_t kMostTexts = 1000;    ///< evaluations whose keys are remembered
 constexpr std::size_t kMostBody = 256'000;  ///< bytes; parsed in the thread that answers all others
 
 HttpReply invalid_input(const std::string& message) {
@@ -48,8 +49,12 @@ std::vector<double> read_input(const Json& body, std::size_t n) {
 }  // namespace
 
 UmBridge::UmBridge(asio::io_context& io, const ServeOptions& options, JobStore& store,
-                   Dispatcher& dispatcher)
-    : io_(io), options_(options), store_(store), dispatcher_(dispatcher) {
+                   Dispatcher& dispatcher, Preparation& preparation)
+    : io_(io),
+      options_(options),
+      store_(store),
+      dispatcher_(dispatcher),
+      preparation_(preparation) {
   for (const auto& [id, job] : dispatcher_.jobs())
     if (job->evaluation) job_by_key_[job->key] = id;
   dispatcher_.on_evaluated = [this](const RunJob& job, const std::string& folder) {
@@ -124,39 +129,55 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
   co_return invalid_input(fault);
 }
 
-std::string UmBridge::find_or_submit(const Scene& scene, const std::string& key) {
-  if (const auto known = job_by_key_.find(key); known != job_by_key_.end())
-    if (RunJob* job = dispatcher_.find(known->second)) {
-      if (job->state == JobState::kStopped) dispatcher_.resume(*job);
-      return job->id;
-    }
+RunJob* UmBridge::find_job(const std::string& key) {
+  const auto known = job_by_key_.find(key);
+  return known == job_by_key_.end() ? nullptr : dispatcher_.find(known->second);
+}
+
+Task<std::string> UmBridge::find_or_submit(const Scene& scene,
+                                           const std::vector<std::string>& set) {
+  const std::string text = evaluation_text(scene.name, scene.resolved_json, set);
+  const auto known = key_by_text_.find(text);
+  std::string key = known == key_by_text_.end() ? "" : known->second;
+  if (find_job(key) != nullptr || (!key.empty() && find_result(result_file(key)))) co_return key;
   dispatcher_.check_room();
-  const RunJob& job = dispatcher_.submit(prepare_evaluation(scene, key, options_, store_));
-  job_by_key_[key] = job.id;
-  return job.id;
+  RunJob job = co_await preparation_.prepare_evaluation(text);
+  key = job.key;
+  if (key_by_text_.size() >= kMostTexts) key_by_text_.clear();
+  key_by_text_[text] = key;
+  // Another text may have the same key, and the room may have gone meanwhile.
+  const bool needed = find_job(key) == nullptr && !find_result(result_file(key));
+  try {
+    if (needed) dispatcher_.check_room();
+  } catch (const Error&) {
+    store_.remove(job);
+    throw;
+  }
+  if (needed)
+    job_by_key_[key] = dispatcher_.submit(std::move(job)).id;
+  else
+    store_.remove(job);
+  co_return key;
 }
 
 Task<HttpReply> UmBridge::evaluate(const StudyModel& model, const ModelConfig& config,
                                    const std::vector<double>& values) {
-  const Scene scene = make_model_scene(model, config, values);
-  const std::string key = result_key(scene);
+  const std::string key =
+      co_await find_or_submit(model_scene(model, config), model_changes(config, values));
   asio::steady_timer timer(co_await asio::this_coro::executor);
-  std::string id;
+  if (RunJob* job = find_job(key); job != nullptr && job->state == JobState::kStopped)
+    dispatcher_.resume(*job);
   for (;;) {
     if (const std::optional<RunResult> result = find_result(result_file(key)))
       co_return json_reply(200, {{"output", {model_output(model, config, *result)}}});
-    if (id.empty()) id = find_or_submit(scene, key);
-    for (;;) {
-      const RunJob* job = dispatcher_.find(id);
-      if (job == nullptr || job->state == JobState::kCompleted) break;
-      if (job->state == JobState::kFailed || job->state == JobState::kStopped)
-        co_return error_reply(500, "ModelFailed",
-                              fmt::format("run {} {}: {}", id, name_of(job->state), job->cause));
-      timer.expires_after(kPoll);
-      co_await timer.async_wait(asio::use_awaitable);
-    }
-    if (!find_result(result_file(key)))
-      co_return error_reply(500, "ModelFailed", fmt::format("run {} left no result", id));
+    const RunJob* job = find_job(key);
+    if (job == nullptr || job->state == JobState::kCompleted)
+      co_return error_reply(500, "ModelFailed", "the run left no result");
+    if (job->state == JobState::kFailed || job->state == JobState::kStopped)
+      co_return error_reply(500, "ModelFailed",
+                            fmt::format("run {} {}: {}", job->id, name_of(job->state), job->cause));
+    timer.expires_after(kResultPoll);
+    co_await timer.async_wait(asio::use_awaitable);
   }
 }
 

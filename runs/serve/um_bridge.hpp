@@ -10,13 +10,14 @@
 #include "runs/serve/dispatcher.hpp"
 #include "runs/serve/http_message.hpp"
 #include "runs/serve/models.hpp"
+#include "runs/serve/preparation.hpp"
 
 namespace acinus::runs {
 
 class UmBridge {
  public:
   UmBridge(boost::asio::io_context& io, const ServeOptions& options, JobStore& store,
-           Dispatcher& dispatcher);
+           Dispatcher& dispatcher, Preparation& preparation);
 
   /// Whether a request is one of the protocol's.
   static bool is_asked(const HttpRequest& request);
@@ -28,14 +29,21 @@ class UmBridge {
   Task<HttpReply> evaluate(const StudyModel& model, const ModelConfig& config,
                            const std::vector<double>& values);
   std::string result_file(const std::string& key) const;
-  std::string find_or_submit(const Scene& scene, const std::string& key);
+  /// The job that evaluates a key; nothing when there is none.
+  RunJob* find_job(const std::string& key);
+  /// Prepares an evaluation and submits it, unless it is made or its result known.
+  /// @return its key
+  Task<std::string> find_or_submit(const Scene& scene, const std::vector<std::string>& set);
 
   boost::asio::io_context& io_;
   const ServeOptions& options_;
   JobStore& store_;
   Dispatcher& dispatcher_;
+  Preparation& preparation_;
   std::optional<Models> models_;
   std::map<std::string, std::string> job_by_key_;  ///< evaluations that are not yet done
+  /// Keys of evaluations by text: one that is asked for again needs no preparation.
+  std::map<std::string, std::string> key_by_text_;
 };
 
 }  // namespace acinus::runs

@@ -7,6 +7,7 @@ SUBMITS (default 40): submissions that are stopped at a random moment within 50 
 
 import concurrent.futures
 import contextlib
+import fcntl
 import http.client
 import json
 import os
@@ -106,6 +107,12 @@ def test_files_that_harm(service):
     for key, value in (("vessels.file", "/etc/passwd"), ("static_meshes", [{"name": "a", "file": "/dev/zero"}]), ("start_up.from", "/tmp"), ("start_up", {"from": "x"})):
         status, text = ask(service, "POST", "/Evaluate", {"name": "example/cells", "input": [[24.0]], "config": {"set": {key: value}}})
         assert status == 400 and "no files" in text, text
+    crowd = {"source": "fill", "count": 1_000_000, "low": ["0 um", "0 um", "0 um"], "high": ["2 mm", "2 mm", "2 mm"]}
+    for changes in ({"cells": crowd}, {"output.every": "1e-9 s"}, {"cells.list": 300_000 * [{"position": ["0 um", "0 um", "0 um"]}]}):
+        with Meanwhile(service) as others:
+            status, text = ask(service, "POST", "/Evaluate", {"name": "example/cells", "input": [[24.0]], "config": {"set": changes}})
+        assert status in (400, 413), text
+        assert others.longest < PATIENCE, others.longest
 
 
 def test_before_the_token(service):
@@ -130,6 +137,11 @@ def test_before_the_token(service):
     for link in links:
         link.close()
     assert peak < 150, f"{before:.0f} MB became {peak:.0f} MB"
+    end = time.monotonic() + 10
+    while (after := memory(service.process)) > before + 30:
+        assert time.monotonic() < end, f"{before:.0f} MB became {peak:.0f} MB, of which {after:.0f} MB stay"
+        time.sleep(0.1)
+    print(f"2000 connections and 200 bodies of strangers: {before:.0f} MB before, {peak:.0f} MB at most, {after:.0f} MB after")
 
 
 def test_bodies_of_many(service):
@@ -271,6 +283,80 @@ def test_data_folders_of_others(acinus, folder):
             assert os.stat(f"{open_to_readers}/{name}").st_mode & 0o077 == 0, name
 
 
+def as_another(account, what):
+    """Result of a function, called by a process of another account."""
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(read)
+        os.setgroups([])
+        os.setresgid(account, account, account)
+        os.setresuid(account, account, account)
+        try:
+            said = what()
+        except BaseException as error:
+            said = repr(error)
+        os.write(write, json.dumps(said).encode())
+        os._exit(0)
+    os.close(write)
+    with os.fdopen(read) as file:
+        said = file.read()
+    os.waitpid(child, 0)
+    return json.loads(said)
+
+
+def try_lock(path):
+    """True if this process can take a lock of a file, by reading it or by writing."""
+    for mode in (os.O_RDONLY, os.O_RDWR, os.O_WRONLY):
+        with contextlib.suppress(OSError):
+            descriptor = os.open(path, mode)
+            for how in (fcntl.LOCK_EX, fcntl.LOCK_SH):
+                fcntl.flock(descriptor, how | fcntl.LOCK_NB)
+                return True
+    return False
+
+
+def test_another_account(acinus, folder):
+    if os.geteuid() != 0:
+        print("test_another_account: skipped, it takes an administrator's account")
+        return
+    nobody = 65534
+    os.chmod(folder, 0o755)  # the way to the data is open to all
+    with Service(acinus, folder + "/mine", "--jobs", "1") as service:
+        done = service.submit("two_cells", set=SHORT)["id"]
+        service.wait(done)
+        running = service.submit("two_cells", set={"time.end": "300 days"})["id"]
+        paths = [os.path.join(place, name) for place, folders, files in os.walk(service.data) for name in ["", *folders, *files]]
+        assert any(path.endswith("token") for path in paths) and any(path.endswith("run.lock") for path in paths)
+
+        def spy():
+            harm = []
+            for path in paths:
+                for mode in (os.R_OK, os.W_OK):
+                    if os.access(path, mode):
+                        harm.append(f"opens {path}")
+                if os.path.isfile(path) and try_lock(path):
+                    harm.append(f"locks {path}")
+            for number in (signal.SIGTERM, signal.SIGKILL):
+                with contextlib.suppress(PermissionError):
+                    os.kill(service.process.pid, number)
+                    harm.append("ends the service")
+            for method, path in (("GET", "/runs"), ("GET", f"/runs/{done}/files/run.vtkhdf"), ("POST", f"/runs/{running}/stop"), ("DELETE", f"/runs/{done}")):
+                if ask(service, method, path, token="")[0] != 401:
+                    harm.append(f"{method} {path} is answered")
+            return harm
+
+        assert as_another(nobody, spy) == []
+        service.json("POST", f"/runs/{running}/stop", expect=202)
+        service.wait(running, ("stopped",), 60)
+    # Results in an open folder may be read; whoever reads them keeps nobody from going on.
+    run = [acinus, "run", "two_cells", "--out", folder + "/shared", "--quiet", "--until", "10 s"]
+    subprocess.run(run, check=True, capture_output=True)
+    assert as_another(nobody, lambda: os.access(folder + "/shared/run.vtkhdf", os.R_OK))
+    assert not as_another(nobody, lambda: try_lock(folder + "/shared/run.lock"))
+    subprocess.run([*run[:-1], "20 s", "--resume"], check=True, capture_output=True)
+
+
 def test_a_stop_at_any_moment(acinus, folder, submits):
     moments = random.Random(1)
     with Service(acinus, folder + "/stop", "--jobs", "2") as service:
@@ -300,7 +386,7 @@ def main():
                 assert service.process.poll() is None, f"{test.__name__} ended the service"
                 print(f"{test.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
         for test in (test_supervision_goes_on, test_disk_counts_what_is_sent, test_resume_after_a_torn_summary, test_data_folders_of_others,
-                     lambda a, f: test_a_stop_at_any_moment(a, f, submits)):
+                     test_another_account, lambda a, f: test_a_stop_at_any_moment(a, f, submits)):
             begin = time.monotonic()
             test(acinus, folder)
             print(f"{test.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
