@@ -49,7 +49,6 @@ constexpr std::array<std::pair<const char*, const char*>, 20> kWords{
 
 constexpr int kLargestPower = 9;  ///< keeps every product of factors far inside a double
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
 
 void multiply(Scale& scale, const Scale& factor, int power) {

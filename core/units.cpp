@@ -40,8 +40,6 @@ constexpr std::array kNames{NamedDimension{kLength, "a length", "12 um"},
                             NamedDimension{kTemperature, "a temperature", "310 K"},
                             NamedDimension{kMolarEnergy, "an energy per amount", "55 kJ/mol"}};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// Both micro signs (U+00B5 and U+03BC) as "u", the middle dot as "*".
 std::string plain_letters(std::string_view text) {
   std::string plain;

@@ -20,7 +20,7 @@ struct Sweep {
   double quality = 0;  // triangles above this may become worse
   int least = 0, most = 0;
 };
-constexpr std::array<Sweep, 2> kSweeps = {{{1.0, 0.35, 0.2, 5, 30}, {0.25, 0.25, 0.7, 10, 10}}};
+constexpr std::array<Sweep, 2> kCastSweeps = {{{1.0, 0.35, 0.2, 5, 30}, {0.25, 0.25, 0.7, 10, 10}}};
 constexpr double kSettled = 0.08;  // mean move, part of the mean edge
 
 class Spreader {
@@ -142,7 +142,7 @@ bool faces_outward(const mesh::Topology& topology, std::span<const Vec3> node, c
 void spread_nodes(const mesh::Topology& topology, const mesh::StarSurface& star,
                   const SpreadRule& rule, std::span<Vec3> node) {
   Spreader spreader(topology, star, rule, node);
-  for (const Sweep& sweep : kSweeps) {
+  for (const Sweep& sweep : kCastSweeps) {
     for (int repeat = 0; repeat < sweep.most; ++repeat) {
       double moved = 0;
       for (int i = 0; i < topology.n_node; ++i) moved += spreader.move(i, sweep);

@@ -18,7 +18,7 @@ constexpr double kStart = 0.9;
 constexpr double kOutward = 0.15, kAlong = 0.5;
 /// At the surface, and at rest: in mean edges.
 constexpr double kThere = 0.02, kRest = 0.01;
-constexpr int kMostSweeps = 600;
+constexpr int kMostInflations = 600;
 
 /// A triangle below this may not become worse.
 constexpr double kQuality = 0.3;
@@ -123,7 +123,7 @@ std::vector<Vec3> inflate_mesh(const mesh::Topology& topology, const mesh::Surfa
   for (const Vec3& x : topology.rest)
     node.push_back(ball.center + kStart * ball.radius * (rotation * x));
   Balloon balloon(topology, body, std::move(node));
-  for (int sweep = 0; sweep < kMostSweeps && balloon.sweep() > kRest; ++sweep) {
+  for (int sweep = 0; sweep < kMostInflations && balloon.sweep() > kRest; ++sweep) {
   }
   return balloon.take_nodes();
 }

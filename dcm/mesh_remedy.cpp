@@ -20,7 +20,7 @@ namespace {
 /// Nodes of the sphere that takes the print of a folded surface.
 constexpr int kPrintNodes = 2562;
 /// Sweeps over poor nodes at most: enough for room to be made over a mesh ten nodes across.
-constexpr int kSweeps = 60;
+constexpr int kRemedySweeps = 60;
 /// Nodes of triangles worse than this are relaxed.
 constexpr double kMiddling = 0.3;
 /// How far above and below a relaxed node the old surface is looked for, in mean edges.
@@ -91,7 +91,7 @@ class Relaxer {
   }
 
   std::vector<Vec3> run() {
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kRemedySweeps; ++sweep) {
       update_normals();
       bool busy = false;
       for (int i = 0; i < topology_.n_node; ++i) busy = improve(i) || busy;

@@ -10,7 +10,7 @@
 namespace acinus::dcm {
 namespace {
 
-constexpr int kMostSweeps = 30;
+constexpr int kMostRoundings = 30;
 /// Share of the way to the mean of its neighbours that a node goes in a sweep.
 constexpr double kShare = 0.3;
 
@@ -53,7 +53,7 @@ double fold_radius(const mesh::Topology& t, std::span<const Vec3> node, int edge
 
 void round_folds(const mesh::Topology& t, double least_radius, std::span<Vec3> node) {
   std::vector<Vec3> moved(node.begin(), node.end());
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+  for (int sweep = 0; sweep < kMostRoundings; ++sweep) {
     const std::vector<std::uint8_t> sharp = find_sharp_nodes(t, least_radius, node);
     if (sharp.empty()) return;
     for (std::size_t i = 0; i < node.size(); ++i)

@@ -48,10 +48,6 @@ double solve_closure(double lambda, double a) {
   return h;
 }
 
-double radius_unit(const SpherePair& p) {
-  return std::cbrt(3.0 * kPi * p.adhesion * p.radius * p.radius / (4.0 * p.modulus));
-}
-
 // d load/dA along the curve, where H follows A through the closure.
 double load_slope(double lambda, double a) {
   const double h = solve_closure(lambda, a);
@@ -63,6 +59,10 @@ double load_slope(double lambda, double a) {
 }
 
 }  // namespace
+
+double maugis_radius_unit(const SpherePair& p) {
+  return std::cbrt(3.0 * kPi * p.adhesion * p.radius * p.radius / (4.0 * p.modulus));
+}
 
 double maugis_lambda(const MaugisPair& pair) {
   const SpherePair& p = pair.pair;
@@ -98,7 +98,7 @@ MaugisState maugis_pull_off(double lambda) {
 
 MaugisPoint maugis_at_radius(const MaugisPair& pair, double contact_radius) {
   const SpherePair& p = pair.pair;
-  const double unit = radius_unit(p);
+  const double unit = maugis_radius_unit(p);
   const MaugisState state = maugis_state(maugis_lambda(pair), contact_radius / unit);
   return {contact_radius, state.c * unit, state.approach * unit * unit / p.radius,
           state.load * kPi * p.adhesion * p.radius};

@@ -21,6 +21,9 @@ struct MaugisPair {
 /// lambda = sigma0 (9 R/(2 pi W E^2))^(1/3), Eq. (15) (Maugis' parameter, 1.157 times Tabor's).
 double maugis_lambda(const MaugisPair& pair);
 
+/// a0, the unit of contact radii, um.
+double maugis_radius_unit(const SpherePair& pair);
+
 /// A point of the reduced curve.
 struct MaugisState {
   double a;         ///< A

@@ -34,11 +34,6 @@ double find_root(F f, double low, double high) {
   return x;
 }
 
-/// um per unit of A.
-double radius_unit(const SpherePair& p) {
-  return std::cbrt(3.0 * kPi * p.adhesion * p.radius * p.radius / (4.0 * p.modulus));
-}
-
 /// 4 sigma0/(pi E): how much faster than c the rim of a pulled disc rises.
 double rim_rise(const MaugisPair& pair) {
   return 4.0 * pair.cohesive_stress / (kPi * pair.pair.modulus);
@@ -65,7 +60,7 @@ MaugisCurve make_maugis_curve(const MaugisPair& pair) {
   constexpr double kNearZero = 1e-4, kBeyondFold = 1.0;
   const auto slope = [&](double a) { return maugis_approach_slope(out.lambda, a); };
   const bool turns = slope(kNearZero) < 0.0;
-  if (turns) out.least_radius = radius_unit(p) * find_root(slope, kNearZero, kBeyondFold);
+  if (turns) out.least_radius = maugis_radius_unit(p) * find_root(slope, kNearZero, kBeyondFold);
   const MaugisPoint end = maugis_at_radius(pair, out.least_radius);
   const double s = rim_rise(pair);
   out.contact_overlap = end.overlap;
@@ -83,7 +78,7 @@ MaugisPoint maugis_at_overlap(const MaugisCurve& curve, double overlap) {
     return {hertz.contact_radius, hertz.contact_radius, overlap, hertz.force};
   }
   if (overlap < curve.contact_overlap) return ring_at_overlap(curve.pair, overlap);
-  const double unit = radius_unit(p), target = overlap * p.radius / (unit * unit);
+  const double unit = maugis_radius_unit(p), target = overlap * p.radius / (unit * unit);
   const auto excess = [&](double a) { return maugis_state(curve.lambda, a).approach - target; };
   const double low = curve.least_radius / unit;
   double high = std::max(1.0, 2.0 * low);

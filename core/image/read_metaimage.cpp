@@ -18,7 +18,7 @@
 namespace acinus::image {
 namespace {
 
-constexpr std::array<std::pair<const char*, Scalar>, 12> kTypes{{
+constexpr std::array<std::pair<const char*, Scalar>, 12> kMetaTypes{{
     {"met_uchar", Scalar::kU8},
     {"met_char", Scalar::kI8},
     {"met_ushort", Scalar::kU16},
@@ -36,7 +36,7 @@ constexpr std::array<std::pair<const char*, Scalar>, 12> kTypes{{
 constexpr const char* kData = "elementdatafile";
 
 /// Leaves the cursor behind the line that says where the data are.
-HeaderFields read_header(mesh::InputFile& file) {
+HeaderFields read_meta_header(mesh::InputFile& file) {
   HeaderFields fields(file, "Write the image again, for instance with ITK or Fiji.");
   while (file.remaining() > 0 && !fields.has(kData)) {
     const std::size_t place = file.position();
@@ -57,9 +57,9 @@ bool is_true(const HeaderFields& h, const char* name) {
   return t == "true" || t == "1";
 }
 
-Scalar type_of(const HeaderFields& header) {
+Scalar meta_type_of(const HeaderFields& header) {
   const std::string name = mesh::lower_case(header.text("elementtype"));
-  for (const auto& [text, type] : kTypes)
+  for (const auto& [text, type] : kMetaTypes)
     if (name == text) return type;
   header.fail("elementtype", fmt::format("the element type {} is not read; use MET_UCHAR, "
                                          "MET_USHORT or MET_UINT",
@@ -67,7 +67,7 @@ Scalar type_of(const HeaderFields& header) {
 }
 
 /// The sides of a voxel. Two fields may say them.
-void take_steps(const HeaderFields& h, ImageFile& out) {
+void take_meta_steps(const HeaderFields& h, ImageFile& out) {
   std::array<std::vector<double>, 2> said{h.numbers("elementspacing"), h.numbers("elementsize")};
   for (std::size_t k = 0; k < 2; ++k)
     if (!said[k].empty() && said[k].size() != 3)
@@ -138,12 +138,12 @@ void check_supported(const HeaderFields& h) {
 ImageFile read_metaimage(const std::string& path) {
   mesh::InputFile file(path);
   file.skip_byte_order_mark();
-  const HeaderFields h = read_header(file);
+  const HeaderFields h = read_meta_header(file);
   check_supported(h);
   ImageFile out;
-  out.type = type_of(h);
+  out.type = meta_type_of(h);
   out.size = h.sizes("dimsize");
-  take_steps(h, out);
+  take_meta_steps(h, out);
 
   ImageBytes data;
   data.path = path;

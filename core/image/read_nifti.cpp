@@ -19,7 +19,7 @@
 namespace acinus::image {
 namespace {
 
-constexpr std::array<std::pair<int, Scalar>, 10> kTypes{{
+constexpr std::array<std::pair<int, Scalar>, 10> kNiftiTypes{{
     {DT_UINT8, Scalar::kU8},
     {DT_INT8, Scalar::kI8},
     {DT_UINT16, Scalar::kU16},
@@ -54,7 +54,7 @@ void check_header(const std::string& path) {
                     path, offset));
 }
 
-NiftiImage open(const std::string& path) {
+NiftiImage open_nifti(const std::string& path) {
   check(std::filesystem::is_regular_file(path),
         fmt::format("{}: no such file. Check the path.", path));
   nifti_set_debug_level(0);
@@ -124,7 +124,7 @@ void take_steps(const nifti_image& n, ImageFile& file) {
 }
 
 Scalar type_of(const std::string& path, const nifti_image& n) {
-  for (const auto& [code, type] : kTypes)
+  for (const auto& [code, type] : kNiftiTypes)
     if (n.datatype == code) return type;
   throw Error(fmt::format("{}: the data type {} is not read; use uint8, uint16 or uint32.", path,
                           nifti_datatype_string(n.datatype)));
@@ -139,7 +139,7 @@ double unit_of(const nifti_image& n) {
 }  // namespace
 
 ImageFile read_nifti(const std::string& path, const ChannelChoice& channel) {
-  const NiftiImage n = open(path);
+  const NiftiImage n = open_nifti(path);
   ImageFile file;
   file.type = type_of(path, *n);
   file.size = {n->nx, n->ny, n->nz};

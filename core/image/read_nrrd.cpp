@@ -20,7 +20,7 @@
 namespace acinus::image {
 namespace {
 
-constexpr std::array<std::pair<const char*, Scalar>, 27> kTypes{{
+constexpr std::array<std::pair<const char*, Scalar>, 27> kNrrdTypes{{
     {"uchar", Scalar::kU8},
     {"unsigned char", Scalar::kU8},
     {"uint8", Scalar::kU8},
@@ -51,7 +51,7 @@ constexpr std::array<std::pair<const char*, Scalar>, 27> kTypes{{
 }};
 
 /// Leaves the cursor behind the empty line.
-HeaderFields read_header(mesh::InputFile& file) {
+HeaderFields read_nrrd_header(mesh::InputFile& file) {
   HeaderFields fields(file, "Write the image again, for instance with 3D Slicer or Fiji.");
   file.skip_byte_order_mark();
   if (!file.next_line().starts_with("NRRD000"))
@@ -69,16 +69,16 @@ HeaderFields read_header(mesh::InputFile& file) {
   return fields;
 }
 
-Scalar type_of(const HeaderFields& h) {
+Scalar nrrd_type_of(const HeaderFields& h) {
   const std::string name = mesh::lower_case(h.text("type"));
-  for (const auto& [text, type] : kTypes)
+  for (const auto& [text, type] : kNrrdTypes)
     if (name == text) return type;
   h.fail("type", fmt::format("the type {} is not read; use uint8, uint16 or uint32",
                              mesh::in_quotes(h.text("type"))));
 }
 
 /// Sides of a voxel: "spacings", or the lengths of "space directions". nan: not said of that axis.
-void take_steps(const HeaderFields& h, ImageFile& out) {
+void take_nrrd_steps(const HeaderFields& h, ImageFile& out) {
   const std::vector<double> d = h.numbers("space directions"), s = h.numbers("spacings");
   if (!d.empty() && d.size() != 9)
     h.fail("space directions", "three vectors of three numbers are needed");
@@ -215,15 +215,15 @@ bool is_swapped(const HeaderFields& h, Scalar type) {
 
 ImageFile read_nrrd(const std::string& path) {
   mesh::InputFile file(path);
-  const HeaderFields h = read_header(file);
+  const HeaderFields h = read_nrrd_header(file);
   ImageFile out;
   if (h.numbers("dimension") != std::vector<double>{3})
     h.fail("dimension", fmt::format("the image has {} dimensions; three are needed",
                                     mesh::in_quotes(h.text("dimension"))));
   check_kinds(h);
-  out.type = type_of(h);
+  out.type = nrrd_type_of(h);
   out.size = h.sizes("sizes");
-  take_steps(h, out);
+  take_nrrd_steps(h, out);
   take_units(h, out);
 
   const std::string name = data_file_of(h);

@@ -31,7 +31,7 @@ void keep_words(const char* module, const char* format, va_list values) {
   last_words() = fmt::format("{}{}{}", module ? module : "", module ? ": " : "", text.data());
 }
 
-TiffFile open(const std::string& path) {
+TiffFile open_tiff(const std::string& path) {
   check(std::filesystem::is_regular_file(path),
         fmt::format("{}: no such file. Check the path.", path));
   TIFFSetWarningHandler(nullptr);
@@ -250,7 +250,7 @@ void open_page(const std::string& path, TIFF* t, std::uint64_t place, std::int64
 }  // namespace
 
 ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
-  const TiffFile tiff = open(path);
+  const TiffFile tiff = open_tiff(path);
   const TiffPage first = page_of(tiff.get());
   ImageFile file;
   file.type = type_of(path, first);

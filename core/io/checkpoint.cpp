@@ -20,7 +20,7 @@ namespace {
 
 using h5::File;
 
-constexpr std::int64_t kSchemaVersion[2] = {2, 0};
+constexpr std::int64_t kCheckpointSchema[2] = {2, 0};
 constexpr char kNewest[] = "/checkpoint.h5";
 constexpr char kPrevious[] = "/checkpoint.prev.h5";
 constexpr char kRoot[] = "/state";
@@ -86,7 +86,7 @@ void write_file(const std::string& path, const CheckpointData& data) {
   std::map<std::string, std::uint64_t> hash;
   std::string names;
   file.write_attribute("/", "schema", "acinus/checkpoint");
-  file.write_attribute("/", "schema_version", kSchemaVersion);
+  file.write_attribute("/", "schema_version", kCheckpointSchema);
   file.create_group(kRoot);
   for (const auto& [name, value] : data.all()) {
     const std::string dataset = kRoot + ("/" + name);
@@ -109,15 +109,16 @@ void check_schema(const File& file) {
         file.path() + ": is not a checkpoint of acinus", Exit::kFileError);
   const auto version = file.read_attribute("/", "schema_version");
   check(version.size() == 2, file.path() + ": has no schema version", Exit::kFileError);
-  if (version[0] > kSchemaVersion[0]) {
+  if (version[0] > kCheckpointSchema[0]) {
     throw TooNew(
         fmt::format("{}: checkpoint format {}.{} is newer than this program reads ({}.{}). Update "
                     "acinus, or start "
                     "again with --overwrite.",
-                    file.path(), version[0], version[1], kSchemaVersion[0], kSchemaVersion[1]),
+                    file.path(), version[0], version[1], kCheckpointSchema[0],
+                    kCheckpointSchema[1]),
         Exit::kFileError);
   }
-  check(version[0] == kSchemaVersion[0],
+  check(version[0] == kCheckpointSchema[0],
         fmt::format("{}: checkpoint format {}.{} is unknown", file.path(), version[0], version[1]),
         Exit::kFileError);
   check(file.has_attribute("/", "complete") &&

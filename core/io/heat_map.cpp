@@ -12,7 +12,7 @@
 namespace acinus::io {
 namespace {
 
-constexpr double kFieldWidth = 120, kFieldHeight = 54, kTop = 48, kBottom = 62, kScale = 110;
+constexpr double kFieldWidth = 120, kFieldHeight = 54, kMapTop = 48, kMapBottom = 62, kScale = 110;
 
 using Colour = std::array<double, 3>;
 
@@ -78,7 +78,7 @@ double left_of(const HeatMap& map) {
 std::string draw_heat_map(const HeatMap& map) {
   const double left = left_of(map), n_column = static_cast<double>(map.column.size()),
                n_row = static_cast<double>(map.row.size());
-  const double right = left + n_column * kFieldWidth, bottom = kTop + n_row * kFieldHeight;
+  const double right = left + n_column * kFieldWidth, bottom = kMapTop + n_row * kFieldHeight;
   const double width = std::max(right + kScale, 9.0 * static_cast<double>(map.title.size()));
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -87,7 +87,7 @@ std::string draw_heat_map(const HeatMap& map) {
       "patternUnits=\"userSpaceOnUse\"><rect width=\"6\" height=\"6\" fill=\"#eee\"/>"
       "<path d=\"M0 6L6 0\" stroke=\"#bbb\"/></pattern></defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-      width, bottom + kBottom);
+      width, bottom + kMapBottom);
   out += svg_text(left, 26, "start", map.title, " font-size=\"15\"");
   for (std::size_t r = 0; r < map.row.size(); ++r) {
     const double y = bottom - static_cast<double>(r + 1) * kFieldHeight;
@@ -99,10 +99,10 @@ std::string draw_heat_map(const HeatMap& map) {
     out += svg_text(left + (static_cast<double>(c) + 0.5) * kFieldWidth, bottom + 18, "middle",
                     map.column[c]);
   out += svg_text((left + right) / 2, bottom + 44, "middle", map.x_label);
-  const double middle = (kTop + bottom) / 2;
+  const double middle = (kMapTop + bottom) / 2;
   out += svg_text(18, middle, "middle", map.y_label,
                   fmt::format(" transform=\"rotate(-90 18 {:.1f})\"", middle));
-  out += draw_scale(right + 18, kTop, bottom, map.scale_label);
+  out += draw_scale(right + 18, kMapTop, bottom, map.scale_label);
   return out + "</svg>\n";
 }
 

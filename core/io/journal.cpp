@@ -16,8 +16,8 @@ namespace acinus::io::h5 {
 namespace {
 
 /// magic, end, then (index, page) for every page, then a hash of all before it.
-constexpr std::uint64_t kMagic = 0x314a'5355'4e49'4341;  // "ACINUSJ1"
-constexpr std::size_t kHead = 2 * sizeof(std::uint64_t), kTail = sizeof(std::uint64_t);
+constexpr std::uint64_t kJournalMagic = 0x314a'5355'4e49'4341;  // "ACINUSJ1"
+constexpr std::size_t kJournalHead = 2 * sizeof(std::uint64_t), kTail = sizeof(std::uint64_t);
 constexpr std::size_t kRecord = sizeof(std::uint64_t) + kPage;
 
 }  // namespace
@@ -25,13 +25,13 @@ constexpr std::size_t kRecord = sizeof(std::uint64_t) + kPage;
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
 bool write_journal(const std::string& path, const Journal& journal) {
-  std::vector<std::byte> bytes(kHead + journal.page.size() * kRecord + kTail);
+  std::vector<std::byte> bytes(kJournalHead + journal.page.size() * kRecord + kTail);
   std::byte* out = bytes.data();
   const auto put = [&](const void* data, std::size_t size) {
     std::memcpy(out, data, size);
     out += size;
   };
-  put(&kMagic, sizeof kMagic);
+  put(&kJournalMagic, sizeof kJournalMagic);
   put(&journal.end, sizeof journal.end);
   for (const auto& [index, page] : journal.page) {
     put(&index, sizeof index);
@@ -61,16 +61,17 @@ Journal read_journal(const std::string& path) {
   const std::string name = journal_of(path);
   if (access(name.c_str(), F_OK) != 0) return {};
   const std::string bytes = read_text_beside(name);
-  if (bytes.size() < kHead + kTail || (bytes.size() - kHead - kTail) % kRecord != 0) return {};
+  if (bytes.size() < kJournalHead + kTail || (bytes.size() - kJournalHead - kTail) % kRecord != 0)
+    return {};
   const auto number_at = [&](std::size_t i) {
     std::uint64_t value = 0;
     std::memcpy(&value, bytes.data() + i, sizeof value);
     return value;
   };
   const std::size_t end = bytes.size() - kTail;
-  if (number_at(0) != kMagic || number_at(end) != XXH3_64bits(bytes.data(), end)) return {};
-  Journal journal{number_at(sizeof kMagic), {}};
-  for (std::size_t i = kHead; i < end; i += kRecord) {
+  if (number_at(0) != kJournalMagic || number_at(end) != XXH3_64bits(bytes.data(), end)) return {};
+  Journal journal{number_at(sizeof kJournalMagic), {}};
+  for (std::size_t i = kJournalHead; i < end; i += kRecord) {
     std::memcpy(journal.page[number_at(i)].data(), bytes.data() + i + sizeof(std::uint64_t), kPage);
   }
   return journal;

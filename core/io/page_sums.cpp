@@ -16,8 +16,8 @@ namespace acinus::io::h5 {
 namespace {
 
 /// magic, end, sum of the last page, hash of these, then the entries.
-constexpr std::uint64_t kMagic = 0x3153'4d55'534e'4341;  // "ACNSUMS1"
-constexpr std::size_t kWord = sizeof(std::uint64_t), kHead = 4;
+constexpr std::uint64_t kSumsMagic = 0x3153'4d55'534e'4341;  // "ACNSUMS1"
+constexpr std::size_t kWord = sizeof(std::uint64_t), kSumsHead = 4;
 
 std::uint64_t make_entry(std::span<const std::byte> content) {
   const auto sum = static_cast<std::uint32_t>(XXH3_64bits(content.data(), content.size()));
@@ -28,10 +28,10 @@ bool is_entry(std::uint64_t e) {
   return static_cast<std::uint32_t>(e >> 32) == static_cast<std::uint32_t>(~e);
 }
 
-using Head = std::array<std::uint64_t, kHead>;
+using Head = std::array<std::uint64_t, kSumsHead>;
 
 Head make_head(std::uint64_t end, std::uint64_t tail) {
-  Head head{kMagic, end, tail, 0};
+  Head head{kSumsMagic, end, tail, 0};
   head[3] = XXH3_64bits(head.data(), 3 * kWord);
   return head;
 }
@@ -44,13 +44,14 @@ PageSums PageSums::read(const std::string& path) {
   PageSums sums;
   if (access(sums_of(path).c_str(), F_OK) != 0) return sums;
   const std::string bytes = read_text_beside(sums_of(path));
-  if (bytes.size() < kHead * kWord) return sums;
+  if (bytes.size() < kSumsHead * kWord) return sums;
   std::vector<std::uint64_t> word(bytes.size() / kWord);
   std::memcpy(word.data(), bytes.data(), word.size() * kWord);
-  if (!std::ranges::equal(make_head(word[1], word[2]), std::span(word).first(kHead))) return sums;
+  if (!std::ranges::equal(make_head(word[1], word[2]), std::span(word).first(kSumsHead)))
+    return sums;
   sums.end_ = word[1];
   sums.tail_ = word[2];
-  sums.entry_.assign(word.begin() + kHead, word.end());
+  sums.entry_.assign(word.begin() + kSumsHead, word.end());
   return sums;
 }
 
@@ -110,9 +111,9 @@ bool PageSums::write(const std::string& path) {
   const auto put = [&](const std::uint64_t* word, std::size_t n, std::uint64_t at) {
     return write_all(descriptor, reinterpret_cast<const std::byte*>(word), n * kWord, at * kWord);
   };
-  const bool written =
-      put(entry_.data() + first_changed_, last_changed_ - first_changed_, kHead + first_changed_) &&
-      put(make_head(end_, tail_).data(), kHead, 0);
+  const bool written = put(entry_.data() + first_changed_, last_changed_ - first_changed_,
+                           kSumsHead + first_changed_) &&
+                       put(make_head(end_, tail_).data(), kSumsHead, 0);
   const int error = errno;
   if (::close(descriptor) != 0 && written) return false;
   errno = error;

@@ -14,7 +14,7 @@ namespace acinus::io {
 namespace {
 
 constexpr double kWidth = 720, kHeight = 480;
-constexpr double kLeft = 80, kRight = 190, kTop = 40, kBottom = 60;
+constexpr double kPlotLeft = 80, kPlotRight = 190, kPlotTop = 40, kPlotBottom = 60;
 
 /// Colours that differ in print and for the colour blind.
 constexpr std::array<const char*, 8> kColor{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -63,12 +63,12 @@ struct Axis {
 /// The plane the lines are drawn on.
 struct Page {
   Axis x, y;
-  double right = kWidth - kRight, bottom = kHeight - kBottom;
+  double right = kWidth - kPlotRight, bottom = kHeight - kPlotBottom;
 
   std::optional<std::pair<double, double>> place(double px, double py) const {
     const auto sx = x.scaled(px), sy = y.scaled(py);
     if (!sx || !sy) return std::nullopt;
-    return std::pair{x.place(*sx, kLeft, right), y.place(*sy, bottom, kTop)};
+    return std::pair{x.place(*sx, kPlotLeft, right), y.place(*sy, bottom, kPlotTop)};
   }
 };
 
@@ -121,21 +121,22 @@ std::string draw_axes(const Page& page, const Plot& plot) {
   std::string out;
   const double right = page.right, bottom = page.bottom;
   for (double t : page.x.ticks()) {
-    const double at = page.x.place(t, kLeft, right);
-    out += fmt::format("<path d=\"M{0:.1f} {1} V{2}\" stroke=\"#ddd\"/>\n", at, kTop, bottom);
+    const double at = page.x.place(t, kPlotLeft, right);
+    out += fmt::format("<path d=\"M{0:.1f} {1} V{2}\" stroke=\"#ddd\"/>\n", at, kPlotTop, bottom);
     out += svg_text(at, bottom + 18, "middle", page.x.label(t));
   }
   for (double t : page.y.ticks()) {
-    const double at = page.y.place(t, bottom, kTop);
-    out += fmt::format("<path d=\"M{0} {1:.1f} H{2}\" stroke=\"#ddd\"/>\n", kLeft, at, right);
-    out += svg_text(kLeft - 6, at + 4, "end", page.y.label(t));
+    const double at = page.y.place(t, bottom, kPlotTop);
+    out += fmt::format("<path d=\"M{0} {1:.1f} H{2}\" stroke=\"#ddd\"/>\n", kPlotLeft, at, right);
+    out += svg_text(kPlotLeft - 6, at + 4, "end", page.y.label(t));
   }
   out += fmt::format(
       "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n",
-      kLeft, kTop, right - kLeft, bottom - kTop);
-  out += svg_text((kLeft + right) / 2, kHeight - 16, "middle", plot.x_label);
-  return out + svg_text(20, (kTop + bottom) / 2, "middle", plot.y_label,
-                        fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kTop + bottom) / 2));
+      kPlotLeft, kPlotTop, right - kPlotLeft, bottom - kPlotTop);
+  out += svg_text((kPlotLeft + right) / 2, kHeight - 16, "middle", plot.x_label);
+  return out +
+         svg_text(20, (kPlotTop + bottom) / 2, "middle", plot.y_label,
+                  fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kPlotTop + bottom) / 2));
 }
 
 /// Room for the longest name, in whole steps so that most plots are equally wide.
@@ -143,7 +144,7 @@ double legend_width(const Plot& plot) {
   std::size_t longest = 0;
   for (const PlotLine& line : plot.line) longest = std::max(longest, line.name.size());
   const double needed = 48 + 6.6 * static_cast<double>(longest);
-  return std::min(std::max(kRight, 60 * std::ceil(needed / 60)), 550.0);
+  return std::min(std::max(kPlotRight, 60 * std::ceil(needed / 60)), 550.0);
 }
 
 /// Widens the axes of a page to all points and bands of a plot.
@@ -169,12 +170,12 @@ double width_of(const Plot& plot, const Page& page) {
 }
 
 double height_of(const Plot& plot) {
-  return std::max(kHeight, kTop + 14 + 18 * static_cast<double>(plot.line.size()));
+  return std::max(kHeight, kPlotTop + 14 + 18 * static_cast<double>(plot.line.size()));
 }
 
 std::string legend_entry(const Page& page, const PlotLine& line, std::size_t k, const char* color,
                          const char* dash) {
-  const double at = kTop + 14 + 18 * static_cast<double>(k);
+  const double at = kPlotTop + 14 + 18 * static_cast<double>(k);
   std::string out;
   if (line.joined)
     out = fmt::format("<path d=\"M{:.1f} {:.1f} h22\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
@@ -187,7 +188,7 @@ std::string legend_entry(const Page& page, const PlotLine& line, std::size_t k, 
 
 /// The plot on a page whose axes include its points.
 std::string draw(const Plot& plot, Page page) {
-  const double middle = (kLeft + page.right) / 2;
+  const double middle = (kPlotLeft + page.right) / 2;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
       "{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "

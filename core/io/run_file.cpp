@@ -18,12 +18,12 @@ using h5::Access;
 using h5::File;
 using h5::Format;
 
-constexpr std::int64_t kSchemaVersion[2] = {1, 1};
+constexpr std::int64_t kRunFileSchema[2] = {1, 1};
 
 File create_skeleton(const std::string& path, bool filtered) {
   File file = File::create(path, Format::kEarliest);
   file.write_attribute("/", "schema", "acinus/run");
-  file.write_attribute("/", "schema_version", kSchemaVersion);
+  file.write_attribute("/", "schema_version", kRunFileSchema);
   file.write_attribute("/", "compression", filtered ? "fast" : "none");
   file.write_attribute("/", "base_units", "um s nN");
   return file;

@@ -7,7 +7,7 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kSides = 48;
+constexpr int kPipetteSides = 48;
 constexpr int kArcSteps = 4;
 
 /// A point of the section through the axis.
@@ -41,14 +41,14 @@ void add_pipette_surface(const contact::Pipette& p, mesh::Surface& surface) {
   const std::vector<ProfilePoint> profile = profile_of(p);
   const Vec3 u = p.axis.unitOrthogonal(), v = p.axis.cross(u);
   const int first = static_cast<int>(surface.node.size()), n = static_cast<int>(profile.size());
-  for (int side = 0; side < kSides; ++side) {
-    const double angle = 2 * kPi * side / kSides;
+  for (int side = 0; side < kPipetteSides; ++side) {
+    const double angle = 2 * kPi * side / kPipetteSides;
     const Vec3 out = std::cos(angle) * u + std::sin(angle) * v;
     for (const ProfilePoint& x : profile)
       surface.node.push_back(p.mouth + x.radius * out + x.height * p.axis);
   }
-  for (int side = 0; side < kSides; ++side) {
-    const int here = first + side * n, there = first + (side + 1) % kSides * n;
+  for (int side = 0; side < kPipetteSides; ++side) {
+    const int here = first + side * n, there = first + (side + 1) % kPipetteSides * n;
     for (int k = 0; k < n; ++k) {
       const int next = (k + 1) % n;
       surface.triangle.push_back({here + k, there + next, here + next});

@@ -9,7 +9,7 @@
 namespace acinus::coupling {
 namespace {
 
-constexpr int kSides = 10;
+constexpr int kVesselSides = 10;
 constexpr double kRingSpacing = 6;  // um
 
 struct Ring {
@@ -42,22 +42,22 @@ void add_tube(const std::vector<Ring>& ring, const Vec3& tip_a, const Vec3& tip_
   const Vec3 u = along.cross(Vec3::Unit(axis)).normalized(), v = along.cross(u);
   const int first = static_cast<int>(surface.node.size());
   for (const Ring& r : ring)
-    for (int side = 0; side < kSides; ++side) {
-      const double angle = 2 * kPi * side / kSides;
+    for (int side = 0; side < kVesselSides; ++side) {
+      const double angle = 2 * kPi * side / kVesselSides;
       surface.node.push_back(r.center + r.radius * (std::cos(angle) * u + std::sin(angle) * v));
     }
   const int n_ring = static_cast<int>(ring.size());
   const int low_tip = static_cast<int>(surface.node.size()), high_tip = low_tip + 1;
   surface.node.push_back(tip_a);
   surface.node.push_back(tip_b);
-  for (int side = 0; side < kSides; ++side) {
-    const int next = (side + 1) % kSides;
+  for (int side = 0; side < kVesselSides; ++side) {
+    const int next = (side + 1) % kVesselSides;
     for (int r = 0; r + 1 < n_ring; ++r) {
-      const int low = first + r * kSides, high = low + kSides;
+      const int low = first + r * kVesselSides, high = low + kVesselSides;
       surface.triangle.push_back({low + side, low + next, high + next});
       surface.triangle.push_back({low + side, high + next, high + side});
     }
-    const int last = first + (n_ring - 1) * kSides;
+    const int last = first + (n_ring - 1) * kVesselSides;
     surface.triangle.push_back({low_tip, first + next, first + side});
     surface.triangle.push_back({high_tip, last + side, last + next});
   }

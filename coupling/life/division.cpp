@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kMostPlanes = 8;
 /// A daughter's mesh with a worse triangle than this is not accepted.
-constexpr double kLeastQuality = 0.1;
+constexpr double kLeastBirthQuality = 0.1;
 /// How far later planes turn away from the wanted axis: the share of a random direction.
 constexpr double kTurn = 0.5;
 /// Nodes nearer the cut than this share of a mean edge lie on it and stay there when the volume is
@@ -91,7 +91,7 @@ const char* describe(dcm::SplitFailure failure) {
 
 /// What is wrong with a daughter's mesh, or empty.
 std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& node) {
-  if (mesh::compute_quality(node, topology.triangle) < kLeastQuality)
+  if (mesh::compute_quality(node, topology.triangle) < kLeastBirthQuality)
     return "a daughter's mesh is too distorted";
   if (mesh::AuditBody(node, topology.triangle).self_intersects())
     return "a daughter crosses herself";

@@ -16,7 +16,7 @@ namespace {
 /// tissue, so that a few seconds bring the cell to rest.
 constexpr double kFriction = 1e-3;
 /// First step and time over which the volume grows, s.
-constexpr double kFirstStep = 0.02, kGrowth = 2;
+constexpr double kFirstFillStep = 0.02, kGrowth = 2;
 /// At rest: no node moves farther in a step at least this long.
 constexpr double kRestMove = 0.01, kRestStep = 1;  // um, s
 constexpr int kMostSteps = 150;
@@ -56,7 +56,7 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
       mesh::compute_area(envelope.node, envelope.triangle) / (topology.rest_area * radius * radius);
   shape.edge.assign(topology.edge.size(), std::sqrt(shape.area));
   shape.triangle.assign(topology.triangle.size(), shape.area);
-  s.clock.step = kFirstStep;
+  s.clock.step = kFirstFillStep;
 
   Filling filling;
   Workspace work;

@@ -9,7 +9,7 @@ namespace acinus::coupling {
 namespace {
 
 /// Gap, um, up to which a cell counts as a neighbour of another.
-constexpr double kReach = 0.5;
+constexpr double kSettleReach = 0.5;
 /// How long new cells settle ahead of all others, in steps of the whole world: long enough that
 /// what is stiff has come to rest, and nothing next to the time in which tissue flows.
 constexpr double kSteps = 1;
@@ -30,7 +30,7 @@ Settled settle_cells(World& world, const std::vector<std::int64_t>& cells) {
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (std::ranges::find(cells, s.dcm.lineage[l]) != cells.end()) fresh.dcm.push_back(l);
   Subworld sub;
-  extract_at_rest(world, fresh, find_neighbours(world, fresh, kReach), sub);
+  extract_at_rest(world, fresh, find_neighbours(world, fresh, kSettleReach), sub);
   const Settling settling = relax(sub, kSteps * world.params.numerics.max_step);
   Settled result{settling.ok, settling.cause, settling.steps, {}, {}};
   if (!settling.ok) return result;

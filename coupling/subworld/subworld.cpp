@@ -12,7 +12,7 @@ namespace acinus::coupling {
 namespace {
 
 /// First step in a subworld at rest, s: contacts just made are felt before anything has moved far.
-constexpr double kFirstStep = 1;
+constexpr double kFirstSubworldStep = 1;
 
 Box box_of(const State& s, std::size_t lane) {
   Box box;
@@ -144,7 +144,7 @@ void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Su
   for (Ramp& v : s.cbm.volume) v = frozen(v, now);
   for (Ramp& v : s.cbm.strength) v = frozen(v, now);
   s.balance = {};
-  s.clock.step = kFirstStep;
+  s.clock.step = kFirstSubworldStep;
   s.clock.last_step = 0;
   s.clock.accepted = s.clock.rejected = s.clock.cg_iterations = s.clock.solves = 0;
   s.clock.coarse = false;

@@ -19,7 +19,7 @@ constexpr double kSlack = 1.0 / 6;
 constexpr double kBar = 1.3;
 /// A cell borders on the lesion if a way this many radii long, or to the vein, is clear, in a
 /// direction at most kAside from that to the vein; smaller holes in the tissue are not the lesion.
-constexpr double kReach = 4, kAside = kPi / 4;
+constexpr double kLeaderReach = 4, kAside = kPi / 4;
 constexpr int kWays = 7;  ///< directions tried, 15 degrees apart
 
 double turn(const PolarCell& a, const PolarCell& b) {
@@ -65,7 +65,8 @@ bool borders_lesion(const Motility& m, std::size_t own, std::span<const PolarCel
   const PolarCell& c = cells[own];
   const Vec3 from = place[own];
   const double bar = kBar - (c.led ? kSlack : 0);
-  const double reach = std::min(kReach * c.radius, c.distance - m.axis_radius);  // to the vein
+  const double reach =
+      std::min(kLeaderReach * c.radius, c.distance - m.axis_radius);  // to the vein
   auto is_clear = [&](const Vec3& direction) {
     const Vec3 end = m.axis_point + from + reach * direction;
     if (std::ranges::any_of(

@@ -26,7 +26,7 @@ constexpr double kMostCompression = 0.05;
 
 /// How far a pair may move relative to each other until nothing is left of its fading force, as a
 /// share of the smaller radius: more than tissue in equilibrium does within an hour.
-constexpr double kReach = 0.25;
+constexpr double kPairReach = 0.25;
 
 /// The force, nN, that compresses the cell so far if it acts on its cross-section.
 double largest_fading(const World& world, const Cell& c, double radius) {
@@ -109,7 +109,7 @@ void add_fading(const World& world, const PairForces& before, const PairForces& 
                         share * (was.virial - is.virial),
                         {1, 0, now, now + world.params.zoom.fade},
                         apart,
-                        kReach * std::min(a.radius, b.radius)});
+                        kPairReach * std::min(a.radius, b.radius)});
   }
 }
 

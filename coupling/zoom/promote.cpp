@@ -19,7 +19,7 @@ namespace {
 /// A room that leaves less than this share of the volume is no place for a mesh.
 constexpr double kLeastVolume = 0.7;
 /// A mesh with a worse triangle is not accepted.
-constexpr double kLeastQuality = 0.1;
+constexpr double kLeastShapeQuality = 0.1;
 constexpr int kFillings = 3;
 
 std::vector<Vec3> directions(const mesh::Topology& t, const Mat3& turn) {
@@ -61,7 +61,7 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
     volume *= wanted / found;
   }
   const double quality = mesh::compute_quality(shell.node, t.triangle);
-  shell.ok = found >= kLeastVolume * wanted && quality >= kLeastQuality;
+  shell.ok = found >= kLeastVolume * wanted && quality >= kLeastShapeQuality;
   if (!shell.ok)
     shell.why = fmt::format("its room holds {:.2f} of its volume, with triangles down to {:.2g}",
                             found / wanted, quality);

@@ -12,7 +12,7 @@ namespace acinus::runs {
 namespace {
 
 /// Lengths in um and times in s beyond these are those of no tissue; sums of them would overflow.
-constexpr double kFarthest = 1e9, kLongest = 1e12;
+constexpr double kFarthestPlace = 1e9, kLongest = 1e12;
 
 class Checks {
  public:
@@ -36,7 +36,7 @@ class Checks {
           Exit::kFileError);
   }
   static bool is_number(double x) { return !std::isnan(x); }
-  static bool is_near(double x) { return std::abs(x) <= kFarthest; }
+  static bool is_near(double x) { return std::abs(x) <= kFarthestPlace; }
   static bool is_vector(const Vec3& x) { return x.allFinite(); }
   static bool is_ramp(const Ramp& r) {
     return std::isfinite(r.from) && std::isfinite(r.to) && is_number(r.start) && is_number(r.end);

@@ -30,7 +30,7 @@ double start_radius(const Scene& scene, double radius) {
 }
 
 /// Sizes beyond these are slips of the unit; the run file stores single precision.
-constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthest = 1e6;  // um
+constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthestCell = 1e6;  // um
 
 /// Cells that start anywhere in their cycle have up to twice the volume.
 double largest_start(const CellType& t) {
@@ -95,12 +95,12 @@ void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
       throw Error(fmt::format(
           "{}: {} has the radius {:.4g} um; from {} to {} um is allowed. Check its unit.",
           scene.file, name_of(scene, c), c.radius, kSmallestRadius, kLargestRadius));
-    if (!(c.center.cwiseAbs().maxCoeff() <= kFarthest))
+    if (!(c.center.cwiseAbs().maxCoeff() <= kFarthestCell))
       throw Error(fmt::format(
           "{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
           "along each axis "
           "is allowed. Check its unit.",
-          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), kFarthest));
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), kFarthestCell));
   }
 }
 

@@ -23,7 +23,7 @@ double same_frame(const io::RunReader& reader) {
   return std::clamp(kShare * (end_of(reader) - reader.time_s(0)), kSameTime, kMost);
 }
 
-std::string hours(double s) { return fmt::format("{:.4g} h", s / 3600); }
+std::string hours_text(double s) { return fmt::format("{:.4g} h", s / 3600); }
 
 /// A run that is written on has a summary of its past only, if any.
 ComparedRun open_run(const std::string& folder) {
@@ -34,11 +34,11 @@ ComparedRun open_run(const std::string& folder) {
   ComparedRun run{read_summary(folder), io::RunReader(folder + "/run.vtkhdf"), {}};
   check(run.reader.n_frame() > 0,
         fmt::format("{}: holds no frame: the run is {} at {}. There is nothing to compare.", folder,
-                    run.summary.status, hours(run.summary.simulated_s)));
+                    run.summary.status, hours_text(run.summary.simulated_s)));
   check(end_of(run.reader) <= run.summary.simulated_s + same_frame(run.reader),
         fmt::format("{}: has frames until {}, but its summary is of an earlier end, {}: it was "
                     "resumed and killed. Go on with it: acinus run SCENE --resume --out {}",
-                    folder, hours(end_of(run.reader)), hours(run.summary.simulated_s),
+                    folder, hours_text(end_of(run.reader)), hours_text(run.summary.simulated_s),
                     quote_for_shell(folder)));
   return run;
 }
@@ -75,7 +75,7 @@ std::vector<ComparedRun> open_compared_runs(const std::vector<std::string>& fold
   }
   check(!runs[0].frame.empty(),
         fmt::format("no frame at the same time in {}{}. Give the runs the same output.every.",
-                    fmt::join(folders, " and "), until ? " until " + hours(*until) : ""));
+                    fmt::join(folders, " and "), until ? " until " + hours_text(*until) : ""));
   return runs;
 }
 
@@ -83,19 +83,19 @@ Shortfall find_shortfall(const ComparedRun& run, std::optional<double> until) {
   const RunSummary& s = run.summary;
   const double last = run.time_of_last(), end = end_of(run.reader), same = same_frame(run.reader);
   if (until && end < *until - same)
-    return {fmt::format("{} has frames until {} only, not until {} ({})", s.folder, hours(end),
-                        hours(*until), s.status),
+    return {fmt::format("{} has frames until {} only, not until {} ({})", s.folder, hours_text(end),
+                        hours_text(*until), s.status),
             true};
   if (until && std::abs(last - *until) > same)
-    return {fmt::format("{} has no frame at {} that all runs have", s.folder, hours(*until))};
+    return {fmt::format("{} has no frame at {} that all runs have", s.folder, hours_text(*until))};
   if (until) return {};
   if (s.status != "completed")
     return {fmt::format("{} {} at {}{}", s.folder, s.status == "stopped" ? "was stopped" : s.status,
-                        hours(s.simulated_s), s.cause.empty() ? "" : ": " + s.cause),
+                        hours_text(s.simulated_s), s.cause.empty() ? "" : ": " + s.cause),
             true};
   if (end > last + same)
     return {fmt::format("{} ends at {}, but the last frame that all runs have is at {}", s.folder,
-                        hours(end), hours(last))};
+                        hours_text(end), hours_text(last))};
   return {};
 }
 

@@ -13,9 +13,11 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+OrderedJson number_text(double v) {
+  return std::isfinite(v) ? OrderedJson(v) : OrderedJson(nullptr);
+}
 
 std::string show_number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.5g}", v); }
 
@@ -69,27 +71,30 @@ std::string comparison_table(const Comparison& c) {
 }
 
 void write_comparison(const Comparison& c, const std::string& file) {
-  Json j;
+  OrderedJson j;
   j["runs"] = c.runs;
   j["from_s"] = c.from;
   j["to_s"] = c.to;
   j["frames"] = c.frames;
   j["passes"] = c.passes();
   j["notes"] = c.notes;
-  j["drag"] = Json::array();
+  j["drag"] = OrderedJson::array();
   for (std::size_t r = 0; r < c.runs.size(); ++r)
     for (const Drag& d : c.drag[r])
       j["drag"].push_back({{"run", c.runs[r]},
                            {"model", d.model},
                            {"medium_nN_s_per_um", d.medium},
                            {"cell_cell_N_s_per_m3", 1e9 * d.cell_friction}});
-  j["differences"] = Json::array();
+  j["differences"] = OrderedJson::array();
   for (std::size_t r = 0; r < c.difference.size(); ++r)
     for (const Difference& d : c.difference[r]) {
-      Json row{{"run", c.runs[r + 1]},     {"quantity", d.name},
-               {"unit", d.unit},           {"reference", number(d.reference)},
-               {"value", number(d.value)}, {"difference", number(d.difference)},
-               {"absolute", d.absolute}};
+      OrderedJson row{{"run", c.runs[r + 1]},
+                      {"quantity", d.name},
+                      {"unit", d.unit},
+                      {"reference", number_text(d.reference)},
+                      {"value", number_text(d.value)},
+                      {"difference", number_text(d.difference)},
+                      {"absolute", d.absolute}};
       if (d.tolerance) {
         row["tolerance"] = *d.tolerance;
         row["passes"] = d.passes();
@@ -97,10 +102,10 @@ void write_comparison(const Comparison& c, const std::string& file) {
       }
       j["differences"].push_back(row);
     }
-  j["traces"] = Json::object();
+  j["traces"] = OrderedJson::object();
   const std::string stem = std::filesystem::path(file).replace_extension().string();
   for (const Trace& trace : c.trace) {
-    Json values = Json::object();
+    OrderedJson values = OrderedJson::object();
     io::Plot plot{trace.name, "time, h", trace.name + ", " + trace.unit, false, false, {}};
     for (std::size_t r = 0; r < c.runs.size(); ++r) {
       values[c.runs[r]] = trace.value[r];
@@ -112,7 +117,7 @@ void write_comparison(const Comparison& c, const std::string& file) {
     j["traces"][trace.name] = {{"time_s", trace.time}, {"unit", trace.unit}, {"value", values}};
     io::write_plot(fmt::format("{}_{}.svg", stem, trace.name), plot);
   }
-  io::write_text_file(file, j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  io::write_text_file(file, j.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 }  // namespace acinus::runs

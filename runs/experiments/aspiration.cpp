@@ -1,13 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Volume of a ball from which a plane has cut a cap with a rim of the radius `rim`, um^3.
 double volume_without_cap(double radius, double rim) {
@@ -33,7 +30,7 @@ double closed_form_suction(double tension, double pipette_radius, double cell_ra
 void sample_aspiration(const ObservedFrame& f, Measures& m) {
   const coupling::Suction& s = f.world.params.suction;
   const std::vector<Vec3> node = first_cell(f.world);
-  double length = node.empty() ? kNone : 0;
+  double length = node.empty() ? kNotMeasured : 0;
   for (const Vec3& x : node) {
     const Vec3 d = x - s.mouth;
     if (d.cross(s.axis).norm() < s.reach) length = std::max(length, d.dot(s.axis));

@@ -1,13 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Area of the section of a closed surface by the plane through `point` across `axis`, um^2.
 double section_area(std::span<const Vec3> node, const mesh::Topology& t, const Vec3& point,
@@ -35,7 +32,8 @@ double section_area(std::span<const Vec3> node, const mesh::Topology& t, const V
 void sample_narrow_gap(const ObservedFrame& f, Measures& m) {
   const std::vector<Vec3> node = first_cell(f.world);
   const auto& pipettes = f.world.params.boundary.pipettes;
-  double position = kNone, length = kNone, width = kNone, waist = kNone, passed = kNone;
+  double position = kNotMeasured, length = kNotMeasured, width = kNotMeasured, waist = kNotMeasured,
+         passed = kNotMeasured;
   if (!node.empty() && !pipettes.empty()) {
     const contact::Pipette& hole = pipettes.front();
     const auto along = [&](const Vec3& x) { return (x - hole.mouth).dot(hole.axis); };

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
@@ -9,13 +8,11 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 /// Force on the pulled cell along its pull, nN.
 double force_on(const coupling::Pull& pull, const ObservedFrame& f) {
   const dcm::State& cells = f.world.state.dcm;
   const auto at = std::ranges::find(cells.lineage, pull.cell);
-  if (at == cells.lineage.end()) return kNone;
+  if (at == cells.lineage.end()) return kNotMeasured;
   const Vec3 center = dcm::cell_center(cells, at - cells.lineage.begin());
   return coupling::pull_force(pull, f.snapshot.time, center);
 }
@@ -40,7 +37,7 @@ double vesicle_pull_off(const PairOfCells& pair) {
 void sample_pull_off(const ObservedFrame& f, Measures& m) {
   const std::vector<coupling::Pull>& pulls = f.world.params.pulls;
   const auto& cells = f.snapshot.cells;
-  double force = kNone, distance = kNone, area = kNone;
+  double force = kNotMeasured, distance = kNotMeasured, area = kNotMeasured;
   coupling::ContactTensions t;
   if (pulls.size() == 2 && cells.size() == 2) {
     force = 0.5 * (force_on(pulls[0], f) + force_on(pulls[1], f));

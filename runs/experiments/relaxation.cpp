@@ -11,7 +11,7 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kHour = 3600;
+constexpr double kSecondsPerHour = 3600;
 
 /// Along which the clump is compressed.
 Vec3 axis_of(const Scene& scene) {
@@ -57,8 +57,8 @@ void add_recovery(const std::string& name, double release, Measures& m) {
     }
   const calibration::Recovery r = calibration::measure_recovery(t, y);
   put(m, name + "_back_10s", r.sprung);
-  put(m, name + "_efold_h", r.efold / kHour);
-  put(m, name + "_return_h", r.time / kHour);
+  put(m, name + "_efold_h", r.efold / kSecondsPerHour);
+  put(m, name + "_return_h", r.time / kSecondsPerHour);
   const double compressed = y.empty() ? 0 : y.front() - all.front();
   put(m, name + "_recovered",
       compressed != 0 ? (y.front() - r.end) / compressed

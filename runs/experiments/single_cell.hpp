@@ -2,6 +2,7 @@
 /// Experiments on one or two deformable cells that need more than a snapshot: between plates, at a
 /// pipette, in a narrow gap, pulled apart.
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "runs/experiments/observe.hpp"
 
 namespace acinus::runs {
+
+/// Value of an observable in a frame without the cell it is measured on.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// A cell between two plates, the scene's walls: gap_um between them, force_nN (normal force on a
 /// plate, mean of the two), contact_radius_um (that of a circle with the area that touches a plate,

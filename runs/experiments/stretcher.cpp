@@ -1,4 +1,3 @@
-#include <limits>
 #include <vector>
 
 #include "runs/experiments/single_cell.hpp"
@@ -12,8 +11,6 @@ void add_axis(const std::string& name, double value, Measures& m) {
   m[name + "_strain"].push_back(value / m[name + "_um"].front() - 1);
 }
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace
 
 void sample_stretcher(const Scene&, const coupling::World& world, const Snapshot& snapshot,
@@ -23,8 +20,8 @@ void sample_stretcher(const Scene&, const coupling::World& world, const Snapshot
   const dcm::StretchLoad load = coupling::stretch_at(p.stretcher, t);
   const std::vector<Vec3> node = first_cell(world);
   const bool there = !node.empty();
-  add_axis("long_axis", there ? extent(node, load.axis) : kNone, m);
-  add_axis("short_axis", there ? extent_across(node, load.axis) : kNone, m);
+  add_axis("long_axis", there ? extent(node, load.axis) : kNotMeasured, m);
+  add_axis("short_axis", there ? extent_across(node, load.axis) : kNotMeasured, m);
   m["stress_Pa"].push_back(kPa * load.stress);
   m["cortex_friction_factor"].push_back(coupling::friction_factor(p.temperature, t));
 }

@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "coupling/measure/contact_forces.hpp"
 #include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double gap_between(const contact::Plane& a, const contact::Plane& b, double time) {
   return a.normal.dot(b.point_at(time) - a.point_at(time));
@@ -29,7 +26,8 @@ void sample_plates(const ObservedFrame& f, Measures& m) {
   const auto& cells = f.snapshot.cells;
   const std::vector<contact::Plane>& plane = f.world.params.boundary.planes;
   const bool there = plane.size() == 2 && !cells.empty() && cells.front().deformable;
-  double gap = kNone, force = kNone, radius = kNone, pressure = kNone, shell = kNone;
+  double gap = kNotMeasured, force = kNotMeasured, radius = kNotMeasured, pressure = kNotMeasured,
+         shell = kNotMeasured;
   if (there) {
     const coupling::CellMeasure& cell = cells.front();
     const coupling::Reactions reactions = coupling::find_reactions(f.world, f.work);

@@ -19,7 +19,7 @@
 namespace acinus::runs {
 namespace {
 
-constexpr std::uint8_t kDeformable = 0, kSphere = 1;  // io::Frame::kind
+constexpr std::uint8_t kDeformable = 0, kSphereKind = 1;  // io::Frame::kind
 constexpr int kSphereNodes = 642;
 
 Vec3 point_of(const io::Frame& f, std::int64_t k) {
@@ -48,7 +48,7 @@ std::map<std::int64_t, mesh::Surface> surfaces_of(const io::Frame& f) {
     if (field.name != "radius") continue;
     for (std::int64_t k = 0; k < f.n_sphere; ++k) {
       const std::size_t at = f.triangle.size() + static_cast<std::size_t>(k);
-      if (f.kind[at] != kSphere) continue;
+      if (f.kind[at] != kSphereKind) continue;
       mesh::Surface s;
       s.triangle = ball.triangle;
       for (const Vec3& x : ball.rest)

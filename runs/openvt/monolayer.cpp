@@ -15,7 +15,7 @@ namespace acinus::runs {
 namespace {
 
 constexpr int kTimesPerCycle = 5;  ///< of the relaxation of eleven cells, as agreed there
-constexpr int kAngles = 720, kRings = 40;
+constexpr int kAngles = 720, kMonolayerRings = 40;
 
 bool is_covered(const std::vector<const Disc*>& neighbours, double x, double y) {
   return std::ranges::any_of(
@@ -28,13 +28,14 @@ FreeShares free_share(const Disc& disc, const std::vector<const Disc*>& neighbou
     const double angle = 2 * std::numbers::pi * (a + 0.5) / kAngles;
     const double x = std::cos(angle), y = std::sin(angle);
     rim += is_covered(neighbours, disc.x + disc.radius * x, disc.y + disc.radius * y) ? 0 : 1;
-    for (int ring = 0; ring < kRings; ++ring) {
+    for (int ring = 0; ring < kMonolayerRings; ++ring) {
       // Rings of equal area.
-      const double r = disc.radius * std::sqrt((ring + 0.5) / kRings);
+      const double r = disc.radius * std::sqrt((ring + 0.5) / kMonolayerRings);
       area += is_covered(neighbours, disc.x + r * x, disc.y + r * y) ? 0 : 1;
     }
   }
-  return {static_cast<double>(rim) / kAngles, static_cast<double>(area) / (kAngles * kRings)};
+  return {static_cast<double>(rim) / kAngles,
+          static_cast<double>(area) / (kAngles * kMonolayerRings)};
 }
 
 Layer read_layer(const std::string& folder, bool deformable) {

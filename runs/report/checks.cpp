@@ -6,7 +6,7 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 struct Check {
   const char* name;
@@ -28,10 +28,10 @@ constexpr std::array kChecks{
 
 }  // namespace
 
-Json list_checks(const Json& summary) {
-  Json list = Json::array();
+OrderedJson list_checks(const OrderedJson& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const Check& c : kChecks) {
-    const Json::json_pointer path(c.path);
+    const OrderedJson::json_pointer path(c.path);
     if (!summary.contains(path) || !summary.at(path).is_number()) continue;
     const double value = summary.at(path).get<double>();
     list.push_back({{"name", c.name},

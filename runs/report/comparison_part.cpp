@@ -8,19 +8,20 @@
 namespace acinus::runs {
 
 nlohmann::ordered_json describe_comparison(const std::vector<std::string>& folders) {
-  using Json = nlohmann::ordered_json;
+  using OrderedJson = nlohmann::ordered_json;
   try {
     const Comparison c = compare_runs(folders, {});
-    Json j{{"from", c.from}, {"to", c.to}, {"frames", c.frames}, {"notes", c.notes}};
+    OrderedJson j{{"from", c.from}, {"to", c.to}, {"frames", c.frames}, {"notes", c.notes}};
     for (const std::vector<Difference>& run : c.difference) {
-      Json rows = Json::array();
+      OrderedJson rows = OrderedJson::array();
       for (const Difference& d : run)
-        rows.push_back({{"name", d.name},
-                        {"unit", d.unit},
-                        {"reference", d.absolute ? Json(nullptr) : short_number(d.reference)},
-                        {"value", short_number(d.value)},
-                        {"difference", short_number(d.difference)},
-                        {"absolute", d.absolute}});
+        rows.push_back(
+            {{"name", d.name},
+             {"unit", d.unit},
+             {"reference", d.absolute ? OrderedJson(nullptr) : short_number(d.reference)},
+             {"value", short_number(d.value)},
+             {"difference", short_number(d.difference)},
+             {"absolute", d.absolute}});
       j["runs"].push_back(rows);
     }
     return j;

@@ -12,19 +12,20 @@ namespace acinus::runs {
 namespace fs = std::filesystem;
 
 nlohmann::ordered_json describe_law(const std::string& file) {
-  using Json = nlohmann::ordered_json;
+  using OrderedJson = nlohmann::ordered_json;
   const bool is_folder = fs::is_directory(file);
   const fs::path law = is_folder ? fs::path(file) / "law.json" : fs::path(file);
   std::error_code code;
   check(is_folder ? io::is_file_inside(file, "law.json") : fs::is_regular_file(law, code),
         law.string() + ": is a link or no regular file, and is not read.", Exit::kFileError);
   calibration::read_law(law.string());  // whole and unchanged, or an error that says what is wrong
-  Json j{{"type", "law"}, {"name", law.filename().string()}, {"folder", file}};
-  j["law"] = Json::parse(io::read_text_file(law.string()), nullptr, true, true);
+  OrderedJson j{{"type", "law"}, {"name", law.filename().string()}, {"folder", file}};
+  j["law"] = OrderedJson::parse(io::read_text_file(law.string()), nullptr, true, true);
   const fs::path beside =
       is_folder ? fs::path(file) : law.parent_path() / (law.stem().string() + ".calibration");
   if (fs::exists(beside / "curves.json", code))
-    j["curves"] = parse_or_discard<Json>(io::read_text_inside(beside.string(), "curves.json"));
+    j["curves"] =
+        parse_or_discard<OrderedJson>(io::read_text_inside(beside.string(), "curves.json"));
   return j;
 }
 

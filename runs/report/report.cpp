@@ -19,7 +19,7 @@ namespace acinus::runs {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 enum class ItemKind { kRun, kLaw, kStudy };
 
@@ -63,7 +63,7 @@ std::string write_report(const ReportOptions& options) {
   FrameLimits limits{.most_frames = options.most_frames.value_or(50)};
   // Curves, tables and texts take about a tenth.
   limits.bytes = (bytes - page) * 9 / 10 / std::max<std::size_t>(1, folders.size());
-  Json data{{"version", ACINUS_VERSION}, {"limit", bytes}, {"items", Json::array()}};
+  OrderedJson data{{"version", ACINUS_VERSION}, {"limit", bytes}, {"items", OrderedJson::array()}};
   for (const std::string& path : options.what) {
     switch (kind_of(path)) {
       case ItemKind::kRun: {
@@ -84,7 +84,8 @@ std::string write_report(const ReportOptions& options) {
   if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
   const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
   io::write_text_file(
-      out, write_page(as_utf8(title), data.dump(-1, ' ', false, Json::error_handler_t::replace)));
+      out,
+      write_page(as_utf8(title), data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace)));
   if (!options.png.empty()) take_picture(out, options.png);
   return out;
 }

@@ -19,23 +19,23 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
+OrderedJson numbers(const std::vector<double>& values) {
+  OrderedJson list = OrderedJson::array();
   for (const double v : values) list.push_back(short_number(v));
   return list;
 }
 
-Json curve(const std::vector<double>& time, const std::vector<double>& value) {
+OrderedJson curve(const std::vector<double>& time, const std::vector<double>& value) {
   const TimeCurve thin = thin_curve({time, value}, kMostSamples);
   return {{"time", numbers(thin.time)}, {"value", numbers(thin.value)}};
 }
 
 /// All columns but the time as curves of their own: thinning keeps each one's peaks.
-Json curves(const std::map<std::string, std::vector<double>>& columns,
-            const std::map<std::string, std::string>& unit) {
-  Json list = Json::object();
+OrderedJson curves(const std::map<std::string, std::vector<double>>& columns,
+                   const std::map<std::string, std::string>& unit) {
+  OrderedJson list = OrderedJson::object();
   const auto time = columns.find("time");
   if (time == columns.end()) return list;
   for (const auto& [name, value] : columns) {
@@ -48,7 +48,7 @@ Json curves(const std::map<std::string, std::vector<double>>& columns,
 }
 
 /// Quantiles over the cells of a frame: 5, 25, 50, 75, 95 %.
-void add_quantiles(Json& band, double time_s, std::vector<double> values) {
+void add_quantiles(OrderedJson& band, double time_s, std::vector<double> values) {
   std::erase_if(values, [](double x) { return !std::isfinite(x); });  // they have no order
   if (values.empty()) return;
   std::ranges::sort(values);
@@ -67,9 +67,9 @@ std::vector<double> relative_volumes(const io::Table& cells) {
 }
 
 /// Pressure and volume of the cells at up to so many frames: tables are read without the meshes.
-Json describe_cells(RunRecord& run) {
+OrderedJson describe_cells(RunRecord& run) {
   constexpr int kMostTables = 200;
-  Json bands{{"pressure", Json::object()}, {"volume", Json::object()}};
+  OrderedJson bands{{"pressure", OrderedJson::object()}, {"volume", OrderedJson::object()}};
   for (const int k : choose_evenly(run.n_frame(), kMostTables)) {
     const std::optional<io::Table> cells = read_cell_table(run, k);
     if (!cells) continue;
@@ -80,10 +80,14 @@ Json describe_cells(RunRecord& run) {
   return bands;
 }
 
-Json describe_frames(const PackedRun& packed, int in_file) {
-  Json j{{"in_file", in_file},   {"id_columns", packed.id_column}, {"columns", packed.column},
-         {"units", packed.unit}, {"meshes", Json::array()},        {"still", Json::array()},
-         {"list", Json::array()}};
+OrderedJson describe_frames(const PackedRun& packed, int in_file) {
+  OrderedJson j{{"in_file", in_file},
+                {"id_columns", packed.id_column},
+                {"columns", packed.column},
+                {"units", packed.unit},
+                {"meshes", OrderedJson::array()},
+                {"still", OrderedJson::array()},
+                {"list", OrderedJson::array()}};
   for (const PackedMesh& m : packed.mesh)
     j["meshes"].push_back({{"nodes", m.nodes}, {"triangles", m.triangles}, {"chunk", m.chunk}});
   for (const PackedStill& s : packed.still)
@@ -99,8 +103,8 @@ Json describe_frames(const PackedRun& packed, int in_file) {
   return j;
 }
 
-Json describe_interface(const PackedRun& packed) {
-  Json j = Json::object();
+OrderedJson describe_interface(const PackedRun& packed) {
+  OrderedJson j = OrderedJson::object();
   for (const InterfaceSample& s : packed.interface) {
     j["time"].push_back(s.time_s);
     j["pairs"].push_back(s.pairs);
@@ -111,9 +115,9 @@ Json describe_interface(const PackedRun& packed) {
   return j;
 }
 
-Json describe_events(const std::vector<io::Event>& events) {
+OrderedJson describe_events(const std::vector<io::Event>& events) {
   constexpr std::size_t kMostEvents = 500;
-  Json counts = Json::object(), last = Json::array();
+  OrderedJson counts = OrderedJson::object(), last = OrderedJson::array();
   for (const io::Event& e : events) counts[e.code] = counts.value(e.code, 0) + 1;
   const std::size_t first = events.size() > kMostEvents ? events.size() - kMostEvents : 0;
   for (std::size_t k = first; k < events.size(); ++k)
@@ -124,7 +128,8 @@ Json describe_events(const std::vector<io::Event>& events) {
 /// What of the scene is not as a scene that says nothing has it.
 std::vector<std::string> differences_from_defaults(const std::string& scene) {
   Scene plain;
-  const Json types = parse_bounded<Json>(scene, "scene").value("cell_types", Json::object());
+  const OrderedJson types =
+      parse_bounded<OrderedJson>(scene, "scene").value("cell_types", OrderedJson::object());
   check(types.is_object(), "its cell types are none.", Exit::kFileError);
   for (const auto& [name, type] : types.items()) plain.cell_types[name] = {};
   set_canonical(plain);
@@ -133,8 +138,8 @@ std::vector<std::string> differences_from_defaults(const std::string& scene) {
 }
 
 /// The scene that the run keeps; a line in `damage` where it is none.
-void describe_scene(RunRecord& run, const std::string& text, Json& j) {
-  Json scene = parse_or_discard<Json>(text);
+void describe_scene(RunRecord& run, const std::string& text, OrderedJson& j) {
+  OrderedJson scene = parse_or_discard<OrderedJson>(text);
   std::string fault;
   try {
     check(scene.is_object(), "is no JSON object.", Exit::kFileError);
@@ -150,19 +155,20 @@ void describe_scene(RunRecord& run, const std::string& text, Json& j) {
 
 }  // namespace
 
-Json short_number(double value) {
+OrderedJson short_number(double value) {
   if (!std::isfinite(value)) return nullptr;
   return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
 
-Json describe_run(RunRecord& run, const FrameLimits& limits) {
-  Json summary = run.summary.empty() ? Json::object() : parse_or_discard<Json>(run.summary);
+OrderedJson describe_run(RunRecord& run, const FrameLimits& limits) {
+  OrderedJson summary =
+      run.summary.empty() ? OrderedJson::object() : parse_or_discard<OrderedJson>(run.summary);
   if (!summary.is_object()) {
     run.damage.push_back("summary.json: is no JSON object");
-    summary = Json::object();
+    summary = OrderedJson::object();
   }
   const PackedRun packed = pack_frames(run, limits);
-  Json j;
+  OrderedJson j;
   j["type"] = "run";
   j["folder"] = run.folder;
   j["name"] = std::filesystem::path(run.folder).lexically_normal().filename().string();

@@ -15,7 +15,7 @@ namespace acinus::runs {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// One field of a line, and the rest of the line. Quotes as in RFC 4180.
 std::string take_field(std::istringstream& line) {
@@ -35,12 +35,12 @@ std::string take_field(std::istringstream& line) {
 }
 
 /// Rows of a CSV file, the header first.
-Json read_csv(const std::string& folder, const std::string& name) {
-  Json rows = Json::array();
+OrderedJson read_csv(const std::string& folder, const std::string& name) {
+  OrderedJson rows = OrderedJson::array();
   std::istringstream text(io::read_text_inside(folder, name));
   for (std::string line; std::getline(text, line);) {
     std::istringstream in(line);
-    Json row = Json::array();
+    OrderedJson row = OrderedJson::array();
     while (in && in.peek() != EOF) row.push_back(take_field(in));
     rows.push_back(std::move(row));
   }
@@ -49,7 +49,7 @@ Json read_csv(const std::string& folder, const std::string& name) {
 
 }  // namespace
 
-Json describe_study(const std::string& folder) {
+OrderedJson describe_study(const std::string& folder) {
   const fs::path root = folder;
   std::error_code code;
   check(fs::exists(root / "runs.csv", code),
@@ -57,18 +57,18 @@ Json describe_study(const std::string& folder) {
             "{}: is a study without results. `acinus study FILE --out {} --report` writes them.",
             folder, quote_for_shell(folder)),
         Exit::kFileError);
-  Json j{
+  OrderedJson j{
       {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};
   j["runs"] = read_csv(folder, "runs.csv");
-  j["verdicts"] = Json::array();
+  j["verdicts"] = OrderedJson::array();
   if (fs::exists(root / "verdicts.json", code))
-    j["verdicts"] = parse_or_discard<Json>(io::read_text_inside(folder, "verdicts.json"));
+    j["verdicts"] = parse_or_discard<OrderedJson>(io::read_text_inside(folder, "verdicts.json"));
   std::vector<fs::path> plots;
   if (io::is_folder_inside(folder, "plots"))
     for (const fs::directory_entry& entry : fs::directory_iterator(root / "plots", code))
       if (entry.path().extension() == ".svg") plots.push_back(entry.path());
   std::ranges::sort(plots);
-  j["plots"] = Json::array();
+  j["plots"] = OrderedJson::array();
   for (const fs::path& plot : plots)
     j["plots"].push_back(
         {{"name", plot.stem().string()},

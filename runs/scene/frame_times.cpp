@@ -10,7 +10,7 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoTime = std::numeric_limits<double>::infinity();
 constexpr double kFirst = 1;  ///< s after an opening
 
 std::vector<double> openings(const Scene& scene) {
@@ -24,16 +24,16 @@ std::vector<double> openings(const Scene& scene) {
 }  // namespace
 
 double next_opening(const Scene& scene, double time) {
-  double next = kNever;
+  double next = kNoTime;
   for (const double t : openings(scene))
     if (t > time + kSameTime) next = std::min(next, t);
   return next;
 }
 
 double next_frame_of_opening(const Scene& scene, double time) {
-  if (scene.output.after_opening == 0) return kNever;
+  if (scene.output.after_opening == 0) return kNoTime;
   const double next = next_opening(scene, time);
-  double last = -kNever;
+  double last = -kNoTime;
   for (const double t : openings(scene))
     if (t <= time + kSameTime) last = std::max(last, t);
   if (!std::isfinite(last)) return next;

@@ -7,11 +7,10 @@
 
 #include "core/nearest.hpp"
 #include "core/units.hpp"
+#include "runs/scene/quoted_quantity.hpp"
 
 namespace acinus::runs {
 namespace {
-
-std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
 
 std::string adhesion_text(double value) {
   return "\"" + format_quantity(value, kTension, "J/m^2") + "\"";
@@ -29,8 +28,8 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
   for (int axis = 0; axis < 3; ++axis) {
     if (low[axis] < high[axis]) continue;
     const std::string above = fmt::format("{}/{}", high_pointer, axis);
-    report.add_relation({fmt::format("{}/{}", low_pointer, axis), above}, length(low[axis]),
-                        fmt::format("must be below {} = {}", above, length(high[axis])));
+    report.add_relation({fmt::format("{}/{}", low_pointer, axis), above}, quoted_length(low[axis]),
+                        fmt::format("must be below {} = {}", above, quoted_length(high[axis])));
   }
 }
 
@@ -97,18 +96,18 @@ void check_start_up(const Scene& scene, Report& report) {
   for (const auto& [name, type] : scene.cell_types) {
     if (initial < type.radius) continue;
     const std::string pointer = "/cell_types/" + name + "/radius";
-    report.add_relation({"/start_up/initial_radius", pointer}, length(initial),
+    report.add_relation({"/start_up/initial_radius", pointer}, quoted_length(initial),
                         fmt::format("must be below {} = {}: cells grow during start-up", pointer,
-                                    length(type.radius)));
+                                    quoted_length(type.radius)));
   }
   for (std::size_t i = 0; i < scene.cells.list.size(); ++i) {
     const std::optional<double>& radius = scene.cells.list[i].radius;
     if (!radius || initial < *radius) continue;
     const std::string pointer = fmt::format("/cells/list/{}/radius", i);
-    report.add_relation({pointer, "/start_up/initial_radius"}, length(*radius),
+    report.add_relation({pointer, "/start_up/initial_radius"}, quoted_length(*radius),
                         fmt::format("must exceed /start_up/initial_radius = {}: cells grow during "
                                     "start-up",
-                                    length(initial)));
+                                    quoted_length(initial)));
   }
 }
 
@@ -223,8 +222,8 @@ void check_lobule(const Scene& scene, Report& report) {
     if (small < large) return;
     const std::string pointer_a = std::string("/lobule/") + small_name;
     const std::string pointer_b = std::string("/lobule/") + large_name;
-    report.add_relation({pointer_a, pointer_b}, length(small),
-                        fmt::format("must be below {} = {}", pointer_b, length(large)));
+    report.add_relation({pointer_a, pointer_b}, quoted_length(small),
+                        fmt::format("must be below {} = {}", pointer_b, quoted_length(large)));
   };
   below("central_vein_radius", lobule.central_vein_radius, "lesion_radius", lobule.lesion_radius);
   below("lesion_radius", lobule.lesion_radius, "radius", lobule.radius);
@@ -243,7 +242,7 @@ void check_boundary(const Scene& scene, Report& report) {
     const std::string pointer = fmt::format("/walls/{}", i);
     check_normal(wall.normal, pointer + "/normal", report);
     if (wall.speed != 0 && wall.travel == 0) {
-      report.add_relation({pointer + "/travel", pointer + "/speed"}, length(wall.travel),
+      report.add_relation({pointer + "/travel", pointer + "/speed"}, quoted_length(wall.travel),
                           "must be > 0 um for a wall that moves");
     }
     if (wall.mirror && wall.adhesion > 0) {
@@ -269,10 +268,11 @@ void check_boundary(const Scene& scene, Report& report) {
   if (!capsule.enabled) return;
   if (capsule.min_radius > capsule.radius) {
     report.add_relation(
-        {"/capsule/min_radius", "/capsule/radius"}, length(capsule.min_radius),
-        fmt::format("must not exceed /capsule/radius = {}", length(capsule.radius)));
+        {"/capsule/min_radius", "/capsule/radius"}, quoted_length(capsule.min_radius),
+        fmt::format("must not exceed /capsule/radius = {}", quoted_length(capsule.radius)));
   } else if (capsule.speed > 0 && capsule.min_radius == 0) {
-    report.add_relation({"/capsule/min_radius", "/capsule/speed"}, length(capsule.min_radius),
+    report.add_relation({"/capsule/min_radius", "/capsule/speed"},
+                        quoted_length(capsule.min_radius),
                         "must be > 0 um for a capsule that shrinks");
   }
 }
@@ -289,9 +289,10 @@ void check_region(const Region& region, const std::string& pointer, Report& repo
   if (region.kind == RegionKind::kHalfSpace)
     check_normal(region.normal, pointer + "/normal", report);
   if (region.kind == RegionKind::kAxisDistance && region.min_distance >= region.max_distance) {
-    report.add_relation(
-        {pointer + "/min_distance", pointer + "/max_distance"}, length(region.min_distance),
-        fmt::format("must be below {}/max_distance = {}", pointer, length(region.max_distance)));
+    report.add_relation({pointer + "/min_distance", pointer + "/max_distance"},
+                        quoted_length(region.min_distance),
+                        fmt::format("must be below {}/max_distance = {}", pointer,
+                                    quoted_length(region.max_distance)));
   }
 }
 

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include "core/units.hpp"
+#include "runs/scene/quoted_quantity.hpp"
 #include "runs/scene/rules.hpp"
 
 namespace acinus::runs {
 namespace {
-
-std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
 
 void check_contraction(const Scene& scene, const std::string& dcm, const DcmBlock& b,
                        Report& report) {
@@ -59,7 +58,8 @@ void check_nucleus(const Scene& scene, const std::string& name, const CellType& 
         {pointer + "/size", pointer + "/gap", cell.pointer}, fmt::format("{:g}", n.size),
         fmt::format("leaves no room: that share of {} = {} and {}/gap = {} beside it must fit into "
                     "{:g} of that radius. Make the nucleus smaller or the cell larger",
-                    cell.pointer, length(cell.radius), pointer, length(n.gap), kInnerRadius));
+                    cell.pointer, quoted_length(cell.radius), pointer, quoted_length(n.gap),
+                    kInnerRadius));
   if (scene.numerics.integrator == coupling::Integrator::kRos2)
     report.add_relation({pointer, "/time/integrator"}, "",
                         "is not for \"ros2\": a nucleus meets its cortex. Choose "

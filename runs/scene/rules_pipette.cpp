@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "core/units.hpp"
+#include "runs/scene/quoted_quantity.hpp"
 #include "runs/scene/rules.hpp"
 
 namespace acinus::runs {
 namespace {
-
-std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
 
 bool sucks(const PipetteBlock& p) {
   return std::ranges::any_of(p.suction.entry, [](const auto& e) { return e.value > 0; });
@@ -43,16 +42,16 @@ void check_tube(const Scene& scene, const PipetteBlock& p, Report& report) {
   for (const auto& [key, size] : {std::pair("thickness", p.thickness), {"length", p.length}})
     if (p.lip > size / 2)
       report.add_relation(
-          {"/pipette/lip", std::string("/pipette/") + key}, length(p.lip),
-          fmt::format("must be at most half of /pipette/{} = {}", key, length(size)));
+          {"/pipette/lip", std::string("/pipette/") + key}, quoted_length(p.lip),
+          fmt::format("must be at most half of /pipette/{} = {}", key, quoted_length(size)));
   if (scene.experiment != Experiment::kAspiration && scene.experiment != Experiment::kNarrowGap)
     return;
   for (const auto& [name, type] : scene.cell_types)
     if (p.radius >= type.radius) {
       const std::string pointer = "/cell_types/" + name + "/radius";
-      report.add_relation({"/pipette/radius", pointer}, length(p.radius),
+      report.add_relation({"/pipette/radius", pointer}, quoted_length(p.radius),
                           fmt::format("must be below {} = {}: the cell would slip through", pointer,
-                                      length(type.radius)));
+                                      quoted_length(type.radius)));
     }
 }
 

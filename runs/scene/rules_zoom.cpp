@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "core/units.hpp"
+#include "runs/scene/quoted_quantity.hpp"
 #include "runs/scene/rules.hpp"
 
 namespace acinus::runs {
 namespace {
 
-std::string length(double value) { return "\"" + format_quantity(value, kLength, "um") + "\""; }
 std::string pressure(double value) { return "\"" + format_quantity(value, kStress, "Pa") + "\""; }
 
 /// How many cells a scene has at most; lists and boxes say it, meshes stand in a file.
@@ -64,10 +64,10 @@ void check_moving(const Scene& scene, Report& report) {
     for (const auto& [name, type] : scene.cell_types)
       diameter = std::max(diameter, 2 * type.radius);
     if (zoom.margin < diameter)
-      report.add_relation({"/moving_zoom/margin", "/moving_zoom"}, length(zoom.margin),
+      report.add_relation({"/moving_zoom/margin", "/moving_zoom"}, quoted_length(zoom.margin),
                           fmt::format("must be at least a cell diameter, {}, or cells at the edge "
                                       "change to and fro",
-                                      length(diameter)));
+                                      quoted_length(diameter)));
   }
   if (scene.numerics.integrator != coupling::Integrator::kLinearlyImplicit)
     report.add_relation({"/time/integrator", "/moving_zoom"},

@@ -10,7 +10,7 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kNamePattern = "^[A-Za-z0-9_-]{1,100}$";
 constexpr const char* kLabelPattern = "^[A-Za-z0-9_ -]{1,100}$";
@@ -21,29 +21,29 @@ class SchemaBuilder final : public Visitor {
   SchemaBuilder() { stack_.push_back(block_schema("")); }
 
   void real(const Key& key, double& value) override {
-    Json schema = real_schema(key);
+    OrderedJson schema = real_schema(key);
     set_default(key, schema, real_json(key, value));
     put(key, std::move(schema));
   }
   void optional_real(const Key& key, std::optional<double>&) override {
-    Json schema;
-    schema["anyOf"] = Json::array({Json{{"const", "auto"}}, real_schema(key)});
+    OrderedJson schema;
+    schema["anyOf"] = OrderedJson::array({OrderedJson{{"const", "auto"}}, real_schema(key)});
     set_default(key, schema, "auto");
     put(key, std::move(schema));
   }
   void integer(const Key& key, int& value) override {
-    Json schema = integer_schema(key);
+    OrderedJson schema = integer_schema(key);
     set_default(key, schema, value);
     put(key, std::move(schema));
   }
   void seed(const Key& key, std::uint64_t& value) override {
-    put(key, Json{{"type", "integer"}, {"minimum", 0}, {"default", value}});
+    put(key, OrderedJson{{"type", "integer"}, {"minimum", 0}, {"default", value}});
   }
   void flag(const Key& key, bool& value) override {
-    put(key, Json{{"type", "boolean"}, {"default", value}});
+    put(key, OrderedJson{{"type", "boolean"}, {"default", value}});
   }
   void text(const Key& key, std::string& value) override {
-    Json schema{{"type", "string"}};
+    OrderedJson schema{{"type", "string"}};
     if (key.choices[0] && !key.is_file) {
       schema["enum"] = choices_of(key);
       if (key.automatic[0]) schema["enum"].push_back("auto");
@@ -54,59 +54,62 @@ class SchemaBuilder final : public Visitor {
     put(key, std::move(schema));
   }
   void vector(const Key& key, Vec3& value) override {
-    Json schema = three(real_schema(key));
+    OrderedJson schema = three(real_schema(key));
     set_default(key, schema,
-                Json::array({real_json(key, value.x()), real_json(key, value.y()),
-                             real_json(key, value.z())}));
+                OrderedJson::array({real_json(key, value.x()), real_json(key, value.y()),
+                                    real_json(key, value.z())}));
     put(key, std::move(schema));
   }
   void box(const Key& key, std::optional<std::array<Vec3, 2>>&) override {
-    const Json corners{
+    const OrderedJson corners{
         {"type", "array"}, {"items", three(real_schema(key))}, {"minItems", 2}, {"maxItems", 2}};
-    Json schema;
-    schema["anyOf"] = Json::array({Json{{"type", "null"}}, corners});
+    OrderedJson schema;
+    schema["anyOf"] = OrderedJson::array({OrderedJson{{"type", "null"}}, corners});
     schema["default"] = nullptr;
     put(key, std::move(schema));
   }
   void counts(const Key& key, std::array<int, 3>& value) override {
-    Json schema = three(integer_schema(key));
+    OrderedJson schema = three(integer_schema(key));
     set_default(key, schema, value);
     put(key, std::move(schema));
   }
   void integers(const Key& key, std::vector<std::int64_t>& values) override {
-    Json schema{{"type", "array"}, {"items", integer_schema(key)}};
+    OrderedJson schema{{"type", "array"}, {"items", integer_schema(key)}};
     set_default(key, schema, values);
     put(key, std::move(schema));
   }
   void texts(const Key& key, std::vector<std::string>& values) override {
-    Json schema{{"type", "array"}, {"items", Json{{"type", "string"}, {"minLength", 1}}}};
+    OrderedJson schema{{"type", "array"},
+                       {"items", OrderedJson{{"type", "string"}, {"minLength", 1}}}};
     set_default(key, schema, values);
     put(key, std::move(schema));
   }
   void value(const Key& key, std::optional<Node>&) override {
-    put(key, Json{{"type", Json::array({"number", "string"})}});
+    put(key, OrderedJson{{"type", OrderedJson::array({"number", "string"})}});
   }
-  void values(const Key& key, std::vector<Node>&) override { put(key, Json{{"type", "array"}}); }
+  void values(const Key& key, std::vector<Node>&) override {
+    put(key, OrderedJson{{"type", "array"}});
+  }
   void settings(const Key& key, std::vector<JsonMember>&) override {
-    put(key, Json{{"type", "object"}});
+    put(key, OrderedJson{{"type", "object"}});
   }
   void object(const Key& key, const Members& members) override { put(key, inner(members)); }
   void optional_object(const Key& key, bool, const std::function<void(bool)>&,
                        const Members& members) override {
-    Json schema;
-    schema["anyOf"] = Json::array({Json{{"type", "null"}}, inner(members)});
+    OrderedJson schema;
+    schema["anyOf"] = OrderedJson::array({OrderedJson{{"type", "null"}}, inner(members)});
     schema["default"] = nullptr;
     put(key, std::move(schema));
   }
   void list(const Key& key, const Elements& elements) override {
-    Json schema{{"type", "array"}};
+    OrderedJson schema{{"type", "array"}};
     schema["items"] = inner([&](Visitor& visitor) { elements.visit_sample(visitor); });
-    schema["default"] = Json::array();
+    schema["default"] = OrderedJson::array();
     put(key, std::move(schema));
   }
   void map(const Key& key, const Elements& elements) override {
-    Json schema{{"type", "object"}, {"minProperties", key.required ? 1 : 0}};
-    schema["propertyNames"] = Json{{"pattern", kNamePattern}};
+    OrderedJson schema{{"type", "object"}, {"minProperties", key.required ? 1 : 0}};
+    schema["propertyNames"] = OrderedJson{{"pattern", kNamePattern}};
     schema["additionalProperties"] =
         inner([&](Visitor& visitor) { elements.visit_sample(visitor); });
     put(key, std::move(schema));
@@ -117,41 +120,42 @@ class SchemaBuilder final : public Visitor {
     conditional_ = false;
   }
 
-  Json finished() { return std::move(stack_.front()); }
+  OrderedJson finished() { return std::move(stack_.front()); }
 
  private:
-  static Json block_schema(const char* meaning) {
-    Json schema{{"type", "object"}};
+  static OrderedJson block_schema(const char* meaning) {
+    OrderedJson schema{{"type", "object"}};
     if (meaning[0]) schema["description"] = meaning;
     schema["additionalProperties"] = false;
-    schema["properties"] = Json::object();
+    schema["properties"] = OrderedJson::object();
     return schema;
   }
 
-  static Json real_schema(const Key& key) {
+  static OrderedJson real_schema(const Key& key) {
     if (key.unit[0]) {
       // The unit is checked by the program: as a pattern it would have to list every spelling.
-      return Json{{"type", "string"},
-                  {"pattern", "^ *[+-]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)? *[^0-9 ].*$"},
-                  {"examples", Json::array({dimension_example(key.dimension)})},
-                  {"$comment", dimension_formula(key.dimension)}};
+      return OrderedJson{
+          {"type", "string"},
+          {"pattern", "^ *[+-]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][+-]?[0-9]+)? *[^0-9 ].*$"},
+          {"examples", OrderedJson::array({dimension_example(key.dimension)})},
+          {"$comment", dimension_formula(key.dimension)}};
     }
-    Json schema{{"type", "number"}};
+    OrderedJson schema{{"type", "number"}};
     add_bounds(key, schema);
     return schema;
   }
 
-  static Json integer_schema(const Key& key) {
-    Json schema{{"type", "integer"}};
+  static OrderedJson integer_schema(const Key& key) {
+    OrderedJson schema{{"type", "integer"}};
     if (key.choices[0]) {
-      schema["enum"] = Json::array();
+      schema["enum"] = OrderedJson::array();
       for (const std::string& choice : choices_of(key)) schema["enum"].push_back(std::stoi(choice));
     }
     add_bounds(key, schema);
     return schema;
   }
 
-  static void add_bounds(const Key& key, Json& schema) {
+  static void add_bounds(const Key& key, OrderedJson& schema) {
     if (std::isfinite(key.range.low)) {
       schema[key.range.low_open ? "exclusiveMinimum" : "minimum"] = key.range.low;
     }
@@ -160,30 +164,31 @@ class SchemaBuilder final : public Visitor {
     }
   }
 
-  static Json three(Json items) {
-    return Json{{"type", "array"}, {"items", std::move(items)}, {"minItems", 3}, {"maxItems", 3}};
+  static OrderedJson three(OrderedJson items) {
+    return OrderedJson{
+        {"type", "array"}, {"items", std::move(items)}, {"minItems", 3}, {"maxItems", 3}};
   }
 
-  static Json real_json(const Key& key, double value) {
+  static OrderedJson real_json(const Key& key, double value) {
     if (key.unit[0]) return format_quantity(value, key.dimension, key.unit);
     return value;
   }
 
-  static void set_default(const Key& key, Json& schema, Json value) {
+  static void set_default(const Key& key, OrderedJson& schema, OrderedJson value) {
     if (!key.required) schema["default"] = std::move(value);
   }
 
-  Json inner(const Members& members) {
+  OrderedJson inner(const Members& members) {
     stack_.push_back(block_schema(""));
     const bool conditional = std::exchange(conditional_, false);
     members(*this);
     conditional_ = conditional;
-    Json schema = std::move(stack_.back());
+    OrderedJson schema = std::move(stack_.back());
     stack_.pop_back();
     return schema;
   }
 
-  void put(const Key& key, Json schema) {
+  void put(const Key& key, OrderedJson schema) {
     std::string meaning = key.meaning;
     const std::string range =
         key.unit[0] ? range_text(key.range, key.dimension, key.unit) : std::string();
@@ -195,7 +200,7 @@ class SchemaBuilder final : public Visitor {
     stack_.back()["properties"][key.name] = std::move(schema);
   }
 
-  std::vector<Json> stack_;
+  std::vector<OrderedJson> stack_;
   bool conditional_ = false;
 };
 
@@ -205,18 +210,19 @@ std::string make_schema(const char* title, const char* extends,
                         const std::function<void(Visitor&)>& describe) {
   SchemaBuilder builder;
   describe(builder);
-  Json root;
+  OrderedJson root;
   root["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   root["title"] = title;
   root.update(builder.finished());
-  root["properties"]["extends"] = Json{{"type", "string"}, {"description", extends}};
-  root["properties"]["$schema"] = Json{{"type", "string"}};
+  root["properties"]["extends"] = OrderedJson{{"type", "string"}, {"description", extends}};
+  root["properties"]["$schema"] = OrderedJson{{"type", "string"}};
   // What extends another may leave the required keys to it.
   if (root.contains("required")) {
-    Json required = std::move(root["required"]);
+    OrderedJson required = std::move(root["required"]);
     root.erase("required");
-    root["anyOf"] = Json::array(
-        {Json{{"required", std::move(required)}}, Json{{"required", Json::array({"extends"})}}});
+    root["anyOf"] =
+        OrderedJson::array({OrderedJson{{"required", std::move(required)}},
+                            OrderedJson{{"required", OrderedJson::array({"extends"})}}});
   }
   return root.dump(2) + "\n";
 }

@@ -15,74 +15,77 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Every number in a file is finite; what is not is an error of ours and is shown as null.
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+OrderedJson finite_number(double v) {
+  return std::isfinite(v) ? OrderedJson(v) : OrderedJson(nullptr);
+}
 
 /// The worst of all divisions of deformable cells.
-Json division_figures(const LifeTotals& t) {
-  return {{"max_volume_error", number(t.volume_error)},
-          {"max_outside_um", number(t.outside_um)},
-          {"max_pressure_change_Pa", number(1e3 * t.pressure_change)},
-          {"max_settled_shift_um", number(t.settled_shift_um)},
-          {"max_settled_pressure_change_Pa", number(1e3 * t.settled_pressure_change)},
-          {"min_triangle_quality", number(t.min_quality)},
+OrderedJson division_figures(const LifeTotals& t) {
+  return {{"max_volume_error", finite_number(t.volume_error)},
+          {"max_outside_um", finite_number(t.outside_um)},
+          {"max_pressure_change_Pa", finite_number(1e3 * t.pressure_change)},
+          {"max_settled_shift_um", finite_number(t.settled_shift_um)},
+          {"max_settled_pressure_change_Pa", finite_number(1e3 * t.settled_pressure_change)},
+          {"min_triangle_quality", finite_number(t.min_quality)},
           {"most_planes", static_cast<int>(t.planes)},
           {"sub_steps", static_cast<int>(t.steps)},
           {"put_off", static_cast<int>(t.waits)}};
 }
 
-Json mesh_figures(const LifeTotals& t) {
+OrderedJson mesh_figures(const LifeTotals& t) {
   return {{"mended", static_cast<int>(t.remeshed)},
           {"left_degenerate", static_cast<int>(t.degenerate)}};
 }
 
 /// Cells and births of every layer at the end, the last: deeper; and when the lesion closed, by
 /// every measure of its area; null if it did not.
-void add_lobule_figures(const Measures& m, Json& measures) {
+void add_lobule_figures(const Measures& m, OrderedJson& measures) {
   for (const char* what : {"cells", "births"})
     for (const std::string& layer : layer_names())
       if (const auto n = m.find(std::string(what) + "_layer_" + layer); n != m.end())
-        measures["layers"][what].push_back(number(n->second.back()));
+        measures["layers"][what].push_back(finite_number(n->second.back()));
   const auto time = m.find("time_d");
-  Json by_area = Json::object();
+  OrderedJson by_area = OrderedJson::object();
   for (const std::string& name : closing_areas()) {
     const auto area = m.find(name);
     if (area == m.end() || time == m.end()) continue;
     const std::optional<double> closed = closing_time(time->second, area->second);
-    by_area[name] = closed ? number(*closed) : Json(nullptr);
+    by_area[name] = closed ? finite_number(*closed) : OrderedJson(nullptr);
   }
-  measures["closed_d"] = by_area.value(closing_areas().front(), Json(nullptr));
+  measures["closed_d"] = by_area.value(closing_areas().front(), OrderedJson(nullptr));
   measures["closed_d_by_area"] = by_area;
 }
 
 /// Pressure at which the cell is drawn in, beside that of a surface with the tension of its type.
-void add_aspiration_figures(const Scene& scene, const Measures& m, Json& measures) {
+void add_aspiration_figures(const Scene& scene, const Measures& m, OrderedJson& measures) {
   const CellType& type = scene.cell_types.begin()->second;
   const std::optional<double> found = critical_suction(*scene.pipette, m);
-  measures["critical_pressure_Pa"] = found ? number(1e3 * *found) : Json(nullptr);
-  measures["closed_form_critical_pressure_Pa"] = number(
+  measures["critical_pressure_Pa"] = found ? finite_number(1e3 * *found) : OrderedJson(nullptr);
+  measures["closed_form_critical_pressure_Pa"] = finite_number(
       1e3 * closed_form_suction(type.dcm.cortex_tension, scene.pipette->radius, type.radius));
 }
 
-void add_passage_figures(const Measures& m, Json& measures) {
+void add_passage_figures(const Measures& m, OrderedJson& measures) {
   const std::optional<double> hours = passage_time(m);
-  measures["passage_h"] = hours ? number(*hours) : Json(nullptr);
+  measures["passage_h"] = hours ? finite_number(*hours) : OrderedJson(nullptr);
 }
 
 /// The force that took the cells apart, beside that of vesicles.
-void add_pull_off_figures(const Scene& scene, const Measures& m, Json& measures) {
+void add_pull_off_figures(const Scene& scene, const Measures& m, OrderedJson& measures) {
   const PairOfCells pair = pair_of(scene);
   const std::optional<double> force = pull_off_force(m);
-  measures["adhesion_energy_J_m2"] = number(1e-3 * pair.adhesion);
-  measures["radius_um"] = number(pair.reduced_radius);
-  measures["pull_off_nN"] = force ? number(*force) : Json(nullptr);
-  measures["ratio_to_piWR"] = force ? number(*force / vesicle_pull_off(pair)) : Json(nullptr);
+  measures["adhesion_energy_J_m2"] = finite_number(1e-3 * pair.adhesion);
+  measures["radius_um"] = finite_number(pair.reduced_radius);
+  measures["pull_off_nN"] = force ? finite_number(*force) : OrderedJson(nullptr);
+  measures["ratio_to_piWR"] =
+      force ? finite_number(*force / vesicle_pull_off(pair)) : OrderedJson(nullptr);
 }
 
 /// What was run and how it ended.
-void add_run(const SummaryInput& in, Json& j) {
+void add_run(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   j["scene"] = in.scene.name;
   j["scene_hash"] = in.scene.hash;
@@ -91,16 +94,17 @@ void add_run(const SummaryInput& in, Json& j) {
   j["seed"] = in.scene.seed;
   j["status"] = in.status;
   if (!in.cause.empty()) j["cause"] = in.cause;
-  j["simulated_s"] = number(std::max(0.0, coupling::time_since_start(in.world)));
-  j["start_up_s"] = number(s.clock.phase == coupling::Phase::kRun ? s.clock.origin : s.clock.time);
+  j["simulated_s"] = finite_number(std::max(0.0, coupling::time_since_start(in.world)));
+  j["start_up_s"] =
+      finite_number(s.clock.phase == coupling::Phase::kRun ? s.clock.origin : s.clock.time);
   if (!in.scene.start_up.from.empty())
     j["start"] = {{"from", in.scene.start_up.from}, {"state_hash", in.scene.start_state}};
 }
 
-void add_cost(const SummaryInput& in, Json& j) {
+void add_cost(const SummaryInput& in, OrderedJson& j) {
   const coupling::Clock& clock = in.world.state.clock;
-  j["wall_s"] = number(in.totals.wall_s);
-  j["cpu_s"] = number(in.totals.cpu_s);
+  j["wall_s"] = finite_number(in.totals.wall_s);
+  j["cpu_s"] = finite_number(in.totals.cpu_s);
   j["peak_rss_bytes"] = peak_rss_bytes();
   j["ranks"] = in.world.ranks.size();
   j["threads"] = in.threads;
@@ -111,7 +115,7 @@ void add_cost(const SummaryInput& in, Json& j) {
                 {"cg", clock.cg_iterations}};
 }
 
-void add_cells(const SummaryInput& in, Json& j) {
+void add_cells(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   const int dcm_cells = dcm::count_cells(s.dcm), cbm_cells = static_cast<int>(s.cbm.n_cell());
   j["cells"] = {{"dcm", dcm_cells},
@@ -125,42 +129,42 @@ void add_cells(const SummaryInput& in, Json& j) {
 }
 
 /// How far the state is from what it should be.
-void add_errors(const SummaryInput& in, Json& j) {
+void add_errors(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   const RunTotals& t = in.totals;
-  j["balance"] = {{"momentum", number(s.balance.momentum)},
-                  {"torque", number(s.balance.torque)},
-                  {"friction_torque", number(s.balance.friction_torque)}};
+  j["balance"] = {{"momentum", finite_number(s.balance.momentum)},
+                  {"torque", finite_number(s.balance.torque)},
+                  {"friction_torque", finite_number(s.balance.friction_torque)}};
   j["state_hash"] = fmt::format("{:016x}", coupling::hash_state(s));
-  j["max_penetration_um"] = number(t.max_penetration_um);
-  if (s.divisions > 0) j["max_penetration_grown_um"] = number(t.max_penetration_grown_um);
-  j["penetration_um"] = {{"dcm_dcm", number(t.dcm_dcm_um)},
-                         {"dcm_vessel", number(t.dcm_vessel_um)},
-                         {"dcm_wall", number(t.dcm_wall_um)},
-                         {"dcm_cbm_beyond_indentation", number(t.dcm_cbm_beyond_um)}};
-  j["overlap_of_spheres_um"] = {{"cbm_vessel", number(t.cbm_vessel_um)},
-                                {"cbm_wall", number(t.cbm_wall_um)}};
-  j["max_overlap_dcm_cbm_um"] = number(t.dcm_cbm_um);
-  j["max_overlap_cbm_um"] = number(t.max_overlap_cbm_um);
-  j["min_triangle_quality"] = number(t.min_triangle_quality);
+  j["max_penetration_um"] = finite_number(t.max_penetration_um);
+  if (s.divisions > 0) j["max_penetration_grown_um"] = finite_number(t.max_penetration_grown_um);
+  j["penetration_um"] = {{"dcm_dcm", finite_number(t.dcm_dcm_um)},
+                         {"dcm_vessel", finite_number(t.dcm_vessel_um)},
+                         {"dcm_wall", finite_number(t.dcm_wall_um)},
+                         {"dcm_cbm_beyond_indentation", finite_number(t.dcm_cbm_beyond_um)}};
+  j["overlap_of_spheres_um"] = {{"cbm_vessel", finite_number(t.cbm_vessel_um)},
+                                {"cbm_wall", finite_number(t.cbm_wall_um)}};
+  j["max_overlap_dcm_cbm_um"] = finite_number(t.dcm_cbm_um);
+  j["max_overlap_cbm_um"] = finite_number(t.max_overlap_cbm_um);
+  j["min_triangle_quality"] = finite_number(t.min_triangle_quality);
   j["self_intersecting_cells"] = static_cast<int>(t.self_intersecting);
 }
 
-Json list_measures(const SummaryInput& in) {
-  Json measures = Json::object();
+OrderedJson list_measures(const SummaryInput& in) {
+  OrderedJson measures = OrderedJson::object();
   for (const auto& [name, values] : in.measures) {
-    Json list = Json::array();
-    for (double v : values) list.push_back(number(v));
+    OrderedJson list = OrderedJson::array();
+    for (double v : values) list.push_back(finite_number(v));
     measures[name] = list;
   }
   for (const auto& [cells, wall] : wall_times(in.life))
-    measures["wall_s_at_cells"][cells] = number(wall);
+    measures["wall_s_at_cells"][cells] = finite_number(wall);
   if (!in.world.params.boundary.vessels.network.segment.empty())
     measures["max_overlap_with_vessels_um"] =
-        number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
+        finite_number(std::max(in.totals.dcm_vessel_um, in.totals.cbm_vessel_um));
   if (in.world.params.tree.exists())
     measures["largest_vessel_displacement_um"] =
-        number(coupling::largest_displacement(in.world.params.tree, in.world.state.tree));
+        finite_number(coupling::largest_displacement(in.world.params.tree, in.world.state.tree));
   if (in.scene.experiment == Experiment::kAspiration)
     add_aspiration_figures(in.scene, in.measures, measures);
   if (in.scene.experiment == Experiment::kPullOff)
@@ -173,21 +177,23 @@ Json list_measures(const SummaryInput& in) {
 }  // namespace
 
 void write_summary(const std::string& folder, const SummaryInput& in) {
-  Json j;
+  OrderedJson j;
   add_run(in, j);
   add_cost(in, j);
   add_cells(in, j);
-  j["vessel_length_um"] = number(mesh::total_length(in.world.params.boundary.vessels.network));
+  j["vessel_length_um"] =
+      finite_number(mesh::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
   j["notes"] = in.notes.said;
   j["warnings"] = in.notes.warned;
-  Json timings = Json::object();
-  for (const StageTime& stage : in.timings.stages()) timings[stage.name] = number(stage.wall);
+  OrderedJson timings = OrderedJson::object();
+  for (const StageTime& stage : in.timings.stages())
+    timings[stage.name] = finite_number(stage.wall);
   j["timings"] = timings;
   j["measures"] = list_measures(in);
   io::write_text_file(folder + "/summary.json",
-                      j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+                      j.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 }  // namespace acinus::runs

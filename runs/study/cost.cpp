@@ -8,7 +8,7 @@ namespace acinus::runs {
 namespace {
 
 /// CPU seconds of a cell-step [docs/benchmarks.md], packed tissue.
-constexpr double kSphere = 4e-6;
+constexpr double kSphereCost = 4e-6;
 /// Contacts that close within a step with size control ask for some solves.
 constexpr double kSolves = 3;
 double cell_step(const Scene& scene, int nodes) {
@@ -38,7 +38,7 @@ double estimate_cost(const Scene& scene, bool shared_start) {
   if (scene.start_up.enabled && !shared_start)
     time += scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_settle;
   const double deformable = share_deformable(scene);
-  const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphere;
+  const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphereCost;
   return std::max(0.1, time / scene.numerics.max_step * count_final_cells(scene) * one);
 }
 

@@ -22,7 +22,7 @@ namespace acinus::runs {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string folder_of(const std::string& root, const StudyRun& run) {
   return root + "/" + run.folder;
@@ -31,11 +31,11 @@ std::string record_file(const std::string& root, const StudyRun& run) {
   return folder_of(root, run) + "/study_run.json";
 }
 
-std::optional<Json> read_record(const std::string& root, const StudyRun& run) {
+std::optional<OrderedJson> read_record(const std::string& root, const StudyRun& run) {
   const std::string file = record_file(root, run);
   std::error_code code;
   if (!fs::is_regular_file(file, code)) return std::nullopt;
-  Json j = parse_or_discard<Json>(io::read_text_file(file));
+  OrderedJson j = parse_or_discard<OrderedJson>(io::read_text_file(file));
   if (!j.is_object()) return std::nullopt;
   return j;
 }
@@ -63,7 +63,7 @@ bool has_same_scenes(const std::string& root, const StudyRun& run) {
              run.sources, [&](const auto& source) { return holds(source.first, source.second); });
 }
 
-bool belongs(const std::string& root, const Json& record, const StudyRun& run) {
+bool belongs(const std::string& root, const OrderedJson& record, const StudyRun& run) {
   if (text_at(record, "version") != ACINUS_VERSION) return false;
   return text_at(record, "identity") == run.identity || has_same_scenes(root, run);
 }
@@ -126,7 +126,7 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
   const std::string folder = folder_of(root, run);
   std::error_code code;
   if (!fs::is_directory(folder, code)) return status;
-  const std::optional<Json> record = read_record(root, run);
+  const std::optional<OrderedJson> record = read_record(root, run);
   if (!record) {
     if (fs::exists(folder + "/run.vtkhdf", code)) status.state = RunState::kStale;
     return status;
@@ -137,7 +137,8 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
   }
   status.cause = text_at(*record, "cause");
   if (!status.cause.empty())
-    status.state = record->value("killed", Json()) == true ? RunState::kKilled : RunState::kRefused;
+    status.state =
+        record->value("killed", OrderedJson()) == true ? RunState::kKilled : RunState::kRefused;
   if (io::has_checkpoint(folder)) status.state = RunState::kToResume;
   take_summary(folder, status);
   if (status.state == RunState::kDone || status.state == RunState::kFailed) return status;
@@ -148,7 +149,7 @@ RunStatus inspect_run(const std::string& root, const StudyRun& run, bool held) {
 
 void write_record(const std::string& root, const StudyPlan& plan, const StudyRun& run,
                   const AttemptEnd& end) {
-  Json j;
+  OrderedJson j;
   j["study"] = plan.study.name;
   j["variant"] = plan.variant_of(run).name;
   j["seed"] = run.seed;
@@ -158,7 +159,7 @@ void write_record(const std::string& root, const StudyPlan& plan, const StudyRun
   if (!end.cause.empty()) j["cause"] = end.cause;
   if (end.killed) j["killed"] = true;
   io::write_text_file(record_file(root, run),
-                      j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+                      j.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 std::string claim_file(const std::string& root, const StudyRun& run) {
@@ -171,7 +172,7 @@ std::string describe_missing_start(const StudyRun& source, const RunStatus& stat
 }
 
 bool has_start(const std::string& root, const StudyRun& run) {
-  const std::optional<Json> record = read_record(root, run);
+  const std::optional<OrderedJson> record = read_record(root, run);
   std::error_code code;
   return record && belongs(root, *record, run) &&
          fs::is_regular_file(folder_of(root, run) + "/start.h5", code);

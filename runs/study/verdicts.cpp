@@ -11,10 +11,10 @@
 namespace acinus::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& v) {
-  return v && std::isfinite(*v) ? Json(*v) : Json(nullptr);
+OrderedJson number(const std::optional<double>& v) {
+  return v && std::isfinite(*v) ? OrderedJson(*v) : OrderedJson(nullptr);
 }
 
 std::string describe_window(const StudyMeasure& m) {
@@ -124,9 +124,9 @@ const char* name_of(ClaimStatus status) {
 }
 
 void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& root) {
-  Json all = Json::array();
+  OrderedJson all = OrderedJson::array();
   for (const Verdict& v : verdicts) {
-    Json j;
+    OrderedJson j;
     j["id"] = v.id;
     j["claim"] = v.claim;
     j["how"] = v.how;
@@ -137,14 +137,15 @@ void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& roo
     j["low"] = number(v.measured.low);
     j["high"] = number(v.measured.high);
     j["unit"] = v.measured.unit;
-    j["pass"] = v.status == ClaimStatus::kNotMeasured ? Json(nullptr)
-                                                      : Json(v.status == ClaimStatus::kHolds);
+    j["pass"] = v.status == ClaimStatus::kNotMeasured
+                    ? OrderedJson(nullptr)
+                    : OrderedJson(v.status == ClaimStatus::kHolds);
     j["verdict"] = name_of(v.status);
     if (!v.measured.note.empty()) j["note"] = v.measured.note;
     all.push_back(j);
   }
   io::write_text_file(root + "/verdicts.json",
-                      all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+                      all.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 }  // namespace acinus::runs
