@@ -1,5 +1,5 @@
 # Most of the time of a source goes into headers that its neighbours include too: sources of a target are compiled a dozen at a
-# time, which takes a third of the time. Names in anonymous namespaces must differ within a target. OFF suits work on one file.
+# time, which takes half of the time. Names in anonymous namespaces must differ within a target. OFF suits work on one file.
 option(ACINUS_UNITY "Compile the sources of a target in groups" ON)
 
 # acinus_unity(targets...)

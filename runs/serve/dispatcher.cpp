@@ -123,6 +123,12 @@ void Dispatcher::fail(RunJob& job, const std::string& cause) {
 }
 
 RunJob& Dispatcher::submit(RunJob job) {
+  try {
+    check_room();
+  } catch (const Error&) {
+    store_.remove(job);
+    throw;
+  }
   store_.accept(job);
   disk_bytes_ += job.bytes;
   const std::string id = job.id;

@@ -30,6 +30,9 @@ class Dispatcher {
   /// @throws Error(kBadInput) when the queue or the disk is full, or the service ends
   void check_room() const;
   /// Accepts a job whose folder is complete.
+  /// @throws Error(kBadInput) as check_room(), having removed the folder: others may have come
+  /// while
+  ///         it was prepared
   RunJob& submit(RunJob job);
   /// @throws Error(kBadInput) where the state of the job does not allow it
   void stop(RunJob& job);

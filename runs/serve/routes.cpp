@@ -149,14 +149,7 @@ HttpReply Routes::answer_page(const HttpRequest& request) {
 
 Task<HttpReply> Routes::submit(const HttpRequest& request) {
   dispatcher_.check_room();
-  RunJob prepared = co_await preparation_.prepare(request.body);
-  try {
-    dispatcher_.check_room();  // it may have filled meanwhile
-  } catch (const Error&) {
-    store_.remove(prepared);
-    throw;
-  }
-  const RunJob& job = dispatcher_.submit(std::move(prepared));
+  const RunJob& job = dispatcher_.submit(co_await preparation_.prepare(request.body));
   HttpReply reply = json_reply(201, view_job(job));
   reply.headers.emplace_back("Location", "/runs/" + job.id);
   co_return reply;

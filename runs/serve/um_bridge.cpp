@@ -134,26 +134,14 @@ RunJob* UmBridge::find_job(const std::string& key) {
   return known == job_by_key_.end() ? nullptr : dispatcher_.find(known->second);
 }
 
-Task<std::string> UmBridge::find_or_submit(const Scene& scene,
-                                           const std::vector<std::string>& set) {
-  const std::string text = evaluation_text(scene.name, scene.resolved_json, set);
-  const auto known = key_by_text_.find(text);
-  std::string key = known == key_by_text_.end() ? "" : known->second;
-  if (find_job(key) != nullptr || (!key.empty() && find_result(result_file(key)))) co_return key;
+Task<std::string> UmBridge::submit(const std::string& text) {
   dispatcher_.check_room();
   RunJob job = co_await preparation_.prepare_evaluation(text);
-  key = job.key;
+  const std::string key = job.key;
   if (key_by_text_.size() >= kMostTexts) key_by_text_.clear();
   key_by_text_[text] = key;
-  // Another text may have the same key, and the room may have gone meanwhile.
-  const bool needed = find_job(key) == nullptr && !find_result(result_file(key));
-  try {
-    if (needed) dispatcher_.check_room();
-  } catch (const Error&) {
-    store_.remove(job);
-    throw;
-  }
-  if (needed)
+  // Another text may have the same key.
+  if (find_job(key) == nullptr && !find_result(result_file(key)))
     job_by_key_[key] = dispatcher_.submit(std::move(job)).id;
   else
     store_.remove(job);
@@ -162,17 +150,23 @@ Task<std::string> UmBridge::find_or_submit(const Scene& scene,
 
 Task<HttpReply> UmBridge::evaluate(const StudyModel& model, const ModelConfig& config,
                                    const std::vector<double>& values) {
-  const std::string key =
-      co_await find_or_submit(model_scene(model, config), model_changes(config, values));
+  const Scene& scene = model_scene(model, config);
+  const std::string text =
+      evaluation_text(scene.name, scene.resolved_json, model_changes(config, values));
   asio::steady_timer timer(co_await asio::this_coro::executor);
-  if (RunJob* job = find_job(key); job != nullptr && job->state == JobState::kStopped)
-    dispatcher_.resume(*job);
-  for (;;) {
+  const auto known = key_by_text_.find(text);
+  std::string key = known == key_by_text_.end() ? "" : known->second;
+  for (bool first = true;; first = false) {
     if (const std::optional<RunResult> result = find_result(result_file(key)))
       co_return json_reply(200, {{"output", {model_output(model, config, *result)}}});
-    const RunJob* job = find_job(key);
+    RunJob* job = find_job(key);
+    if (first && job == nullptr) {
+      key = co_await submit(text);
+      continue;
+    }
     if (job == nullptr || job->state == JobState::kCompleted)
       co_return error_reply(500, "ModelFailed", "the run left no result");
+    if (first && job->state == JobState::kStopped) dispatcher_.resume(*job);
     if (job->state == JobState::kFailed || job->state == JobState::kStopped)
       co_return error_reply(500, "ModelFailed",
                             fmt::format("run {} {}: {}", job->id, name_of(job->state), job->cause));

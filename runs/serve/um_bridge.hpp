@@ -31,9 +31,10 @@ class UmBridge {
   std::string result_file(const std::string& key) const;
   /// The job that evaluates a key; nothing when there is none.
   RunJob* find_job(const std::string& key);
-  /// Prepares an evaluation and submits it, unless it is made or its result known.
+  /// Prepares an evaluation and submits it, unless its key is being evaluated or its result known.
+  /// @param text  as evaluation_text() makes it
   /// @return its key
-  Task<std::string> find_or_submit(const Scene& scene, const std::vector<std::string>& set);
+  Task<std::string> submit(const std::string& text);
 
   boost::asio::io_context& io_;
   const ServeOptions& options_;

@@ -147,7 +147,7 @@ void describe_measure(Visitor& v, StudyMeasure& b) {
   describe_moment(v, b);
 }
 
-/// Bounds that bear a claim out.
+/// Range of values for which a claim holds.
 void describe_bounds(Visitor& v, std::optional<Node>& low, std::optional<Node>& high) {
   v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
           low);
