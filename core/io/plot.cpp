@@ -216,10 +216,48 @@ std::string draw(const Plot& plot, Page page) {
 
 }  // namespace
 
-std::string draw_plot(const Plot& plot) {
+namespace {
+
+/// The page of one plot, its axes over all points and bands.
+Page page_of(const Plot& plot) {
   Page page{{plot.log_x}, {plot.log_y}};
   include_all(plot, page);
-  return draw(plot, page);
+  return page;
+}
+
+/// The drawing as a part of another one, at a place of its own.
+std::string at_place(std::string drawing, double x, double y) {
+  return drawing.insert(std::string("<svg ").size(), fmt::format("x=\"{}\" y=\"{}\" ", x, y));
+}
+
+std::string enclose(const std::string& drawings, double width, double height) {
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+             "viewBox=\"0 0 {0} {1}\">\n",
+             width, height) +
+         drawings + "</svg>\n";
+}
+
+}  // namespace
+
+std::string draw_plot(const Plot& plot) { return draw(plot, page_of(plot)); }
+
+std::string draw_grid(const std::vector<Plot>& plots, std::size_t columns) {
+  std::vector<double> left(columns + 1, 0);
+  for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t k = c; k < plots.size(); k += columns)
+      left[c + 1] = std::max(left[c + 1], left[c] + width_of(plots[k], page_of(plots[k])));
+  std::string out;
+  double top = 0;
+  for (std::size_t row = 0; row < plots.size(); row += columns) {
+    double height = 0;
+    for (std::size_t k = row; k < std::min(row + columns, plots.size()); ++k) {
+      out += at_place(draw(plots[k], page_of(plots[k])), left[k - row], top);
+      height = std::max(height, height_of(plots[k]));
+    }
+    top += height;
+  }
+  return enclose(out, *std::ranges::max_element(left), top);
 }
 
 std::string draw_panels(std::vector<Plot> plots) {
@@ -230,20 +268,13 @@ std::string draw_panels(std::vector<Plot> plots) {
   for (std::size_t k = 0; k < plots.size(); ++k) {
     Plot& plot = plots[k];
     plot.legend = k + 1 == plots.size();
-    Page page{{plot.log_x}, {plot.log_y}};
-    include_all(plot, page);
+    Page page = page_of(plot);
     if (page.x.low <= page.x.high) page.y = all.y;
-    std::string panel = draw(plot, page);
-    panel.insert(std::string("<svg ").size(), fmt::format("x=\"{}\" ", width));
-    out += panel;
+    out += at_place(draw(plot, page), width, 0);
     width += width_of(plot, page);
     height = std::max(height, height_of(plot));
   }
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-             "viewBox=\"0 0 {0} {1}\">\n",
-             width, height) +
-         out + "</svg>\n";
+  return enclose(out, width, height);
 }
 
 void write_plot(const std::string& file, const Plot& plot) {

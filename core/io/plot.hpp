@@ -32,6 +32,9 @@ std::string draw_plot(const Plot& plot);
 /// Plots of the same lines side by side, with one range of y and one legend. @pre at least one
 std::string draw_panels(std::vector<Plot> plots);
 
+/// Plots in rows of so many columns, each with its own axes and legend. @pre columns > 0
+std::string draw_grid(const std::vector<Plot>& plots, std::size_t columns);
+
 /// Writes draw_plot(plot).   @throws Error(kFileError)
 void write_plot(const std::string& file, const Plot& plot);
 

@@ -29,10 +29,12 @@ class Checker {
         add(pointer + "/name", "another plot has this name");
       check_plot(study.plots[k], pointer);
     }
+    for (std::size_t k = 0; k < study.figures.size(); ++k)
+      check_figure(study.figures[k], fmt::format("/figures/{}", k), names);
     for (std::size_t k = 0; k < study.maps.size(); ++k) {
       const std::string pointer = fmt::format("/maps/{}", k);
       if (!names.insert(study.maps[k].name).second)
-        add(pointer + "/name", "another plot or map has this name");
+        add(pointer + "/name", "another plot, figure or map has this name");
       check_map(study.maps[k], pointer);
     }
     std::set<std::string> ids;
@@ -108,6 +110,21 @@ class Checker {
     for (std::size_t k = 0; k < plot.reference.size() && known; ++k)
       check_reference(plot.reference[k], fmt::format("{}/reference/{}", pointer, k), x_unit,
                       plan_.units.at(plot.observable));
+  }
+
+  /// @param names  of plots and of figures before this one, which is added
+  void check_figure(const StudyFigure& figure, const std::string& pointer,
+                    std::set<std::string>& names) {
+    std::vector<std::string> plots;
+    for (const StudyPlot& plot : plan_.study.plots) plots.push_back(plot.name);
+    if (figure.plots.empty()) add(pointer + "/plots", "is empty: name at least one plot");
+    for (std::size_t k = 0; k < figure.plots.size(); ++k)
+      if (std::ranges::find(plots, figure.plots[k]) == plots.end())
+        add(fmt::format("{}/plots/{}", pointer, k),
+            "unknown plot. " + did_you_mean(nearest_name(figure.plots[k], plots),
+                                            fmt::format("Known: {}", fmt::join(plots, ", "))));
+    if (!names.insert(figure.name).second)
+      add(pointer + "/name", "another plot or figure has this name");
   }
 
   void check_map(const StudyMap& map, const std::string& pointer) {

@@ -89,6 +89,15 @@ void describe_plot(Visitor& v, StudyPlot& b) {
          b.reference, describe_reference);
 }
 
+void describe_figure(Visitor& v, StudyFigure& b) {
+  v.text({.name = "name", .meaning = "of the file in plots/", .required = true, .is_name = true},
+         b.name);
+  v.texts({.name = "plots", .meaning = "names of plots, of each the first panel", .required = true},
+          b.plots);
+  v.integer({.name = "columns", .meaning = "plots side by side", .range = {.low = 1, .high = 10}},
+            b.columns);
+}
+
 /// Level, moment and window of a measure, by its kind.
 void describe_moment(Visitor& v, StudyMeasure& b) {
   v.when(b.kind == "first_below" || b.kind == "first_above", "kind = first_below or first_above",
@@ -238,6 +247,8 @@ void describe(Visitor& v, Study& s) {
           s.observables);
   blocks(v, {.name = "plots", .meaning = "curves with mean and band over seeds", .item = "plot"},
          s.plots, describe_plot);
+  blocks(v, {.name = "figures", .meaning = "several plots in one picture", .item = "figure"},
+         s.figures, describe_figure);
   blocks(v,
          {.name = "maps",
           .meaning = "heat maps: share of the seeds that bear a claim out, over two scene keys",

@@ -47,6 +47,13 @@ struct StudyPlot {
   std::vector<StudyReference> reference;
 };
 
+/// Plots of the study in one file, side by side and below each other, numbered a, b, c ...
+struct StudyFigure {
+  std::string name;
+  std::vector<std::string> plots;  ///< names; the first panel of each
+  int columns = 2;
+};
+
 struct StudyMeasure {
   std::string kind = "value";
   std::string observable, variant;
@@ -92,6 +99,7 @@ struct Study {
   std::vector<StudySweep> sweeps;
   std::vector<std::string> observables;  ///< empty = all
   std::vector<StudyPlot> plots;
+  std::vector<StudyFigure> figures;
   std::vector<StudyMap> maps;
   std::vector<StudyExpectation> expectations;
 };

@@ -189,10 +189,21 @@ std::string draw_with_panels(const StudyPlan& plan, const StudyData& data,
     StudyPlot panel = wanted;
     panel.observable = observable;
     panel.reference.clear();
+    panel.y_label.clear();
     panels.push_back(make_plot(plan, data, panel));
     panels.back().title = panels.back().y_label;
   }
   return io::draw_panels(std::move(panels));
+}
+
+std::string draw_figure(const StudyPlan& plan, const StudyData& data, const StudyFigure& figure) {
+  std::vector<io::Plot> plots;
+  for (const std::string& name : figure.plots)
+    plots.push_back(
+        make_plot(plan, data, *std::ranges::find(plan.study.plots, name, &StudyPlot::name)));
+  for (std::size_t k = 0; k < plots.size() && plots.size() <= 26; ++k)
+    plots[k].title = fmt::format("{}: {}", static_cast<char>('a' + k), plots[k].title);
+  return io::draw_grid(plots, static_cast<std::size_t>(figure.columns));
 }
 
 }  // namespace
@@ -218,6 +229,10 @@ std::vector<std::string> write_plots(const StudyPlan& plan, const StudyData& dat
   for (const StudyPlot& plot : wanted) {
     files.push_back(plot.name + ".svg");
     io::write_text_file(root + "/plots/" + files.back(), draw_with_panels(plan, data, plot));
+  }
+  for (const StudyFigure& figure : plan.study.figures) {
+    files.push_back(figure.name + ".svg");
+    io::write_text_file(root + "/plots/" + files.back(), draw_figure(plan, data, figure));
   }
   return files;
 }

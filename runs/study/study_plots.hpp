@@ -13,8 +13,8 @@ namespace acinus::runs {
 /// and the band between their smallest and largest; its reference points.
 io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot& wanted);
 
-/// Writes plots/<name>.svg for every plot of the file; one of each observable of the table if the
-/// file asks for no plot.   @return file names in plots/, in that order
+/// Writes plots/<name>.svg for every plot and figure of the file; one of each observable of the
+/// table if the file asks for no plot.   @return file names in plots/, in that order
 /// @throws Error(kFileError)
 std::vector<std::string> write_plots(const StudyPlan& plan, const StudyData& data,
                                      const std::string& root);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/io/disk.hpp"
 #include "core/unit_scale.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/study/choose_runs.hpp"
@@ -21,6 +22,7 @@
 #include "runs/study/study_maps.hpp"
 #include "runs/study/study_plots.hpp"
 #include "runs/study/verdicts.hpp"
+#include "tests/runs/scene_texts.hpp"
 #include "tests/runs/study_texts.hpp"
 
 namespace acinus::runs {
@@ -225,6 +227,20 @@ TEST_F(Claims, PlotsLeaveOutRunsThatFailedAndSaySo) {
   ASSERT_EQ(plot.line.size(), 2u);
   EXPECT_TRUE(plot.line[1].name.ends_with(" (1 of 2 seeds)")) << plot.line[1].name;
   EXPECT_EQ(plot.line[1].band[1].first, plot.line[1].band[1].second);
+}
+
+TEST_F(Claims, FiguresAreMadeOfPlots) {
+  const std::string plots = R"("plots": [ { "name": "m", "observable": "overlap_cbm_cbm_um" } ], )";
+  const StudyPlan p =
+      parse(text_with(plots + R"("figures": [ { "name": "f", "plots": ["m", "m"] } ])"));
+  const scene_texts::TemporaryFolder folder;
+  EXPECT_EQ(write_plots(p, data(), folder.path().string()),
+            (std::vector<std::string>{"m.svg", "f.svg"}));
+  const std::string svg = io::read_text_file(folder.path().string() + "/plots/f.svg");
+  EXPECT_NE(svg.find("a: m"), std::string::npos);
+  EXPECT_NE(svg.find("b: m"), std::string::npos);
+  expect_fault(text_with(plots + R"("figures": [ { "name": "m", "plots": ["n"] } ])"),
+               {"/figures/0/name", "another plot or figure", "/figures/0/plots/0", "unknown plot"});
 }
 
 TEST_F(Claims, MapsShowTheShareOfSeedsWithinBounds) {
