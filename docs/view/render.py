@@ -43,6 +43,8 @@ def read_arguments():
     parser.add_argument("--camera", choices=CAMERA, default="iso")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--size", default="1600x1200", help="WIDTHxHEIGHT in pixels")
+    parser.add_argument("--show", nargs="+", default=[], metavar="NAME[=TEXT]",
+                        help="write the values of these observables below the cells")
     parser.add_argument("--no-labels", action="store_true", help="without colour bar and time")
     return parser.parse_args()
 
@@ -315,6 +317,20 @@ def add_bar(window, painter, height):
     window.AddRenderer(strip)
 
 
+def add_values(renderer, frame, wanted, height):
+    """The observables asked for, one line each, at the lower left, above the names of the kinds."""
+    import vtk
+    lines = []
+    for name, _, text in (entry.partition("=") for entry in wanted):
+        lines.append(f"{text or name.replace('_', ' ')} {frame.value_of(name):.2f}")
+    values = vtk.vtkTextActor()
+    values.SetInput("\n".join(lines))
+    style_text(values.GetTextProperty(), height // 24, bold=True)
+    values.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    values.SetPosition(0.03, 0.14)
+    renderer.AddActor2D(values)
+
+
 def add_labels(renderer, frame, painter, height):
     import vtk
     label = vtk.vtkTextActor()
@@ -416,6 +432,8 @@ def draw(arguments):
     place_camera(renderer, arguments, STRIP if has_bar else 0)
     if not arguments.no_labels:
         add_labels(renderer, frame, painter, 2 * height)
+    if arguments.show:
+        add_values(renderer, frame, arguments.show, 2 * height)
     if has_bar:
         add_bar(window, painter, 2 * height)
     window.Render()

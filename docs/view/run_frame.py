@@ -28,6 +28,12 @@ def count_frames(path):
         return int(file["VTKHDF/Steps"].attrs["NSteps"])
 
 
+def read_times(path):
+    """Times of the frames, s."""
+    with open_run(path) as file:
+        return [float(t) for t in file["VTKHDF/Steps/Values"][:int(file["VTKHDF/Steps"].attrs["NSteps"])]]
+
+
 class Frame:
     """One moment of a run: arrays of numpy."""
 
@@ -57,6 +63,8 @@ class Frame:
                 for name, values in root[group].items():
                     unit = values.attrs["unit"]
                     self.unit[name] = unit.decode() if isinstance(unit, bytes) else str(unit)
+            self.observable = {name: float(values[k]) for name, values in file.get("observables", {}).items()
+                               if name != "time" and k < len(values)}
         self.kind, self.cell_id = self.cell_data["kind"], self.cell_data["cell_id"]
 
     @staticmethod
@@ -85,6 +93,13 @@ class Frame:
             return (values, None, unit) if per_cell else (None, values, unit)
         known = sorted(set(self.cell_data) | set(self.point_data) | {"kind", "cell"})
         raise UserError(f"--color {name}: the run has no such field, only {', '.join(known)}")
+
+    def value_of(self, name):
+        """The observable of that name at this frame."""
+        if name not in self.observable:
+            raise UserError(f"--show {name}: the run has no such observable, only "
+                            f"{', '.join(sorted(self.observable)) or 'none'}")
+        return self.observable[name]
 
     def own_points(self):
         """Indices of the points that belong to cells, not to vessels or walls."""
