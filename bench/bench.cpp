@@ -26,9 +26,9 @@
 #include "bench/tissue/sleep.hpp"
 #include "bench/work_precision/work_precision.hpp"
 #include "core/error.hpp"
-#include "core/ranks.hpp"
-#include "core/threads.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/ranks.hpp"
+#include "core/parallel/threads.hpp"
+#include "core/parallel/timing.hpp"
 #include "runs/session/together.hpp"
 
 namespace acinus::bench {

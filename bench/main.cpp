@@ -10,7 +10,7 @@
 
 #include "bench/bench.hpp"
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "core/numbers/nearest.hpp"
 #include "runs/program.hpp"
 
 namespace acinus::bench {

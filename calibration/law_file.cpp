@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
 #include "core/json_size.hpp"
+#include "io/disk.hpp"
 
 namespace acinus::calibration {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "calibration/clump.hpp"
 #include "core/error.hpp"
-#include "core/stop.hpp"
+#include "core/parallel/stop.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/step/stages.hpp"

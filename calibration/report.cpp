@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/recovery.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/plot.hpp"
+#include "io/disk.hpp"
+#include "io/plot.hpp"
 
 namespace acinus::calibration {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "cbm/obstacle_contacts.hpp"
 #include "cbm/pair_kernel.hpp"
-#include "core/contact/box_pairs.hpp"
-#include "core/contact/neighbours.hpp"
-#include "core/threads.hpp"
+#include "contact/neighbours.hpp"
+#include "core/parallel/threads.hpp"
+#include "geometry/box_pairs.hpp"
 
 namespace acinus::cbm {
 namespace {
@@ -148,14 +148,15 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
       wider = std::max(wider, radius[i] - work.list_radius[i]);
     }
     if (in.vessel_row != contact::kAtRest)
-      moved = std::max(moved, mesh::largest_motion(in.boundary.vessels.network, work.list_network));
+      moved =
+          std::max(moved, geometry::largest_motion(in.boundary.vessels.network, work.list_network));
     if (2 * (moved + wider) <= skin) return false;
   }
   const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
   work.pair = {};  // before the new ones take memory
   work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.foreign);
   work.segment.clear();
-  const mesh::Network& network = in.boundary.vessels.network;
+  const geometry::Network& network = in.boundary.vessels.network;
   if (!network.segment.empty()) {
     std::vector<Box> boxes, segments;
     double widest = 0;

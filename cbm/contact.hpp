@@ -8,11 +8,11 @@
 
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
-#include "core/contact/boundary.hpp"
-#include "core/contact/jkr.hpp"
-#include "core/contact/record.hpp"
-#include "core/contact/vessel_side.hpp"
-#include "core/solve/system.hpp"
+#include "contact/boundary.hpp"
+#include "contact/jkr.hpp"
+#include "contact/record.hpp"
+#include "contact/vessel_side.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::cbm {
 
@@ -51,8 +51,8 @@ struct ContactWorkspace {
   std::vector<std::pair<int, int>> pair;
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
   std::vector<double> list_position, list_radius;
-  mesh::Network list_network;  ///< of vessels that move
-  std::vector<double> force;   ///< [n_row][3][lane] nN of all pairs; by: find_contacts
+  geometry::Network list_network;  ///< of vessels that move
+  std::vector<double> force;       ///< [n_row][3][lane] nN of all pairs; by: find_contacts
   std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
   std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
   std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/ramp.hpp"
+#include "core/numbers/ramp.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::cbm {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cbm/vessel_contact.hpp"
-#include "core/contact/wall_mesh.hpp"
-#include "core/mesh/measures.hpp"
-#include "core/mesh/segment_shape.hpp"
+#include "contact/wall_mesh.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/segment_shape.hpp"
 
 namespace acinus::cbm {
 namespace {
@@ -202,7 +202,7 @@ class ObstacleSearch {
   /// is no longer straight: contacts with segments that share a node count as one as far as they
   /// point the same way.
   void meet_moving_vessels() {
-    const mesh::Network& network = in_.boundary.vessels.network;
+    const geometry::Network& network = in_.boundary.vessels.network;
     std::vector<std::pair<int, contact::Gap>> met;  // segment
     for (auto pair = work_.segment.begin(); pair != work_.segment.end();) {
       const int cell = pair->first;
@@ -213,7 +213,7 @@ class ObstacleSearch {
       for (const auto& [segment, gap] : met) {
         double count = 1;
         for (const auto& [other, there] : met)
-          if (other != segment && mesh::share_a_node(network, other, segment))
+          if (other != segment && geometry::share_a_node(network, other, segment))
             count += likeness(gap.normal, there.normal) *
                      share_of(radius(cell) - there.gap, radius(cell) - gap.gap);
         press(cell, segment, gap, 1 / count);

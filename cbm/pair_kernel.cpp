@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/contact/jkr_lanes.hpp"
-#include "core/make_room.hpp"
-#include "core/threads.hpp"
+#include "contact/jkr_lanes.hpp"
+#include "core/parallel/make_room.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::cbm {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "cbm/stiffness_law.hpp"
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 
 namespace acinus::cbm {
 

@@ -9,7 +9,7 @@ namespace {
 
 /// The plane between two balls, from the middle of the first one.
 double radical_distance(double apart, double own, double other) {
-  return mesh::share_to_power_plane(own, other, apart) * apart;
+  return geometry::share_to_power_plane(own, other, apart) * apart;
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ double room_energy(const RoomLaw& law, double relative_room) {
 std::vector<Room> find_rooms(const RoomInput& in, double reach) {
   const std::size_t n = in.center.size();
   std::vector<Room> rooms(n);
-  std::vector<std::vector<mesh::BallCut>> planes(n);
-  const auto cut = [&](std::size_t cell, int other, const mesh::BallCut& plane) {
+  std::vector<std::vector<geometry::BallCut>> planes(n);
+  const auto cut = [&](std::size_t cell, int other, const geometry::BallCut& plane) {
     rooms[cell].face.push_back({other, {}});
     planes[cell].push_back(plane);
   };
@@ -52,7 +52,7 @@ std::vector<Room> find_rooms(const RoomInput& in, double reach) {
       cut(w.cell, -1 - static_cast<int>(k), {w.normal, w.distance});
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const mesh::CutBall ball = mesh::cut_ball(reach * in.radius[i], planes[i]);
+    const geometry::CutBall ball = geometry::cut_ball(reach * in.radius[i], planes[i]);
     rooms[i].volume = ball.volume;
     for (std::size_t k = 0; k < planes[i].size(); ++k) rooms[i].face[k].cut = ball.face[k];
   }

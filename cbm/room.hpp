@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/cut_ball.hpp"
 #include "core/vec.hpp"
+#include "geometry/cut_ball.hpp"
 
 namespace acinus::cbm {
 
@@ -40,7 +40,7 @@ struct RoomWall {
 /// One face of a room.
 struct RoomFace {
   int other = -1;  ///< the cell behind it; -1 - k: walls[k]
-  mesh::CutFace cut;
+  geometry::CutFace cut;
 };
 
 struct Room {

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
 
 namespace acinus::cbm {
 

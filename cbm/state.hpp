@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/lanes.hpp"
-#include "core/ramp.hpp"
-#include "core/solve/system.hpp"
+#include "core/numbers/lanes.hpp"
+#include "core/numbers/ramp.hpp"
 #include "core/vec.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::cbm {
 

@@ -1,6 +1,6 @@
 #include "cbm/vessel_contact.hpp"
 
-#include "core/contact/vessel_yield.hpp"
+#include "contact/vessel_yield.hpp"
 
 namespace acinus::cbm {
 

@@ -11,12 +11,14 @@ endif()
 install(DIRECTORY runs/scenes runs/studies DESTINATION ${CMAKE_INSTALL_DATADIR}/acinus)
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-foreach(library core dcm cbm coupling calibration)
+set(installed core geometry solve io contact imaging dcm cbm coupling calibration)
+foreach(library ${installed})
   set_target_properties(acinus_${library} PROPERTIES EXPORT_NAME ${library})
   install(DIRECTORY ${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/acinus FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 set_target_properties(acinus_flags PROPERTIES EXPORT_NAME flags)
-install(TARGETS acinus_core acinus_dcm acinus_cbm acinus_coupling acinus_calibration acinus_flags acinus_version
+list(TRANSFORM installed PREPEND acinus_)
+install(TARGETS ${installed} acinus_flags acinus_version
   EXPORT acinus_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/acinus)

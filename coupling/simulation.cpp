@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "core/box.hpp"
-#include "core/contact/box_pairs.hpp"
-#include "core/mesh/measures.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
 #include "coupling/world/cell.hpp"
-#include "dcm/give_shape.hpp"
-#include "dcm/room.hpp"
+#include "dcm/shape/give_shape.hpp"
+#include "dcm/shape/room.hpp"
+#include "geometry/box_pairs.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -36,7 +36,7 @@ std::vector<StartBall> list_balls(const State& s) {
 /// so that the mesh has its volume.
 std::vector<Vec3> cut_ball(const State& s, const StartBall& ball,
                            const std::vector<dcm::RoomFace>& face) {
-  const mesh::Topology& t = *s.dcm.group[ball.at / kLanes].topology;
+  const geometry::Topology& t = *s.dcm.group[ball.at / kLanes].topology;
   std::vector<Vec3> direction;
   double radius = 0;
   dcm::copy_nodes(s.dcm, ball.at, direction);
@@ -86,7 +86,7 @@ CutCells cut_overlapping(World& world) {
     dcm::give_shape(world.params.dcm[group.type],
                     {node[k], ball.radius, 1, {1, 0, now, now + dcm::kForgetShape}}, ball.at,
                     s.dcm);
-    const double volume = mesh::compute_volume(node[k], group.topology->triangle);
+    const double volume = geometry::compute_volume(node[k], group.topology->triangle);
     result.smallest_volume = std::min(result.smallest_volume, volume / sphere_volume(ball.radius));
     result.cells.push_back(s.dcm.lineage[ball.at]);
   }

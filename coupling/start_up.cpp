@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers/time_grid.hpp"
 #include "core/sphere.hpp"
-#include "core/time_grid.hpp"
 #include "coupling/measure/measure.hpp"
 
 namespace acinus::coupling {

@@ -4,13 +4,13 @@
 #include <map>
 #include <utility>
 
-#include "core/mesh/measures.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/orientation.hpp"
-#include "dcm/give_shape.hpp"
-#include "dcm/lay_mesh.hpp"
+#include "dcm/shape/give_shape.hpp"
+#include "dcm/shape/lay_mesh.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -24,7 +24,7 @@ struct Fit {
 
 TakenShapes take_shapes(const std::vector<CellSurface>& surfaces, World& world) {
   State& s = world.state;
-  std::map<std::int64_t, const mesh::Surface*> surface_of;
+  std::map<std::int64_t, const geometry::Surface*> surface_of;
   for (const CellSurface& c : surfaces) surface_of[c.lineage] = c.surface;
   std::map<std::int64_t, std::size_t> lane_of;  // ascending by lineage
   for_each_cell(s, [&](const Cell& c) {
@@ -49,13 +49,13 @@ TakenShapes take_shapes(const std::vector<CellSurface>& surfaces, World& world) 
     }
     ++(fit.mesh.inflated ? taken.inflated : taken.laid);
     const dcm::Group& group = s.dcm.group[fit.lane / kLanes];
-    const mesh::Surface& surface = *surface_of.at(lanes[k].first);
-    const double radius = sphere_radius(mesh::compute_volume(surface.node, surface.triangle));
+    const geometry::Surface& surface = *surface_of.at(lanes[k].first);
+    const double radius = sphere_radius(geometry::compute_volume(surface.node, surface.triangle));
     dcm::give_shape(world.params.dcm[group.type],
                     {fit.mesh.node, radius, 1, {1, 0, now, now + dcm::kForgetShape}}, fit.lane,
                     s.dcm);
-    taken.worst_quality = std::min(taken.worst_quality,
-                                   mesh::compute_quality(fit.mesh.node, group.topology->triangle));
+    taken.worst_quality = std::min(
+        taken.worst_quality, geometry::compute_quality(fit.mesh.node, group.topology->triangle));
   }
   return taken;
 }

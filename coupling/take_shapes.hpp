@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "core/mesh/surface.hpp"
 #include "coupling/world/world.hpp"
+#include "geometry/surface.hpp"
 
 namespace acinus::coupling {
 
 /// The surface that a cell is to have.
 struct CellSurface {
   std::int64_t lineage = 0;
-  const mesh::Surface* surface = nullptr;  ///< closed, outward
+  const geometry::Surface* surface = nullptr;  ///< closed, outward
 };
 
 struct TakenShapes {
@@ -24,9 +24,9 @@ struct TakenShapes {
 };
 
 /// Gives deformable cells the shape of a surface: its volume is their reference volume, their
-/// cortex takes the shape for rest and forgets that in kForgetShape (dcm/lay_mesh.hpp). Cells whose
-/// mesh does not fit stay balls of that volume. Spheres stay what they are. Ascending by lineage;
-/// the same for any number of threads.
+/// cortex takes the shape for rest and forgets that in kForgetShape (dcm/shape/lay_mesh.hpp). Cells
+/// whose mesh does not fit stay balls of that volume. Spheres stay what they are. Ascending by
+/// lineage; the same for any number of threads.
 /// @pre t = 0; radius and centre of each cell are those of its surface
 TakenShapes take_shapes(const std::vector<CellSurface>& surfaces, World& world);
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/threads.hpp"
-#include "dcm/contact.hpp"
+#include "core/parallel/threads.hpp"
+#include "dcm/contact/contact.hpp"
 
 namespace acinus::dcm {
 namespace {

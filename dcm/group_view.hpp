@@ -1,13 +1,13 @@
 #pragma once
 /// One group of eight cells as the term kernels see it.
 
-#include "core/lanes.hpp"
-#include "core/mesh/topology.hpp"
+#include "core/numbers/lanes.hpp"
+#include "geometry/topology.hpp"
 
 namespace acinus::dcm {
 
 struct GroupView {
-  const mesh::Topology* topology;
+  const geometry::Topology* topology;
   std::size_t index;                                  ///< group number
   std::size_t first_row;                              ///< first point row in the global arrays
   std::size_t first_spring, first_hinge, first_face;  ///< first elements in the global arrays

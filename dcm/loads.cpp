@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/make_room.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/make_room.hpp"
+#include "core/parallel/threads.hpp"
 #include "dcm/tensions.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/pull_spring.hpp"
 #include "dcm/terms/stretch_load.hpp"
 #include "dcm/terms/suction_load.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

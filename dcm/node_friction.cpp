@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::dcm {
 namespace {

@@ -15,8 +15,8 @@
 
 #include <vector>
 
-#include "core/solve/links.hpp"
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
+#include "solve/links.hpp"
 
 namespace acinus::dcm {
 

@@ -5,7 +5,7 @@
 /// the cortex, in the same lane. What loops over cells or over the nodes of the cortex does not
 /// see them, and all that moves points does (docs/decisions/0033.md).
 
-#include "core/mesh/topology.hpp"
+#include "geometry/topology.hpp"
 
 namespace acinus::dcm {
 
@@ -33,8 +33,8 @@ struct Nucleus {
 
 /// The mesh of the nuclei of a group of cells.
 struct NucleusMesh {
-  const mesh::Topology* topology = nullptr;  ///< shared; null: no nuclei
-  double size = 0;                           ///< radius over that of the cell
+  const geometry::Topology* topology = nullptr;  ///< shared; null: no nuclei
+  double size = 0;                               ///< radius over that of the cell
 
   bool exists() const { return topology != nullptr; }
   int n_node() const { return exists() ? topology->n_node : 0; }
@@ -44,7 +44,7 @@ struct NucleusMesh {
 /// The mesh that cells of a type have; none where there is no nucleus.
 inline NucleusMesh nucleus_mesh(const Nucleus* n) {
   if (n == nullptr) return {};
-  return {&mesh::shared_icosphere(n->nodes), n->size};
+  return {&geometry::shared_icosphere(n->nodes), n->size};
 }
 
 }  // namespace acinus::dcm

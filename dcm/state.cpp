@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
-#include "dcm/mesh_pattern.hpp"
+#include "dcm/shape/mesh_pattern.hpp"
 
 namespace acinus::dcm {
 
@@ -136,7 +136,7 @@ void find_reference_radii(const State& s, double time, std::vector<double>& radi
 }
 
 Vec3 cell_center(const State& s, std::size_t lane) {
-  const mesh::Topology& t = *s.group[lane / kLanes].topology;
+  const geometry::Topology& t = *s.group[lane / kLanes].topology;
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < t.n_node; ++i)
     sum += t.rest_node_area[i] * load_point(s.position.data(), node_address(s, lane, i));

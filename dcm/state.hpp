@@ -9,23 +9,23 @@
 #include <span>
 #include <vector>
 
-#include "core/lanes.hpp"
-#include "core/mesh/topology.hpp"
-#include "core/ramp.hpp"
-#include "core/solve/system.hpp"
+#include "core/numbers/lanes.hpp"
+#include "core/numbers/ramp.hpp"
 #include "core/vec.hpp"
-#include "dcm/birth_shape.hpp"
 #include "dcm/edge_tension.hpp"
 #include "dcm/params.hpp"
+#include "dcm/shape/birth_shape.hpp"
+#include "geometry/topology.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 
 inline constexpr std::int64_t kEmptyLane = -1;
 
 struct Group {
-  const mesh::Topology* topology = nullptr;  ///< shared, never owned
-  std::size_t first_row = 0;                 ///< first node row in State::position
-  int type = 0;                              ///< index into the params
+  const geometry::Topology* topology = nullptr;  ///< shared, never owned
+  std::size_t first_row = 0;                     ///< first node row in State::position
+  int type = 0;                                  ///< index into the params
   NucleusMesh nucleus{};
 
   /// Points of a cell: nodes of its cortex, then those of its nucleus.
@@ -54,7 +54,7 @@ struct State {
 struct NewCell {
   std::int64_t lineage = 0;
   int type = 0;
-  const mesh::Topology* topology = nullptr;
+  const geometry::Topology* topology = nullptr;
   Vec3 center = Vec3::Zero();
   double radius = 0;  ///< um, (3 V0 / 4 pi)^(1/3)
   Vec3 pull = Vec3::Zero();

@@ -17,7 +17,7 @@ double edge_force(const Params& p, const GroupView& g, std::size_t edge, int lan
 }  // namespace
 
 std::vector<double> compute_node_tension(const Params& p, const GroupView& g, int lane) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   std::vector<double> tension(t.n_node, 0.0);
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
     const std::size_t i = t.edge[e][0], j = t.edge[e][1];

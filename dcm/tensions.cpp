@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "dcm/edge_tension.hpp"
 
 namespace acinus::dcm {
@@ -59,7 +59,8 @@ double mean_tension(const EdgeTension& t) {
   return std::accumulate(t.force.begin(), t.force.end(), 0.0) / static_cast<double>(t.force.size());
 }
 
-EdgeTension make_tension(const mesh::Topology& topology, std::span<const Vec3> node, double force) {
+EdgeTension make_tension(const geometry::Topology& topology, std::span<const Vec3> node,
+                         double force) {
   EdgeTension t;
   t.force.assign(topology.edge.size(), force);
   for (const auto& [i, j] : topology.edge) t.length.push_back((node[j] - node[i]).norm());

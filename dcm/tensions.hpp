@@ -22,6 +22,7 @@ void advance_tensions(std::span<const Params> params, double step, State& state)
 double mean_tension(const EdgeTension& tension);
 
 /// All edges of a cell under the same tension at their present length.
-EdgeTension make_tension(const mesh::Topology& topology, std::span<const Vec3> node, double force);
+EdgeTension make_tension(const geometry::Topology& topology, std::span<const Vec3> node,
+                         double force);
 
 }  // namespace acinus::dcm

@@ -8,7 +8,7 @@
 #include <exception>
 
 #include "core/error.hpp"
-#include "core/memory.hpp"
+#include "core/parallel/memory.hpp"
 #include "runs/session/standard_streams.hpp"
 #include "runs/session/together.hpp"
 

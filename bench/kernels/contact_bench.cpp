@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "bench/kernels/clump.hpp"
-#include "core/contact/candidates.hpp"
-#include "core/contact/jkr.hpp"
-#include "core/contact/jkr_lanes.hpp"
-#include "core/mesh/closest_point.hpp"
-#include "core/mesh/closest_point_lanes.hpp"
-#include "core/random.hpp"
+#include "contact/candidates.hpp"
+#include "contact/jkr.hpp"
+#include "contact/jkr_lanes.hpp"
+#include "core/numbers/random.hpp"
+#include "geometry/closest_point.hpp"
+#include "geometry/closest_point_lanes.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -45,7 +45,7 @@ void find_closest_point(benchmark::State& state) {
   for (auto _ : state) {
     double sum = 0;
     for (const auto& [p, a, b, c] : pair)
-      sum += mesh::find_closest_point(p, a, b, c).squared_distance;
+      sum += geometry::find_closest_point(p, a, b, c).squared_distance;
     benchmark::DoNotOptimize(sum);
   }
   count(state, "pairs", pair.size());
@@ -56,9 +56,9 @@ BENCHMARK(find_closest_point)->Unit(benchmark::kMicrosecond);
 ACINUS_KERNEL double sum_closest(const double* pair, std::size_t n) {
   Lane sum = lane_of(0);
   for (std::size_t k = 0; k < n; ++k, pair += 4 * kPointStride)
-    sum += mesh::find_closest_point_lanes(load3(pair), load3(pair + kPointStride),
-                                          load3(pair + 2 * kPointStride),
-                                          load3(pair + 3 * kPointStride))
+    sum += geometry::find_closest_point_lanes(load3(pair), load3(pair + kPointStride),
+                                              load3(pair + 2 * kPointStride),
+                                              load3(pair + 3 * kPointStride))
                .squared_distance;
   return sum_lanes<double>(sum);
 }

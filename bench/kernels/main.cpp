@@ -5,8 +5,8 @@
 #include <string>
 
 #include "acinus_version.hpp"
-#include "core/threads.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/threads.hpp"
+#include "core/parallel/timing.hpp"
 
 int main(int argc, char** argv) {
   // A kernel is what one thread does; the CPU time reported is that of the calling thread alone.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/kernels/clump.hpp"
-#include "core/solve/kernels.hpp"
-#include "core/solve/merged_links.hpp"
+#include "solve/kernels.hpp"
+#include "solve/merged_links.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 
 namespace acinus::bench {
 

@@ -1,7 +1,7 @@
-/// Stands in for core/partition.cpp, because Zoltan is built for another MPI than the simulated
-/// one.
+/// Stands in for core/parallel/partition.cpp, because Zoltan is built for another MPI than the
+/// simulated one.
 
-#include "core/partition.hpp"
+#include "core/parallel/partition.hpp"
 
 #include <algorithm>
 #include <numeric>

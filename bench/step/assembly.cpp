@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "bench/step/packed_clump.hpp"
-#include "core/contact/jkr.hpp"
-#include "core/contact/jkr_lanes.hpp"
-#include "core/random.hpp"
-#include "core/solve/merged_links.hpp"
-#include "core/timing.hpp"
+#include "contact/jkr.hpp"
+#include "contact/jkr_lanes.hpp"
+#include "core/numbers/random.hpp"
+#include "core/parallel/timing.hpp"
+#include "solve/merged_links.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bench/step/step_cost.hpp"
 #include "bench/step/step_runner.hpp"
-#include "core/ranks.hpp"
+#include "core/parallel/ranks.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bench/step/packed_clump.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::bench {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/ranks.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/ranks.hpp"
+#include "core/parallel/timing.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 

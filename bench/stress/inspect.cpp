@@ -8,11 +8,11 @@
 #include <limits>
 #include <map>
 
-#include "core/mesh/measures.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "core/sphere.hpp"
-#include "core/time_grid.hpp"
 #include "coupling/measure/audit.hpp"
 #include "coupling/world/cell.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -116,7 +116,7 @@ std::map<std::int64_t, StartOfCell> origins(const coupling::World& start, const 
 /// without meshes.
 double unit_edge(const coupling::World& start) {
   double edge = 0;
-  for (const mesh::Topology* t : start.params.zoom.mesh)
+  for (const geometry::Topology* t : start.params.zoom.mesh)
     if (t != nullptr) edge = std::max(edge, t->mean_rest_length);
   for (const dcm::Group& g : start.state.dcm.group)
     edge = std::max(edge, g.topology->mean_rest_length);
@@ -176,7 +176,7 @@ class Inspection {
 
 void Inspection::inspect_shapes() {
   for (const Mesh& m : meshes_) {
-    const double volume = mesh::compute_volume(m.node, m.triangle);
+    const double volume = geometry::compute_volume(m.node, m.triangle);
     const double share = volume / rest_.at(m.id);
     if (volume <= 0)
       add(Defect::kInverted, fmt::format("cell {} has a volume of {:.3g} um^3", m.id, volume));
@@ -279,7 +279,8 @@ std::map<std::int64_t, VolumeOfCell> loads_of(const io::Frame& f) {
   const std::map<std::int64_t, double> rest = rest_volumes(f);
   std::map<std::int64_t, VolumeOfCell> all;
   for (const Mesh& m : meshes_of(f))
-    if (rest.contains(m.id)) all[m.id] = {mesh::compute_volume(m.node, m.triangle), rest.at(m.id)};
+    if (rest.contains(m.id))
+      all[m.id] = {geometry::compute_volume(m.node, m.triangle), rest.at(m.id)};
   return all;
 }
 

@@ -7,9 +7,9 @@
 
 #include "bench/stress/finding.hpp"
 #include "bench/stress/pedigree.hpp"
-#include "core/io/frame.hpp"
-#include "core/io/run_reader.hpp"
 #include "coupling/world/world.hpp"
+#include "io/frame.hpp"
+#include "io/run_reader.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::bench {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bench/stress/finding.hpp"
-#include "core/io/frame.hpp"
 #include "coupling/world/world.hpp"
+#include "io/frame.hpp"
 
 namespace acinus::bench {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 
 namespace acinus::bench {
 namespace {

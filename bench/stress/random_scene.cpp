@@ -9,7 +9,7 @@
 
 #include "bench/stress/random_life.hpp"
 #include "bench/stress/random_zoom.hpp"
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 #include "coupling/generate/packing.hpp"
 
 namespace acinus::bench {

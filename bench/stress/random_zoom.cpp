@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -15,8 +15,8 @@
 #include "bench/stress/random_scene.hpp"
 #include "bench/stress/verdict.hpp"
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
-#include "runs/build/build_world.hpp"
+#include "io/disk.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/child.hpp"
 

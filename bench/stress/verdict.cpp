@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 
 namespace acinus::bench {
 namespace {

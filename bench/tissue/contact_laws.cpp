@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "bench/tissue/pulled_pair.hpp"
-#include "core/contact/maugis_triangles.hpp"
+#include "contact/maugis_triangles.hpp"
 #include "core/error.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "calibration/curve.hpp"
 #include "core/error.hpp"
-#include "runs/build/read_cells.hpp"
+#include "runs/assemble/read_cells.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"

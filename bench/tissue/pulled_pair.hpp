@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/contact/surface.hpp"
-#include "dcm/contact.hpp"
+#include "contact/surface.hpp"
+#include "dcm/contact/contact.hpp"
 
 namespace acinus::bench {
 

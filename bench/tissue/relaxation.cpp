@@ -9,7 +9,7 @@
 
 #include "calibration/recovery.hpp"
 #include "core/error.hpp"
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/scene/library.hpp"

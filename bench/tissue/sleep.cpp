@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 #include "coupling/measure/difference.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 

@@ -51,7 +51,7 @@ std::vector<cbm::RoomWall> find_walls(const std::vector<Vec3>& center,
     contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) {
       add(contact::gap_to_wall(wall, center[i], time));
     });
-    const mesh::Network& network = boundary.vessels.network;
+    const geometry::Network& network = boundary.vessels.network;
     for (int k = 0; k < static_cast<int>(network.segment.size()); ++k) {
       const contact::Gap g = contact::gap_to_segment(network, k, center[i]);
       if (contact::is_local_minimum(boundary.vessels, k, center[i], g)) add(g);

@@ -12,7 +12,7 @@
 #include "bench/work_precision/work_precision_report.hpp"
 #include "bench/work_precision/work_precision_scenes.hpp"
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 
 namespace acinus::bench {
 namespace {

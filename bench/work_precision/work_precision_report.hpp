@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/work_precision/work_precision_run.hpp"
-#include "core/io/plot.hpp"
+#include "io/plot.hpp"
 
 namespace acinus::bench {
 

@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "core/mesh/network.hpp"
 #include "coupling/generate/domain.hpp"
 #include "coupling/generate/random_source.hpp"
+#include "geometry/network.hpp"
 
 namespace acinus::coupling {
 
 enum class VesselKind { kSinusoid, kCentralVein, kPortalVein };
 
 struct Lobule {
-  mesh::Network vessels;         ///< sinusoids, then the central vein, then the portal veins
+  geometry::Network vessels;     ///< sinusoids, then the central vein, then the portal veins
   std::vector<VesselKind> kind;  ///< [n_segment]
   std::vector<MirrorPlane> planes;
   std::vector<Vec3> seeds;         ///< hepatocyte centres outside the lesion, um

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -37,7 +37,7 @@ std::vector<ProfilePoint> profile_of(const contact::Pipette& p) {
 
 }  // namespace
 
-void add_pipette_surface(const contact::Pipette& p, mesh::Surface& surface) {
+void add_pipette_surface(const contact::Pipette& p, geometry::Surface& surface) {
   const std::vector<ProfilePoint> profile = profile_of(p);
   const Vec3 u = p.axis.unitOrthogonal(), v = p.axis.cross(u);
   const int first = static_cast<int>(surface.node.size()), n = static_cast<int>(profile.size());

@@ -35,7 +35,7 @@ std::vector<Ring> rings_of(const Vec3& a, const Vec3& b, double radius_a, double
 }
 
 void add_tube(const std::vector<Ring>& ring, const Vec3& tip_a, const Vec3& tip_b,
-              const Vec3& along, mesh::Surface& surface) {
+              const Vec3& along, geometry::Surface& surface) {
   // The axis least aligned with the tube gives a safe direction across.
   int axis = 0;
   along.cwiseAbs().minCoeff(&axis);
@@ -65,7 +65,7 @@ void add_tube(const std::vector<Ring>& ring, const Vec3& tip_a, const Vec3& tip_
 
 }  // namespace
 
-VesselSurface make_vessel_surface(const mesh::Network& network) {
+VesselSurface make_vessel_surface(const geometry::Network& network) {
   VesselSurface out;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
     const Vec3 a = network.node[network.segment[s][0]];
@@ -80,7 +80,7 @@ VesselSurface make_vessel_surface(const mesh::Network& network) {
   return out;
 }
 
-double vessel_volume(const mesh::Network& network) {
+double vessel_volume(const geometry::Network& network) {
   double volume = 0;
   for (std::size_t s = 0; s < network.segment.size(); ++s) {
     const auto& [a, b] = network.segment[s];

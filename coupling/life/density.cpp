@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/inner_ball.hpp"
-#include "core/mesh/measures.hpp"
-#include "core/mesh/segment_shape.hpp"
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 #include "core/sphere.hpp"
 #include "coupling/life/fill.hpp"
-#include "dcm/split.hpp"
+#include "dcm/shape/split.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/inner_ball.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/segment_shape.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -37,8 +37,8 @@ Vec3 random_direction(const World& world, std::int64_t lineage, int attempt) {
 }
 
 /// Along the vessel with the nearest wall; zero without vessels.
-Vec3 along_nearest_vessel(const mesh::Network& network, const Vec3& x) {
-  const int segment = mesh::nearest_segment(network, x).segment;
+Vec3 along_nearest_vessel(const geometry::Network& network, const Vec3& x) {
+  const int segment = geometry::nearest_segment(network, x).segment;
   if (segment < 0) return Vec3::Zero();
   const auto [a, b] = network.segment[segment];
   const Vec3 along = network.node[b] - network.node[a];
@@ -48,7 +48,7 @@ Vec3 along_nearest_vessel(const mesh::Network& network, const Vec3& x) {
 /// The mother as the split sees her.
 struct MotherCell {
   std::vector<Vec3> node;
-  const mesh::Topology* topology = nullptr;
+  const geometry::Topology* topology = nullptr;
   double volume = 0, rest_volume = 0;  ///< um^3
   double stretch = 1;                  ///< of the surface, area over its reference
 };
@@ -58,18 +58,20 @@ MotherCell look_at(const World& world, std::size_t lane) {
   MotherCell m;
   m.topology = s.dcm.group[lane / kLanes].topology;
   dcm::copy_nodes(s.dcm, lane, m.node);
-  m.volume = mesh::compute_volume(m.node, m.topology->triangle);
+  m.volume = geometry::compute_volume(m.node, m.topology->triangle);
   m.rest_volume = s.dcm.volume[lane].at(s.clock.time);
   const double r = sphere_radius(m.rest_volume);
-  m.stretch = mesh::compute_area(m.node, m.topology->triangle) / (m.topology->rest_area * r * r);
+  m.stretch =
+      geometry::compute_area(m.node, m.topology->triangle) / (m.topology->rest_area * r * r);
   return m;
 }
 
 /// Farthest of the nodes outside a closed surface, um.
-double farthest_outside(const std::vector<Vec3>& node, const mesh::AuditBody& body) {
+double farthest_outside(const std::vector<Vec3>& node, const geometry::AuditBody& body) {
   double farthest = 0;
   for (const Vec3& x : node)
-    if (body.locate(x) == mesh::Location::kOutside) farthest = std::max(farthest, body.distance(x));
+    if (body.locate(x) == geometry::Location::kOutside)
+      farthest = std::max(farthest, body.distance(x));
   return farthest;
 }
 
@@ -90,20 +92,20 @@ const char* describe(dcm::SplitFailure failure) {
 }
 
 /// What is wrong with a daughter's mesh, or empty.
-std::string find_fault(const mesh::Topology& topology, const std::vector<Vec3>& node) {
-  if (mesh::compute_quality(node, topology.triangle) < kLeastBirthQuality)
+std::string find_fault(const geometry::Topology& topology, const std::vector<Vec3>& node) {
+  if (geometry::compute_quality(node, topology.triangle) < kLeastBirthQuality)
     return "a daughter's mesh is too distorted";
-  if (mesh::AuditBody(node, topology.triangle).self_intersects())
+  if (geometry::AuditBody(node, topology.triangle).self_intersects())
     return "a daughter crosses herself";
   return {};
 }
 
 /// Fills a half that no point sees whole: a ball inside it is blown up until it fills the mother's
 /// surface, which stands still.
-Filling blow_up(const World& world, int type, const MotherCell& mother, const mesh::CutPlane& plane,
-                const mesh::Surface& half) {
-  const mesh::Topology& topology = *mother.topology;
-  const mesh::InnerBall ball = mesh::find_inner_ball(half);
+Filling blow_up(const World& world, int type, const MotherCell& mother,
+                const geometry::CutPlane& plane, const geometry::Surface& half) {
+  const geometry::Topology& topology = *mother.topology;
+  const geometry::InnerBall ball = geometry::find_inner_ball(half);
   if (!(ball.radius > 0)) return {.ok = false, .cause = "a half has no inside", .node = {}};
   std::vector<Vec3> seed;
   for (const Vec3& x : topology.rest) seed.push_back(ball.center + kSeed * ball.radius * x);
@@ -128,8 +130,8 @@ std::string try_plane(const World& world, int type, const MotherCell& mother, co
     daughters.node = split.daughters->node;
   } else if (split.failure == dcm::SplitFailure::kNotStarShaped ||
              split.failure == dcm::SplitFailure::kNoVolume) {
-    const auto plane = mesh::find_halving_plane(mother.node, mother.topology->triangle, axis);
-    const mesh::Cut cut = mesh::cut_surface(mother.node, mother.topology->triangle, *plane);
+    const auto plane = geometry::find_halving_plane(mother.node, mother.topology->triangle, axis);
+    const geometry::Cut cut = geometry::cut_surface(mother.node, mother.topology->triangle, *plane);
     for (std::size_t k = 0; k < 2 && why.empty(); ++k) {
       Filling filling = blow_up(world, type, mother, *plane, cut.half[k]);
       why = filling.cause;
@@ -167,7 +169,7 @@ bool split_shell(const World& world, std::size_t lane, DaughterMeshes& daughters
   const MotherCell mother = look_at(world, lane);
   const int type = s.dcm.group[lane / kLanes].type;
   const CycleParams& cycle = world.params.life.type[type];
-  const Vec3 center = mesh::compute_centroid(mother.node, mother.topology->triangle);
+  const Vec3 center = geometry::compute_centroid(mother.node, mother.topology->triangle);
   const std::int64_t lineage = s.dcm.lineage[lane];
   DivisionFigures& f = daughters.figures;
   f.mother = lineage;
@@ -179,17 +181,18 @@ bool split_shell(const World& world, std::size_t lane, DaughterMeshes& daughters
   }
   if (!why.empty()) return false;
 
-  const mesh::AuditBody body(mother.node, mother.topology->triangle);
+  const geometry::AuditBody body(mother.node, mother.topology->triangle);
   const double bulk = world.params.dcm[type].bulk_modulus;
   const double before = dcm::cytosol_pressure(bulk, mother.volume, mother.rest_volume);
   daughters.stretch = mother.stretch;
   f.pressure = before;
   for (const std::vector<Vec3>& node : daughters.node) {
-    const double volume = mesh::compute_volume(node, mother.topology->triangle);
+    const double volume = geometry::compute_volume(node, mother.topology->triangle);
     f.volume_error =
         std::max(f.volume_error, std::abs(volume - 0.5 * mother.volume) / mother.volume);
     f.outside = std::max(f.outside, farthest_outside(node, body));
-    f.min_quality = std::min(f.min_quality, mesh::compute_quality(node, mother.topology->triangle));
+    f.min_quality =
+        std::min(f.min_quality, geometry::compute_quality(node, mother.topology->triangle));
     f.pressure_change =
         std::max(f.pressure_change,
                  std::abs(dcm::cytosol_pressure(bulk, volume, 0.5 * mother.rest_volume) - before));

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
 #include "coupling/step/loop.hpp"
 #include "coupling/step/stages.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -25,8 +25,8 @@ constexpr double kNearlyFull = 0.9;
 
 }  // namespace
 
-Filling fill(const World& world, int type, const mesh::Topology& topology,
-             const std::vector<Vec3>& node, const mesh::Surface& envelope) {
+Filling fill(const World& world, int type, const geometry::Topology& topology,
+             const std::vector<Vec3>& node, const geometry::Surface& envelope) {
   World small;
   dcm::Params p = world.params.dcm[type];
   p.medium_friction = kFriction;
@@ -42,8 +42,8 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   small.params.numerics.cg = world.params.numerics.cg;
   small.params.boundary.meshes.push_back(contact::make_static_mesh("mother", envelope, true));
 
-  const double full = mesh::compute_volume(envelope.node, envelope.triangle);
-  const double start = std::min(full, mesh::compute_volume(node, topology.triangle));
+  const double full = geometry::compute_volume(envelope.node, envelope.triangle);
+  const double start = std::min(full, geometry::compute_volume(node, topology.triangle));
   const double radius = sphere_radius(full);
   State& s = small.state;
   s.dcm = dcm::make_state({{0, 0, &topology, Vec3::Zero(), radius}});
@@ -52,8 +52,8 @@ Filling fill(const World& world, int type, const mesh::Topology& topology,
   if (start < kNearlyFull * full) s.dcm.volume[0] = {start, full, 0, kGrowth};
   dcm::BirthShape& shape = s.dcm.birth[0];
   shape.weight = Ramp::constant(1);
-  shape.area =
-      mesh::compute_area(envelope.node, envelope.triangle) / (topology.rest_area * radius * radius);
+  shape.area = geometry::compute_area(envelope.node, envelope.triangle) /
+               (topology.rest_area * radius * radius);
   shape.edge.assign(topology.edge.size(), std::sqrt(shape.area));
   shape.triangle.assign(topology.triangle.size(), shape.area);
   s.clock.step = kFirstFillStep;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/surface.hpp"
 #include "coupling/world/world.hpp"
+#include "geometry/surface.hpp"
 
 namespace acinus::coupling {
 
@@ -20,7 +20,7 @@ struct Filling {
 /// surface that stands still and does not stick. The reference volume is what the surface encloses,
 /// and the cortex is at rest on as much area as the surface has, so that nothing draws the cell out
 /// of corners. Starts from `node`; the volume grows in the course if that encloses less.
-Filling fill(const World& world, int type, const mesh::Topology& topology,
-             const std::vector<Vec3>& node, const mesh::Surface& envelope);
+Filling fill(const World& world, int type, const geometry::Topology& topology,
+             const std::vector<Vec3>& node, const geometry::Surface& envelope);
 
 }  // namespace acinus::coupling

@@ -8,17 +8,18 @@
 #include <span>
 
 #include "cbm/division.hpp"
+#include "core/parallel/stop.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/stop.hpp"
-#include "core/threads.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/subworld/settle.hpp"
+#include "coupling/world/cell.hpp"
 #include "coupling/world/population.hpp"
 #include "coupling/zoom/update.hpp"
-#include "dcm/give_shape.hpp"
+#include "dcm/shape/give_shape.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {

@@ -9,17 +9,17 @@
 #include <string>
 #include <utility>
 
-#include "core/mesh/measures.hpp"
+#include "core/numbers/time_grid.hpp"
+#include "core/parallel/stop.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/stop.hpp"
-#include "core/threads.hpp"
-#include "core/time_grid.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
-#include "dcm/mesh_remedy.hpp"
-#include "dcm/place_nucleus.hpp"
+#include "dcm/nucleus/place_nucleus.hpp"
+#include "dcm/shape/mesh_remedy.hpp"
 #include "dcm/tensions.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -28,7 +28,7 @@ double reference_radius(const State& s, std::size_t lane) {
   return sphere_radius(s.dcm.volume[lane].at(s.clock.time));
 }
 
-const mesh::Topology& topology_of(const State& s, std::size_t lane) {
+const geometry::Topology& topology_of(const State& s, std::size_t lane) {
   return *s.dcm.group[lane / kLanes].topology;
 }
 
@@ -43,11 +43,11 @@ Due find_due(const State& s, double grid) {
 
 /// Area over what the cell's membrane takes for rest at this moment.
 double find_stretch(const State& s, std::size_t lane, const std::vector<Vec3>& node) {
-  const mesh::Topology& t = topology_of(s, lane);
+  const geometry::Topology& t = topology_of(s, lane);
   const double radius = reference_radius(s, lane), time = s.clock.time;
   const dcm::BirthShape& b = s.dcm.birth[lane];
   const double rest = b.is_forgotten(time) ? 1 : 1 + b.weight.at(time) * (b.area - 1);
-  return mesh::compute_area(node, t.triangle) / (t.rest_area * radius * radius * rest);
+  return geometry::compute_area(node, t.triangle) / (t.rest_area * radius * radius * rest);
 }
 
 /// How much longer links are than at rest, all together.

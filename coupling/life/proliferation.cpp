@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "core/random.hpp"
-#include "core/time_grid.hpp"
+#include "core/numbers/random.hpp"
+#include "core/numbers/time_grid.hpp"
 
 namespace acinus::coupling {
 namespace {

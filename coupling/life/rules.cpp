@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "core/sphere.hpp"
-#include "core/time_grid.hpp"
 #include "coupling/life/density.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/measure/measure.hpp"

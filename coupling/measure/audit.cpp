@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/segment_shape.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/measure/audit_depth.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/segment_shape.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -21,9 +21,9 @@ namespace {
 /// they grow where they are, they may come to no less.
 const double kSisterDistance = 2 - std::cbrt(4.0);
 
-double sphere_depth(const mesh::AuditBody& cell, const AuditSphere& sphere) {
+double sphere_depth(const geometry::AuditBody& cell, const AuditSphere& sphere) {
   const double distance = cell.distance(sphere.center);
-  const double sign = cell.locate(sphere.center) == mesh::Location::kInside ? 1 : -1;
+  const double sign = cell.locate(sphere.center) == geometry::Location::kInside ? 1 : -1;
   return sphere.radius + sign * distance;
 }
 
@@ -45,7 +45,7 @@ void check_finite(std::span<const Vec3> nodes, const std::string& what) {
 
 /// The bodies of a frame that are made for it.
 struct Bodies {
-  std::vector<mesh::AuditBody> cell;
+  std::vector<geometry::AuditBody> cell;
   std::vector<RoundCone> cone;
 };
 
@@ -54,13 +54,13 @@ Bodies prepare(const AuditFrame& frame) {
   for (const AuditSphere& s : frame.spheres)
     check_finite(std::span(&s.center, 1), fmt::format("sphere {}", s.id));
   Bodies bodies;
-  std::vector<std::optional<mesh::AuditBody>> cell(frame.meshes.size());
+  std::vector<std::optional<geometry::AuditBody>> cell(frame.meshes.size());
   for_each_part(cell.size(), [&](std::size_t c) {
     cell[c].emplace(frame.meshes[c].node, frame.meshes[c].triangle);
   });
-  for (std::optional<mesh::AuditBody>& c : cell) bodies.cell.push_back(std::move(*c));
+  for (std::optional<geometry::AuditBody>& c : cell) bodies.cell.push_back(std::move(*c));
   if (!frame.vessels || frame.vessel_surface) return bodies;
-  const mesh::Network& net = *frame.vessels;
+  const geometry::Network& net = *frame.vessels;
   for (std::size_t s = 0; s < net.segment.size(); ++s)
     bodies.cone.push_back({net.node[net.segment[s][0]], net.node[net.segment[s][1]],
                            net.radius[s][0], net.radius[s][1]});
@@ -85,7 +85,7 @@ void audit_shapes(const AuditFrame& frame, const Bodies& bodies, const Ranks& ra
       ranks, bodies.cell.size(),
       [&](std::size_t c) { return static_cast<char>(bodies.cell[c].self_intersects()); });
   for (std::size_t c = 0; c < bodies.cell.size(); ++c) {
-    const mesh::AuditBody& cell = bodies.cell[c];
+    const geometry::AuditBody& cell = bodies.cell[c];
     result.n_inverted += cell.volume <= 0;
     result.n_self_intersecting += crosses[c];
     if (cell.quality < result.min_triangle_quality || result.worst_triangle_cell < 0) {
@@ -110,16 +110,16 @@ void audit_walls(const AuditFrame& frame, const Bodies& bodies, AuditResult& res
     }
     for (std::size_t f = 0; f < frame.statics.size(); ++f, ++wall)
       if (frame.statics[f].inside) {
-        const mesh::AuditBody &body = bodies.cell[c], &fixed = frame.statics[f].body;
-        keep(surface_depth(body, fixed, mesh::Location::kOutside));
-        keep(surface_depth(fixed, body, mesh::Location::kInside));
+        const geometry::AuditBody &body = bodies.cell[c], &fixed = frame.statics[f].body;
+        keep(surface_depth(body, fixed, geometry::Location::kOutside));
+        keep(surface_depth(fixed, body, geometry::Location::kInside));
       }
   }
 }
 
 /// How far a sphere reaches beyond the surface of a closed body on the forbidden side.
-double depth_in_fixed(const AuditSphere& sphere, const mesh::AuditBody& fixed,
-                      mesh::Location forbidden) {
+double depth_in_fixed(const AuditSphere& sphere, const geometry::AuditBody& fixed,
+                      geometry::Location forbidden) {
   const double distance = fixed.distance(sphere.center);
   return sphere.radius + (fixed.locate(sphere.center) == forbidden ? distance : -distance);
 }
@@ -132,7 +132,7 @@ void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
     for (std::size_t f = 0; f < frame.statics.size(); ++f) {
       const double depth = depth_in_fixed(
           s, frame.statics[f].body,
-          frame.statics[f].inside ? mesh::Location::kOutside : mesh::Location::kInside);
+          frame.statics[f].inside ? geometry::Location::kOutside : geometry::Location::kInside);
       keep(depth);
       keep_worst(result.center_in_static, depth - s.radius, s.id, static_cast<std::int64_t>(f));
     }
@@ -143,7 +143,7 @@ void audit_spheres_at_walls(const AuditFrame& frame, AuditResult& result) {
 void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const Ranks& ranks,
                           AuditResult& result) {
   if (!frame.vessel_surface) return;
-  const mesh::AuditBody& surface = *frame.vessel_surface;
+  const geometry::AuditBody& surface = *frame.vessel_surface;
   const std::size_t n_cell = bodies.cell.size();
   const std::vector<double> depth =
       share_among<double>(ranks, n_cell + frame.spheres.size(), [&](std::size_t k) {
@@ -151,7 +151,7 @@ void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const R
           return bodies.cell[k].box.overlaps(surface.box) ? body_depth(bodies.cell[k], surface) : 0;
         const AuditSphere& s = frame.spheres[k - n_cell];
         if (!surface.box.overlaps(sphere_box(s.center, s.radius))) return 0.0;
-        return depth_in_fixed(s, surface, mesh::Location::kInside);
+        return depth_in_fixed(s, surface, geometry::Location::kInside);
       });
   for (std::size_t k = 0; k < depth.size(); ++k) {
     const bool cell = k < n_cell;
@@ -161,7 +161,7 @@ void audit_vessel_surface(const AuditFrame& frame, const Bodies& bodies, const R
     const Vec3 at = cell ? Vec3(0.5 * (bodies.cell[k].box.low + bodies.cell[k].box.high))
                          : frame.spheres[k - n_cell].center;
     keep_worst(worst, depth[k], cell ? frame.meshes[k].id : frame.spheres[k - n_cell].id,
-               mesh::nearest_segment(*frame.vessels, at).segment);
+               geometry::nearest_segment(*frame.vessels, at).segment);
   }
 }
 
@@ -180,14 +180,14 @@ struct Pair {
 
 std::vector<Pair> find_pairs(const AuditFrame& frame, const Bodies& bodies) {
   std::vector<Box> box;
-  for (const mesh::AuditBody& b : bodies.cell) box.push_back(b.box);
+  for (const geometry::AuditBody& b : bodies.cell) box.push_back(b.box);
   for (const AuditSphere& s : frame.spheres) box.push_back(sphere_box(s.center, s.radius));
   for (const RoundCone& c : bodies.cone) box.push_back(c.box());
   for (const AuditStatic& s : frame.statics) box.push_back(s.body.box);
   const std::size_t sphere = bodies.cell.size(), cone = sphere + frame.spheres.size();
   const std::size_t fixed = cone + bodies.cone.size();
   std::vector<Pair> pair;
-  for (const auto& [i, j] : mesh::meeting_boxes(box)) {  // i < j: the cell comes first
+  for (const auto& [i, j] : geometry::meeting_boxes(box)) {  // i < j: the cell comes first
     const std::size_t a = i, b = j;
     if (a < sphere) {
       if (b < sphere)
@@ -274,11 +274,11 @@ void keep_pair(const AuditFrame& frame, const Pair& pair, AuditResult& result) {
 
 }  // namespace
 
-mesh::AuditBody prepare_static(std::span<const Vec3> node,
-                               std::span<const std::array<int, 3>> triangle,
-                               const std::string& what) {
+geometry::AuditBody prepare_static(std::span<const Vec3> node,
+                                   std::span<const std::array<int, 3>> triangle,
+                                   const std::string& what) {
   check_finite(node, what);
-  mesh::AuditBody prepared(node, triangle);
+  geometry::AuditBody prepared(node, triangle);
   check(prepared.closed(), fmt::format("audit: {} is not closed", what));
   return prepared;
 }

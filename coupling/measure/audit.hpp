@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/network.hpp"
-#include "core/ranks.hpp"
+#include "core/parallel/ranks.hpp"
 #include "core/vec.hpp"
 #include "coupling/measure/audit_walls.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/network.hpp"
 
 namespace acinus::coupling {
 
@@ -38,12 +38,12 @@ struct KnownIndentation {
 /// A closed mesh that does not move. @param triangle  outward  @param what  it is, for messages
 /// The spans must outlive what comes back. Throws Error if a coordinate is not finite or it is not
 /// closed.
-mesh::AuditBody prepare_static(std::span<const Vec3> node,
-                               std::span<const std::array<int, 3>> triangle,
-                               const std::string& what);
+geometry::AuditBody prepare_static(std::span<const Vec3> node,
+                                   std::span<const std::array<int, 3>> triangle,
+                                   const std::string& what);
 struct AuditStatic {
-  mesh::AuditBody body;  ///< of prepare_static, once for all frames of a run: it takes long
-  bool inside = false;   ///< cells live inside it
+  geometry::AuditBody body;  ///< of prepare_static, once for all frames of a run: it takes long
+  bool inside = false;       ///< cells live inside it
 };
 
 /// Everything in one frame. Spans may be empty; they must outlive the call.
@@ -51,10 +51,10 @@ struct AuditFrame {
   std::span<const AuditMesh> meshes;
   std::span<const AuditSphere> spheres;
   std::span<const KnownIndentation> indentations;  ///< pairs not listed are taken as not indented
-  const mesh::Network* vessels = nullptr;
+  const geometry::Network* vessels = nullptr;
   /// The surface of the vessels, of prepare_static, where cells meet that; cones then only name the
   /// nearest segment.
-  const mesh::AuditBody* vessel_surface = nullptr;
+  const geometry::AuditBody* vessel_surface = nullptr;
   std::span<const AuditWall> walls;
   std::span<const AuditStatic> statics;
 };

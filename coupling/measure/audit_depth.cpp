@@ -20,9 +20,9 @@ void probe_pieces(const Vec3& a, const Vec3& b, const std::vector<double>& cross
 }
 
 /// Depth of the volume centroid of `a` if it lies in both bodies, um.
-double common_centroid_depth(const mesh::AuditBody& a, const mesh::AuditBody& b) {
-  if (a.locate(a.centroid) != mesh::Location::kInside ||
-      b.locate(a.centroid) != mesh::Location::kInside)
+double common_centroid_depth(const geometry::AuditBody& a, const geometry::AuditBody& b) {
+  if (a.locate(a.centroid) != geometry::Location::kInside ||
+      b.locate(a.centroid) != geometry::Location::kInside)
     return 0;
   return std::min(a.distance(a.centroid), b.distance(a.centroid));
 }
@@ -51,10 +51,11 @@ Box RoundCone::box() const {
   return {hull.low.cwiseMin(end.low), hull.high.cwiseMax(end.high)};
 }
 
-double surface_depth(const mesh::AuditBody& a, const mesh::AuditBody& b, mesh::Location forbidden) {
+double surface_depth(const geometry::AuditBody& a, const geometry::AuditBody& b,
+                     geometry::Location forbidden) {
   double depth = 0;
   const auto look = [&](const Vec3& point) {
-    if (forbidden == mesh::Location::kInside && !b.box.contains(point)) return false;
+    if (forbidden == geometry::Location::kInside && !b.box.contains(point)) return false;
     if (b.locate(point) != forbidden) return false;
     depth = std::max(depth, b.distance(point));
     return true;
@@ -67,15 +68,16 @@ double surface_depth(const mesh::AuditBody& a, const mesh::AuditBody& b, mesh::L
   for (const auto& [i, j] : a.edge) {
     if (bad[i] || bad[j]) continue;
     const Vec3 &from = a.sample[i], &to = a.sample[j];
-    if (forbidden == mesh::Location::kInside && !b.box.overlaps(segment_box(from, to))) continue;
+    if (forbidden == geometry::Location::kInside && !b.box.overlaps(segment_box(from, to)))
+      continue;
     probe_pieces(from, to, b.crossings(from, to), look);
   }
   return depth;
 }
 
-double body_depth(const mesh::AuditBody& a, const mesh::AuditBody& b) {
-  return std::max({surface_depth(a, b, mesh::Location::kInside),
-                   surface_depth(b, a, mesh::Location::kInside), common_centroid_depth(a, b),
+double body_depth(const geometry::AuditBody& a, const geometry::AuditBody& b) {
+  return std::max({surface_depth(a, b, geometry::Location::kInside),
+                   surface_depth(b, a, geometry::Location::kInside), common_centroid_depth(a, b),
                    common_centroid_depth(b, a)});
 }
 
@@ -95,7 +97,7 @@ double cone_depth(const RoundCone& cone, const Vec3& p) {
   return cone.radius(t) - (p - cone.a - t * along).norm();
 }
 
-double vessel_depth(const mesh::AuditBody& cell, const RoundCone& cone) {
+double vessel_depth(const geometry::AuditBody& cell, const RoundCone& cone) {
   const Box box = cone.box();
   double depth = 0;
   const auto on_surface = [&](const Vec3& x) { depth = std::max(depth, cone_depth(cone, x)); };
@@ -111,7 +113,7 @@ double vessel_depth(const mesh::AuditBody& cell, const RoundCone& cone) {
   const auto on_axis = [&](const Vec3& x) {
     const Vec3 near = cell.closest_point(x);
     on_surface(near);
-    if (cell.locate(x) != mesh::Location::kInside) return;
+    if (cell.locate(x) != geometry::Location::kInside) return;
     const double length = (cone.b - cone.a).norm();
     const double t = length > 0 ? (x - cone.a).norm() / length : 0.0;
     depth = std::max(depth, cone.radius(t) + (x - near).norm());

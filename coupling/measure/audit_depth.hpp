@@ -2,16 +2,17 @@
 /// How deep two bodies are in each other, as the audit measures it.
 
 #include "core/box.hpp"
-#include "core/mesh/audit_body.hpp"
 #include "core/vec.hpp"
+#include "geometry/audit_body.hpp"
 
 namespace acinus::coupling {
 
 /// Deepest point of the surface of `a` on the forbidden side of `b`, um.
-double surface_depth(const mesh::AuditBody& a, const mesh::AuditBody& b, mesh::Location forbidden);
+double surface_depth(const geometry::AuditBody& a, const geometry::AuditBody& b,
+                     geometry::Location forbidden);
 
 /// The same both ways, and of a volume centroid that lies in both.
-double body_depth(const mesh::AuditBody& a, const mesh::AuditBody& b);
+double body_depth(const geometry::AuditBody& a, const geometry::AuditBody& b);
 
 /// The balls along a straight axis.
 struct RoundCone {
@@ -25,6 +26,6 @@ struct RoundCone {
 double cone_depth(const RoundCone& cone, const Vec3& p);
 
 /// Of a cell in a vessel, um.
-double vessel_depth(const mesh::AuditBody& cell, const RoundCone& cone);
+double vessel_depth(const geometry::AuditBody& cell, const RoundCone& cone);
 
 }  // namespace acinus::coupling

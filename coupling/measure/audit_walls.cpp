@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/contact/boundary.hpp"
+#include "contact/boundary.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::coupling {

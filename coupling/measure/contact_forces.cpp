@@ -6,8 +6,9 @@
 #include <set>
 #include <unordered_map>
 
-#include "core/exact_sum.hpp"
+#include "core/numbers/exact_sum.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/world/fading.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/mesh/audit_body.hpp"
+#include "geometry/audit_body.hpp"
 
 namespace acinus::coupling {
 
@@ -14,9 +14,9 @@ NucleusLeak find_nucleus_leak(const State& s) {
     if (!s.dcm.active(l) || !g.nucleus.exists()) continue;
     dcm::copy_nodes(s.dcm, l, cortex);
     dcm::copy_nucleus(s.dcm, l, nucleus);
-    const mesh::AuditBody body(cortex, g.topology->triangle);
+    const geometry::AuditBody body(cortex, g.topology->triangle);
     for (const Vec3& x : nucleus) {
-      if (body.locate(x) != mesh::Location::kOutside) continue;
+      if (body.locate(x) != geometry::Location::kOutside) continue;
       const double depth = body.distance(x);
       if (depth > worst.depth_um) worst = {depth, s.dcm.lineage[l]};
     }

@@ -13,7 +13,7 @@ struct NucleusLeak {
   std::int64_t cell = -1;
 };
 
-/// Shares no code with the contact search (core/mesh/audit_body.hpp).
+/// Shares no code with the contact search (geometry/audit_body.hpp).
 NucleusLeak find_nucleus_leak(const State& state);
 
 }  // namespace acinus::coupling

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "coupling/migration/leaders.hpp"
 #include "coupling/world/cell.hpp"
-#include "coupling/world/leaders.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/world/cell.hpp"
@@ -48,7 +48,7 @@ std::vector<double> unbalanced_traction(const World& world, const Workspace& w) 
     }
     const dcm::Group& g = s.dcm.group[c.at / kLanes];
     double sum = 0;
-    const auto add = [&](const mesh::Topology& t, int first, double r2) {
+    const auto add = [&](const geometry::Topology& t, int first, double r2) {
       for (int i = 0; i < t.n_node; ++i)
         sum += force_at(dcm::node_address(s.dcm, c.at, first + i)).squaredNorm() /
                (t.rest_node_area[i] * r2);

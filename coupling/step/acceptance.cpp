@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
 #include "coupling/step/clearance.hpp"
 #include "coupling/step/closing.hpp"
@@ -59,7 +59,7 @@ constexpr double kLeastArea = 0.25;
 
 /// Whether a move turns a face over, or nearly, or folds two faces of an edge through each other.
 /// @param first  number of the mesh's first node among the points of the cell
-bool turns_over(const dcm::State& s, std::size_t lane, const mesh::Topology& t, int first,
+bool turns_over(const dcm::State& s, std::size_t lane, const geometry::Topology& t, int first,
                 const std::vector<double>& move) {
   struct Normals {
     Vec3 before, after;

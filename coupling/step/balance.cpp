@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
 
 namespace acinus::coupling {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/exact_sum.hpp"
-#include "core/threads.hpp"
+#include "core/numbers/exact_sum.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/world/workspace.hpp"
 
 namespace acinus::coupling {

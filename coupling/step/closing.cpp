@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "core/numbers.hpp"
-#include "core/stop.hpp"
+#include "core/numbers/numbers.hpp"
+#include "core/parallel/stop.hpp"
 #include "coupling/step/acceptance.hpp"
 #include "coupling/step/attempt.hpp"
 #include "coupling/step/balance.hpp"

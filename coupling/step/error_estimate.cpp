@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/step/cell_sums.hpp"
 
 namespace acinus::coupling {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/ranks.hpp"
+#include "core/parallel/ranks.hpp"
 #include "coupling/world/workspace.hpp"
 
 namespace acinus::coupling {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/numbers.hpp"
-#include "core/threads.hpp"
-#include "core/time_grid.hpp"
+#include "core/numbers/numbers.hpp"
+#include "core/numbers/time_grid.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/step/closing.hpp"
 #include "coupling/step/solve.hpp"
 #include "coupling/step/stages.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 
 namespace acinus::coupling {
 

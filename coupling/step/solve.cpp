@@ -1,5 +1,5 @@
 #include "coupling/step/solve.hpp"
-#include "core/make_room.hpp"
+#include "core/parallel/make_room.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -5,10 +5,11 @@
 #include <span>
 #include <utility>
 
-#include "core/contact/wall_mesh.hpp"
-#include "core/numbers.hpp"
+#include "contact/wall_mesh.hpp"
+#include "core/numbers/numbers.hpp"
+#include "coupling/migration/leaders.hpp"
+#include "coupling/migration/migration.hpp"
 #include "coupling/step/foreign.hpp"
-#include "coupling/world/leaders.hpp"
 #include "coupling/world/sharing.hpp"
 #include "dcm/node_friction.hpp"
 #include "dcm/terms/medium.hpp"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/mesh/measures.hpp"
 #include "coupling/subworld/subworld.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -18,7 +18,7 @@ double pressure_of(const World& world, std::size_t lane, const std::vector<Vec3>
   const State& s = world.state;
   const dcm::Group& group = s.dcm.group[lane / kLanes];
   return dcm::cytosol_pressure(world.params.dcm[group.type].bulk_modulus,
-                               mesh::compute_volume(node, group.topology->triangle),
+                               geometry::compute_volume(node, group.topology->triangle),
                                s.dcm.volume[lane].at(s.clock.time));
 }
 

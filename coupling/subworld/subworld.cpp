@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/contact/box_pairs.hpp"
 #include "coupling/step/loop.hpp"
 #include "coupling/step/stages.hpp"
+#include "coupling/world/cell.hpp"
 #include "coupling/world/population.hpp"
+#include "geometry/box_pairs.hpp"
 
 namespace acinus::coupling {
 namespace {

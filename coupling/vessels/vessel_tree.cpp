@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLane = 0;  ///< where the tree stands in its block
 
-double mean_radius(const mesh::Network& n, std::size_t segment) {
+double mean_radius(const geometry::Network& n, std::size_t segment) {
   return 0.5 * (n.radius[segment][0] + n.radius[segment][1]);
 }
 
@@ -32,7 +32,7 @@ BeamEnds ends_of(const VesselTree& tree, const TreeState& state, std::size_t seg
 }
 
 /// How many segments every node has.
-std::vector<int> find_degrees(const mesh::Network& n) {
+std::vector<int> find_degrees(const geometry::Network& n) {
   std::vector<int> degree(n.node.size(), 0);
   for (const auto& segment : n.segment)
     for (const int node : segment) ++degree[node];
@@ -67,7 +67,7 @@ bool VesselTree::has_ends() const {
   return std::ranges::find(degree, 1) != degree.end();
 }
 
-VesselTree make_tree(mesh::Network rest, const TubeMaterial& m, VesselAnchors anchors) {
+VesselTree make_tree(geometry::Network rest, const TubeMaterial& m, VesselAnchors anchors) {
   VesselTree tree;
   tree.rest = std::move(rest);
   tree.material = m;

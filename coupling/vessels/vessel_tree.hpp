@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/boundary.hpp"
-#include "core/mesh/network.hpp"
-#include "core/solve/system.hpp"
+#include "contact/boundary.hpp"
 #include "coupling/vessels/beam.hpp"
+#include "geometry/network.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::coupling {
 
@@ -28,7 +28,7 @@ struct TubeMaterial {
 
 /// What does not change in a run. Without segments there is no tree: vessels stand still.
 struct VesselTree {
-  mesh::Network rest;  ///< without pressure
+  geometry::Network rest;  ///< without pressure
   TubeMaterial material;
   std::vector<Tube> tube;             ///< [segment]
   std::vector<Beam> beam;             ///< [segment]
@@ -44,7 +44,7 @@ struct VesselTree {
   std::size_t n_node() const { return rest.node.size(); }
 };
 
-VesselTree make_tree(mesh::Network rest, const TubeMaterial& material, VesselAnchors anchors);
+VesselTree make_tree(geometry::Network rest, const TubeMaterial& material, VesselAnchors anchors);
 
 /// Where the nodes of a tree are: what a checkpoint holds. Empty without one.
 struct TreeState {

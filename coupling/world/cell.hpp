@@ -4,10 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "coupling/world/population.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
+
+/// Index into arrays over [dcm lanes, then cbm cells].
+inline std::size_t cell_index(const State& s, std::size_t sphere) {
+  return s.dcm.n_lane() + sphere;
+}
 
 /// One cell of either model as the rules of life see it.
 struct Cell {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 
 namespace acinus::coupling {
 

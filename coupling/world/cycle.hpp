@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/ramp.hpp"
+#include "core/numbers/ramp.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::coupling {

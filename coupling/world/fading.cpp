@@ -4,7 +4,6 @@
 #include <unordered_map>
 
 #include "coupling/world/cell.hpp"
-#include "coupling/world/migration.hpp"
 
 namespace acinus::coupling {
 namespace {

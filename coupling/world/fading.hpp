@@ -1,29 +1,11 @@
 #pragma once
-/// Pair forces that fade: what the contact of two cells lacks, or has too much, of its force since
-/// one of them changed its model.
+/// Pair forces that fade after a change of model.
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "core/ramp.hpp"
-#include "core/vec.hpp"
+#include "coupling/world/cell_forces.hpp"
+#include "coupling/world/fading_force.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
-
-struct State;
-struct CellForces;
-
-inline constexpr std::int64_t kNoPartner = -1;
-
-struct FadingForce {
-  std::int64_t a = 0, b = kNoPartner;  ///< lineages; b: none if the partner is boundary
-  Vec3 force = Vec3::Zero();           ///< nN, on a while the share is 1; b gets the opposite
-  double virial = 0;                   ///< nN um, force . arm of a, what it adds to its stress
-  Ramp share;                          ///< from 1 to 0
-  Vec3 apart = Vec3::Zero();  ///< um, centre of a from that of b, or from the origin, at first
-  double reach = 0;           ///< um, how far they may move from that before none is left
-};
 
 /// What is left of a force, from 1 to 0. It fades with time, and with the way of the two relative
 /// to each other: what stands in for a contact must not drive cells away that have come apart.

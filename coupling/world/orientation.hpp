@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::coupling {

@@ -1,7 +1,7 @@
 #include "coupling/world/population.hpp"
 
-#include "core/numbers.hpp"
-#include "core/threads.hpp"
+#include "core/numbers/numbers.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/world/cell.hpp"
 

@@ -40,9 +40,4 @@ std::vector<Member> list_cbm(const State& state);
 void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> type,
                     std::span<const State> fresh, State& state);
 
-/// Index into arrays over [dcm lanes, then cbm cells].
-inline std::size_t cell_index(const State& s, std::size_t sphere) {
-  return s.dcm.n_lane() + sphere;
-}
-
 }  // namespace acinus::coupling

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/partition.hpp"
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
+#include "core/parallel/partition.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <unordered_map>
 
-#include "core/solve/system.hpp"
 #include "coupling/world/world.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::coupling {
 

@@ -5,16 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "core/solve/cg.hpp"
-#include "core/solve/operator.hpp"
-#include "core/solve/rigid.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
+#include "coupling/interface/interface.hpp"
+#include "coupling/world/cell_forces.hpp"
 #include "coupling/world/constraint.hpp"
-#include "coupling/world/interface.hpp"
-#include "coupling/world/migration.hpp"
 #include "coupling/world/sharing.hpp"
 #include "coupling/world/world.hpp"
-#include "dcm/nucleus_contact.hpp"
+#include "dcm/contact/nucleus_contact.hpp"
+#include "solve/cg.hpp"
+#include "solve/operator.hpp"
+#include "solve/rigid.hpp"
 
 namespace acinus::coupling {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/make_room.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/make_room.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::coupling {
 

@@ -9,21 +9,21 @@
 #include "cbm/contact.hpp"
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
-#include "core/contact/boundary.hpp"
-#include "core/ranks.hpp"
-#include "core/solve/cg.hpp"
+#include "contact/boundary.hpp"
+#include "core/parallel/ranks.hpp"
+#include "coupling/apparatus/pull.hpp"
+#include "coupling/apparatus/stretcher.hpp"
+#include "coupling/apparatus/temperature.hpp"
+#include "coupling/interface/interface.hpp"
 #include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cycle.hpp"
-#include "coupling/world/fading.hpp"
-#include "coupling/world/interface.hpp"
-#include "coupling/world/pull.hpp"
-#include "coupling/world/stretcher.hpp"
+#include "coupling/world/fading_force.hpp"
 #include "coupling/world/suction.hpp"
-#include "coupling/world/temperature.hpp"
 #include "coupling/world/zoom.hpp"
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
+#include "solve/cg.hpp"
 
 namespace acinus::coupling {
 
@@ -160,7 +160,7 @@ int count_cells(const State& state);
 int count_asleep(const State& state);
 
 /// Vessels where they are at rest: what does not change in a run.
-inline const mesh::Network& vessels_at_rest(const Params& p) {
+inline const geometry::Network& vessels_at_rest(const Params& p) {
   return p.tree.exists() ? p.tree.rest : p.boundary.vessels.network;
 }
 

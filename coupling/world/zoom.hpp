@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/mesh/topology.hpp"
 #include "core/vec.hpp"
 #include "coupling/world/region.hpp"
+#include "geometry/topology.hpp"
 
 namespace acinus::coupling {
 
@@ -21,7 +21,7 @@ struct ZoomParams {
   std::vector<Region> region;
   Vec3 axis_point = Vec3::Zero();  ///< the vein axis is vertical through it
   /// [cell type] mesh of its deformable cells
-  std::vector<const mesh::Topology*> mesh;
+  std::vector<const geometry::Topology*> mesh;
   std::uint64_t seed = 1;  ///< of the orientation of new meshes, and of the moduli of new spheres
 
   bool moves() const { return grid > 0; }

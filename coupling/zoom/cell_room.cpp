@@ -28,7 +28,7 @@ struct Surroundings {
   std::vector<dcm::RoomFace> face;
   std::vector<Facing> facing;
   contact::Boundary boundary;  ///< walls only
-  const mesh::Network* network = nullptr;
+  const geometry::Network* network = nullptr;
   std::vector<int> segment;
   std::vector<const contact::StaticMesh*> mesh;
 };

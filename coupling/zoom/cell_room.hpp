@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "coupling/world/world.hpp"
-#include "dcm/room.hpp"
+#include "dcm/shape/room.hpp"
 
 namespace acinus::coupling {
 

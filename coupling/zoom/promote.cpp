@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/orientation.hpp"
 #include "coupling/zoom/cell_room.hpp"
-#include "dcm/give_shape.hpp"
-#include "dcm/split.hpp"
+#include "dcm/shape/give_shape.hpp"
+#include "dcm/shape/split.hpp"
+#include "geometry/measures.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -22,7 +22,7 @@ constexpr double kLeastVolume = 0.7;
 constexpr double kLeastShapeQuality = 0.1;
 constexpr int kFillings = 3;
 
-std::vector<Vec3> directions(const mesh::Topology& t, const Mat3& turn) {
+std::vector<Vec3> directions(const geometry::Topology& t, const Mat3& turn) {
   std::vector<Vec3> direction;
   for (const Vec3& rest : t.rest) direction.push_back((turn * rest).normalized());
   return direction;
@@ -43,7 +43,7 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
                       std::span<const double> radius) {
   const State& s = world.state;
   const int type = s.cbm.type[sphere];
-  const mesh::Topology& t = *world.params.zoom.mesh[static_cast<std::size_t>(type)];
+  const geometry::Topology& t = *world.params.zoom.mesh[static_cast<std::size_t>(type)];
   const double bulk = world.params.dcm[static_cast<std::size_t>(type)].bulk_modulus;
   const double rest = s.cbm.volume[sphere].at(s.clock.time);
   const double wanted = rest * std::exp(-std::max(pressure, 0.0) / bulk);
@@ -57,10 +57,10 @@ NewShell shape_sphere(const World& world, std::size_t sphere, double pressure,
   for (double volume = wanted, k = 0; k < kFillings; ++k) {
     const double size = room.find_radius(volume, kRoomReach * radius[sphere]);
     shell.node = room.fill(t, direction, size);
-    found = mesh::compute_volume(shell.node, t.triangle);
+    found = geometry::compute_volume(shell.node, t.triangle);
     volume *= wanted / found;
   }
-  const double quality = mesh::compute_quality(shell.node, t.triangle);
+  const double quality = geometry::compute_quality(shell.node, t.triangle);
   shell.ok = found >= kLeastVolume * wanted && quality >= kLeastShapeQuality;
   if (!shell.ok)
     shell.why = fmt::format("its room holds {:.2f} of its volume, with triangles down to {:.2g}",
@@ -104,7 +104,7 @@ State make_sphere(const World& world, std::size_t lane) {
   dcm::copy_nodes(d, lane, node);
   State out;
   out.cbm = cbm::make_state(
-      {{d.lineage[lane], group.type, mesh::compute_centroid(node, group.topology->triangle),
+      {{d.lineage[lane], group.type, geometry::compute_centroid(node, group.topology->triangle),
         sphere_radius(d.volume[lane].at(s.clock.time)),
         cbm::draw_young(world.params.cbm[static_cast<std::size_t>(group.type)],
                         world.params.zoom.seed, d.lineage[lane]),

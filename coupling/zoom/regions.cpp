@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/mesh/segment_shape.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
+#include "geometry/segment_shape.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -39,7 +39,7 @@ bool zoom_needs_pressure(const ZoomParams& zoom) {
                              [](const Region& r) { return r.kind == RegionKind::kPressure; });
 }
 
-std::vector<double> distances_from_zoom(const ZoomParams& zoom, const mesh::Network& vessels,
+std::vector<double> distances_from_zoom(const ZoomParams& zoom, const geometry::Network& vessels,
                                         std::span<const ZoomCell> cells) {
   std::vector<LayerCell> layer_cells(cells.begin(), cells.end());
   std::vector<double> nearest(cells.size(), kFar);
@@ -52,7 +52,7 @@ std::vector<double> distances_from_zoom(const ZoomParams& zoom, const mesh::Netw
         case RegionKind::kCells:
           return nearest_of(followed, c.center) - r.max_distance;
         case RegionKind::kVessel:
-          return mesh::nearest_segment(vessels, c.center).gap - r.max_distance;
+          return geometry::nearest_segment(vessels, c.center).gap - r.max_distance;
         case RegionKind::kPressure:
           return c.pressure >= r.above ? 0 : c.pressure > r.below ? 0.5 * zoom.margin : kFar;
         default:

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/network.hpp"
-#include "coupling/world/lesion_layers.hpp"
+#include "coupling/migration/lesion_layers.hpp"
 #include "coupling/world/zoom.hpp"
+#include "geometry/network.hpp"
 
 namespace acinus::coupling {
 
@@ -21,7 +21,7 @@ struct ZoomCell : LayerCell {
 /// followed: um, 0 and less inside. In regions by pressure: 0 for cells at and above the upper
 /// threshold, infinite for those at and below the lower one, and half the margin between, where
 /// cells stay what they are.
-std::vector<double> distances_from_zoom(const ZoomParams& zoom, const mesh::Network& vessels,
+std::vector<double> distances_from_zoom(const ZoomParams& zoom, const geometry::Network& vessels,
                                         std::span<const ZoomCell> cells);
 
 /// Whether a region of the zoom goes by pressure.

@@ -8,14 +8,15 @@
 #include <set>
 #include <utility>
 
+#include "core/numbers/time_grid.hpp"
+#include "core/parallel/stop.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/stop.hpp"
-#include "core/threads.hpp"
-#include "core/time_grid.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
+#include "coupling/world/fading.hpp"
 #include "coupling/world/population.hpp"
 #include "coupling/zoom/pair_forces.hpp"
 #include "coupling/zoom/promote.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 /// Membrane: resistance to change of the whole surface's area.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

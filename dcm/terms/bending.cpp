@@ -86,13 +86,13 @@ ACINUS_INLINE FoldLaw hinge_law(Lane cos_theta, Lane sin_theta, double c0, doubl
 }
 
 /// Energy of two faces of mean size pressed kTouchDepth into each other, over radius^2, nN/um.
-double touch_stiffness(const Params& p, const mesh::Topology& t) {
+double touch_stiffness(const Params& p, const geometry::Topology& t) {
   return 0.5 * p.fold_repulsion * kTouchDepth * kTouchDepth * t.rest_area / t.n_triangle;
 }
 
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
                                   double* force, float* element, float* spring) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   const Lane k = p.bending_stiffness * load(g.active);
   const Lane radius = load(g.radius);
   const Lane touching = touch_stiffness(p, t) * load(g.active) * radius * radius;

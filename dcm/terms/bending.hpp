@@ -1,9 +1,9 @@
 #pragma once
 /// Cortex: bending resistance of the hinge at every edge, and of faces to collapse.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

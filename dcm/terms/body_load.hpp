@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

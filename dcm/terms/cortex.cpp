@@ -7,7 +7,7 @@ namespace {
 
 ACINUS_KERNEL void cortex_kernel(const Params& p, const GroupView& g, double stiffness_scale,
                                  double friction_scale, double* force, float* element) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   const Lane radius = load(g.radius), active = load(g.active);
   const Lane k = p.spring_stiffness * active;
   const Lane friction = (p.nodal_friction * friction_scale) * active;

@@ -20,7 +20,7 @@ Vec3 center_of_lane(const GroupView& g, int lane) {
 
 /// What the tension is multiplied by in each triangle, [n_triangle][lane].
 void find_ring_factors(const Contraction& c, const GroupView& g, std::vector<double>& factor) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   const Vec3 axis = c.axis.normalized();
   factor.resize(t.triangle.size() * kLanes);
   for (int l = 0; l < kLanes; ++l) {
@@ -58,7 +58,7 @@ constexpr double kRounding = 1e-6;
 /// @param factor  [n_triangle][lane], of which an edge takes the mean of its two; null: all 1
 ACINUS_KERNEL void tension_springs(double across, const GroupView& g, const double* factor,
                                    float* element) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   const Lane uniform = across * load(g.active);
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
     const int i = t.edge[e][0], j = t.edge[e][1];

@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

@@ -5,7 +5,7 @@ namespace {
 
 ACINUS_KERNEL void local_area_kernel(const Params& p, const GroupView& g, double stiffness_scale,
                                      double* force, float* element) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   const Lane k = p.local_area_modulus * load(g.active);
   const Lane radius = load(g.radius);
   for (std::size_t f = 0; f < t.triangle.size(); ++f) {

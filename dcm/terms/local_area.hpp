@@ -1,9 +1,9 @@
 #pragma once
 /// Membrane: resistance to change of every single triangle's area, for mesh quality.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

@@ -9,7 +9,8 @@
 namespace acinus::dcm {
 namespace {
 
-std::vector<int> find_link_ends(const mesh::Topology& cortex, const mesh::Topology& nucleus) {
+std::vector<int> find_link_ends(const geometry::Topology& cortex,
+                                const geometry::Topology& nucleus) {
   std::vector<int> end;
   for (const Vec3& x : nucleus.rest) {
     int nearest = 0;
@@ -81,10 +82,10 @@ void add_link(const PlacedLink& p, solve::System& s) {
 
 }  // namespace
 
-const std::vector<int>& shared_link_ends(const mesh::Topology& cortex,
-                                         const mesh::Topology& nucleus) {
+const std::vector<int>& shared_link_ends(const geometry::Topology& cortex,
+                                         const geometry::Topology& nucleus) {
   static std::mutex mutex;
-  static std::map<std::pair<const mesh::Topology*, const mesh::Topology*>,
+  static std::map<std::pair<const geometry::Topology*, const geometry::Topology*>,
                   std::unique_ptr<std::vector<int>>>
       kept;
   const std::scoped_lock lock(mutex);
@@ -95,7 +96,7 @@ const std::vector<int>& shared_link_ends(const mesh::Topology& cortex,
 
 NucleusLink nucleus_link(const Nucleus& n, const GroupView& cortex, const GroupView& nuclei,
                          const std::vector<double>& ratio, int node, int lane) {
-  const mesh::Topology& t = *nuclei.topology;
+  const geometry::Topology& t = *nuclei.topology;
   const double outer = cortex.radius[lane], inner = nuclei.radius[lane];
   const double share = t.rest_node_area[node] / t.rest_area;
   const double form = 4 * kPi * share * outer * inner / (outer - inner);

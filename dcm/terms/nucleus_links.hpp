@@ -9,8 +9,8 @@ namespace acinus::dcm {
 
 /// Which nodes of the cortex the nodes of a nucleus are linked to: the nearest in direction.
 /// [n_node of the nucleus]. Kept for the life of the program.
-const std::vector<int>& shared_link_ends(const mesh::Topology& cortex,
-                                         const mesh::Topology& nucleus);
+const std::vector<int>& shared_link_ends(const geometry::Topology& cortex,
+                                         const geometry::Topology& nucleus);
 
 /// One link of a cell.
 struct NucleusLink {

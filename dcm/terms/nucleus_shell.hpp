@@ -1,9 +1,9 @@
 #pragma once
 /// The shell of a nucleus: the terms of a cortex with constants of its own.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

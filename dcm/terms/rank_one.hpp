@@ -1,7 +1,7 @@
 #pragma once
 /// What the whole-cell terms (volume, area) share: a force along their gradient.
 
-#include "core/lanes.hpp"
+#include "core/numbers/lanes.hpp"
 
 namespace acinus::dcm {
 

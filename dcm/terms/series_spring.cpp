@@ -7,7 +7,7 @@ namespace {
 
 ACINUS_KERNEL void series_kernel(const Params& p, const GroupView& g, const SeriesStep& step,
                                  solve::System& s) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   const double stiffness_scale = s.stiffness_scale, friction_scale = s.friction_scale;
   double* const force = s.force.data() + g.first_row * kPointStride;
   float* element = s.spring.data() + g.first_spring * solve::kSpringStride;

@@ -1,9 +1,9 @@
 #pragma once
 /// Cortex of springs in series with dashpots: Maxwell elements along the edges.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

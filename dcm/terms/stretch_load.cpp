@@ -7,7 +7,7 @@ namespace acinus::dcm {
 namespace {
 
 /// Six times dV/dx of every node of a lane.
-void find_gradients(const mesh::Topology& t, const std::vector<Vec3>& arm,
+void find_gradients(const geometry::Topology& t, const std::vector<Vec3>& arm,
                     std::vector<Vec3>& gradient) {
   gradient.assign(arm.size(), Vec3::Zero());
   for (const auto& [a, b, c] : t.triangle) {
@@ -20,7 +20,7 @@ void find_gradients(const mesh::Topology& t, const std::vector<Vec3>& arm,
 }  // namespace
 
 void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System& s) {
-  const mesh::Topology& t = *g.topology;
+  const geometry::Topology& t = *g.topology;
   thread_local std::vector<Vec3> arm, force;  // a warmed-up step allocates nothing
   arm.resize(t.n_node);
   for (int l = 0; l < kLanes; ++l) {

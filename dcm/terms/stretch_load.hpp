@@ -2,8 +2,8 @@
 /// Outward stress on the surface of a cell that depends on the angle to an axis, as light puts on a
 /// cell between two beams.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

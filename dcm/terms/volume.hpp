@@ -1,9 +1,9 @@
 #pragma once
 /// Cytosol: resistance to volume change.
 
-#include "core/solve/system.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/params.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

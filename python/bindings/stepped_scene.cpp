@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/stop.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/stop.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/world/cell.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/frame_times.hpp"

@@ -8,7 +8,7 @@
 
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::python {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "runs/build/place_cells.hpp"
+#include "runs/assemble/place_cells.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {

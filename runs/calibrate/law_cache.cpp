@@ -9,9 +9,9 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
-#include "core/io/file_lock.hpp"
-#include "core/stop.hpp"
-#include "runs/build/build_correction.hpp"
+#include "core/parallel/stop.hpp"
+#include "io/file_lock.hpp"
+#include "runs/assemble/build_correction.hpp"
 #include "runs/calibrate/calibrate.hpp"
 #include "runs/session/read_summary.hpp"
 

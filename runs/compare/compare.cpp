@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
-#include "core/units.hpp"
+#include "core/numbers/nearest.hpp"
+#include "core/units/units.hpp"
 #include "core/vec.hpp"
-#include "runs/build/read_cells.hpp"
+#include "runs/assemble/read_cells.hpp"
 #include "runs/compare/compared_runs.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/writer.hpp"

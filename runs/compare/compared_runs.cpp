@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 

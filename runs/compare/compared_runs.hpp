@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run_reader.hpp"
+#include "io/run_reader.hpp"
 #include "runs/session/read_summary.hpp"
 
 namespace acinus::runs {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 #include "core/vec.hpp"
 #include "runs/compare/compare.hpp"
 #include "runs/scene/bounded_json.hpp"

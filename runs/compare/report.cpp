@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/io/disk.hpp"
-#include "core/io/plot.hpp"
+#include "io/disk.hpp"
+#include "io/plot.hpp"
 #include "runs/compare/compare.hpp"
 #include "runs/scene/json_text.hpp"
 

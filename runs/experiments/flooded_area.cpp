@@ -79,7 +79,7 @@ std::vector<std::uint8_t> flood(const FloodLattice& f, const CubeCounts& counts)
 }  // namespace
 
 FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
-                                const mesh::Network& vessels) {
+                                const geometry::Network& vessels) {
   FloodLattice f;
   const double edge = room.frame.cell_radius;
   f.spacing = edge / f.points;

@@ -26,7 +26,7 @@ struct FloodLattice {
 
 /// @param grid  slices and extent of the lesion
 FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
-                                const mesh::Network& vessels);
+                                const geometry::Network& vessels);
 
 /// Area of the flooded cubes outside vessels, mean over height, um^2.
 /// @param sections  at the heights of the lesion grid

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 #include "runs/experiments/experiment.hpp"
 
 namespace acinus::runs {

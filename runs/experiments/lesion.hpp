@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/surface.hpp"
+#include "contact/surface.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::runs {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 #include "coupling/measure/contact_forces.hpp"
-#include "coupling/world/lesion_layers.hpp"
+#include "coupling/migration/lesion_layers.hpp"
 #include "runs/experiments/plates.hpp"
 #include "runs/experiments/tissue.hpp"
 
@@ -74,7 +74,7 @@ void sample_sections(const ObservedFrame& frame, Observables& o) {
   const LobuleRoom& room = *o.room;
   const std::vector<CellMeasure>& cells = frame.snapshot.cells;
   if (!o.grid) {
-    const mesh::Network& vessels = coupling::vessels_at_rest(frame.world.params);
+    const geometry::Network& vessels = coupling::vessels_at_rest(frame.world.params);
     o.grid = make_lesion_grid(room, o.start.at("lesion_radius_slices_surface_um"), vessels);
     o.lattice = make_flood_lattice(*o.grid, room, vessels);
   }

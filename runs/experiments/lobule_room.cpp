@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 #include "coupling/generate/domain.hpp"
 
 namespace acinus::runs {
@@ -12,7 +12,7 @@ namespace {
 constexpr double kGrid = 2;  // um
 
 /// Volume of the domain that lies in vessels.
-double vessel_volume(const coupling::Domain& domain, const mesh::Network& network) {
+double vessel_volume(const coupling::Domain& domain, const geometry::Network& network) {
   int n[3];
   for (int k = 0; k < 3; ++k)
     n[k] = std::max(1, static_cast<int>(std::ceil((domain.high[k] - domain.low[k]) / kGrid)));

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/contact/boundary.hpp"
+#include "contact/boundary.hpp"
 #include "core/vec.hpp"
 #include "runs/experiments/lesion.hpp"
 #include "runs/scene/scene.hpp"

@@ -7,7 +7,7 @@ namespace acinus::runs {
 namespace {
 
 /// Area of the section of a closed surface by the plane through `point` across `axis`, um^2.
-double section_area(std::span<const Vec3> node, const mesh::Topology& t, const Vec3& point,
+double section_area(std::span<const Vec3> node, const geometry::Topology& t, const Vec3& point,
                     const Vec3& axis) {
   double area = 0;
   for (const auto& corner : t.triangle) {

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "coupling/life/proliferation.hpp"
-#include "coupling/world/lesion_layers.hpp"
+#include "coupling/migration/lesion_layers.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/experiments/single_cell.hpp"

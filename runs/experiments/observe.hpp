@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/io/checkpoint.hpp"
-#include "core/io/frame.hpp"
 #include "coupling/life/life.hpp"
 #include "coupling/measure/audit.hpp"
+#include "io/checkpoint.hpp"
+#include "io/frame.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/flooded_area.hpp"
 #include "runs/experiments/lobule_room.hpp"

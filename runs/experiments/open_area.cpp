@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/box_pairs.hpp"
+#include "geometry/box_pairs.hpp"
 
 namespace acinus::runs {
 namespace {
 
 constexpr double kAngle = kPi / 180, kSlice = 4, kStep = 2;  // rad, um, um
 
-void mark_vessels(const mesh::Network& network, LesionGrid& g) {
+void mark_vessels(const geometry::Network& network, LesionGrid& g) {
   const std::vector<Box> boxes = segment_boxes(network);
   auto free = g.free.begin();
   for (const double z : g.height)
@@ -32,7 +32,7 @@ void mark_vessels(const mesh::Network& network, LesionGrid& g) {
 
 }  // namespace
 
-std::vector<Box> segment_boxes(const mesh::Network& n) {
+std::vector<Box> segment_boxes(const geometry::Network& n) {
   std::vector<Box> boxes;
   for (std::size_t s = 0; s < n.segment.size(); ++s) {
     Box box;
@@ -43,7 +43,7 @@ std::vector<Box> segment_boxes(const mesh::Network& n) {
 }
 
 LesionGrid make_lesion_grid(const LobuleRoom& room, double lesion_radius,
-                            const mesh::Network& vessels) {
+                            const geometry::Network& vessels) {
   LesionGrid g;
   g.axis = room.axis;
   g.from_radius = room.frame.vein_radius;

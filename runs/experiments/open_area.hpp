@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "core/mesh/network.hpp"
+#include "geometry/network.hpp"
 #include "runs/experiments/lobule_room.hpp"
 #include "runs/experiments/sections.hpp"
 
@@ -26,10 +26,10 @@ struct LesionGrid {
 /// One ray a degree, one slice every 4 um, one point every 2 um.
 /// @param lesion_radius  um, of the initial lesion
 LesionGrid make_lesion_grid(const LobuleRoom& room, double lesion_radius,
-                            const mesh::Network& vessels);
+                            const geometry::Network& vessels);
 
 /// Boxes that hold the segments of vessels, um.
-std::vector<Box> segment_boxes(const mesh::Network& vessels);
+std::vector<Box> segment_boxes(const geometry::Network& vessels);
 
 struct Opening {
   double area = 0;       ///< um^2, outside vessels, covered by no cell; mean over height

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/boundary.hpp"
+#include "contact/boundary.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -46,7 +46,7 @@ Chords measure_chords(const std::vector<Section>& sections) {
   return chords;
 }
 
-double mean_distance(std::span<const Vec3> points, const mesh::Network& network,
+double mean_distance(std::span<const Vec3> points, const geometry::Network& network,
                      std::span<const std::uint8_t> chosen) {
   if (points.empty() || std::ranges::count(chosen, 1) == 0) return 0;
   double sum = 0;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/network.hpp"
+#include "geometry/network.hpp"
 #include "runs/experiments/sections.hpp"
 
 namespace acinus::runs {
@@ -24,7 +24,7 @@ Chords measure_chords(const std::vector<Section>& sections);
 /// Mean distance of the points from the nearest wall among the chosen segments, um, negative
 /// inside; 0 without points or segments.
 /// @param chosen  [segment] 1: counts
-double mean_distance(std::span<const Vec3> points, const mesh::Network& network,
+double mean_distance(std::span<const Vec3> points, const geometry::Network& network,
                      std::span<const std::uint8_t> chosen);
 
 }  // namespace acinus::runs

@@ -4,7 +4,7 @@
 
 #include "calibration/clump.hpp"
 #include "calibration/recovery.hpp"
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/frame_times.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/surface.hpp"
+#include "contact/surface.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::runs {

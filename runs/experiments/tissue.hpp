@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/boundary.hpp"
+#include "contact/boundary.hpp"
 #include "runs/experiments/observe.hpp"
 
 namespace acinus::runs {

@@ -10,9 +10,9 @@
 namespace acinus::runs {
 namespace {
 
-using image::Label;
-using image::LabelImage;
-using image::Voxel;
+using imaging::Label;
+using imaging::LabelImage;
+using imaging::Voxel;
 
 /// Calls visit(label) for the outermost voxels of a side.
 template <class Visit>

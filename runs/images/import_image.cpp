@@ -7,20 +7,20 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/image/label_surface.hpp"
-#include "core/image/pieces.hpp"
-#include "core/mesh/remesh.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
+#include "geometry/remesh.hpp"
+#include "imaging/label_surface.hpp"
+#include "imaging/pieces.hpp"
 #include "runs/images/background.hpp"
 
 namespace acinus::runs {
 namespace {
 
-using image::Label;
-using image::LabelImage;
-using image::Piece;
-using image::Pieces;
+using imaging::Label;
+using imaging::LabelImage;
+using imaging::Piece;
+using imaging::Pieces;
 
 /// Sides of triangles over the radius of a ball of the label's volume: some 2500 to a cell.
 constexpr double kEdge = 0.12;
@@ -48,11 +48,11 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
   LabelImage vessels = cells;
   std::ranges::fill(vessels.label, 0);
   if (!o.vessels.empty()) {
-    image::ReadImage read = o.read;
+    imaging::ReadImage read = o.read;
     read.voxel = cells.voxel;
     read.unit = 0;
     read.second = true;
-    const LabelImage other = image::read_image(o.vessels, read, &warned);
+    const LabelImage other = imaging::read_image(o.vessels, read, &warned);
     check(other.size == cells.size,
           fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
                       o.vessels, other.size[0], other.size[1], other.size[2], o.image,
@@ -110,7 +110,7 @@ class Sorting {
 
   /// The pieces to keep, each the only one of its label.
   std::vector<Piece> run() {
-    Pieces pieces = image::find_pieces(image_);
+    Pieces pieces = imaging::find_pieces(image_);
     check(!pieces.piece.empty(),
           fmt::format("{}: all voxels are 0, the background. Is this the label image?", o_.image));
     check_overflow(o_, image_, pieces);
@@ -129,7 +129,7 @@ class Sorting {
     }
     warn_of_giant(kept);
     if (o_.split) number_anew(pieces, keep, kept);
-    for (const image::PieceRow& row : pieces.row)
+    for (const imaging::PieceRow& row : pieces.row)
       if (keep[row.piece] == 0)
         std::fill_n(&image_.label[image_.index(row.first)], row.length, Label{0});
     return kept;
@@ -191,7 +191,7 @@ class Sorting {
       label[k] = main ? pieces.piece[k].label : ++next;
       if (keep[k] != 0) kept[at++].label = label[k];
     }
-    for (const image::PieceRow& row : pieces.row)
+    for (const imaging::PieceRow& row : pieces.row)
       std::fill_n(&image_.label[image_.index(row.first)], row.length, label[row.piece]);
     std::ranges::sort(kept, {}, &Piece::label);
   }
@@ -204,14 +204,14 @@ class Sorting {
 /// The surface of a piece, smoothed more where it has holes at first.
 /// @return why there is none, or empty
 std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
-                         mesh::Surface& surface) {
+                         geometry::Surface& surface) {
   constexpr std::array<double, 3> kMore{1, 1.6, 2.5};
   constexpr double kMostLost = 0.1;
   std::string why;
   for (const double more : kMore) {
     try {
-      image::LabelSurface made =
-          image::make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
+      imaging::LabelSurface made =
+          imaging::make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
       if (made.handles > 0) {
         why = "it has a hole through it";
         continue;
@@ -261,7 +261,7 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
     if (vessels.label[k] != 0) both.label[k] = vessel;
   std::map<Label, ImportedCell*> by_label;
   for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
-  for (const auto& [a, b] : image::find_touching(both, kFaces)) {
+  for (const auto& [a, b] : imaging::find_touching(both, kFaces)) {
     const auto p = by_label.find(a), q = by_label.find(b);
     if (p == by_label.end()) continue;
     if (b == vessel) p->second->at_vessel = true;
@@ -273,11 +273,11 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
 }
 
 void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
-  Pieces pieces = image::find_pieces(vessels);
+  Pieces pieces = imaging::find_pieces(vessels);
   LabelImage numbered = vessels;
   constexpr std::size_t kLeastVoxels = 27;
   constexpr double kSmoother = 1.5, kVesselEdge = 1.5;
-  for (const image::PieceRow& row : pieces.row)
+  for (const imaging::PieceRow& row : pieces.row)
     std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
                 static_cast<Label>(row.piece) + 1);
   std::size_t specks = 0;
@@ -291,8 +291,8 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
     // A network is thin where a cell of its volume is not; walls with the steps of voxels are
     // rough.
     const double edge = kVesselEdge * numbered.voxel.maxCoeff();
-    image::LabelSurface made =
-        image::make_label_surface(numbered, p, edge, kSmoother * o.smoothing);
+    imaging::LabelSurface made =
+        imaging::make_label_surface(numbered, p, edge, kSmoother * o.smoothing);
     tissue.vessel.push_back(std::move(made.surface));
   }
   if (specks > 0)
@@ -314,7 +314,7 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
 
 ImportedTissue import_image(const ImportOptions& o) {
   ImportedTissue tissue;
-  LabelImage image = image::read_image(o.image, o.read, &tissue.warned);
+  LabelImage image = imaging::read_image(o.image, o.read, &tissue.warned);
   clear_background(o, image);
   tissue.size = image.size;
   tissue.voxel = image.voxel;

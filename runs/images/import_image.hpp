@@ -5,20 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "core/image/label_image.hpp"
-#include "core/image/read_image.hpp"
-#include "core/mesh/surface.hpp"
+#include "geometry/surface.hpp"
+#include "imaging/label_image.hpp"
+#include "imaging/read_image.hpp"
 #include "runs/scene/choices.hpp"
 
 namespace acinus::runs {
 
 struct ImportOptions {
   std::string image;
-  image::ReadImage read;
-  std::string vessels;            ///< an image of the same size, not 0 inside vessels; "" = none
-  image::Label vessel_label = 0;  ///< or the label of vessels in the image; 0 = none
+  imaging::ReadImage read;
+  std::string vessels;              ///< an image of the same size, not 0 inside vessels; "" = none
+  imaging::Label vessel_label = 0;  ///< or the label of vessels in the image; 0 = none
   /// A label that is background besides 0; 0: no other is, however it looks.
-  std::optional<image::Label> background;
+  std::optional<imaging::Label> background;
   CellModel model = CellModel::kDcm;
   int nodes = 162;           ///< of a cell's mesh
   double smallest = 0;       ///< um^3; smaller labels are specks; 0: a tenth of the median
@@ -29,29 +29,29 @@ struct ImportOptions {
 
 /// A label, or a piece of one, that is no cell of the scene.
 struct LeftOut {
-  image::Label label = 0;
+  imaging::Label label = 0;
   std::size_t n_voxel = 0;
   Vec3 center = Vec3::Zero();  ///< um
   std::string why;
 };
 
 struct ImportedCell {
-  image::Label label = 0;
+  imaging::Label label = 0;
   std::size_t n_voxel = 0;
   double volume = 0;           ///< um^3, of its voxels
   Vec3 center = Vec3::Zero();  ///< um, of its voxels
   int neighbours = 0;          ///< cells that touch it in the image
   bool at_border = false, at_vessel = false;
-  mesh::Surface surface;
+  geometry::Surface surface;
 };
 
 struct ImportedTissue {
-  image::Voxel size{};
+  imaging::Voxel size{};
   Vec3 voxel = Vec3::Zero();       ///< um
   std::vector<ImportedCell> cell;  ///< by label
   std::vector<LeftOut> left_out;   ///< by label, the larger first
-  std::vector<mesh::Surface> vessel;
-  std::vector<std::array<image::Label, 2>> touching;  ///< pairs of kept cells
+  std::vector<geometry::Surface> vessel;
+  std::vector<std::array<imaging::Label, 2>> touching;  ///< pairs of kept cells
   std::vector<std::string> warned;
 };
 

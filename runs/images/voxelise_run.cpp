@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/implicit/vessel_mesh.hpp"
-#include "core/io/run_reader.hpp"
-#include "core/mesh/measures.hpp"
-#include "core/mesh/topology.hpp"
 #include "core/sphere.hpp"
-#include "runs/build/build_boundary.hpp"
+#include "geometry/implicit/vessel_mesh.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/topology.hpp"
+#include "io/run_reader.hpp"
+#include "runs/assemble/build_boundary.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs {
@@ -28,12 +28,12 @@ Vec3 point_of(const io::Frame& f, std::int64_t k) {
 }
 
 /// Closed surfaces by lineage.
-std::map<std::int64_t, mesh::Surface> surfaces_of(const io::Frame& f) {
-  std::map<std::int64_t, mesh::Surface> out;
+std::map<std::int64_t, geometry::Surface> surfaces_of(const io::Frame& f) {
+  std::map<std::int64_t, geometry::Surface> out;
   std::map<std::pair<std::int64_t, std::int64_t>, int> number;  // of a node among those of a cell
   for (std::size_t t = 0; t < f.triangle.size(); ++t) {
     if (f.kind[t] != kDeformable) continue;
-    mesh::Surface& s = out[f.cell_id[t]];
+    geometry::Surface& s = out[f.cell_id[t]];
     std::array<int, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [at, fresh] =
@@ -43,13 +43,13 @@ std::map<std::int64_t, mesh::Surface> surfaces_of(const io::Frame& f) {
     }
     s.triangle.push_back(corner);
   }
-  const mesh::Topology& ball = mesh::shared_icosphere(kSphereNodes);
+  const geometry::Topology& ball = geometry::shared_icosphere(kSphereNodes);
   for (const io::Field& field : f.cell_data) {
     if (field.name != "radius") continue;
     for (std::int64_t k = 0; k < f.n_sphere; ++k) {
       const std::size_t at = f.triangle.size() + static_cast<std::size_t>(k);
       if (f.kind[at] != kSphereKind) continue;
-      mesh::Surface s;
+      geometry::Surface s;
       s.triangle = ball.triangle;
       for (const Vec3& x : ball.rest)
         s.node.push_back(point_of(f, f.n_mesh_node + k) + static_cast<double>(field.value[at]) * x);
@@ -59,19 +59,19 @@ std::map<std::int64_t, mesh::Surface> surfaces_of(const io::Frame& f) {
   return out;
 }
 
-std::optional<mesh::Surface> vessels_of(const io::RunReader& run, const std::string& folder) {
+std::optional<geometry::Surface> vessels_of(const io::RunReader& run, const std::string& folder) {
   const auto provenance = run.provenance();
   const auto text = provenance.find("scene");
   if (text == provenance.end()) return std::nullopt;
   const Scene scene = parse_scene(text->second, folder, folder);
-  const mesh::Network network = build_network(scene);
+  const geometry::Network network = build_network(scene);
   if (network.segment.empty()) return std::nullopt;
   check(!scene.vessels.flexible,
         fmt::format("{}: its vessels bend, and a frame does not say where to; leave them out with "
                     "--no-vessels.",
                     folder));
   constexpr double kFineness = 0.3;  // a voxel may be small beside what is good enough to look at
-  return implicit::make_vessel_mesh(network, {.fineness = kFineness}).surface;
+  return geometry::make_vessel_mesh(network, {.fineness = kFineness}).surface;
 }
 
 }  // namespace
@@ -84,20 +84,20 @@ RunImage voxelise_run(const VoxeliseRun& o) {
         fmt::format("{}: --frame {}: the run has {}, numbered from 0.", o.folder, o.frame, frames));
   RunImage out;
   out.frame = o.frame < 0 ? frames - 1 : o.frame;
-  std::vector<mesh::Surface> body;
+  std::vector<geometry::Surface> body;
   for (auto& [lineage, surface] : surfaces_of(run.frame(out.frame))) {
-    out.cell.push_back({static_cast<image::Label>(body.size()) + 1, lineage,
-                        mesh::compute_volume(surface.node, surface.triangle),
-                        mesh::compute_centroid(surface.node, surface.triangle)});
+    out.cell.push_back({static_cast<imaging::Label>(body.size()) + 1, lineage,
+                        geometry::compute_volume(surface.node, surface.triangle),
+                        geometry::compute_centroid(surface.node, surface.triangle)});
     body.push_back(std::move(surface));
   }
   check(!body.empty(), fmt::format("{}: frame {} has no cells.", o.folder, out.frame));
   if (o.vessels)
     if (auto vessels = vessels_of(run, o.folder)) {
       body.push_back(std::move(*vessels));
-      out.vessels = static_cast<image::Label>(body.size());
+      out.vessels = static_cast<imaging::Label>(body.size());
     }
-  image::VoxelisedBodies made = image::voxelise(body, o.how);
+  imaging::VoxelisedBodies made = imaging::voxelise(body, o.how);
   out.image = std::move(made.image);
   for (LabelledCell& c : out.cell) c.center -= made.corner;
   return out;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/image/label_image.hpp"
-#include "core/image/voxelise.hpp"
+#include "imaging/label_image.hpp"
+#include "imaging/voxelise.hpp"
 
 namespace acinus::runs {
 
@@ -14,21 +14,21 @@ struct VoxeliseRun {
   std::string folder;   ///< of the run
   int frame = -1;       ///< from 0; -1: the last
   bool vessels = true;  ///< the vessels of the scene get the label after the last cell
-  image::Voxelise how;
+  imaging::Voxelise how;
 };
 
 /// Which cell of the run has which label.
 struct LabelledCell {
-  image::Label label = 0;
+  imaging::Label label = 0;
   std::int64_t lineage = 0;
   double volume = 0;           ///< um^3, of its mesh or sphere
   Vec3 center = Vec3::Zero();  ///< um from the corner of the image
 };
 
 struct RunImage {
-  image::LabelImage image;
+  imaging::LabelImage image;
   std::vector<LabelledCell> cell;
-  image::Label vessels = 0;  ///< their label; 0 = none
+  imaging::Label vessels = 0;  ///< their label; 0 = none
   int frame = 0;
 };
 

@@ -10,9 +10,9 @@
 #include <span>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/surface_file.hpp"
 #include "core/sphere.hpp"
+#include "io/disk.hpp"
+#include "io/surface_file.hpp"
 #include "runs/images/import_image.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/key_reader.hpp"
@@ -155,8 +155,8 @@ std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptio
   if (name.empty()) name = fs::path(folder).lexically_normal().parent_path().filename().string();
   if (!is_name(name)) name = "tissue";
   const std::string scene = path_of(kScene);
-  std::vector<mesh::Surface> surface;
-  std::vector<image::Label> label;
+  std::vector<geometry::Surface> surface;
+  std::vector<imaging::Label> label;
   for (const ImportedCell& c : t.cell) {
     surface.push_back(c.surface);
     label.push_back(c.label);
@@ -164,7 +164,7 @@ std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptio
   io::write_surfaces(path_of(kCells), surface, label);
   io::write_text_file(path_of(kTable), cells_text(t));
   if (!t.vessel.empty()) {
-    const std::vector<image::Label> number(t.vessel.size(), o.vessel_label);
+    const std::vector<imaging::Label> number(t.vessel.size(), o.vessel_label);
     io::write_surfaces(path_of(kVessels), t.vessel, number);
   }
   if (!t.left_out.empty()) io::write_text_file(path_of(kLeftOut), left_out_text(t));

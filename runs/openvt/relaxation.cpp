@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/run_reader.hpp"
-#include "runs/build/read_cells.hpp"
+#include "io/disk.hpp"
+#include "io/run_reader.hpp"
+#include "runs/assemble/read_cells.hpp"
 #include "runs/openvt/openvt.hpp"
 #include "runs/openvt/run_reference.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/io/checkpoint.hpp"
+#include "io/checkpoint.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/read_summary.hpp"

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/surface.hpp"
+#include "contact/surface.hpp"
 #include "coupling/generate/domain.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/world.hpp"
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
 
 namespace acinus::runs {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "core/numbers/nearest.hpp"
 #include "runs/scene/registry.hpp"
 
 namespace acinus::runs {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/time_grid.hpp"
+#include "core/numbers/time_grid.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
+#include "core/numbers/nearest.hpp"
 #include "runs/scene/document.hpp"
 
 namespace acinus::runs {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 
 namespace acinus::runs {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/io/checkpoint.hpp"
+#include "io/checkpoint.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/rules.hpp"
 #include "runs/scene/writer.hpp"

@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "core/nearest.hpp"
-#include "core/units.hpp"
+#include "core/numbers/nearest.hpp"
+#include "core/units/units.hpp"
 #include "runs/scene/quoted_quantity.hpp"
 
 namespace acinus::runs {

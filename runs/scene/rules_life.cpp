@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 #include "runs/scene/rules.hpp"
 
 namespace acinus::runs {

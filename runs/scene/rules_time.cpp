@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/time_grid.hpp"
-#include "core/units.hpp"
+#include "core/numbers/time_grid.hpp"
+#include "core/units/units.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/scene/rules.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/units.hpp"
+#include "core/units/units.hpp"
 #include "runs/scene/quoted_quantity.hpp"
 #include "runs/scene/rules.hpp"
 

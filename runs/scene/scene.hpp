@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "cbm/params.hpp"
-#include "core/schedule.hpp"
+#include "core/parallel/schedule.hpp"
 #include "core/vec.hpp"
 #include "coupling/world/world.hpp"
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
 #include "runs/scene/choices.hpp"
 
 namespace acinus::runs {

@@ -8,7 +8,7 @@
 
 #include "coupling/life/density.hpp"
 #include "coupling/world/cell.hpp"
-#include "runs/build/placing_advice.hpp"
+#include "runs/assemble/placing_advice.hpp"
 
 namespace acinus::runs {
 namespace {

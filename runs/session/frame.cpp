@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/contact/jkr.hpp"
-#include "core/contact/wall_mesh.hpp"
+#include "contact/jkr.hpp"
+#include "contact/wall_mesh.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
 #include "coupling/step/stages.hpp"
@@ -167,8 +167,8 @@ void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapsho
 
 }  // namespace
 
-mesh::Surface draw_boundary(const contact::Boundary& boundary) {
-  mesh::Surface drawn;
+geometry::Surface draw_boundary(const contact::Boundary& boundary) {
+  geometry::Surface drawn;
   if (const contact::WallMesh* wall = boundary.vessels.wall.get())
     drawn = {wall->surface.body.node, *wall->surface.triangle};
   else
@@ -178,7 +178,7 @@ mesh::Surface draw_boundary(const contact::Boundary& boundary) {
 }
 
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
-                     const Snapshot& snapshot, const mesh::Surface& boundary) {
+                     const Snapshot& snapshot, const geometry::Surface& boundary) {
   FrameBuilder builder(snapshot);
   const std::size_t n_body = w.dcm.body.size();
   for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);

@@ -5,25 +5,25 @@
 #include <optional>
 #include <vector>
 
-#include "core/io/frame.hpp"
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/surface.hpp"
 #include "coupling/measure/audit.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/surface.hpp"
+#include "io/frame.hpp"
 #include "runs/experiments/snapshot.hpp"
 
 namespace acinus::runs {
 
 /// Vessels and pipettes as triangles.
-mesh::Surface draw_boundary(const contact::Boundary& boundary);
+geometry::Surface draw_boundary(const contact::Boundary& boundary);
 
 /// Fills the arrays of a frame. @pre take_snapshot of the same moment
 /// @param boundary  of draw_boundary
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,
-                     const Snapshot& snapshot, const mesh::Surface& boundary);
+                     const Snapshot& snapshot, const geometry::Surface& boundary);
 
 /// The closed meshes of a boundary as the audit sees them, as long as the boundary lives.
 struct StaticBodies {
-  std::optional<mesh::AuditBody> vessel_surface;  ///< none: cells touch cones
+  std::optional<geometry::AuditBody> vessel_surface;  ///< none: cells touch cones
   std::vector<coupling::AuditStatic> mesh;
   std::vector<std::vector<std::array<int, 3>>> outward;  ///< [mesh] its triangles
 };

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 #include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/io/checkpoint.hpp"
-#include "core/io/disk.hpp"
+#include "io/checkpoint.hpp"
+#include "io/disk.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"

@@ -8,7 +8,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
-#include "runs/build/state_file.hpp"
+#include "runs/assemble/state_file.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"
 #include "runs/session/summary.hpp"

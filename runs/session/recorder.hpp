@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run_file.hpp"
-#include "core/mesh/surface.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/build/notes.hpp"
+#include "geometry/surface.hpp"
+#include "io/run_file.hpp"
+#include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/session/frame.hpp"
 #include "runs/session/run_scene.hpp"
@@ -69,7 +69,7 @@ class Recorder {
   const RunOptions& options_;
   coupling::Simulation& simulation_;
   std::optional<StaticBodies> static_bodies_;  ///< prepared with the first frame
-  mesh::Surface drawn_boundary_;
+  geometry::Surface drawn_boundary_;
   std::optional<io::RunFile> file_;  ///< none: another process writes
   RunTotals totals_;
   LifeTotals life_;

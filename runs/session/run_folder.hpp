@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/io/checkpoint.hpp"
-#include "core/io/file_lock.hpp"
+#include "io/checkpoint.hpp"
+#include "io/file_lock.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_scene.hpp"
 

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 
 namespace acinus::runs {
 namespace {

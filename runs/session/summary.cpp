@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
-#include "core/io/disk.hpp"
-#include "runs/build/build_world.hpp"
+#include "io/disk.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/single_cell.hpp"
 
@@ -182,7 +182,7 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
   add_cost(in, j);
   add_cells(in, j);
   j["vessel_length_um"] =
-      finite_number(mesh::total_length(in.world.params.boundary.vessels.network));
+      finite_number(geometry::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
   j["notes"] = in.notes.said;

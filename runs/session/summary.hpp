@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 #include "coupling/world/world.hpp"
-#include "runs/build/notes.hpp"
+#include "runs/assemble/notes.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_scene.hpp"

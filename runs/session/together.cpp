@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus::runs {
 namespace {

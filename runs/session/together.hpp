@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/ranks.hpp"
+#include "core/parallel/ranks.hpp"
 
 namespace acinus::runs {
 

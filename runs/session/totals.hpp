@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/checkpoint.hpp"
 #include "coupling/life/life.hpp"
 #include "coupling/measure/audit.hpp"
+#include "io/checkpoint.hpp"
 
 namespace acinus::runs {
 

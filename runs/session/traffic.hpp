@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/ranks.hpp"
+#include "core/parallel/ranks.hpp"
 
 namespace acinus::runs {
 

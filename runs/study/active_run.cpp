@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/inside.hpp"
+#include "io/disk.hpp"
+#include "io/inside.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/study/run_status.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/io/file_lock.hpp"
+#include "io/file_lock.hpp"
 #include "runs/session/child.hpp"
 #include "runs/study/plan.hpp"
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
-#include "core/unit_scale.hpp"
+#include "core/numbers/nearest.hpp"
+#include "core/units/unit_scale.hpp"
 #include "runs/study/measures.hpp"
 #include "runs/study/scene_value.hpp"
 

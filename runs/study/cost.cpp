@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runs/build/place_cells.hpp"
+#include "runs/assemble/place_cells.hpp"
 
 namespace acinus::runs {
 namespace {

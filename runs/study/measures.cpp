@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/time_grid.hpp"
-#include "core/unit_scale.hpp"
+#include "core/numbers/time_grid.hpp"
+#include "core/units/unit_scale.hpp"
 #include "runs/study/check_study.hpp"
 
 namespace acinus::runs {

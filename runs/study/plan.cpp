@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/nearest.hpp"
-#include "runs/build/build_boundary.hpp"
-#include "runs/build/build_world.hpp"
-#include "runs/build/start_state.hpp"
+#include "core/numbers/nearest.hpp"
+#include "runs/assemble/build_boundary.hpp"
+#include "runs/assemble/build_world.hpp"
+#include "runs/assemble/start_state.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/key_reader.hpp"

@@ -10,9 +10,9 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
-#include "core/io/checkpoint.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/file_lock.hpp"
+#include "io/checkpoint.hpp"
+#include "io/disk.hpp"
+#include "io/file_lock.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/session/read_summary.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/study/expected_cost.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/io/file_lock.hpp"
-#include "core/stop.hpp"
+#include "core/parallel/stop.hpp"
+#include "io/file_lock.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/study/active_run.hpp"
 #include "runs/study/run_status.hpp"

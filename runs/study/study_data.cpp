@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/run_reader.hpp"
-#include "core/io/tidy_table.hpp"
-#include "core/unit_scale.hpp"
+#include "core/units/unit_scale.hpp"
+#include "io/disk.hpp"
+#include "io/run_reader.hpp"
+#include "io/tidy_table.hpp"
 
 namespace acinus::runs {
 namespace {

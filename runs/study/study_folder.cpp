@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "runs/scene/bounded_json.hpp"
 
 namespace acinus::runs {

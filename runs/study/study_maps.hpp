@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/heat_map.hpp"
+#include "io/heat_map.hpp"
 #include "runs/study/plan.hpp"
 #include "runs/study/study_data.hpp"
 

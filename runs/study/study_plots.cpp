@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "runs/study/check_study.hpp"
 #include "runs/study/scene_value.hpp"
 

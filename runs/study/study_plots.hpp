@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/plot.hpp"
+#include "io/plot.hpp"
 #include "runs/study/study_data.hpp"
 
 namespace acinus::runs {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 #include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {

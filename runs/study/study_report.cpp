@@ -8,8 +8,8 @@
 #include <set>
 
 #include "acinus_version.hpp"
-#include "core/io/disk.hpp"
-#include "core/io/file_lock.hpp"
+#include "io/disk.hpp"
+#include "io/file_lock.hpp"
 #include "runs/study/study_data.hpp"
 #include "runs/study/study_maps.hpp"
 #include "runs/study/study_plots.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/nearest.hpp"
+#include "core/numbers/nearest.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "runs/study/check_study.hpp"
 
 namespace acinus::runs {

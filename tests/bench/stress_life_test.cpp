@@ -11,7 +11,7 @@
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/attempt.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/frame.hpp"
 

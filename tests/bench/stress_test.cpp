@@ -9,7 +9,7 @@
 #include "bench/stress/inspect.hpp"
 #include "bench/stress/random_scene.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/session/frame.hpp"
 #include "runs/session/soundness.hpp"
 #include "tests/runs/scene_texts.hpp"

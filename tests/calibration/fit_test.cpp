@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "core/contact/jkr.hpp"
+#include "contact/jkr.hpp"
 #include "core/error.hpp"
 
 namespace acinus::calibration {

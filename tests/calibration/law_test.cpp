@@ -9,7 +9,7 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 
 namespace acinus::calibration {
 namespace {

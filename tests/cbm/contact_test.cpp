@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/solve/operator.hpp"
+#include "solve/operator.hpp"
 #include "tests/cbm/spheres.hpp"
-#include "tests/core/contact/reference_table.hpp"
+#include "tests/contact/reference_table.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::cbm {
@@ -192,7 +192,7 @@ TEST(SpherePairs, StretchedAdhesiveContactsStayInTheLists) {
 
 TEST(Vessels, StretchedAdhesiveContactWithASoftVesselStaysInTheLists) {
   Spheres s({sphere({0, 0, 16.6}, 12, 5)});
-  mesh::Network n;
+  geometry::Network n;
   n.node = {{-50, 0, 0}, {50, 0, 0}};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
@@ -216,7 +216,7 @@ TEST(Vessels, OneContactForAnySpacingOfTheChain) {
       contact::jkr_force(contact::vessel_pair({12, 0.45, 0.47}, {4.7, 0.6, 0.4}, 0), 0.5, false);
   for (int pieces : {1, 2, 7, 20, 43, 85}) {
     Spheres s({sphere({1.3, 0, 16.2})});
-    mesh::Network n;
+    geometry::Network n;
     for (int k = 0; k <= pieces; ++k) n.node.emplace_back(-50 + 100.0 * k / pieces, 0, 0);
     for (int k = 0; k < pieces; ++k) {
       n.segment.push_back({k, k + 1});
@@ -238,7 +238,7 @@ TEST(Vessels, OneContactForAnySpacingOfTheChain) {
 // A cell that slides along an adhesive vessel keeps its contact where one segment ends.
 TEST(Vessels, StretchedContactSurvivesAJoint) {
   Spheres s({sphere({-3, 0, 16.6})});
-  mesh::Network n;
+  geometry::Network n;
   n.node = {{-50, 0, 0}, {0, 0, 0}, {50, 0, 0}};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};

@@ -116,7 +116,7 @@ TEST(Strength, ScalesContactsWithTheBoundary) {
     shell.center = {1, -26.5, 11};
     s.boundary.planes = {floor, mirror};
     s.boundary.capsules = {shell};
-    mesh::Network n;
+    geometry::Network n;
     n.node = {{-8, -50, 24}, {-8, 50, 24}};
     n.segment = {{0, 1}};
     n.radius = {{4.7, 4.7}};

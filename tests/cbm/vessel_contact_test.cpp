@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/hertz.hpp"
+#include "contact/hertz.hpp"
 #include "tests/cbm/spheres.hpp"
 
 namespace acinus::cbm {

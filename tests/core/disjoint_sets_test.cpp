@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 namespace acinus {
 namespace {

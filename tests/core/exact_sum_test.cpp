@@ -1,4 +1,4 @@
-#include "core/exact_sum.hpp"
+#include "core/numbers/exact_sum.hpp"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>

@@ -1,4 +1,4 @@
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>

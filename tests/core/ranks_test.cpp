@@ -1,4 +1,4 @@
-#include "core/ranks.hpp"
+#include "core/parallel/ranks.hpp"
 
 #include <gtest/gtest.h>
 

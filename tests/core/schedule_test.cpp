@@ -1,10 +1,10 @@
-#include "core/schedule.hpp"
+#include "core/parallel/schedule.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/arrhenius.hpp"
+#include "core/numbers/arrhenius.hpp"
 
 namespace acinus {
 namespace {

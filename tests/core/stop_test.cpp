@@ -1,4 +1,4 @@
-#include "core/stop.hpp"
+#include "core/parallel/stop.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

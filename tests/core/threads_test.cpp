@@ -1,4 +1,4 @@
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 #include <gtest/gtest.h>
 

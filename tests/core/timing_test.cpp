@@ -1,4 +1,4 @@
-#include "core/timing.hpp"
+#include "core/parallel/timing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -25,7 +25,7 @@ Adhesion adhesion_at(double apart, int n_node, bool& any) {
 // Two spheres of radius R with their surfaces a gap g apart are closer than h within
 // rho^2 = R (h - g). A mesh wobbles by its edge, a third of which is the range.
 TEST(Adhesion, OfRestingSpheresIsTheCapWithinReach) {
-  const mesh::Topology& mesh = mesh::shared_icosphere(642);
+  const geometry::Topology& mesh = geometry::shared_icosphere(642);
   const double range = 0.3 * mesh.mean_rest_length * 12;
   bool any = false;
   const Adhesion a = adhesion_at(24, 642, any);
@@ -39,7 +39,7 @@ TEST(Adhesion, OfRestingSpheresIsTheCapWithinReach) {
 }
 
 TEST(Adhesion, EndsBeyondTheRange) {
-  const double range = 0.3 * mesh::shared_icosphere(162).mean_rest_length * 12;
+  const double range = 0.3 * geometry::shared_icosphere(162).mean_rest_length * 12;
   bool any = true;
   const Adhesion a = adhesion_at(24.4 + range, 162, any);
   EXPECT_FALSE(any);

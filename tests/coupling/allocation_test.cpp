@@ -44,7 +44,7 @@ World make_row(bool deformable, bool spheres) {
   below.point = Vec3(0, 0, -11.9);
   below.material.adhesion = 0.01;
   w.params.boundary.planes = {below};
-  mesh::Network& vessel = w.params.boundary.vessels.network;
+  geometry::Network& vessel = w.params.boundary.vessels.network;
   vessel.node = {Vec3(-30, 16, 0), Vec3(150, 16, 0)};
   vessel.segment = {{0, 1}};
   vessel.radius = {{5, 5}};

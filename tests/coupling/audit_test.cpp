@@ -10,19 +10,19 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/mesh/surface.hpp"
-#include "core/mesh/topology.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
+#include "geometry/surface.hpp"
+#include "geometry/topology.hpp"
 #include "tests/reference/brick.hpp"
 
 namespace acinus::coupling {
 namespace {
 
-using mesh::Surface;
+using geometry::Surface;
 using reference::brick;
 
 Surface ball(const Vec3& center, double radius, int n_node = 162) {
-  const mesh::Topology& topology = mesh::shared_icosphere(n_node);
+  const geometry::Topology& topology = geometry::shared_icosphere(n_node);
   Surface out;
   out.triangle = topology.triangle;
   for (const Vec3& x : topology.rest) out.node.push_back(center + radius * x);
@@ -143,7 +143,7 @@ double brute_cone_depth(const Vec3& x, const Vec3& a, const Vec3& b, double ra, 
 TEST(Audit, CellAgainstTaperedVesselIsTheDepthInTheRoundCone) {
   const Surface cell = ball({0, 0, 14.5}, 12);
   for (const auto& [ra, rb] : {std::array{3.0, 3.0}, {5.0, 2.0}, {1.0, 6.0}, {40.0, 2.0}}) {
-    const mesh::Network net{{Vec3(-20, 3, 0), Vec3(18, -2, 1)}, {{0, 1}}, {{ra, rb}}};
+    const geometry::Network net{{Vec3(-20, 3, 0), Vec3(18, -2, 1)}, {{0, 1}}, {{ra, rb}}};
     double expected = 0;
     for (const Vec3& x : cell.node)
       expected = std::max(expected, brute_cone_depth(x, net.node[0], net.node[1], ra, rb));
@@ -159,7 +159,7 @@ TEST(Audit, CellAgainstTaperedVesselIsTheDepthInTheRoundCone) {
 }
 
 TEST(Audit, FlatFaceOnAVesselHasItsExactDepth) {
-  const mesh::Network net{{Vec3(-50, 0, 0), Vec3(50, 0, 0)}, {{0, 1}}, {{4.7, 4.7}}};
+  const geometry::Network net{{Vec3(-50, 0, 0), Vec3(50, 0, 0)}, {{0, 1}}, {{4.7, 4.7}}};
   AuditFrame frame;
   frame.vessels = &net;
   EXPECT_NEAR(audit_bodies({brick({-5, -9, 4.5}, {6, 8, 14})}, frame).dcm_vessel.depth_um, 0.2,
@@ -170,13 +170,14 @@ TEST(Audit, FlatFaceOnAVesselHasItsExactDepth) {
 TEST(Audit, ThinVesselsBetweenTheSamplesAreSeen) {
   const Surface cell = brick({-10, -10, -10}, {10, 10, 10});
   AuditFrame frame;
-  const mesh::Network ending{{Vec3(3, 5.5, 10.2), Vec3(3, 5.5, 40)}, {{0, 1}}, {{0.3, 0.3}}};
+  const geometry::Network ending{{Vec3(3, 5.5, 10.2), Vec3(3, 5.5, 40)}, {{0, 1}}, {{0.3, 0.3}}};
   frame.vessels = &ending;
   EXPECT_NEAR(audit_bodies({cell}, frame).dcm_vessel.depth_um, 0.1, 1e-12);
-  const mesh::Network through{{Vec3(0.5, 0.5, -40), Vec3(0.5, 0.5, 40)}, {{0, 1}}, {{0.3, 0.3}}};
+  const geometry::Network through{
+      {Vec3(0.5, 0.5, -40), Vec3(0.5, 0.5, 40)}, {{0, 1}}, {{0.3, 0.3}}};
   frame.vessels = &through;  // axis 9.5 um inside the nearest side
   EXPECT_NEAR(audit_bodies({cell}, frame).dcm_vessel.depth_um, 9.8, 1e-12);
-  const mesh::Network within{{Vec3(-1, 0, 0), Vec3(1, 0, 0)}, {{0, 1}}, {{0.3, 0.3}}};
+  const geometry::Network within{{Vec3(-1, 0, 0), Vec3(1, 0, 0)}, {{0, 1}}, {{0.3, 0.3}}};
   frame.vessels = &within;
   EXPECT_NEAR(audit_bodies({cell}, frame).dcm_vessel.depth_um, 9.3, 1e-12);
 }
@@ -258,7 +259,7 @@ TEST(Audit, SpheresAgainstCellsAndEachOther) {
 }
 
 TEST(Audit, SpheresInVesselsAndWallsAreToldAndAreNoPenetration) {
-  mesh::Network net;
+  geometry::Network net;
   net.node = {{0, 0, 0}, {0, 0, 40}, {0, 0, 80}};
   net.segment = {{0, 1}, {1, 2}};
   net.radius = {{4.7, 4.7}, {4.7, 4.7}};
@@ -373,7 +374,7 @@ TEST(Audit, HundredTouchingCellsGiveTheSameOnAnyThreadsAndPrintTheirTime) {
             ball(23.8 * Vec3(x + 0.5 * ((y + z) % 2), std::sqrt(0.75) * (y + (z % 2) / 3.0),
                              std::sqrt(2.0 / 3) * z),
                  12));
-  mesh::Network net;
+  geometry::Network net;
   for (int s = 0; s < 150; ++s) {
     net.node.emplace_back(s % 10 * 10, s / 10 * 7, 0);
     net.node.emplace_back(s % 10 * 10 + 5, s / 10 * 7, 30);
@@ -406,7 +407,7 @@ TEST(Audit, HundredTouchingCellsGiveTheSameOnAnyThreadsAndPrintTheirTime) {
 }
 
 TEST(Audit, IndentationExplainedByTheForceIsNotAPenetrationButTunnellingIs) {
-  const mesh::Topology t = mesh::make_icosphere(162);
+  const geometry::Topology t = geometry::make_icosphere(162);
   auto audit_at = [&](double distance, double indentation) {
     std::vector<Vec3> node;
     for (const Vec3& x : t.rest) node.push_back(12 * x);

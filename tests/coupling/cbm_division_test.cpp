@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/jkr.hpp"
-#include "core/random.hpp"
+#include "contact/jkr.hpp"
+#include "core/numbers/random.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/measure/measure.hpp"
 #include "tests/coupling/worlds.hpp"

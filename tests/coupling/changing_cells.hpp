@@ -11,11 +11,11 @@
 #include <map>
 #include <string>
 
-#include "core/mesh/measures.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/zoom/update.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -31,7 +31,7 @@ inline World make_clump_world(int n, double distance, const std::function<bool(i
   w.params.numerics.adaptive = true;
   w.params.zoom.grid = 600;
   w.params.zoom.stay = 0;
-  w.params.zoom.mesh = {&mesh::shared_icosphere(162)};
+  w.params.zoom.mesh = {&geometry::shared_icosphere(162)};
   return w;
 }
 
@@ -98,7 +98,7 @@ inline Vec3 volume_center(const World& w, std::int64_t cell) {
     if (!c.deformable) return;
     std::vector<Vec3> node;
     dcm::copy_nodes(w.state.dcm, c.at, node);
-    center = mesh::compute_centroid(node, w.state.dcm.group[c.at / kLanes].topology->triangle);
+    center = geometry::compute_centroid(node, w.state.dcm.group[c.at / kLanes].topology->triangle);
   });
   return center;
 }

@@ -36,7 +36,7 @@ double lowest(const World& w) {
 
 TEST(Closing, AStepStopsAtAWallItWouldHavePassed) {
   World w = falling_cell(Integrator::kLinearlyImplicit);
-  const double free_fall = 60 * 3 / (0.1 * mesh::shared_icosphere(162).rest_area * 144);
+  const double free_fall = 60 * 3 / (0.1 * geometry::shared_icosphere(162).rest_area * 144);
   ASSERT_GT(free_fall, 0.3 + kControlledDepth) << "else there is nothing to see";
   Workspace work;
   size_workspace(w, work);
@@ -84,7 +84,7 @@ TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
   // 15 nN on a wall of 600 Pa: the surface stands deeper than kControlledDepth at rest. Points that
   // guard against thin vessels push deeper still and are not on their branch on the way there.
   World w = make_test_world({{Vec3(0, 0, 12 + 4.7 + 0.05), true, Vec3(0, 0, -15)}}, 60, 162);
-  mesh::Network n;
+  geometry::Network n;
   n.node = {{-30, 0, 0}, {30, 0, 0}};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};

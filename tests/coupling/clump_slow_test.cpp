@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/measure/audit.hpp"
 #include "coupling/measure/difference.hpp"

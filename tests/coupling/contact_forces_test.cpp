@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/hertz.hpp"
-#include "core/threads.hpp"
+#include "contact/hertz.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/measure/measure.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -121,7 +121,7 @@ TEST(Reactions, OfOppositeWallsAgreeWhenTheCellsAreAtRest) {
 
 TEST(Reactions, OfVesselsAreThoseOfEverySegment) {
   World world = make_test_world({{Vec3(0, 15.7, 0), false}, {Vec3(40, -16.2, 0), true}});
-  mesh::Network n;
+  geometry::Network n;
   n.node = {Vec3(-20, 0, 0), Vec3(20, 0, 0), Vec3(60, 0, 0)};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};

@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "core/contact/jkr.hpp"
+#include "contact/jkr.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

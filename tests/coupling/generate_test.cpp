@@ -22,7 +22,7 @@ Uniform stream(std::uint64_t seed) {
   return [engine] { return static_cast<double>((*engine)() >> 11) * 0x1p-53; };
 }
 
-const Vec3& end_of(const mesh::Network& net, std::size_t segment, int end) {
+const Vec3& end_of(const geometry::Network& net, std::size_t segment, int end) {
   return net.node[net.segment[segment][end]];
 }
 
@@ -314,7 +314,7 @@ TEST(Packing, HilbertOrderVisitsAGridByStepsToNeighbours) {
 }
 
 TEST(VesselSurface, TubesAreClosedOutwardAndHaveTheVolumeOfTenSidedTubes) {
-  mesh::Network net;
+  geometry::Network net;
   net.node = {Vec3(0, 0, 0), Vec3(30, 10, -20), Vec3(30, 10, -20)};
   net.segment = {{0, 1}, {1, 2}};
   net.radius = {{5, 3}, {4, 4}};
@@ -349,7 +349,7 @@ TEST(PipetteSurface, IsClosedOutwardAndHasTheVolumeOfA48SidedRing) {
     p.thickness = 4;
     p.lip = lip;
     p.length = 30;
-    mesh::Surface s;
+    geometry::Surface s;
     s.node = {Vec3::Zero()};  // it comes after what is there
     add_pipette_surface(p, s);
     std::set<std::pair<int, int>> directed;

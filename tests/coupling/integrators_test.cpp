@@ -74,7 +74,7 @@ double distance(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
 /// Edge lengths do not see where a cell is and how it is turned.
 double largest_edge_difference(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
   double largest = 0;
-  for (const auto& t : mesh::shared_icosphere(42).triangle)
+  for (const auto& t : geometry::shared_icosphere(42).triangle)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = t[k], j = t[(k + 1) % 3];
       largest = std::max(largest, std::abs((x[i] - x[j]).norm() - (y[i] - y[j]).norm()));
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Order,
 std::vector<Vec3> flowed(Integrator integrator, double step) {
   World w = stretched_cell(integrator, step);
   w.params.dcm[0].series_friction = 0.05;
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   dcm::EdgeTension& tension = w.state.dcm.tension[0];
   for (std::size_t e = 0; e < t.edge.size(); ++e) {
     const double length = dcm::edge_length(w.state.dcm, 0, e);

@@ -1,6 +1,6 @@
 /// Forces across the interface: equal and opposite, and the same from one solve or two.
 
-#include "coupling/world/interface.hpp"
+#include "coupling/interface/interface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <iterator>
 #include <vector>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/step/stages.hpp"
 #include "tests/coupling/partitioned.hpp"
 #include "tests/coupling/worlds.hpp"

@@ -1,6 +1,6 @@
 /// Who leads the tissue toward the vein.
 
-#include "coupling/world/leaders.hpp"
+#include "coupling/migration/leaders.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// How many cells deep a cell lies behind the edge of the lesion.
 
-#include "coupling/world/lesion_layers.hpp"
+#include "coupling/migration/lesion_layers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/measures.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/measure/measure.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
@@ -27,8 +27,8 @@ std::vector<Vec3> nodes_of(const State& s, std::int64_t id) {
   return node;
 }
 double volume_of_mesh(const State& s, std::int64_t id) {
-  return mesh::compute_volume(nodes_of(s, id),
-                              s.dcm.group[index_cells(s).at(id).at / kLanes].topology->triangle);
+  return geometry::compute_volume(
+      nodes_of(s, id), s.dcm.group[index_cells(s).at(id).at / kLanes].topology->triangle);
 }
 
 /// Steps as a run does; all must be accepted, and no cell may cross itself afterwards.
@@ -48,8 +48,8 @@ void expect_to_go_on(World& w, double duration) {
     if (!c.deformable) continue;
     const std::vector<Vec3> node = nodes_of(w.state, id);
     const auto& triangle = w.state.dcm.group[c.at / kLanes].topology->triangle;
-    EXPECT_FALSE(mesh::AuditBody(node, triangle).self_intersects()) << id;
-    EXPECT_GT(mesh::compute_quality(node, triangle), 0.1) << id;
+    EXPECT_FALSE(geometry::AuditBody(node, triangle).self_intersects()) << id;
+    EXPECT_GT(geometry::compute_quality(node, triangle), 0.1) << id;
   }
   std::printf("went on for %.0f s: %d rejections\n", duration, rejected);
 }
@@ -58,7 +58,7 @@ TEST(Division, OfARoundShellMakesTwoHalvesWithinHer) {
   World w = make_living_world({mother({5, -3, 2})}, 162);
   begin_with_mothers(w);
   const std::vector<Vec3> before = nodes_of(w.state, 0);
-  const mesh::AuditBody body(before, mesh::shared_icosphere(162).triangle);
+  const geometry::AuditBody body(before, geometry::shared_icosphere(162).triangle);
   const double mother_volume = body.volume;
   const LifeReport report = look(w, 60);
   ASSERT_EQ(report.divisions.size(), 1u);
@@ -95,7 +95,7 @@ TEST(Division, OfARoundShellMakesTwoHalvesWithinHer) {
     // Figures are of the moment of birth; then the daughters settle for a step.
     EXPECT_NEAR(volume_of_mesh(w.state, id), mother_volume / 2, 2e-3 * mother_volume);
     for (const Vec3& x : nodes_of(w.state, id))
-      if (body.locate(x) == mesh::Location::kOutside)
+      if (body.locate(x) == geometry::Location::kOutside)
         farthest = std::max(farthest, body.distance(x));
   }
   std::printf("farthest node outside the mother once settled: %.3f um\n", farthest);
@@ -124,7 +124,7 @@ TEST(Division, AlongAGivenAxis) {
       World w = make_living_world({mother(Vec3::Zero(), deformable)});
       w.params.life.type[0].axis = axis;
       w.params.life.type[0].direction = direction;
-      mesh::Network n;
+      geometry::Network n;
       n.node = {{40, 0, -50}, {40, 0, 50}, {140, 0, 50}};
       n.segment = {{0, 1}, {1, 2}};
       n.radius = {{4.7, 4.7}, {4.7, 4.7}};
@@ -227,7 +227,7 @@ TEST(Division, AtAMirrorWallAndOnAVesselStaysOnItsSide) {
   contact::Plane wall;
   wall.material.mirror = true;
   w.params.boundary.planes = {wall};
-  mesh::Network n;
+  geometry::Network n;
   n.node = {{-60, 60, 0}, {60, 60, 0}};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
@@ -259,7 +259,7 @@ TEST(Division, ThatNoPlaneAllowsWaits) {
   World w = make_living_world({mother(Vec3::Zero())}, 42);
   begin_with_mothers(w);
   // A tetrapod: nodes near four corners pulled out, all others drawn in. Every cut has flaws.
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   for (int i = 0; i < t.n_node; ++i) {
     const Vec3& u = t.rest[i];
     const double lobe = std::max({u.dot(Vec3(1, 1, 1)), u.dot(Vec3(1, -1, -1)),

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "core/stop.hpp"
+#include "core/parallel/stop.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/simulation.hpp"
 #include "tests/coupling/lives.hpp"
@@ -41,7 +41,7 @@ TEST(LifeStop, DivisionBegunIsUndoneAndDoneAgainLater) {
 
 TEST(LifeStop, MeshBegunToBeMendedIsPutBack) {
   World through = make_living_world({{Vec3::Zero()}, {Vec3(23.5, 0, 0)}}, 162);
-  const mesh::Topology& t = *through.state.dcm.group[0].topology;
+  const geometry::Topology& t = *through.state.dcm.group[0].topology;
   double* x = through.state.dcm.position.data();
   const Address node = dcm::node_address(through.state.dcm, 0, 20);
   const Address next = dcm::node_address(through.state.dcm, 0, t.ring[t.ring_start[20]]);

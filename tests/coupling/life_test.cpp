@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/mesh/measures.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
@@ -159,7 +159,7 @@ TEST(Growth, InAMatrixPushesItAway) {
                speed = kBirthVolume / kDay / (4 * kPi * r * r), push = p.medium_friction * speed;
   // All nodes move along their radius: p dV/dt = dissipation in the matrix and within the cortex +
   // (2 T / R) dV/dt.
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   double outer = 0, inner = 0;
   for (std::size_t i = 0; i < t.rest.size(); ++i)
     outer += push * t.rest_node_area[i] * t.rest[i].squaredNorm() / (4 * kPi);
@@ -347,8 +347,8 @@ TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
       std::vector<Vec3> node;
       dcm::copy_nodes(w.state.dcm, index.at(0).at, node);
       // The medium resists with gamma dR/dt, far below a thousandth of K_V.
-      EXPECT_NEAR(mesh::compute_volume(node, mesh::shared_icosphere(42).triangle), share * volume,
-                  1e-3 * volume);
+      EXPECT_NEAR(geometry::compute_volume(node, geometry::shared_icosphere(42).triangle),
+                  share * volume, 1e-3 * volume);
     }
     EXPECT_TRUE(gone);
     EXPECT_NEAR(w.state.clock.time, 1200 + 6 * 3600, 600 + 1e-6) << "the step that passes the end";

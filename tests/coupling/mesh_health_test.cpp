@@ -9,16 +9,16 @@
 #include <cstdio>
 #include <string>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/measures.hpp"
-#include "core/threads.hpp"
-#include "core/timing.hpp"
+#include "core/parallel/threads.hpp"
+#include "core/parallel/timing.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/measure/audit.hpp"
 #include "coupling/measure/measure.hpp"
-#include "dcm/mesh_remedy.hpp"
-#include "dcm/split.hpp"
+#include "dcm/shape/mesh_remedy.hpp"
+#include "dcm/shape/split.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/worlds.hpp"
 #include "tests/reference/cell_shapes.hpp"
 #include "tests/reference/sample.hpp"
@@ -39,7 +39,7 @@ struct Case {
 
 /// Moves the directions of a mesh: node 20 goes nearly onto a neighbour, onto the opposite side of
 /// a triangle, or past a neighbour; or all nodes go anywhere.
-void spoil(const mesh::Topology& t, Damage damage, double noise, std::vector<Vec3>& d) {
+void spoil(const geometry::Topology& t, Damage damage, double noise, std::vector<Vec3>& d) {
   constexpr std::size_t kNode = 20;
   UniformStream random = reference::stream(7);
   const Vec3 here = d[kNode];
@@ -58,7 +58,7 @@ void spoil(const mesh::Topology& t, Damage damage, double noise, std::vector<Vec
   for (Vec3& x : d) x.normalize();
 }
 
-std::vector<Vec3> make_spoiled(const mesh::Topology& t, const Case& c) {
+std::vector<Vec3> make_spoiled(const geometry::Topology& t, const Case& c) {
   const auto shapes = reference::cell_shapes();
   const auto shape = std::ranges::find(shapes, std::string(c.shape), &reference::CellShape::name);
   UniformStream random = reference::stream(8);
@@ -67,7 +67,8 @@ std::vector<Vec3> make_spoiled(const mesh::Topology& t, const Case& c) {
   for (const Vec3& x : t.rest) node.push_back((turn * x).normalized());
   spoil(t, c.damage, c.noise, node);
   for (Vec3& x : node) x = shape->place(x);
-  const double scale = kRadius * std::cbrt(4 * kPi / 3 / mesh::compute_volume(node, t.triangle));
+  const double scale =
+      kRadius * std::cbrt(4 * kPi / 3 / geometry::compute_volume(node, t.triangle));
   for (Vec3& x : node) x = Vec3(30, -20, 10) + scale * x;
   return node;
 }
@@ -102,7 +103,7 @@ double deepest_overlap(const World& world) {
 }
 
 TEST(MeshHealth, OrdinaryShapesAreNotSuspicious) {
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   for (const auto& shape : reference::cell_shapes()) {
     const dcm::MeshHealth h = dcm::measure_health(
         t, make_spoiled(t, {shape.name.c_str(), Damage::kNone, 0, ""}), kRadius);
@@ -116,14 +117,14 @@ class Mending : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Mending, GivesASoundMeshOnTheSameSurface) {
   const Case c = GetParam();
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   const std::vector<Vec3> node = make_spoiled(t, c);
-  const double volume = mesh::compute_volume(node, t.triangle);
+  const double volume = geometry::compute_volume(node, t.triangle);
   ASSERT_TRUE(dcm::is_suspicious(dcm::measure_health(t, node, kRadius)));
   const dcm::Mended m = dcm::mend_mesh(t, node, kRadius);
   ASSERT_TRUE(m.ok) << m.why;
   const dcm::SurfaceShift shift = dcm::compare_surfaces(t, node, m.node);
-  const double kept = mesh::compute_volume(m.node, t.triangle) / volume - 1;
+  const double kept = geometry::compute_volume(m.node, t.triangle) / volume - 1;
   std::printf(
       "%-26s %-8s quality %.3f -> %.3f, spacing %.2f -> %.2f, fold %.2f -> %.2f; %.2f um "
       "out, %.2f in, %.2f lost; area %+.1f %%, volume %.0e\n",
@@ -132,7 +133,7 @@ TEST_P(Mending, GivesASoundMeshOnTheSameSurface) {
       100 * m.area_change, kept);
   EXPECT_GE(m.after.quality, dcm::kGoodQuality);
   EXPECT_GE(m.after.spacing, dcm::kGoodSpacing);
-  EXPECT_FALSE(mesh::AuditBody(m.node, t.triangle).self_intersects());
+  EXPECT_FALSE(geometry::AuditBody(m.node, t.triangle).self_intersects());
   // match_volume ends within 1e-12; the sum of 320 terms rounds by some 1e-15 more.
   EXPECT_LT(std::abs(kept), 1.01e-12);
   EXPECT_LE(shift.outside, 0.3);
@@ -170,7 +171,7 @@ TEST(MeshHealth, HealthyCellsAreLeftAloneToTheBit) {
 
 TEST(MeshHealth, HopelessCellIsNamedAndNotTouched) {
   World world = make_test_world({{Vec3(30, -20, 10)}});
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   set_nodes(world, 0, make_spoiled(t, {"horseshoe", Damage::kNoise, 0.5, ""}));
   Workspace work;
   size_workspace(world, work);
@@ -189,7 +190,8 @@ TEST(MeshHealth, HopelessCellIsNamedAndNotTouched) {
 
 TEST(MeshHealth, LooksOnlyWhenAStepCrossesTheTimeGrid) {
   World world = make_test_world({{Vec3(30, -20, 10)}});
-  set_nodes(world, 0, make_spoiled(mesh::shared_icosphere(162), {"sphere", Damage::kEdge, 0, ""}));
+  set_nodes(world, 0,
+            make_spoiled(geometry::shared_icosphere(162), {"sphere", Damage::kEdge, 0, ""}));
   Workspace work;
   size_workspace(world, work);
   LifeReport report;
@@ -225,13 +227,13 @@ World make_packed() {
 void spoil_in_place(World& world, std::size_t lane, int node, double share) {
   std::vector<Vec3> x;
   dcm::copy_nodes(world.state.dcm, lane, x);
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   const std::size_t i = node;
   const std::size_t j = t.ring[t.ring_start[i]];
   const std::vector<Vec3> before = x;
-  x[i] = mesh::AuditBody(before, t.triangle).closest_point(x[i] + share * (x[j] - x[i]));
+  x[i] = geometry::AuditBody(before, t.triangle).closest_point(x[i] + share * (x[j] - x[i]));
   const std::vector<double> all(x.size(), 1.0);
-  ASSERT_TRUE(dcm::match_volume(t, mesh::compute_volume(before, t.triangle), all, x));
+  ASSERT_TRUE(dcm::match_volume(t, geometry::compute_volume(before, t.triangle), all, x));
   set_nodes(world, lane, x);
 }
 
@@ -259,7 +261,7 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
     World still = world;
     std::vector<Vec3> node;
     dcm::copy_nodes(still.state.dcm, inner, node);
-    set_nodes(still, inner, dcm::mend_mesh(mesh::shared_icosphere(162), node, kRadius).node);
+    set_nodes(still, inner, dcm::mend_mesh(geometry::shared_icosphere(162), node, kRadius).node);
     overlap_put = deepest_overlap(still);
   }
   const LifeReport report = look(world, work);
@@ -318,7 +320,7 @@ TEST(MeshHealth, CellsInAPackedClumpAreMendedInPlaceForAnyNumberOfThreads) {
 /// Daughters settle by up to the length of an edge, and a triangle that collapses folds the cell
 /// within minutes: longer than the grid of life.
 TEST(MeshHealth, CellsThatRememberTheirBirthAreMendedAfterEveryStep) {
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   const std::vector<Vec3> node = make_spoiled(t, {"sphere", Damage::kEdge, 0, ""});
   for (const bool young : {true, false}) {
     World world = make_test_world({{Vec3(30, -20, 10)}});
@@ -365,8 +367,8 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
       if (!world.state.dcm.active(l)) continue;
       dcm::copy_nodes(world.state.dcm, l, node);
       const double v = world.state.dcm.volume[l].at(world.state.clock.time);
-      const dcm::MeshHealth h =
-          dcm::measure_health(mesh::shared_icosphere(162), node, std::cbrt(v / (4.0 / 3 * kPi)));
+      const dcm::MeshHealth h = dcm::measure_health(geometry::shared_icosphere(162), node,
+                                                    std::cbrt(v / (4.0 / 3 * kPi)));
       worst.quality = std::min(worst.quality, h.quality);
       worst.spacing = std::min(worst.spacing, h.spacing);
       worst.opposed = std::min(worst.opposed, h.opposed);

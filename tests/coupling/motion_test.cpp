@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "coupling/migration/migration.hpp"
 #include "coupling/step/attempt.hpp"
 #include "dcm/terms/medium.hpp"
 #include "tests/coupling/worlds.hpp"
@@ -28,7 +29,7 @@ TEST(Motion, LoneCellMovesAtForceOverDrag) {
       const Vec3 start = center(w, deformable);
       ASSERT_TRUE(run_until(w, work, 3600));
       const double surface =
-          deformable ? mesh::shared_icosphere(162).rest_area * 144 : 4 * kPi * 144;
+          deformable ? geometry::shared_icosphere(162).rest_area * 144 : 4 * kPi * 144;
       const double drag =
           viscosity > 0 ? dcm::stokes_drag(viscosity, 12) : (deformable ? 0.1 : 0.5) * surface;
       const Vec3 expected = 3600 / drag * pull;

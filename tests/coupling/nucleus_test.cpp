@@ -4,15 +4,15 @@
 
 #include <cstdio>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/measures.hpp"
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/measure/nuclei.hpp"
 #include "coupling/sleep/sleep.hpp"
 #include "coupling/step/balance.hpp"
 #include "coupling/subworld/subworld.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
@@ -24,8 +24,8 @@ std::vector<Vec3> nucleus_of(const State& s, std::size_t lane) {
   return node;
 }
 double nucleus_volume(const State& s, std::size_t lane) {
-  return mesh::compute_volume(nucleus_of(s, lane),
-                              s.dcm.group[lane / kLanes].nucleus.topology->triangle);
+  return geometry::compute_volume(nucleus_of(s, lane),
+                                  s.dcm.group[lane / kLanes].nucleus.topology->triangle);
 }
 
 /// Two cells that touch, with stiff nuclei of which the first stands off its middle.
@@ -47,10 +47,12 @@ TEST(NucleusInACell, ReturnsToTheMiddle) {
   Workspace work;
   size_workspace(w, work);
   const double before =
-      mesh::compute_centroid(nucleus_of(w.state, 0), mesh::shared_icosphere(42).triangle).y();
+      geometry::compute_centroid(nucleus_of(w.state, 0), geometry::shared_icosphere(42).triangle)
+          .y();
   ASSERT_TRUE(run_until(w, work, 3600));
   const double after =
-      mesh::compute_centroid(nucleus_of(w.state, 0), mesh::shared_icosphere(42).triangle).y() -
+      geometry::compute_centroid(nucleus_of(w.state, 0), geometry::shared_icosphere(42).triangle)
+          .y() -
       dcm::cell_center(w.state.dcm, 0).y();
   std::printf("off the middle by %.2f um, then by %.2f um; momentum %.1e\n", before, after,
               w.state.balance.momentum);
@@ -208,7 +210,7 @@ TEST(NucleusInACell, SurvivesAFreshMesh) {
   w.params.dcm[0].nucleus = dcm::Nucleus{.link_young = 0.1};
   give_nuclei(w);
   begin_life(w);
-  const mesh::Topology& t = *w.state.dcm.group[0].topology;
+  const geometry::Topology& t = *w.state.dcm.group[0].topology;
   const int next = t.ring[t.ring_start[20]];
   const auto at = [&](int i) { return dcm::node_address(w.state.dcm, 0, i); };
   const Vec3 a = load_point(w.state.dcm.position.data(), at(20)),

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/solve/cg.hpp"
+#include "solve/cg.hpp"
 
 namespace acinus::coupling {
 

@@ -27,8 +27,8 @@ State make_state(std::int64_t first_lineage = 0) {
   const auto place = [&] { return reference::random_vector(random, 100); };
   for (std::int64_t k = 0; k < 12; ++k)
     shells.push_back({first_lineage + k, static_cast<int>(k % 2),
-                      &mesh::shared_icosphere(k % 3 == 0 ? 12 : 42), place(), 10 + 0.1 * k, place(),
-                      reference::random_rotation(random)});
+                      &geometry::shared_icosphere(k % 3 == 0 ? 12 : 42), place(), 10 + 0.1 * k,
+                      place(), reference::random_rotation(random)});
   for (std::int64_t k = 0; k < 11; ++k)
     spheres.push_back({first_lineage + 12 + k,
                        static_cast<int>(k % 2),
@@ -55,7 +55,7 @@ State make_state(std::int64_t first_lineage = 0) {
     volume_of(s, c) = {1000.0 + static_cast<double>(id), 2000, 1, 2};
     if (c.deformable) {
       dcm::BirthShape& b = s.dcm.birth[c.at];
-      const mesh::Topology& t = *s.dcm.group[c.at / kLanes].topology;
+      const geometry::Topology& t = *s.dcm.group[c.at / kLanes].topology;
       b = {{1, 0, 0, 1.0 * static_cast<double>(id)}, 1.1, {}, {}, {}};
       b.edge.assign(static_cast<std::size_t>(t.n_edge), 1 + 0.01 * static_cast<double>(id));
       b.triangle.assign(static_cast<std::size_t>(t.n_triangle), 1.2);
@@ -120,7 +120,7 @@ void expect_same_cell(State& now, const Cell& c, State& before, const Cell& d) {
     expect_same_ramp(now.cbm.strength[c.at], before.cbm.strength[d.at]);
     return;
   }
-  const mesh::Topology* topology = now.dcm.group[c.at / kLanes].topology;
+  const geometry::Topology* topology = now.dcm.group[c.at / kLanes].topology;
   ASSERT_EQ(topology, before.dcm.group[d.at / kLanes].topology);
   for (int i = 0; i < topology->n_node; ++i) {
     EXPECT_EQ(load_point(now.dcm.position.data(), dcm::node_address(now.dcm, c.at, i)),
@@ -167,7 +167,7 @@ TEST(Compose, LanesWithoutACellHoldTheRestShapeAndNothingElse) {
   for (std::size_t l = 0; l < now.dcm.n_lane(); ++l) {
     if (now.dcm.active(l)) continue;
     ++empty;
-    const mesh::Topology& t = *now.dcm.group[l / kLanes].topology;
+    const geometry::Topology& t = *now.dcm.group[l / kLanes].topology;
     for (int i = 0; i < t.n_node; ++i) {
       const Address a = dcm::node_address(now.dcm, l, i);
       EXPECT_EQ(load_point(now.dcm.position.data(), a), t.rest[i]);

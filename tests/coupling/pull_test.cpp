@@ -1,6 +1,6 @@
 /// Pulls over time on cells that are stepped.
 
-#include "coupling/world/pull.hpp"
+#include "coupling/apparatus/pull.hpp"
 
 #include <gtest/gtest.h>
 

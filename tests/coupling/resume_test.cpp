@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "core/stop.hpp"
+#include "core/parallel/stop.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

@@ -170,7 +170,7 @@ TEST(Sleep, CellsThatGrowOrAreJustBornStayAwake) {
   std::vector<Vec3> node;
   dcm::copy_nodes(w.state.dcm, 0, node);
   w.state.dcm.birth[0] =
-      dcm::make_birth_shape(mesh::shared_icosphere(42), node, 12, 1, {1, 0, 0, 5000});
+      dcm::make_birth_shape(geometry::shared_icosphere(42), node, 12, 1, {1, 0, 0, 5000});
   Workspace work;
   size_workspace(w, work);
   run_for(w, work, 4800);

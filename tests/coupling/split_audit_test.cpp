@@ -1,12 +1,12 @@
-/// The daughters of dcm/split judged by exact predicates that share no code with it.
+/// The daughters of dcm/shape/split judged by exact predicates that share no code with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "core/mesh/audit_body.hpp"
-#include "dcm/split.hpp"
+#include "dcm/shape/split.hpp"
+#include "geometry/audit_body.hpp"
 #include "tests/reference/cell_shapes.hpp"
 #include "tests/reference/sample.hpp"
 
@@ -14,29 +14,30 @@ namespace acinus::coupling {
 namespace {
 
 /// Depth of the nodes of one daughter outside the mother, um.
-double compute_outside(const mesh::AuditBody& mother, std::span<const Vec3> node) {
+double compute_outside(const geometry::AuditBody& mother, std::span<const Vec3> node) {
   double worst = 0;
   for (const Vec3& x : node)
-    if (mother.locate(x) == mesh::Location::kOutside) worst = std::max(worst, mother.distance(x));
+    if (mother.locate(x) == geometry::Location::kOutside)
+      worst = std::max(worst, mother.distance(x));
   return worst;
 }
 
 TEST(SplitAudit, DaughtersDoNotCrossThemselvesAndStayWithinTheMother) {
-  const mesh::Topology& topology = mesh::shared_icosphere(162);
+  const geometry::Topology& topology = geometry::shared_icosphere(162);
   int n_daughter = 0;
   for (const auto& shape : reference::cell_shapes()) {
     if (!shape.always_splits) continue;
     UniformStream random = reference::stream(4);
     double worst = 0, mean = 0;
     for (int n = 0; n < 40; ++n) {
-      const mesh::Surface mother = reference::make_cell(
+      const geometry::Surface mother = reference::make_cell(
           shape, topology, 15.1, reference::random_rotation(random), Vec3(100, -50, 30));
-      const mesh::AuditBody body(mother.node, mother.triangle);
+      const geometry::AuditBody body(mother.node, mother.triangle);
       ASSERT_FALSE(body.self_intersects()) << shape.name;
       const dcm::Split split = dcm::split_cell(topology, mother.node, random.unit_vector());
       ASSERT_TRUE(split.daughters) << shape.name;
       for (std::size_t h = 0; h < 2; ++h) {
-        const mesh::AuditBody daughter(split.daughters->node[h], topology.triangle);
+        const geometry::AuditBody daughter(split.daughters->node[h], topology.triangle);
         EXPECT_FALSE(daughter.self_intersects()) << shape.name;
         EXPECT_NEAR(daughter.volume, body.volume / 2, 1e-9 * body.volume);
         const double outside = compute_outside(body, split.daughters->node[h]);
@@ -56,9 +57,9 @@ TEST(SplitAudit, DaughtersDoNotCrossThemselvesAndStayWithinTheMother) {
 
 TEST(SplitAudit, TheMothersUsedInTestsAreSound) {
   for (const auto& shape : reference::cell_shapes()) {
-    const mesh::Surface mother = reference::make_cell(shape, mesh::shared_icosphere(162), 15.1,
-                                                      Mat3::Identity(), Vec3::Zero());
-    EXPECT_FALSE(mesh::AuditBody(mother.node, mother.triangle).self_intersects()) << shape.name;
+    const geometry::Surface mother = reference::make_cell(shape, geometry::shared_icosphere(162),
+                                                          15.1, Mat3::Identity(), Vec3::Zero());
+    EXPECT_FALSE(geometry::AuditBody(mother.node, mother.triangle).self_intersects()) << shape.name;
   }
 }
 

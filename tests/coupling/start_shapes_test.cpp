@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
 #include "coupling/measure/audit.hpp"
 #include "coupling/world/population.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -17,7 +17,7 @@ namespace {
 double volume_share(const World& w, std::size_t lane) {
   std::vector<Vec3> node;
   dcm::copy_nodes(w.state.dcm, lane, node);
-  return mesh::compute_volume(node, w.state.dcm.group[lane / kLanes].topology->triangle) /
+  return geometry::compute_volume(node, w.state.dcm.group[lane / kLanes].topology->triangle) /
          w.state.dcm.volume[lane].at(0);
 }
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/measures.hpp"
+#include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "core/threads.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/worlds.hpp"
 #include "tests/reference/cell_shapes.hpp"
 
@@ -15,23 +15,23 @@ namespace acinus::coupling {
 namespace {
 
 /// um, root mean square over the nodes of a lane.
-double deviation(const World& w, std::size_t lane, const mesh::Surface& surface) {
+double deviation(const World& w, std::size_t lane, const geometry::Surface& surface) {
   std::vector<Vec3> node;
   dcm::copy_nodes(w.state.dcm, lane, node);
   double square = 0;
   for (const Vec3& x : node)
-    square += std::pow(mesh::compute_distance(x, surface.node, surface.triangle), 2);
+    square += std::pow(geometry::compute_distance(x, surface.node, surface.triangle), 2);
   return std::sqrt(square / static_cast<double>(node.size()));
 }
 
 TEST(TakeShapes, CellsHaveVolumeAndSurfaceOfWhatTheyAreGiven) {
-  const mesh::Topology& fine = mesh::shared_icosphere(2562);
-  std::vector<mesh::Surface> surface;
+  const geometry::Topology& fine = geometry::shared_icosphere(2562);
+  std::vector<geometry::Surface> surface;
   std::vector<TestCell> cells;
   for (const reference::CellShape& shape : reference::cell_shapes()) {
     const Vec3 place(100.0 * static_cast<double>(cells.size()), 0, 0);
     surface.push_back(reference::make_cell(shape, fine, 12, Mat3::Identity(), place));
-    cells.push_back({mesh::compute_centroid(surface.back().node, surface.back().triangle)});
+    cells.push_back({geometry::compute_centroid(surface.back().node, surface.back().triangle)});
   }
   World w = make_test_world(cells);
   std::vector<CellSurface> given;
@@ -50,9 +50,9 @@ TEST(TakeShapes, CellsHaveVolumeAndSurfaceOfWhatTheyAreGiven) {
     const auto& triangle = w.state.dcm.group[lane / kLanes].topology->triangle;
     std::vector<Vec3> node;
     dcm::copy_nodes(w.state.dcm, lane, node);
-    const double volume = mesh::compute_volume(surface[k].node, surface[k].triangle);
-    EXPECT_NEAR(mesh::compute_volume(node, triangle), volume, 1e-9 * volume);
-    EXPECT_FALSE(mesh::AuditBody(node, triangle).self_intersects());
+    const double volume = geometry::compute_volume(surface[k].node, surface[k].triangle);
+    EXPECT_NEAR(geometry::compute_volume(node, triangle), volume, 1e-9 * volume);
+    EXPECT_FALSE(geometry::AuditBody(node, triangle).self_intersects());
     const std::string name = reference::cell_shapes()[k].name;
     EXPECT_LT(deviation(w, lane, surface[k]), name == "horseshoe" ? 0.6 : 0.4) << name;
     EXPECT_TRUE(!w.state.dcm.birth[lane].edge.empty()) << "at rest in the shape";
@@ -60,8 +60,8 @@ TEST(TakeShapes, CellsHaveVolumeAndSurfaceOfWhatTheyAreGiven) {
 }
 
 TEST(TakeShapes, IsTheSameForAnyThreadsAndLeavesSpheresAlone) {
-  const mesh::Topology& fine = mesh::shared_icosphere(642);
-  const mesh::Surface shape =
+  const geometry::Topology& fine = geometry::shared_icosphere(642);
+  const geometry::Surface shape =
       reference::make_cell(reference::cell_shapes()[1], fine, 12, Mat3::Identity(), Vec3::Zero());
   std::vector<std::vector<double>> position;
   for (const int threads : {1, 2}) {

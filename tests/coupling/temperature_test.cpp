@@ -1,6 +1,6 @@
 /// Temperature, beams and active tension that change while cells are stepped.
 
-#include "coupling/world/temperature.hpp"
+#include "coupling/apparatus/temperature.hpp"
 
 #include <gtest/gtest.h>
 

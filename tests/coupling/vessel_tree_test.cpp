@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/mesh/edit_network.hpp"
+#include "geometry/edit_network.hpp"
 #include "tests/coupling/worlds.hpp"
 #include "tests/reference/dense_system.hpp"
 
@@ -19,12 +19,12 @@ const TubeMaterial kSinusoid{0.6, 0.4, 1, 0, 0.1};
 constexpr double kRadius = 4;
 
 /// A straight vessel from the origin along a direction, in equal parts.
-mesh::Network straight_vessel(double length, int parts, const Vec3& direction = Vec3::UnitX()) {
-  mesh::Network n;
+geometry::Network straight_vessel(double length, int parts, const Vec3& direction = Vec3::UnitX()) {
+  geometry::Network n;
   n.node = {Vec3::Zero(), length * direction};
   n.segment = {{0, 1}};
   n.radius = {{kRadius, kRadius}};
-  return mesh::split_network(n, length / parts);
+  return geometry::split_network(n, length / parts);
 }
 
 /// Nodes that stand still, and loads on nodes, put on in equal parts.
@@ -129,7 +129,7 @@ TEST(VesselTree, BendsIntoACircle) {
 /// An elbow that is loaded across its plane: the far leg bends, the near leg bends and twists.
 TEST(VesselTree, JointsCarryBendingAndTwist) {
   const double leg = 40, load = 1e-3;
-  mesh::Network n;
+  geometry::Network n;
   n.node = {Vec3::Zero(), Vec3(leg, 0, 0), Vec3(leg, leg, 0)};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{kRadius, kRadius}, {kRadius, kRadius}};
@@ -142,7 +142,7 @@ TEST(VesselTree, JointsCarryBendingAndTwist) {
 }
 
 TEST(VesselTree, HoldsWhatNothingElseHolds) {
-  mesh::Network n = straight_vessel(60, 3);
+  geometry::Network n = straight_vessel(60, 3);
   n.node.push_back(Vec3(0, 50, 0));  // without a segment
   for (const VesselAnchors anchors : {VesselAnchors::kEnds, VesselAnchors::kNone}) {
     const VesselTree tree = make_tree(n, kSinusoid, anchors);
@@ -150,7 +150,7 @@ TEST(VesselTree, HoldsWhatNothingElseHolds) {
     const std::uint8_t end = anchors == VesselAnchors::kEnds ? 1 : 0;
     EXPECT_EQ(tree.anchored, (std::vector<std::uint8_t>{end, end, 0, 0, 1}));
   }
-  mesh::Network ring;
+  geometry::Network ring;
   ring.node = {Vec3::Zero(), Vec3(20, 0, 0), Vec3(0, 20, 0)};
   ring.segment = {{0, 1}, {1, 2}, {2, 0}};
   ring.radius.assign(3, {kRadius, kRadius});
@@ -159,7 +159,7 @@ TEST(VesselTree, HoldsWhatNothingElseHolds) {
 
 /// A subworld has the vessels, but no nodes to move.
 TEST(VesselTree, LeavesVesselsWhereTheyAreWithoutAState) {
-  const mesh::Network n = straight_vessel(60, 3);
+  const geometry::Network n = straight_vessel(60, 3);
   const VesselTree tree = make_tree(n, kSinusoid, VesselAnchors::kEnds);
   contact::Vessels vessels;
   contact::set_network(vessels, n);
@@ -172,7 +172,7 @@ TEST(VesselTree, LeavesVesselsWhereTheyAreWithoutAState) {
 World cell_on_vessel(bool deformable, const TubeMaterial& material, double pull, bool flexible) {
   const double length = 48;
   World w = make_test_world({{Vec3(0, 0, kRadius + 11.9), deformable, -pull * Vec3::UnitZ()}}, 120);
-  mesh::Network n = straight_vessel(length, 8);
+  geometry::Network n = straight_vessel(length, 8);
   for (Vec3& x : n.node) x.x() -= length / 2;
   contact::set_network(w.params.boundary.vessels, n);
   w.params.boundary.vessels.material = {0, material.young, material.poisson, false};

@@ -1,6 +1,6 @@
 /// Cells at the surface of vessels, and at the cones that it is laid around.
 
-#include "core/contact/wall_mesh.hpp"
+#include "contact/wall_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <random>
 
-#include "core/implicit/vessel_mesh.hpp"
+#include "geometry/implicit/vessel_mesh.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -17,23 +17,23 @@ namespace {
 constexpr double kRadius = 5;
 
 /// Three vessels that meet in the origin.
-mesh::Network fork() {
-  mesh::Network n;
+geometry::Network fork() {
+  geometry::Network n;
   n.node = {Vec3::Zero(), Vec3(-40, 0, 0), Vec3(30, 28, 0), Vec3(30, -28, 5)};
   n.segment = {{0, 1}, {0, 2}, {0, 3}};
   n.radius = {{kRadius, 6}, {kRadius, 4}, {kRadius, 4}};
   return n;
 }
 
-contact::Vessels vessels_of(const mesh::Network& network, bool mesh) {
+contact::Vessels vessels_of(const geometry::Network& network, bool mesh) {
   contact::Vessels v;
   contact::set_network(v, network);
   v.material = {0.005, 0.6, 0.4, false};
-  implicit::VesselMeshOptions o;
+  geometry::VesselMeshOptions o;
   o.fineness = 0.15;  // as a run has it
   if (mesh)
     v.wall = std::make_shared<const contact::WallMesh>(
-        contact::make_wall_mesh(network, implicit::make_vessel_mesh(network, o).surface));
+        contact::make_wall_mesh(network, geometry::make_vessel_mesh(network, o).surface));
   return v;
 }
 
@@ -63,7 +63,7 @@ TEST(WallMesh, LiesWhereTheConesAre) {
 
 /// What is buried in other vessels has no wall of its own: cones stand for it.
 TEST(WallMesh, FallsBackOnConesWhereThereIsNoWall) {
-  mesh::Network n = fork();
+  geometry::Network n = fork();
   n.node.push_back(Vec3(-3, 0, 0));
   n.segment.push_back({0, 4});
   n.radius.push_back({3, 3});

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/mesh/topology.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/world/world.hpp"
+#include "geometry/topology.hpp"
 
 namespace acinus::coupling {
 
@@ -51,8 +51,8 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
     const Mat3 turn = Eigen::AngleAxisd(0.7 * static_cast<double>(k), Vec3(1, 2, 3).normalized())
                           .toRotationMatrix();
     if (cells[k].deformable)
-      shells.push_back({id, 0, &mesh::shared_icosphere(n_node), cells[k].center, cells[k].radius,
-                        cells[k].pull, turn});
+      shells.push_back({id, 0, &geometry::shared_icosphere(n_node), cells[k].center,
+                        cells[k].radius, cells[k].pull, turn});
     else
       spheres.push_back({id, 0, cells[k].center, cells[k].radius, cbm::young_from_bulk(2.5, 0.47),
                          cells[k].pull});

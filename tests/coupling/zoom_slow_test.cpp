@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 #include "tests/coupling/changing_cells.hpp"
 
 namespace acinus::coupling {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/mesh/measures.hpp"
 #include "coupling/zoom/pair_forces.hpp"
 #include "coupling/zoom/update.hpp"
+#include "geometry/measures.hpp"
 #include "tests/coupling/changing_cells.hpp"
 
 namespace acinus::coupling {
@@ -52,8 +52,9 @@ TEST(Zoom, ACellKeepsWhatItIsBesideItsModel) {
   EXPECT_EQ(w.state.cycle[lane].duration, 123);
   std::vector<Vec3> node;
   dcm::copy_nodes(w.state.dcm, lane, node);
-  EXPECT_LT((mesh::compute_centroid(node, w.state.dcm.group[0].topology->triangle) - center).norm(),
-            0.01 * 12);
+  EXPECT_LT(
+      (geometry::compute_centroid(node, w.state.dcm.group[0].topology->triangle) - center).norm(),
+      0.01 * 12);
 
   // And back.
   w.params.zoom.region = {ball(Vec3(500, 0, 0), 5)};

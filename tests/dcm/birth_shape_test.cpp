@@ -1,7 +1,7 @@
 /// A daughter is at rest in the shape of her birth, but for the stretch of her mother, and forgets
 /// that shape in time.
 
-#include "dcm/birth_shape.hpp"
+#include "dcm/shape/birth_shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dcm/split.hpp"
+#include "dcm/shape/split.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -29,7 +29,7 @@ const Term& term_of(const std::string& name) {
 }
 
 /// Half of a sphere of twice the volume: a flat cap and a round shell.
-std::vector<Vec3> half_sphere(const mesh::Topology& t) {
+std::vector<Vec3> half_sphere(const geometry::Topology& t) {
   std::vector<Vec3> mother;
   for (const Vec3& x : t.rest) mother.push_back(kRadius * std::cbrt(2.0) * x);
   return split_cell(t, mother, Vec3(1, 2, 2) / 3).daughters.value().node[0];
@@ -37,7 +37,7 @@ std::vector<Vec3> half_sphere(const mesh::Topology& t) {
 
 /// Half spheres in some lanes of a group, round cells in the others.
 Cells make_half_spheres(double stretch, const Ramp& weight) {
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   Cells c = make_rest_cells(t, std::vector<double>(kLanes, kRadius));
   const std::vector<Vec3> half = half_sphere(t);
   for (std::size_t lane : kDaughters) {
@@ -52,7 +52,7 @@ Cells make_half_spheres(double stretch, const Ramp& weight) {
 Cells make_mixed_cells(int n_node, const Ramp& weight) {
   Cells c = make_deformed_cells(n_node);
   auto random = reference::stream(60);
-  const mesh::Topology& t = *c.state.group[0].topology;
+  const geometry::Topology& t = *c.state.group[0].topology;
   for (std::size_t lane : kDaughters) {
     BirthShape& b = c.state.birth[lane];
     b.weight = weight;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/contact/boundary.hpp"
+#include "contact/boundary.hpp"
 #include "tests/dcm/clump.hpp"
 
 namespace acinus::dcm {
@@ -34,13 +34,13 @@ inline contact::Boundary make_boundary() {
   tube.length = 20;
   tube.material.adhesion = 0.01;
   s.pipettes = {tube};
-  mesh::Network n;
+  geometry::Network n;
   n.node = {{36.6, -20, 0}, {41, 1, 6}, {38, 12, 4}, {45, 30, 10}};
   n.segment = {{0, 1}, {1, 2}, {2, 3}};
   n.radius = {{4, 5}, {5, 4}, {4, 4}};
   contact::set_network(s.vessels, n);
   s.vessels.material.adhesion = 0.01;
-  mesh::Surface block;
+  geometry::Surface block;
   block.node = {{-60, 20.6, -60}, {90, 20.6, -60}, {90, 20.6, 90}, {-60, 20.6, 90},
                 {-60, 40, -60},   {90, 40, -60},   {90, 40, 90},   {-60, 40, 90}};
   block.triangle = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 4, 5}, {0, 5, 1},

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/mesh/topology.hpp"
-#include "core/solve/operator.hpp"
 #include "dcm/loads.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/area.hpp"
@@ -14,6 +12,8 @@
 #include "dcm/terms/cortex.hpp"
 #include "dcm/terms/local_area.hpp"
 #include "dcm/terms/volume.hpp"
+#include "geometry/topology.hpp"
+#include "solve/operator.hpp"
 #include "tests/reference/plain_cell.hpp"
 #include "tests/reference/sample.hpp"
 
@@ -65,7 +65,7 @@ struct Cells {
 inline constexpr std::size_t kNoCell = 3;
 
 /// Cells at rest, one a lane, of the given radii.
-inline Cells make_rest_cells(const mesh::Topology& t, const std::vector<double>& radius) {
+inline Cells make_rest_cells(const geometry::Topology& t, const std::vector<double>& radius) {
   std::vector<NewCell> cells;
   for (std::size_t l = 0; l < radius.size(); ++l) {
     NewCell c;
@@ -86,7 +86,7 @@ inline Cells make_deformed_cells(int n_node = 162) {
   auto random = reference::stream(1);
   std::vector<double> radius;
   for (int l = 0; l < kLanes; ++l) radius.push_back(8 + 0.7 * l);
-  const mesh::Topology& t = mesh::shared_icosphere(n_node);
+  const geometry::Topology& t = geometry::shared_icosphere(n_node);
   Cells out = make_rest_cells(t, radius);
   for (std::size_t l = 0; l < kLanes; ++l) {
     const Mat3 shape = reference::random_rotation(random) *

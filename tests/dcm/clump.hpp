@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/solve/system.hpp"
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
+#include "solve/system.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::dcm {
@@ -75,7 +75,7 @@ inline NewCell new_cell(std::int64_t lineage, const Vec3& center, double radius,
                         const Mat3& rotation, int n_node = 162) {
   NewCell c;
   c.lineage = lineage;
-  c.topology = &mesh::shared_icosphere(n_node);
+  c.topology = &geometry::shared_icosphere(n_node);
   c.center = center;
   c.radius = radius;
   c.rotation = rotation;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 TEST(ContactAreas, PointsShareTheSurface) {
   for (int n : {42, 162})
     for (const auto q : kAll) {
-      const mesh::Topology& t = mesh::shared_icosphere(n);
+      const geometry::Topology& t = geometry::shared_icosphere(n);
       contact::SurfaceBody b;
       b.topology = &t;
       b.triangle = &t.triangle;
@@ -32,7 +32,7 @@ TEST(ContactAreas, PointsShareTheSurface) {
 }
 
 TEST(ContactAreas, StretchIsPresentOverReferenceArea) {
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   contact::SurfaceBody b;
   b.topology = &t;
   b.triangle = &t.triangle;
@@ -55,8 +55,8 @@ TEST(ContactAreas, StretchIsPresentOverReferenceArea) {
 }
 
 /// A cube with n by n squares a side.
-mesh::Surface make_cube(int n) {
-  mesh::Surface s;
+geometry::Surface make_cube(int n) {
+  geometry::Surface s;
   auto number = [&s](const Vec3& x) {
     const auto at = std::ranges::find(s.node, x);
     if (at != s.node.end()) return static_cast<int>(at - s.node.begin());
@@ -85,7 +85,7 @@ mesh::Surface make_cube(int n) {
 // which its own points probe. Points at the rim of the side also stand for a part of the next
 // sides.
 TEST(ContactLoads, FlatPatchesTakeTheWorkOfAdhesionToPart) {
-  const mesh::Topology t = mesh::make_topology(make_cube(4));
+  const geometry::Topology t = geometry::make_topology(make_cube(4));
   const double radius = 10;
   const double half = radius * t.rest.front().cwiseAbs().maxCoeff();  // of a side, um
   for (const auto q : kAll) {

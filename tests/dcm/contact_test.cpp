@@ -1,6 +1,6 @@
 /// Contacts of deformable cells as loads: balance, gradient, invariance, areas.
 
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"
@@ -54,7 +54,7 @@ double contact_energy(const Clump& c, std::size_t link, double gap) {
   const contact::Contact& k = c.contacts.all[link];
   const int body = k.a, point = k.point;
   const std::size_t lane = c.work.lane_of_body[body];
-  const mesh::Topology& t = *c.state.group[lane / kLanes].topology;
+  const geometry::Topology& t = *c.state.group[lane / kLanes].topology;
   const double radius = c.lanes.radius[lane];
   if (k.guard) {
     // A node or face centre more than 0.05 um inside: a quarter of its area, repulsion alone.
@@ -304,7 +304,7 @@ TEST(ContactAreas, ContactAndFreeAreaMakeTheSurface) {
     double worst = 0;
     for (std::size_t k = 0; k < touching.size(); ++k) {
       const std::size_t lane = c.work.lane_of_body[k];
-      const mesh::Topology& t = *c.work.body[k].topology;
+      const geometry::Topology& t = *c.work.body[k].topology;
       double free = 0;
       for (int i = 0; i < t.n_node; ++i) {
         const double a =

@@ -34,7 +34,7 @@ double largest_force(const Cells& c, std::size_t lane) {
 // 2 T A / (3 V): 2 T / R, but for the facets, whose A / V is larger than that of the sphere.
 TEST(CortexTension, GivesTheCellLaplacesPressure) {
   for (const int nodes : {162, 642, 2562}) {
-    Cells c = make_rest_cells(mesh::shared_icosphere(nodes), {12});
+    Cells c = make_rest_cells(geometry::shared_icosphere(nodes), {12});
     add(c);
     double virial = 0, area = 0;
     for (const double a : c.state.group[0].topology->rest_triangle_area) area += 144 * a;
@@ -182,7 +182,7 @@ TEST(ContractileRing, TurnsWithCellAndAxis) {
 // work of a small move, which changes the factors' sum by what they themselves change.
 TEST(ContractileRing, DoesTheWorkOfItsTensions) {
   const Params p = ringed();
-  Cells c = make_rest_cells(mesh::shared_icosphere(162), {10});
+  Cells c = make_rest_cells(geometry::shared_icosphere(162), {10});
   add_cortex_tension(p, c.view(), c.system);
   // Uniform swelling keeps all angles and so all factors: dE/dR = 2 E / R, and E is quadratic.
   double virial = 0;
@@ -193,7 +193,7 @@ TEST(ContractileRing, DoesTheWorkOfItsTensions) {
 }
 
 TEST(ContractileRing, IsTheTensionOfTheNodes) {
-  const Cells c = make_rest_cells(mesh::shared_icosphere(162), {10});
+  const Cells c = make_rest_cells(geometry::shared_icosphere(162), {10});
   const Params p = ringed();
   const auto tension = compute_node_tension(p, c.view(), 0);
   const Vec3 axis = p.contraction->axis.normalized();

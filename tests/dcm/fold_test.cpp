@@ -19,7 +19,7 @@ constexpr std::size_t kLane = 2;
 /// A cell at rest but for one corner of one edge, which is turned about the edge until the normals
 /// of its faces are this far apart, rad; more than pi: through each other.
 Cells make_folded(double theta) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), std::vector<double>(kLanes, 10));
+  Cells c = make_rest_cells(geometry::shared_icosphere(42), std::vector<double>(kLanes, 10));
   const auto& h = c.state.group[0].topology->hinge[7];
   const Vec3 x1 = c.node(kLane, h[0]), x2 = c.node(kLane, h[1]), x3 = c.node(kLane, h[2]),
              axis = (c.node(kLane, h[3]) - x3).normalized();
@@ -72,7 +72,7 @@ TEST(Fold, OfAThinCortexIsStoppedByContact) {
 /// A cell at rest but for one corner of one face, which is moved toward the opposite edge until the
 /// face has this share of its area.
 Cells make_collapsed(double share) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), std::vector<double>(kLanes, 10));
+  Cells c = make_rest_cells(geometry::shared_icosphere(42), std::vector<double>(kLanes, 10));
   const auto& corner = c.state.group[0].topology->triangle[11];
   const Vec3 x0 = c.node(kLane, corner[0]),
              foot = 0.55 * c.node(kLane, corner[1]) + 0.45 * c.node(kLane, corner[2]);

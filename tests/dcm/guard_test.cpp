@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "dcm/contact.hpp"
+#include "dcm/contact/contact.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 
@@ -15,13 +15,13 @@ namespace {
 TEST(ObstacleContacts, AVesselTipInTheMiddleOfAFaceIsPushedOut) {
   for (const auto q : kAll) {
     Clump c;
-    c.add_cells(
-        {{0, 0, &mesh::shared_icosphere(42), Vec3::Zero(), 12, Vec3::Zero(), Mat3::Identity()}});
+    c.add_cells({{0, 0, &geometry::shared_icosphere(42), Vec3::Zero(), 12, Vec3::Zero(),
+                  Mat3::Identity()}});
     c.options.quadrature = q;
     refresh_bodies(c.state, c.work);
     const Vec3 middle = c.work.body[0].center[7], out = middle.normalized();
     const double radius = 0.8, depth = 0.5;
-    mesh::Network n;
+    geometry::Network n;
     n.node = {middle + (radius - depth) * out, middle + 40 * out};
     n.segment = {{0, 1}};
     n.radius = {{radius, radius}};

@@ -8,7 +8,7 @@
 
 #include "dcm/terms/body_load.hpp"
 #include "dcm/terms/medium.hpp"
-#include "tests/core/contact/reference_table.hpp"
+#include "tests/contact/reference_table.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -17,10 +17,10 @@ namespace {
 using reference::kEps;
 using test::number, test::relative;
 
-const mesh::Topology& tetrahedron() {
-  static const mesh::Topology t =
-      mesh::make_topology({{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
-                           {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}});
+const geometry::Topology& tetrahedron() {
+  static const geometry::Topology t =
+      geometry::make_topology({{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                               {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}});
   return t;
 }
 
@@ -101,7 +101,7 @@ TEST(Bending, EnergyOfACubeCorner) {
 // neighbours by less than twice that; the hinge's own restoring force is k_b angle / height,
 // outward again.
 TEST(Bending, PushedInCornerIsPushedOut) {
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   Cells c = make_rest_cells(t, {10});
   const auto& h = t.hinge[7];
   const Vec3 x3 = c.node(0, h[2]), x4 = c.node(0, h[3]), x1 = c.node(0, h[0]);
@@ -169,7 +169,7 @@ TEST(Cortex, FrictionAcrossAnEdgeIsAShareOfThatAlongIt) {
 TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
   const double radius = 12 / 1.01153;
   for (bool is_axial : {false, true}) {
-    Cells c = make_rest_cells(mesh::shared_icosphere(162), {radius});
+    Cells c = make_rest_cells(geometry::shared_icosphere(162), {radius});
     Params p;
     p.nodal_friction = 0.1;
     p.friction_across = is_axial ? 0 : 1;
@@ -204,7 +204,7 @@ TEST(Volume, PressureMatchesReference) {
   for (const auto& row : rows)
     for (const auto& [modulus, column] : {std::pair(2.5, 1u), std::pair(0.75, 3u)}) {
       const double ratio = number(row, 0), expected = number(row, column) * test::kPascal;
-      Cells c = make_rest_cells(mesh::shared_icosphere(162), {12});
+      Cells c = make_rest_cells(geometry::shared_icosphere(162), {12});
       for (int i = 0; i < c.n_node(); ++i) c.move(0, i, std::cbrt(ratio) * c.node(0, i));
       Params p;
       p.bulk_modulus = modulus;
@@ -223,7 +223,7 @@ TEST(Volume, PressureMatchesReference) {
 
 TEST(Volume, CollapsedOrInvertedCellsGiveFiniteNumbers) {
   for (double size : {0.05, 1e-3, 0.0, -0.01, -1.0}) {
-    Cells c = make_rest_cells(mesh::shared_icosphere(42), {12, 12});
+    Cells c = make_rest_cells(geometry::shared_icosphere(42), {12, 12});
     for (int i = 0; i < c.n_node(); ++i) c.move(0, i, size * c.node(0, i));
     Params p;
     p.bulk_modulus = 2.5;
@@ -266,7 +266,7 @@ TEST(Medium, StokesDragMatchesReference) {
     const int n = std::stoi(row[0]);
     const double radius = number(row, 1) * test::kMetre;
     const double viscosity = number(row, 2) * 1e-3;  // Pa s -> nN s/um^2
-    const mesh::Topology& t = mesh::shared_icosphere(n);
+    const geometry::Topology& t = geometry::shared_icosphere(n);
     Cells c = make_rest_cells(t, {radius, 2 * radius});
     Params p;
     p.viscosity = viscosity;
@@ -310,7 +310,7 @@ TEST(BodyLoad, MovesTheCellWithoutDistortion) {
   std::vector<Vec3> force(kLanes);
   for (int l = 0; l < kLanes; ++l) force[l] = Vec3(1, -l, 0.5 * l);
   add_body_load(c.view(), force, c.system);
-  const mesh::Topology& t = *c.state.group[0].topology;
+  const geometry::Topology& t = *c.state.group[0].topology;
   for (std::size_t l = 0; l < kLanes; ++l) {
     Vec3 total = Vec3::Zero();
     for (int i = 0; i < c.n_node(); ++i) {

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"
@@ -168,8 +168,8 @@ double damping_of_stretch(int n_node, bool nodes) {
 // mean of |x_i - y_j|^2 is 2 d^2 and the middles' distance squared. d^2 of an equilateral face is a
 // third of its edge squared.
 TEST(NodeFriction, HoldsBackSurfacesThatStretchTogetherAsTheEdgeSquared) {
-  const double edge = 10 * mesh::shared_icosphere(162).mean_rest_length,
-               fine = 10 * mesh::shared_icosphere(642).mean_rest_length;
+  const double edge = 10 * geometry::shared_icosphere(162).mean_rest_length,
+               fine = 10 * geometry::shared_icosphere(642).mean_rest_length;
   const double one = damping_of_stretch(162, true), half = damping_of_stretch(642, true),
                surface = damping_of_stretch(162, false);
   std::printf(

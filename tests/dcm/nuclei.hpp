@@ -4,10 +4,10 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "core/solve/operator.hpp"
-#include "dcm/nucleus_contact.hpp"
+#include "dcm/contact/nucleus_contact.hpp"
 #include "dcm/terms/nucleus_links.hpp"
 #include "dcm/terms/nucleus_shell.hpp"
+#include "solve/operator.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -85,7 +85,7 @@ inline NucleatedCells make_nucleated(const Params& params, const std::vector<dou
   c.params = params;
   std::vector<NewCell> cells;
   for (std::size_t l = 0; l < radius.size(); ++l)
-    cells.push_back({static_cast<std::int64_t>(l), 0, &mesh::shared_icosphere(n_node),
+    cells.push_back({static_cast<std::int64_t>(l), 0, &geometry::shared_icosphere(n_node),
                      Vec3(40.0 * static_cast<double>(l), 0, 0), radius[l], Vec3::Zero(),
                      Mat3::Identity(), nucleus_mesh(&*params.nucleus)});
   c.state = make_state(cells);

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/measures.hpp"
-#include "dcm/place_nucleus.hpp"
+#include "dcm/nucleus/place_nucleus.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/measures.hpp"
 #include "tests/dcm/nuclei.hpp"
 
 namespace acinus::dcm {
@@ -147,7 +147,7 @@ TEST(Nucleus, ShellIsThatOfACortex) {
   const double e = 0.01;
   for (int i = c.n_cortex(); i < c.n_point(); ++i) c.move(0, i, (1 + e) * c.point(0, i));
   c.reset();
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   double springs = 0;
   const double k = std::sqrt(3.0) / 2 * 5 * 0.5;
   for (const double l : t.rest_length) springs += 0.5 * k * (e * 5 * l) * (e * 5 * l);
@@ -172,14 +172,15 @@ TEST(Nucleus, LinksAreAShellOfThatModulus) {
   }
   const double form = 4 * kPi * 10 * 5 / (10 - 5);
   EXPECT_NEAR(stiffness, 0.7 * form, 1e-12 * form);
-  EXPECT_NEAR(friction, 3 * form + 0.2 * mesh::shared_icosphere(42).rest_area * 25, 1e-10);
+  EXPECT_NEAR(friction, 3 * form + 0.2 * geometry::shared_icosphere(42).rest_area * 25, 1e-10);
 }
 
 // A face of the cortex put 0.1 um off a face of the nucleus, 0.2 um nearer than the gap: each of
 // its three points pushes with k a / 3 times that.
 TEST(Nucleus, ContactPushesWithItsDepth) {
   NucleatedCells c = make_nucleated(with_nucleus({.size = 0.8, .gap = 0.3}), {10});
-  const mesh::Topology &cortex = mesh::shared_icosphere(162), &inner = mesh::shared_icosphere(42);
+  const geometry::Topology &cortex = geometry::shared_icosphere(162),
+                           &inner = geometry::shared_icosphere(42);
   const auto node = [&](int i) { return c.point(0, c.n_cortex() + i); };
   const auto& corner = inner.triangle[7];
   const Vec3 a = node(corner[0]), b = node(corner[1]), d = node(corner[2]);
@@ -217,7 +218,7 @@ TEST(Nucleus, WithoutAnyModulusDoesNotResist) {
 
 TEST(Nucleus, CellsWithoutOneHaveNoRowsForIt) {
   Params p = table_one();
-  State s = make_state({{0, 0, &mesh::shared_icosphere(42), Vec3::Zero(), 10}});
+  State s = make_state({{0, 0, &geometry::shared_icosphere(42), Vec3::Zero(), 10}});
   EXPECT_FALSE(has_nuclei(s));
   EXPECT_EQ(s.n_row(), 42u);
   EXPECT_TRUE(make_lane_data(s, 0).nucleus.radius.empty());
@@ -229,12 +230,12 @@ TEST(Nucleus, CellsWithoutOneHaveNoRowsForIt) {
 TEST(Nucleus, IsPlacedInsideWithItsLinksOutward) {
   const State s = make_state({{0,
                                0,
-                               &mesh::shared_icosphere(162),
+                               &geometry::shared_icosphere(162),
                                Vec3::Zero(),
                                12,
                                Vec3::Zero(),
                                Mat3::Identity(),
-                               {&mesh::shared_icosphere(42), 0.5}}});
+                               {&geometry::shared_icosphere(42), 0.5}}});
   std::vector<Vec3> node;
   copy_nodes(s, 0, node);
   auto random = reference::stream(5);
@@ -242,16 +243,16 @@ TEST(Nucleus, IsPlacedInsideWithItsLinksOutward) {
   for (Vec3& x : node) x = q * Vec3(x.x(), x.y(), x.z() > 0 ? x.z() : 0.02 * x.z());
   const double radius = 0.5 * 12 / std::cbrt(2.0);
   const std::vector<Vec3> nucleus = place_nucleus(s.group[0], node, radius, 0.3);
-  const mesh::AuditBody body(node, s.group[0].topology->triangle);
+  const geometry::AuditBody body(node, s.group[0].topology->triangle);
   for (const Vec3& x : nucleus) {
-    EXPECT_EQ(body.locate(x), mesh::Location::kInside);
+    EXPECT_EQ(body.locate(x), geometry::Location::kInside);
     EXPECT_GT(body.distance(x), 0.3);
   }
-  EXPECT_NEAR(mesh::compute_volume(nucleus, mesh::shared_icosphere(42).triangle),
+  EXPECT_NEAR(geometry::compute_volume(nucleus, geometry::shared_icosphere(42).triangle),
               4.0 / 3 * kPi * radius * radius * radius, 1e-9);
   // No link passes through the nucleus: its end is on the outer side of its own node.
-  const auto& end = shared_link_ends(*s.group[0].topology, mesh::shared_icosphere(42));
-  const Vec3 center = mesh::compute_centroid(nucleus, mesh::shared_icosphere(42).triangle);
+  const auto& end = shared_link_ends(*s.group[0].topology, geometry::shared_icosphere(42));
+  const Vec3 center = geometry::compute_centroid(nucleus, geometry::shared_icosphere(42).triangle);
   for (std::size_t i = 0; i < nucleus.size(); ++i)
     EXPECT_GT((node[static_cast<std::size_t>(end[i])] - nucleus[i]).dot(nucleus[i] - center), 0);
 }
@@ -259,12 +260,12 @@ TEST(Nucleus, IsPlacedInsideWithItsLinksOutward) {
 TEST(Nucleus, IsTurnedOnItsOwnSurface) {
   const State s = make_state({{0,
                                0,
-                               &mesh::shared_icosphere(162),
+                               &geometry::shared_icosphere(162),
                                Vec3::Zero(),
                                12,
                                Vec3::Zero(),
                                Mat3::Identity(),
-                               {&mesh::shared_icosphere(162), 0.5}}});
+                               {&geometry::shared_icosphere(162), 0.5}}});
   std::vector<Vec3> node, old;
   copy_nodes(s, 0, node);
   copy_nucleus(s, 0, old);
@@ -272,7 +273,7 @@ TEST(Nucleus, IsTurnedOnItsOwnSurface) {
   for (Vec3& x : node) x = q * x;
   const std::vector<Vec3> turned = turn_nucleus(s.group[0], node, old);
   ASSERT_EQ(turned.size(), old.size());
-  const mesh::AuditBody body(old, mesh::shared_icosphere(162).triangle);
+  const geometry::AuditBody body(old, geometry::shared_icosphere(162).triangle);
   for (std::size_t i = 0; i < old.size(); ++i) {
     EXPECT_LT(body.distance(turned[i]), 1e-12);
     EXPECT_LT(turned[i].cross(node[i]).norm() / (turned[i].norm() * node[i].norm()), 1e-12);

@@ -15,7 +15,7 @@ namespace {
 double pull_off(const Mat3& turn_a, const Mat3& turn_b, const ContactParams& options,
                 double adhesion, int n_node) {
   const double rise =
-      mesh::shared_icosphere(n_node).rest[0].norm();  // nodes on the sphere of R = 10
+      geometry::shared_icosphere(n_node).rest[0].norm();  // nodes on the sphere of R = 10
   Clump c;
   c.add_cells({new_cell(0, {0, 0, 0}, 10 / rise, turn_a, n_node),
                new_cell(1, {0, 0, 22}, 10 / rise, turn_b, n_node)});

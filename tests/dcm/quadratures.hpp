@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/contact/surface.hpp"
+#include "contact/surface.hpp"
 
 namespace acinus::dcm {
 
@@ -13,7 +13,7 @@ inline constexpr contact::Quadrature kAll[] = {contact::Quadrature::kThreePoint,
                                                contact::Quadrature::kNodesAndEdges};
 
 /// Area of a point on the rest shape: what every triangle gives it.
-inline double rest_share(const mesh::Topology& t, contact::Quadrature q, int point) {
+inline double rest_share(const geometry::Topology& t, contact::Quadrature q, int point) {
   if (q == contact::Quadrature::kThreePoint) return t.rest_triangle_area[point / 3] / 3;
   const bool both = q == contact::Quadrature::kNodesAndEdges;
   double area = 0;

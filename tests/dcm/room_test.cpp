@@ -1,20 +1,20 @@
-#include "dcm/room.hpp"
+#include "dcm/shape/room.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/audit_body.hpp"
-#include "core/mesh/measures.hpp"
-#include "dcm/cast.hpp"
+#include "dcm/shape/cast.hpp"
+#include "geometry/audit_body.hpp"
+#include "geometry/measures.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::dcm {
 namespace {
 
 constexpr double kRadius = 12;  // um
-const mesh::Topology& icosphere = mesh::shared_icosphere(642);
+const geometry::Topology& icosphere = geometry::shared_icosphere(642);
 
 std::vector<Vec3> directions(const Mat3& rotation) {
   std::vector<Vec3> direction;
@@ -73,7 +73,7 @@ TEST(Room, ABallCutByAPlaneHasItsVolumeAndStaysBelow) {
       EXPECT_LE((x - center).norm(), kRadius * (1 + 1e-12));
     }
     // The chords of 642 nodes lose 1 % of a ball.
-    const double volume = mesh::compute_volume(node, icosphere.triangle);
+    const double volume = geometry::compute_volume(node, icosphere.triangle);
     EXPECT_NEAR(volume / ball_below(kRadius, height), 0.985, 0.015) << height;
     EXPECT_TRUE(faces_outward(icosphere, node, center));
   }
@@ -92,8 +92,8 @@ TEST(Room, MeshesOfNarrowRoomsAreSound) {
     for (const Vec3& x : node)
       for (const RoomFace& f : face) EXPECT_LE(f.normal.dot(x), f.distance + 1e-9);
     EXPECT_TRUE(faces_outward(icosphere, node, Vec3::Zero())) << trial;
-    EXPECT_FALSE(mesh::AuditBody(node, icosphere.triangle).self_intersects()) << trial;
-    EXPECT_GT(mesh::compute_quality(node, icosphere.triangle), 0.02) << trial;
+    EXPECT_FALSE(geometry::AuditBody(node, icosphere.triangle).self_intersects()) << trial;
+    EXPECT_GT(geometry::compute_quality(node, icosphere.triangle), 0.02) << trial;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "dcm/split.hpp"
+#include "dcm/shape/split.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <ctime>
 
 #include "core/error.hpp"
-#include "core/mesh/inner_ball.hpp"
-#include "core/mesh/measures.hpp"
-#include "dcm/cast_half.hpp"
-#include "dcm/round_folds.hpp"
+#include "dcm/shape/cast_half.hpp"
+#include "dcm/shape/round_folds.hpp"
+#include "geometry/inner_ball.hpp"
+#include "geometry/measures.hpp"
 #include "tests/reference/cell_shapes.hpp"
 #include "tests/reference/sample.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 using reference::kEps;
 
 constexpr double kRadius = 15.1;  // um, a mother of twice the volume of a cell of 12 um
-const mesh::Topology& icosphere = mesh::shared_icosphere(162);
+const geometry::Topology& icosphere = geometry::shared_icosphere(162);
 
 double distance_to_loop(const Vec3& x, std::span<const Vec3> loop) {
   double best = 1e300;
@@ -36,7 +36,7 @@ double distance_to_loop(const Vec3& x, std::span<const Vec3> loop) {
 }
 
 /// Shortest and longest edge over the mean edge.
-std::array<double, 2> edge_range(const mesh::Topology& topology, std::span<const Vec3> node) {
+std::array<double, 2> edge_range(const geometry::Topology& topology, std::span<const Vec3> node) {
   double low = 1e300, high = 0, mean = 0;
   for (const auto& [i, j] : topology.edge) {
     const double length = (node[i] - node[j]).norm();
@@ -47,7 +47,7 @@ std::array<double, 2> edge_range(const mesh::Topology& topology, std::span<const
 
 TEST(Parts, ARingOfMeshEdgesClosesAroundTheCap) {
   for (const int n_node : {12, 42, 92, 162, 252, 362, 642, 1442, 2562}) {
-    const mesh::Topology& topology = mesh::shared_icosphere(n_node);
+    const geometry::Topology& topology = geometry::shared_icosphere(n_node);
     const std::vector<Part> part = make_parts(topology);
     const long n_side = std::lround(std::sqrt((n_node - 2) / 10.0));
     EXPECT_EQ(std::count(part.begin(), part.end(), Part::kRim), 5 * n_side);
@@ -74,14 +74,14 @@ TEST(Parts, ARingOfMeshEdgesClosesAroundTheCap) {
 }
 
 TEST(Parts, RefuseAMeshThatIsNoIcosphere) {
-  mesh::Surface tetrahedron;
+  geometry::Surface tetrahedron;
   tetrahedron.node = {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)};
   tetrahedron.triangle = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-  EXPECT_THROW(make_parts(mesh::make_topology(tetrahedron)), Error);
+  EXPECT_THROW(make_parts(geometry::make_topology(tetrahedron)), Error);
 }
 
 TEST(CastSphere, ReturnsTheMeshItIsCastOnto) {
-  mesh::Surface cell;
+  geometry::Surface cell;
   cell.triangle = icosphere.triangle;
   const Vec3 center(40, 50, 60);
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -95,9 +95,9 @@ TEST(CastSphere, ReturnsTheMeshItIsCastOnto) {
 
 TEST(CastSphere, FreshMeshesOfElongatedCellsAreSpread) {
   const auto shape = reference::cell_shapes()[1];
-  const mesh::Surface cell =
+  const geometry::Surface cell =
       reference::make_cell(shape, icosphere, 12, Mat3::Identity(), Vec3::Zero());
-  const mesh::StarSurface star(cell, Vec3::Zero());
+  const geometry::StarSurface star(cell, Vec3::Zero());
   auto node =
       cast_sphere(icosphere, cell, Vec3::Zero(), Eigen::AngleAxisd(1, Vec3::UnitX()).matrix());
   ASSERT_TRUE(node);
@@ -106,7 +106,7 @@ TEST(CastSphere, FreshMeshesOfElongatedCellsAreSpread) {
   spread_nodes(icosphere, star, {part, icosphere.n_triangle}, *node);
   EXPECT_TRUE(faces_outward(icosphere, *node, Vec3::Zero()));
   EXPECT_LT(edge_range(icosphere, *node)[1], stretched);
-  EXPECT_GT(mesh::compute_quality(*node, icosphere.triangle), 0.7);
+  EXPECT_GT(geometry::compute_quality(*node, icosphere.triangle), 0.7);
   for (const Vec3& x : *node)  // still on the surface
     EXPECT_LT((star.cast(x).point - x).norm(), 1e-12);
 }
@@ -117,9 +117,9 @@ TEST(MatchVolume, MovesWeightedNodesToTheTarget) {
   std::vector<Vec3> moved = node;
   std::vector<double> weight(162, 1.0);
   for (std::size_t i = 0; i < 60; ++i) weight[i] = 0;
-  const double target = 1.05 * mesh::compute_volume(node, icosphere.triangle);
+  const double target = 1.05 * geometry::compute_volume(node, icosphere.triangle);
   ASSERT_TRUE(match_volume(icosphere, target, weight, moved));
-  EXPECT_NEAR(mesh::compute_volume(moved, icosphere.triangle), target, 1e-12 * target);
+  EXPECT_NEAR(geometry::compute_volume(moved, icosphere.triangle), target, 1e-12 * target);
   for (std::size_t i = 0; i < 162; ++i) {
     if (weight[i] == 0) {
       EXPECT_EQ(moved[i], node[i]);
@@ -132,7 +132,7 @@ TEST(MatchVolume, MovesWeightedNodesToTheTarget) {
 TEST(MatchVolume, RefusesWhatItCannotReach) {
   std::vector<Vec3> node(icosphere.rest), before = node;
   const std::vector<double> none(162, 0.0), all(162, 1.0);
-  const double volume = mesh::compute_volume(node, icosphere.triangle);
+  const double volume = geometry::compute_volume(node, icosphere.triangle);
   EXPECT_FALSE(match_volume(icosphere, 1.1 * volume, none, node));
   EXPECT_FALSE(match_volume(icosphere, 10 * volume, all, node));
   EXPECT_FALSE(match_volume(icosphere, -volume, all, node));
@@ -148,17 +148,17 @@ struct Tally {
   double worst_loss = 0, worst_outset = 0, quality = 1, shortest = 1e300, longest = 0;
 };
 
-void expect_daughters(const mesh::Topology& topology, const mesh::Surface& mother,
+void expect_daughters(const geometry::Topology& topology, const geometry::Surface& mother,
                       const DaughterShapes& d, Tally& tally) {
-  const double volume = mesh::compute_volume(mother.node, mother.triangle);
+  const double volume = geometry::compute_volume(mother.node, mother.triangle);
   double sum = 0;
   for (std::size_t h = 0; h < 2; ++h) {
     const auto& node = d.node[h];
     ASSERT_EQ(node.size(), static_cast<std::size_t>(topology.n_node));
-    const double half = mesh::compute_volume(node, topology.triangle);
+    const double half = geometry::compute_volume(node, topology.triangle);
     sum += half;
     EXPECT_NEAR(half, volume / 2, 1e-9 * volume);
-    EXPECT_NEAR(mesh::compute_volume_below(mother.node, mother.triangle, d.plane), volume / 2,
+    EXPECT_NEAR(geometry::compute_volume_below(mother.node, mother.triangle, d.plane), volume / 2,
                 1e-9 * volume);
     for (std::size_t i = 0; i < node.size(); ++i) {
       const double height = d.plane.normal.dot(node[i]) - d.plane.offset;
@@ -172,7 +172,7 @@ void expect_daughters(const mesh::Topology& topology, const mesh::Surface& mothe
         EXPECT_LE(distance_to_loop(node[i], d.rim), d.outset[h] + 1e-9);
       }
     }
-    tally.quality = std::min(tally.quality, mesh::compute_quality(node, topology.triangle));
+    tally.quality = std::min(tally.quality, geometry::compute_quality(node, topology.triangle));
     const auto [low, high] = edge_range(topology, node);
     tally.shortest = std::min(tally.shortest, low);
     tally.longest = std::max(tally.longest, high);
@@ -185,12 +185,13 @@ void expect_daughters(const mesh::Topology& topology, const mesh::Surface& mothe
   ++tally.n_split;
 }
 
-Tally split_many(const mesh::Topology& topology, const reference::CellShape& shape, int n_case) {
+Tally split_many(const geometry::Topology& topology, const reference::CellShape& shape,
+                 int n_case) {
   UniformStream random = reference::stream(3);
   Tally tally;
   tally.n_case = n_case;
   for (int n = 0; n < n_case; ++n) {
-    const mesh::Surface mother = reference::make_cell(
+    const geometry::Surface mother = reference::make_cell(
         shape, topology, kRadius, reference::random_rotation(random), Vec3(100, -50, 30));
     const Vec3 normal = random.unit_vector();
     const std::clock_t start = std::clock();
@@ -236,11 +237,12 @@ TEST(SplitCell, ARoundMotherGivesEvenDaughters) {
 TEST(SplitCell, WorksOnEveryIcosphereAndLosesLessOnFinerOnes) {
   double last = 1;
   for (const int n_node : {92, 252, 362}) {
-    const Tally tally = split_many(mesh::shared_icosphere(n_node), reference::cell_shapes()[0], 20);
+    const Tally tally =
+        split_many(geometry::shared_icosphere(n_node), reference::cell_shapes()[0], 20);
     EXPECT_EQ(tally.n_split, tally.n_case) << n_node;
   }
   for (const int n_node : {42, 162, 642, 2562}) {
-    const Tally tally = split_many(mesh::shared_icosphere(n_node), reference::cell_shapes()[0],
+    const Tally tally = split_many(geometry::shared_icosphere(n_node), reference::cell_shapes()[0],
                                    n_node < 642 ? 20 : 3);
     EXPECT_EQ(tally.n_split, tally.n_case);
     EXPECT_LT(tally.loss / tally.n_case, last / 2);
@@ -249,12 +251,12 @@ TEST(SplitCell, WorksOnEveryIcosphereAndLosesLessOnFinerOnes) {
 }
 
 TEST(SplitCell, RimNodesOfBothDaughtersCoincideOnTheRim) {
-  const mesh::Surface mother = reference::make_cell(reference::cell_shapes()[3], icosphere, kRadius,
-                                                    Mat3::Identity(), Vec3(9, 8, 7));
+  const geometry::Surface mother = reference::make_cell(reference::cell_shapes()[3], icosphere,
+                                                        kRadius, Mat3::Identity(), Vec3(9, 8, 7));
   const Vec3 normal = Vec3(1, 2, 2) / 3;
-  const auto plane = mesh::find_halving_plane(mother.node, mother.triangle, normal);
+  const auto plane = geometry::find_halving_plane(mother.node, mother.triangle, normal);
   ASSERT_TRUE(plane);
-  const mesh::Cut cut = mesh::cut_surface(mother.node, mother.triangle, *plane);
+  const geometry::Cut cut = geometry::cut_surface(mother.node, mother.triangle, *plane);
   ASSERT_EQ(cut.loop.size(), 1u);
   auto back = cut.loop[0];
   std::reverse(back.begin() + 1, back.end());
@@ -274,7 +276,7 @@ TEST(SplitCell, RimNodesOfBothDaughtersCoincideOnTheRim) {
 }
 
 /// Smallest radius of curvature across an edge of a daughter, um.
-double sharpest(const mesh::Topology& topology, const Split& split) {
+double sharpest(const geometry::Topology& topology, const Split& split) {
   double least = 1e300;
   for (const std::vector<Vec3>& node : split.daughters.value().node)
     for (int e = 0; e < topology.n_edge; ++e)
@@ -283,7 +285,7 @@ double sharpest(const mesh::Topology& topology, const Split& split) {
 }
 
 /// A lens halved across its edge at 35 degrees: one side of the rim is a wedge.
-std::vector<Vec3> make_lens(const mesh::Topology& topology) {
+std::vector<Vec3> make_lens(const geometry::Topology& topology) {
   std::vector<Vec3> node;
   for (const Vec3& x : topology.rest) node.push_back(kRadius * Vec3(x.x(), x.y(), 0.5 * x.z()));
   return node;
@@ -292,9 +294,9 @@ std::vector<Vec3> make_lens(const mesh::Topology& topology) {
 TEST(SplitCell, RimsAreRoundedToTheThicknessOfTheCortex) {
   const Vec3 normal(std::sin(0.6), 0, std::cos(0.6));
   for (const int n_node : {642, 2562}) {
-    const mesh::Topology& topology = mesh::shared_icosphere(n_node);
+    const geometry::Topology& topology = geometry::shared_icosphere(n_node);
     const std::vector<Vec3> mother = make_lens(topology);
-    const double volume = mesh::compute_volume(mother, topology.triangle);
+    const double volume = geometry::compute_volume(mother, topology.triangle);
     const Split sharp = split_cell(topology, mother, normal),
                 round = split_cell(topology, mother, normal, 0.5);
     std::printf("%d nodes: radius of the rim %.3f um, rounded %.3f um\n", n_node,
@@ -304,7 +306,7 @@ TEST(SplitCell, RimsAreRoundedToTheThicknessOfTheCortex) {
     double farthest = 0;
     for (std::size_t h = 0; h < 2; ++h) {
       const std::vector<Vec3>& node = round.daughters->node[h];
-      EXPECT_NEAR(mesh::compute_volume(node, topology.triangle), volume / 2, 1e-9 * volume);
+      EXPECT_NEAR(geometry::compute_volume(node, topology.triangle), volume / 2, 1e-9 * volume);
       for (std::size_t i = 0; i < node.size(); ++i)
         farthest = std::max(farthest, (node[i] - sharp.daughters->node[h][i]).norm());
     }
@@ -320,19 +322,19 @@ TEST(SplitCell, CoarseMeshesHaveNoFoldSharperThanTheCortexAllows) {
 }
 
 TEST(SplitCell, SaysWhyNot) {
-  mesh::Surface mother = reference::make_cell(reference::cell_shapes().back(), icosphere, kRadius,
-                                              Mat3::Identity(), Vec3::Zero());
+  geometry::Surface mother = reference::make_cell(reference::cell_shapes().back(), icosphere,
+                                                  kRadius, Mat3::Identity(), Vec3::Zero());
   // A horseshoe halved in its own plane: two flat horseshoes, which no inner point sees as a whole.
   const Split flat = split_cell(icosphere, mother.node, Vec3::UnitZ());
   EXPECT_EQ(flat.failure, SplitFailure::kNotStarShaped);
   EXPECT_FALSE(flat.daughters);
-  const auto plane = mesh::find_halving_plane(mother.node, mother.triangle, Vec3::UnitZ());
+  const auto plane = geometry::find_halving_plane(mother.node, mother.triangle, Vec3::UnitZ());
   ASSERT_TRUE(plane);
-  const mesh::Cut cut = mesh::cut_surface(mother.node, mother.triangle, *plane);
-  for (const mesh::Surface& half : cut.half) {  // what can be inflated inside instead
-    const mesh::InnerBall ball = mesh::find_inner_ball(half);
+  const geometry::Cut cut = geometry::cut_surface(mother.node, mother.triangle, *plane);
+  for (const geometry::Surface& half : cut.half) {  // what can be inflated inside instead
+    const geometry::InnerBall ball = geometry::find_inner_ball(half);
     EXPECT_GT(ball.radius, 0.2 * 12);
-    EXPECT_TRUE(mesh::is_inside(ball.center, half.node, half.triangle));
+    EXPECT_TRUE(geometry::is_inside(ball.center, half.node, half.triangle));
   }
   for (Vec3& x : mother.node) x.z() = -x.z();  // inside out
   EXPECT_EQ(split_cell(icosphere, mother.node, Vec3::UnitX()).failure, SplitFailure::kNoHalving);

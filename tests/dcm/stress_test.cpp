@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "tests/core/contact/reference_table.hpp"
+#include "tests/contact/reference_table.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -23,7 +23,7 @@ struct Blown {
 /// A sphere cell blown up uniformly: mean node tension, and the pressure that holds it (virtual
 /// work of swelling, sum f . x = -3 p V).
 Blown blow_up(int n_node, double radius, double stretch, const Params& p) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(n_node), {radius / stretch});
+  Cells c = make_rest_cells(geometry::shared_icosphere(n_node), {radius / stretch});
   for (int i = 0; i < n_node; ++i) c.move(0, i, stretch * c.node(0, i));
   add_cortex(p, c.view(), c.system);
   if (p.area_modulus > 0) add_area(p, c.view(), c.system, c.system.rank_one[1]);
@@ -41,7 +41,7 @@ TEST(NodeTension, AgreesWithLaplace) {
     // so the exact pressure is 2 T / R times sum l^2 R / (6 sqrt 3 V): 1 for equilateral facets on
     // a sphere. An icosphere's facets never become equilateral however fine it is, so that factor
     // does not go to 1.
-    const mesh::Topology& t = mesh::shared_icosphere(n);
+    const geometry::Topology& t = geometry::shared_icosphere(n);
     double factor = 0;
     for (double l : t.rest_length) factor += l * l / (6 * std::sqrt(3.0) * 4.0 / 3 * kPi);
     double worst = 0;
@@ -86,12 +86,12 @@ TEST(NodeTension, IncludesTheMembrane) {
 }
 
 TEST(NodeTension, IsZeroAtRest) {
-  const Cells c = make_rest_cells(mesh::shared_icosphere(162), {12});
+  const Cells c = make_rest_cells(geometry::shared_icosphere(162), {12});
   for (double t : compute_node_tension(table_one(), c.view(), 0)) EXPECT_LT(std::abs(t), 1e-13);
 }
 
 TEST(State, ReferenceRadiusFollowsLinearGrowthOfVolume) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), {12, 12});
+  Cells c = make_rest_cells(geometry::shared_icosphere(42), {12, 12});
   const double birth = 4.0 / 3 * kPi * 1728;
   c.state.volume[0] = {birth, 2 * birth, 100, 86500};
   EXPECT_NEAR(reference_radii(c.state, 0)[0], 12, 1e-14);
@@ -107,7 +107,7 @@ TEST(State, GroupsCellsByTypeAndTopology) {
   for (std::size_t k = 0; k < cells.size(); ++k) {
     cells[k].lineage = static_cast<std::int64_t>(100 + k);
     cells[k].type = k % 3 == 0 ? 1 : 0;
-    cells[k].topology = &mesh::shared_icosphere(k % 2 == 0 ? 42 : 162);
+    cells[k].topology = &geometry::shared_icosphere(k % 2 == 0 ? 42 : 162);
     cells[k].radius = 10;
     cells[k].center = Vec3(static_cast<double>(k), 0, 0);
   }

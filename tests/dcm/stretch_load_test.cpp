@@ -73,7 +73,7 @@ TEST(StretchLoad, WithoutAngleIsAPressure) {
 // stress times mean of cos^4, a fifth.
 TEST(StretchLoad, OnASphereFallsWithTheCosine) {
   for (const int nodes : {162, 642, 2562}) {
-    Cells c = make_rest_cells(mesh::shared_icosphere(nodes), {8.8});
+    Cells c = make_rest_cells(geometry::shared_icosphere(nodes), {8.8});
     add_stretch_load(c.view(), kLoad, c.system);
     double work = 0;
     for (int i = 0; i < nodes; ++i) {

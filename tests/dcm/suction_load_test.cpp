@@ -69,7 +69,7 @@ TEST(SuctionLoad, OfACellThatIsInsideIsAPressure) {
 TEST(SuctionLoad, NetForceIsThePressureOnTheMouth) {
   const Vec3 axis = Vec3(1, 2, -2) / 3;
   for (int k = 0; k < 20; ++k) {
-    Cells c = make_rest_cells(mesh::shared_icosphere(642), {12});
+    Cells c = make_rest_cells(geometry::shared_icosphere(642), {12});
     const double depth = -11 + 22.0 * k / 19;
     add_suction_load(c.view(), {depth * axis, axis, kFar, 1e-3}, c.system);
     const Vec3 net = total(c, 0).first;
@@ -81,7 +81,7 @@ TEST(SuctionLoad, NetForceIsThePressureOnTheMouth) {
 }
 
 TEST(SuctionLoad, LeavesOutWhatIsBeforeTheMouthOrBesideIt) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(162), {12});
+  Cells c = make_rest_cells(geometry::shared_icosphere(162), {12});
   add_suction_load(c.view(), {Vec3(0, 0, 13), Vec3::UnitZ(), kFar, 1}, c.system);
   add_suction_load(c.view(), {Vec3(30, 0, -13), Vec3::UnitZ(), 15, 1}, c.system);
   EXPECT_EQ(total(c, 0).second, 0);
@@ -91,7 +91,7 @@ TEST(SuctionLoad, LeavesOutWhatIsBeforeTheMouthOrBesideIt) {
 TEST(SuctionLoad, HasNoJumps) {
   Vec3 before = Vec3::Zero();
   for (int k = 0; k <= 2000; ++k) {
-    Cells c = make_rest_cells(mesh::shared_icosphere(42), {12});
+    Cells c = make_rest_cells(geometry::shared_icosphere(42), {12});
     const double depth = 6 + 2e-3 * k;
     add_suction_load(c.view(), {Vec3(0, 0, depth), Vec3::UnitZ(), kFar, 1}, c.system);
     const Vec3 of_first = load_of(c, 0, 0);

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 
-#include "dcm/mesh_pattern.hpp"
+#include "dcm/shape/mesh_pattern.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {
@@ -188,7 +188,7 @@ Eigen::MatrixXd force_differences(Cells& c, const Term& term, const Params& p, s
 
 // At rest every dropped piece is multiplied by zero, so the matrix is the true Hessian there.
 TEST_P(EveryTerm, StiffnessIsTheHessianAtRest) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
+  Cells c = make_rest_cells(geometry::shared_icosphere(42), {8, 9, 10});
   const Eigen::MatrixXd differences = force_differences(c, GetParam(), params_, 1);
   add(c);
   const Eigen::MatrixXd k = lane_matrices(c)[1];
@@ -199,9 +199,9 @@ TEST_P(EveryTerm, StiffnessIsTheHessianAtRest) {
 
 TEST_P(EveryTerm, RestShapeOfAnyRadiusHasNoForce) {
   const std::vector<double> radii{1, 3, 8.8, 12, 15.119, 24, 40, 120};
-  Cells c = make_rest_cells(mesh::shared_icosphere(162), radii);
+  Cells c = make_rest_cells(geometry::shared_icosphere(162), radii);
   add(c);
-  Cells rough = make_rest_cells(mesh::shared_icosphere(162), radii);
+  Cells rough = make_rest_cells(geometry::shared_icosphere(162), radii);
   auto random = reference::stream(4);
   for (std::size_t l = 0; l < kLanes; ++l)  // what a 1 % wrong size and shape costs
     for (int i = 0; i < c.n_node(); ++i)
@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Dcm, EveryTerm, testing::ValuesIn(all_terms()),
 TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
   Params p;
   p.spring_stiffness = 0.433;
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
+  Cells c = make_rest_cells(geometry::shared_icosphere(42), {8, 9, 10});
   auto random = reference::stream(3);
   for (int i = 0; i < c.n_node(); ++i)  // every edge at least 5 % longer than at rest
     c.move(1, i, 1.15 * c.node(1, i) + reference::random_vector(random, 0.1));
@@ -237,7 +237,7 @@ TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
 // A step is stable where the matrix is at least half the true derivative: a tense membrane resists
 // short waves of the surface, which the rank-one part alone does not see (docs/decisions/0007.md).
 TEST(Area, MatrixHoldsATautSurface) {
-  Cells c = make_rest_cells(mesh::shared_icosphere(42), {8, 9, 10});
+  Cells c = make_rest_cells(geometry::shared_icosphere(42), {8, 9, 10});
   auto random = reference::stream(5);
   for (int i = 0; i < c.n_node(); ++i)
     c.move(1, i, 1.05 * c.node(1, i) + reference::random_vector(random, 0.1));
@@ -272,7 +272,7 @@ TEST(Terms, StiffnessScaleSwitchesTheMatrixOff) {
 }
 
 TEST(MeshPattern, HasTheElementsThatTermsUse) {
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   for (double bending : {0.0, 0.01})
     for (double area : {0.0, 0.8}) {
       Params p;
@@ -296,7 +296,7 @@ TEST(MeshPattern, HasTheElementsThatTermsUse) {
       EXPECT_EQ(c.system.face.empty(), area == 0);
     }
   EXPECT_NE(&shared_mesh_pattern(t, Params{}),
-            &shared_mesh_pattern(mesh::shared_icosphere(162), Params{}));
+            &shared_mesh_pattern(geometry::shared_icosphere(162), Params{}));
 }
 
 // Two types in one system: one with hinges only, one with faces only. Offsets must not run
@@ -305,7 +305,7 @@ TEST(Terms, TypesWithDifferentElementsShareASystem) {
   Params type[2] = {table_one(), table_one()};
   type[0].local_area_modulus = 0;
   type[1].bending_stiffness = 0;
-  const mesh::Topology& t = mesh::shared_icosphere(42);
+  const geometry::Topology& t = geometry::shared_icosphere(42);
   std::vector<NewCell> cells(3);
   for (std::size_t k = 0; k < cells.size(); ++k) {
     cells[k].lineage = static_cast<std::int64_t>(k);

@@ -1,6 +1,6 @@
 /// Maugis-Dugdale between triangles as loads: balance, the law, invariance, matrix, areas.
 
-#include "dcm/triangle_contact.hpp"
+#include "dcm/contact/triangle_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/contact/maugis_overlap.hpp"
-#include "core/contact/maugis_triangles.hpp"
-#include "core/threads.hpp"
+#include "contact/maugis_overlap.hpp"
+#include "contact/maugis_triangles.hpp"
+#include "core/parallel/threads.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/reference/dense_system.hpp"
 

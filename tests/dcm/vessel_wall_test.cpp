@@ -1,6 +1,6 @@
 /// Vessel walls that yield under deformable cells.
 
-#include "dcm/vessel_wall.hpp"
+#include "dcm/contact/vessel_wall.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ contact::Material wall(double young) { return {0, young, 0.4, false}; }
 Clump cell_on_vessel(double young, double depth, double adhesion = 0) {
   Clump c;
   c.add_cells({new_cell(0, Vec3(0, 0, 12 + 4.7 - depth), 12, Mat3::Identity())});
-  mesh::Network n;
+  geometry::Network n;
   n.node = {{-30, 0, 0}, {1, 0, 0}, {30, 0, 0}};
   n.segment = {{0, 1}, {1, 2}};
   n.radius = {{4.7, 4.7}, {4.7, 4.7}};
@@ -80,7 +80,8 @@ TEST(VesselWall, ForceIsThatOfTheBedUnderEveryPoint) {
     if (o.only_pushes()) continue;
     EXPECT_EQ(o.stiffness, k);
     if (o.gap >= 0) continue;
-    const double area = point_area(mesh::shared_icosphere(162), c.options.quadrature, o.point, 12);
+    const double area =
+        point_area(geometry::shared_icosphere(162), c.options.quadrature, o.point, 12);
     EXPECT_NEAR(c.links.load[l].force, -area * k * o.gap, 1e-13 * area * k);
     EXPECT_NEAR(c.links.link[l].stiffness, area * k, 1e-6 * area * k);  // kept in floats
     ++pressed;
@@ -93,7 +94,7 @@ void expect_energy_gradient(double deepest) {
   Clump c = cell_on_vessel(0.6, deepest, 0.01);
   const std::vector<contact::Contact> start = c.contacts.all;
   const solve::Links links = c.links;
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   const auto energy = [&](std::size_t l) {
     const contact::Contact& o = start[l];
     const Vec3 x =
@@ -149,7 +150,8 @@ TEST(VesselWall, YieldsBy15PercentOfItsRadiusAndNoMore) {
     const contact::Contact& o = c.obstacle()[l];
     if (o.guard || o.onset == 0) continue;
     ++stops;
-    const double area = point_area(mesh::shared_icosphere(162), c.options.quadrature, o.point, 12);
+    const double area =
+        point_area(geometry::shared_icosphere(162), c.options.quadrature, o.point, 12);
     const double beyond = std::max(0.0, -o.gap - limit);
     EXPECT_NEAR(o.stiffness + wall_stiffness(5, wall(0.6), 4.7, 1.2), 5, 1e-12);
     EXPECT_NEAR(c.links.load[l].force, area * o.stiffness * beyond, 1e-12 * area * 5);

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "tests/fuzz/mutate.hpp"
 
 namespace acinus::fuzz {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "tests/fuzz/targets.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "tests/fuzz/campaign.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/targets.hpp"

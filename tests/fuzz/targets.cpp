@@ -9,20 +9,20 @@
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
-#include "core/image/read_image.hpp"
-#include "core/image/write_image.hpp"
-#include "core/io/checkpoint.hpp"
-#include "core/io/run_file.hpp"
-#include "core/io/run_reader.hpp"
-#include "core/mesh/read_network.hpp"
-#include "core/mesh/read_surface.hpp"
+#include "geometry/readers/read_network.hpp"
+#include "geometry/readers/read_surface.hpp"
+#include "imaging/read_image.hpp"
+#include "imaging/write_image.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_file.hpp"
+#include "io/run_reader.hpp"
 #include "runs/scene/reader.hpp"
-#include "runs/serve/submission.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/study/plan.hpp"
-#include "tests/core/image/hdf5_dataset.hpp"
-#include "tests/core/image/images.hpp"
-#include "tests/core/io/sample.hpp"
+#include "service/serve/submission.hpp"
+#include "tests/imaging/hdf5_dataset.hpp"
+#include "tests/imaging/images.hpp"
+#include "tests/io/sample.hpp"
 
 namespace acinus::fuzz {
 namespace {
@@ -75,7 +75,7 @@ void write_laws(const std::string& folder) {
 }
 
 void read_network(const std::string& path) {
-  const mesh::Network network = mesh::read_network(path);
+  const geometry::Network network = geometry::read_network(path);
   for (const Vec3& node : network.node) must(node.allFinite(), "a node that is nowhere");
   for (const auto& [a, b] : network.segment)
     must(std::min(a, b) >= 0 && std::max(a, b) < static_cast<int>(network.node.size()),
@@ -85,7 +85,7 @@ void read_network(const std::string& path) {
 }
 
 void read_surface(const std::string& path) {
-  for (const mesh::Surface& body : mesh::read_closed_surfaces(path, 1)) {
+  for (const geometry::Surface& body : geometry::read_closed_surfaces(path, 1)) {
     for (const Vec3& node : body.node) must(node.allFinite(), "a node that is nowhere");
     for (const auto& face : body.triangle)
       for (const int node : face)
@@ -94,40 +94,40 @@ void read_surface(const std::string& path) {
 }
 
 void read_image(const std::string& path) {
-  const image::LabelImage image = image::read_image(path, {.voxel = Vec3(1, 1, 1)});
+  const imaging::LabelImage image = imaging::read_image(path, {.voxel = Vec3(1, 1, 1)});
   const auto& [x, y, z] = image.size;
   must(x > 0 && y > 0 && z > 0 && image.label.size() == static_cast<std::size_t>(x) * y * z,
        "an image of another size");
   must(image.voxel.allFinite() && image.voxel.minCoeff() > 0, "voxels without a size");
 }
-image::LabelImage make_labels() {
-  image::LabelImage image;
+imaging::LabelImage make_labels() {
+  imaging::LabelImage image;
   image.size = {6, 5, 4};
   image.voxel = Vec3(0.5, 0.5, 1);
-  for (image::Label k = 0; k < 6 * 5 * 4; ++k) image.label.push_back(k / 7 * 300);
+  for (imaging::Label k = 0; k < 6 * 5 * 4; ++k) image.label.push_back(k / 7 * 300);
   return image;
 }
 void write_tiff(const std::string& folder) {
-  image::write_image(folder + "/image.tif", make_labels());
+  imaging::write_image(folder + "/image.tif", make_labels());
 }
 void write_nrrd(const std::string& folder) {
-  image::write_image(folder + "/image.nrrd", make_labels());
+  imaging::write_image(folder + "/image.nrrd", make_labels());
 }
 void write_metaimage(const std::string& folder) {
-  image::write_image(folder + "/image.mha", make_labels());
+  imaging::write_image(folder + "/image.mha", make_labels());
 }
 void write_nifti(const std::string& folder) {
   constexpr std::int16_t kMicrons = 3;
-  std::ofstream(folder + "/image.nii", std::ios::binary) << image::nifti(make_labels(), kMicrons);
+  std::ofstream(folder + "/image.nii", std::ios::binary) << imaging::nifti(make_labels(), kMicrons);
 }
 void write_hdf5_image(const std::string& folder) {
-  image::write_dataset(folder + "/plain.h5",
-                       {.shape = {4, 5, 6}, .value = make_labels().label, .step = {1, 0.5, 0.5}});
-  image::write_dataset(folder + "/named.h5", {.shape = {4, 5, 6},
-                                              .value = make_labels().label,
-                                              .labels = {"z", "y", "x"},
-                                              .step = {1, 0.5, 0.5},
-                                              .chunk = {2, 5, 6}});
+  imaging::write_dataset(folder + "/plain.h5",
+                         {.shape = {4, 5, 6}, .value = make_labels().label, .step = {1, 0.5, 0.5}});
+  imaging::write_dataset(folder + "/named.h5", {.shape = {4, 5, 6},
+                                                .value = make_labels().label,
+                                                .labels = {"z", "y", "x"},
+                                                .step = {1, 0.5, 0.5},
+                                                .chunk = {2, 5, 6}});
 }
 void write_vtk(const std::string& folder) { copy_all(ACINUS_TEST_DATA "/files", ".vtk", folder); }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 
 int main(int n_argument, char** argument) {
   const bool clean = n_argument > 1 && std::string_view(argument[1]) == "clean";

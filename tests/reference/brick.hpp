@@ -3,13 +3,13 @@
 
 #include <array>
 
-#include "core/mesh/surface.hpp"
+#include "geometry/surface.hpp"
 
 namespace acinus::reference {
 
 /// Box with corners low and high, 12 triangles.
-inline mesh::Surface brick(const Vec3& low, const Vec3& high) {
-  mesh::Surface out;
+inline geometry::Surface brick(const Vec3& low, const Vec3& high) {
+  geometry::Surface out;
   for (int i = 0; i < 8; ++i)
     out.node.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
                           (i & 4 ? high : low).z());

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/measures.hpp"
-#include "core/mesh/surface.hpp"
-#include "core/mesh/topology.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/surface.hpp"
+#include "geometry/topology.hpp"
 
 namespace acinus::reference {
 
@@ -53,13 +53,13 @@ inline std::vector<CellShape> cell_shapes() {
 }
 
 /// The shape with the volume of the inflated sphere of this radius, its mesh turned beforehand.
-inline mesh::Surface make_cell(const CellShape& shape, const mesh::Topology& topology,
-                               double radius, const Mat3& rotation, const Vec3& center) {
-  mesh::Surface out;
+inline geometry::Surface make_cell(const CellShape& shape, const geometry::Topology& topology,
+                                   double radius, const Mat3& rotation, const Vec3& center) {
+  geometry::Surface out;
   out.triangle = topology.triangle;
   for (const Vec3& rest : topology.rest)
     out.node.push_back(shape.place((rotation * rest).normalized()));
-  const double volume = mesh::compute_volume(out.node, out.triangle);
+  const double volume = geometry::compute_volume(out.node, out.triangle);
   const double scale = radius * std::cbrt(4 * kPi / 3 / volume);
   for (Vec3& x : out.node) x = center + scale * x;
   return out;

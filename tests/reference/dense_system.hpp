@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "core/solve/system.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::reference {
 

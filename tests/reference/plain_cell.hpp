@@ -6,13 +6,13 @@
 #include <cmath>
 #include <vector>
 
-#include "core/mesh/topology.hpp"
 #include "core/vec.hpp"
+#include "geometry/topology.hpp"
 
 namespace acinus::reference {
 
 struct PlainCell {
-  const mesh::Topology* topology;
+  const geometry::Topology* topology;
   std::vector<Vec3> node;  ///< um
   double radius;           ///< um, reference radius
 };
@@ -45,13 +45,13 @@ inline double plain_triangle_area(const std::vector<Vec3>& x, const std::array<i
   return std::sqrt(s * (s - a) * (s - b) * (s - c));  // Heron
 }
 
-inline double plain_area(const std::vector<Vec3>& x, const mesh::Topology& t) {
+inline double plain_area(const std::vector<Vec3>& x, const geometry::Topology& t) {
   double sum = 0;
   for (const auto& f : t.triangle) sum += plain_triangle_area(x, f);
   return sum;
 }
 
-inline double plain_volume(const std::vector<Vec3>& x, const mesh::Topology& t) {
+inline double plain_volume(const std::vector<Vec3>& x, const geometry::Topology& t) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& p : x) middle += p / static_cast<double>(x.size());
   double sum = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Signed distance to a closed surface by trying everything, written without core/mesh.
+/// Signed distance to a closed surface by trying everything, written without geometry.
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "core/random.hpp"
+#include "core/numbers/random.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::reference {

@@ -1,17 +1,17 @@
 /// Generated cells of more than one type: shares, regions, room.
 
-#include "runs/build/cell_types.hpp"
+#include "runs/assemble/cell_types.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "runs/build/build_correction.hpp"
-#include "runs/build/build_params.hpp"
-#include "runs/build/build_world.hpp"
-#include "runs/build/cell_constants.hpp"
-#include "runs/build/place_cells.hpp"
+#include "runs/assemble/build_correction.hpp"
+#include "runs/assemble/build_params.hpp"
+#include "runs/assemble/build_world.hpp"
+#include "runs/assemble/cell_constants.hpp"
+#include "runs/assemble/place_cells.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/jkr.hpp"
+#include "contact/jkr.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"
 

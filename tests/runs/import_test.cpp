@@ -7,46 +7,46 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/image/write_image.hpp"
-#include "core/mesh/measures.hpp"
 #include "core/sphere.hpp"
-#include "runs/build/build_world.hpp"
+#include "geometry/measures.hpp"
+#include "imaging/write_image.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/images/import_image.hpp"
 #include "runs/scene/reader.hpp"
-#include "tests/core/image/images.hpp"
-#include "tests/core/mesh/temp_folder.hpp"
+#include "tests/geometry/temp_folder.hpp"
+#include "tests/imaging/images.hpp"
 
 namespace acinus::runs {
 namespace {
 
-using mesh::contains;
-using mesh::message_of;
-using mesh::TempFolder;
+using geometry::contains;
+using geometry::message_of;
+using geometry::TempFolder;
 
 struct LabelledBall {
-  image::Label label;
+  imaging::Label label;
   Vec3 center;
   double radius;
 };
 
 /// Balls in an image of 60 x 40 x 40 um; later ones cover earlier ones.
-image::LabelImage balls(const std::vector<LabelledBall>& all) {
-  return image::make_image({60, 40, 40}, Vec3::Ones(), [&](const Vec3& x) {
-    image::Label label = 0;
+imaging::LabelImage balls(const std::vector<LabelledBall>& all) {
+  return imaging::make_image({60, 40, 40}, Vec3::Ones(), [&](const Vec3& x) {
+    imaging::Label label = 0;
     for (const LabelledBall& b : all)
       if ((x - b.center).norm() < b.radius) label = b.label;
     return label;
   });
 }
 
-ImportOptions options_for(const TempFolder& folder, const image::LabelImage& image) {
+ImportOptions options_for(const TempFolder& folder, const imaging::LabelImage& image) {
   ImportOptions o;
   o.image = folder.path() + "/labels.mha";
-  image::write_image(o.image, image);
+  imaging::write_image(o.image, image);
   return o;
 }
 
-std::string why(const ImportedTissue& t, image::Label label, std::size_t n_voxel = 0) {
+std::string why(const ImportedTissue& t, imaging::Label label, std::size_t n_voxel = 0) {
   for (const LeftOut& l : t.left_out)
     if (l.label == label && (n_voxel == 0 || l.n_voxel == n_voxel)) return l.why;
   return "";
@@ -65,10 +65,10 @@ TEST(ImportImage, KeepsCellsAndSaysWhatItLeavesOut) {
   ASSERT_EQ(t.cell.size(), 2u);
   EXPECT_EQ(t.cell[0].label, 3u);
   EXPECT_EQ(t.cell[1].label, 9u);
-  EXPECT_EQ(t.touching, (std::vector<std::array<image::Label, 2>>{{3, 9}}));
+  EXPECT_EQ(t.touching, (std::vector<std::array<imaging::Label, 2>>{{3, 9}}));
   EXPECT_EQ(t.cell[0].neighbours, 1);
   for (const ImportedCell& c : t.cell)
-    EXPECT_NEAR(mesh::compute_volume(c.surface.node, c.surface.triangle), c.volume,
+    EXPECT_NEAR(geometry::compute_volume(c.surface.node, c.surface.triangle), c.volume,
                 1e-9 * c.volume);
   EXPECT_CONTAINS(why(t, 4), "a speck");
   EXPECT_CONTAINS(why(t, 5), "fewer than 27 voxels");
@@ -96,9 +96,9 @@ TEST(ImportImage, MakesASceneThatStartsWithTheVolumesOfTheImage) {
     std::vector<Vec3> node;
     dcm::copy_nodes(s, lane, node);
     const auto& triangle = s.group[lane / kLanes].topology->triangle;
-    EXPECT_NEAR(mesh::compute_volume(node, triangle), c.volume, 1e-6 * c.volume);
+    EXPECT_NEAR(geometry::compute_volume(node, triangle), c.volume, 1e-6 * c.volume);
     EXPECT_NEAR(s.volume[lane].at(0), c.volume, 1e-6 * c.volume);
-    EXPECT_LT((mesh::compute_centroid(node, triangle) - c.center).norm(), 0.3);
+    EXPECT_LT((geometry::compute_centroid(node, triangle) - c.center).norm(), 0.3);
   }
   EXPECT_EQ(seen, 2);
   // The same as spheres.
@@ -111,8 +111,8 @@ TEST(ImportImage, MakesASceneThatStartsWithTheVolumesOfTheImage) {
 TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
   const TempFolder folder;
   const auto tube = [](const Vec3& x) { return std::hypot(x[0] - 45, x[1] - 20) < 5; };
-  image::LabelImage image = balls({{3, {15, 20, 20}, 8}, {9, {33, 20, 20}, 8}});
-  image::LabelImage vessels = image;
+  imaging::LabelImage image = balls({{3, {15, 20, 20}, 8}, {9, {33, 20, 20}, 8}});
+  imaging::LabelImage vessels = image;
   for (int z = 0; z < 40; ++z)
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 60; ++x) {
@@ -125,14 +125,14 @@ TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
   const ImportedTissue named = import_image(o);
   o.vessel_label = 0;
   o.vessels = folder.path() + "/vessels.mha";
-  image::write_image(o.vessels, vessels);
+  imaging::write_image(o.vessels, vessels);
   const ImportedTissue other = import_image(o);
   for (const ImportedTissue& t : {named, other}) {
     ASSERT_EQ(t.vessel.size(), 1u);
     ASSERT_EQ(t.cell.size(), 2u);
     EXPECT_FALSE(t.cell[0].at_vessel);
     EXPECT_TRUE(t.cell[1].at_vessel);
-    const double volume = mesh::compute_volume(t.vessel[0].node, t.vessel[0].triangle);
+    const double volume = geometry::compute_volume(t.vessel[0].node, t.vessel[0].triangle);
     EXPECT_NEAR(volume, kPi * 25 * 40, 0.03 * kPi * 25 * 40);
   }
   ASSERT_EQ(other.warned.size(), 1u);
@@ -162,7 +162,7 @@ TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
   const TempFolder folder;
   std::vector<LabelledBall> all;
   for (int k = 0; k < 6; ++k)
-    all.push_back({static_cast<image::Label>(k % 3 + 1),
+    all.push_back({static_cast<imaging::Label>(k % 3 + 1),
                    Vec3(10 + 20 * (k / 2), k % 2 == 0 ? 10 : 30, 20), 6});
   ImportOptions o = options_for(folder, balls(all));
   const std::string message = message_of([&] { import_image(o); });
@@ -183,9 +183,9 @@ TEST(ImportImage, RefusesImagesWithoutCells) {
 }
 
 /// The two balls with 1 added to every label: 1 is outside.
-image::LabelImage raised(const std::vector<LabelledBall>& all) {
-  image::LabelImage image = balls(all);
-  for (image::Label& l : image.label) ++l;
+imaging::LabelImage raised(const std::vector<LabelledBall>& all) {
+  imaging::LabelImage image = balls(all);
+  for (imaging::Label& l : image.label) ++l;
   return image;
 }
 
@@ -222,9 +222,10 @@ TEST(ImportImage, DoesNotTakeTheUsualVolumeFromOneGiant) {
 
 TEST(ImportImage, NeverTakesATightCropForABackground) {
   const TempFolder folder;
-  const image::LabelImage one = image::make_image({16, 16, 16}, Vec3::Ones(), [](const Vec3& x) {
-    return (x - Vec3(8, 8, 8)).norm() < 8 ? image::Label{1} : image::Label{0};
-  });
+  const imaging::LabelImage one =
+      imaging::make_image({16, 16, 16}, Vec3::Ones(), [](const Vec3& x) {
+        return (x - Vec3(8, 8, 8)).norm() < 8 ? imaging::Label{1} : imaging::Label{0};
+      });
   ImportOptions o = options_for(folder, one);
   o.keep_border = true;
   EXPECT_EQ(import_image(o).cell.size(), 1u);
@@ -235,7 +236,7 @@ TEST(ImportImage, ReadsVesselsWithTheChoicesOfTheCells) {
   ImportOptions o = options_for(folder, balls(kTwo));
   o.read.unit = 2;
   o.vessels = folder.path() + "/vessels.tif";
-  image::write_image(o.vessels, balls({{1, {30, 36, 20}, 3}}));
+  imaging::write_image(o.vessels, balls({{1, {30, 36, 20}, 3}}));
   const ImportedTissue t = import_image(o);
   EXPECT_NEAR(t.voxel[0], 2, 1e-12);
   EXPECT_EQ(t.vessel.size(), 1u);
@@ -246,7 +247,7 @@ TEST(ImportImage, ReadsVesselsWithTheChoicesOfTheCells) {
 
 TEST(ImportImage, SmoothsHolesAway) {
   const TempFolder folder;
-  image::LabelImage image = balls(kTwo);
+  imaging::LabelImage image = balls(kTwo);
   for (int x = 0; x < 60; ++x) image.label[image.index({x, 20, 20})] = 0;  // a needle through both
   const ImportedTissue t = import_image(options_for(folder, image));
   EXPECT_EQ(t.cell.size(), 2u);

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "runs/build/build_params.hpp"
+#include "runs/assemble/build_params.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/threads.hpp"
+#include "core/parallel/threads.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "runs/experiments/lobule.hpp"
 #include "runs/experiments/tissue.hpp"
@@ -166,7 +166,7 @@ TEST(Observables, WithoutMembersAreZero) {
 TEST(Tissue, TellsOverlapsOfSpheresWithVesselsAndEachOther) {
   coupling::World world =
       coupling::make_test_world({{Vec3(0, 15.7, 0), false}, {Vec3(22, 15.7, 0), false}});
-  mesh::Network n;
+  geometry::Network n;
   n.node = {Vec3(-30, 0, 0), Vec3(50, 0, 0)};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};
@@ -320,7 +320,7 @@ TEST(Lesion, DensityIsOfTheRoomBetweenVessels) {
   EXPECT_NEAR(bare["density_per_mm3"], 16e9 / volume, kRoundOff * 16e9 / volume);
   const double tissue = volume - kPi * (88 * 88 - 100) * 48;
   EXPECT_NEAR(bare["density_tissue_per_mm3"], 16e9 / tissue, 1e-6 * 16e9 / tissue);
-  mesh::Network n;
+  geometry::Network n;
   n.node = {Vec3(200, 0, -20), Vec3(200, 0, 70)};
   n.segment = {{0, 1}};
   n.radius = {{15, 15}};
@@ -338,7 +338,7 @@ TEST(Lesion, DensityIsOfTheRoomBetweenVessels) {
 TEST(Lesion, ContactWithSinusoidsIsThatOfTheContacts) {
   coupling::World world =
       coupling::make_test_world({{Vec3(100, 16, 20), false}, {Vec3(140, -16.4, 20), true}});
-  mesh::Network n;
+  geometry::Network n;
   n.node = {Vec3(60, 0, 20), Vec3(180, 0, 20)};
   n.segment = {{0, 1}};
   n.radius = {{4.7, 4.7}};

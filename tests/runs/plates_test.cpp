@@ -8,7 +8,7 @@
 
 #include "coupling/simulation.hpp"
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/experiments/single_cell.hpp"
 #include "runs/scene/reader.hpp"
 #include "tests/reference/pressed_membrane.hpp"

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run_reader.hpp"
+#include "io/run_reader.hpp"
 
 namespace acinus::runs::program {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
+#include "io/disk.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::runs::scene_texts {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/mesh/topology.hpp"
+#include "geometry/topology.hpp"
 #include "runs/experiments/flooded_area.hpp"
 #include "runs/experiments/open_area.hpp"
 #include "runs/experiments/plates.hpp"
@@ -22,7 +22,7 @@ constexpr double kRoundOff = 1e-11;
 
 /// A closed box, 12 triangles.
 struct Brick {
-  mesh::Surface surface;
+  geometry::Surface surface;
   contact::SurfaceBody body;
   Brick(const Vec3& low, const Vec3& high) : surface(reference::brick(low, high)) {
     body.node = surface.node;
@@ -57,7 +57,7 @@ TEST(Sections, ChordsOfABallAreThoseOfItsCircle) {
 }
 
 TEST(Sections, ChordsOfACellMeshAddUpToItsVolume) {
-  const mesh::Topology& t = mesh::shared_icosphere(162);
+  const geometry::Topology& t = geometry::shared_icosphere(162);
   contact::SurfaceBody body;
   body.triangle = &t.triangle;
   for (const Vec3& x : t.rest) body.node.push_back(Vec3(3, -2, 20) + 12 * x);
@@ -112,7 +112,7 @@ TEST(OpenArea, OfACellInsideIsLessByItsVolumeOverTheHeight) {
 }
 
 TEST(OpenArea, LeavesOutVessels) {
-  mesh::Network vessels;
+  geometry::Network vessels;
   vessels.node = {Vec3(60, 0, -20), Vec3(60, 0, 100)};
   vessels.segment = {{0, 1}};
   vessels.radius = {{6, 6}};
@@ -147,7 +147,7 @@ TEST(OpenArea, RaysThatMeetNothingEndOneDiameterBeyond) {
 }
 
 double flooded_area(const LesionGrid& grid, std::span<const contact::SurfaceBody> bodies,
-                    std::span<const Ball> balls, const mesh::Network& vessels = {}) {
+                    std::span<const Ball> balls, const geometry::Network& vessels = {}) {
   return measure_flooded_area(make_flood_lattice(grid, pie(), vessels),
                               make_sections(bodies, balls, grid.height));
 }
@@ -180,7 +180,7 @@ TEST(FloodedArea, EndsAtAWallAndPassesThroughADoor) {
 }
 
 TEST(FloodedArea, LeavesOutVessels) {
-  mesh::Network vessels;
+  geometry::Network vessels;
   vessels.node = {Vec3(60, 0, -20), Vec3(60, 0, 100)};
   vessels.segment = {{0, 1}};
   vessels.radius = {{10, 10}};
@@ -208,7 +208,7 @@ TEST(Plates, CellsInTouchAreOnePlate) {
 }
 
 TEST(Plates, DistanceFromChosenVessels) {
-  mesh::Network n;
+  geometry::Network n;
   n.node = {Vec3(0, 0, 0), Vec3(0, 0, 50), Vec3(20, 0, 0), Vec3(20, 0, 50)};
   n.segment = {{0, 1}, {2, 3}};
   n.radius = {{4, 4}, {10, 10}};

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/step/stages.hpp"
-#include "runs/build/build_world.hpp"
+#include "runs/assemble/build_world.hpp"
 #include "runs/experiments/snapshot.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/frame.hpp"
@@ -15,7 +15,7 @@ namespace acinus::runs {
 namespace {
 
 /// What is found about one sphere of 12 um at the origin beside a closed mesh.
-Excess find_at(mesh::Surface surface, bool inside) {
+Excess find_at(geometry::Surface surface, bool inside) {
   const Scene scene = parse_scene(R"({
   "time": {"end": "1 h"}, "motility": {"random": false},
   "cell_types": {"hepatocyte": {}},

@@ -1,4 +1,4 @@
-#include "runs/build/state_file.hpp"
+#include "runs/assemble/state_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/io/checkpoint.hpp"
+#include "io/checkpoint.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {
@@ -47,7 +47,7 @@ coupling::State living() {
   s.next_lineage = 7;
   s.divisions = 8;
   s.deaths = 9;
-  const mesh::Topology& t = *s.dcm.group[0].topology;
+  const geometry::Topology& t = *s.dcm.group[0].topology;
   s.dcm.birth[0] = {{1, 0, 60, 3660},
                     1.2,
                     std::vector<double>(static_cast<std::size_t>(t.n_edge), 1.1),
@@ -68,7 +68,7 @@ TEST(StateFile, KeepsNuclei) {
   coupling::give_nuclei(w);
   coupling::State& saved = w.state;
   saved.dcm.birth[1] = living().dcm.birth[0];
-  const mesh::Topology& t = *saved.dcm.group[0].topology;
+  const geometry::Topology& t = *saved.dcm.group[0].topology;
   saved.dcm.birth[1].edge.resize(static_cast<std::size_t>(t.n_edge), 1.2);
   saved.dcm.birth[1].triangle.resize(static_cast<std::size_t>(t.n_triangle), 1.2);
   saved.dcm.birth[1].link.assign(42, 1.4);
@@ -117,7 +117,7 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
   io::CheckpointData sound;
   put_state(living(), sound);
   for (const char* damaged :
-       {"cbm/strength", "dcm/birth_shape", "dcm/tension", "life/parent", "life/birth",
+       {"cbm/strength", "dcm/shape/birth_shape", "dcm/tension", "life/parent", "life/birth",
         "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
     for (bool missing : {true, false}) {
       io::CheckpointData data;

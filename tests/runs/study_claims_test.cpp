@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/io/disk.hpp"
-#include "core/unit_scale.hpp"
+#include "core/units/unit_scale.hpp"
+#include "io/disk.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/study/choose_runs.hpp"
 #include "runs/study/curves.hpp"

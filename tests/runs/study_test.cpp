@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/unit_scale.hpp"
+#include "core/units/unit_scale.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/study/choose_runs.hpp"
 #include "runs/study/curves.hpp"

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "core/mesh/topology.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
+#include "geometry/topology.hpp"
 
 using namespace acinus;
 
@@ -26,7 +26,7 @@ int main() {
   world.params.cbm = {sphere};
   world.params.dcm_contact.cell_friction = 50;
 
-  const mesh::Topology* mesh = &mesh::shared_icosphere(162);
+  const geometry::Topology* mesh = &geometry::shared_icosphere(162);
   world.state.dcm =
       dcm::make_state({{.lineage = 0, .topology = mesh, .center = {0, 0, 0}, .radius = 12},
                        {.lineage = 1, .topology = mesh, .center = {23, 0, 0}, .radius = 12}});

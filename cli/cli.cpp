@@ -1,0 +1,99 @@
+#include "cli/cli.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "acinus_version.hpp"
+#include "cli/command.hpp"
+#include "core/error.hpp"
+#include "core/parallel/ranks.hpp"
+#include "runs/session/shell_quote.hpp"
+#include "runs/session/together.hpp"
+
+namespace acinus::runs {
+
+std::string version_text() {
+  return fmt::format("acinus {} (git {}, {}, {})", ACINUS_VERSION, ACINUS_GIT, ACINUS_COMPILER,
+                     ACINUS_FLAGS);
+}
+
+namespace {
+
+/// As several. Other launchers may start processes that are meant to be on their own, such as tasks
+/// of a study.
+bool started_by_mpirun() {
+  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return size != nullptr && std::atoi(size) > 1;
+}
+
+/// An empty word comes from a variable of a shell that is not set; it means nothing here.
+void check_words(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& word : option->results())
+      check(!word.empty(),
+            fmt::format("{} \"\": is empty. Give a value, or leave it out.", option->get_name()));
+  for (const CLI::App* part : command.get_subcommands()) check_words(*part);
+}
+
+}  // namespace
+
+int run_cli(int argc, const char* const* argv) {
+  CLI::App app("Simulator of living tissue: deformable triangulated cells (DCM) and spheres (CBM).",
+               "acinus");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+      "Help on a command: acinus run --help\n"
+      "Exit codes: 0 done, 1 internal error, 2 bad scene or command line, 3 cannot continue,\n"
+      "4 disk or file error, 5 compared runs beyond a tolerance, 75 stopped with a checkpoint "
+      "written");
+  std::string command_line;
+  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + quote_for_shell(argv[i]);
+  const Command commands[] = {add_run(app, command_line),
+                              add_check(app),
+                              add_schema(app),
+                              add_explain(app),
+                              add_list(app),
+                              add_new(app),
+                              add_mesh(app),
+                              add_import(app),
+                              add_voxelise(app),
+                              add_calibrate(app, command_line),
+                              add_compare(app, command_line),
+                              add_report(app),
+                              add_study(app),
+                              add_serve(app),
+                              add_openvt(app, command_line),
+                              add_bench(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Of several processes one says what is wrong.
+    std::ostringstream out, wrong;
+    const int code = app.exit(error, out, wrong);
+    if (!started_by_mpirun() || Ranks::world().is_root()) {
+      fmt::print("{}", out.str());
+      fmt::print(stderr, "{}", wrong.str());
+    }
+    return static_cast<int>(code == 0 ? Exit::kDone : Exit::kBadInput);
+  }
+  for (const Command& command : commands)
+    if (command.app->parsed()) {
+      const auto refuse = [&] {
+        throw Error(fmt::format(
+            "acinus {} is one process: start it without mpirun. Of the commands only acinus run "
+            "shares its work among processes.",
+            command.app->get_name()));
+      };
+      check_words(*command.app);
+      // Benchmarks are another program, which says itself what it is for.
+      const std::string name = command.app->get_name();
+      if (name != "run" && name != "bench" && started_by_mpirun()) together(Ranks::world(), refuse);
+      return command.run();
+    }
+  return static_cast<int>(Exit::kBadInput);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,6 @@
+#include "cli/cli.hpp"
+#include "runs/program.hpp"
+
+int main(int argc, char** argv) {
+  return acinus::runs::run_program([&] { return acinus::runs::run_cli(argc, argv); });
+}

@@ -1,0 +1,52 @@
+#pragma once
+/// Triangles as discs that hold them, for bounds of distances by the eight.
+
+#include <cstddef>
+#include <vector>
+
+#include "contact/surface.hpp"
+#include "core/numbers/lanes.hpp"
+
+namespace acinus::contact {
+
+/// Triangles as discs that hold them, about an origin near them: floats then keep distances to less
+/// than kRounding. Numbers of eight discs lie side by side, [group][kNumbers][lane].
+struct Discs {
+  static constexpr std::size_t kNumbers = 7;  ///< centre, normal, reach
+  static constexpr std::size_t kStride = kNumbers * kLanes;
+  std::size_t n = 0;
+  std::vector<int> triangle;
+  std::vector<float> number;
+
+  /// Empties, and makes room for `most` discs.
+  void reset(std::size_t most) {
+    n = 0;
+    const std::size_t n_group = (most + kLanes - 1) / kLanes;
+    if (triangle.size() < n_group * kLanes) {
+      triangle.resize(n_group * kLanes);
+      number.resize(n_group * kStride);
+    }
+  }
+  std::size_t triangle_at(int k) const { return static_cast<std::size_t>(triangle[k]); }
+  static std::size_t place_of(std::size_t k) { return k / kLanes * kStride + k % kLanes; }
+
+  void add(const SurfaceBody& b, std::size_t t, const Vec3& origin) {
+    const Vec3 c = b.center[t] - origin;
+    const Vec3& normal = b.triangle_normal[t];
+    float* to = number.data() + place_of(n);
+    for (std::size_t m = 0; m < 3; ++m) {
+      to[m * kLanes] = static_cast<float>(c[static_cast<int>(m)]);
+      to[(3 + m) * kLanes] = static_cast<float>(normal[static_cast<int>(m)]);
+    }
+    to[6 * kLanes] = static_cast<float>(b.reach[t]);
+    triangle[n++] = static_cast<int>(t);
+  }
+  void add(const Discs& other, std::size_t k) {
+    const float* from = other.number.data() + place_of(k);
+    float* to = number.data() + place_of(n);
+    for (std::size_t m = 0; m < kNumbers; ++m) to[m * kLanes] = from[m * kLanes];
+    triangle[n++] = other.triangle[k];
+  }
+};
+
+}  // namespace acinus::contact

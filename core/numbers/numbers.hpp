@@ -1,0 +1,31 @@
+#pragma once
+/// Long arrays of numbers, some for every point, written by all threads.
+
+#include <cstddef>
+
+#include "core/parallel/make_room.hpp"
+#include "core/parallel/threads.hpp"
+
+namespace acinus {
+
+/// Sets all to zero.
+template <class V>
+void clear_numbers(V& v) {
+  for_each_number(v.size(), [&](std::size_t k) { v[k] = 0; });
+}
+
+/// n zeros.
+template <class V>
+void assign_zeros(V& v, std::size_t n) {
+  set_size(v, n);
+  clear_numbers(v);
+}
+
+/// `to` becomes like `from`.
+template <class From, class To>
+void copy_numbers(const From& from, To& to) {
+  set_size(to, from.size());
+  for_each_number(from.size(), [&](std::size_t k) { to[k] = from[k]; });
+}
+
+}  // namespace acinus

@@ -1,0 +1,24 @@
+#pragma once
+/// The unit part of a quantity: "N s/m^3". For units.cpp; others use units.hpp.
+
+#include <string_view>
+
+#include "core/units/units.hpp"
+
+namespace acinus {
+
+/// A product of unit powers.
+struct Scale {
+  Dimension dimension;
+  int ten = 0;
+  double numerator = 1, denominator = 1;  ///< powers of 60, 3600, 86400; exact integers below 2^53
+};
+
+/// Digits alone: std::isdigit() asks the locale.
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// @param whole  the quantity, for messages
+/// @throws Error: an unknown unit (with a hint), text that is no product of units
+Scale parse_unit(std::string_view text, std::string_view whole);
+
+}  // namespace acinus

@@ -1,0 +1,19 @@
+#pragma once
+/// Units that are known only when the program runs: of a column of a file, of an observable.
+
+#include <string_view>
+
+#include "core/units/units.hpp"
+
+namespace acinus {
+
+struct UnitScale {
+  Dimension dimension;
+  double in_base = 1;  ///< one of the unit in base units (um, s, nN, K, mol)
+};
+
+/// @param unit  "kPa", "1/um^3", "d"; "" and "1" are dimensionless
+/// @throws Error naming what is not understood
+UnitScale scale_of_unit(std::string_view unit);
+
+}  // namespace acinus

@@ -1,0 +1,213 @@
+#include "coupling/interface/interface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel/threads.hpp"
+#include "geometry/box_pairs.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+using contact::Contact;
+
+/// The surface that presses and the sphere below.
+struct PairLaw {
+  contact::CohesiveLaw cohesive;
+  double hardening = 0;  ///< nN/um^3, by how much the contact stiffens as the indentation grows
+};
+
+PairLaw law_of(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+               std::span<const cbm::Modulus> modulus, const Contact& k) {
+  const std::size_t body = k.a, sphere = k.b;
+  const std::size_t lane = dcm_work.lane_of_body[body];
+  const dcm::Params& a = in.dcm.params[in.dcm.state.group[lane / kLanes].type];
+  const cbm::Params& b = in.cbm.params[in.cbm.state.type[sphere]];
+  const Compliance under =
+      find_compliance(in.dcm.options.repulsion,
+                      {in.cbm.cells.radius[sphere], in.cbm.state.young[sphere], b.poisson,
+                       modulus[sphere], b.correction.corrects() ? &b.correction : nullptr},
+                      k.depth);
+  return {{in.dcm.options.adhesion_factor * std::sqrt(a.adhesion * b.adhesion), under.stiffness,
+           in.dcm.options.range_factor * dcm_work.body[body].topology->mean_rest_length *
+               in.dcm.lanes.radius[lane]},
+          k.gap < 0 ? under.slope * k.depth : 0};
+}
+
+/// Contacts of one surface with one sphere.
+void find_pair(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+               std::pair<int, int> pair, double range, std::vector<Contact>& found) {
+  const contact::SurfaceBody& b = dcm_work.body[pair.first];
+  const contact::Quadrature q = in.dcm.options.quadrature;
+  const std::size_t sphere = pair.second;
+  const Vec3 center = cbm::center_of(in.cbm.state, sphere);
+  const double radius = in.cbm.cells.radius[sphere];
+  const int per_site = contact::points_per_site(q);
+  found.clear();
+  for (std::size_t site = 0; site < contact::n_sites(b, q); ++site) {
+    const Vec3 at = contact::site_place(b, q, site);
+    const double far = radius + range + contact::site_reach(b, q, site);
+    if ((at - center).squaredNorm() > far * far) continue;
+    const Vec3 outward = contact::site_normal(b, q, site);
+    for (int n = 0; n < per_site; ++n) {
+      const int point = static_cast<int>(site) * per_site + n;
+      const Vec3 d = contact::point_position(b, contact::point_stencil(b, q, point)) - center;
+      const double distance = d.norm(), gap = distance - radius;
+      if (gap < range && distance > 0 && contact::are_facing(outward, d / distance))
+        found.push_back({.a = pair.first,
+                         .point = point,
+                         .b = pair.second,
+                         .partner = contact::Partner::kSphere,
+                         .depth = 0,
+                         .normal = d / distance,
+                         .gap = gap});
+    }
+  }
+  double depth = 0;
+  for (const Contact& k : found) depth = std::max(depth, -k.gap);
+  for (Contact& k : found) k.depth = depth;
+}
+
+/// Pairs of surfaces and spheres that may touch.
+void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dcm_work,
+               const cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work) {
+  work.body.clear();
+  work.sphere.clear();
+  for (const contact::SurfaceBody& b : dcm_work.body) work.body.push_back(b.box);
+  for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i)
+    work.sphere.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
+  contact::find_pairs_between(work.body, work.sphere, range, work.near);
+  if (dcm_work.foreign.empty() && cbm_work.foreign.empty()) return;
+  std::erase_if(work.near, [&](const std::pair<int, int>& p) {
+    return dcm_work.is_foreign_body(p.first) && cbm_work.is_foreign(p.second);
+  });
+  std::vector<int> bodies;
+  for (const auto& [body, sphere] : work.near) bodies.push_back(body);
+  complete_bodies(in.dcm.state, bodies, dcm_work);
+  for (const int b : bodies)
+    dcm_work.share[b].resize(contact::n_points(dcm_work.body[b], in.dcm.options.quadrature));
+}
+
+}  // namespace
+
+Compliance find_compliance(double repulsion, const SphereSurface& sphere, double depth) {
+  const double d = depth / sphere.radius;
+  cbm::Modulus modulus{sphere.modulus.value, 0};
+  if (sphere.law) {
+    const cbm::Modulus here = cbm::corrected_modulus(*sphere.law, sphere.young, d);
+    if (here.value > modulus.value) modulus = here;
+  }
+  const double per_modulus = 4 / (3 * kPi * sphere.radius * (1 - sphere.poisson * sphere.poisson) *
+                                  std::sqrt(std::clamp(d, kLeastDepth, kMostDepth)));
+  const double winkler = per_modulus * modulus.value, together = 1 / (1 / repulsion + 1 / winkler);
+  // That the contact widens at the same time softens it; the matrix may be too stiff.
+  const double yields = together / winkler;
+  return {together, yields * yields * per_modulus * modulus.slope / sphere.radius};
+}
+
+void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
+                    cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
+                    contact::ContactList& contacts) {
+  work.area.clear();
+  if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
+  const dcm::ContactParams& c = in.dcm.options;
+  const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
+  double range = 0;
+  for (std::size_t k = 0; k < dcm_work.body.size(); ++k)
+    range = std::max(
+        range, dcm::contact_range(c, *dcm_work.body[k].topology, radius[dcm_work.lane_of_body[k]]));
+  find_near(in, range, dcm_work, cbm_work, work);
+  const auto& pairs = work.near;
+  auto& found = work.found;
+  if (found.size() < pairs.size()) found.resize(pairs.size());
+  for_each_index(pairs.size(), true,
+                 [&](std::size_t p) { find_pair(in, dcm_work, pairs[p], range, found[p]); });
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto [body, sphere] = pairs[p];
+    const std::size_t k = body, i = sphere;
+    const std::size_t lane = dcm_work.lane_of_body[k];
+    double area = 0;
+    for (const Contact& m : found[p]) {
+      const double share = contact::contact_share(m.gap, c.friction_range);
+      dcm_work.share[k][m.point] += share;
+      area +=
+          share * dcm::point_area(*dcm_work.body[k].topology, c.quadrature, m.point, radius[lane]);
+    }
+    if (area > 0) work.area.emplace_back(sphere, area);
+    // A deformable neighbour counts in the sphere's overlap with its reference radius, by the
+    // distance of the centres alone: whether surfaces touch changes from step to step, and with it
+    // the modulus would.
+    if (!cbm_work.overlap_sum.empty()) {
+      const double reach = radius[lane] + sphere_radius[i];
+      const double relative =
+          1 -
+          (dcm::cell_center(in.dcm.state, lane) - cbm::center_of(in.cbm.state, i)).norm() / reach;
+      cbm::count_overlap(cbm_work, i, std::max(relative, 0.0), 1);
+    }
+    contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
+  }
+  contacts.interface_end = contacts.sphere_obstacle_end = contacts.all.size();
+}
+
+void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work) {
+  for (const auto& [sphere, area] : work.area) cbm_work.contact_area[sphere] += area;
+}
+
+solve::Side sphere_side(const InterfaceInput& in, const Contact& k) {
+  return solve::Side::at(cbm::cell_point(in.cbm.first_row, k.b));
+}
+
+void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& dcm_work,
+                         std::span<const cbm::Modulus> modulus, contact::ContactList& contacts,
+                         solve::Links& links) {
+  std::size_t at = links.size();
+  links.resize(at + contacts.interface().size());
+  for (std::size_t n = contacts.obstacle_end; n < contacts.interface_end; ++n, ++at) {
+    Contact& k = contacts.all[n];
+    const contact::SurfaceBody& body = dcm_work.body[k.a];
+    const double radius = in.dcm.lanes.radius[dcm_work.lane_of_body[k.a]];
+    const contact::Quadrature quadrature = in.dcm.options.quadrature;
+    PairLaw law = law_of(in, dcm_work, modulus, k);
+    // The bed under a stretched surface is as wide as that is now: with its area at rest a tongue
+    // of a deformable cell would find a sphere the softer the farther it flows.
+    const double stretch = dcm::point_stretch(body, quadrature, k.point, radius);
+    law.cohesive.repulsion *= stretch;
+    law.hardening *= stretch;
+    const double area = dcm::point_area(*body.topology, quadrature, k.point, radius);
+    const double share = dcm::share_scale(dcm_work.share[k.a][k.point]) *
+                         contact::contact_share(k.gap, in.dcm.options.friction_range);
+    const double friction = in.params.friction_factor * in.params.friction * area * share;
+    k.touching = area * share;
+    k.force = -area * contact::cohesive_traction(law.cohesive, k.gap);
+    k.slope = area * (contact::cohesive_stiffness(law.cohesive, k.gap) + law.hardening);
+    k.friction = static_cast<float>(friction);
+    solve::Link& link = links.link[at];
+    link.a = dcm::side_a(in.dcm, dcm_work, k);
+    link.b = sphere_side(in, k);
+    solve::set_law(k.slope, friction, k.gap, k.normal, link);
+    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap};
+  }
+}
+
+std::vector<InterfaceForce> compute_interface_forces(const InterfaceInput& in,
+                                                     const dcm::ContactWorkspace& dcm_work,
+                                                     const contact::ContactList& contacts) {
+  std::vector<InterfaceForce> forces;
+  int body = -1, sphere = -1;
+  for (const Contact& k : contacts.interface()) {
+    if (k.a != body || k.b != sphere) {
+      body = k.a;
+      sphere = k.b;
+      forces.push_back({in.dcm.state.lineage[dcm_work.lane_of_body[body]],
+                        in.cbm.state.lineage[sphere], Vec3::Zero(), 0, k.gap});
+    }
+    InterfaceForce& f = forces.back();
+    f.force += k.force * k.normal;
+    f.area += k.touching;
+    f.gap = std::min(f.gap, k.gap);
+  }
+  return forces;
+}
+
+}  // namespace acinus::coupling

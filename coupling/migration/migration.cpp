@@ -1,0 +1,86 @@
+#include "coupling/migration/migration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numbers/random.hpp"
+#include "core/parallel/threads.hpp"
+#include "coupling/world/fading.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Below this many cells starting threads costs more than it saves.
+constexpr std::size_t kParallelCells = 1000;
+
+Vec3 toward_axis(const Motility& m, const Vec3& center) {
+  Vec3 d = m.axis_point - center;
+  d.z() = 0;
+  const double r = d.norm();
+  return r > 0 ? Vec3(d / r) : Vec3::Zero();
+}
+
+/// Prescribed forces over time, by their mean in the step if nothing bends within it.
+void add_pulls(const World& world, double middle, CellForces& forces) {
+  const State& s = world.state;
+  for (const Pull& p : world.params.pulls) {
+    if (p.force.entry.empty()) continue;
+    const Vec3 force = p.force.at(middle) * p.direction;
+    if (const auto at = std::ranges::find(s.dcm.lineage, p.cell); at != s.dcm.lineage.end())
+      forces.dcm[at - s.dcm.lineage.begin()] += force;
+    if (const auto at = std::ranges::find(s.cbm.lineage, p.cell); at != s.cbm.lineage.end())
+      forces.cbm[at - s.cbm.lineage.begin()] += force;
+  }
+}
+
+}  // namespace
+
+Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step) {
+  const auto first = static_cast<std::int64_t>(std::floor(time / grid));
+  const double end = time + step;
+  Vec3 sum = Vec3::Zero();
+  for (std::int64_t k = first; static_cast<double>(k) * grid < end; ++k) {
+    const double from = std::max(time, static_cast<double>(k) * grid);
+    const double to = std::min(end, static_cast<double>(k + 1) * grid);
+    if (to <= from) continue;
+    sum += (to - from) * normal3({seed, Purpose::kMotility, static_cast<std::uint64_t>(lineage),
+                                  static_cast<std::uint64_t>(k), 0});
+  }
+  return sum / step;
+}
+
+void compute_cell_forces(const World& world, const Controls& controls, double step,
+                         const MediumFriction& medium, std::span<const std::uint8_t> leader,
+                         CellForces& forces) {
+  const State& s = world.state;
+  const Motility& m = world.params.motility;
+  forces.dcm.assign(s.dcm.n_lane(), Vec3::Zero());
+  forces.cbm.assign(s.cbm.n_cell(), Vec3::Zero());
+  if (!controls.motility) return;
+  const double time = s.clock.time - s.clock.origin;
+  auto active = [&](std::int64_t lineage, double diffusion, double friction) {
+    if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
+    Vec3 force = friction * std::sqrt(2 * diffusion / m.grid) *
+                 mean_random(m.seed, lineage, m.grid, time, step);
+    if (m.in_plane) force.z() = 0;
+    return force;
+  };
+  for_each_index(s.dcm.n_lane(), s.dcm.n_lane() > kParallelCells, [&](std::size_t l) {
+    if (!s.dcm.active(l) || medium.dcm[l] < 0) return;
+    const dcm::Params& p = world.params.dcm[s.dcm.group[l / kLanes].type];
+    forces.dcm[l] = s.dcm.pull[l] + active(s.dcm.lineage[l], p.diffusion, medium.dcm[l]);
+    if (m.leader_force > 0 && leader[l])
+      forces.dcm[l] += m.leader_force * toward_axis(m, dcm::cell_center(s.dcm, l));
+  });
+  for_each_index(s.cbm.n_cell(), s.cbm.n_cell() > kParallelCells, [&](std::size_t c) {
+    if (medium.cbm[c] < 0) return;
+    const cbm::Params& p = world.params.cbm[s.cbm.type[c]];
+    forces.cbm[c] = s.cbm.pull[c] + active(s.cbm.lineage[c], p.diffusion, medium.cbm[c]);
+    if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
+      forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
+  });
+  add_pulls(world, time + 0.5 * step, forces);
+  add_fading_forces(s, s.clock.time + 0.5 * step, forces);
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,24 @@
+#pragma once
+/// Active forces on whole cells: random motility, the pull of leaders toward the vein, pulls that
+/// are constant or prescribed over time.
+
+#include <cstdint>
+
+#include "coupling/world/cell_forces.hpp"
+#include "coupling/world/world.hpp"
+
+namespace acinus::coupling {
+
+/// Mean of the random force's unit normals over [time, time + step]. The force is constant on each
+/// interval of the grid, so any sequence of steps that covers the same time gives the same impulse:
+/// rejected steps leave no trace.
+Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
+
+/// Adds everything active. Random force of a component: Gamma_med sqrt(2 D / grid) xi, with
+/// Gamma_med the cell's present friction with the medium alone. [VanLiedekerke2020, Eq. (1) term 9
+/// and Eq. (19), with the noise of docs/decisions/0004.md]
+void compute_cell_forces(const World& world, const Controls& controls, double step,
+                         const MediumFriction& medium, std::span<const std::uint8_t> leader,
+                         CellForces& forces);
+
+}  // namespace acinus::coupling

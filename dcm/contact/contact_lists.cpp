@@ -1,0 +1,294 @@
+#include "dcm/contact/contact_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "contact/boundary.hpp"
+#include "core/parallel/threads.hpp"
+
+namespace acinus::dcm {
+namespace {
+
+/// Extra distance, um, at which bodies count as near each other: how far two may come closer before
+/// pairs are looked for again.
+constexpr double kReserve = 2;
+/// Pairs of bodies that are looked for among those there were before by all threads.
+constexpr std::size_t kWorthThreads = 500;
+
+bool is_constrained(const ListInput& in, std::size_t body) {
+  return body >= in.body.size() || (!in.constrained.empty() && in.constrained[body] != 0);
+}
+
+/// Whether another process looks for what a body touches; what nobody works out, a static mesh,
+/// counts as such.
+bool is_foreign(const ListInput& in, std::size_t body) {
+  return !in.foreign.empty() && (body >= in.body.size() || in.foreign[body] != 0);
+}
+
+/// Whether lists made then say anything about now.
+bool made_alike(const ContactLists& lists, const ListInput& in) {
+  const contact::SearchOptions &a = lists.options, &b = in.options;
+  return a.quadrature == b.quadrature && a.max_depth == b.max_depth && a.skin == b.skin &&
+         a.self_range == b.self_range && lists.n_fixed == in.fixed.size();
+}
+
+/// Whether the pairs listed are all that may be near, of the same bodies.
+bool pairs_hold(const ListInput& in, const ContactLists& lists) {
+  if (lists.body.size() != in.body.size()) return false;
+  const double wider = std::max(in.options.range - lists.options.range, 0.0);
+  const double room = 0.5 * (kReserve - wider);
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    const ListedBody& b = lists.body[k];
+    if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology ||
+        b.constrained != is_constrained(in, k) || b.foreign != is_foreign(in, k))
+      return false;
+    const Box within = b.box.grown(room);
+    if (!within.contains(in.body[k].box.low) || !within.contains(in.body[k].box.high)) return false;
+  }
+  return true;
+}
+
+/// Which body each one was before; -1: none, or none whose lists say anything about now.
+std::vector<int> match_bodies(const ListInput& in, const ContactLists& lists) {
+  std::vector<int> was(in.body.size(), -1);
+  if (!made_alike(lists, in)) return was;
+  std::unordered_map<std::int64_t, int> before;
+  for (std::size_t k = 0; k < lists.body.size(); ++k)
+    before.emplace(lists.body[k].lineage, static_cast<int>(k));
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    const auto found = before.find(in.lineage[k]);
+    if (found == before.end()) continue;
+    if (lists.body[found->second].topology == in.body[k].topology) was[k] = found->second;
+    before.erase(found);
+  }
+  return was;
+}
+
+/// Counts the lists of every snapshot.
+void count_lists(ContactLists& lists) {
+  for (ListedBody& b : lists.body)
+    for (ListSnapshot& s : b.snapshot) s.lists = 0;
+  const auto count = [&](int body, int snapshot) {
+    if (snapshot >= 0) ++lists.body[body].snapshot[snapshot].lists;
+  };
+  for (std::size_t k = 0; k < lists.pair.size(); ++k) {
+    count(lists.pair[k].body_a, lists.age[k].a);
+    count(lists.pair[k].body_b, lists.age[k].b);
+  }
+  for (std::size_t k = 0; k < lists.segment.size(); ++k)
+    count(static_cast<int>(k), lists.segment_age[k].a);
+}
+
+/// Looks for pairs of bodies that are near; lists that exist are kept.
+void renew_pairs(const ListInput& in, ContactLists& lists) {
+  const std::vector<int> was = match_bodies(in, lists);
+  ContactLists next;
+  next.options = in.options;
+  next.n_fixed = in.fixed.size();
+  next.network = std::move(lists.network);
+  next.checked = lists.checked;
+  next.made = lists.made;
+  next.body.resize(in.body.size());
+  next.segment.resize(in.body.size());
+  next.segment_age.resize(in.body.size());
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    ListedBody& b = next.body[k];
+    if (was[k] >= 0) {
+      const std::size_t from = was[k];
+      b = std::move(lists.body[from]);
+      if (!is_foreign(in, k)) {
+        next.segment[k] = std::move(lists.segment[from]);
+        next.segment_age[k] = lists.segment_age[from];
+      }
+    }
+    b.lineage = in.lineage[k];
+    b.topology = in.body[k].topology;
+    b.constrained = is_constrained(in, k);
+    b.foreign = is_foreign(in, k);
+    b.box = in.body[k].box;
+  }
+  next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);
+  std::erase_if(next.pair, [&](const contact::Candidates& c) {
+    return (is_constrained(in, c.body_a) && is_constrained(in, c.body_b)) ||
+           (is_foreign(in, c.body_a) && is_foreign(in, c.body_b));
+  });
+  next.age.resize(next.pair.size());
+  const auto number_before = [&](int body) {
+    const std::size_t k = body;
+    return k < was.size() ? was[k] : body - static_cast<int>(was.size() - lists.body.size());
+  };
+  const auto bodies_of = [](const contact::Candidates& c) { return std::pair(c.body_a, c.body_b); };
+  for_each_index(next.pair.size(), next.pair.size() > kWorthThreads, [&](std::size_t k) {
+    contact::Candidates& c = next.pair[k];
+    const std::pair before(number_before(c.body_a), number_before(c.body_b));
+    const auto found = std::ranges::lower_bound(lists.pair, before, {}, bodies_of);
+    if (found == lists.pair.end() || bodies_of(*found) != before) return;
+    next.age[k] = lists.age[found - lists.pair.begin()];
+    const auto [a, b] = bodies_of(c);
+    c = std::move(*found);
+    c.body_a = a;
+    c.body_b = b;
+  });
+  lists = std::move(next);
+  count_lists(lists);
+}
+
+void find_motion(const contact::SurfaceBody& now, ListSnapshot& s) {
+  const std::size_t n = s.node.size();
+  const auto moved = [&](std::size_t i) -> Vec3 {
+    return (now.node[i] - s.origin) - s.node[i].cast<double>();
+  };
+  s.mean = Vec3::Zero();
+  for (std::size_t i = 0; i < n; ++i) s.mean += moved(i);
+  s.mean /= static_cast<double>(n);
+  double spread2 = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    spread2 = std::max(spread2, (moved(i) - s.mean).squaredNorm());
+  s.spread = std::sqrt(spread2);
+}
+
+/// Whether a network that moves went farther than the lists of segments allow for since they were
+/// made; if so they are to be made again, from where it is now.
+bool network_moved(const ListInput& in, double most, ContactLists& lists) {
+  if (!in.network_moves || geometry::largest_motion(in.network, lists.network) <= most)
+    return false;
+  lists.network = in.network;
+  return true;
+}
+
+const ListSnapshot* snapshot_of(const ContactLists& lists, int body, int snapshot) {
+  if (snapshot < 0) return nullptr;
+  return &lists.body[body].snapshot[snapshot];
+}
+
+/// A free place for a new snapshot of a body, free no more.
+int take_place(ListedBody& body) {
+  std::size_t place = 0;
+  while (place < body.snapshot.size() && body.snapshot[place].lists > 0) ++place;
+  if (place == body.snapshot.size()) body.snapshot.emplace_back();
+  body.snapshot[place].lists = 1;
+  return static_cast<int>(place);
+}
+
+void take_snapshot(const contact::SurfaceBody& now, ListSnapshot& s) {
+  s.origin = 0.5 * (now.box.low + now.box.high);
+  s.node.clear();
+  s.node.reserve(now.node.size());
+  for (const Vec3& x : now.node) s.node.emplace_back((x - s.origin).cast<float>());
+  s.mean = Vec3::Zero();
+  s.spread = 0;
+}
+
+/// Finds the segments within reach of every site of a body.
+void find_segments(const contact::SurfaceBody& b, const contact::SearchOptions& o,
+                   const geometry::Network& network, SegmentCandidates& list) {
+  list.site.clear();
+  list.segment.clear();
+  list.start.assign(1, 0);
+  const double margin = std::max(o.range, o.max_depth) + o.skin;
+  thread_local std::vector<int> near;
+  near.clear();
+  for (std::size_t s = 0; s < network.segment.size(); ++s) {
+    Box box;
+    for (int n : network.segment[s]) box.include(network.node[n]);
+    const double r = std::max(network.radius[s][0], network.radius[s][1]);
+    if (box.grown(r + margin).overlaps(b.box)) near.push_back(static_cast<int>(s));
+  }
+  if (near.empty()) return;
+  // A node also finds what may stand in the middle of its faces; an edge need not as well.
+  const double widest = *std::ranges::max_element(b.reach);
+  for (std::size_t site = 0; site < contact::n_sites(b, o.quadrature); ++site) {
+    const bool node = !contact::has_face_sites(o.quadrature) && site < b.node.size();
+    const Vec3 at = contact::site_place(b, o.quadrature, site);
+    const double reach = (node ? widest : contact::site_reach(b, o.quadrature, site)) + margin;
+    const std::size_t before = list.segment.size();
+    for (int s : near)
+      if (contact::gap_to_segment(network, s, at).gap < reach) list.segment.push_back(s);
+    if (list.segment.size() == before) continue;
+    list.site.push_back(static_cast<int>(site));
+    list.start.push_back(static_cast<std::uint32_t>(list.segment.size()));
+  }
+}
+
+}  // namespace
+
+double relative_motion(const ContactLists& lists, std::size_t pair) {
+  const contact::Candidates& list = lists.pair[pair];
+  const ListSnapshot* a = snapshot_of(lists, list.body_a, lists.age[pair].a);
+  const ListSnapshot* b = snapshot_of(lists, list.body_b, lists.age[pair].b);
+  if (b == nullptr) return a->spread + a->mean.norm();  // a static mesh
+  if (a == b) return 2 * a->spread;
+  return a->spread + b->spread + (a->mean - b->mean).norm();
+}
+
+void refresh_pairs(const ListInput& in, ContactLists& lists) {
+  if (!made_alike(lists, in) || !pairs_hold(in, lists)) renew_pairs(in, lists);
+}
+
+void refresh_lists(const ListInput& in, ContactLists& lists) {
+  const std::size_t n_body = in.body.size();
+  const bool shared =
+      n_body > 0 && worth_threads(n_body * in.body[0].node.size() / std::size_t{kLanes});
+  for_each_index(n_body, shared, [&](std::size_t k) {
+    for (ListSnapshot& s : lists.body[k].snapshot)
+      if (s.lists > 0) find_motion(in.body[k], s);
+  });
+
+  const double range = in.options.range, skin = in.options.skin;
+  ListScratch& scratch = lists.scratch;
+  std::vector<std::size_t>&expired = scratch.expired, &segments_expired = scratch.segments_expired;
+  expired.clear();
+  segments_expired.clear();
+  std::vector<std::uint8_t>& is_expired = scratch.is_expired;
+  is_expired.resize(lists.pair.size());
+  for_each_index(is_expired.size(), is_expired.size() > kWorthThreads, [&](std::size_t k) {
+    const ListAge& age = lists.age[k];
+    is_expired[k] = !age.made() || relative_motion(lists, k) + range - age.range > skin ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < is_expired.size(); ++k)
+    if (is_expired[k] != 0) expired.push_back(k);
+  if (!in.network.segment.empty()) {
+    // Half the skin is for the body, half for how far vessels move, each way from where they were.
+    const double room = in.network_moves ? 0.5 * skin : skin;
+    const bool moved = network_moved(in, 0.25 * skin, lists);
+    for (std::size_t k = 0; k < n_body; ++k) {
+      if (is_constrained(in, k) || is_foreign(in, k)) continue;
+      const ListAge& age = lists.segment_age[k];
+      const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
+      if (moved || s == nullptr || s->spread + s->mean.norm() + range - age.range > room)
+        segments_expired.push_back(k);
+    }
+  }
+  lists.checked += static_cast<std::int64_t>(lists.pair.size());
+  lists.made += static_cast<std::int64_t>(expired.size());
+  if (expired.empty() && segments_expired.empty()) return;
+
+  std::vector<int>& latest = scratch.latest;
+  latest.assign(n_body, -1);
+  const auto snapshot_now = [&](std::size_t body) {
+    if (body >= n_body) return -1;
+    if (latest[body] < 0) latest[body] = take_place(lists.body[body]);
+    return latest[body];
+  };
+  scratch.to_fill.clear();
+  for (std::size_t k : expired) {
+    contact::Candidates& list = lists.pair[k];
+    const int a = snapshot_now(list.body_a), b = snapshot_now(list.body_b);
+    lists.age[k] = {a, b, range};
+    scratch.to_fill.push_back(&list);
+  }
+  for (std::size_t k : segments_expired) lists.segment_age[k] = {snapshot_now(k), -1, range};
+  for_each_index(n_body, shared, [&](std::size_t k) {
+    if (latest[k] >= 0) take_snapshot(in.body[k], lists.body[k].snapshot[latest[k]]);
+  });
+  count_lists(lists);
+  contact::fill_candidates(in.body, in.fixed, in.options, scratch.to_fill);
+  for_each_index(segments_expired.size(), shared, [&](std::size_t e) {
+    const std::size_t k = segments_expired[e];
+    find_segments(in.body[k], in.options, in.network, lists.segment[k]);
+  });
+}
+
+}  // namespace acinus::dcm

@@ -1,0 +1,26 @@
+#include "dcm/shape/birth_shape.hpp"
+
+#include <cmath>
+
+namespace acinus::dcm {
+
+BirthShape make_birth_shape(const geometry::Topology& t, std::span<const Vec3> node, double radius,
+                            double stretch, const Ramp& weight) {
+  BirthShape shape;
+  shape.weight = weight;
+  const auto at = [&](int i) -> const Vec3& { return node[i]; };
+  for (std::size_t e = 0; e < t.edge.size(); ++e)
+    shape.edge.push_back((at(t.edge[e][1]) - at(t.edge[e][0])).norm() /
+                         (t.rest_length[e] * radius * std::sqrt(stretch)));
+  double area = 0;
+  for (std::size_t f = 0; f < t.triangle.size(); ++f) {
+    const auto& [i, j, k] = t.triangle[f];
+    const double own = 0.5 * (at(j) - at(i)).cross(at(k) - at(i)).norm();
+    shape.triangle.push_back(own / (t.rest_triangle_area[f] * radius * radius * stretch));
+    area += own;
+  }
+  shape.area = area / (t.rest_area * radius * radius * stretch);
+  return shape;
+}
+
+}  // namespace acinus::dcm

@@ -1,0 +1,35 @@
+#pragma once
+/// The shape a cell was born with. Its cortex takes that for rest at first and forgets it in the
+/// course of mitosis, so that division makes no force jump.
+
+#include <span>
+#include <vector>
+
+#include "core/numbers/ramp.hpp"
+#include "core/vec.hpp"
+#include "geometry/topology.hpp"
+
+namespace acinus::dcm {
+
+/// Time in which a cortex forgets the shape it was given otherwise than by division, s: as long as
+/// mitosis, slow next to what settles a cell, fast next to its cycle.
+inline constexpr double kForgetShape = 3600;
+
+/// References over those of a sphere of the reference volume: r(t) = 1 + weight(t) (ratio - 1).
+struct BirthShape {
+  Ramp weight = Ramp::constant(0);  ///< from 1 at birth to 0 after mitosis
+  double area = 1;                  ///< ratio of the whole surface
+  std::vector<double> edge;         ///< [n_edge] ratios of lengths; empty: none
+  std::vector<double> triangle;     ///< [n_triangle] ratios of areas; empty: none
+  std::vector<double> link;         ///< [n_node of the nucleus] lengths of its links; empty: all 1
+
+  bool is_forgotten(double time) const { return edge.empty() || !(weight.at(time) > 0); }
+};
+
+/// The shape of these nodes at rest, but for a stretch of the surface (area over its reference)
+/// that is felt from the first moment on.
+/// @param radius  um, reference radius
+BirthShape make_birth_shape(const geometry::Topology& topology, std::span<const Vec3> node,
+                            double radius, double stretch, const Ramp& weight);
+
+}  // namespace acinus::dcm

@@ -1,0 +1,56 @@
+#pragma once
+/// One closed triangle surface prepared for exact questions. CGAL stays in the
+/// .cpp.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/box.hpp"
+#include "core/vec.hpp"
+
+namespace acinus::geometry {
+
+/// Index pairs i < j of boxes that meet, ascending.
+std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box);
+
+enum class Location { kInside, kOn, kOutside };
+
+/// The spans must outlive the body. After construction all members may be used from many threads.
+class AuditBody {
+ public:
+  /// Triangles of zero area stay in volume and quality but are no surface.
+  /// @pre all coordinates finite
+  AuditBody(std::span<const Vec3> nodes, std::span<const std::array<int, 3>> triangles);
+  ~AuditBody();
+  AuditBody(AuditBody&&) noexcept;
+  AuditBody& operator=(AuditBody&&) noexcept;
+
+  Location locate(const Vec3& point) const;     ///< exact
+  Vec3 closest_point(const Vec3& point) const;  ///< on the surface
+  double distance(const Vec3& point) const { return (point - closest_point(point)).norm(); }
+  /// Where the segment a-b meets the surface: parameters in [0, 1], sorted. Which triangles are met
+  /// is exact; touching along a triangle's plane gives no parameter.
+  std::vector<double> crossings(const Vec3& a, const Vec3& b) const;
+  /// True if two triangles cross that share no edge. Costs far less than all pairs.
+  bool self_intersects() const;
+  /// True if every directed edge has its opposite exactly once.
+  bool closed() const;
+
+  Box box;
+  double volume = 0;             ///< signed, um^3
+  Vec3 centroid = Vec3::Zero();  ///< of the volume
+  double quality = 1;            ///< worst triangle
+  int n_node = 0;
+  std::vector<std::array<int, 2>> edge;
+  std::vector<Vec3> sample;  ///< nodes, then edge midpoints, then triangle centroids
+
+ private:
+  struct Surface;
+  std::span<const std::array<int, 3>> triangle_;
+  std::unique_ptr<Surface> surface_;
+};
+
+}  // namespace acinus::geometry

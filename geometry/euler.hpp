@@ -1,0 +1,24 @@
+#pragma once
+/// What stays of a surface when it is bent: its parts and handles.
+
+#include "geometry/network.hpp"
+#include "geometry/surface.hpp"
+
+namespace acinus::geometry {
+
+struct Connectivity {
+  int parts = 0;          ///< connected components
+  long euler_number = 0;  ///< nodes - edges + triangles: 2 a part, less 2 for every handle
+
+  long handles() const { return parts - euler_number / 2; }
+  bool operator==(const Connectivity&) const = default;
+};
+
+/// Of a closed surface; nodes of no triangle do not count.
+Connectivity find_connectivity(const Surface& surface);
+
+/// Of the wall of a network whose segments meet only where they share a node: a handle for every
+/// loop.
+Connectivity find_connectivity(const Network& network);
+
+}  // namespace acinus::geometry

@@ -1,0 +1,79 @@
+#pragma once
+/// A user's file held in memory with a cursor, so that every complaint can say where it is.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/vec.hpp"
+
+namespace acinus::geometry {
+
+/// Reads the whole file at construction; the cursor then walks over its bytes. Tokens are separated
+/// by white space. All failures throw Error (Exit::kBadInput) that begins "file:line:" for text and
+/// "file: byte N:" once set_binary(true) was called.
+class InputFile {
+ public:
+  /// Throws Error when the path does not exist, is not a regular file or cannot be read.
+  explicit InputFile(std::string path);
+
+  const std::string& path() const { return path_; }
+  std::string_view bytes() const { return bytes_; }
+  std::size_t position() const { return position_; }
+  void set_position(std::size_t position) { position_ = position; }
+  std::size_t remaining() const { return bytes_.size() - position_; }
+  bool binary() const { return binary_; }
+  void set_binary(bool binary) { binary_ = binary; }
+
+  /// Moves the cursor behind a byte order mark, as Windows editors put it in front of UTF-8 text.
+  /// Throws where the mark says UTF-16. For files of text only, before anything is read.
+  void skip_byte_order_mark();
+
+  /// The next token, empty at the end of the file.
+  std::string_view next_token();
+  /// As next_token but the cursor stays.
+  std::string_view peek_token() const;
+  /// The rest of the current line without its end mark; the cursor goes to the next line.
+  std::string_view next_line();
+  /// The next token as a number; `what` names it in the error. "nan" and "inf" are numbers here.
+  double next_double(std::string_view what);
+  std::int64_t next_integer(std::string_view what);
+
+  /// Throws unless n values of at least `bytes_each` bytes can still follow: a wrong count must not
+  /// become a huge allocation. `what` names the array.
+  void check_room(std::uint64_t n, std::uint64_t bytes_each, std::string_view what) const;
+
+  /// "file:line" or "file: byte N" of a position.
+  std::string where(std::size_t position) const;
+  /// Position of the n-th token counted from `start`, for errors found after reading.
+  std::size_t token_position(std::size_t start, std::size_t n) const;
+  /// Throws at the last token read, or at a position.
+  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void fail_at(std::size_t position, const std::string& message) const;
+
+ private:
+  std::string path_;
+  std::string bytes_;
+  std::size_t position_ = 0;
+  std::size_t last_ = 0;  ///< where the last token began
+  bool binary_ = false;
+};
+
+/// True for finite coordinates that are small enough for products of three to be finite too.
+bool is_coordinate(const Vec3& x);
+inline constexpr const char* kCoordinateRule = "coordinates must be finite and below 1e15";
+
+/// The whole token as a number; false when it is not one. Too small becomes 0, too large infinite.
+bool parse_double(std::string_view token, double& value);
+bool parse_integer(std::string_view token, std::int64_t& value);
+
+/// A token in quotes, shortened and with unprintable bytes as '?', fit for a message.
+std::string in_quotes(std::string_view token);
+
+/// The ending of a path from its last dot on, in lower case: ".vtk"; empty when it has none.
+std::string extension_of(const std::string& path);
+
+/// ASCII lower case.
+std::string lower_case(std::string_view text);
+
+}  // namespace acinus::geometry

@@ -1,0 +1,24 @@
+#pragma once
+/// Statements about axes that programs write as JSON beside their images.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace acinus::imaging {
+
+/// Names of axes, slowest first, from vigra's axistags as ilastik writes them, in lower case.
+/// Nothing where the text is none such.
+std::optional<std::vector<std::string>> read_axis_tags(const std::string& text);
+
+/// The shape that tifffile writes as description of the first page.
+struct TiffShape {
+  std::vector<std::int64_t> length;  ///< slowest axis first
+  std::string axes;                  ///< a letter an axis, as "CZYX"; empty: not said
+};
+
+/// Nothing where the text is none such.
+std::optional<TiffShape> read_tiff_shape(const std::string& text);
+
+}  // namespace acinus::imaging

@@ -1,0 +1,37 @@
+#pragma once
+/// Connected pieces of the labels of an image.
+
+#include <vector>
+
+#include "imaging/label_image.hpp"
+
+namespace acinus::imaging {
+
+/// Voxels of one label that hang together by their faces.
+struct Piece {
+  Label label = 0;
+  std::size_t n_voxel = 0;
+  Voxel low{}, high{};         ///< corners of its box, both included
+  Vec3 center = Vec3::Zero();  ///< um, of its voxels
+  bool at_border = false;      ///< of the image: part of it may be outside
+};
+
+/// A row of voxels of one piece along x.
+struct PieceRow {
+  Voxel first{};
+  int length = 0, piece = 0;
+};
+
+struct Pieces {
+  std::vector<Piece> piece;   ///< by label, the largest of a label first
+  std::vector<PieceRow> row;  ///< in the order of the image
+};
+
+/// Cost: linear in voxels.
+Pieces find_pieces(const LabelImage& image);
+
+/// Pairs of labels, the lower first and ascending, that have at least `least` faces of voxels
+/// between them. Nothing touches the background.
+std::vector<std::array<Label, 2>> find_touching(const LabelImage& image, int least);
+
+}  // namespace acinus::imaging

@@ -1,0 +1,232 @@
+/// HDF5, as ilastik, Fiji's plugin and others write it: a dataset with the axes z, y, x, or with
+/// axes that the file names.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <span>
+
+#include "core/error.hpp"
+#include "geometry/readers/input_file.hpp"
+#include "imaging/image_formats.hpp"
+#include "imaging/json_statements.hpp"
+#include "io/volume_file.hpp"
+
+namespace acinus::imaging {
+namespace {
+
+std::string list_of(const std::vector<io::VolumeInfo>& volumes) {
+  std::string text;
+  for (const io::VolumeInfo& v : volumes) text += (text.empty() ? "" : ", ") + v.name;
+  return text;
+}
+
+bool named(const io::VolumeInfo& v, const std::string& dataset) {
+  return dataset.empty() || v.name == (dataset.starts_with("/") ? dataset : "/" + dataset);
+}
+
+/// @param lenient  the name counts only where there are several
+io::VolumeInfo choose(const std::string& path, const std::string& said, bool lenient) {
+  std::vector<io::VolumeInfo> volumes = io::list_volumes(path);
+  const std::string dataset = lenient && volumes.size() == 1 ? "" : said;
+  // Tables have two axes as well: datasets with three come first.
+  if (dataset.empty() &&
+      std::ranges::any_of(volumes, [](const auto& v) { return v.shape.size() > 2; }))
+    std::erase_if(volumes, [](const auto& v) { return v.shape.size() < 3; });
+  check(!volumes.empty(),
+        fmt::format("{}: no dataset of numbers with three axes (z, y, x).", path));
+  for (const io::VolumeInfo& v : volumes)
+    check(v.shape.size() > 2 || (volumes.size() > 1 && dataset.empty()) || !named(v, dataset),
+          fmt::format("{}: {} has two axes, {} x {}: one slice. Cells are made from a stack of "
+                      "slices; give the whole stack in one dataset.",
+                      path, v.name, v.shape[1], v.shape[0]));
+  if (dataset.empty()) {
+    check(volumes.size() == 1, fmt::format("{}: has {} images. Say which: --dataset one of {}.",
+                                           path, volumes.size(), list_of(volumes)));
+    return volumes.front();
+  }
+  const auto found =
+      std::ranges::find_if(volumes, [&](const auto& v) { return named(v, dataset); });
+  check(found != volumes.end(), fmt::format("{}: --dataset {}: there is none; there are {}.", path,
+                                            dataset, list_of(volumes)));
+  return *found;
+}
+
+Scalar type_of(const std::string& path, const io::VolumeInfo& v) {
+  switch (v.bytes) {
+    case 1:
+      return v.has_sign ? Scalar::kI8 : Scalar::kU8;
+    case 2:
+      if (!v.is_real) return v.has_sign ? Scalar::kI16 : Scalar::kU16;
+      break;
+    case 4:
+      return v.is_real ? Scalar::kF32 : v.has_sign ? Scalar::kI32 : Scalar::kU32;
+    case 8:
+      return v.is_real ? Scalar::kF64 : v.has_sign ? Scalar::kI64 : Scalar::kU64;
+    default:
+      break;
+  }
+  throw Error(
+      fmt::format("{}: {} has numbers of {} bytes, which are not read.", path, v.name, v.bytes));
+}
+
+/// Position of each axis in the shape; nothing where there is none.
+struct Axes {
+  std::array<std::optional<std::size_t>, 3> space;  ///< x, y, z
+  std::optional<std::size_t> channel, time;
+};
+
+std::string text_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& n : names) text += (text.empty() ? "" : ", ") + n;
+  return text;
+}
+
+/// Names of axes that the file says, slowest first; empty where it says none.
+std::vector<std::string> named_axes(const std::string& path, const io::VolumeInfo& v) {
+  std::vector<std::string> label = v.axis_label;
+  for (std::string& l : label) l = geometry::lower_case(l);
+  std::vector<std::string> tags;
+  if (!v.axis_tags.empty()) {
+    const std::optional<std::vector<std::string>> read = read_axis_tags(v.axis_tags);
+    check(read.has_value(), fmt::format("{}: {}: its axistags cannot be read: {}. Write it again.",
+                                        path, v.name, geometry::in_quotes(v.axis_tags)));
+    tags = *read;
+  }
+  check(tags.empty() || label.empty() || tags == label,
+        fmt::format("{}: {}: axistags says the axes {}, its labels {}. Write one of them.", path,
+                    v.name, text_of(tags), text_of(label)));
+  const std::vector<std::string> said = tags.empty() ? label : tags;
+  check(said.empty() || said.size() == v.shape.size(),
+        fmt::format("{}: {}: has {} axes, but names {} ({}). Write the image again.", path, v.name,
+                    v.shape.size(), said.size(), text_of(said)));
+  return said;
+}
+
+Axes find_named(const std::string& path, const io::VolumeInfo& v,
+                const std::vector<std::string>& name) {
+  Axes axes;
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    std::optional<std::size_t>* axis = nullptr;
+    if (name[k].size() == 1 && name[k][0] >= 'x' && name[k][0] <= 'z')
+      axis = &axes.space[static_cast<std::size_t>(name[k][0] - 'x')];
+    if (name[k] == "c" || name[k] == "channel") axis = &axes.channel;
+    if (name[k] == "t" || name[k] == "time") axis = &axes.time;
+    if (axis == nullptr && v.shape[k] == 1) continue;
+    check(axis != nullptr && !*axis,
+          fmt::format("{}: {}: its axes are {}; each of x, y, z, and c and t if there are any, is "
+                      "needed once. Write the image again.",
+                      path, v.name, text_of(name)));
+    *axis = k;
+  }
+  return axes;
+}
+
+/// Axes z, y, x; those of length 1 (a channel, a time) may stand anywhere among the three.
+Axes find_unnamed(const std::string& path, const io::VolumeInfo& v) {
+  constexpr std::size_t kAxes = 3;
+  std::vector<std::size_t> axis;
+  for (std::size_t k = 0; k < v.shape.size(); ++k)
+    if (v.shape[k] != 1 || v.shape.size() - k <= kAxes - axis.size()) axis.push_back(k);
+  check(axis.size() == kAxes,
+        fmt::format("{}: {} has {} axes longer than 1 and no names for them (axistags); three are "
+                    "read (z, y, x). Save one channel of one time.",
+                    path, v.name, axis.size()));
+  Axes axes;
+  for (std::size_t k = 0; k < kAxes; ++k) axes.space[k] = axis[kAxes - 1 - k];
+  return axes;
+}
+
+void check_storage(const std::string& path, const io::VolumeInfo& v) {
+  check(v.codec.empty(),
+        fmt::format("{}: {} is compressed with {}, which is not read. Save it with gzip or without "
+                    "compression.",
+                    path, v.name, text_of(v.codec)));
+  check(v.fault.empty(), fmt::format("{}: {}: {}.", path, v.name, v.fault));
+  check(v.stored > 0,
+        fmt::format("{}: {} has a shape but no numbers: none were ever written.", path, v.name));
+}
+
+/// Sides of voxels, um, by axis of the shape or, if there are three, of space in that order.
+void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& axes,
+                ImageFile& file) {
+  if (v.element_size.empty()) return;
+  std::vector<std::size_t> spatial;
+  for (const auto& a : axes.space)
+    if (a) spatial.push_back(*a);
+  std::ranges::sort(spatial);
+  const bool by_axis = v.element_size.size() == v.shape.size();
+  check(by_axis || v.element_size.size() == spatial.size(),
+        fmt::format("{}: {}: element_size_um has {} numbers for {} axes. Write the image again.",
+                    path, v.name, v.element_size.size(), v.shape.size()));
+  file.unit = Vec3::Ones();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!axes.space[k]) continue;
+    const std::size_t at = *axes.space[k];
+    const auto rank = static_cast<std::size_t>(std::ranges::find(spatial, at) - spatial.begin());
+    file.step[static_cast<int>(k)] = v.element_size[by_axis ? at : rank];
+  }
+}
+
+/// The numbers of one channel of one time as [z][y][x].
+std::vector<std::byte> arrange(const std::vector<std::byte>& all, const io::VolumeInfo& v,
+                               const Axes& axes, const ImageFile& file, std::int64_t chosen) {
+  std::vector<std::size_t> stride(v.shape.size(), static_cast<std::size_t>(v.bytes));
+  for (std::size_t k = v.shape.size() - 1; k-- > 0;)
+    stride[k] = stride[k + 1] * static_cast<std::size_t>(v.shape[k + 1]);
+  const auto stride_of = [&](const std::optional<std::size_t>& a) { return a ? stride[*a] : 0; };
+  const auto channels = static_cast<std::size_t>(axes.channel ? v.shape[*axes.channel] : 1);
+  const auto c = static_cast<std::size_t>(chosen) % channels,
+             t = static_cast<std::size_t>(chosen) / channels;
+  const std::size_t first = c * stride_of(axes.channel) + t * stride_of(axes.time);
+  const auto bytes = static_cast<std::size_t>(v.bytes);
+  const Voxel size = file.voxels();
+  std::vector<std::byte> out;
+  out.reserve(bytes * size[0] * size[1] * size[2]);
+  for (int z = 0; z < size[2]; ++z)
+    for (int y = 0; y < size[1]; ++y)
+      for (int x = 0; x < size[0]; ++x) {
+        const std::size_t at = first + z * stride_of(axes.space[2]) + y * stride_of(axes.space[1]) +
+                               x * stride_of(axes.space[0]);
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(at);
+        out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(bytes));
+      }
+  return out;
+}
+
+}  // namespace
+
+ImageFile read_hdf5(const std::string& path, const std::string& dataset,
+                    const ChannelChoice& channel) {
+  const io::VolumeInfo v = choose(path, dataset, channel.only_if_needed);
+  check_storage(path, v);
+  const std::vector<std::string> name = named_axes(path, v);
+  const Axes axes = name.empty() ? find_unnamed(path, v) : find_named(path, v, name);
+  const auto length = [&](const std::optional<std::size_t>& a) { return a ? v.shape[*a] : 1; };
+  ImageFile file;
+  file.type = type_of(path, v);
+  for (std::size_t k = 0; k < 3; ++k) file.size[k] = length(axes.space[k]);
+  take_steps(path, v, axes, file);
+  const std::int64_t n_channel = length(axes.channel) * length(axes.time);
+  check_stack(path, file.size, n_channel);
+  const std::int64_t chosen = channel.among(path, n_channel);
+  const std::size_t voxels = count_voxels(path, file.size);
+  check_announced(path, static_cast<double>(voxels) * static_cast<double>(n_channel) * v.bytes,
+                  v.stored, true);
+  if (v.chunks_written < v.chunks)
+    file.note.push_back(
+        fmt::format("{} has {} of its {} chunks only; the others are taken as "
+                    "background",
+                    v.name, v.chunks_written, v.chunks));
+  std::vector<std::byte> bytes = io::read_volume(path, v);
+  const bool plain = name.empty() && n_channel == 1;
+  if (!plain) bytes = arrange(bytes, v, axes, file, chosen);
+  file.label.reserve(voxels);
+  append_labels(path, bytes, file.type, false, file.voxels(), file.label);
+  return file;
+}
+
+}  // namespace acinus::imaging

@@ -1,0 +1,31 @@
+#pragma once
+/// Reads label images: segmentations, one number a cell.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/label_image.hpp"
+
+namespace acinus::imaging {
+
+struct ReadImage {
+  std::string dataset{};      ///< HDF5: where in the file; "" = the only one
+  std::int64_t channel = -1;  ///< from 0, where there are several
+  /// um, sides of a voxel, whatever the file says.
+  std::optional<Vec3> voxel{};
+  double unit = 0;  ///< um in a unit of the file's sizes, whatever the file says; 0 = not said
+  /// A second image read with the choices made for a first: dataset and channel count only where
+  /// the file has several.
+  bool second = false;
+};
+
+/// Reads TIFF stacks (.tif, .tiff; voxel sizes of OME or ImageJ), NIfTI (.nii, .nii.gz, .hdr),
+/// MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) and HDF5 (.h5, .hdf5; attribute element_size_um).
+/// Each statement of the file (docs/images.md lists them) is followed, or `notes` gets a line.
+/// Throws Error with the path and place: what is wrong, not supported, contradictory, or not said;
+/// and at a choice in `how` that has no effect.
+LabelImage read_image(const std::string& path, const ReadImage& how,
+                      std::vector<std::string>* notes = nullptr);
+
+}  // namespace acinus::imaging

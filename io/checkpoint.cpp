@@ -1,0 +1,314 @@
+#include "io/checkpoint.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <span>
+
+#include "core/error.hpp"
+#include "io/disk.hpp"
+#include "io/hdf5.hpp"
+
+namespace acinus::io {
+namespace {
+
+using h5::File;
+
+constexpr std::int64_t kCheckpointSchema[2] = {2, 0};
+constexpr char kNewest[] = "/checkpoint.h5";
+constexpr char kPrevious[] = "/checkpoint.prev.h5";
+constexpr char kRoot[] = "/state";
+
+/// The newest file is sound but from a program we cannot replace: no fallback.
+struct TooNew : Error {
+  using Error::Error;
+};
+
+std::uint64_t hash_of(const CheckpointData::Value& value) {
+  return std::visit(
+      [&](const auto& array) {
+        return XXH3_64bits_withSeed(array.data(), array.size() * sizeof(array[0]), value.index());
+      },
+      value);
+}
+
+/// Over all names and hashes: a lost or renamed array shows too.
+std::uint64_t digest_of(const std::map<std::string, std::uint64_t>& hash) {
+  std::uint64_t digest = 0;
+  for (const auto& [name, value] : hash) {
+    digest = XXH3_64bits_withSeed(name.data(), name.size(), digest);
+    digest = XXH3_64bits_withSeed(&value, sizeof value, digest);
+  }
+  return digest;
+}
+
+const char* type_name(std::size_t index) {
+  constexpr const char* kName[] = {"64-bit floats", "signed 64-bit integers",
+                                   "unsigned 64-bit integers", "text"};
+  return kName[index];
+}
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+void write_value(File& file, const std::string& name, const CheckpointData::Value& value) {
+  std::visit(
+      [&](const auto& array) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(array)>, std::string>) {
+          file.write_array<std::uint8_t>(name, bytes_of(array));
+        } else {
+          file.write_array(name, std::span(array));
+        }
+      },
+      value);
+}
+
+CheckpointData::Value read_value(const File& file, const std::string& name) {
+  if (file.holds<double>(name)) return file.read_all<double>(name);
+  if (file.holds<std::int64_t>(name)) return file.read_all<std::int64_t>(name);
+  if (file.holds<std::uint64_t>(name)) return file.read_all<std::uint64_t>(name);
+  const auto byte = file.read_all<std::uint8_t>(name);
+  return std::string(byte.begin(), byte.end());
+}
+
+/// Arrays are listed by name in one attribute-like dataset, so that reading needs no walk through
+/// groups.
+void write_file(const std::string& path, const CheckpointData& data) {
+  File file = File::create(path, h5::Format::kChecked);
+  const std::int64_t complete = 1;
+  std::map<std::string, std::uint64_t> hash;
+  std::string names;
+  file.write_attribute("/", "schema", "acinus/checkpoint");
+  file.write_attribute("/", "schema_version", kCheckpointSchema);
+  file.create_group(kRoot);
+  for (const auto& [name, value] : data.all()) {
+    const std::string dataset = kRoot + ("/" + name);
+    write_value(file, dataset, value);
+    hash[name] = hash_of(value);
+    file.write_hash(dataset, "xxh3", hash[name]);
+    file.write_attribute(dataset, "unit", "base units um s nN");
+    names += name + "\n";
+  }
+  file.write_array<std::uint8_t>("/names", bytes_of(names));
+  file.write_attribute("/names", "unit", "text");
+  file.write_hash("/", "digest", digest_of(hash));
+  file.write_attribute("/", "complete", std::span(&complete, 1));
+  file.close();
+}
+
+void check_schema(const File& file) {
+  check(file.has_attribute("/", "schema") &&
+            file.read_text_attribute("/", "schema") == "acinus/checkpoint",
+        file.path() + ": is not a checkpoint of acinus", Exit::kFileError);
+  const auto version = file.read_attribute("/", "schema_version");
+  check(version.size() == 2, file.path() + ": has no schema version", Exit::kFileError);
+  if (version[0] > kCheckpointSchema[0]) {
+    throw TooNew(
+        fmt::format("{}: checkpoint format {}.{} is newer than this program reads ({}.{}). Update "
+                    "acinus, or start "
+                    "again with --overwrite.",
+                    file.path(), version[0], version[1], kCheckpointSchema[0],
+                    kCheckpointSchema[1]),
+        Exit::kFileError);
+  }
+  check(version[0] == kCheckpointSchema[0],
+        fmt::format("{}: checkpoint format {}.{} is unknown", file.path(), version[0], version[1]),
+        Exit::kFileError);
+  check(file.has_attribute("/", "complete") &&
+            file.read_attribute("/", "complete") == std::vector<std::int64_t>{1},
+        file.path() + ": the checkpoint was not finished", Exit::kFileError);
+}
+
+CheckpointData read_file(const std::string& path) {
+  const File file = File::open(path, h5::Access::kRead);
+  check_schema(file);
+  CheckpointData data;
+  data.set_source(path);
+  std::map<std::string, std::uint64_t> hash;
+  const auto bytes = file.read_all<std::uint8_t>("/names");
+  const std::string names(bytes.begin(), bytes.end());
+  for (std::size_t begin = 0; begin < names.size();) {
+    const std::size_t end = std::min(names.find('\n', begin), names.size());
+    const std::string name = names.substr(begin, end - begin);
+    begin = end + 1;
+    check(data.fault_of_name(name).empty(), path + ": is damaged (its list of arrays)",
+          Exit::kFileError);
+    const std::string dataset = kRoot + ("/" + name);
+    auto value = read_value(file, dataset);
+    hash[name] = hash_of(value);
+    check(hash[name] == file.read_hash(dataset, "xxh3"),
+          fmt::format("{}: {} is damaged (its hash does not fit)", path, name), Exit::kFileError);
+    std::visit([&](auto& array) { data.put(name, std::move(array)); }, value);
+  }
+  check(digest_of(hash) == file.read_hash("/", "digest"),
+        path + ": is damaged (arrays are missing)", Exit::kFileError);
+  return data;
+}
+
+/// Gives the file at `from` a second name, replacing what had it.
+void link_as(const std::string& from, const std::string& to) {
+  const std::string partial = to + ".tmp";
+  const RemoveUnlessMoved cleanup{partial};
+  unlink(partial.c_str());
+  if (link(from.c_str(), partial.c_str()) == 0) {
+    replace_file(partial, to);
+  } else if (errno == EPERM || errno == EOPNOTSUPP || errno == EMLINK) {
+    replace_file(
+        from,
+        to);  // no hard links here: for a moment only the previous name exists, still complete
+  } else {
+    fail_on_disk(to, "keep the previous checkpoint", errno);
+  }
+}
+
+}  // namespace
+
+std::string CheckpointData::fault_of_name(const std::string& name) const {
+  const bool plain = !name.empty() && name.front() != '/' && name.back() != '/' &&
+                     name.find("//") == std::string::npos &&
+                     std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                       return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+                     });
+  if (!plain) return "\"" + name + "\" cannot name an array of a checkpoint";
+  const auto clash = [&](const std::string& other) {
+    return "checkpoint arrays \"" + name + "\" and \"" + other + "\" clash";
+  };
+  for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1))
+    if (contains(name.substr(0, end))) return clash(name.substr(0, end));
+  const auto below = value_.lower_bound(name + "/");
+  if (below != value_.end() && below->first.starts_with(name + "/")) return clash(below->first);
+  return contains(name) ? clash(name) : std::string();
+}
+
+void CheckpointData::add(const std::string& name, Value value) {
+  const std::string fault = fault_of_name(name);
+  check(fault.empty(), "internal error: " + fault, Exit::kInternal);
+  value_.emplace(name, std::move(value));
+}
+
+void CheckpointData::put(const std::string& name, std::vector<double> value) {
+  add(name, std::move(value));
+}
+void CheckpointData::put(const std::string& name, std::vector<std::int64_t> value) {
+  add(name, std::move(value));
+}
+void CheckpointData::put(const std::string& name, std::vector<std::uint64_t> value) {
+  add(name, std::move(value));
+}
+void CheckpointData::put(const std::string& name, std::string value) {
+  add(name, std::move(value));
+}
+
+template <class T>
+const T& CheckpointData::get(const std::string& name) const {
+  const auto found = value_.find(name);
+  check(found != value_.end(),
+        fmt::format("{}: has no \"{}\". It was written by another version or for another kind of "
+                    "scene; start again with "
+                    "--overwrite.",
+                    source_, name),
+        Exit::kFileError);
+  const T* value = std::get_if<T>(&found->second);
+  if (value == nullptr) {
+    throw Error(fmt::format("{}: \"{}\" holds {}, but {} are needed", source_, name,
+                            type_name(found->second.index()), type_name(Value(T{}).index())),
+                Exit::kFileError);
+  }
+  return *value;
+}
+
+const std::vector<double>& CheckpointData::numbers(const std::string& name) const {
+  return get<std::vector<double>>(name);
+}
+const std::vector<std::int64_t>& CheckpointData::integers(const std::string& name) const {
+  return get<std::vector<std::int64_t>>(name);
+}
+const std::vector<std::uint64_t>& CheckpointData::bits(const std::string& name) const {
+  return get<std::vector<std::uint64_t>>(name);
+}
+const std::string& CheckpointData::text(const std::string& name) const {
+  return get<std::string>(name);
+}
+
+double CheckpointData::number(const std::string& name) const {
+  const auto& value = numbers(name);
+  check(value.size() == 1,
+        fmt::format("{}: \"{}\" has {} values, 1 is needed", source_, name, value.size()),
+        Exit::kFileError);
+  check(!std::isnan(value[0]), fmt::format("{}: \"{}\" is no number", source_, name),
+        Exit::kFileError);
+  return value[0];
+}
+
+std::int64_t CheckpointData::count(const std::string& name) const {
+  const auto& value = integers(name);
+  check(value.size() == 1,
+        fmt::format("{}: \"{}\" has {} values, 1 is needed", source_, name, value.size()),
+        Exit::kFileError);
+  return value[0];
+}
+
+void save_checkpoint(const std::string& folder, const CheckpointData& data) {
+  const std::string newest = folder + kNewest;
+  const std::string partial = newest + ".tmp";
+  const RemoveUnlessMoved cleanup{partial};
+  write_file(partial, data);
+  sync_file(partial);
+  if (std::filesystem::exists(newest)) link_as(newest, folder + kPrevious);
+  replace_file(partial, newest);
+  sync_folder(folder);
+}
+
+void save_state_file(const std::string& path, const CheckpointData& data) {
+  const std::string partial = path + ".tmp";
+  const RemoveUnlessMoved cleanup{partial};
+  write_file(partial, data);
+  sync_file(partial);
+  replace_file(partial, path);
+}
+
+CheckpointData load_state_file(const std::string& path) { return read_file(path); }
+
+LoadedCheckpoint load_checkpoint(const std::string& folder) {
+  const std::string newest = folder + kNewest, previous = folder + kPrevious;
+  check(has_checkpoint(folder),
+        folder + ": has no checkpoint (checkpoint.h5). Start the run without --resume.",
+        Exit::kFileError);
+  std::string trouble;
+  try {
+    return {read_file(newest), newest, ""};
+  } catch (const TooNew&) {
+    throw;
+  } catch (const Error& error) {
+    trouble = error.what();
+  }
+  if (!std::filesystem::exists(previous)) {
+    throw Error(trouble + "\nThere is no checkpoint before it. Start again with --overwrite.",
+                Exit::kFileError);
+  }
+  try {
+    return {read_file(previous), previous,
+            trouble + "\nContinuing from the checkpoint before it: " + previous};
+  } catch (const TooNew&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(trouble + "\n" + error.what() +
+                    "\nNeither checkpoint can be used. Start again with --overwrite.",
+                Exit::kFileError);
+  }
+}
+
+bool has_checkpoint(const std::string& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder + kNewest, ignored) ||
+         std::filesystem::exists(folder + kPrevious, ignored);
+}
+
+}  // namespace acinus::io

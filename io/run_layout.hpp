@@ -1,0 +1,77 @@
+#pragma once
+/// Where things stand in a run file: which fields there are and where each frame's rows begin.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/frame.hpp"
+
+namespace acinus::io {
+
+struct FieldInfo {
+  std::string name;
+  std::string unit;
+  int components = 1;
+  bool operator==(const FieldInfo&) const = default;
+};
+
+struct TableInfo {
+  std::vector<std::string> ids;    ///< sorted
+  std::vector<FieldInfo> columns;  ///< sorted by name
+  bool operator==(const TableInfo&) const = default;
+};
+
+/// The same for every frame of a file. Lists are sorted by name.
+struct RunLayout {
+  std::vector<FieldInfo> point_data;
+  std::vector<FieldInfo> cell_data;  ///< without cell_id and kind, which every file has
+  TableInfo cells;
+  TableInfo interface;
+  bool operator==(const RunLayout&) const = default;
+};
+
+/// Where one frame's rows begin. Offsets count rows of the datasets they are named after.
+struct FrameIndex {
+  double time_s = 0;
+  std::int64_t part = 0;  ///< row of NumberOfPoints etc.; shared by frames with the same topology
+  std::int64_t n_point = 0, n_cell = 0, n_connectivity = 0;
+  std::int64_t point_offset = 0, cell_offset = 0, connectivity_offset = 0;
+  std::map<std::string, std::int64_t> point_data_offset;
+  std::map<std::string, std::int64_t> cell_data_offset;  ///< with cell_id and kind
+  std::int64_t cells_end = 0, interface_end = 0;         ///< end of this frame's table rows
+
+  std::int64_t n_sphere() const { return n_cell - n_triangle(); }
+  /// From n_connectivity = 3 n_triangle + n_sphere.
+  std::int64_t n_triangle() const { return (n_connectivity - n_cell) / 2; }
+};
+
+/// Names and units of the columns of /series or /observables, in the order of the first row.
+struct RowNames {
+  std::vector<std::string> name, unit;
+};
+
+/// Hashes of the last frame's topology and cell data; equal hashes mean nothing need be written
+/// again.
+struct StaticHashes {
+  bool known = false;
+  std::uint64_t topology = 0;
+  std::map<std::string, std::uint64_t> cell_data;
+};
+
+/// The layout a frame asks for. Throws Error(kInternal) on an empty or doubled name or one with
+/// characters other than letters, digits, '_', '-' and '.'.
+RunLayout layout_of(const Frame& frame);
+
+/// Throws Error(kInternal) when sizes do not fit together, an index points nowhere, or a value is
+/// not finite.
+void check_frame(const Frame& frame);
+
+/// Throws Error(kInternal) naming the first difference between a frame's fields and the file's.
+void check_same_layout(const RunLayout& file, const RunLayout& frame);
+
+/// Throws Error(kInternal) unless the value is finite.
+void check_finite(double value, const std::string& what);
+
+}  // namespace acinus::io

@@ -1,0 +1,44 @@
+#pragma once
+/// Reads a run file back: for reports, comparisons and tests. Works while the run is still going
+/// on.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/frame.hpp"
+#include "io/run_file.hpp"
+
+namespace acinus::io {
+
+/// Everything finished in a run file at the time of opening. Errors: Error(kFileError).
+class RunReader {
+ public:
+  explicit RunReader(const std::string& path);
+
+  const RunFileCounts& counts() const { return counts_; }
+  int n_frame() const { return static_cast<int>(frame_.size()); }
+  double time_s(int k) const;
+  /// Frame k with its fields and tables sorted by name.
+  Frame frame(int k) const;
+  /// Only the rows of /cells of frame k.
+  Table cells(int k) const;
+  /// name -> values; see series_unit().
+  std::map<std::string, std::vector<double>> series() const;
+  std::map<std::string, std::string> series_unit() const;
+  /// The same of /observables; nothing where a file has none.
+  std::map<std::string, std::vector<double>> observables() const;
+  std::map<std::string, std::string> observable_unit() const;
+  std::vector<Event> events() const;
+  std::map<std::string, std::string> provenance() const;
+
+ private:
+  const FrameIndex& index(int k) const;
+
+  std::string path_;
+  RunFileCounts counts_;
+  RunLayout layout_;
+  std::vector<FrameIndex> frame_;
+};
+
+}  // namespace acinus::io

@@ -1,0 +1,110 @@
+#pragma once
+/// The datasets of a run file: how each is stored, written and read back. Used by RunFile and
+/// RunReader only.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/frame.hpp"
+#include "io/hdf5.hpp"
+#include "io/run_file.hpp"
+#include "io/run_layout.hpp"
+
+namespace acinus::io {
+
+/// Rows per chunk of the large arrays. Filtered frames start on a chunk: a chunk that two frames
+/// share would be compressed anew in place, and a kill at that moment would damage the finished
+/// frame.
+inline constexpr std::int64_t kChunkRows = 16384;
+inline constexpr std::int64_t kTableChunkRows = 4096;  ///< /cells and /interface, unfiltered
+inline constexpr std::int64_t kIndexChunkRows = 1024;
+inline constexpr int kCodeWidth = 32;
+inline constexpr int kMessageWidth = 512;
+
+void create_index_rows(h5::File& file, bool filtered);
+void create_field_rows(h5::File& file, const RunLayout& layout, bool filtered);
+void create_event_rows(h5::File& file);
+
+/// Groups whose rows are samples of named numbers.
+inline constexpr char kSeries[] = "/series", kObservables[] = "/observables";
+
+/// A group without columns or rows.
+void create_samples(h5::File& file, const std::string& group);
+void create_sample_rows(h5::File& file, const std::string& group, const RowNames& names);
+
+/// The XDMF file beside a run file.
+std::string sidecar_of(const std::string& path);
+/// Puts a complete new run file, with the checksums of its pages, in the place of an old one.
+void replace_run_file(const std::string& from, const std::string& to);
+
+/// Rows of a dataset with one value each.
+/// @throws Error(kFileError) where rows are missing, or have several values
+template <class T>
+std::vector<T> read_column(const h5::File& file, const std::string& name, std::int64_t first,
+                           std::int64_t n) {
+  std::vector<T> value = file.read_rows<T>(name, first, n);
+  check(std::ssize(value) == n,
+        file.path() + ": dataset " + name + " has rows of several values. The file is damaged.",
+        Exit::kFileError);
+  return value;
+}
+
+/// One frame on its way into the file.
+struct FrameWrite {
+  h5::File& file;
+  const Frame& frame;
+  const FrameIndex* last;         ///< the frame before; null for the first
+  const StaticHashes& last_hash;  ///< not known after a restart
+  bool filtered;
+  FrameIndex index;   ///< out: where it went
+  StaticHashes hash;  ///< out: of this frame
+};
+
+/// Writes a frame's arrays after those of the last one. Topology and cell data whose hash did not
+/// change are not written again: the index repeats their place.
+void write_frame(FrameWrite& w);
+/// Writes row `k` of /VTKHDF/Steps and of the tables' frame_offset.
+void write_index(h5::File& file, std::int64_t k, const FrameIndex& index);
+
+/// @param value  [row][column]
+void write_samples(h5::File& file, const std::string& group, const RowNames& names,
+                   std::int64_t first_row, std::span<const double> value);
+/// Returns the number of rows of /events/cell_id afterwards.
+std::int64_t write_events(h5::File& file, std::int64_t first_row, std::int64_t n_cell_written,
+                          std::span<const Event> event);
+/// Writes the counts that make rows valid. To be called after a flush.
+void write_counts(h5::File& file, const RunFileCounts& counts);
+
+/// Throws Error(kFileError) unless the file is a run file of a version that can be read.
+void check_run_schema(const h5::File& file);
+RunFileCounts read_counts(const h5::File& file);
+RunLayout read_layout(const h5::File& file);
+std::vector<FrameIndex> read_frame_index(const h5::File& file, const RunLayout& layout,
+                                         std::int64_t n_frame);
+/// In the order of the samples; nothing if there are none, or the group itself is missing.
+RowNames read_sample_names(const h5::File& file, const std::string& group);
+/// name -> the first n_row values.
+std::map<std::string, std::vector<double>> read_samples(const h5::File& file,
+                                                        const std::string& group,
+                                                        std::int64_t n_row);
+
+std::vector<Event> read_events(const h5::File& file, std::int64_t first, std::int64_t n);
+
+/// Copies into a file without /VTKHDF, /cells, /interface; sets NSteps.
+void copy_frames(const h5::File& from, h5::File& to, const RunLayout& layout,
+                 const std::vector<FrameIndex>& frame);
+void copy_samples(const h5::File& from, h5::File& to, const std::string& group, std::int64_t n_row);
+/// Returns the number of rows of /events/cell_id kept.
+std::int64_t copy_events(const h5::File& from, h5::File& to, std::int64_t n_row);
+
+/// The names and units of a first row. Throws Error(kInternal) on one that cannot be.
+RowNames names_of(std::span<const SeriesValue> sample, const std::string& group);
+/// Throws Error(kInternal) unless every value is finite and names, units and order are these.
+void check_sample(std::span<const SeriesValue> sample, const RowNames& names,
+                  const std::string& group);
+
+}  // namespace acinus::io

@@ -1,0 +1,73 @@
+#include "runs/assemble/build_correction.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "calibration/law_file.hpp"
+#include "core/error.hpp"
+#include "runs/assemble/build_params.hpp"
+#include "runs/assemble/build_world.hpp"
+#include "runs/assemble/cell_constants.hpp"
+
+namespace acinus::runs {
+namespace {
+
+std::string describe(const calibration::Law& law) {
+  if (law.table.empty())
+    return fmt::format("E = {:.4g} kPa + {:.4g} kPa d^{:g}, fitted for d from {:.2g} to {:.2g}",
+                       law.a0, law.a1, law.power, law.overlap_range[0], law.overlap_range[1]);
+  return fmt::format("E from {:.3g} kPa at d = {:.2g} to {:.3g} kPa at d = {:.2g} by a table",
+                     law.table.front().modulus, law.table.front().overlap, law.table.back().modulus,
+                     law.table.back().overlap);
+}
+
+}  // namespace
+
+LawParameters law_parameters(const Scene& scene, const CellType& type) {
+  const cbm::Params sphere = make_cbm_params(scene, type);
+  calibration::Parameters cell = term_constants(type.dcm);
+  cell.insert({{"nodes", type.dcm.nodes},
+               {"radius_um", type.radius},
+               {"adhesion_nN_per_um", type.adhesion},
+               {"contact_repulsion_kPa_per_um", scene.contact.repulsion}});
+  return {cell,
+          {{"young_kPa", sphere.young},
+           {"poisson", sphere.poisson},
+           {"radius_um", type.radius},
+           {"adhesion_nN_per_um", type.adhesion}}};
+}
+
+void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes) {
+  std::size_t k = 0;
+  for (const auto& [name, type] : scene.cell_types) {
+    cbm::Params& p = params[k++];
+    const std::string& file = type.cbm.stiffness_correction;
+    if (file == "none") continue;
+    if (file == "paper") {
+      p.correction = cbm::paper_law();
+      notes.said.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
+      continue;
+    }
+    check(file != "auto",
+          fmt::format("/cell_types/{}/cbm/stiffness_correction: \"auto\" is for `acinus run`. "
+                      "Calibrate first and name the law file.",
+                      name));
+    const calibration::Law law = calibration::read_law(file);
+    notes.said.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    for (const std::string& warning : law.warnings)
+      notes.warned.push_back(fmt::format("{}: {}", file, warning));
+    const LawParameters here = law_parameters(scene, type);
+    const std::vector<std::string> differences =
+        calibration::list_differences(law, here.dcm, here.cbm);
+    if (!differences.empty())
+      notes.warned.push_back(
+          fmt::format("{} is the law of other cells than {}: {}. Calibrate for "
+                      "these cells, or set stiffness_correction to \"auto\"",
+                      file, name, fmt::join(differences, "; ")));
+    p.young = law.a0;
+    p.correction = calibration::stiffness_law(law);
+    p.correction.single_overlaps = type.cbm.single_overlaps;
+  }
+}
+
+}  // namespace acinus::runs

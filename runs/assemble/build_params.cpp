@@ -1,0 +1,101 @@
+#include "runs/assemble/build_params.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// In mean edges: the farther points are apart, the more they need.
+double default_range(contact::Quadrature quadrature) {
+  switch (quadrature) {
+    case contact::Quadrature::kThreePoint:
+      return 0.3;
+    case contact::Quadrature::kNodes:
+      return 0.5;
+    case contact::Quadrature::kNodesAndEdges:
+      return 0.35;
+  }
+  return 0;
+}
+
+void set_contact(const Scene& scene, coupling::Params& p) {
+  p.dcm_contact = scene.contact;
+  if (p.dcm_contact.range_factor == 0)
+    p.dcm_contact.range_factor = default_range(scene.contact.quadrature);
+  p.cbm_contact.skin = scene.contact.skin;
+  p.cbm_contact.cell_friction = scene.friction.cbm_cbm;
+  const double a = scene.contact.cell_friction, b = scene.friction.cbm_cbm;
+  p.interface.friction = scene.friction.dcm_cbm.value_or(a + b > 0 ? 2 * a * b / (a + b) : 0);
+}
+
+void set_motility(const Scene& scene, coupling::Motility& m) {
+  m = scene.motility;
+  m.seed = scene.seed;
+  if (m.leader_slice == 0) m.leader_slice = 2 * scene.cell_types.begin()->second.radius;
+  m.axis_point = scene.axis_point;
+  if (scene.lobule) m.axis_radius = scene.lobule->central_vein_radius;
+}
+
+/// With --set model=dcm or cbm the zoom has nothing to say.
+void set_zoom(const Scene& scene, coupling::ZoomParams& p) {
+  const CellModel model = scene.model.value_or(scene.cells.model);
+  if (!scene.moving_zoom || model != CellModel::kZoom) return;
+  p = *scene.moving_zoom;
+  p.region = scene.zoom;
+  p.axis_point = scene.axis_point;
+  p.seed = scene.seed;
+  for (const auto& [name, type] : scene.cell_types)
+    p.mesh.push_back(&geometry::shared_icosphere(type.dcm.nodes));
+}
+
+void set_numerics(const Scene& scene, coupling::Numerics& n) {
+  n = scene.numerics;
+  // An explicit step's length is set by stability, not by what an error estimate asks for.
+  if (n.integrator == coupling::Integrator::kExplicitEuler) n.adaptive = false;
+}
+
+}  // namespace
+
+dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
+  const DcmBlock& d = type.dcm;
+  dcm::Params p = d;
+  p.spring_stiffness = dcm::cortex_spring_stiffness(d.cortex_young, d.cortex_thickness);
+  p.bending_stiffness =
+      dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);
+  p.fold_repulsion = scene.contact.repulsion;
+  if (p.nucleus && !p.nucleus->resists()) p.nucleus.reset();
+  p.viscosity = scene.friction.liquid ? scene.friction.viscosity : 0;
+  p.diffusion = type.diffusion;
+  p.adhesion = type.adhesion;
+  p.vessel_friction = scene.friction.dcm_vessel.value_or(p.medium_friction);
+  return p;
+}
+
+cbm::Params make_cbm_params(const Scene& scene, const CellType& type) {
+  cbm::Params p = type.cbm;
+  if (p.young == 0) p.young = cbm::young_from_bulk(type.dcm.bulk_modulus, p.poisson);
+  p.viscosity = scene.friction.liquid ? scene.friction.viscosity : 0;
+  p.whole_medium_area = scene.contact.whole_medium_area;
+  p.diffusion = type.diffusion;
+  p.adhesion = type.adhesion;
+  p.vessel_friction = scene.friction.cbm_vessel.value_or(p.medium_friction);
+  return p;
+}
+
+void set_params(const Scene& scene, coupling::Params& p) {
+  set_contact(scene, p);
+  p.start_up = scene.start_up;
+  set_motility(scene, p.motility);
+  set_zoom(scene, p.zoom);
+  set_numerics(scene, p.numerics);
+  if (scene.stretcher) p.stretcher = *scene.stretcher;
+  if (const auto& t = scene.pipette)
+    p.suction = {t->mouth, t->axis.normalized(), t->radius + 0.5 * t->thickness, t->suction};
+  if (scene.temperature) p.temperature = *scene.temperature;
+  for (const PullEntry& entry : scene.pulls) {
+    coupling::Pull pull = entry;
+    pull.direction.normalize();
+    pull.anchor = scene.cells.list[pull.cell].position.dot(pull.direction);
+    p.pulls.push_back(std::move(pull));
+  }
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,64 @@
+#include "runs/assemble/memory_need.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "coupling/generate/domain.hpp"
+#include "runs/assemble/build_boundary.hpp"
+#include "runs/assemble/place_cells.hpp"
+
+namespace acinus::runs {
+namespace {
+
+// Measured where cells touch all around (docs/benchmarks.md: bytes_per_cell); with few contacts a
+// third of it.
+constexpr double kBytesPerNode = 450, kBytesPerSphere = 900;
+/// Of a branch point: its nodes, segments, wall and the grids that find them.
+constexpr double kBytesPerBranch = 2000;
+
+/// Of the smallest mesh among the cell types: which cells are of which is not known yet.
+double bytes_per_cell(const Scene& scene) {
+  if (scene.cells.model != CellModel::kDcm) return kBytesPerSphere;
+  int nodes = std::numeric_limits<int>::max();
+  for (const auto& [name, type] : scene.cell_types) nodes = std::min(nodes, type.dcm.nodes);
+  return kBytesPerNode * nodes;
+}
+
+double count_branches(const Scene& scene) {
+  if (!scene.lobule) return 0;
+  return scene.lobule->branch_density * coupling::make_domain(lobule_parameters(scene)).volume;
+}
+
+std::string in_gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
+
+}  // namespace
+
+double estimate_memory(const Scene& scene) {
+  return count_wanted_cells(scene) * bytes_per_cell(scene) +
+         count_branches(scene) * kBytesPerBranch;
+}
+
+void check_memory(const Scene& scene, double limit) {
+  const double needed = estimate_memory(scene);
+  if (needed <= limit) return;
+  const double vessels = count_branches(scene) * kBytesPerBranch;
+  const std::string what =
+      2 * vessels > needed
+          ? fmt::format(
+                "{:.3g} branch points of vessels. Take a smaller lobule.height or radius, "
+                "or a smaller lobule.branch_density",
+                count_branches(scene))
+          : fmt::format(
+                "{:.3g} cells. Take fewer (cells, lobule.cells), coarser meshes "
+                "(dcm.nodes), or spheres (model cbm)",
+                count_wanted_cells(scene));
+  throw Error(
+      fmt::format("{}: needs at least {} of memory where {} are allowed, most of it for "
+                  "{}; or allow more with --max-memory.",
+                  scene.file, in_gigabytes(needed), in_gigabytes(limit), what));
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,251 @@
+#include "runs/assemble/place_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contact/nearest_gap.hpp"
+#include "core/error.hpp"
+#include "core/numbers/random.hpp"
+#include "core/sphere.hpp"
+#include "coupling/generate/packing.hpp"
+#include "coupling/zoom/regions.hpp"
+#include "geometry/bodies.hpp"
+#include "geometry/box_pairs.hpp"
+#include "geometry/measures.hpp"
+#include "geometry/readers/read_surface.hpp"
+#include "runs/assemble/cell_types.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// How deep a cell may start in an obstacle, um: contact forces push it out in the first steps.
+constexpr double kStartDepth = 0.3;
+
+double start_radius(const Scene& scene, double radius) {
+  return scene.start_up.enabled ? scene.start_up.initial_radius : radius;
+}
+
+/// Sizes beyond these are slips of the unit; the run file stores single precision.
+constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthestCell = 1e6;  // um
+
+/// Cells that start anywhere in their cycle have up to twice the volume.
+double largest_start(const CellType& t) {
+  return t.radius * (t.cycle.time > 0 && t.cycle.random_start ? std::cbrt(2.0) : 1);
+}
+
+/// Darts thrown into a box, at least min_distance apart and clear of the boundary.
+std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary) {
+  const CellsBlock& c = scene.cells;
+  UniformStream random(scene.seed, Purpose::kPlacement, 0);
+  std::vector<Vec3> seeds;
+  constexpr int kTries = 200000;
+  for (int tries = 0; tries < kTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
+    Vec3 x;
+    for (int k = 0; k < 3; ++k) x[k] = random.uniform(c.low[k], c.high[k]);
+    const bool free =
+        std::ranges::all_of(seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
+    if (!free) continue;
+    // The next cell's type hangs on its number: large cells are not rarer for the room they need.
+    const CellType& type =
+        scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(seeds.size()), x));
+    if (contact::nearest_gap(boundary, x, 0) < start_radius(scene, largest_start(type))) continue;
+    seeds.push_back(x);
+    tries = 0;
+  }
+  check(static_cast<int>(seeds.size()) == c.count,
+        fmt::format("{}: /cells/count: room for only {} of {} cells at least {} um apart between "
+                    "{} and {} um. "
+                    "Lower count or min_distance, or enlarge low and high.",
+                    scene.file, seeds.size(), c.count, c.min_distance,
+                    fmt::format("({}, {}, {})", c.low.x(), c.low.y(), c.low.z()),
+                    fmt::format("({}, {}, {})", c.high.x(), c.high.y(), c.high.z())));
+  return seeds;
+}
+
+/// Where a cell comes from, for messages.
+std::string name_of(const Scene& scene, const PlacedCell& cell) {
+  return fmt::format("{}{}",
+                     scene.cells.source == CellSource::kList ? "/cells/list/" : "generated cell ",
+                     cell.lineage);
+}
+
+/// Pairs of cells closer than half the larger radius, in the order of the list.
+std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
+                                              const std::vector<PlacedCell>& cells) {
+  std::vector<Box> boxes;
+  for (const PlacedCell& c : cells)
+    boxes.push_back(sphere_box(c.center, 0.5 * start_radius(scene, c.radius)));
+  std::vector<std::pair<int, int>> pairs = contact::find_pairs(boxes, 0);
+  std::erase_if(pairs, [&](const std::pair<int, int>& pair) {
+    const PlacedCell &p = cells[pair.first], &q = cells[pair.second];
+    return (p.center - q.center).norm() >=
+           0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius));
+  });
+  return pairs;
+}
+
+/// A wrong unit often shows as an absurd size or place; the numbers then overflow far from here.
+void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
+  for (const PlacedCell& c : cells) {
+    if (!(c.radius >= kSmallestRadius && c.radius <= kLargestRadius))
+      throw Error(fmt::format(
+          "{}: {} has the radius {:.4g} um; from {} to {} um is allowed. Check its unit.",
+          scene.file, name_of(scene, c), c.radius, kSmallestRadius, kLargestRadius));
+    if (!(c.center.cwiseAbs().maxCoeff() <= kFarthestCell))
+      throw Error(fmt::format(
+          "{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
+          "along each axis "
+          "is allowed. Check its unit.",
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), kFarthestCell));
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Which of the cells that the zoom decides about start deformable.
+void choose_models(const Scene& scene, const geometry::Network& vessels,
+                   const std::vector<std::size_t>& zoomed, std::vector<PlacedCell>& cells) {
+  if (zoomed.empty()) return;
+  std::vector<coupling::ZoomCell> all;
+  for (const PlacedCell& c : cells) {
+    coupling::ZoomCell z;
+    z.center = c.center;
+    z.radius = c.radius;
+    z.lineage = c.lineage;
+    all.push_back(z);
+  }
+  coupling::ZoomParams zoom;
+  zoom.region = scene.zoom;
+  zoom.axis_point = scene.axis_point;
+  const std::vector<double> distance = coupling::distances_from_zoom(zoom, vessels, all);
+  for (const std::size_t k : zoomed) cells[k].deformable = distance[k] <= 0;
+}
+
+}  // namespace
+
+std::vector<geometry::Surface> read_cell_surfaces(const Scene& scene) {
+  if (scene.cells.source != CellSource::kMeshes) return {};
+  std::vector<geometry::Surface> bodies =
+      geometry::read_closed_surfaces(scene.cells.file, scene.cells.unit);
+  const geometry::Nested n = geometry::find_nested(bodies);
+  check(n.inner < 0,
+        fmt::format("{}: body {} lies inside body {}: a nucleus or another inner surface. Every "
+                    "surface is a cell here: leave inner ones out; nuclei are a setting of the "
+                    "cell type (dcm.nucleus).",
+                    scene.cells.file, n.inner, n.outer));
+  return bodies;
+}
+
+std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
+                                    std::span<const geometry::Surface> surface,
+                                    const contact::Boundary& boundary) {
+  const CellsBlock& c = scene.cells;
+  const double diameter = 2 * largest_radius(scene);
+  UniformStream stream(scene.seed, Purpose::kJitter, 0);
+  const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
+
+  std::vector<PlacedCell> cells;
+  std::vector<std::size_t> zoomed;
+  const auto choose = [&](CellModel model, PlacedCell& p) {
+    p.deformable = model == CellModel::kDcm;
+    if (model == CellModel::kZoom) zoomed.push_back(cells.size());
+  };
+  if (c.source == CellSource::kList) {
+    for (const CellEntry& e : c.list) {
+      PlacedCell p;
+      p.center = e.position;
+      p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
+      p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
+      p.pull = e.pull;
+      p.oriented = !e.random_orientation;
+      choose(e.model.value_or(c.model), p);
+      cells.push_back(p);
+    }
+  } else {
+    std::vector<Vec3> centers;
+    if (c.source == CellSource::kClump)
+      centers = coupling::make_clump(
+          {c.lattice, c.count, c.spacing * diameter, c.jitter * diameter}, uniform);
+    else if (c.source == CellSource::kBox)
+      centers = coupling::make_box(
+          {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
+          uniform);
+    else if (c.source == CellSource::kFill)
+      centers = fill_box(scene, boundary);
+    else if (c.source == CellSource::kMeshes)
+      for (const geometry::Surface& s : surface)
+        centers.push_back(geometry::compute_centroid(s.node, s.triangle));
+    else if (lobule)
+      centers = lobule->seeds;
+    cells.reserve(centers.size());
+    for (const Vec3& x : centers) {
+      PlacedCell p;
+      p.center = x;
+      p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
+      p.radius = scene.cell_types.at(p.type).radius;
+      p.oriented = false;
+      if (c.source == CellSource::kMeshes) {
+        const geometry::Surface& s = surface[cells.size()];
+        p.radius = sphere_radius(geometry::compute_volume(s.node, s.triangle));
+        p.shaped = true;
+      }
+      choose(c.model, p);
+      cells.push_back(p);
+    }
+  }
+  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].lineage = static_cast<std::int64_t>(k);
+  choose_models(scene, boundary.vessels.network, zoomed, cells);
+  return cells;
+}
+
+void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
+                  const contact::Boundary& boundary) {
+  check_sizes(scene, cells);
+  std::string message;
+  int bad = 0;
+  for (const PlacedCell& c : cells) {
+    std::string name;
+    // Of a shape of its own only the middle is looked at.
+    const double r = c.shaped ? kStartDepth : start_radius(scene, c.radius);
+    const double gap = contact::nearest_gap(boundary, c.center, 0, &name);
+    if (gap >= r - kStartDepth) continue;
+    if (++bad <= 10)
+      message += fmt::format(
+          "{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is "
+          "allowed.\n",
+          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), r - gap, name,
+          kStartDepth);
+  }
+  for (const auto& [i, j] : find_crowded(scene, cells)) {
+    if (++bad > 10) continue;
+    const PlacedCell &p = cells[i], &q = cells[j];
+    message += fmt::format(
+        "{}: {} and {} start {:.3g} um apart, centre to centre; at least half a radius, {:.3g} "
+        "um, is needed.\n",
+        scene.file, name_of(scene, p), name_of(scene, q), (p.center - q.center).norm(),
+        0.5 * std::max(start_radius(scene, p.radius), start_radius(scene, q.radius)));
+  }
+  if (bad > 10) message += fmt::format("... and {} more.\n", bad - 10);
+  check(bad == 0,
+        message + (scene.start_up.enabled ? "Move these cells, or lower start_up.initial_radius."
+                                          : "Move these cells, or start them small with the "
+                                            "start_up block (acinus explain start_up.enabled)."));
+}
+
+double count_wanted_cells(const Scene& scene) {
+  const CellsBlock& c = scene.cells;
+  if (c.source == CellSource::kList) return static_cast<double>(c.list.size());
+  if (c.source == CellSource::kBox) return 1.0 * c.grid[0] * c.grid[1] * c.grid[2];
+  if (c.source == CellSource::kLobule && scene.lobule) return scene.lobule->cells;
+  if (c.source == CellSource::kMeshes)
+    return static_cast<double>(geometry::read_surfaces(c.file, c.unit).size());
+  return c.count;
+}
+
+}  // namespace acinus::runs

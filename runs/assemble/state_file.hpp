@@ -1,0 +1,18 @@
+#pragma once
+/// World state to and from a checkpoint: every number, bit for bit, in memory order.
+
+#include "coupling/world/world.hpp"
+#include "io/checkpoint.hpp"
+#include "runs/assemble/check_state.hpp"
+
+namespace acinus::runs {
+
+void put_state(const coupling::State& state, io::CheckpointData& data);
+
+/// Replaces the state of a world built from the same scene.
+/// @param types  cell types of that world
+/// @throws Error(kFileError) when the data does not fit the world (another set of cells), or holds
+///         what no run could have written
+void get_state(const io::CheckpointData& data, const StateTypes& types, coupling::State& state);
+
+}  // namespace acinus::runs

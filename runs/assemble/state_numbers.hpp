@@ -1,0 +1,53 @@
+#pragma once
+/// Parts of a state as the plain lists of numbers that a checkpoint holds.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/numbers/ramp.hpp"
+#include "core/vec.hpp"
+#include "io/checkpoint.hpp"
+
+namespace acinus::runs {
+
+template <class T>
+std::vector<std::int64_t> as_integers(const std::vector<T>& v) {
+  return {v.begin(), v.end()};
+}
+inline std::vector<double> flatten(const std::vector<Ramp>& ramps) {
+  std::vector<double> v;
+  for (const Ramp& r : ramps) v.insert(v.end(), {r.from, r.to, r.start, r.end});
+  return v;
+}
+inline std::vector<Ramp> unflatten(const std::vector<double>& v) {
+  std::vector<Ramp> ramps;
+  for (std::size_t k = 0; k + 3 < v.size(); k += 4)
+    ramps.push_back({v[k], v[k + 1], v[k + 2], v[k + 3]});
+  return ramps;
+}
+
+inline std::vector<double> flatten(const std::vector<Vec3>& points) {
+  std::vector<double> v;
+  for (const Vec3& p : points) v.insert(v.end(), {p.x(), p.y(), p.z()});
+  return v;
+}
+inline std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k + 2 < v.size(); k += 3) points.emplace_back(v[k], v[k + 1], v[k + 2]);
+  return points;
+}
+
+inline void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
+                       std::size_t expected) {
+  check(found == expected,
+        fmt::format("{}: {} has {} entries, {} are needed. The file is damaged or was written by "
+                    "another version; resume from the previous checkpoint or start anew.",
+                    data.source(), what, found, expected),
+        Exit::kFileError);
+}
+
+}  // namespace acinus::runs

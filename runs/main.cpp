@@ -1,6 +1,0 @@
-#include "runs/commands/cli.hpp"
-#include "runs/program.hpp"
-
-int main(int argc, char** argv) {
-  return acinus::runs::run_program([&] { return acinus::runs::run_cli(argc, argv); });
-}

@@ -1,0 +1,23 @@
+# The pages for browsers as texts in the program: what bundle.sh made, so that building it needs no browser tools.
+set(page ${CMAKE_CURRENT_SOURCE_DIR}/page)
+set(assets "#include \"service/page/page_assets.hpp\"\nnamespace acinus::runs {\n")
+foreach(asset kPageScript=bundle/report.min.js kPageStyle=bundle/report.min.css kPageBody=report.html kPageLicences=bundle/licences.txt
+        kServiceScript=bundle/service.min.js kServiceStyle=bundle/service.min.css kServicePage=service.html kLoginPage=login.html)
+  string(REPLACE "=" ";" asset ${asset})
+  list(GET asset 0 name)
+  list(GET asset 1 file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page}/${file})
+  file(READ ${page}/${file} text)
+  string(APPEND assets "const std::string_view ${name} = R\"~~~~(${text})~~~~\";\n")
+endforeach()
+# Written only when it changes, so that configuring again builds nothing.
+set(source ${CMAKE_CURRENT_BINARY_DIR}/generated/page_assets.cpp)
+set(before "")
+if(EXISTS ${source})
+  file(READ ${source} before)
+endif()
+if(NOT before STREQUAL "${assets}}\n")
+  file(WRITE ${source} "${assets}}\n")
+endif()
+set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+target_sources(acinus_service PRIVATE ${source})

@@ -1,0 +1,90 @@
+#include "service/report/pack.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace acinus::runs {
+namespace {
+
+/// @param width  bytes of each
+void append_planes(std::string& bytes, const std::vector<std::uint32_t>& value, int width) {
+  for (int plane = width - 1; plane >= 0; --plane)
+    for (const std::uint32_t v : value) bytes += static_cast<char>((v >> (8 * plane)) & 0xff);
+}
+
+void append_float(std::string& bytes, float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  for (int k = 0; k < 4; ++k) bytes += static_cast<char>((bits >> (8 * k)) & 0xff);
+}
+
+std::string encode_base64(std::string_view bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - k);
+    std::uint32_t group = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      group = (group << 8) | (b < n ? static_cast<unsigned char>(bytes[k + b]) : 0U);
+    for (std::size_t d = 0; d < 4; ++d)
+      text += d <= n ? kDigits[(group >> (18 - 6 * d)) & 63] : '=';
+  }
+  return text;
+}
+
+}  // namespace
+
+void append_integers(std::string& bytes, std::span<const std::int64_t> value) {
+  std::vector<std::uint32_t> step;
+  step.reserve(value.size());
+  std::int64_t before = 0;
+  for (const std::int64_t v : value) {
+    step.push_back(static_cast<std::uint32_t>(v - before));
+    before = v;
+  }
+  append_planes(bytes, step, 4);
+}
+
+void append_quantised(std::string& bytes, std::span<const double> value) {
+  float low = 0, high = 0;
+  bool first = true;
+  for (const double v : value) {
+    if (!std::isfinite(v)) continue;
+    const auto f = static_cast<float>(v);
+    low = first ? f : std::min(low, f);
+    high = first ? f : std::max(high, f);
+    first = false;
+  }
+  append_float(bytes, low);
+  append_float(bytes, high);
+  const double span = static_cast<double>(high) - low;
+  std::vector<std::uint32_t> level;
+  level.reserve(value.size());
+  for (const double v : value) {
+    const double share = span > 0 ? std::clamp((v - low) / span, 0.0, 1.0) : 0;
+    level.push_back(std::isfinite(v)
+                        ? static_cast<std::uint32_t>(std::lround(share * kQuantisedSteps))
+                        : kQuantisedSteps + 1U);
+  }
+  append_planes(bytes, level, 2);
+}
+
+std::string encode_chunk(std::string_view bytes) {
+  constexpr int kLevel = 6;
+  uLongf size = compressBound(bytes.size());
+  std::string packed(size, '\0');
+  const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), kLevel);
+  check(code == Z_OK, "out of memory while packing the data of a page", Exit::kInternal);
+  packed.resize(size);
+  return encode_base64(packed);
+}
+
+}  // namespace acinus::runs

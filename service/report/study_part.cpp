@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "io/inside.hpp"
+#include "runs/scene/bounded_json.hpp"
+#include "runs/session/shell_quote.hpp"
+#include "service/report/other_parts.hpp"
+
+namespace acinus::runs {
+namespace fs = std::filesystem;
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// One field of a line, and the rest of the line. Quotes as in RFC 4180.
+std::string take_field(std::istringstream& line) {
+  std::string field;
+  if (line.peek() != '"') {
+    std::getline(line, field, ',');
+    return field;
+  }
+  line.get();
+  for (int c = line.get(); c != EOF; c = line.get()) {
+    if (c == '"' && line.peek() != '"') break;
+    if (c == '"') line.get();
+    field += static_cast<char>(c);
+  }
+  if (line.peek() == ',') line.get();
+  return field;
+}
+
+/// Rows of a CSV file, the header first.
+OrderedJson read_csv(const std::string& folder, const std::string& name) {
+  OrderedJson rows = OrderedJson::array();
+  std::istringstream text(io::read_text_inside(folder, name));
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream in(line);
+    OrderedJson row = OrderedJson::array();
+    while (in && in.peek() != EOF) row.push_back(take_field(in));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+OrderedJson describe_study(const std::string& folder) {
+  const fs::path root = folder;
+  std::error_code code;
+  check(fs::exists(root / "runs.csv", code),
+        fmt::format(
+            "{}: is a study without results. `acinus study FILE --out {} --report` writes them.",
+            folder, quote_for_shell(folder)),
+        Exit::kFileError);
+  OrderedJson j{
+      {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};
+  j["runs"] = read_csv(folder, "runs.csv");
+  j["verdicts"] = OrderedJson::array();
+  if (fs::exists(root / "verdicts.json", code))
+    j["verdicts"] = parse_or_discard<OrderedJson>(io::read_text_inside(folder, "verdicts.json"));
+  std::vector<fs::path> plots;
+  if (io::is_folder_inside(folder, "plots"))
+    for (const fs::directory_entry& entry : fs::directory_iterator(root / "plots", code))
+      if (entry.path().extension() == ".svg") plots.push_back(entry.path());
+  std::ranges::sort(plots);
+  j["plots"] = OrderedJson::array();
+  for (const fs::path& plot : plots)
+    j["plots"].push_back(
+        {{"name", plot.stem().string()},
+         {"svg", io::read_text_inside(folder, "plots/" + plot.filename().string())}});
+  return j;
+}
+
+}  // namespace acinus::runs

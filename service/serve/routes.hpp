@@ -1,0 +1,54 @@
+#pragma once
+/// Which request does what. docs/service.md lists them.
+
+#include <boost/asio/io_context.hpp>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "service/serve/access.hpp"
+#include "service/serve/async.hpp"
+#include "service/serve/dispatcher.hpp"
+#include "service/serve/http_message.hpp"
+#include "service/serve/job_view.hpp"
+#include "service/serve/preparation.hpp"
+#include "service/serve/um_bridge.hpp"
+
+namespace acinus::runs {
+
+class Routes {
+ public:
+  Routes(boost::asio::io_context& io, const ServeOptions& options, const ServiceAccess& access,
+         JobStore& store, Dispatcher& dispatcher);
+
+  /// Authorisation by the head alone: bodies of requests without it are not read.
+  bool is_allowed(const HttpRequest& head) const {
+    return !refuse(access_, head) && head.path != std::vector<std::string>{"login"};
+  }
+  /// Never throws for what the request is to blame for.
+  Task<HttpReply> answer(const HttpRequest& request);
+
+ private:
+  HttpReply answer_page(const HttpRequest& request);
+  Task<HttpReply> submit(const HttpRequest& request);
+  Task<HttpReply> answer_run(const HttpRequest& request, const std::string& id,
+                             const std::string& what);
+  Task<HttpReply> report(std::string id);
+  HttpReply series(const RunJob& job);
+  HttpReply list_files(const std::string& id);
+  HttpReply send_file(const std::string& id, const std::string& name);
+
+  boost::asio::io_context& io_;
+  const ServeOptions& options_;
+  const ServiceAccess& access_;
+  JobStore& store_;
+  Dispatcher& dispatcher_;
+  JobList list_;
+  Preparation preparation_;
+  UmBridge um_bridge_;
+  /// Reports that are being made. Owned by those that are, too: when the service ends, their
+  /// coroutines go with the loop, after this object.
+  std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();
+};
+
+}  // namespace acinus::runs

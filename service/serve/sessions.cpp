@@ -1,0 +1,21 @@
+#include "service/serve/sessions.hpp"
+
+#include <algorithm>
+
+#include "service/serve/access.hpp"
+
+namespace acinus::runs {
+
+std::string Sessions::open() {
+  constexpr std::size_t kMost = 256;
+  id_.push_back(make_token());
+  if (id_.size() > kMost) id_.pop_front();
+  return id_.back();
+}
+
+bool Sessions::knows(const std::string& id) const {
+  return std::ranges::count_if(
+             id_, [&](const std::string& known) { return same_secret(id, known); }) > 0;
+}
+
+}  // namespace acinus::runs

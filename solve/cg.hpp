@@ -1,0 +1,60 @@
+#pragma once
+/// Conjugate gradients with a block-diagonal and, if wanted, a coarse preconditioner, iterated in
+/// float and judged in double.
+
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "solve/coarse.hpp"
+#include "solve/operator.hpp"
+
+namespace acinus::solve {
+
+/// Which numbers the iterations run on.
+enum class Precision {
+  kMixed,  ///< float, in passes that each start from the true residual in double
+  kDouble
+};
+
+struct CgOptions {
+  double tolerance = 3e-3;  ///< on sqrt(r^T M^-1 r), relative to sqrt(b^T M^-1 b)
+  int max_iterations = 2000;
+  Precision precision = Precision::kMixed;
+};
+
+struct CgResult {
+  Status status;
+  int iterations = 0;
+  double residual = 0;  ///< relative, in the norm above, from the true residual b - A x in double
+};
+
+/// Vectors of one pass.
+template <class T>
+struct CgVectors {
+  std::vector<T> correction, residual, direction, preconditioned, product;
+};
+
+/// Scratch, sized on first use.
+struct CgWorkspace {
+  std::vector<double> residual;  ///< b - A x of the solution returned
+  std::vector<double> product;   ///< free for others between solves
+  CgVectors<float> single;
+  CgVectors<double> full;
+};
+
+/// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
+/// side, not to the first residual, so that a good start saves iterations. Passes of iterations
+/// solve for a correction of x; each starts from the true residual in double, which also confirms
+/// the stop. A pass in float that breaks down or gains nothing is followed by one in double; when
+/// that gains nothing either, rounding has the last word: the result is ok if the residual is below
+/// 1e-3 and says what it is. Fails when the process is asked to stop.
+/// @param op  its contacts are merged when passes in float turn out long
+/// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
+///                The stop is measured with the diagonal blocks either way.
+/// @param product  A x of the start value if it is known, else empty; not in the workspace
+CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
+                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse = nullptr,
+                  std::span<const double> product = {});
+
+}  // namespace acinus::solve

@@ -1,0 +1,175 @@
+#pragma once
+/// Sums over the points of groups of cells, whatever process or thread works out which block.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/numbers/exact_sum.hpp"
+#include "core/parallel/threads.hpp"
+#include "solve/system.hpp"
+
+namespace acinus::solve {
+
+/// Every own block adds up what its points give to each of its groups; these parts are added
+/// exactly, or, where a group has few of them, in the order of the blocks.
+class GroupSums {
+ public:
+  /// @param group    [n_block * kLanes] of each cell, -1: none; of all blocks, not only own ones
+  /// @param n_group  groups are numbered from 0
+  void prepare(const System& system, std::span<const int> group, std::size_t n_group);
+
+  /// Sums of N numbers. To be called by all processes.
+  /// @param f    f(address, group, numbers): adds what a point gives
+  /// @param put  put(group, numbers): takes the sums, of groups with own cells
+  template <std::size_t N, class F, class Put>
+  void sum(const F& f, const Put& put);
+
+  /// Largest value of the points of each group. @param f  f(address, group) >= 0
+  template <class F>
+  void largest(const F& f, std::vector<double>& value) const;
+
+  /// f(address, group) for every point of own blocks; f writes to that point only.
+  template <class F>
+  void for_each_point(const F& f) const {
+    for_each_index(own_.size(), worth_threads(system_->n_row),
+                   [&](std::size_t k) { for_each_point(own_[k], f); });
+  }
+
+ private:
+  /// What one block gives to one group.
+  struct GroupPart {
+    int block, group;
+  };
+  template <std::size_t N>
+  struct GroupPartSum {
+    GroupPart part;
+    std::array<double, N> number;
+  };
+  enum class GroupKind : std::uint8_t { kFew, kMany };
+  static constexpr std::size_t kFewParts = 8;
+
+  template <class F>
+  void for_each_point(std::size_t b, const F& f) const {
+    const Block& block = system_->block[b];
+    for (std::size_t l = 0; l < kLanes; ++l)
+      if (const int g = group_[b * kLanes + l]; g >= 0)
+        for (int i = 0; i < block.pattern->n_point; ++i)
+          f(make_address(block.first_row + static_cast<std::size_t>(i), static_cast<int>(l)),
+            static_cast<std::size_t>(g));
+  }
+  std::span<const std::uint32_t> parts_of(std::size_t group) const {
+    return std::span(by_group_).subspan(start_[group], start_[group + 1] - start_[group]);
+  }
+  template <std::size_t N>
+  void add_exactly(std::span<const std::uint32_t> parts,
+                   std::span<const std::array<double, N>> number, std::span<ExactSum, N> sum) const;
+
+  const System* system_ = nullptr;
+  std::span<const int> group_;
+  std::vector<std::size_t> own_;         ///< own blocks
+  std::vector<std::size_t> first_part_;  ///< [own blocks + 1]
+  std::vector<GroupPart> part_;          ///< of own blocks, ascending
+  std::vector<std::uint32_t> by_group_;  ///< numbers of parts, group by group
+  std::vector<std::size_t> start_;       ///< [n_group + 1] in by_group_
+  std::vector<GroupKind> kind_;          ///< [n_group] by the parts of all processes
+  std::vector<std::uint8_t> is_shared_;  ///< [n_group] whether several processes have parts
+  std::vector<std::size_t> few_, many_;  ///< shared groups
+  std::vector<double> scratch_;          ///< [part][number] of a sum
+  // Of prepare.
+  std::vector<std::size_t> n_part_, next_;
+  std::vector<int> owner_of_group_;
+};
+
+template <std::size_t N>
+void GroupSums::add_exactly(std::span<const std::uint32_t> parts,
+                            std::span<const std::array<double, N>> number,
+                            std::span<ExactSum, N> sum) const {
+  constexpr std::size_t kWorthThreads = 2000;  // parts
+  const std::size_t n_part =
+      parts.size() * N > kWorthThreads ? static_cast<std::size_t>(thread_count()) : 1;
+  const auto add = [&](std::size_t part, std::span<ExactSum> to) {
+    for (std::size_t k = part * parts.size() / n_part; k < (part + 1) * parts.size() / n_part; ++k)
+      for (std::size_t n = 0; n < N; ++n) to[n].add(number[parts[k]][n]);
+  };
+  if (n_part == 1) return add(0, sum);
+  std::vector<std::array<ExactSum, N>> sums(n_part);
+  for_each_part(n_part, [&](std::size_t part) { add(part, sums[part]); });
+  for (const auto& s : sums)
+    for (std::size_t n = 0; n < N; ++n) sum[n].add(s[n]);
+}
+
+template <std::size_t N, class F, class Put>
+void GroupSums::sum(const F& f, const Put& put) {
+  scratch_.resize(N * part_.size());
+  const std::span<std::array<double, N>> number(
+      reinterpret_cast<std::array<double, N>*>(scratch_.data()), part_.size());
+  for_each_index(own_.size(), worth_threads(system_->n_row), [&](std::size_t k) {
+    for (std::size_t p = first_part_[k]; p < first_part_[k + 1]; ++p) number[p].fill(0);
+    for_each_point(own_[k], [&](Address a, std::size_t g) {
+      std::size_t p = first_part_[k];
+      while (part_[p].group != static_cast<int>(g)) ++p;
+      f(a, g, number[p]);
+    });
+  });
+  const auto value_of = [](std::span<const ExactSum, N> sum) {
+    std::array<double, N> value;
+    for (std::size_t n = 0; n < N; ++n) value[n] = sum[n].value();
+    return value;
+  };
+  for (std::size_t g = 0; g < kind_.size(); ++g) {
+    const std::span<const std::uint32_t> parts = parts_of(g);
+    if (parts.empty() || is_shared_[g]) continue;
+    if (kind_[g] == GroupKind::kFew) {
+      std::array<double, N> total{};
+      for (const std::uint32_t p : parts)
+        for (std::size_t n = 0; n < N; ++n) total[n] += number[p][n];
+      put(g, total);
+    } else {
+      std::array<ExactSum, N> total;
+      add_exactly<N>(parts, number, std::span<ExactSum, N>(total));
+      put(g, value_of(total));
+    }
+  }
+  const Ranks& ranks = system_->ownership.ranks;
+  if (!many_.empty()) {
+    std::vector<ExactSum> totals(N * many_.size());
+    for (std::size_t k = 0; k < many_.size(); ++k)
+      add_exactly<N>(parts_of(many_[k]), number, std::span<ExactSum, N>(&totals[N * k], N));
+    ranks.sum(totals);
+    for (std::size_t k = 0; k < many_.size(); ++k)
+      put(many_[k], value_of(std::span<const ExactSum, N>(&totals[N * k], N)));
+  }
+  if (few_.empty()) return;
+  std::vector<GroupPartSum<N>> own, all;
+  for (const std::size_t g : few_)
+    for (const std::uint32_t p : parts_of(g)) own.push_back({part_[p], number[p]});
+  ranks.gather<GroupPartSum<N>>(own, all);
+  std::ranges::sort(all, {},
+                    [](const GroupPartSum<N>& p) { return std::pair(p.part.group, p.part.block); });
+  for (std::size_t k = 0; k < all.size();) {
+    const int g = all[k].part.group;
+    std::array<double, N> total{};
+    for (; k < all.size() && all[k].part.group == g; ++k)
+      for (std::size_t n = 0; n < N; ++n) total[n] += all[k].number[n];
+    put(static_cast<std::size_t>(g), total);
+  }
+}
+
+template <class F>
+void GroupSums::largest(const F& f, std::vector<double>& value) const {
+  value.assign(kind_.size(), 0);
+  for (const std::size_t b : own_)
+    for_each_point(b, [&](Address a, std::size_t g) { value[g] = std::max(value[g], f(a, g)); });
+  std::vector<double> shared;
+  for (const auto* groups : {&many_, &few_})
+    for (const std::size_t g : *groups) shared.push_back(value[g]);
+  if (shared.empty()) return;
+  system_->ownership.ranks.max(shared);
+  std::size_t next = 0;
+  for (const auto* groups : {&many_, &few_})
+    for (const std::size_t g : *groups) value[g] = shared[next++];
+}
+
+}  // namespace acinus::solve

@@ -1,0 +1,59 @@
+#pragma once
+/// Who works out which blocks of a system. Every process knows all blocks and numbers them alike;
+/// it works out its own, and reads of the others what its contacts need.
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/parallel/ranks.hpp"
+
+namespace acinus::solve {
+
+struct Ownership {
+  Ranks ranks = Ranks::serial();
+  std::vector<int> owner;  ///< [n_block] rank; empty: all are own
+
+  bool is_whole() const { return owner.empty(); }
+  bool owns(std::size_t block) const { return owner.empty() || owner[block] == ranks.rank(); }
+};
+
+/// Own blocks that follow each other: [first, last).
+using BlockRun = std::pair<std::size_t, std::size_t>;
+
+/// The own blocks among n, ascending.
+inline std::vector<BlockRun> find_own_runs(const Ownership& o, std::size_t n) {
+  std::vector<BlockRun> runs;
+  for (std::size_t b = 0; b < n; ++b) {
+    if (!o.owns(b)) continue;
+    if (!runs.empty() && runs.back().second == b)
+      ++runs.back().second;
+    else
+      runs.emplace_back(b, b + 1);
+  }
+  return runs;
+}
+
+/// Values of items that are worked out by one process each, on all of them, in the order of the
+/// items.
+/// @param owner  owner(k) of item k < n
+/// @param count  count(k), how many values it has
+/// @param own    those of own items
+template <class T, class Owner, class Count>
+void gather_in_order(const Ranks& ranks, std::size_t n, const Owner& owner, const Count& count,
+                     const std::vector<T>& own, std::vector<T>& all) {
+  std::vector<T> by_rank;
+  std::vector<std::size_t> next;
+  ranks.gather<T>(own, by_rank, &next);
+  all.clear();
+  all.reserve(by_rank.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t& from = next[static_cast<std::size_t>(owner(k))];
+    const auto first = by_rank.begin() + static_cast<std::ptrdiff_t>(from);
+    from += count(k);
+    all.insert(all.end(), first, by_rank.begin() + static_cast<std::ptrdiff_t>(from));
+  }
+}
+
+}  // namespace acinus::solve

@@ -1,0 +1,296 @@
+#include "solve/rigid.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/parallel/threads.hpp"
+#include "solve/link_kernels.hpp"
+
+namespace acinus::solve {
+namespace {
+
+using Map3x6 = Eigen::Matrix<double, 3, 6>;
+
+/// Numbers the groups of cells joined by pair links; returns how many there are.
+int number_groups(const System& s, std::span<const std::uint8_t> active, RigidWorkspace& work) {
+  auto cell_of = [&](Point p) {
+    return static_cast<int>(s.block_of(p)) * kLanes + static_cast<int>(p % kLanes);
+  };
+  DisjointSets& sets = work.sets;
+  sets.reset(active.size());
+  // Contacts come sorted by pair of cells.
+  const auto join_all = [&](const auto& links, const auto& ends) {
+    const std::size_t n_part = count_threads(s.n_row);
+    for_each_part(n_part, [&](std::size_t part) {
+      int last_a = -1, last_b = -1;
+      for (std::size_t l = part * links.size() / n_part; l < (part + 1) * links.size() / n_part;
+           ++l) {
+        const auto [end_a, end_b] = ends(links[l]);
+        if (end_b == kNowhere) continue;
+        const int a = cell_of(end_a), b = cell_of(end_b);
+        if (a == last_a && b == last_b) continue;
+        last_a = a;
+        last_b = b;
+        sets.join(a, b);
+      }
+    });
+  };
+  join_all(s.links.link, [](const Link& l) { return std::array{l.a.point[0], l.b.point[0]}; });
+  join_all(s.point_links, [&](const PointLink& l) {
+    // Pairs of spheres are listed before they touch, some steps sooner or later.
+    return std::array{l.a, has_matrix(l, s.stiffness_scale) ? l.b : kNowhere};
+  });
+  if (!s.ownership.is_whole()) {  // each process knows the contacts of its own cells
+    std::vector<std::array<int, 2>> own, all;
+    for (int c = 0; c < static_cast<int>(sets.size()); ++c)
+      if (sets.is_joined(c)) own.push_back({c, sets.find(c)});
+    s.ownership.ranks.gather<std::array<int, 2>>(own, all);
+    for (const auto& [a, b] : all) sets.join(a, b);
+  }
+  work.group.assign(active.size(), -1);
+  int n = 0;
+  for (std::size_t c = 0; c < active.size(); ++c) {
+    if (!active[c]) continue;
+    const std::size_t root = sets.find(static_cast<int>(c));
+    if (work.group[root] < 0) work.group[root] = n++;
+    work.group[c] = work.group[root];
+  }
+  return n;
+}
+
+/// The six unit motions of a point: three translations, then rotations about the centre.
+Map3x6 unit_motions(const Vec3& from_center) {
+  Map3x6 m;
+  m.leftCols<3>().setIdentity();
+  for (int k = 0; k < 3; ++k) m.col(3 + k) = Vec3::Unit(k).cross(from_center);
+  return m;
+}
+
+/// Where the numbers of a sum over the points of a group stand.
+enum Number : std::size_t {
+  kResidual = 0,
+  kMass = 6,  ///< of medium friction, and its moments about the centre
+  kFirstMoment = 7,
+  kSecondMoment = 10,  ///< xx xy xz yy yz zz
+  kNumbers = 16
+};
+/// Numbers of the upper triangle of a matrix 6 x 6.
+constexpr std::size_t kUpper = 21;
+
+/// Sum of m z^T z over the points of a group.
+Mat6 medium_matrix(double mass, const Vec3& f, const Mat3& second_moment) {
+  Mat3 cross;  // cross * v = first moment x v
+  cross << 0, -f.z(), f.y(), f.z(), 0, -f.x(), -f.y(), f.x(), 0;
+  Mat6 m;
+  m.topLeftCorner<3, 3>() = mass * Mat3::Identity();
+  m.bottomLeftCorner<3, 3>() = cross;
+  m.topRightCorner<3, 3>() = cross.transpose();
+  m.bottomRightCorner<3, 3>() = second_moment.trace() * Mat3::Identity() - second_moment;
+  return m;
+}
+
+template <class M, class F>
+void for_each_upper(M& m, F f) {
+  std::size_t n = 0;
+  for (int i = 0; i < m.rows(); ++i)
+    for (int j = i; j < m.cols(); ++j) f(n++, m(i, j), m(j, i));
+}
+
+Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
+  // Scaled so that a cluster free in one mode (no friction) does not divide by zero.
+  const Vec6 scale = m.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Mat6 a = scale.asDiagonal() * m * scale.asDiagonal();
+  a.diagonal().array() += 1e-14;
+  return scale.asDiagonal() * a.ldlt().solve(Vec6(scale.asDiagonal() * rhs));
+}
+
+/// The groups of one solve, from their centres to their corrections.
+class RigidModes {
+ public:
+  RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
+      : op_(op), s_(op.system()), position_(cells.position), work_(work), groups_(work.groups) {
+    groups_.assign(number_groups(s_, cells.active, work), {});
+    for (std::size_t c = 0; c < work.group.size(); ++c)
+      if (work.group[c] >= 0 && s_.block[c / kLanes].pattern->has_rotations())
+        groups_[work.group[c]].rotates = true;
+    work.sums.prepare(s_, work.group, groups_.size());
+    work.sums.sum<4>(
+        [&](Address a, std::size_t, std::array<double, 4>& sum) {
+          const Vec3 x = at(a);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += x[static_cast<int>(k)];
+          sum[3] += 1;
+        },
+        [&](std::size_t g, const std::array<double, 4>& sum) {
+          groups_[g].center = Vec3(sum[0], sum[1], sum[2]) / sum[3];
+        });
+  }
+
+  /// What ties a group to the outside: medium and boundary. It is a lower bound of the
+  /// projected matrix, and all of it but for the rotations: no link or element within a group feels
+  /// a translation.
+  void tie_to_outside(std::span<const double> residual) {
+    work_.sums.largest(
+        [&](Address a, std::size_t g) { return (at(a) - groups_[g].center).squaredNorm(); },
+        work_.squared_reach);
+    work_.sums.sum<kNumbers>(
+        [&](Address a, std::size_t g, std::array<double, kNumbers>& sum) {
+          const Vec3 d = at(a) - groups_[g].center;
+          const Vec3 r = load_point(residual.data(), a), turn = d.cross(r);
+          const double m = s_.friction_scale * s_.medium[a / kPointStride * kLanes + a % kLanes];
+          for (std::size_t k = 0; k < 3; ++k) {
+            const int i = static_cast<int>(k);
+            sum[kResidual + k] += r[i];
+            sum[kResidual + 3 + k] += turn[i];
+            sum[kFirstMoment + k] += m * d[i];
+          }
+          sum[kMass] += m;
+          const Mat3 second = m * d * d.transpose();
+          for_each_upper(second,
+                         [&](std::size_t n, double v, double) { sum[kSecondMoment + n] += v; });
+        },
+        [&](std::size_t g, const std::array<double, kNumbers>& sum) {
+          RigidGroup& group = groups_[g];
+          for (std::size_t k = 0; k < 6; ++k)
+            group.residual[static_cast<int>(k)] = sum[kResidual + k];
+          Mat3 second;
+          for_each_upper(second, [&](std::size_t n, double& v, double& mirrored) {
+            v = mirrored = sum[kSecondMoment + n];
+          });
+          const Vec3 first(sum[kFirstMoment], sum[kFirstMoment + 1], sum[kFirstMoment + 2]);
+          group.matrix = medium_matrix(sum[kMass], first, second);
+          group.squared_reach = work_.squared_reach[g];
+        });
+    add_ties();
+  }
+
+  /// Chooses the groups whose rigid error may be larger, um.
+  int choose(double threshold) {
+    int chosen = 0;
+    for (RigidGroup& g : groups_) {
+      g.correct = !g.rotates && size_of(solve_spd(g.matrix, g.residual), g) > threshold;
+      chosen += g.correct ? 1 : 0;
+    }
+    // What follows is done by all processes or by none.
+    return static_cast<int>(s_.ownership.ranks.max(chosen));
+  }
+
+  /// Replaces the part of rotations by that of the whole operator. Groups share no link, so one
+  /// product serves the same mode of all of them.
+  void project_rotations() {
+    work_.mode.resize(position_.size());
+    work_.product.resize(position_.size());
+    for (RigidGroup& g : groups_) g.matrix.bottomRightCorner<3, 3>().setZero();
+    for (int axis = 0; axis < 3; ++axis) {
+      for_each_own_number(s_, [&](std::size_t k) { work_.mode[k] = 0; });
+      work_.sums.for_each_point([&](Address a, std::size_t g) {
+        if (groups_[g].correct)
+          store_point(work_.mode.data(), a, Vec3::Unit(axis).cross(at(a) - groups_[g].center));
+      });
+      op_.apply(work_.mode, work_.product);
+      work_.sums.sum<3>(
+          [&](Address a, std::size_t g, std::array<double, 3>& sum) {
+            const Vec3 turn =
+                (at(a) - groups_[g].center).cross(load_point(work_.product.data(), a));
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += turn[static_cast<int>(k)];
+          },
+          [&](std::size_t g, const std::array<double, 3>& sum) {
+            groups_[g].matrix.block<3, 1>(3, 3 + axis) = Vec3(sum[0], sum[1], sum[2]);
+          });
+    }
+  }
+
+  /// Moves the chosen groups. @return the largest move, um
+  double correct(std::span<double> x) {
+    double largest = 0;
+    for (RigidGroup& g : groups_) {
+      if (!g.correct) continue;
+      g.motion = solve_spd(0.5 * (g.matrix + g.matrix.transpose()), g.residual);
+      largest = std::max(largest, size_of(g.motion, g));
+    }
+    work_.sums.for_each_point([&](Address a, std::size_t g) {
+      if (groups_[g].correct)
+        add_point(x.data(), a, unit_motions(at(a) - groups_[g].center) * groups_[g].motion);
+    });
+    return largest;
+  }
+
+ private:
+  Vec3 at(Address a) const { return load_point(position_.data(), a); }
+  static double size_of(const Vec6& motion, const RigidGroup& g) {
+    return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
+  }
+  std::size_t cell_of(Address a) const {
+    return static_cast<std::size_t>(s_.block_of_row[a / kPointStride]) * kLanes + a % kPointStride;
+  }
+  bool is_first_point(Address a) const {
+    const auto block = static_cast<std::size_t>(s_.block_of_row[a / kPointStride]);
+    return a / kPointStride == s_.block[block].first_row;
+  }
+  /// Adds what boundary ties the groups to.
+  void add_ties() {
+    find_ties();
+    if (!s_.ownership.ranks.any(!work_.tie.empty())) return;
+    work_.sums.sum<kUpper>(
+        [&](Address a, std::size_t, std::array<double, kUpper>& sum) {
+          if (!is_first_point(a)) return;
+          const int tie = work_.tie_of_cell[cell_of(a)];
+          if (tie < 0) return;
+          for_each_upper(std::as_const(work_.tie[static_cast<std::size_t>(tie)]),
+                         [&](std::size_t n, double v, double) { sum[n] += v; });
+        },
+        [&](std::size_t g, const std::array<double, kUpper>& sum) {
+          Mat6 tie;
+          for_each_upper(
+              tie, [&](std::size_t n, double& v, double& mirrored) { v = mirrored = sum[n]; });
+          groups_[g].matrix += tie;
+        });
+  }
+  /// What boundary ties each cell to, about the centre of its group, in the order of the contacts.
+  void find_ties() {
+    work_.tie.clear();
+    work_.tie_of_cell.assign(work_.group.size(), -1);
+    op_.for_each_external([&](const Stencil& stencil, const auto& l) {
+      const std::size_t cell = cell_of(stencil.address[0]);
+      const int g = work_.group[cell];
+      if (g < 0) return;
+      Vec3 place = Vec3::Zero();
+      for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
+      const Map3x6 z = unit_motions(place - groups_[static_cast<std::size_t>(g)].center);
+      const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
+                   static_cast<double>(l.normal[2]));
+      const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
+                     s_.friction_scale * static_cast<double>(l.friction) * Mat3::Identity();
+      int& tie = work_.tie_of_cell[cell];
+      if (tie < 0) {
+        tie = static_cast<int>(work_.tie.size());
+        work_.tie.push_back(Mat6::Zero());
+      }
+      work_.tie[static_cast<std::size_t>(tie)] += z.transpose() * m * z;
+    });
+  }
+
+  const Operator& op_;
+  const System& s_;
+  std::span<const double> position_;
+  RigidWorkspace& work_;
+  std::vector<RigidGroup>& groups_;
+};
+
+}  // namespace
+
+RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
+                                std::span<double> x, const RigidCells& cells, double threshold,
+                                RigidWorkspace& work) {
+  RigidModes modes(op, cells, work);
+  modes.tie_to_outside(residual);
+  RigidResult result;
+  result.corrected_groups = modes.choose(threshold);
+  if (result.corrected_groups == 0) return result;
+  modes.project_rotations();
+  result.largest_move = modes.correct(x);
+  return result;
+}
+
+}  // namespace acinus::solve

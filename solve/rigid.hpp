@@ -1,0 +1,63 @@
+#pragma once
+/// Rigid-body correction of a linear solve, per contact-connected group of cells.
+///
+/// Medium friction can be 1e-8 of contact friction, so a small CG residual may hide a large rigid
+/// drift of a whole cluster. Every cluster's six rigid modes are therefore solved exactly
+/// (Galerkin) on the true residual. docs/decisions/0002.md says why the projected matrix is that of
+/// the whole operator.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/disjoint_sets.hpp"
+#include "solve/group_sums.hpp"
+#include "solve/operator.hpp"
+
+namespace acinus::solve {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+/// A group of cells as a rigid body, and how it moves.
+struct RigidGroup {
+  Vec3 center = Vec3::Zero();
+  double squared_reach = 0;  ///< um^2, farthest point from the centre
+  Vec6 residual = Vec6::Zero();
+  Mat6 matrix = Mat6::Zero();
+  Vec6 motion = Vec6::Zero();
+  bool rotates =
+      false;  ///< some of its unknowns are rotations, which these motions are not those of
+  bool correct = false;
+};
+
+struct RigidWorkspace {
+  std::vector<int> group;  ///< [n_block * kLanes] group of each cell, -1: empty lane
+  DisjointSets sets;
+  std::vector<RigidGroup> groups;
+  GroupSums sums;
+  std::vector<double> squared_reach;  ///< [group] um^2
+  std::vector<int> tie_of_cell;       ///< [n_block * kLanes] -1: none
+  std::vector<Mat6> tie;              ///< what boundary ties a cell to
+  std::vector<double> mode, product;
+};
+
+struct RigidResult {
+  int corrected_groups = 0;  ///< of several processes: the most that one has
+  double largest_move = 0;   ///< um, the largest rigid displacement put right
+};
+
+/// Where the cells are.
+struct RigidCells {
+  std::span<const double> position;      ///< [n_row][3][lane] um
+  std::span<const std::uint8_t> active;  ///< [n_block * kLanes] 1 where the lane holds a cell
+};
+
+/// Corrects x (the displacement) for A x = b.
+/// @param residual  [n_row][3][lane] b - A x, in double
+/// @param threshold um: groups whose rigid error is provably below it are left alone
+RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
+                                std::span<double> x, const RigidCells& cells, double threshold,
+                                RigidWorkspace& work);
+
+}  // namespace acinus::solve

@@ -1,0 +1,145 @@
+#pragma once
+/// The linear system of one step, (Gamma/h + K) dx = F, as loads that the models add to.
+///
+/// Unknowns: blocks of eight lanes; a DCM group has one row per mesh node, eight spheres share a
+/// block with a single row. The matrix is never assembled: it is kept as the small elements it is
+/// made of (springs, hinges, faces, one vector per cell, contacts), each blind to translation by
+/// its form, whatever its numbers are rounded to, and positive semi-definite (a spring as long as
+/// its two coefficients keep a + c >= 0, which rounding does not change). That is why elements may
+/// be floats (docs/decisions/0010.md).
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/numbers/lanes.hpp"
+#include "core/parallel/threads.hpp"
+#include "solve/links.hpp"
+#include "solve/ownership.hpp"
+
+namespace acinus::solve {
+
+/// Which points of one cell interact; shared by all cells with the same mesh and terms.
+struct BlockPattern {
+  int n_point = 0;
+  std::vector<std::array<int, 2>> spring;
+  /// [n_spring] the other two points of the hinge about each spring; empty: no hinges
+  std::vector<std::array<int, 2>> wing;
+  std::vector<std::array<int, 3>> face;
+  /// Bending of a beam: its two ends, and the rotations of these; places may move alike.
+  std::vector<std::array<int, 4>> beam{};
+  /// Springs of each point, where all sides of contacts have springs between their points (faces of
+  /// a mesh): {other point, spring}, from first_spring_of[point]; empty: not known. Made by
+  /// index_springs.
+  std::vector<std::array<int, 2>> spring_of{};
+  std::vector<std::size_t> first_spring_of{};
+  /// Points from there on are no places but rotations, in um on a lever of 1 um. -1: none.
+  int n_place = -1;
+
+  bool has_rotations() const { return n_place >= 0; }
+  int count_places() const { return has_rotations() ? n_place : n_point; }
+};
+
+/// Fills spring_of and first_spring_of.
+void index_springs(BlockPattern& pattern);
+
+/// The spring between two points. @pre index_springs, and the spring exists
+inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
+  std::size_t k = p.first_spring_of[i];
+  while (p.spring_of[k][0] != j) {
+    ++k;
+    ACINUS_ASSERT(k < p.first_spring_of[i + 1]);
+  }
+  return static_cast<std::size_t>(p.spring_of[k][1]);
+}
+
+/// Floats of one element, all eight lanes.
+inline constexpr int kSpringStride =
+    5 * kLanes;  ///< u (3), a, c: matrix a u u^T + c I on x_j - x_i
+/// g on wing 0, wing 1 and spring point 0; on spring point 1 minus their sum: matrix g g^T
+inline constexpr int kHingeStride = 9 * kLanes;
+inline constexpr int kEdgeStride = 6 * kLanes;  ///< xx xy xz yy yz zz: a spring's matrix in full
+inline constexpr int kFaceStride = 6 * kLanes;  ///< g1 g2, g3 = -(g1 + g2): matrix g g^T
+/// g on the second end, minus that on the first; on the rotations; in two directions across the
+/// beam: matrix g g^T + h h^T
+inline constexpr int kBeamStride = 12 * kLanes;
+
+/// Eight cells with one pattern.
+struct Block {
+  const BlockPattern* pattern = nullptr;
+  std::size_t first_row = 0;  ///< first point row
+  std::size_t first_spring = 0, first_hinge = 0, first_face = 0, first_beam = 0;
+  bool still = false;         ///< cells that do not move: their rank-one terms are not looked at
+  double dashpot = 0;         ///< nN s/um, friction among what the matrix of each spring holds
+  double dashpot_across = 1;  ///< that across the spring over that along it
+};
+
+/// One vector per cell with a non-negative coefficient: adds c g g^T. Covers blocks [0, n_block).
+struct RankOne {
+  std::vector<double> vector;       ///< [rows of the covered blocks][3][lane]
+  std::vector<double> coefficient;  ///< [n_block][lane]
+};
+
+/// Loads of one step. The caller clears; models add. Rows of blocks that are not own hold nothing.
+struct System {
+  std::vector<Block> block;
+  std::size_t n_row = 0;          ///< point rows over all blocks
+  Ownership ownership;            ///< to be set before set_blocks
+  std::vector<BlockRun> own;      ///< own blocks
+  std::vector<int> block_of_row;  ///< [n_row]
+  double friction_scale = 1;      ///< 1/h, 1/s: what friction is multiplied by in the matrix
+  double stiffness_scale = 1;     ///< 1: linearly implicit; 0: friction only (explicit Euler)
+
+  std::vector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
+  std::vector<double> external_force;  ///< [n_row][3][lane] nN, migration and prescribed loads
+  std::vector<double> medium;          ///< [n_row][lane] nN s/um, friction with the medium at rest
+  std::vector<float> spring;           ///< [n_spring][5][lane]; a and c in nN/um
+  std::vector<float> hinge;            ///< [n_hinge][9][lane] sqrt(nN/um)
+  std::vector<float> face;             ///< [n_face][6][lane] sqrt(nN/um)
+  std::vector<float> beam;             ///< [n_beam][12][lane] sqrt(nN/um)
+  std::vector<RankOne> rank_one;
+  Links links;                         ///< contacts of surfaces
+  std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
+
+  std::size_t n_dof() const { return n_row * kPointStride; }
+  std::size_t block_of(Point p) const { return static_cast<std::size_t>(block_of_row[p / kLanes]); }
+  bool owns(Point p) const { return ownership.is_whole() || ownership.owns(block_of(p)); }
+  /// First row of a block; of the block behind the last one: the number of rows.
+  std::size_t row_of(std::size_t b) const { return b < block.size() ? block[b].first_row : n_row; }
+};
+
+/// f(k) for the numbers of own blocks in vectors [n_row][3][lane].
+template <class F>
+void for_each_own_number(const System& s, const F& f) {
+  const auto begin = [&](std::size_t b) { return s.row_of(b) * kPointStride; };
+  if (s.own.size() == 1) {
+    const std::size_t first = begin(s.own[0].first);
+    for_each_number(begin(s.own[0].second) - first, [&](std::size_t k) { f(first + k); });
+    return;
+  }
+  for_each_index(s.own.size(), worth_threads(s.n_row), [&](std::size_t run) {
+    for (std::size_t k = begin(s.own[run].first); k < begin(s.own[run].second); ++k) f(k);
+  });
+}
+
+/// Sizes all arrays for the given blocks (offsets are filled in) and clears them. @pre ownership
+void set_blocks(System& system, std::vector<Block> blocks);
+
+/// Makes rows of other processes known: x of every row becomes what its owner has.
+/// @param x  [n_row][3][lane]
+void gather_rows(const System& system, std::span<double> x);
+
+/// Zeroes every load that models add to; keeps capacity and scales. Hinges, faces, beams and point
+/// links are written, not added to, by the one term each belongs to.
+void clear_loads(System& system);
+
+/// Adds to a spring: along u the stiffness a + c, across it c.
+ACINUS_INLINE void add_spring(float* element, const Lane3& u, Lane a, Lane c) {
+  store3(element, u);
+  store(element + 3 * kLanes, load(element + 3 * kLanes) + a);
+  store(element + 4 * kLanes, load(element + 4 * kLanes) + c);
+}
+
+}  // namespace acinus::solve
