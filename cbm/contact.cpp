@@ -6,7 +6,9 @@
 
 #include "cbm/obstacle_contacts.hpp"
 #include "cbm/pair_kernel.hpp"
+#include "contact/jkr.hpp"
 #include "contact/neighbours.hpp"
+#include "contact/vessel_side.hpp"
 #include "core/parallel/threads.hpp"
 #include "geometry/box_pairs.hpp"
 
@@ -124,15 +126,6 @@ double relative_overlap(const ContactWorkspace& work, std::size_t cell, const St
 void count_overlap(ContactWorkspace& work, std::size_t cell, double relative, double share) {
   work.overlap_sum[cell] += share * relative;
   if (!work.overlap_count.empty() && relative > 0) work.overlap_count[cell] += share;
-}
-
-contact::SphereForce weaken(contact::SphereForce law, double share) {
-  if (share <= 0) return {};
-  law.force *= share;
-  law.stiffness *= share;
-  law.force_by_modulus *= share;
-  law.contact_radius *= std::sqrt(share);
-  return law;
 }
 
 bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {

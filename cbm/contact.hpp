@@ -1,82 +1,20 @@
 #pragma once
 /// Contacts of spheres with each other and with boundary: JKR with hysteresis, and their links.
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "cbm/contact_workspace.hpp"
 #include "cbm/params.hpp"
 #include "cbm/state.hpp"
+#include "cbm/stiffness_law.hpp"
 #include "contact/boundary.hpp"
-#include "contact/jkr.hpp"
 #include "contact/record.hpp"
-#include "contact/vessel_side.hpp"
+#include "core/vec.hpp"
 #include "solve/system.hpp"
 
 namespace acinus::cbm {
-
-struct ContactParams {
-  double skin = 0.3;           ///< um
-  double cell_friction = 0;    ///< nN s/um^3, cell-cell
-  double adhesion_factor = 1;  ///< ramps up after start-up
-  double friction_factor = 1;  ///< 0 while cells grow to size
-};
-
-/// What the functions of this file read.
-struct ContactInput {
-  const State& state;
-  std::span<const Params> params;  ///< [type]
-  const ContactParams& options;
-  CellData cells;
-  const contact::Boundary& boundary;
-  double time = 0;                            ///< s, for which moving walls stand
-  std::size_t first_row = 0;                  ///< where the CBM rows start in the system
-  std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
-};
-
-/// What contacts of two spheres need of the type of each.
-struct TypeFactors {
-  double softness = 1;       ///< 1 - nu^2
-  double root_adhesion = 0;  ///< sqrt(W), nN/um to the power 1/2
-};
-
-/// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
-/// cells of its own range only and works out pairs that cross into it once more.
-struct ContactWorkspace {
-  /// [n_cell] 1: another process works out this cell; empty: none. Set by the caller. What is
-  /// summed over the contacts of a cell is whole for own cells only.
-  std::vector<std::uint8_t> foreign;
-  /// Near pairs with an own cell, ascending; written by: refresh_pairs
-  std::vector<std::pair<int, int>> pair;
-  std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
-  std::vector<double> list_position, list_radius;
-  geometry::Network list_network;  ///< of vessels that move
-  std::vector<double> force;       ///< [n_row][3][lane] nN of all pairs; by: find_contacts
-  std::vector<std::pair<int, int>> touching;  ///< new touching set, committed with an accepted step
-  std::vector<std::vector<std::pair<int, int>>> touching_part;  ///< of other threads than the first
-  std::vector<TypeFactors> type_factors;  ///< [type]; written by: find_contacts
-  std::vector<double> contact_area;       ///< [n_cell] um^2, sum over all contacts
-  /// [n_cell] sum of the relative overlaps with cells and walls, vessels and meshes left out. By
-  /// find_overlaps; the DCM-CBM interface adds its own. Empty: not wanted.
-  std::vector<double> overlap_sum;
-  /// [n_cell] contacts in that sum, each with its share. Empty: no law takes the mean.
-  std::vector<double> overlap_count;
-  std::vector<Modulus> modulus;  ///< [n_cell] kPa, from the overlaps; written by: find_contacts
-  /// [n_cell] nN/um, how much stiffer the force of any contact of a cell may be because its modulus
-  /// grows with all its overlaps, C_i; written by: find_contacts. Empty: no law corrects.
-  std::vector<double> coupling;
-  std::vector<double> scratch;  ///< of one function at a time
-  int list_builds = 0;
-  std::int64_t searches = 0;               ///< calls of find_contacts
-  std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
-
-  bool is_foreign(std::size_t cell) const { return !foreign.empty() && foreign[cell] != 0; }
-};
-
-/// A contact that exerts this share of its force: stiffness and contact area, and with it friction,
-/// fall alike. With a share of 0 there is none.
-contact::SphereForce weaken(contact::SphereForce law, double share);
 
 /// Neighbours of a cell in dense tissue: those of a close packing of spheres.
 inline constexpr double kNeighbours = 12;
@@ -134,10 +72,6 @@ void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
 /// Appends force and link of every contact with vessels that move.
 void add_vessel_loads(const ContactInput& in, const contact::ContactList& contacts,
                       solve::Links& links);
-
-/// Appends the touching pairs of the last search one by one. @pre find_contacts
-void list_pairs(const ContactInput& in, const ContactWorkspace& work,
-                contact::ContactList& contacts);
 
 /// Adds friction with the medium over the area that touches nothing, 4 pi R^2 - sum pi a^2 >= 0, or
 /// over all of it (Params::whole_medium_area) [VanLiedekerke2020, Eq. (19)], and the force on each

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cbm/vessel_contact.hpp"
+#include "contact/jkr.hpp"
 #include "contact/wall_mesh.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/segment_shape.hpp"

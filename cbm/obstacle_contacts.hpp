@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "cbm/contact.hpp"
+#include "cbm/contact_workspace.hpp"
+#include "contact/record.hpp"
 
 namespace acinus::cbm {
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "contact/jkr.hpp"
 #include "contact/jkr_lanes.hpp"
 #include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"

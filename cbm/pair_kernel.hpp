@@ -1,7 +1,11 @@
 #pragma once
 /// Sphere pairs, eight at a time.
 
-#include "cbm/contact.hpp"
+#include <vector>
+
+#include "cbm/contact_workspace.hpp"
+#include "contact/record.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::cbm {
 
@@ -9,5 +13,9 @@ namespace acinus::cbm {
 /// touching set. The first of the stages of find_contacts; clears what it writes.
 void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
                         std::vector<solve::PointLink>& link);
+
+/// Appends the touching pairs of the last search one by one. @pre find_contacts
+void list_pairs(const ContactInput& in, const ContactWorkspace& work,
+                contact::ContactList& contacts);
 
 }  // namespace acinus::cbm

@@ -37,6 +37,15 @@ SphereForce hertz_force(const SpherePair& pair, double overlap) {
   return {pair.modulus * force_by_modulus, a, 2.0 * pair.modulus * a, force_by_modulus, true};
 }
 
+SphereForce weaken(SphereForce law, double share) {
+  if (share <= 0) return {};
+  law.force *= share;
+  law.stiffness *= share;
+  law.force_by_modulus *= share;
+  law.contact_radius *= std::sqrt(share);
+  return law;
+}
+
 double hertz_energy(const SpherePair& pair, double overlap) {
   if (overlap < 0.0) return 0.0;
   return (8.0 / 15.0) * pair.modulus * std::sqrt(pair.radius * overlap) * overlap * overlap;

@@ -34,6 +34,10 @@ struct SphereForce {
   bool touching = false;
 };
 
+/// A contact that exerts this share of its force: stiffness and contact area, and with it friction,
+/// fall alike. With a share of 0 there is none.
+SphereForce weaken(SphereForce law, double share);
+
 /// Reduced radius and modulus of two unlike bodies, either of which may be flat or rigid.
 /// @pre 1/R_a + 1/R_b > 0, not both rigid, moduli positive (asserted)
 SpherePair reduced_pair(const SphereBody& a, const SphereBody& b, double adhesion);

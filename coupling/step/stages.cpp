@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "cbm/contact.hpp"
+#include "cbm/pair_kernel.hpp"
 #include "contact/wall_mesh.hpp"
 #include "core/numbers/numbers.hpp"
 #include "coupling/migration/leaders.hpp"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cbm/contact.hpp"
+#include "cbm/pair_kernel.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::cbm {
