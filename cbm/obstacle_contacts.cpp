@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cbm/vessel_contact.hpp"
+#include "contact/boundary.hpp"
 #include "contact/jkr.hpp"
-#include "contact/wall_mesh.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/segment_shape.hpp"
 

@@ -7,8 +7,8 @@
 /// wall. (docs/decisions/0043.md)
 
 #include "cbm/stiffness_law.hpp"
-#include "contact/boundary.hpp"
 #include "contact/hertz.hpp"
+#include "contact/material.hpp"
 
 namespace acinus::cbm {
 

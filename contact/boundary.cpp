@@ -5,52 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "contact/hertz.hpp"
 #include "core/error.hpp"
 #include "core/numbers/time_grid.hpp"
-#include "geometry/closest_point.hpp"
-#include "geometry/segment_shape.hpp"
 
 namespace acinus::contact {
 namespace {
 
 constexpr double kEnd = 1e-9;  ///< parameters this near 0 or 1 are the segment's end
 constexpr double kGone = 1e9;  ///< um behind its place
-
-/// Looks for the place of a surface that is nearest to a point, triangle by triangle.
-struct NearestTriangle {
-  const SurfaceBody& b;
-  const Vec3& x;
-  double reach;  ///< um, of interest
-  Gap gap;       ///< so far
-  double least2;
-
-  NearestTriangle(const SurfaceBody& body, const Vec3& point, double within)
-      : b(body),
-        x(point),
-        reach(within),
-        gap{within, Vec3::UnitZ(), 0, 0, 0},
-        least2(within * within) {}
-
-  void look(std::size_t t) {
-    const double far = reach + b.reach[t];
-    if ((x - b.center[t]).squaredNorm() > far * far) return;
-    const auto& corner = (*b.triangle)[t];
-    const geometry::ClosestPoint c =
-        geometry::find_closest_point(x, b.node[corner[0]], b.node[corner[1]], b.node[corner[2]]);
-    if (c.squared_distance >= least2) return;
-    least2 = c.squared_distance;
-    Vec3 out = Vec3::Zero();
-    for (int m = 0; m < 3; ++m) out += c.weight[m] * b.node_normal[corner[m]];
-    out.normalize();
-    const Vec3 apart = x - c.point;
-    const double sign = apart.dot(out) >= 0 ? 1.0 : -1.0, distance = std::sqrt(least2);
-    gap.gap = sign * distance;
-    gap.normal = distance > 0 ? Vec3(sign / distance * apart) : out;
-  }
-};
 
 }  // namespace
 
@@ -77,19 +43,6 @@ void set_network(Vessels& v, geometry::Network network) {
   v.segments_of_node.assign(v.network.node.size(), {});
   for (std::size_t s = 0; s < v.network.segment.size(); ++s)
     for (int n : v.network.segment[s]) v.segments_of_node[n].push_back(static_cast<int>(s));
-}
-
-StaticMesh make_static_mesh(std::string name, geometry::Surface surface, bool inside) {
-  if (inside)
-    for (auto& t : surface.triangle) std::swap(t[1], t[2]);
-  StaticMesh m;
-  m.name = std::move(name);
-  m.inside = inside;
-  m.triangle = std::make_shared<const std::vector<std::array<int, 3>>>(std::move(surface.triangle));
-  m.body.node = std::move(surface.node);
-  m.body.triangle = m.triangle.get();
-  refresh_body(m.body);
-  return m;
 }
 
 const Material& material_of(const Boundary& boundary, Partner obstacle, int index) {
@@ -165,33 +118,18 @@ std::string wall_label(const Capsule& c) { return "the wall of the " + c.name; }
 
 std::string wall_label(const Pipette& p) { return "the wall of the " + p.name; }
 
-Gap gap_to_mesh(const SurfaceBody& b, const Vec3& x, double reach) {
-  NearestTriangle nearest(b, x, reach);
-  for (std::size_t t = 0; t < b.triangle->size(); ++t) nearest.look(t);
-  return nearest.gap;
-}
-
-Gap gap_to_triangles(const SurfaceBody& b, std::span<const int> triangles, const Vec3& x,
-                     double reach) {
-  NearestTriangle nearest(b, x, reach);
-  for (const int t : triangles) nearest.look(static_cast<std::size_t>(t));
-  return nearest.gap;
-}
-
-Gap gap_to_segment(const geometry::Network& network, int segment, const Vec3& x) {
-  const geometry::NearestBall ball = geometry::nearest_ball(network, segment, x);
-  Gap g;
-  g.axis_distance = ball.apart.norm();
-  g.radius = ball.radius;
-  g.gap = g.axis_distance - g.radius;
-  g.parameter = ball.parameter;
-  if (g.axis_distance > 0) {
-    g.normal = ball.apart / g.axis_distance;
-  } else {  // on the axis every direction is out
-    const auto& [a, b] = network.segment[segment];
-    g.normal = (network.node[b] - network.node[a]).unitOrthogonal();
-  }
-  return g;
+Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach) {
+  Gap gap = gap_to_segment(vessels.network, segment, x);
+  if (!vessels.wall) return gap;
+  const WallMesh& wall = *vessels.wall;
+  const std::size_t first = wall.first_of_segment[segment],
+                    last = wall.first_of_segment[static_cast<std::size_t>(segment) + 1];
+  const Gap found = gap_to_triangles(
+      wall.surface.body, std::span(wall.of_segment).subspan(first, last - first), x, reach);
+  if (found.gap >= reach) return gap;
+  gap.gap = found.gap;
+  gap.normal = found.normal;
+  return gap;
 }
 
 bool is_local_minimum(const Vessels& vessels, int segment, const Vec3& x, const Gap& gap) {

@@ -2,28 +2,21 @@
 /// What stands around the cells and has no unknowns of its own, by name: planes, a capsule,
 /// pipettes, vessels, static meshes.
 
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "contact/gap.hpp"
+#include "contact/material.hpp"
 #include "contact/record.hpp"
-#include "contact/surface.hpp"
+#include "contact/static_mesh.hpp"
+#include "contact/wall_mesh.hpp"
 #include "core/vec.hpp"
 #include "geometry/network.hpp"
-#include "geometry/surface.hpp"
 
 namespace acinus::contact {
-
-/// Elastic and adhesive constants of a surrounding surface.
-struct Material {
-  double adhesion = 0;                                     ///< nN/um
-  double young = std::numeric_limits<double>::infinity();  ///< kPa
-  double poisson = 0;
-  bool mirror = false;  ///< stands for an equal cell on the other side: no adhesion, no friction
-};
 
 // Walls: obstacles given by a formula, that have a name and may move and vanish. A kind of wall is
 // a struct with name, material and opens, a Partner, its line in for_each_wall and one of each of
@@ -66,24 +59,12 @@ struct Pipette {
   Material material;
 };
 
-struct WallMesh;
-
 struct Vessels {
   geometry::Network network;
-  /// What cells touch in place of the cones of the network; null: the cones. See wall_mesh.hpp.
+  /// What cells touch in place of the cones of the network; null: the cones.
   std::shared_ptr<const WallMesh> wall;
   Material material;
   std::vector<std::vector<int>> segments_of_node;  ///< for finding chains
-};
-
-/// See make_static_mesh.
-struct StaticMesh {
-  std::string name;
-  /// Owners: the boundaries of a world and of its copies, whose bodies point at it.
-  std::shared_ptr<const std::vector<std::array<int, 3>>> triangle;
-  SurfaceBody body;
-  bool inside = false;  ///< cells live inside: triangles are stored facing inward
-  Material material;
 };
 
 struct Boundary {
@@ -108,20 +89,8 @@ void for_each_wall(AnyBoundary& boundary, Visit visit) {
 
 const Material& material_of(const Boundary& boundary, Partner obstacle, int index);
 
-/// @param surface  closed, outward
-/// @param inside   cells live inside it
-StaticMesh make_static_mesh(std::string name, geometry::Surface surface, bool inside);
-
 void set_network(Vessels& vessels, geometry::Network network);
 
-/// Gap of a point to a surrounding surface.
-struct Gap {
-  double gap = 0;               ///< um, negative inside the obstacle
-  Vec3 normal = Vec3::UnitZ();  ///< d gap / d x, unit
-  double axis_distance = 0;     ///< vessels: um, distance from the axis
-  double radius = 0;            ///< vessels: um, radius at the closest point
-  double parameter = 0;         ///< vessels: 0..1 along the segment
-};
 Gap gap_to_wall(const Plane& p, const Vec3& x, double time);
 Gap gap_to_wall(const Capsule& c, const Vec3& x, double time);
 Gap gap_to_wall(const Pipette& p, const Vec3& x, double time);
@@ -142,14 +111,9 @@ std::string wall_label(const Plane& p);
 std::string wall_label(const Capsule& c);
 std::string wall_label(const Pipette& p);
 
-/// Farther away than `reach` the gap is `reach`, the normal meaningless.
-Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);
-/// The same to some of its triangles.
-Gap gap_to_triangles(const SurfaceBody& body, std::span<const int> triangles, const Vec3& x,
-                     double reach);
-
-/// Exact distance to a capsule whose radius runs linearly from one end to the other (round cone).
-Gap gap_to_segment(const geometry::Network& network, int segment, const Vec3& x);
+/// Gap to the walls of one segment, with what gap_to_segment says of its axis. Where there are none
+/// within `reach`, um, the gap is to the segment.
+Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach);
 
 /// Closest segments of a chain count once: whether the contact of a sphere with `segment` is a
 /// local minimum of the distance along the network, so that a straight chain of any spacing gives

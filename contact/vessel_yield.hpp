@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "contact/boundary.hpp"
+#include "contact/material.hpp"
 
 namespace acinus::contact {
 

@@ -1,8 +1,13 @@
 #include "contact/wall_mesh.hpp"
 
+#include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "contact/gap.hpp"
+#include "core/box.hpp"
 #include "core/parallel/threads.hpp"
 #include "geometry/segment_shape.hpp"
 
@@ -49,20 +54,6 @@ WallMesh make_wall_mesh(const geometry::Network& network, geometry::Surface surf
   for (std::size_t t = 0; t < wall.segment.size(); ++t)
     wall.of_segment[next[wall.segment[t]]++] = static_cast<int>(t);
   return wall;
-}
-
-Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach) {
-  Gap gap = gap_to_segment(vessels.network, segment, x);
-  if (!vessels.wall) return gap;
-  const WallMesh& wall = *vessels.wall;
-  const std::size_t first = wall.first_of_segment[segment],
-                    last = wall.first_of_segment[static_cast<std::size_t>(segment) + 1];
-  const Gap found = gap_to_triangles(
-      wall.surface.body, std::span(wall.of_segment).subspan(first, last - first), x, reach);
-  if (found.gap >= reach) return gap;
-  gap.gap = found.gap;
-  gap.normal = found.normal;
-  return gap;
 }
 
 }  // namespace acinus::contact

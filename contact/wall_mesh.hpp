@@ -2,10 +2,11 @@
 /// The walls of vessels as one closed surface, which cells touch in place of the cones that it is
 /// laid around: without the creases where these meet.
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
-#include "contact/boundary.hpp"
+#include "contact/static_mesh.hpp"
+#include "geometry/network.hpp"
 #include "geometry/surface.hpp"
 
 namespace acinus::contact {
@@ -21,9 +22,5 @@ struct WallMesh {
 
 /// @param surface  closed, outward, about the network
 WallMesh make_wall_mesh(const geometry::Network& network, geometry::Surface surface);
-
-/// Gap to the walls of one segment, with what gap_to_segment says of its axis. Where there are none
-/// within `reach`, um, the gap is to the segment.
-Gap gap_to_wall(const Vessels& vessels, int segment, const Vec3& x, double reach);
 
 }  // namespace acinus::contact

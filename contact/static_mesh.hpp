@@ -1,0 +1,29 @@
+#pragma once
+/// Rigid surfaces of triangles that stand around the cells.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/material.hpp"
+#include "contact/surface.hpp"
+#include "geometry/surface.hpp"
+
+namespace acinus::contact {
+
+/// See make_static_mesh.
+struct StaticMesh {
+  std::string name;
+  /// Owners: the boundaries of a world and of its copies, whose bodies point at it.
+  std::shared_ptr<const std::vector<std::array<int, 3>>> triangle;
+  SurfaceBody body;
+  bool inside = false;  ///< cells live inside: triangles are stored facing inward
+  Material material;
+};
+
+/// @param surface  closed, outward
+/// @param inside   cells live inside it
+StaticMesh make_static_mesh(std::string name, geometry::Surface surface, bool inside);
+
+}  // namespace acinus::contact
