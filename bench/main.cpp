@@ -10,7 +10,7 @@
 
 #include "bench/bench.hpp"
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "runs/program.hpp"
 
 namespace acinus::bench {

@@ -7,7 +7,7 @@
 #include "cli/command.hpp"
 #include "cli/wall_time.hpp"
 #include "core/parallel/stop.hpp"
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "cli/command.hpp"
 #include "cli/voxel_flag.hpp"
+#include "core/parallel/clock.hpp"
 #include "core/parallel/threads.hpp"
-#include "core/parallel/timing.hpp"
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 #include "runs/images/import_image.hpp"
 #include "runs/session/guarded.hpp"
 #include "runs/session/shell_quote.hpp"

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "core/parallel/clock.hpp"
 #include "core/parallel/threads.hpp"
-#include "core/parallel/timing.hpp"
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 #include "geometry/edit_network.hpp"
 #include "geometry/implicit/vessel_mesh.hpp"
 #include "geometry/measures.hpp"

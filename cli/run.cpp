@@ -10,7 +10,7 @@
 #include "cli/wall_time.hpp"
 #include "core/numbers/time_grid.hpp"
 #include "core/parallel/stop.hpp"
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 
 namespace acinus::runs {
 

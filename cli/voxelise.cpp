@@ -6,7 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/voxel_flag.hpp"
 #include "core/parallel/threads.hpp"
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 #include "imaging/write_image.hpp"
 #include "io/disk.hpp"
 #include "runs/images/voxelise_run.hpp"

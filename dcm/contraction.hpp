@@ -1,7 +1,7 @@
 #pragma once
 /// How the active tension of a cortex varies over time and over the surface.
 
-#include "core/parallel/schedule.hpp"
+#include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
 
 namespace acinus::dcm {

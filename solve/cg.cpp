@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/numbers/numbers.hpp"
+#include "core/parallel/arrays.hpp"
 #include "core/parallel/stop.hpp"
 
 namespace acinus::solve {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/numbers/numbers.hpp"
+#include "core/parallel/arrays.hpp"
 #include "core/parallel/threads.hpp"
 
 namespace acinus::solve {

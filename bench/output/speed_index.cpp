@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 
 namespace acinus::bench {
 

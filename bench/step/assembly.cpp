@@ -9,7 +9,7 @@
 #include "contact/jkr.hpp"
 #include "contact/jkr_lanes.hpp"
 #include "core/numbers/random.hpp"
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "solve/merged_links.hpp"
 
 namespace acinus::bench {

@@ -6,6 +6,7 @@
 
 #include "bench/step/packed_clump.hpp"
 #include "core/error.hpp"
+#include "core/parallel/clock.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"

@@ -11,7 +11,7 @@
 #include "bench/tissue/pulled_pair.hpp"
 #include "contact/maugis_triangles.hpp"
 #include "core/error.hpp"
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/assemble/build_world.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "coupling/measure/difference.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"

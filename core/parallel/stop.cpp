@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 
 namespace acinus {
 namespace {

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel/timing.hpp"
-
 #if defined(__x86_64__)
 #include <immintrin.h>
+
+#include "core/parallel/clock.hpp"
 #endif
 
 namespace acinus {

@@ -2,10 +2,9 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <ctime>
 #include <fstream>
 
+#include "core/parallel/clock.hpp"
 #include "core/parallel/threads.hpp"
 
 namespace acinus {
@@ -25,16 +24,6 @@ std::string read_entry(const char* path, std::string_view key) {
 }
 
 }  // namespace
-
-double read_clock(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double wall_seconds() { return read_clock(CLOCK_MONOTONIC); }
-double cpu_seconds() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
-double thread_cpu_seconds() { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
 
 std::uint64_t rss_bytes() {
   const std::string entry = read_entry("/proc/self/status", "VmRSS");

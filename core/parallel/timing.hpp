@@ -1,25 +1,13 @@
 #pragma once
 /// Where the time went, how much memory was used, and on which machine.
 
+#include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace acinus {
-
-/// Seconds of a clock of the system.
-double read_clock(clockid_t clock);
-
-/// Seconds of a clock that never jumps; only differences mean something.
-double wall_seconds();
-
-/// CPU seconds of all threads of this process since its start.
-double cpu_seconds();
-
-/// CPU seconds of the calling thread.
-double thread_cpu_seconds();
 
 /// Resident memory of this process.
 std::uint64_t rss_bytes();

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 
 namespace acinus {
 namespace {
@@ -63,6 +63,13 @@ void multiply(Scale& scale, const Scale& factor, int power) {
     scale.numerator *= power > 0 ? factor.numerator : factor.denominator;
     scale.denominator *= power > 0 ? factor.denominator : factor.numerator;
   }
+}
+
+/// Every unit symbol of the table.
+std::vector<std::string> unit_symbols() {
+  std::vector<std::string> symbols;
+  for (const Unit& unit : kUnits) symbols.emplace_back(unit.symbol);
+  return symbols;
 }
 
 /// Recursive descent over the unit part of a quantity.
@@ -174,12 +181,6 @@ class UnitParser {
 
 Scale parse_unit(std::string_view text, std::string_view whole) {
   return UnitParser(text, whole).parse();
-}
-
-std::vector<std::string> unit_symbols() {
-  std::vector<std::string> symbols;
-  for (const Unit& unit : kUnits) symbols.emplace_back(unit.symbol);
-  return symbols;
 }
 
 }  // namespace acinus

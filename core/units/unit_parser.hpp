@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 
 namespace acinus {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/parallel/schedule.hpp"
+#include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/pull_spring.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/parallel/schedule.hpp"
+#include "core/numbers/schedule.hpp"
 #include "dcm/params.hpp"
 
 namespace acinus::coupling {

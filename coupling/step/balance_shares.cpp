@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "core/numbers/numbers.hpp"
+#include "core/parallel/arrays.hpp"
 #include "core/parallel/stop.hpp"
 #include "coupling/step/acceptance.hpp"
 #include "coupling/step/attempt.hpp"

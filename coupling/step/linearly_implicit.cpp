@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/numbers/numbers.hpp"
 #include "core/numbers/time_grid.hpp"
+#include "core/parallel/arrays.hpp"
 #include "core/parallel/threads.hpp"
 #include "coupling/step/closing.hpp"
 #include "coupling/step/solve.hpp"

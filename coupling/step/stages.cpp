@@ -8,7 +8,7 @@
 #include "cbm/contact.hpp"
 #include "cbm/pair_kernel.hpp"
 #include "contact/wall_mesh.hpp"
-#include "core/numbers/numbers.hpp"
+#include "core/parallel/arrays.hpp"
 #include "coupling/migration/leaders.hpp"
 #include "coupling/migration/migration.hpp"
 #include "coupling/step/foreign.hpp"

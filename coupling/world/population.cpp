@@ -1,6 +1,6 @@
 #include "coupling/world/population.hpp"
 
-#include "core/numbers/numbers.hpp"
+#include "core/parallel/arrays.hpp"
 #include "core/parallel/threads.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/world/cell.hpp"

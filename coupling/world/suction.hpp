@@ -1,7 +1,7 @@
 #pragma once
 /// Suction in a pipette over time.
 
-#include "core/parallel/schedule.hpp"
+#include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
 #include "dcm/terms/suction_load.hpp"
 

@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
-#include "core/units/units.hpp"
+#include "core/spelling.hpp"
 #include "core/vec.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/compare/compared_runs.hpp"

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/units/units.hpp"
 #include "runs/experiments/experiment.hpp"
 
 namespace acinus::runs {

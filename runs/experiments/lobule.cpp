@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units/units.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/migration/lesion_layers.hpp"
 #include "runs/experiments/plates.hpp"

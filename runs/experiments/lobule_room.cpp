@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units/units.hpp"
 #include "coupling/generate/domain.hpp"
 
 namespace acinus::runs {

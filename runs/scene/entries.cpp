@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/units/units.hpp"
 #include "runs/scene/registry.hpp"
 
 namespace acinus::runs {

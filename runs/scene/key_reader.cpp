@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "runs/scene/value_reader.hpp"
 
 namespace acinus::runs {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "core/units/units.hpp"
+#include "core/units/dimension.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/scene.hpp"
 

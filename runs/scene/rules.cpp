@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "core/units/units.hpp"
 #include "runs/scene/quoted_quantity.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/units/units.hpp"
 #include "runs/scene/quoted_quantity.hpp"
 #include "runs/scene/rules.hpp"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cbm/params.hpp"
-#include "core/parallel/schedule.hpp"
+#include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/units/units.hpp"
 #include "runs/scene/registry.hpp"
 
 namespace acinus::runs {

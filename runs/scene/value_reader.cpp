@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/units/units.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/units/units.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/registry.hpp"
 

@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 
 namespace acinus::runs {
 namespace {

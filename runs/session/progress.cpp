@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {

@@ -8,6 +8,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "core/parallel/clock.hpp"
 #include "runs/assemble/state_file.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"

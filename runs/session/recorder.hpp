@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "coupling/simulation.hpp"
 #include "geometry/surface.hpp"
 #include "io/run_file.hpp"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
+#include "core/parallel/timing.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/lobule.hpp"

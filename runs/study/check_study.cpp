@@ -6,8 +6,9 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
+#include "core/units/units.hpp"
 #include "runs/study/measures.hpp"
 #include "runs/study/scene_value.hpp"
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "runs/assemble/build_boundary.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/assemble/start_state.hpp"

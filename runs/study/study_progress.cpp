@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "runs/session/standard_streams.hpp"
 
 namespace acinus::runs {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "io/checkpoint.hpp"
 #include "runs/session/child.hpp"
 #include "runs/session/read_summary.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
 #include "runs/study/library.hpp"

@@ -14,7 +14,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
-#include "core/numbers/nearest.hpp"
+#include "core/spelling.hpp"
 #include "io/disk.hpp"
 #include "io/inside.hpp"
 #include "runs/assemble/memory_need.hpp"

@@ -1,12 +1,11 @@
 /// Arrays that are a little longer every step move seldom and stand nearly full.
 
 #include "core/parallel/make_room.hpp"
+#include "core/parallel/arrays.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "core/numbers/numbers.hpp"
 
 namespace acinus {
 namespace {

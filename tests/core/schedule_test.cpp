@@ -1,10 +1,10 @@
-#include "core/parallel/schedule.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/numbers/arrhenius.hpp"
+#include "core/numbers/schedule.hpp"
 
 namespace acinus {
 namespace {

@@ -1,4 +1,5 @@
 #include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <string>
 
+#include "core/parallel/clock.hpp"
 #include "core/parallel/threads.hpp"
-#include "core/parallel/timing.hpp"
 #include "coupling/generate/packing.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/measure/audit.hpp"

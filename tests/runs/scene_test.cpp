@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/units/units.hpp"
 #include "runs/scene/document.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/library.hpp"

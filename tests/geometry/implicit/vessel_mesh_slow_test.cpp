@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "core/parallel/timing.hpp"
+#include "core/parallel/clock.hpp"
 #include "geometry/implicit/vessel_mesh.hpp"
 #include "tests/geometry/implicit/expect_vessel_mesh.hpp"
 #include "tests/geometry/implicit/random_network.hpp"
