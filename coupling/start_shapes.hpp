@@ -18,7 +18,7 @@ struct CutCells {
 /// or tears meshes on it. Each is its ball up to the planes in which it meets the balls of all
 /// others, so that two cut cells touch in a plane without overlap, under the pressure of the volume
 /// that both lack. Spheres stay what they are. The cortex takes the shape for rest and forgets that
-/// in kForgetShape, as after a division (dcm/shape/birth_shape.hpp). @pre t = 0, every cell a ball
+/// in kForgetShape, as after a division (dcm/birth_shape.hpp). @pre t = 0, every cell a ball
 CutCells cut_overlapping(World& world);
 
 }  // namespace acinus::coupling

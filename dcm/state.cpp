@@ -4,7 +4,7 @@
 
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "dcm/shape/mesh_pattern.hpp"
+#include "dcm/mesh_pattern.hpp"
 
 namespace acinus::dcm {
 

@@ -12,9 +12,9 @@
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/ramp.hpp"
 #include "core/vec.hpp"
+#include "dcm/birth_shape.hpp"
 #include "dcm/edge_tension.hpp"
 #include "dcm/params.hpp"
-#include "dcm/shape/birth_shape.hpp"
 #include "geometry/topology.hpp"
 #include "solve/system.hpp"
 

@@ -10,6 +10,8 @@
 #include "contact/jkr.hpp"
 #include "contact/jkr_lanes.hpp"
 #include "core/numbers/random.hpp"
+#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "geometry/closest_point.hpp"
 #include "geometry/closest_point_lanes.hpp"
 

@@ -1,6 +1,9 @@
 /// Force and stiffness of deformable cells: all terms within them, and their contacts.
 
 #include "bench/kernels/clump.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_workspace.hpp"
+#include "dcm/loads/loads.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
 #include "dcm/terms/cortex.hpp"

@@ -10,6 +10,10 @@
 #include "contact/jkr_lanes.hpp"
 #include "core/numbers/random.hpp"
 #include "core/parallel/clock.hpp"
+#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_workspace.hpp"
+#include "dcm/loads/loads.hpp"
 #include "solve/merged_links.hpp"
 
 namespace acinus::bench {

@@ -5,6 +5,7 @@
 
 #include "bench/step/packed_clump.hpp"
 #include "bench/step/step_runner.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 
 namespace acinus::bench {
 namespace {

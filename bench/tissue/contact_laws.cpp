@@ -14,6 +14,7 @@
 #include "core/parallel/clock.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"

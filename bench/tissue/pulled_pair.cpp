@@ -8,6 +8,7 @@
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/single_cell.hpp"
 #include "runs/scene/library.hpp"

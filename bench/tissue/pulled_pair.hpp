@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "contact/surface.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_params.hpp"
 
 namespace acinus::bench {
 

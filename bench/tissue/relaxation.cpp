@@ -10,6 +10,7 @@
 #include "calibration/recovery.hpp"
 #include "core/error.hpp"
 #include "core/numbers/time_grid.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/frame_times.hpp"
 #include "runs/scene/library.hpp"

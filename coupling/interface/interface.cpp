@@ -4,7 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/cohesive.hpp"
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_bodies.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_points.hpp"
+#include "dcm/contact/contact_sides.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "geometry/box_pairs.hpp"
 
 namespace acinus::coupling {

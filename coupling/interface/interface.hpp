@@ -14,7 +14,7 @@
 
 #include "cbm/contact.hpp"
 #include "core/parallel/ranks.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "solve/system.hpp"
 
 namespace acinus::coupling {

@@ -16,8 +16,8 @@
 #include "coupling/step/stages.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
-#include "dcm/nucleus/place_nucleus.hpp"
 #include "dcm/shape/mesh_remedy.hpp"
+#include "dcm/shape/place_nucleus.hpp"
 #include "dcm/tensions.hpp"
 #include "geometry/measures.hpp"
 

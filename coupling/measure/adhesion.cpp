@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/contact_points.hpp"
+
 namespace acinus::coupling {
 namespace {
 

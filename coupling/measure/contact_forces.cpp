@@ -9,6 +9,7 @@
 #include "core/numbers/exact_sum.hpp"
 #include "coupling/step/stages.hpp"
 #include "coupling/world/fading.hpp"
+#include "dcm/contact/contact_points.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -10,7 +10,9 @@
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/step/foreign.hpp"
 #include "coupling/step/stages.hpp"
-#include "dcm/stress.hpp"
+#include "dcm/contact/contact_points.hpp"
+#include "dcm/lane_data.hpp"
+#include "dcm/loads/stress.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/volume.hpp"
 

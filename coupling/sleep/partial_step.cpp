@@ -8,6 +8,7 @@
 
 #include "coupling/migration/leaders.hpp"
 #include "coupling/world/cell.hpp"
+#include "dcm/contact/contact.hpp"
 
 namespace acinus::coupling {
 namespace {

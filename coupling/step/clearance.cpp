@@ -1,5 +1,7 @@
 #include "coupling/step/clearance.hpp"
 
+#include "dcm/contact/contact.hpp"
+
 namespace acinus::coupling {
 
 bool is_clear(const World& world, const Workspace& w, std::size_t body, double distance) {

@@ -11,6 +11,7 @@
 #include "coupling/world/constraint.hpp"
 #include "coupling/world/sharing.hpp"
 #include "coupling/world/world.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "dcm/contact/nucleus_contact.hpp"
 #include "solve/cg.hpp"
 #include "solve/operator.hpp"

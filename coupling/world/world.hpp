@@ -20,7 +20,7 @@
 #include "coupling/world/fading_force.hpp"
 #include "coupling/world/suction.hpp"
 #include "coupling/world/zoom.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
 #include "solve/cg.hpp"

@@ -5,9 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/cohesive.hpp"
 #include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_bodies.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/obstacle_contacts.hpp"
+#include "dcm/contact/triangle_contact.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -23,30 +27,6 @@ contact::SearchOptions search_options(const ContactInput& in) {
       range =
           std::max(range, contact_range(c, *state.group[l / kLanes].topology, in.lanes.radius[l]));
   return {c.quadrature, range, c.max_depth, c.skin, 2 * kSelfGap};
-}
-
-/// Area on the unit rest shape that a point stands for.
-///
-/// Of a triangle, nodes and edge midpoints have a quarter to the nodes and three quarters to the
-/// midpoints: what the node rule gives on the mesh whose every triangle is cut in four. All points
-/// then weigh about the same (S/648 and S/640 with 162 nodes), so a crossing edge is pushed out as
-/// hard as a node at the rim, and the error for a traction that bends is a quarter of the node
-/// rule's. No share at the nodes would be exact for it, but then they could not push.
-double rest_share(const geometry::Topology& t, contact::Quadrature q, int point) {
-  constexpr double kNodeShare = 0.25, kMidpointShare = (1 - kNodeShare) / 3;
-  const std::size_t p = point, n_node = t.n_node;
-  switch (q) {
-    case contact::Quadrature::kThreePoint:
-      return t.rest_triangle_area[p / 3] / 3;
-    case contact::Quadrature::kNodes:
-      return t.rest_node_area[p];
-    case contact::Quadrature::kNodesAndEdges:
-      break;
-  }
-  if (p < n_node) return kNodeShare * t.rest_node_area[p];
-  double area = 0;
-  for (int face : t.edge_triangle[p - n_node]) area += kMidpointShare * t.rest_triangle_area[face];
-  return area;
 }
 
 /// How much of each point's area touches something.
@@ -105,52 +85,6 @@ void find_point_contacts(const ContactInput& in, const contact::SearchOptions& o
 
 double contact_range(const ContactParams& c, const geometry::Topology& t, double radius) {
   return std::max(c.range_factor * t.mean_rest_length * radius, c.friction_range);
-}
-
-double point_area(const geometry::Topology& t, contact::Quadrature q, int point, double radius) {
-  return rest_share(t, q, point) * radius * radius;
-}
-
-double point_stretch(const contact::SurfaceBody& b, contact::Quadrature q, int point,
-                     double radius) {
-  const geometry::Topology& t = *b.topology;
-  double present = 0, rest = 0;
-  const auto count = [&](int triangle) {
-    const auto& [i, j, k] = (*b.triangle)[triangle];
-    present += 0.5 * (b.node[j] - b.node[i]).cross(b.node[k] - b.node[i]).norm();
-    rest += t.rest_triangle_area[triangle];
-  };
-  if (contact::has_face_sites(q)) {
-    count(point / 3);
-  } else if (point < t.n_node) {
-    for (int f = t.node_triangle_start[point]; f < t.node_triangle_start[point + 1]; ++f)
-      count(t.node_triangle[f]);
-  } else {
-    for (int triangle : t.edge_triangle[point - t.n_node]) count(triangle);
-  }
-  return present / (rest * radius * radius);
-}
-
-contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
-                                 const Contact& o) {
-  if (is_between_triangles(c, o))
-    return {3, (*body.triangle)[o.point], Contact::weights_at(o.place_a())};
-  return probe_stencil(c, body, o);
-}
-
-contact::PointStencil probe_stencil(const ContactParams& c, const contact::SurfaceBody& body,
-                                    const Contact& o) {
-  const int n_node = static_cast<int>(body.node.size());
-  if (!o.guard) return contact::point_stencil(body, c.quadrature, o.point);
-  if (o.point < n_node) return {1, {o.point, 0, 0}, {1, 0, 0}};
-  constexpr double kThird = 1.0f / 3;
-  return {3, (*body.triangle)[o.point - n_node], {kThird, kThird, 1 - 2 * kThird}};
-}
-
-double guard_area(const geometry::Topology& t, int point, double radius) {
-  const std::size_t k = point, n_node = t.n_node;
-  return kGuardShare * radius * radius *
-         (k < n_node ? t.rest_node_area[k] : t.rest_triangle_area[k - n_node]);
 }
 
 void refresh_lists(const ContactInput& in, ContactWorkspace& work) {

@@ -1,10 +1,8 @@
-/// The bodies of deformable cells as the contact search sees them: of foreign ones no more than is
-/// needed.
+#include "dcm/contact/contact_bodies.hpp"
 
 #include <algorithm>
 
 #include "core/parallel/threads.hpp"
-#include "dcm/contact/contact.hpp"
 
 namespace acinus::dcm {
 namespace {

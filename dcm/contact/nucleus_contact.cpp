@@ -7,6 +7,8 @@
 
 #include "contact/closest.hpp"
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_points.hpp"
+#include "dcm/contact/contact_sides.hpp"
 
 namespace acinus::dcm {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/surface.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "solve/links.hpp"
 
 namespace acinus::dcm {

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "contact/wall_mesh.hpp"
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/vessel_wall.hpp"
 
 namespace acinus::dcm {

@@ -1,9 +1,9 @@
 #pragma once
-/// Contacts of deformable cells with walls and vessels, and their guards (contact.hpp).
+/// Contacts of deformable cells with walls and vessels, and their guards (contact_points.hpp).
 
 #include <vector>
 
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 
 namespace acinus::dcm {
 

@@ -8,7 +8,9 @@
 #include "contact/maugis_overlap.hpp"
 #include "contact/maugis_triangles.hpp"
 #include "core/parallel/threads.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_bodies.hpp"
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/contact_sides.hpp"
 #include "geometry/box_pairs.hpp"
 
 namespace acinus::dcm {

@@ -13,18 +13,10 @@
 
 #include "contact/curved_triangle.hpp"
 #include "contact/record.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "solve/system.hpp"
 
 namespace acinus::dcm {
-
-struct ContactInput;
-struct ContactWorkspace;
-
-/// Scratch of the search.
-struct TriangleContactWorkspace {
-  std::vector<std::vector<contact::CurvedTriangle>> curved;  ///< [body][triangle]
-  std::vector<std::vector<contact::Contact>> found;          ///< [body] that is side a
-};
 
 /// Writes all contacts between the surfaces of cells, in order of side a, with force, slope and
 /// area. Cost: all pairs of triangles within the boxes of two cells are looked at.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vec.hpp"
+
 namespace acinus::dcm {
 
 double wall_stiffness(double repulsion, const contact::Material& wall, double radius,

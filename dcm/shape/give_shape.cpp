@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dcm/nucleus/place_nucleus.hpp"
+#include "dcm/shape/place_nucleus.hpp"
 
 namespace acinus::dcm {
 

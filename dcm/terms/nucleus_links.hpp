@@ -3,7 +3,11 @@
 
 #include <vector>
 
-#include "dcm/loads.hpp"
+#include "dcm/group_view.hpp"
+#include "dcm/lane_data.hpp"
+#include "dcm/params.hpp"
+#include "dcm/state.hpp"
+#include "solve/system.hpp"
 
 namespace acinus::dcm {
 

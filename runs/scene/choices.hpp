@@ -11,7 +11,7 @@
 #include "coupling/generate/packing.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/world.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_params.hpp"
 
 namespace acinus::runs {
 

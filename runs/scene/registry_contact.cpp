@@ -1,3 +1,4 @@
+#include "dcm/contact/contact_params.hpp"
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {

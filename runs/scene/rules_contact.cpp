@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dcm/contact/contact_params.hpp"
 #include "runs/scene/rules.hpp"
 
 namespace acinus::runs {

@@ -16,7 +16,7 @@
 #include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
 #include "coupling/world/world.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "runs/scene/choices.hpp"
 
 namespace acinus::runs {

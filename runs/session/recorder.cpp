@@ -9,6 +9,7 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
+#include "dcm/contact/contact_bodies.hpp"
 #include "runs/assemble/state_file.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/skipped.hpp"

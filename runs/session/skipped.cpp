@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "dcm/loads/loads.hpp"
+
 namespace acinus::runs {
 
 std::vector<std::string> list_skipped(const coupling::World& world) {

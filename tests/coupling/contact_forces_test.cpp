@@ -13,6 +13,8 @@
 #include "contact/hertz.hpp"
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/measure.hpp"
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

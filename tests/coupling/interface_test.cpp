@@ -12,6 +12,7 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/step/stages.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "tests/coupling/partitioned.hpp"
 #include "tests/coupling/worlds.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

@@ -1,14 +1,14 @@
 /// A daughter is at rest in the shape of her birth, but for the stretch of her mother, and forgets
 /// that shape in time.
 
-#include "dcm/shape/birth_shape.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "dcm/birth_shape.hpp"
+#include "dcm/lane_data.hpp"
 #include "dcm/shape/split.hpp"
 #include "tests/dcm/cells.hpp"
 

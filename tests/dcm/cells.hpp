@@ -5,7 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "dcm/loads.hpp"
+#include "dcm/lane_data.hpp"
+#include "dcm/loads/loads.hpp"
 #include "dcm/state.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_bodies.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "solve/system.hpp"
 #include "tests/reference/sample.hpp"
 

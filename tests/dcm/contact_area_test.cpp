@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 

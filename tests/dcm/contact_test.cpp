@@ -8,7 +8,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "contact/cohesive.hpp"
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"

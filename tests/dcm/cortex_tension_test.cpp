@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dcm/stress.hpp"
+#include "dcm/loads/stress.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {

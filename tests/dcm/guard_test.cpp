@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_bodies.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 

@@ -1,7 +1,5 @@
 /// Friction from node to node: whom it joins, what it holds back and what not.
 
-#include "dcm/node_friction.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,8 @@
 #include <utility>
 
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/node_friction.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 #include "tests/dcm/quadratures.hpp"
 #include "tests/reference/dense_system.hpp"

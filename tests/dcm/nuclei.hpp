@@ -4,7 +4,11 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_bodies.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "dcm/contact/nucleus_contact.hpp"
+#include "dcm/loads/loads.hpp"
 #include "dcm/terms/nucleus_links.hpp"
 #include "dcm/terms/nucleus_shell.hpp"
 #include "solve/operator.hpp"

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "dcm/nucleus/place_nucleus.hpp"
+#include "dcm/lane_data.hpp"
+#include "dcm/shape/place_nucleus.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/measures.hpp"
 #include "tests/dcm/nuclei.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dcm/contact/contact_params.hpp"
 #include "tests/dcm/clump.hpp"
 
 namespace acinus::dcm {

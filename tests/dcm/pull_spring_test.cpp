@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "dcm/loads/loads.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {

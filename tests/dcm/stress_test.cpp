@@ -1,13 +1,12 @@
 /// Cortex tension against Laplace's law, and growth of the reference state.
 
-#include "dcm/stress.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
+#include "dcm/loads/stress.hpp"
 #include "tests/contact/reference_table.hpp"
 #include "tests/dcm/cells.hpp"
 

@@ -6,7 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 
-#include "dcm/shape/mesh_pattern.hpp"
+#include "dcm/lane_data.hpp"
+#include "dcm/loads/loads.hpp"
+#include "dcm/mesh_pattern.hpp"
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {

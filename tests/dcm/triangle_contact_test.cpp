@@ -11,6 +11,7 @@
 #include "contact/maugis_overlap.hpp"
 #include "contact/maugis_triangles.hpp"
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "tests/dcm/clump.hpp"
 #include "tests/reference/dense_system.hpp"
 

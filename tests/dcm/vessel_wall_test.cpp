@@ -9,6 +9,9 @@
 #include <limits>
 #include <vector>
 
+#include "contact/cohesive.hpp"
+#include "dcm/contact/contact_bodies.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "tests/dcm/bounded_clump.hpp"
 
 namespace acinus::dcm {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/step/attempt.hpp"
+#include "dcm/contact/contact_params.hpp"
 #include "runs/scene/reader.hpp"
 #include "tests/runs/scene_texts.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "dcm/contact/contact_params.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_points.hpp"
 #include "tests/solve/tissue.hpp"
 
 namespace acinus::solve {

@@ -15,7 +15,7 @@
 
 #include <vector>
 
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_workspace.hpp"
 #include "solve/links.hpp"
 
 namespace acinus::dcm {

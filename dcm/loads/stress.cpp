@@ -1,4 +1,4 @@
-#include "dcm/stress.hpp"
+#include "dcm/loads/stress.hpp"
 
 #include <cmath>
 

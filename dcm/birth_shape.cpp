@@ -1,4 +1,4 @@
-#include "dcm/shape/birth_shape.hpp"
+#include "dcm/birth_shape.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "dcm/node_friction.hpp"
+#include "dcm/contact/node_friction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,10 @@
 #include <span>
 
 #include "core/parallel/threads.hpp"
+#include "dcm/contact/contact_loads.hpp"
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/contact/contact_points.hpp"
+#include "dcm/contact/contact_sides.hpp"
 
 namespace acinus::dcm {
 namespace {

@@ -1,4 +1,4 @@
-#include "dcm/nucleus/place_nucleus.hpp"
+#include "dcm/shape/place_nucleus.hpp"
 
 #include <Eigen/SVD>
 #include <algorithm>

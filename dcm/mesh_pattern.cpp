@@ -1,4 +1,4 @@
-#include "dcm/shape/mesh_pattern.hpp"
+#include "dcm/mesh_pattern.hpp"
 
 #include <map>
 #include <memory>

@@ -1,10 +1,13 @@
-/// From contacts to links: the force, stiffness and friction each contact adds.
+#include "dcm/contact/contact_loads.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "contact/cohesive.hpp"
 #include "core/parallel/threads.hpp"
-#include "dcm/contact/contact.hpp"
+#include "dcm/contact/contact_points.hpp"
+#include "dcm/contact/contact_sides.hpp"
+#include "dcm/contact/triangle_contact.hpp"
 
 namespace acinus::dcm {
 namespace {
@@ -92,34 +95,6 @@ struct Completion {
 
 double cell_friction_at(const ContactParams& c, const ContactWorkspace& work, const Contact& s) {
   return c.friction_factor * touching_share(c, work, s.a, s.point, s.gap) * c.cell_friction;
-}
-
-solve::Side side_at(const State& state, std::size_t lane, const contact::PointStencil& s) {
-  auto point = [&](int m) {
-    return static_cast<solve::Point>(
-        (state.group[lane / kLanes].first_row + static_cast<std::size_t>(s.node[m])) * kLanes +
-        lane % kLanes);
-  };
-  if (s.n == 1) return solve::Side::at(point(0));
-  return {{point(0), point(1), point(2)},
-          {static_cast<float>(s.weight[0]), static_cast<float>(s.weight[1])}};
-}
-
-solve::Side side_a(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
-  const std::size_t body = k.a;
-  return side_at(in.state, work.lane_of_body[body], stencil_of(in.options, work.body[body], k));
-}
-
-solve::Side side_b(const ContactInput& in, const ContactWorkspace& work, const Contact& k) {
-  if (k.partner == Partner::kVessel) {
-    const contact::SurfaceBody& a = work.body[k.a];
-    return contact::vessel_side(in.boundary.vessels, in.vessel_row, k.b,
-                                contact::point_position(a, probe_stencil(in.options, a, k)));
-  }
-  if (k.partner != Partner::kSurface) return solve::Side::nowhere();
-  const std::size_t body = k.b;
-  return side_at(in.state, work.lane_of_body[body],
-                 {3, (*work.body[body].triangle)[k.triangle], k.weights()});
 }
 
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,

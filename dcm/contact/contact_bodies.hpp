@@ -1,0 +1,23 @@
+#pragma once
+/// Bodies of deformable cells as the contact search sees them: of foreign ones no more than is
+/// needed.
+
+#include <span>
+
+#include "dcm/contact/contact_workspace.hpp"
+#include "dcm/state.hpp"
+
+namespace acinus::dcm {
+
+/// Copies the nodes out of the lanes and recomputes normals and boxes; of foreign bodies only the
+/// boxes.
+void refresh_bodies(const State& state, ContactWorkspace& work);
+
+/// The same of the foreign bodies among some, any number of times each. @pre refresh_bodies
+void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work);
+
+/// Copies the nodes of the bodies that have none, for measures that look at all of them.
+/// @pre refresh_bodies
+void copy_all_nodes(const State& state, ContactWorkspace& work);
+
+}  // namespace acinus::dcm

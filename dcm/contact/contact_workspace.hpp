@@ -1,0 +1,72 @@
+#pragma once
+/// Input and scratch that the stages of the contact search of deformable cells share.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/boundary.hpp"
+#include "contact/curved_triangle.hpp"
+#include "contact/record.hpp"
+#include "contact/surface.hpp"
+#include "contact/vessel_side.hpp"
+#include "dcm/contact/contact_lists.hpp"
+#include "dcm/contact/contact_params.hpp"
+#include "dcm/lane_data.hpp"
+#include "dcm/params.hpp"
+#include "dcm/state.hpp"
+
+namespace acinus::dcm {
+
+/// What search and loads of contacts read.
+struct ContactInput {
+  const State& state;
+  std::span<const Params> params;  ///< [type]
+  const ContactParams& options;
+  const LaneData& lanes;
+  const contact::Boundary& boundary;
+  double time = 0;                            ///< s, for which moving walls stand
+  std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
+};
+
+/// Scratch of the search between triangles.
+struct TriangleContactWorkspace {
+  std::vector<std::vector<contact::CurvedTriangle>> curved;  ///< [body][triangle]
+  std::vector<std::vector<contact::Contact>> found;          ///< [body] that is side a
+};
+
+/// Scratch of the contact search. Bodies are the cells in lane order, empty lanes left out.
+struct ContactWorkspace {
+  std::vector<std::uint8_t>
+      constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
+  /// [n_lane] 1: another process works out this cell; empty: none. Set by the caller. Of two such
+  /// cells nothing is looked for, and of one only what own cells may touch is known.
+  std::vector<std::uint8_t> foreign;
+  std::vector<std::size_t> lane_of_body;  ///< written by: refresh_bodies
+  /// Boxes of all; the rest of own bodies and of those that complete_bodies was asked for. Written
+  /// by: refresh_bodies
+  std::vector<contact::SurfaceBody> body;
+  std::vector<std::uint8_t> is_complete;    ///< [body] written by: refresh_bodies
+  std::vector<contact::SurfaceBody> fixed;  ///< static meshes, then the surface of vessels
+  /// [body] contacts with that surface; by: find_contacts. Empty: vessels are cones.
+  std::vector<std::vector<contact::Contact>> wall;
+  ContactLists lists;                          ///< written by: refresh_lists
+  std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
+  std::vector<std::uint8_t> body_constrained;  ///< empty: all move; written by: refresh_lists
+  std::vector<std::uint8_t> body_foreign;      ///< empty: none; written by: refresh_lists
+  std::vector<std::vector<contact::Contact>>
+      found;  ///< [other threads than the first] by: find_contacts
+  std::vector<std::vector<contact::Contact>> obstacle;  ///< [body] with boundary; by: find_contacts
+  /// [body][point] sum of the touching shares of all contacts of a point; written by:
+  /// find_contacts, then added to by the DCM-CBM interface.
+  std::vector<std::vector<double>> share;
+  TriangleContactWorkspace triangles;               ///< of Maugis-Dugdale alone
+  std::int64_t searches = 0;                        ///< calls of find_contacts
+  std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
+
+  bool is_foreign(std::size_t lane) const { return !foreign.empty() && foreign[lane] != 0; }
+  bool is_foreign_body(std::size_t b) const { return is_foreign(lane_of_body[b]); }
+};
+
+}  // namespace acinus::dcm
