@@ -1,7 +1,5 @@
 #include "solve/links.hpp"
 
-#include "dcm/contact/contact_points.hpp"
-
 namespace acinus::solve {
 
 Stencil stencil_of(const Link& link) {

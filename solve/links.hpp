@@ -13,7 +13,6 @@
 #include "core/numbers/lanes.hpp"
 #include "core/parallel/make_room.hpp"
 #include "core/vec.hpp"
-#include "dcm/contact/contact_points.hpp"
 
 namespace acinus::solve {
 

@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "dcm/contact/contact_points.hpp"
 #include "solve/kernels.hpp"
 #include "solve/link_kernels.hpp"
 #include "solve/merged_links.hpp"

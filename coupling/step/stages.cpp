@@ -16,7 +16,6 @@
 #include "dcm/contact/contact.hpp"
 #include "dcm/contact/contact_bodies.hpp"
 #include "dcm/contact/contact_loads.hpp"
-#include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/contact_sides.hpp"
 #include "dcm/contact/contact_workspace.hpp"
 #include "dcm/contact/node_friction.hpp"

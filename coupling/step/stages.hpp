@@ -5,7 +5,6 @@
 
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
-#include "dcm/contact/contact_points.hpp"
 
 namespace acinus::coupling {
 

@@ -10,7 +10,6 @@
 #include <type_traits>
 
 #include "core/parallel/threads.hpp"
-#include "dcm/contact/contact_points.hpp"
 #include "tests/solve/tissue.hpp"
 
 namespace acinus::solve {
