@@ -14,6 +14,7 @@
 #include "geometry/components.hpp"
 #include "geometry/euler.hpp"
 #include "geometry/implicit/extract.hpp"
+#include "geometry/implicit/shape.hpp"
 #include "geometry/measures.hpp"
 #include "imaging/distance.hpp"
 

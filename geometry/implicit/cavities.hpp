@@ -1,7 +1,7 @@
 #pragma once
 /// Cavities of a surface, which nothing outside can touch.
 
-#include "geometry/implicit/extract.hpp"
+#include "geometry/implicit/zero_surface.hpp"
 
 namespace acinus::geometry {
 

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/implicit/zero_surface.hpp"
+
 namespace acinus::geometry {
 namespace {
 

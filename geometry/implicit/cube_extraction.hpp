@@ -9,7 +9,7 @@
 
 #include "core/vec.hpp"
 #include "geometry/implicit/cube_lattice.hpp"
-#include "geometry/implicit/extract.hpp"
+#include "geometry/implicit/shape.hpp"
 
 namespace acinus::geometry {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/vec.hpp"
-#include "geometry/implicit/extract.hpp"
+#include "geometry/implicit/shape.hpp"
 
 namespace acinus::geometry {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "geometry/implicit/extract.hpp"
+#include "geometry/implicit/zero_surface.hpp"
 #include "geometry/surface.hpp"
 
 namespace acinus::geometry {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/implicit/extract.hpp"
+#include "geometry/implicit/shape.hpp"
 #include "geometry/network.hpp"
 
 namespace acinus::geometry {

@@ -16,9 +16,11 @@
 #include "geometry/implicit/cavities.hpp"
 #include "geometry/implicit/extract.hpp"
 #include "geometry/implicit/fit.hpp"
+#include "geometry/implicit/shape.hpp"
 #include "geometry/implicit/vessel_field.hpp"
 #include "geometry/implicit/vessel_gaps.hpp"
 #include "geometry/implicit/vessel_pieces.hpp"
+#include "geometry/implicit/zero_surface.hpp"
 #include "geometry/remesh.hpp"
 #include "geometry/segment_shape.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/network.hpp"
-#include "geometry/readers/vtk_legacy.hpp"
+#include "geometry/readers/vtk_dataset.hpp"
 
 namespace acinus::geometry {
 

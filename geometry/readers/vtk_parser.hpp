@@ -1,5 +1,5 @@
 #pragma once
-/// The parser behind read_vtk_legacy, for its own files: vtk_legacy.cpp reads the header and the
+/// The parser behind read_vtk_legacy, for its own files: vtk_parser.cpp reads the header and the
 /// order of sections, vtk_cells.cpp lists of cells, vtk_attributes.cpp data of points and cells.
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "geometry/readers/vtk_legacy.hpp"
+#include "geometry/readers/vtk_dataset.hpp"
 #include "geometry/readers/vtk_types.hpp"
 
 namespace acinus::geometry {

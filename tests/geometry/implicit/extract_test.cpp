@@ -14,6 +14,8 @@
 #include "geometry/closed.hpp"
 #include "geometry/euler.hpp"
 #include "geometry/implicit/cavities.hpp"
+#include "geometry/implicit/shape.hpp"
+#include "geometry/implicit/zero_surface.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/remesh.hpp"
 
