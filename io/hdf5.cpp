@@ -6,6 +6,7 @@
 #include <cstring>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/hdf5_form.hpp"

@@ -1,8 +1,7 @@
 #pragma once
-/// A small layer over the serial HDF5 C library: handles that close themselves, typed rows, and
-/// errors that name the file, what was attempted, what the system said and what to do. HDF5 prints
-/// nothing by itself. Only io includes this header; the rest of the program never sees an HDF5
-/// type.
+/// A small layer over the serial HDF5 C library: typed rows, and errors that name the file, what
+/// was attempted, what the system said and what to do. HDF5 prints nothing by itself. Only io
+/// includes this header; the rest of the program never sees an HDF5 type.
 
 #include <hdf5.h>
 
@@ -11,37 +10,12 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "io/hdf5_handle.hpp"
 #include "io/staged_driver.hpp"
 
 namespace acinus::io::h5 {
-
-/// Owns one HDF5 identifier.
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle() = default;
-  Handle(hid_t id, Close close_with) : id_(id), close_(close_with) {}
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Handle& operator=(Handle&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(close_, other.close_);
-    return *this;
-  }
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  hid_t id() const { return id_; }
-  bool valid() const { return id_ >= 0; }
-  /// Closes now, so that a failure can be seen.
-  herr_t close() { return id_ >= 0 ? close_(std::exchange(id_, -1)) : 0; }
-
- private:
-  hid_t id_ = -1;
-  Close close_ = nullptr;
-};
 
 /// Throws Error(kFileError): "<file>: cannot <attempted>: <system text>. <what to do>".
 /// @param error  errno value; 0 = take it from HDF5's own error stack or, failing that, from HDF5's

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/hdf5.hpp"
+#include "io/hdf5_handle.hpp"
 
 namespace acinus::io::h5 {
 namespace {

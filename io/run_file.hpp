@@ -28,14 +28,6 @@ namespace h5 {
 class File;
 }
 
-/// Rows of a run file that belong together, e.g. at a checkpoint.
-struct RunFileCounts {
-  std::int64_t frame = 0;
-  std::int64_t series = 0;
-  std::int64_t event = 0;
-  std::int64_t observable = 0;
-};
-
 struct RunFileOptions {
   bool compress = true;    ///< shuffle, deflate 1, checksums
   int buffered_rows = 64;  ///< series rows and events kept in memory until a flush

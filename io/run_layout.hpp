@@ -1,5 +1,6 @@
 #pragma once
-/// Where things stand in a run file: which fields there are and where each frame's rows begin.
+/// Layout of a run file: which fields there are, how many rows, and where those of each frame
+/// begin.
 
 #include <cstdint>
 #include <map>
@@ -30,6 +31,14 @@ struct RunLayout {
   TableInfo cells;
   TableInfo interface;
   bool operator==(const RunLayout&) const = default;
+};
+
+/// Rows of a run file that belong together, e.g. at a checkpoint.
+struct RunFileCounts {
+  std::int64_t frame = 0;
+  std::int64_t series = 0;
+  std::int64_t event = 0;
+  std::int64_t observable = 0;
 };
 
 /// Where one frame's rows begin. Offsets count rows of the datasets they are named after.

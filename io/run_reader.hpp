@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/frame.hpp"
-#include "io/run_file.hpp"
+#include "io/run_layout.hpp"
 
 namespace acinus::io {
 

@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "io/frame.hpp"
 #include "io/hdf5.hpp"
-#include "io/run_file.hpp"
 #include "io/run_layout.hpp"
 
 namespace acinus::io {
