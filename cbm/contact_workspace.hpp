@@ -23,7 +23,7 @@ struct ContactParams {
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
 
-/// What the stages of the contact search read.
+/// Input of the stages of the contact search.
 struct ContactInput {
   const State& state;
   std::span<const Params> params;  ///< [type]
@@ -35,16 +35,16 @@ struct ContactInput {
   std::size_t vessel_row = contact::kAtRest;  ///< of the nodes of vessels that move
 };
 
-/// What contacts of two spheres need of the type of each.
+/// Factors of a cell type in the law between two spheres.
 struct TypeFactors {
   double softness = 1;       ///< 1 - nu^2
   double root_adhesion = 0;  ///< sqrt(W), nN/um to the power 1/2
 };
 
 /// Scratch of the contact search. Cells are cut into one range per thread; a thread adds to the
-/// cells of its own range only and works out pairs that cross into it once more.
+/// cells of its own range only and computes pairs that cross into it once more.
 struct ContactWorkspace {
-  /// [n_cell] 1: another process works out this cell; empty: none. Set by the caller. What is
+  /// [n_cell] 1: another process computes this cell; empty: none. Set by the caller. What is
   /// summed over the contacts of a cell is whole for own cells only.
   std::vector<std::uint8_t> foreign;
   /// Near pairs with an own cell, ascending; written by: refresh_pairs

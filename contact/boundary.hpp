@@ -61,7 +61,7 @@ struct Pipette {
 
 struct Vessels {
   geometry::Network network;
-  /// What cells touch in place of the cones of the network; null: the cones.
+  /// Surface that cells touch in place of the cones of the network; null: the cones.
   std::shared_ptr<const WallMesh> wall;
   Material material;
   std::vector<std::vector<int>> segments_of_node;  ///< for finding chains

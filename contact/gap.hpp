@@ -20,7 +20,7 @@ struct Gap {
 
 /// Farther away than `reach` the gap is `reach`, the normal meaningless.
 Gap gap_to_mesh(const SurfaceBody& body, const Vec3& x, double reach);
-/// The same to some of its triangles.
+/// Gap to some of its triangles, likewise.
 Gap gap_to_triangles(const SurfaceBody& body, std::span<const int> triangles, const Vec3& x,
                      double reach);
 

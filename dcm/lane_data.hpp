@@ -36,7 +36,7 @@ void find_lane_data(const State& state, double time, LaneData& data);
 GroupView view_group(const State& state, const LaneData& lanes, const solve::System& system,
                      std::size_t group);
 
-/// That of their nuclei, as the terms of a cortex see it. @pre the group has nuclei
+/// The view of the nuclei of a group, as the terms of a cortex see it. @pre the group has nuclei
 GroupView view_nuclei(const State& state, const LaneData& lanes, const solve::System& system,
                       std::size_t group);
 

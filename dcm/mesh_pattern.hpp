@@ -1,5 +1,5 @@
 #pragma once
-/// Which elements the terms of a cell mesh need: the edges, and the hinges and triangles only where
+/// Elements that the terms of a cell mesh need: the edges, and the hinges and triangles only where
 /// a term uses them. One per topology and choice, made once.
 
 #include "dcm/params.hpp"

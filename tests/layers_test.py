@@ -16,7 +16,9 @@ FLOORS = {"cli": 9, "bench": 9, "python": 9, "service": 8, "runs": 7, "calibrati
           "imaging": 3, "solve": 2, "io": 2, "geometry": 1, "core": 0}
 # The rooms of a folder, lowest first; "" are the files directly in it. A room includes only those before it.
 ROOMS = {
+    "core": ("", "numbers", "parallel", "units"),
     "geometry": ("", "readers", "implicit"),
+    "dcm": ("", "terms", "contact", "shape", "loads"),
     "coupling": ("generate", "vessels", "apparatus", "interface", "world", "migration", "step", "measure", "subworld", "sleep", "zoom", "life", ""),
     "runs": ("scene", "assemble", "images", "experiments", "session", "calibrate", "compare", "study", "openvt", ""),
     "service": ("page", "report", "serve"),

@@ -33,7 +33,7 @@ inline constexpr Dimension kMolarEnergy{1, 0, 1, 0, -1};
 /// "force/length^2", "1/time", "a plain number".
 std::string dimension_formula(Dimension dimension);
 
-/// What such a quantity is called, with its article: "a stress"; "" when it has no name here.
+/// Name of such a quantity, with its article: "a stress"; "" when it has none here.
 std::string dimension_name(Dimension dimension);
 
 /// A quantity of this dimension as a user would write it: "12 um"; built from base units if

@@ -13,10 +13,10 @@ namespace acinus::dcm {
 /// boxes.
 void refresh_bodies(const State& state, ContactWorkspace& work);
 
-/// The same of the foreign bodies among some, any number of times each. @pre refresh_bodies
+/// Refreshes the foreign bodies among some in full, any number of times each. @pre refresh_bodies
 void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work);
 
-/// Copies the nodes of the bodies that have none, for measures that look at all of them.
+/// Copies the nodes of the bodies that have none, for measures that need all of them.
 /// @pre refresh_bodies
 void copy_all_nodes(const State& state, ContactWorkspace& work);
 

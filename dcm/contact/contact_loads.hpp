@@ -11,8 +11,8 @@ namespace acinus::dcm {
 /// Scale that keeps the touching areas of one point from adding up to more than its area.
 inline double share_scale(double total_share) { return total_share > 1 ? 1 / total_share : 1; }
 
-/// What a contact of two cells rubs with, nN s/um^3 of its point's area; the other side sees the
-/// contact as well, so that half the area counts. @pre all shares are known
+/// Friction coefficient of a contact of two cells, nN s/um^3 of its point's area; the other side
+/// sees the contact as well, so that half the area counts. @pre all shares are known
 double cell_friction_at(const ContactParams& c, const ContactWorkspace& work,
                         const contact::Contact& contact);
 

@@ -5,13 +5,13 @@
 
 namespace acinus::dcm {
 
-/// Between which places the friction of two cells acts.
+/// Places between which the friction of two cells acts.
 enum class FrictionForm {
   kSurface,  ///< a contact point and the closest place of the other surface
   kNodes     ///< the nodes of both triangles (node_friction.hpp)
 };
 
-/// How two deformable cells push and pull.
+/// Law by which two deformable cells push and pull.
 enum class ContactLaw {
   kCohesive,      ///< cohesive potential of the gap at contact points (contact/cohesive.hpp)
   kMaugisDugdale  ///< the paper's law between triangles (triangle_contact.hpp)
@@ -32,7 +32,7 @@ struct ContactParams {
   double friction_factor = 1;  ///< 0 while cells grow to size
   /// The medium is felt on the whole surface, not only where it touches nothing.
   bool whole_medium_area = false;
-  // Of Maugis-Dugdale alone:
+  // For Maugis-Dugdale alone:
   double cohesive_range = 0.02;  ///< um, h0
   double modulus = 10;           ///< kPa, E^
   double max_radius = 1e3;       ///< um, R^ of surfaces that are flat or fit into each other

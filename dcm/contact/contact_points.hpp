@@ -26,7 +26,7 @@ namespace acinus::dcm {
 /// more, as far as it is what yields.
 inline constexpr double kGuardShare = 0.25, kGuardGap = 0.05;
 
-/// Whether a contact is one of two triangles, whose place on side a is its own, not that of a
+/// Test for a contact of two triangles, whose place on side a is its own, not that of a
 /// point.
 inline bool is_between_triangles(const ContactParams& c, const contact::Contact& k) {
   return c.law == ContactLaw::kMaugisDugdale && k.partner == contact::Partner::kSurface &&
@@ -37,7 +37,7 @@ inline bool is_between_triangles(const ContactParams& c, const contact::Contact&
 contact::PointStencil stencil_of(const ContactParams& c, const contact::SurfaceBody& body,
                                  const contact::Contact& contact);
 
-/// The same of a contact that is known to be one of a point.
+/// Nodes and weights of a contact that is known to be one of a point.
 contact::PointStencil probe_stencil(const ContactParams& c, const contact::SurfaceBody& body,
                                     const contact::Contact& contact);
 

@@ -19,7 +19,7 @@
 
 namespace acinus::dcm {
 
-/// What search and loads of contacts read.
+/// Input of the search for contacts and of their loads.
 struct ContactInput {
   const State& state;
   std::span<const Params> params;  ///< [type]
@@ -40,7 +40,7 @@ struct TriangleContactWorkspace {
 struct ContactWorkspace {
   std::vector<std::uint8_t>
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
-  /// [n_lane] 1: another process works out this cell; empty: none. Set by the caller. Of two such
+  /// [n_lane] 1: another process computes this cell; empty: none. Set by the caller. Of two such
   /// cells nothing is looked for, and of one only what own cells may touch is known.
   std::vector<std::uint8_t> foreign;
   std::vector<std::size_t> lane_of_body;  ///< written by: refresh_bodies

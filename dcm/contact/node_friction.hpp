@@ -1,7 +1,7 @@
 #pragma once
 /// Friction between deformable cells from node to node, as the paper has it.
 ///
-/// Of a contact with the area A the nodes of the one triangle rub on those of the other, isotropic
+/// In a contact with the area A the nodes of the one triangle rub on those of the other, isotropic
 /// in their relative velocity: "each node associated with this triangle acquires a contact area
 /// A/3" [VanLiedekerke2020, Eq. (1) term 2, and below Eq. (17)]. Each of the three nodes shares
 /// its third among the three opposite ones, so that all nine pairs have A/9: a sum that does not

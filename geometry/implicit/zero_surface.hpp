@@ -9,10 +9,10 @@
 
 namespace acinus::geometry {
 
-/// So near the ends of an edge, as a share of it, no node stands: triangles would have no area.
+/// Share of an edge at its ends where no node stands: triangles would have no area.
 inline constexpr double kEdgeEnd = 0.02;
 
-/// Where a function is zero.
+/// Surface where a function is zero.
 struct ZeroSurface {
   Surface surface;
   /// [node] um, the edge of a tetrahedron that it stands on. Wherever all of them stand between the

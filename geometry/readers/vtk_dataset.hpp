@@ -11,10 +11,10 @@
 
 namespace acinus::geometry {
 
-/// Whether the file starts as legacy VTK ("# vtk DataFile").
+/// Test for a file that starts as legacy VTK ("# vtk DataFile").
 bool is_vtk_legacy(const InputFile& file);
 
-/// Where an array lies in the file, to turn an index into a place for an error.
+/// Place of an array in the file, to turn an index into a place for an error.
 struct VtkPlace {
   std::size_t begin = 0;        ///< byte of the first value
   std::size_t value_bytes = 0;  ///< 0 for text

@@ -1,13 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "core/error.hpp"
 #include "core/units/units.hpp"
-#include "runs/scene/document.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
