@@ -15,6 +15,7 @@
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/run_scene.hpp"
 #include "runs/session/together.hpp"
 #include "service/report/report.hpp"

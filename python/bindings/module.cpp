@@ -13,6 +13,7 @@
 #include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace py = pybind11;

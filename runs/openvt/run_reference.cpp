@@ -7,6 +7,7 @@
 #include "runs/scene/reader.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace acinus::runs {

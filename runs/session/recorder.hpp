@@ -16,7 +16,7 @@
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/session/frame.hpp"
-#include "runs/session/run_scene.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/soundness.hpp"
 #include "runs/session/totals.hpp"
 
