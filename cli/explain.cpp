@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/scene/explain.hpp"
-#include "runs/scene/registry.hpp"
 #include "runs/scene/schema.hpp"
 #include "runs/study/registry.hpp"
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/scene/library.hpp"
-#include "runs/scene/registry.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/study/library.hpp"
 

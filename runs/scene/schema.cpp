@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runs/scene/registry.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/registry.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 namespace {

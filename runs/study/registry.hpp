@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "runs/scene/registry.hpp"
+#include "runs/scene/entries.hpp"
+#include "runs/scene/visitor.hpp"
 #include "runs/study/study.hpp"
 
 namespace acinus::runs {
