@@ -1,13 +1,13 @@
 #include "runs/experiments/lobule.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/units/units.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/migration/lesion_layers.hpp"
 #include "runs/experiments/plates.hpp"
-#include "runs/experiments/tissue.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kClosed = 0.05;  ///< relative area below which a lesion counts
 constexpr double kHour = 3600, kDay = 86400;
 
 /// The value of the first frame.
-double first_of(const std::string& name, double now, Observables& o) {
+double first_of(const std::string& name, double now, ObservedRun& o) {
   return o.start.try_emplace(name, now).first->second;
 }
 
@@ -40,7 +40,7 @@ std::vector<LesionCell> lesion_cells(const ObservedFrame& frame, const LobuleRoo
   return out;
 }
 
-void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame, Observables& o) {
+void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame, ObservedRun& o) {
   Measures& m = o.measures;
   for (const LesionReading& reading : lesion_readings()) {
     const std::string name = "lesion_radius_" + reading.name + "_um",
@@ -55,7 +55,7 @@ void sample_radii(const std::vector<LesionCell>& cells, const LesionFrame& frame
   m["lesion_area_surface"].push_back(m["lesion_area_slices_surface_floor"].back());
 }
 
-void sample_layers(const std::vector<LesionCell>& cells, Observables& o) {
+void sample_layers(const std::vector<LesionCell>& cells, ObservedRun& o) {
   std::array<double, kLayers + 1> n{};
   for (const LesionCell& c : cells) ++n[std::min(c.layer, kLayers + 1) - 1];
   double births = 0;
@@ -69,7 +69,7 @@ void sample_layers(const std::vector<LesionCell>& cells, Observables& o) {
 }
 
 /// Open area and front, plates, and the densities that depend on them.
-void sample_sections(const ObservedFrame& frame, Observables& o) {
+void sample_sections(const ObservedFrame& frame, ObservedRun& o) {
   Measures& m = o.measures;
   const LobuleRoom& room = *o.room;
   const std::vector<CellMeasure>& cells = frame.snapshot.cells;
@@ -108,7 +108,7 @@ void sample_sections(const ObservedFrame& frame, Observables& o) {
 }
 
 /// How fast cells that were there at the last frame came nearer to the axis.
-void sample_speeds(const ObservedFrame& frame, Observables& o) {
+void sample_speeds(const ObservedFrame& frame, ObservedRun& o) {
   double sum[2] = {0, 0}, count[2] = {0, 0}, leaders = 0;
   const double hours = (frame.snapshot.time - o.last_time) / kHour;
   for (const CellMeasure& c : frame.snapshot.cells) {
@@ -129,7 +129,7 @@ void sample_speeds(const ObservedFrame& frame, Observables& o) {
   }
 }
 
-void sample_sinusoids(const ObservedFrame& frame, Observables& o) {
+void sample_sinusoids(const ObservedFrame& frame, ObservedRun& o) {
   const LobuleRoom& room = *o.room;
   const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
   double area = 0;
@@ -146,7 +146,7 @@ void sample_sinusoids(const ObservedFrame& frame, Observables& o) {
 
 }  // namespace
 
-void sample_lobule(const ObservedFrame& frame, Observables& o) {
+void sample_lobule(const ObservedFrame& frame, ObservedRun& o) {
   if (!o.room) {
     contact::Vessels vessels;
     contact::set_network(vessels, coupling::vessels_at_rest(frame.world.params));

@@ -1,13 +1,18 @@
 #pragma once
 /// Closing of a central lesion: its size by several readings, births, speeds, plates.
 
-#include "runs/experiments/observe.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runs/experiments/observed_frame.hpp"
+#include "runs/experiments/observed_run.hpp"
 
 namespace acinus::runs {
 
 /// Adds one number to each series of the experiment "lobule". Areas are relative to the first frame
-/// the observables saw.   @pre sample_experiment
-void sample_lobule(const ObservedFrame& frame, Observables& observables);
+/// the run observed.   @pre sample_experiment
+void sample_lobule(const ObservedFrame& frame, ObservedRun& observed);
 
 /// "1" to "6" and "beyond": the endings of series by layer.
 std::vector<std::string> layer_names();

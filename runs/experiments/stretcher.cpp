@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "runs/experiments/experiment.hpp"
 #include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {

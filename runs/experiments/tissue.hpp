@@ -1,12 +1,13 @@
 #pragma once
-/// What is measured of every scene: numbers of cells, pressures, overlaps, clusters, forces on
+/// Measurements of every scene: numbers of cells, pressures, overlaps, clusters, forces on
 /// walls and vessels.
 
 #include <string>
 #include <vector>
 
 #include "contact/boundary.hpp"
-#include "runs/experiments/observe.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/observed_frame.hpp"
 
 namespace acinus::runs {
 
