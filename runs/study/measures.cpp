@@ -11,7 +11,7 @@
 
 #include "core/numbers/time_grid.hpp"
 #include "core/units/unit_scale.hpp"
-#include "runs/study/check_study.hpp"
+#include "runs/study/study_value.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -321,16 +321,6 @@ int seeds_within(const Measured& m, std::optional<double> low, std::optional<dou
   return static_cast<int>(std::ranges::count_if(m.by_seed, [&](const auto& seed) {
     return (!low || seed.second >= *low) && (!high || seed.second <= *high);
   }));
-}
-
-std::string show_value(double v, const std::string& unit) {
-  if (std::isinf(v)) return v > 0 ? "never" : "before what never happens";
-  if (unit == "1") return fmt::format("{:.4g}", v);
-  if (unit != "s") return fmt::format("{:.4g} {}", v, unit);
-  const double size = std::abs(v);
-  if (size >= 86400) return fmt::format("{:.3g} d", v / 86400);
-  if (size >= 3600) return fmt::format("{:.3g} h", v / 3600);
-  return size >= 120 ? fmt::format("{:.3g} min", v / 60) : fmt::format("{:.3g} s", v);
 }
 
 }  // namespace acinus::runs

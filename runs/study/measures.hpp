@@ -32,7 +32,4 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyE
 /// Seeds whose value lies within the bounds, ends included.
 int seeds_within(const Measured& measured, std::optional<double> low, std::optional<double> high);
 
-/// "12.5 um", "3.2 d", "0.31", "never".
-std::string show_value(double value, const std::string& unit);
-
 }  // namespace acinus::runs

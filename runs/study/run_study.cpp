@@ -11,6 +11,7 @@
 #include "runs/session/shell_quote.hpp"
 #include "runs/study/expected_cost.hpp"
 #include "runs/study/library.hpp"
+#include "runs/study/read_study.hpp"
 #include "runs/study/run_status.hpp"
 #include "runs/study/scheduler.hpp"
 #include "runs/study/study_folder.hpp"

@@ -11,6 +11,7 @@
 #include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
 #include "runs/study/library.hpp"
+#include "runs/study/read_study.hpp"
 #include "runs/study/scene_value.hpp"
 
 namespace acinus::runs {

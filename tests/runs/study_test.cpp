@@ -16,6 +16,7 @@
 #include "runs/study/curves.hpp"
 #include "runs/study/library.hpp"
 #include "runs/study/plan.hpp"
+#include "runs/study/read_study.hpp"
 #include "runs/study/registry.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/study_data.hpp"

@@ -1,4 +1,4 @@
-#include "runs/study/plan.hpp"
+#include "runs/study/read_study.hpp"
 
 #include <fmt/format.h>
 
