@@ -15,8 +15,8 @@
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {
 namespace {

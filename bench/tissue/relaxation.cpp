@@ -12,8 +12,8 @@
 #include "core/numbers/time_grid.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/frame_times.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/session/stage.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "coupling/life/proliferation.hpp"
 #include "coupling/migration/lesion_layers.hpp"
-#include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observables.hpp"
+#include "runs/experiments/sample_lobule.hpp"
+#include "runs/experiments/sample_tissue.hpp"
 #include "runs/experiments/single_cell.hpp"
-#include "runs/experiments/tissue.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/run_options.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "runs/scene/document.hpp"
-#include "runs/scene/report.hpp"
+#include "runs/scene/fault_report.hpp"
 #include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {

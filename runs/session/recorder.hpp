@@ -16,7 +16,7 @@
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
-#include "runs/session/frame.hpp"
+#include "runs/session/make_frame.hpp"
 #include "runs/session/run_options.hpp"
 #include "runs/session/soundness.hpp"
 #include "runs/session/totals.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Rules between the keys of a study: everything named must exist, every value have its unit.
 
-#include "runs/scene/report.hpp"
+#include "runs/scene/fault_report.hpp"
 #include "runs/study/plan.hpp"
 
 namespace acinus::runs {

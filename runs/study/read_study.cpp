@@ -16,12 +16,12 @@
 #include "runs/experiments/observables.hpp"
 #include "runs/scene/differences.hpp"
 #include "runs/scene/key_reader.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/study/check_study.hpp"
 #include "runs/study/expand_claims.hpp"
-#include "runs/study/registry.hpp"
+#include "runs/study/study_registry.hpp"
 
 namespace acinus::runs {
 namespace {

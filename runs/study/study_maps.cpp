@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "runs/study/measures.hpp"
 #include "runs/study/scene_value.hpp"
+#include "runs/study/study_measures.hpp"
 #include "runs/study/study_value.hpp"
 
 namespace acinus::runs {

@@ -22,8 +22,8 @@
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/document.hpp"
 #include "runs/scene/entries.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {

@@ -11,11 +11,11 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/contact_forces.hpp"
-#include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
-#include "runs/experiments/tissue.hpp"
-#include "runs/session/frame.hpp"
+#include "runs/experiments/sample_lobule.hpp"
+#include "runs/experiments/sample_tissue.hpp"
+#include "runs/session/make_frame.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {
