@@ -6,6 +6,7 @@
 
 #include "io/checkpoint.hpp"
 #include "runs/scene/key_reader.hpp"
+#include "runs/scene/registry.hpp"
 #include "runs/scene/scene_rules.hpp"
 #include "runs/scene/writer.hpp"
 
