@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

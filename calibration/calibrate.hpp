@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "calibration/clump.hpp"
+#include "calibration/clump_relaxation.hpp"
 #include "calibration/compression.hpp"
-#include "calibration/fit.hpp"
-#include "calibration/relaxation.hpp"
+#include "calibration/fit_law.hpp"
 
 namespace acinus::calibration {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "bench/kernels/clump.hpp"
+#include "bench/kernels/kernel_clump.hpp"
 #include "contact/candidates.hpp"
 #include "contact/jkr.hpp"
 #include "contact/jkr_lanes.hpp"

@@ -1,6 +1,6 @@
 /// Force and stiffness of deformable cells: all terms within them, and their contacts.
 
-#include "bench/kernels/clump.hpp"
+#include "bench/kernels/kernel_clump.hpp"
 #include "dcm/contact/contact_loads.hpp"
 #include "dcm/contact/contact_workspace.hpp"
 #include "dcm/loads/loads.hpp"

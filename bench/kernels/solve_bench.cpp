@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/kernels/clump.hpp"
+#include "bench/kernels/kernel_clump.hpp"
 #include "solve/kernels.hpp"
 #include "solve/merged_links.hpp"
 

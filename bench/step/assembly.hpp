@@ -1,7 +1,7 @@
 #pragma once
 /// Cost of the parts of a step: forces and stiffness within cells, contacts, products.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What a nucleus costs.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

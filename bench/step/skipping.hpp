@@ -1,7 +1,7 @@
 #pragma once
 /// What it saves to leave out what a scene does not need.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 #include "bench/step/step_runner.hpp"
 
 namespace acinus::bench {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 #include "bench/stress/random_scene.hpp"
 
 namespace acinus::bench {

@@ -16,8 +16,8 @@
 #include "coupling/simulation.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {
 namespace {

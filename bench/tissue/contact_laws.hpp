@@ -2,7 +2,7 @@
 /// The two laws of contact between deformable cells side by side: cohesive potential of the gap,
 /// and the paper's Maugis-Dugdale stress between triangles.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

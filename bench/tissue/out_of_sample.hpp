@@ -1,7 +1,7 @@
 #pragma once
 /// How spheres do with a law of stiffness in tissue that it was not found in.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

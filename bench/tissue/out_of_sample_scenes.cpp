@@ -1,7 +1,7 @@
 #include "bench/tissue/out_of_sample_scenes.hpp"
 
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::bench {

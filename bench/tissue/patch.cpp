@@ -13,8 +13,8 @@
 #include "core/error.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/calibrate/law_cache.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/session/stage.hpp"
 

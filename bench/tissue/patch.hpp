@@ -2,7 +2,7 @@
 /// How well the two models meet: a compressed ball, part of it deformable cells and the rest
 /// spheres, against the same ball of deformable cells only.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

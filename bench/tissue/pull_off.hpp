@@ -1,7 +1,7 @@
 #pragma once
 /// Pull-off force of two deformable cells over the adhesion energy, beside theory.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

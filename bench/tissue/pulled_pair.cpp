@@ -11,8 +11,8 @@
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/single_cell.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// How a compressed clump comes back: protocols, forms of friction, meshes and models side by side.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

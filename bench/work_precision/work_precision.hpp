@@ -2,7 +2,7 @@
 /// Error against CPU time for every choice of numerics (docs/work_precision.md): tables in
 /// markdown, plots as SVG, and the cheapest setting for a wanted error.
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/output/table.hpp"
+#include "bench/output/bench_table.hpp"
 #include "core/vec.hpp"
 #include "coupling/world/world.hpp"
 

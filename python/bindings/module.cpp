@@ -7,12 +7,13 @@
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "python/bindings/stepped_scene.hpp"
-#include "runs/calibrate/calibrate.hpp"
+#include "runs/calibrate/calibrate_scene.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/compare/compare.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace py = pybind11;

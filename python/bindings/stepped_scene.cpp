@@ -13,8 +13,8 @@
 #include "coupling/world/cell.hpp"
 #include "runs/calibrate/law_cache.hpp"
 #include "runs/scene/frame_times.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::python {
 namespace {

@@ -6,7 +6,6 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "runs/assemble/build_params.hpp"
-#include "runs/assemble/build_world.hpp"
 #include "runs/assemble/cell_constants.hpp"
 
 namespace acinus::runs {

@@ -20,7 +20,7 @@ LawParameters law_parameters(const Scene& scene, const CellType& type);
 /// Reads the law of every cell type that names one. A law's a0 is the type's modulus from then on.
 /// Notes say which law, and warn where it was found for other cells.
 /// @throws Error for a law file that cannot be used, and for "auto" (calibrated before, see
-/// calibrate.hpp)
+/// calibrate_scene.hpp)
 void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes);
 
 }  // namespace acinus::runs

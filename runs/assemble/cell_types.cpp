@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/numbers/random.hpp"
-#include "runs/assemble/place_cells.hpp"
+#include "coupling/world/region.hpp"
 
 namespace acinus::runs {
 

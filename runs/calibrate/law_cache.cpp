@@ -12,7 +12,7 @@
 #include "core/parallel/stop.hpp"
 #include "io/file_lock.hpp"
 #include "runs/assemble/build_correction.hpp"
-#include "runs/calibrate/calibrate.hpp"
+#include "runs/calibrate/calibrate_scene.hpp"
 #include "runs/session/read_summary.hpp"
 
 namespace acinus::runs {

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/lesion.hpp"
-#include "runs/experiments/lobule.hpp"
+#include "runs/experiments/sample_lobule.hpp"
 
 namespace acinus::runs {
 namespace {

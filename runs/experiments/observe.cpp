@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
-#include "core/error.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/migration/lesion_layers.hpp"
-#include "runs/experiments/lobule.hpp"
 #include "runs/experiments/observables.hpp"
+#include "runs/experiments/sample_lobule.hpp"
+#include "runs/experiments/sample_tissue.hpp"
 #include "runs/experiments/single_cell.hpp"
-#include "runs/experiments/tissue.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -56,20 +57,20 @@ std::optional<Vec3> find_center(const coupling::State& s, std::int64_t id) {
 
 }  // namespace
 
-std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, Observables& observables) {
-  Measures& m = observables.measures;
+std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedRun& observed) {
+  Measures& m = observed.measures;
   const Sizes before = sizes_of(m);
   sample_experiment(frame.scene, frame.world, frame.snapshot, m);
   sample_tissue(frame, m);
-  if (frame.scene.experiment == Experiment::kLobule) sample_lobule(frame, observables);
+  if (frame.scene.experiment == Experiment::kLobule) sample_lobule(frame, observed);
   if (frame.scene.experiment == Experiment::kPlates) sample_plates(frame, m);
   if (frame.scene.experiment == Experiment::kAspiration) sample_aspiration(frame, m);
   if (frame.scene.experiment == Experiment::kNarrowGap) sample_narrow_gap(frame, m);
   if (frame.scene.experiment == Experiment::kPullOff) sample_pull_off(frame, m);
-  observables.last_time = frame.snapshot.time;
-  observables.track.clear();
+  observed.last_time = frame.snapshot.time;
+  observed.track.clear();
   for (const coupling::CellMeasure& c : frame.snapshot.cells)
-    observables.track[c.id] = {c.center, c.leader};
+    observed.track[c.id] = {c.center, c.leader};
 
   std::vector<io::SeriesValue> row{{"time", "s", frame.snapshot.time}};
   std::vector<Observable> columns = known_observables(frame.scene.experiment);
@@ -87,7 +88,7 @@ std::string why_over(Experiment experiment, const Measures& measures) {
 }
 
 void observe_births(const Scene& scene, const coupling::World& world,
-                    const coupling::LifeReport& report, Observables& observables) {
+                    const coupling::LifeReport& report, ObservedRun& observed) {
   if (scene.experiment != Experiment::kLobule) return;
   // Where a rule says in which layers cells divide, they are counted as it counts them.
   const auto& rule = world.params.life.proliferation;
@@ -108,46 +109,8 @@ void observe_births(const Scene& scene, const coupling::World& world,
                               b = find_center(world.state, e.cells[2]);
     if (!a || !b) continue;  // a daughter that is gone already
     const int layer = layer_at(0.5 * (*a + *b));
-    observables.births[std::min(layer, kLayers + 1) - 1] += 1;
+    observed.births[std::min(layer, kLayers + 1) - 1] += 1;
   }
-}
-
-void put_observables(const Observables& o, io::CheckpointData& data) {
-  for (const auto& [name, values] : o.measures) data.put("measures/" + name, values);
-  for (const auto& [name, value] : o.start) data.put_number("observables/start/" + name, value);
-  data.put_number("observables/last_time", o.last_time);
-  data.put("observables/births", std::vector<double>(o.births.begin(), o.births.end()));
-  std::vector<std::int64_t> ids;
-  std::vector<double> centers;
-  for (const auto& [id, track] : o.track) {
-    ids.insert(ids.end(), {id, track.leader ? 1 : 0});
-    for (const double x : track.center) centers.push_back(x);
-  }
-  data.put("observables/cells", ids);
-  data.put("observables/centers", centers);
-}
-
-Observables get_observables(const io::CheckpointData& data) {
-  Observables o;
-  constexpr std::string_view kMeasures = "measures/", kStart = "observables/start/";
-  for (const auto& [name, value] : data.all()) {
-    if (name.starts_with(kMeasures)) o.measures[name.substr(kMeasures.size())] = data.numbers(name);
-    if (name.starts_with(kStart)) o.start[name.substr(kStart.size())] = data.number(name);
-  }
-  o.last_time = data.number("observables/last_time");
-  const std::vector<double>&births = data.numbers("observables/births"),
-        &centers = data.numbers("observables/centers");
-  const std::vector<std::int64_t>& ids = data.integers("observables/cells");
-  check(births.size() == o.births.size() && 2 * centers.size() == 3 * ids.size(),
-        data.source() +
-            ": what the run remembers of its last frame is damaged. Resume from the "
-            "previous checkpoint or start anew.",
-        Exit::kFileError);
-  std::ranges::copy(births, o.births.begin());
-  for (std::size_t k = 0; 2 * k < ids.size(); ++k)
-    o.track[ids[2 * k]] = {Vec3(centers[3 * k], centers[3 * k + 1], centers[3 * k + 2]),
-                           ids[2 * k + 1] != 0};
-  return o;
 }
 
 }  // namespace acinus::runs

@@ -7,7 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "runs/experiments/observe.hpp"
+#include "core/vec.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/observed_frame.hpp"
+#include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
 

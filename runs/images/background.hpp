@@ -2,7 +2,7 @@
 /// The background of a label image, where it is not 0.
 
 #include "imaging/label_image.hpp"
-#include "runs/images/import_image.hpp"
+#include "runs/images/import_options.hpp"
 
 namespace acinus::runs {
 

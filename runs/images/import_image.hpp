@@ -1,31 +1,15 @@
 #pragma once
 /// A scene from a label image: its cells as deformable cells or spheres, its vessels as a surface.
 
-#include <optional>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "geometry/surface.hpp"
 #include "imaging/label_image.hpp"
-#include "imaging/read_image.hpp"
-#include "runs/scene/choices.hpp"
+#include "runs/images/import_options.hpp"
 
 namespace acinus::runs {
-
-struct ImportOptions {
-  std::string image;
-  imaging::ReadImage read;
-  std::string vessels;              ///< an image of the same size, not 0 inside vessels; "" = none
-  imaging::Label vessel_label = 0;  ///< or the label of vessels in the image; 0 = none
-  /// A label that is background besides 0; 0: no other is, however it looks.
-  std::optional<imaging::Label> background;
-  CellModel model = CellModel::kDcm;
-  int nodes = 162;           ///< of a cell's mesh
-  double smallest = 0;       ///< um^3; smaller labels are specks; 0: a tenth of the median
-  double smoothing = 0.7;    ///< voxels, standard deviation
-  bool keep_border = false;  ///< cells cut off by the border stay, between mirror walls
-  bool split = false;        ///< every connected piece of a label is a cell of its own
-};
 
 /// A label, or a piece of one, that is no cell of the scene.
 struct LeftOut {

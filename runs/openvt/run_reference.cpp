@@ -3,10 +3,11 @@
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
-#include "runs/scene/library.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace acinus::runs {

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "runs/scene/bounded_json.hpp"
-#include "runs/scene/registry.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {

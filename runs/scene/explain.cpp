@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/spelling.hpp"
-#include "runs/scene/registry.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/scene/registry.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 

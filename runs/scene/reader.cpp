@@ -6,7 +6,8 @@
 
 #include "io/checkpoint.hpp"
 #include "runs/scene/key_reader.hpp"
-#include "runs/scene/rules.hpp"
+#include "runs/scene/registry.hpp"
+#include "runs/scene/scene_rules.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {

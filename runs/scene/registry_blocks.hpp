@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "runs/scene/registry.hpp"
+#include "runs/scene/choices.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 

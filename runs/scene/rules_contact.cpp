@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "dcm/contact/contact_params.hpp"
-#include "runs/scene/rules.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "runs/scene/quoted_quantity.hpp"
-#include "runs/scene/rules.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "runs/scene/rules.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/units/units.hpp"
-#include "runs/scene/rules.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {

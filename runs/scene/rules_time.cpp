@@ -6,7 +6,7 @@
 #include "core/numbers/time_grid.hpp"
 #include "core/units/units.hpp"
 #include "runs/scene/frame_times.hpp"
-#include "runs/scene/rules.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {

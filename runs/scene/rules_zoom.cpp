@@ -7,7 +7,7 @@
 
 #include "core/units/units.hpp"
 #include "runs/scene/quoted_quantity.hpp"
-#include "runs/scene/rules.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/units/units.hpp"
 #include "runs/scene/registry.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 namespace {

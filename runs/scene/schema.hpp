@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "runs/scene/registry.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 

@@ -6,8 +6,8 @@
 
 #include "core/vec.hpp"
 #include "runs/scene/document.hpp"
-#include "runs/scene/registry.hpp"
-#include "runs/scene/report.hpp"
+#include "runs/scene/fault_report.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 

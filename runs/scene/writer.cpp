@@ -11,6 +11,7 @@
 #include "core/units/units.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/registry.hpp"
+#include "runs/scene/visitor.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "coupling/world/world.hpp"
-#include "runs/session/run_scene.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/time_left.hpp"
 
 namespace acinus::runs {

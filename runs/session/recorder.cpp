@@ -75,7 +75,7 @@ Notes Recorder::resume() {
   cpu_before_ = totals_.cpu_s;
   last_frame_ = data.number("file/last_frame");
   excess_ = {data.number("file/excess"), "some cells overlap beyond what contact mends", {}};
-  observables_ = get_observables(data);
+  observed_ = get_observed_run(data);
   Notes notes;
   if (!ranks().is_root()) return notes;
   io::RunFileCounts counts;
@@ -103,7 +103,7 @@ Excess Recorder::write_frame(bool last) {
   add_audit(totals_, audit);
   std::vector<io::SeriesValue> observables;
   if (simulation_.is_running())
-    observables = observe_frame({scene_, world, work, snapshot, audit}, observables_);
+    observables = observe_frame({scene_, world, work, snapshot, audit}, observed_);
   if (drawn_boundary_.node.empty() || world.params.tree.exists())
     drawn_boundary_ = draw_boundary(world.params.boundary);
   if (file_) file_->append(make_frame(world, work, snapshot, drawn_boundary_), observables);
@@ -144,7 +144,7 @@ void Recorder::add_event(const std::string& code, const std::string& message,
 void Recorder::add_life(const coupling::LifeReport& report) {
   const coupling::World& world = simulation_.world();
   runs::add_life(life_, report, coupling::count_cells(world.state), wall_s());
-  observe_births(scene_, world, report, observables_);
+  observe_births(scene_, world, report, observed_);
   for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
 }
 
@@ -156,7 +156,7 @@ io::CheckpointData Recorder::make_checkpoint() {
   totals_.cpu_s = cpu_before_ + cpu_seconds() - started_cpu_;
   put_totals(totals_, data);
   put_totals(life_, data);
-  put_observables(observables_, data);
+  put_observed_run(observed_, data);
   data.put_number("file/last_frame", last_frame_);
   data.put_number("file/excess", excess_.depth_um);
   const io::RunFileCounts counts = file_->counts();
@@ -181,7 +181,7 @@ void Recorder::close(const std::string& status, const std::string& cause) {
   const coupling::Workspace& work = simulation_.work();
   std::vector<std::string> skipped = list_skipped(world);
   for (const std::string& what : list_skipped_work(world, work)) skipped.push_back(what);
-  write_summary(options_.out, {scene_, options_, world, totals_, life_, observables_.measures,
+  write_summary(options_.out, {scene_, options_, world, totals_, life_, observed_.measures,
                                work.timings, skipped, notes_, status, cause, options_.threads});
 }
 

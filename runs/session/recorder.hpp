@@ -15,8 +15,9 @@
 #include "io/run_file.hpp"
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/observe.hpp"
-#include "runs/session/frame.hpp"
-#include "runs/session/run_scene.hpp"
+#include "runs/experiments/observed_run.hpp"
+#include "runs/session/make_frame.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/soundness.hpp"
 #include "runs/session/totals.hpp"
 
@@ -52,7 +53,7 @@ class Recorder {
   double last_frame() const { return last_frame_; }  ///< s since t = 0
   /// Why the frames so far show all that the experiment is about; empty: they do not.
   std::string why_experiment_is_over() const {
-    return why_over(scene_.experiment, observables_.measures);
+    return why_over(scene_.experiment, observed_.measures);
   }
   bool has_frame() const { return last_frame_ > kNoFrame; }
   /// What was wrong with the last frame.
@@ -73,7 +74,7 @@ class Recorder {
   std::optional<io::RunFile> file_;  ///< none: another process writes
   RunTotals totals_;
   LifeTotals life_;
-  Observables observables_;
+  ObservedRun observed_;
   Notes notes_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
   double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues

@@ -6,7 +6,7 @@
 #include "io/checkpoint.hpp"
 #include "io/file_lock.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/session/run_scene.hpp"
+#include "runs/session/run_options.hpp"
 
 namespace acinus::runs {
 

@@ -6,6 +6,7 @@
 
 #include "acinus_version.hpp"
 #include "core/error.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/run_scene.hpp"
 
 namespace acinus::runs {

@@ -10,7 +10,7 @@
 #include "core/parallel/timing.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/experiments/lobule.hpp"
+#include "runs/experiments/sample_lobule.hpp"
 #include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {

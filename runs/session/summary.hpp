@@ -9,7 +9,7 @@
 #include "runs/assemble/notes.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/session/run_scene.hpp"
+#include "runs/session/run_options.hpp"
 #include "runs/session/totals.hpp"
 
 namespace acinus::runs {

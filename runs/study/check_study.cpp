@@ -9,8 +9,8 @@
 #include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
-#include "runs/study/measures.hpp"
 #include "runs/study/scene_value.hpp"
+#include "runs/study/study_value.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -210,24 +210,6 @@ class Checker {
 };
 
 }  // namespace
-
-double number_in(const Node& value, const std::string& unit) {
-  const UnitScale scale = scale_of_unit(unit);
-  const bool is_number = value.kind == Node::Kind::kInteger || value.kind == Node::Kind::kNumber;
-  if (scale.dimension == kDimensionless) {
-    check(is_number || value.kind == Node::Kind::kText, "must be a number");
-    return is_number ? value.number / scale.in_base : parse_quantity(value.text, kDimensionless);
-  }
-  check(value.kind == Node::Kind::kText,
-        fmt::format("must be a text with a unit such as \"1 {}\"", unit));
-  return parse_quantity(value.text, scale.dimension) / scale.in_base;
-}
-
-std::string unit_of(const StudyMeasure& measure, const std::map<std::string, std::string>& units) {
-  if (measure.kind == "p_value") return "1";
-  if (measure.kind == "first_below" || measure.kind == "first_above") return "s";
-  return units.at(measure.observable);
-}
 
 void check_study(const StudyPlan& plan, Report& report) { Checker(plan, report).check_all(); }
 

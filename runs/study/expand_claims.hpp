@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runs/scene/report.hpp"
+#include "runs/scene/fault_report.hpp"
 #include "runs/study/study.hpp"
 #include "runs/study/variants.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A study ready to run: its file read, every scene resolved, everything that is named known.
+/// A study ready to run: its variants and its runs, every scene resolved.
 
 #include <cstdint>
 #include <map>
@@ -34,16 +34,5 @@ struct StudyPlan {
   std::map<std::string, std::string> units;  ///< of all observables the runs may have, by name
   const Variant& variant_of(const StudyRun& run) const { return variants[run.variant]; }
 };
-
-/// Reads a study file, a shipped study's name among them.
-/// @throws Error: all faults of the study and of the scenes it makes, one a line with line and
-///         column; kFileError if a file cannot be read
-StudyPlan read_study(const std::string& path);
-
-/// The same for a text in memory.
-/// @param label   stands for the file name in messages; its stem is the default name
-/// @param folder  where relative file names start
-StudyPlan parse_study(const std::string& text, const std::string& label,
-                      const std::string& folder = ".");
 
 }  // namespace acinus::runs

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "runs/scene/registry.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {

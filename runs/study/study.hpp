@@ -1,6 +1,6 @@
 #pragma once
-/// A study as its file says it: plain data. A key's default is its initialiser here; registry.hpp
-/// adds unit, range and meaning.
+/// A study as its file says it: plain data. A key's default is its initialiser here;
+/// study_registry.hpp adds unit, range and meaning.
 
 #include <cstdint>
 #include <map>

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "runs/study/check_study.hpp"
-#include "runs/study/measures.hpp"
 #include "runs/study/scene_value.hpp"
+#include "runs/study/study_measures.hpp"
+#include "runs/study/study_value.hpp"
 
 namespace acinus::runs {
 namespace {

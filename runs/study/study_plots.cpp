@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "io/disk.hpp"
-#include "runs/study/check_study.hpp"
 #include "runs/study/scene_value.hpp"
+#include "runs/study/study_value.hpp"
 
 namespace acinus::runs {
 namespace {

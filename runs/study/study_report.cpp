@@ -14,6 +14,7 @@
 #include "runs/study/study_maps.hpp"
 #include "runs/study/study_plots.hpp"
 #include "runs/study/study_progress.hpp"
+#include "runs/study/study_value.hpp"
 #include "runs/study/verdicts.hpp"
 
 namespace acinus::runs {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/scene/report.hpp"
+#include "runs/scene/fault_report.hpp"
 #include "runs/study/study.hpp"
 
 namespace acinus::runs {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/disk.hpp"
-#include "runs/study/check_study.hpp"
+#include "runs/study/study_value.hpp"
 
 namespace acinus::runs {
 namespace {

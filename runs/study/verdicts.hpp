@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/study/measures.hpp"
+#include "runs/study/study_measures.hpp"
 
 namespace acinus::runs {
 

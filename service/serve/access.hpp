@@ -1,5 +1,5 @@
 #pragma once
-/// Who may ask for what: the token, and the names by which the service may be called. The names
+/// Access to the service: by the token, and under the names by which it may be called. The names
 /// keep web pages of others from reaching a service on the reader's own machine.
 
 #include <optional>
@@ -18,19 +18,9 @@ struct ServiceAccess {
   Sessions& sessions;
 };
 
-/// 32 hexadecimal digits from the system's generator.   @throws Error(kFileError)
-std::string make_token();
-
-/// The token that stands in a file; a new one, readable by its owner only, where there is none.
-/// @throws Error(kBadInput) for a file that others made, or could have written; kFileError
-std::string keep_token(const std::string& file);
-
 /// The names under which a port of this machine is called.
 std::vector<std::string> allowed_hosts(const std::string& address, int port,
                                        const std::vector<std::string>& names);
-
-/// Whether two texts are the same, in a time that does not tell where they differ.
-bool same_secret(const std::string& a, const std::string& b);
 
 /// The reply that refuses a request: 403 for a foreign Host or Origin, 401 without the token, as
 /// `Authorization: Bearer TOKEN`, the password of `Basic`, or the session of the login page.

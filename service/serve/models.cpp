@@ -10,8 +10,9 @@
 #include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
-#include "runs/study/library.hpp"
+#include "runs/study/read_study.hpp"
 #include "runs/study/scene_value.hpp"
+#include "runs/study/shipped_studies.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "io/inside.hpp"
-#include "runs/scene/library.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/child.hpp"
 #include "runs/study/active_run.hpp"
 #include "service/page/page_assets.hpp"

@@ -29,6 +29,7 @@
 #include "service/serve/dispatcher.hpp"
 #include "service/serve/job_store.hpp"
 #include "service/serve/routes.hpp"
+#include "service/serve/token.hpp"
 
 namespace acinus::runs {
 namespace {

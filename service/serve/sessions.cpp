@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "service/serve/access.hpp"
+#include "service/serve/token.hpp"
 
 namespace acinus::runs {
 

@@ -21,9 +21,9 @@
 #include "runs/assemble/place_cells.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/document.hpp"
-#include "runs/scene/library.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/scene/reader.hpp"
-#include "runs/scene/registry.hpp"
+#include "runs/scene/shipped_scenes.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {

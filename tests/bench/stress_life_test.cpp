@@ -13,7 +13,7 @@
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
-#include "runs/session/frame.hpp"
+#include "runs/session/make_frame.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "bench/stress/random_scene.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/session/frame.hpp"
+#include "runs/session/make_frame.hpp"
 #include "runs/session/soundness.hpp"
 #include "tests/runs/scene_texts.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "calibration/fit.hpp"
+#include "calibration/fit_law.hpp"
 
 namespace acinus::calibration {
 namespace {

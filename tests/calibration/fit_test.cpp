@@ -1,6 +1,6 @@
 /// The fit finds laws that are known, from clumps of spheres whose force they made.
 
-#include "calibration/fit.hpp"
+#include "calibration/fit_law.hpp"
 
 #include <gtest/gtest.h>
 

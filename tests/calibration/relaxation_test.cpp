@@ -1,6 +1,6 @@
 /// Relaxation times: the fit of a decay, and the exact scaling of times with friction.
 
-#include "calibration/relaxation.hpp"
+#include "calibration/clump_relaxation.hpp"
 
 #include <gtest/gtest.h>
 

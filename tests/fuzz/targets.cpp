@@ -18,7 +18,7 @@
 #include "io/run_reader.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/read_summary.hpp"
-#include "runs/study/plan.hpp"
+#include "runs/study/read_study.hpp"
 #include "service/serve/submission.hpp"
 #include "tests/imaging/hdf5_dataset.hpp"
 #include "tests/imaging/images.hpp"

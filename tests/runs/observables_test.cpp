@@ -11,9 +11,11 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/contact_forces.hpp"
-#include "runs/experiments/lobule.hpp"
-#include "runs/experiments/tissue.hpp"
-#include "runs/session/frame.hpp"
+#include "runs/experiments/observe.hpp"
+#include "runs/experiments/observed_run.hpp"
+#include "runs/experiments/sample_lobule.hpp"
+#include "runs/experiments/sample_tissue.hpp"
+#include "runs/session/make_frame.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {
@@ -38,7 +40,7 @@ struct Watched {
   Scene scene;
   coupling::World world;
   coupling::Workspace work{};
-  Observables observer{};
+  ObservedRun observer{};
   Snapshot snapshot{};
   std::vector<io::SeriesValue> row{};
 
@@ -258,9 +260,9 @@ TEST(Lesion, KeepsItsFirstFrameThroughACheckpoint) {
   move_inward(w.snapshot, 20);
   w.look(3600);
   io::CheckpointData data;
-  put_observables(w.observer, data);
+  put_observed_run(w.observer, data);
   Watched resumed(lobule_scene(), coupling::make_test_world(ring(100)));
-  resumed.observer = get_observables(data);
+  resumed.observer = get_observed_run(data);
   move_inward(w.snapshot, 20);
   resumed.snapshot = w.snapshot;
   w.look(7200);

@@ -11,7 +11,7 @@
 #include "geometry/topology.hpp"
 #include "runs/experiments/flooded_area.hpp"
 #include "runs/experiments/open_area.hpp"
-#include "runs/experiments/plates.hpp"
+#include "runs/experiments/plate_thickness.hpp"
 #include "tests/reference/brick.hpp"
 
 namespace acinus::runs {

@@ -8,7 +8,7 @@
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/snapshot.hpp"
 #include "runs/scene/reader.hpp"
-#include "runs/session/frame.hpp"
+#include "runs/session/make_frame.hpp"
 #include "tests/reference/brick.hpp"
 
 namespace acinus::runs {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "runs/study/plan.hpp"
+#include "runs/study/read_study.hpp"
 
 namespace acinus::runs {
 

@@ -4,6 +4,7 @@
 
 #include "runs/study/active_run.hpp"
 #include "runs/study/expected_cost.hpp"
+#include "runs/study/read_study.hpp"
 
 namespace acinus::runs {
 namespace {

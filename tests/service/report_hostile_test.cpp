@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 #include "io/run_file.hpp"
-#include "service/report/report.hpp"
+#include "service/report/make_report.hpp"
 #include "tests/io/sample.hpp"
 
 namespace acinus::runs {

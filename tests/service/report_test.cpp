@@ -1,7 +1,7 @@
 /// Pages of `acinus report`: what is packed comes out again, what is too much is thinned, what is
 /// damaged is told.
 
-#include "service/report/report.hpp"
+#include "service/report/make_report.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

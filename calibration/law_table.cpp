@@ -1,0 +1,127 @@
+#include "calibration/law_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace acinus::calibration {
+namespace {
+
+/// Moduli looked at, over that of plain spheres.
+constexpr double kSoftest = 1e-3, kStiffest = 1e3;
+/// How far apart entries of the table are at most: in d, and as a factor of moduli.
+constexpr double kStride = 0.01, kRise = 1.25;
+
+/// Share of the largest force below which pulls and pushes cancel and a ratio of forces says
+/// nothing.
+constexpr double kTells = 0.002;
+constexpr int kRounds = 4;  ///< of corrections; the error stands still after two or three
+/// What one round changes at most.
+constexpr double kLargestChange = 1.5;
+
+/// An overlap, and the modulus that it asks for.
+struct Demand {
+  double overlap = 0, modulus = 0;
+  double force = 0;  ///< nN, of the cells
+  const ClumpSnapshot* snapshot = nullptr;
+};
+
+/// The modulus all spheres must have for the force of a snapshot, which rises with it.
+double find_modulus(const ClumpSnapshot& snapshot, double force, cbm::Params sphere,
+                    const std::vector<std::size_t>& inner) {
+  const double plain = sphere.young;
+  double low = kSoftest * plain, high = kStiffest * plain;
+  while (high > 1.0001 * low) {
+    sphere.young = std::sqrt(low * high);
+    (bulk_as_spheres(snapshot, sphere, inner).force < force ? low : high) = sphere.young;
+  }
+  return std::sqrt(low * high);
+}
+
+std::vector<Demand> find_demands(const Compression& compression, const cbm::Params& sphere,
+                                 double highest) {
+  const std::vector<Bulk> bulks = measure_bulks(compression.snapshots, compression.inner);
+  std::vector<Demand> all;
+  for (std::size_t k = 0; k < bulks.size(); ++k)
+    all.push_back({bulks[k].overlap, 0, bulks[k].force, &compression.snapshots[k]});
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 10);
+  std::vector<Demand> demands;
+  for (auto d = std::ranges::min_element(first, all.end(), {}, &Demand::force); d != all.end(); ++d)
+    if (d->overlap <= highest) demands.push_back(*d);
+  for (Demand& d : demands)
+    d.modulus = find_modulus(*d.snapshot, d.force, sphere, compression.inner);
+  return demands;
+}
+
+/// Means over demands near each other, finest where moduli rise fastest. Where they fall they are
+/// made level.
+std::vector<TableEntry> make_table(std::vector<Demand> demands) {
+  struct Bin {
+    double overlap = 0, modulus = 0, weight = 0;
+  };
+  std::ranges::sort(demands, {}, &Demand::overlap);
+  std::vector<Bin> bins;
+  Demand start;
+  for (const Demand& d : demands) {
+    if (bins.empty() || d.overlap > start.overlap + kStride || d.modulus > kRise * start.modulus) {
+      bins.push_back({});
+      start = d;
+    }
+    bins.back().overlap += d.overlap;
+    bins.back().modulus += d.modulus;
+    ++bins.back().weight;
+  }
+  std::vector<Bin> rising;
+  for (Bin b : bins) {
+    while (!rising.empty() &&
+           b.modulus / b.weight <= rising.back().modulus / rising.back().weight) {
+      b = {b.overlap + rising.back().overlap, b.modulus + rising.back().modulus,
+           b.weight + rising.back().weight};
+      rising.pop_back();
+    }
+    rising.push_back(b);
+  }
+  std::vector<TableEntry> table;
+  if (rising.empty()) return table;
+  for (const Bin& b : rising) table.push_back({b.overlap / b.weight, b.modulus / b.weight});
+  if (demands.back().overlap > table.back().overlap)
+    table.push_back({demands.back().overlap, table.back().modulus});
+  return table;
+}
+
+}  // namespace
+
+double force_with(const Law& law, const ClumpSnapshot& snapshot, const cbm::Params& sphere,
+                  const std::vector<std::size_t>& inner) {
+  cbm::Params p = sphere;
+  p.young = law.a0;
+  p.correction = stiffness_law(law);
+  return bulk_as_spheres(snapshot, p, inner).force;
+}
+
+Law tabulate_law(const Compression& compression, const cbm::Params& sphere, const Law& known) {
+  std::vector<Demand> demands = find_demands(compression, sphere, known.overlap_range[1]);
+  Law best = known;
+  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const Demand& d : demands) largest = std::max(largest, d.force);
+  for (int round = 0; round < kRounds; ++round) {
+    Law law = known;
+    law.table = make_table(demands);
+    if (law.table.size() < 2) break;  // the compression ends where it presses least
+    law.a0 = law.table.front().modulus;
+    law.overlap_range = {law.table.front().overlap, law.table.back().overlap};
+    double misfit = 0;
+    for (Demand& d : demands) {
+      const double force = force_with(law, *d.snapshot, sphere, compression.inner);
+      misfit += std::pow(force - d.force, 2);
+      if (d.force > kTells * largest)
+        d.modulus *= force > 0 ? std::clamp(d.force / force, 1 / kLargestChange, kLargestChange)
+                               : kLargestChange;
+    }
+    if (misfit < least) best = law;
+    least = std::min(least, misfit);
+  }
+  return best;
+}
+
+}  // namespace acinus::calibration

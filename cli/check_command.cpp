@@ -1,0 +1,71 @@
+/// acinus check
+
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/wall_time.hpp"
+#include "core/parallel/memory.hpp"
+#include "core/parallel/stop.hpp"
+#include "runs/assemble/build_world.hpp"
+#include "runs/assemble/memory_need.hpp"
+#include "runs/scene/reader.hpp"
+#include "runs/scene/shipped_scenes.hpp"
+
+namespace acinus::runs {
+namespace {
+
+struct CheckArguments {
+  std::string scene_file;
+  std::vector<std::string> set;
+  std::string max_walltime;
+  bool resolved = false;  ///< print the scene with every default
+};
+
+int check_scene(const CheckArguments& arguments) {
+  const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
+  const ExitAtLimit nothing_to_save;
+  const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
+  Scene plain = scene;
+  std::vector<std::string> later;
+  for (auto& [name, type] : plain.cell_types) {
+    if (type.cbm.stiffness_correction != "auto") continue;
+    type.cbm.stiffness_correction = "none";
+    later.push_back(name + ": calibrated when the scene runs, if that was not done before");
+  }
+  check_memory(plain, machine_memory());
+  const BuiltWorld built =
+      build_world(plain, Ranks::serial());  // throws for geometry that does not fit
+  for (const std::string& warning : built.notes.warned)
+    fmt::print(stderr, "acinus: warning: {}\n", warning);
+  if (arguments.resolved) {
+    fmt::print("{}", scene.resolved_json);
+    return 0;
+  }
+  const coupling::State& state = built.world.state;
+  fmt::print(
+      "{}: valid scene \"{}\", {} cell type{}, {} DCM + {} CBM cells from {}, {:.0f} um of "
+      "vessels, end {:.4g} h, hash {}\n",
+      scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
+      dcm::count_cells(state.dcm), state.cbm.n_cell(), name_of_choice(scene.cells.source),
+      built.vessel_length, scene.time.end / 3600, scene.hash);
+  for (const std::string& note : built.notes.said) fmt::print("{}\n", note);
+  for (const std::string& note : later) fmt::print("{}\n", note);
+  return 0;
+}
+
+}  // namespace
+
+Command add_check(CLI::App& app) {
+  CLI::App* command =
+      add_command(app, "check", "validate a scene and its geometry without running it",
+                  "acinus check two_cells --resolved");
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("SCENE", arguments->scene_file, "scene file, or the name of a shipped scene")
+      ->required();
+  add_set(*command, arguments->set);
+  add_wall_time_limit(*command, arguments->max_walltime, "end after this wall time with exit 75");
+  command->add_flag("--resolved", arguments->resolved, "print the scene with every default");
+  return {command, [arguments] { return check_scene(*arguments); }};
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,51 @@
+/// acinus explain, acinus schema: the keys of scenes and studies
+
+#include <memory>
+
+#include "cli/command.hpp"
+#include "runs/scene/entries.hpp"
+#include "runs/scene/explain.hpp"
+#include "runs/scene/schema.hpp"
+#include "runs/study/study_registry.hpp"
+
+namespace acinus::runs {
+namespace {
+
+int explain(const std::string& key, bool markdown) {
+  if (markdown) {
+    fmt::print("{}", explain_markdown());
+    return 0;
+  }
+  const bool study = key == "study" || key.starts_with("study.");
+  const std::vector<Entry>& entries = study ? study_entries() : all_entries();
+  fmt::print("{}",
+             key.empty() || key == "study" ? explain_all(entries) : explain_key(key, entries));
+  return 0;
+}
+
+}  // namespace
+
+Command add_explain(CLI::App& app) {
+  CLI::App* command =
+      add_command(app, "explain", "say what a scene key means; without KEY, list all",
+                  "acinus explain cell.radius");
+  const auto key = std::make_shared<std::string>();
+  const auto markdown = std::make_shared<bool>(false);
+  CLI::Option* option =
+      command->add_option("KEY", *key, "path or last name of a key; study.KEY: of studies");
+  command->add_flag("--markdown", *markdown, "all keys as a Markdown page")->excludes(option);
+  return {command, [key, markdown] { return explain(*key, *markdown); }};
+}
+
+Command add_schema(CLI::App& app) {
+  CLI::App* command = add_command(app, "schema", "print the JSON Schema of scenes",
+                                  "acinus schema > scene.schema.json");
+  const auto study = std::make_shared<bool>(false);
+  command->add_flag("--study", *study, "of studies instead");
+  return {command, [study] {
+            fmt::print("{}", *study ? study_schema() : scene_schema());
+            return 0;
+          }};
+}
+
+}  // namespace acinus::runs

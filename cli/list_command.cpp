@@ -1,0 +1,53 @@
+/// acinus list, acinus new: the scenes that come with the program
+
+#include <memory>
+
+#include "cli/command.hpp"
+#include "runs/scene/entries.hpp"
+#include "runs/scene/shipped_scenes.hpp"
+#include "runs/session/shell_quote.hpp"
+#include "runs/study/shipped_studies.hpp"
+
+namespace acinus::runs {
+namespace {
+
+int list() {
+  fmt::print("scenes in {}\n", scene_folder());
+  for (const ShippedScene& scene : shipped_scenes())
+    fmt::print("  {:20}  {}\n", scene.name, scene.description);
+  if (const std::vector<ShippedScene> studies = shipped_studies(); !studies.empty()) {
+    fmt::print("studies (acinus study NAME)\n");
+    for (const ShippedScene& study : studies)
+      fmt::print("  {:20}  {}\n", study.name, study.description);
+  }
+  for (const Entry& entry : all_entries())
+    if (entry.path == "experiment")
+      fmt::print("experiments (scene key experiment)\n  {}\n", entry.range);
+  return 0;
+}
+
+int copy(const std::string& name, const std::string& folder) {
+  const std::vector<std::string> written = copy_scene(name, folder);
+  for (const std::string& file : written) fmt::print("wrote {}\n", file);
+  fmt::print("run it with: acinus run {}\n", quote_for_shell(written.front()));
+  return 0;
+}
+
+}  // namespace
+
+Command add_list(CLI::App& app) {
+  return {add_command(app, "list", "list the shipped scenes, studies and the experiments",
+                      "acinus list"),
+          list};
+}
+
+Command add_new(CLI::App& app) {
+  CLI::App* command = add_command(app, "new", "copy a shipped scene into a folder to change it",
+                                  "acinus new two_cells my_cells");
+  const auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  command->add_option("SCENE", *name, "name of a shipped scene")->required();
+  command->add_option("DIR", *folder, "folder, made if needed")->required();
+  return {command, [name, folder] { return copy(*name, *folder); }};
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,117 @@
+#include "runs/experiments/sample_tissue.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "coupling/measure/contact_forces.hpp"
+#include "runs/experiments/observables.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using coupling::CellMeasure;
+using coupling::Reaction;
+
+void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
+  m[name + "_force_nN"].push_back(r.normal);
+  for (int k = 0; k < 3; ++k)
+    m[name + "_net_" + std::string("xyz").substr(k, 1) + "_nN"].push_back(r.net[k]);
+}
+
+/// Reactions of everything with a name, those of one name together.
+void sample_reactions(const ObservedFrame& frame, Measures& m) {
+  const contact::Boundary& boundary = frame.world.params.boundary;
+  const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);
+  std::map<std::string, Reaction> wall;
+  contact::for_each_wall(boundary, [&](contact::Partner kind, std::size_t k, const auto& w) {
+    wall[name_in_columns(w.name)] += r.of(kind)[k];
+  });
+  for (std::size_t k = 0; k < boundary.meshes.size(); ++k)
+    wall[name_in_columns(boundary.meshes[k].name)] += r.of(contact::Partner::kMesh)[k];
+  for (const auto& [name, reaction] : wall) add_reaction("wall_" + name, reaction, m);
+  Reaction vessels;
+  for (const Reaction& segment : r.of(contact::Partner::kVessel)) vessels += segment;
+  add_reaction("vessels", vessels, m);
+}
+
+void sample_pressures(const std::vector<CellMeasure>& cells, Measures& m) {
+  for (const bool deformable : {true, false}) {
+    double n = 0, sum[2] = {0, 0}, most[2] = {0, 0};
+    for (const CellMeasure& c : cells) {
+      if (c.deformable != deformable) continue;
+      const double p[2] = {1e3 * c.pressure, 1e3 * c.cytosol_pressure};
+      for (int k = 0; k < 2; ++k) {
+        sum[k] += p[k];
+        most[k] = n > 0 ? std::max(most[k], p[k]) : p[k];
+      }
+      ++n;
+    }
+    const std::string model = deformable ? "dcm" : "cbm";
+    for (int k = 0; k < 2; ++k) {
+      const std::string kind = k == 0 ? "contact_pressure_" : "cytosol_pressure_";
+      m[kind + "mean_" + model + "_Pa"].push_back(n > 0 ? sum[k] / n : 0);
+      m[kind + "max_" + model + "_Pa"].push_back(most[k]);
+    }
+    m["cells_" + model].push_back(n);
+  }
+}
+
+void sample_overlaps(const coupling::AuditResult& a, Measures& m) {
+  m["overlap_dcm_dcm_um"].push_back(a.dcm_dcm.depth_um);
+  m["overlap_dcm_cbm_um"].push_back(a.dcm_cbm.depth_um);
+  m["overlap_dcm_cbm_beyond_um"].push_back(a.dcm_cbm_beyond_indentation.depth_um);
+  m["overlap_cbm_cbm_um"].push_back(a.cbm_cbm.depth_um);
+  m["overlap_dcm_vessels_um"].push_back(a.dcm_vessel.depth_um);
+  m["overlap_cbm_vessels_um"].push_back(a.cbm_vessel.depth_um);
+  m["overlap_vessels_um"].push_back(std::max(a.dcm_vessel.depth_um, a.cbm_vessel.depth_um));
+  m["overlap_dcm_walls_um"].push_back(a.dcm_wall.depth_um);
+  m["overlap_cbm_walls_um"].push_back(a.cbm_wall.depth_um);
+}
+
+void sample_clusters(const ObservedFrame& frame, Measures& m) {
+  const std::vector<int> size = coupling::cluster_sizes(
+      frame.snapshot.cells.size(), coupling::find_touching(frame.world, frame.work));
+  double clusters = 0;
+  for (const int n : size) clusters += 1.0 / n;
+  m["detached_cells"].push_back(static_cast<double>(std::ranges::count(size, 1)));
+  m["cells_in_small_clusters"].push_back(
+      static_cast<double>(std::ranges::count_if(size, [](int n) { return n < 3; })));
+  m["clusters"].push_back(std::round(clusters));
+}
+
+void sample_interface(const ObservedFrame& frame, Measures& m) {
+  double pairs = 0, force = 0;
+  for (const coupling::InterfaceForce& f : frame.snapshot.interface) {
+    pairs += f.force.squaredNorm() > 0 ? 1 : 0;
+    force += f.force.norm();
+  }
+  m["interface_pairs"].push_back(pairs);
+  m["interface_force_nN"].push_back(force);
+  m["interface_residual"].push_back(coupling::interface_residual(frame.world, frame.work));
+}
+
+}  // namespace
+
+void sample_tissue(const ObservedFrame& frame, Measures& m) {
+  m["divisions"].push_back(static_cast<double>(frame.world.state.divisions));
+  m["deaths"].push_back(static_cast<double>(frame.world.state.deaths));
+  sample_pressures(frame.snapshot.cells, m);
+  sample_overlaps(frame.audit, m);
+  sample_clusters(frame, m);
+  sample_interface(frame, m);
+  sample_reactions(frame, m);
+}
+
+std::vector<std::string> wall_names(const contact::Boundary& boundary) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::ranges::find(names, name_in_columns(name)) == names.end())
+      names.push_back(name_in_columns(name));
+  };
+  contact::for_each_wall(boundary, [&](auto, auto, const auto& wall) { add(wall.name); });
+  for (const contact::StaticMesh& b : boundary.meshes) add(b.name);
+  return names;
+}
+
+}  // namespace acinus::runs

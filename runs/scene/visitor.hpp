@@ -1,0 +1,100 @@
+#pragma once
+/// Keys as a registry shows them: name, dimension, unit, range, choices and meaning of each, one
+/// call of a visitor per key.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/units/dimension.hpp"
+#include "core/vec.hpp"
+#include "runs/scene/json_text.hpp"
+
+namespace acinus::runs {
+
+/// Allowed values of a number, in base units.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;  ///< the bound itself is not allowed
+  bool contains(double value) const;
+};
+
+/// Bounds as text, in the preferred unit: "> 0 um", "0 to 0.5", "" when unbounded.
+std::string range_text(const Range& range, Dimension dimension, const char* unit);
+
+/// What the registry knows about one key. All texts are literals.
+struct Key {
+  const char* name = "";
+  const char* meaning = "";
+  Dimension dimension{};  ///< of a real number or vector
+  const char* unit = "";  ///< preferred unit; "" = plain number
+  Range range{};
+  const char* choices = "";  ///< "dcm|cbm|zoom"; "" = any
+  const char* symbol = "";   ///< in the paper
+  bool required = false;
+  const char* automatic = "";  ///< what "auto" stands for; "" = "auto" is not allowed
+  bool is_file = false;        ///< a text that is a path, or one of the choices
+  bool is_run = false;         ///< a text that is the path of a run folder
+  bool is_name = false;        ///< a text that is a name: letters, digits, _ and -
+  bool is_label = false;       ///< the same with spaces inside
+  const char* item = "";       ///< lists and maps: what `explain` calls one element
+};
+
+/// The parts of Key::choices.
+std::vector<std::string> choices_of(const Key& key);
+
+class Visitor;
+
+/// A list or map of blocks as a visitor sees it.
+struct Elements {
+  std::function<std::size_t()> size;
+  std::function<void(std::size_t)> resize;           ///< lists
+  std::function<std::vector<std::string>()> names;   ///< maps
+  std::function<void(const std::string&)> add;       ///< maps
+  std::function<void(Visitor&, std::size_t)> visit;  ///< element by number
+  std::function<void(Visitor&)> visit_sample;        ///< an element with defaults
+};
+
+/// Visits every key of a scene in canonical order.
+class Visitor {
+ public:
+  using Members = std::function<void(Visitor&)>;
+  virtual ~Visitor() = default;
+  virtual void real(const Key& key, double& value) = 0;
+  virtual void optional_real(const Key& key, std::optional<double>& value) = 0;
+  virtual void integer(const Key& key, int& value) = 0;
+  virtual void seed(const Key& key, std::uint64_t& value) = 0;
+  virtual void flag(const Key& key, bool& value) = 0;
+  virtual void text(const Key& key, std::string& value) = 0;
+  virtual void vector(const Key& key, Vec3& value) = 0;
+  /// Two opposite corners or null.
+  virtual void box(const Key& key, std::optional<std::array<Vec3, 2>>& value) = 0;
+  virtual void counts(const Key& key, std::array<int, 3>& value) = 0;
+  /// A list of whole numbers of any length.
+  virtual void integers(const Key& key, std::vector<std::int64_t>& values) = 0;
+  /// A list of texts of any length.
+  virtual void texts(const Key& key, std::vector<std::string>& values) = 0;
+  /// A value whose type another key decides, with the place it was written; empty = not given.
+  virtual void value(const Key& key, std::optional<Node>& value) = 0;
+  virtual void values(const Key& key, std::vector<Node>& values) = 0;
+  /// Values by names that no registry of this visitor knows.
+  virtual void settings(const Key& key, std::vector<JsonMember>& members) = 0;
+  /// A block that is always there.
+  virtual void object(const Key& key, const Members& members) = 0;
+  /// A block that may be absent; `members` may be called only while it is present.
+  virtual void optional_object(const Key& key, bool present,
+                               const std::function<void(bool)>& set_present,
+                               const Members& members) = 0;
+  virtual void list(const Key& key, const Elements& elements) = 0;
+  virtual void map(const Key& key, const Elements& elements) = 0;
+  /// Keys that exist only under a condition on a key visited before, such as the shape of a region.
+  virtual void when(bool holds, const char* condition, const Members& members) = 0;
+};
+
+}  // namespace acinus::runs

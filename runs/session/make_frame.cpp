@@ -1,0 +1,265 @@
+#include "runs/session/make_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "contact/jkr.hpp"
+#include "contact/wall_mesh.hpp"
+#include "coupling/generate/pipette_surface.hpp"
+#include "coupling/generate/vessel_surface.hpp"
+#include "coupling/step/stages.hpp"
+
+namespace acinus::runs {
+namespace {
+
+using coupling::CellMeasure, coupling::NodeMeasure;
+
+constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2, kNucleus = 3;
+
+/// Appends one number per component.
+void push(io::Field& field, double value) { field.value.push_back(static_cast<float>(value)); }
+
+io::Table cell_table(const std::vector<CellMeasure>& cells) {
+  io::Table t;
+  io::IdColumn id{"id", {}}, parent{"parent", {}}, kind{"kind", {}}, type{"type", {}},
+      leader{"leader", {}}, contacts{"contacts", {}};
+  io::Column center{"center", "um", 3, {}}, radius{"radius", "um", 1, {}},
+      volume{"volume", "um^3", 1, {}}, area{"area", "um^2", 1, {}},
+      pressure{"pressure", "kPa", 1, {}}, cytosol{"cytosol_pressure", "kPa", 1, {}},
+      stress{"stress", "kPa", 6, {}}, touching{"contact_area", "um^2", 1, {}},
+      active{"migration_force", "nN", 1, {}}, pushing{"contact_force", "nN", 1, {}},
+      normal{"normal_force", "nN", 1, {}};
+  for (const CellMeasure& c : cells) {
+    id.value.push_back(c.id);
+    parent.value.push_back(c.parent);
+    kind.value.push_back(c.deformable ? kShell : kSphere);
+    type.value.push_back(c.type);
+    leader.value.push_back(c.leader ? 1 : 0);
+    contacts.value.push_back(c.contacts);
+    for (int k = 0; k < 3; ++k) center.value.push_back(c.center[k]);
+    radius.value.push_back(c.radius);
+    volume.value.push_back(c.volume);
+    area.value.push_back(c.area);
+    pressure.value.push_back(c.pressure);
+    cytosol.value.push_back(c.cytosol_pressure);
+    stress.value.insert(stress.value.end(), c.stress.begin(), c.stress.end());
+    touching.value.push_back(c.contact_area);
+    active.value.push_back(c.migration_force);
+    pushing.value.push_back(c.contact_force);
+    normal.value.push_back(c.normal_force);
+  }
+  t.ids = {id, parent, kind, type, leader, contacts};
+  t.columns = {center, radius,   volume, area,    pressure, cytosol,
+               stress, touching, active, pushing, normal};
+  return t;
+}
+
+io::Table interface_table(const std::vector<coupling::InterfaceForce>& forces) {
+  io::IdColumn dcm{"dcm_id", {}}, cbm{"cbm_id", {}};
+  io::Column force{"force", "nN", 3, {}}, area{"area", "um^2", 1, {}}, gap{"gap", "um", 1, {}};
+  for (const coupling::InterfaceForce& f : forces) {
+    dcm.value.push_back(f.dcm_id);
+    cbm.value.push_back(f.cbm_id);
+    for (int k = 0; k < 3; ++k) force.value.push_back(f.force[k]);
+    area.value.push_back(f.area);
+    gap.value.push_back(f.gap);
+  }
+  return {{dcm, cbm}, {force, area, gap}};
+}
+
+/// Writes points and triangles with their data into a frame.
+class FrameBuilder {
+ public:
+  explicit FrameBuilder(const Snapshot& snapshot) : snapshot_(snapshot) {
+    frame_.time_s = snapshot.time;
+  }
+
+  void add_cell(const contact::SurfaceBody& body, const CellMeasure& cell) {
+    const NodeMeasure& nodes = snapshot_.nodes;
+    for (const Vec3& x : body.node) {
+      push_point(x, nodes.force[node_], nodes.pressure[node_], nodes.tension[node_]);
+      ++node_;
+    }
+    add_triangles(*body.triangle, body.node.size(), &cell, kShell);
+  }
+
+  void add_nucleus(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle,
+                   const CellMeasure& cell) {
+    for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
+    add_triangles(triangle, node.size(), &cell, kNucleus);
+  }
+
+  void add_surface(const std::vector<Vec3>& node, const std::vector<std::array<int, 3>>& triangle) {
+    for (const Vec3& x : node) push_point(x, Vec3::Zero(), 0, 0);
+    add_triangles(triangle, node.size(), nullptr, kBoundary);
+  }
+
+  /// Spheres come after all surfaces.
+  void add_sphere(const CellMeasure& cell) {
+    push_point(cell.center, Vec3::Zero(), 0, 0);
+    push_cell(&cell, kSphere, cell.radius);
+    ++frame_.n_sphere;
+  }
+
+  io::Frame finish() {
+    frame_.n_mesh_node = base_;
+    frame_.point_data = {std::move(force_), std::move(contact_), std::move(tension_)};
+    frame_.cell_data = {std::move(type_),    std::move(volume_), std::move(pressure_),
+                        std::move(cytosol_), std::move(radius_), std::move(leader_),
+                        std::move(strength_)};
+    frame_.cells = cell_table(snapshot_.cells);
+    frame_.interface = interface_table(snapshot_.interface);
+    return std::move(frame_);
+  }
+
+ private:
+  void push_point(const Vec3& x, const Vec3& nodal_force, double pressure, double tension) {
+    for (int k = 0; k < 3; ++k) frame_.point.push_back(static_cast<float>(x[k]));
+    for (int k = 0; k < 3; ++k) push(force_, nodal_force[k]);
+    push(contact_, pressure);
+    push(tension_, tension);
+  }
+  void push_cell(const CellMeasure* c, std::uint8_t kind, double sphere_radius) {
+    frame_.cell_id.push_back(c ? c->id : -1);
+    frame_.kind.push_back(kind);
+    push(type_, c ? c->type : -1);
+    push(volume_, c ? c->volume : 0);
+    push(pressure_, c ? c->pressure : 0);
+    push(cytosol_, c ? c->cytosol_pressure : 0);
+    push(radius_, sphere_radius);
+    push(leader_, c && c->leader ? 1 : 0);
+    push(strength_, c ? c->strength : 1);
+  }
+  void add_triangles(const std::vector<std::array<int, 3>>& triangle, std::size_t n_node,
+                     const CellMeasure* cell, std::uint8_t kind) {
+    for (const auto& t : triangle) {
+      frame_.triangle.push_back({base_ + t[0], base_ + t[1], base_ + t[2]});
+      push_cell(cell, kind, 0);
+    }
+    base_ += static_cast<std::int64_t>(n_node);
+  }
+
+  const Snapshot& snapshot_;
+  io::Frame frame_;
+  io::Field force_{"force", "nN", 3, {}}, contact_{"contact_pressure", "kPa", 1, {}},
+      tension_{"tension", "nN/um", 1, {}};
+  io::Field type_{"cell_type", "1", 1, {}}, volume_{"volume", "um^3", 1, {}},
+      pressure_{"pressure", "kPa", 1, {}}, cytosol_{"cytosol_pressure", "kPa", 1, {}},
+      radius_{"radius", "um", 1, {}}, leader_{"leader", "1", 1, {}},
+      strength_{"strength", "1", 1, {}};
+  std::int64_t base_ = 0;  ///< nodes so far
+  std::size_t node_ = 0;   ///< of those of cells
+};
+
+void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapshot& snapshot,
+                FrameBuilder& builder) {
+  std::vector<Vec3> node;
+  for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
+    const std::size_t lane = w.dcm.lane_of_body[b];
+    const dcm::NucleusMesh& nucleus = s.group[lane / kLanes].nucleus;
+    if (!nucleus.exists()) continue;
+    dcm::copy_nucleus(s, lane, node);
+    builder.add_nucleus(node, nucleus.topology->triangle, snapshot.cells[b]);
+  }
+}
+
+}  // namespace
+
+geometry::Surface draw_boundary(const contact::Boundary& boundary) {
+  geometry::Surface drawn;
+  if (const contact::WallMesh* wall = boundary.vessels.wall.get())
+    drawn = {wall->surface.body.node, *wall->surface.triangle};
+  else
+    drawn = coupling::make_vessel_surface(boundary.vessels.network).surface;
+  for (const contact::Pipette& p : boundary.pipettes) coupling::add_pipette_surface(p, drawn);
+  return drawn;
+}
+
+io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
+                     const Snapshot& snapshot, const geometry::Surface& boundary) {
+  FrameBuilder builder(snapshot);
+  const std::size_t n_body = w.dcm.body.size();
+  for (std::size_t b = 0; b < n_body; ++b) builder.add_cell(w.dcm.body[b], snapshot.cells[b]);
+  if (dcm::has_nuclei(world.state.dcm)) add_nuclei(world.state.dcm, w, snapshot, builder);
+  builder.add_surface(boundary.node, boundary.triangle);
+  for (const contact::StaticMesh& m : world.params.boundary.meshes)
+    builder.add_surface(m.body.node, *m.triangle);
+  for (std::size_t k = n_body; k < snapshot.cells.size(); ++k)
+    builder.add_sphere(snapshot.cells[k]);
+  return builder.finish();
+}
+
+namespace {
+
+/// Half the JKR overlap of two such spheres under the pair's force: how far the sphere's own side
+/// yields.
+std::vector<coupling::KnownIndentation> explained_indentations(const coupling::World& world,
+                                                               const Snapshot& snapshot) {
+  const cbm::State& s = world.state.cbm;
+  auto find = [&](std::int64_t id, bool deformable) {
+    return std::ranges::find_if(snapshot.cells, [&](const CellMeasure& c) {
+      return c.id == id && c.deformable == deformable;
+    });
+  };
+  std::vector<coupling::KnownIndentation> indentations;
+  for (const coupling::InterfaceForce& f : snapshot.interface) {
+    const auto cell = find(f.dcm_id, true), sphere = find(f.cbm_id, false);
+    const std::size_t k = std::ranges::find(s.lineage, f.cbm_id) - s.lineage.begin();
+    const cbm::Params& p = world.params.cbm[s.type[k]];
+    const contact::SphereBody body{sphere->radius, s.young[k], p.poisson};
+    const double press = f.force.dot((cell->center - sphere->center).normalized());
+    indentations.push_back(
+        {f.dcm_id, f.cbm_id,
+         0.5 * contact::jkr_overlap(contact::reduced_pair(body, body, p.adhesion), press)});
+  }
+  return indentations;
+}
+
+}  // namespace
+
+StaticBodies prepare_static_bodies(const contact::Boundary& boundary) {
+  StaticBodies bodies;
+  if (const contact::WallMesh* wall = boundary.vessels.wall.get())
+    bodies.vessel_surface = coupling::prepare_static(
+        wall->surface.body.node, *wall->surface.triangle, "surface of the vessels");
+  for (const contact::StaticMesh& m : boundary.meshes) {
+    auto& outward = bodies.outward.emplace_back(*m.triangle);
+    if (m.inside)
+      for (auto& t : outward) std::swap(t[1], t[2]);
+    bodies.mesh.push_back(
+        {coupling::prepare_static(m.body.node, outward,
+                                  fmt::format("static mesh {}", bodies.mesh.size())),
+         m.inside});
+  }
+  return bodies;
+}
+
+coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& w,
+                                  const Snapshot& snapshot, const StaticBodies& bodies) {
+  const contact::Boundary& boundary = world.params.boundary;
+  const double time = std::max(0.0, snapshot.time);
+  std::vector<coupling::AuditMesh> meshes;
+  std::vector<coupling::AuditSphere> spheres;
+  for (std::size_t b = 0; b < w.dcm.body.size(); ++b)
+    meshes.push_back({snapshot.cells[b].id, w.dcm.body[b].node, *w.dcm.body[b].triangle,
+                      snapshot.cells[b].newborn});
+  for (std::size_t k = w.dcm.body.size(); k < snapshot.cells.size(); ++k)
+    spheres.push_back({snapshot.cells[k].id, snapshot.cells[k].center, snapshot.cells[k].radius,
+                       snapshot.cells[k].strength, snapshot.cells[k].parent});
+  const std::vector<coupling::AuditWall> walls = coupling::make_audit_walls(boundary, time);
+  coupling::AuditFrame frame;
+  frame.meshes = meshes;
+  frame.spheres = spheres;
+  const std::vector<coupling::KnownIndentation> indentations =
+      explained_indentations(world, snapshot);
+  frame.indentations = indentations;
+  frame.vessels = &boundary.vessels.network;
+  frame.vessel_surface = bodies.vessel_surface ? &*bodies.vessel_surface : nullptr;
+  frame.walls = walls;
+  frame.statics = bodies.mesh;
+  return coupling::audit(frame, world.ranks);
+}
+
+}  // namespace acinus::runs

@@ -1,0 +1,93 @@
+#include "service/report/make_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "acinus_version.hpp"
+#include "core/error.hpp"
+#include "io/disk.hpp"
+#include "runs/scene/json_text.hpp"
+#include "service/report/other_parts.hpp"
+#include "service/report/page.hpp"
+#include "service/report/picture.hpp"
+#include "service/report/run_part.hpp"
+
+namespace acinus::runs {
+namespace fs = std::filesystem;
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+enum class ItemKind { kRun, kLaw, kStudy };
+
+ItemKind kind_of(const std::string& path) {
+  std::error_code code;
+  check(fs::exists(path, code), fmt::format("{}: there is no such file or folder", path),
+        Exit::kFileError);
+  const auto has = [&](const char* name) { return fs::exists(fs::path(path) / name, code); };
+  if (!fs::is_directory(path, code)) return ItemKind::kLaw;
+  if (has("run.vtkhdf") || has("summary.json")) return ItemKind::kRun;
+  if (has("study.json")) return ItemKind::kStudy;
+  if (has("law.json")) return ItemKind::kLaw;
+  throw Error(
+      fmt::format("{}: is no run (it has no run.vtkhdf), no study (no study.json) and no "
+                  "calibration (no law.json). Name a folder that `acinus run`, `acinus "
+                  "study` or `acinus calibrate` wrote, or a law file.",
+                  path));
+}
+
+/// "lobule.run" -> "lobule.html", in this folder.
+std::string file_named_after(const std::string& first) {
+  fs::path name = fs::path(first).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  name = name.filename();
+  for (const char* ending : {".run", ".study", ".calibration", ".json"})
+    if (name.extension() == ending) name = name.stem();
+  return name.string() + ".html";
+}
+
+}  // namespace
+
+std::string write_report(const ReportOptions& options) {
+  std::vector<std::string> folders;
+  for (const std::string& path : options.what)
+    if (kind_of(path) == ItemKind::kRun) folders.push_back(path);
+  check(!folders.empty() || (!options.most_frames && !options.bytes),
+        "--frames and --limit are for runs, and none is named. Leave them out.");
+  const std::size_t page = empty_page_size(), bytes = options.bytes.value_or(8'000'000);
+  check(bytes > page + 100'000,
+        fmt::format("--limit: the page without data takes {:.1f} MB. Allow more.", 1e-6 * page));
+  FrameLimits limits{.most_frames = options.most_frames.value_or(50)};
+  // Curves, tables and texts take about a tenth.
+  limits.bytes = (bytes - page) * 9 / 10 / std::max<std::size_t>(1, folders.size());
+  OrderedJson data{{"version", ACINUS_VERSION}, {"limit", bytes}, {"items", OrderedJson::array()}};
+  for (const std::string& path : options.what) {
+    switch (kind_of(path)) {
+      case ItemKind::kRun: {
+        RunRecord run = read_run_record(path);
+        data["items"].push_back(describe_run(run, limits));
+        break;
+      }
+      case ItemKind::kLaw:
+        data["items"].push_back(describe_law(path));
+        break;
+      case ItemKind::kStudy:
+        data["items"].push_back(describe_study(path));
+    }
+  }
+  if (folders.size() > 1) data["comparison"] = describe_comparison(folders);
+  if (!options.title.empty()) data["items"][0]["name"] = options.title;
+  std::string title = data["items"][0]["name"].get<std::string>();
+  if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
+  const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
+  io::write_text_file(
+      out,
+      write_page(as_utf8(title), data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace)));
+  if (!options.png.empty()) take_picture(out, options.png);
+  return out;
+}
+
+}  // namespace acinus::runs
