@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "contact/hertz.hpp"
+#include "contact/jkr.hpp"
 #include "solve/operator.hpp"
 #include "tests/cbm/spheres.hpp"
 #include "tests/contact/reference_table.hpp"

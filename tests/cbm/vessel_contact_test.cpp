@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "contact/hertz.hpp"
+#include "contact/jkr.hpp"
 #include "tests/cbm/spheres.hpp"
 
 namespace acinus::cbm {
