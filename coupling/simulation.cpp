@@ -90,7 +90,7 @@ LoopResult Simulation::run_until(double end, const Observer& observer) {
              [&](double limit) {
                was_running = is_running();
                change = next_change(world_.params, time());
-               return coupling::advance(world_, work_, limit);
+               return coupling::advance(world_, work_, awake_, limit);
              },
          .time_to_event = [&] { return time_to_event(observer); },
          .after =

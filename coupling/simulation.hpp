@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coupling/life/life.hpp"
+#include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/loop.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
@@ -56,6 +57,7 @@ class Simulation {
 
   World world_;
   Workspace work_;
+  AwakePart awake_;
 };
 
 }  // namespace acinus::coupling

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
@@ -35,7 +35,7 @@ AssembledClump::AssembledClump(const PackedClump& clump) {
   world = runs::build_world(runs::parse_scene(packed_clump_text(clump), "clump"), Ranks::serial())
               .world;
   coupling::size_workspace(world, work);
-  for (int k = 0; k < 5; ++k) coupling::advance(world, work, 1e9);
+  for (int k = 0; k < 5; ++k) coupling::take_step(world, work, 1e9);
   coupling::find_all_contacts(world, *clump.step, work);
   coupling::assemble(world, *clump.step, work);
 }

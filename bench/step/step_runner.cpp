@@ -7,7 +7,7 @@
 #include "bench/step/packed_clump.hpp"
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
-#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
@@ -76,7 +76,7 @@ double StepRunner::bytes_per_cell() const { return static_cast<double>(bytes_) /
 void StepRunner::advance(int steps) {
   for (int k = 0; k < steps; ++k) {
     if (case_.always_coarse) world_.state.clock.coarse = true;
-    const coupling::StepResult r = coupling::advance(world_, work_, 1e9);
+    const coupling::StepResult r = coupling::take_step(world_, work_, 1e9);
     check(r.accepted, case_.name + ": a step failed: " + r.cause, Exit::kCannotContinue);
   }
 }

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <set>
 
-#include "coupling/step/attempt.hpp"
+#include "coupling/step/integrator.hpp"
 
 namespace acinus::bench {
 namespace {

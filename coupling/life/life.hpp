@@ -4,29 +4,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "coupling/life/division.hpp"
+#include "coupling/life/life_report.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
-
-struct LifeEvent {
-  /// division | division_waits | settling_failed | death | lysis | remeshed | mesh_degenerate |
-  /// promotion | demotion | promotion_waits
-  std::string code;
-  std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
-  std::string message;
-};
-
-struct LifeReport {
-  std::vector<LifeEvent> events;
-  std::vector<DivisionFigures> divisions;  ///< of deformable cells
-  /// The process was asked to stop meanwhile: what was begun is undone, Clock::due says what is
-  /// left to do. live() is to be called again before the next step.
-  bool interrupted = false;
-};
 
 /// Stage 5 of a step: applies rules and inhibition on their time grid, then divides what has
 /// doubled its reference volume and removes what is dead. Time stands still. The workspace is sized

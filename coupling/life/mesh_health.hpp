@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "coupling/life/life.hpp"
+#include "coupling/life/life_report.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 

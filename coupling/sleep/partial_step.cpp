@@ -67,18 +67,18 @@ bool sleepers_move(const World& world) {
   return world.params.numerics.integrator == Integrator::kLinearlyImplicit;
 }
 
-/// The cells as they are now in a subworld that lives on between steps.
-Subworld& take_part(const World& world, CellSet moving, CellSet constrained,
-                    std::shared_ptr<Subworld>& part) {
-  if (!part) {
-    part = std::make_shared<Subworld>();
-    part->world.params = world.params;
-    part->world.ranks = world.ranks;
-    part->world.sharing = world.sharing;
-  }
-  take_cells(world.state, std::move(moving), std::move(constrained), *part);
-  part->work.constraint.prescribed_velocity = sleepers_move(world);
-  return *part;
+/// Copies cells as they are now into a subworld of the same constants.
+void take_part(const World& world, CellSet moving, CellSet constrained, Subworld& part) {
+  take_cells(world.state, std::move(moving), std::move(constrained), part);
+  part.work.constraint.prescribed_velocity = sleepers_move(world);
+}
+
+std::unique_ptr<Subworld> make_part(const World& world) {
+  auto part = std::make_unique<Subworld>();
+  part->world.params = world.params;
+  part->world.ranks = world.ranks;
+  part->world.sharing = world.sharing;
+  return part;
 }
 
 void start_last_moves(State& s) {
@@ -141,13 +141,15 @@ void limit_velocity(State& s, double duration) {
   });
 }
 
-StepResult step_awake(World& world, Workspace& w, CellSet awake, double limit) {
+StepResult step_awake(World& world, Workspace& w, AwakePart& kept, CellSet awake, double limit) {
   choose_leaders_of_all(world);
-  Subworld& part = [&]() -> Subworld& {
+  if (!kept.subworld || kept.sized != w.sized) kept = {make_part(world), w.sized};
+  Subworld& part = *kept.subworld;
+  {
     const auto scope = w.timings.scope("awake part");
     CellSet ring = find_ring(world, awake);
-    return take_part(world, std::move(awake), std::move(ring), w.awake);
-  }();
+    take_part(world, std::move(awake), std::move(ring), part);
+  }
   std::swap(part.work.timings, w.timings);
   StepResult result = take_step(part.world, part.work, limit);
   std::swap(part.work.timings, w.timings);
@@ -174,11 +176,11 @@ CellSet find_ring(const World& world, const CellSet& cells) {
   return subtract(unite(near, next), cells);
 }
 
-StepResult advance(World& world, Workspace& w, double limit) {
+StepResult advance(World& world, Workspace& w, AwakePart& part, double limit) {
   if (count_asleep(world.state) == 0) return take_step(world, w, limit);
   CellSet awake = find_cells(world.state, false);
   if (awake.empty()) return pass_time(world, limit);
-  return step_awake(world, w, std::move(awake), limit);
+  return step_awake(world, w, part, std::move(awake), limit);
 }
 
 LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
@@ -187,7 +189,9 @@ LoopResult set_sleepers_velocity(World& world, Workspace& w, double duration) {
   const auto scope = w.timings.scope("sleepers");
   CellSet sleepers = find_cells(s, true);
   CellSet ring = find_ring(world, sleepers);
-  Subworld& part = take_part(world, std::move(sleepers), std::move(ring), w.sleepers);
+  const std::unique_ptr<Subworld> made = make_part(world);
+  Subworld& part = *made;
+  take_part(world, std::move(sleepers), std::move(ring), part);
   State& small = part.world.state;
   limit_velocity(small, duration);
   Params& params = part.world.params;

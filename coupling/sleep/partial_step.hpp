@@ -3,6 +3,9 @@
 /// sleepers they may touch constrained around them. Sleepers go on with a velocity that one long
 /// step of theirs sets now and then. (docs/decisions/0015.md)
 
+#include <cstdint>
+#include <memory>
+
 #include "coupling/step/controller.hpp"
 #include "coupling/step/loop.hpp"
 #include "coupling/subworld/subworld.hpp"
@@ -15,10 +18,16 @@ namespace acinus::coupling {
 /// touches the spheres among these, whose stiffness depends on all their contacts.
 CellSet find_ring(const World& world, const CellSet& cells);
 
+/// The cells awake as a world of their own, kept between steps while the set of all cells stays.
+struct AwakePart {
+  std::unique_ptr<Subworld> subworld;
+  std::uint64_t sized = 0;  ///< Workspace::sized of the whole world when it was made
+};
+
 /// Advances by one accepted step no longer than `limit`: of all cells, or of those awake. Sleepers
 /// keep to their velocity to the bit. With no cell awake only time passes.
 /// Not accepted: a step of min_step was still rejected; State is the last good one.
-StepResult advance(World& world, Workspace& work, double limit);
+StepResult advance(World& world, Workspace& work, AwakePart& awake, double limit);
 
 /// Sets the velocity, kept as their last move, of sleepers for a duration, s, to come: that of one
 /// step as long as it of sleepers whose neighbours stand still, without motility. (With those awake

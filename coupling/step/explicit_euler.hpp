@@ -2,6 +2,8 @@
 /// Explicit Euler: (Gamma/h) dx = F(x; t), the friction solve of [VanLiedekerke2020], order 1.
 
 #include "coupling/step/attempt.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

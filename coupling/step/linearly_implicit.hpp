@@ -2,6 +2,8 @@
 /// Linearly implicit Euler: (Gamma/h + K) dx = F(x; t + h), order 1.
 
 #include "coupling/step/attempt.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -2,6 +2,8 @@
 /// Backward Euler, Gamma/h dx = F(x + dx; t + h), by Newton's method with line search, order 1.
 
 #include "coupling/step/attempt.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -3,6 +3,8 @@
 /// [Verwer1999, Eq. (1.3)].
 
 #include "coupling/step/attempt.hpp"
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 

@@ -1,5 +1,6 @@
 #include "coupling/step/solve.hpp"
 #include "core/parallel/make_room.hpp"
+#include "coupling/step/constrained_points.hpp"
 
 #include <algorithm>
 #include <limits>

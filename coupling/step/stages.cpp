@@ -11,6 +11,7 @@
 #include "core/parallel/arrays.hpp"
 #include "coupling/migration/leaders.hpp"
 #include "coupling/migration/migration.hpp"
+#include "coupling/step/constrained_points.hpp"
 #include "coupling/step/foreign.hpp"
 #include "coupling/world/sharing.hpp"
 #include "dcm/contact/contact.hpp"
@@ -208,9 +209,7 @@ void size_workspace(const World& world, Workspace& w) {
   w.active = active_lanes(s);
   assign_zeros(w.rhs, w.system.n_dof());
   assign_zeros(w.move, w.system.n_dof());
-  w.trial.reset();
-  w.awake.reset();
-  w.sleepers.reset();
+  ++w.sized;
   w.dcm.lane_of_body.clear();
   w.cbm.list_position.clear();
   w.dcm.fixed.clear();

@@ -1,19 +1,15 @@
 #include "coupling/step/trial.hpp"
 
-#include <memory>
-
 #include "coupling/step/stages.hpp"
 
 namespace acinus::coupling {
 
-Trial& make_trial(const World& world, Workspace& w) {
-  if (!w.trial) {
-    w.trial = std::make_shared<Trial>();
-    w.trial->world = world;
-    size_workspace(world, w.trial->friction);
-    size_workspace(world, w.trial->work);
-  }
-  return *w.trial;
+Trial make_trial(const World& world) {
+  Trial trial;
+  trial.world = world;
+  size_workspace(world, trial.friction);
+  size_workspace(world, trial.work);
+  return trial;
 }
 
 void move_trial(const World& world, std::span<const double> d, Trial& trial) {

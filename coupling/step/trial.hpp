@@ -16,8 +16,8 @@ struct Trial {
   std::vector<double> first, product;
 };
 
-/// That of the workspace, made when a method first asks for it.
-Trial& make_trial(const World& world, Workspace& work);
+/// A trial of the world, sized for its cells.
+Trial make_trial(const World& world);
 
 /// Everything as in `world`, all points moved by d, um.
 void move_trial(const World& world, std::span<const double> d, Trial& trial);

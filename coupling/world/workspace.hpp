@@ -1,7 +1,7 @@
 #pragma once
 /// Scratch of the step, sized when the set of cells changes.
 
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,9 +18,6 @@
 #include "solve/rigid.hpp"
 
 namespace acinus::coupling {
-
-struct Trial;
-struct Subworld;
 
 /// Where a step was linearised, as displacements from the present positions; empty: there.
 struct LinearisationPoint {
@@ -68,10 +65,8 @@ struct Workspace {
   int failed_solves = 0;                     ///< attempts at this step; written by: take_step
   std::vector<std::uint8_t> leader;          ///< written by: choose_leaders_of_step
   std::int64_t leader_interval = -1;
-  /// Where a world with sleepers steps; see sleep/partial_step.hpp.
-  std::shared_ptr<Subworld> awake, sleepers;
   Timings timings;
-  std::shared_ptr<Trial> trial;  ///< of methods with more than one stage
+  std::uint64_t sized = 0;  ///< number of calls of size_workspace: what depends on the set of cells
 };
 
 }  // namespace acinus::coupling

@@ -8,8 +8,8 @@
 
 #include "bench/stress/inspect.hpp"
 #include "coupling/life/life.hpp"
-#include "coupling/sleep/partial_step.hpp"
-#include "coupling/step/attempt.hpp"
+#include "coupling/step/integrator.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
@@ -67,7 +67,7 @@ class LifeInspection : public testing::Test {
       for (double time = 0; time < next - 1e-6;) {
         const double limit =
             std::min(next - coupling::time_since_start(world), coupling::time_to_event(world));
-        EXPECT_TRUE(coupling::advance(world, work, limit).accepted);
+        EXPECT_TRUE(coupling::take_step(world, work, limit).accepted);
         time = coupling::time_since_start(world);
         for (const coupling::LifeEvent& e : coupling::live(world, work).events)
           record.events.push_back({time, e.code, e.cells, e.message});

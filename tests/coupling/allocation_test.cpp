@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <new>
 
-#include "coupling/sleep/partial_step.hpp"
 #include "coupling/step/controller.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -65,7 +64,7 @@ Count count_allocations(World& w, int warm_up, int n) {
   for (int k = 0; k < warm_up + n; ++k) {
     const auto lists = work.dcm.lists.made + work.cbm.list_builds;
     const long before = allocations;
-    EXPECT_TRUE(advance(w, work, 10).accepted);
+    EXPECT_TRUE(take_step(w, work, 10).accepted);
     const long more = allocations - before;
     if (k < warm_up) continue;
     const bool made = work.dcm.lists.made + work.cbm.list_builds > lists;

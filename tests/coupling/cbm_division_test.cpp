@@ -120,7 +120,7 @@ Course follow(World w, const Vec3& direction, double step, double max_move = 0.3
   w.params.numerics.max_step = w.state.clock.step = step;
   w.params.numerics.max_move = max_move;
   size_workspace(w, work);
-  c.rest_speed = advance(w, work, step).max_move / step * 60;
+  c.rest_speed = take_step(w, work, step).max_move / step * 60;
   find_all_contacts(w, step, work);
   assemble(w, step, work);
   std::vector<Vec3> last = forces_on_spheres(w, work);
@@ -131,7 +131,7 @@ Course follow(World w, const Vec3& direction, double step, double max_move = 0.3
   const std::size_t n = w.state.cbm.n_cell();
   while (w.state.clock.time < born + 86400 - 1e-6) {
     const bool first = w.state.clock.time == born;
-    const StepResult r = advance(w, work, step);
+    const StepResult r = take_step(w, work, step);
     if (!r.accepted) return c;
     c.rejections += r.rejections;
     c.end_speed = r.max_move / r.step * 60;

@@ -38,7 +38,7 @@ inline World make_clump_world(int n, double distance, const std::function<bool(i
 inline void run(World& w, Workspace& work, double duration) {
   const double end = w.state.clock.time + duration;
   while (w.state.clock.time < end - 1e-9)
-    ASSERT_TRUE(advance(w, work, end - w.state.clock.time).accepted);
+    ASSERT_TRUE(take_step(w, work, end - w.state.clock.time).accepted);
 }
 
 inline std::map<std::int64_t, CellMeasure> measure(const World& w, Workspace& work) {

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -40,7 +40,7 @@ TEST(Closing, AStepStopsAtAWallItWouldHavePassed) {
   ASSERT_GT(free_fall, 0.3 + kControlledDepth) << "else there is nothing to see";
   Workspace work;
   size_workspace(w, work);
-  const StepResult step = advance(w, work, 60);
+  const StepResult step = take_step(w, work, 60);
   ASSERT_TRUE(step.accepted);
   std::printf("falls %.2f um freely, stands at %.4f um\n", free_fall, lowest(w));
   EXPECT_EQ(step.rejections, 0);
@@ -55,7 +55,7 @@ TEST(Closing, AStepStopsAtAWallItWouldHavePassed) {
 std::vector<double> step_once(World w) {
   Workspace work;
   size_workspace(w, work);
-  EXPECT_TRUE(advance(w, work, 60).accepted);
+  EXPECT_TRUE(take_step(w, work, 60).accepted);
   std::printf("lowest %.4f um, centre %.4f um\n", lowest(w), dcm::cell_center(w.state.dcm, 0).z());
   return gather_positions(w.state);
 }
@@ -96,7 +96,7 @@ TEST(Closing, DepthInASoftVesselIsALoadAndNoReasonForAShorterStep) {
   size_workspace(w, work);
   int rejections = 0;
   for (int step = 0; step < 20; ++step) {
-    const StepResult result = advance(w, work, 6);
+    const StepResult result = take_step(w, work, 6);
     ASSERT_TRUE(result.accepted) << result.cause;
     rejections += result.rejections;
   }
@@ -115,7 +115,7 @@ TEST(Closing, LeavesStepsAloneThatStayClear) {
   w.state.dcm.pull[0] = Vec3(0, 0, -0.3);
   Workspace work;
   size_workspace(w, work);
-  ASSERT_TRUE(advance(w, work, 60).accepted);
+  ASSERT_TRUE(take_step(w, work, 60).accepted);
   EXPECT_EQ(w.state.clock.solves, 1);
 }
 
@@ -129,7 +129,7 @@ TEST(Closing, BetweenCellsKeepsTheBalanceOfForces) {
   w.params.numerics.cg = {1e-12, 20000};
   Workspace work;
   size_workspace(w, work);
-  const StepResult step = advance(w, work, 60);
+  const StepResult step = take_step(w, work, 60);
   ASSERT_TRUE(step.accepted) << step.cause;
   EXPECT_EQ(step.rejections, 0);
   EXPECT_GT(w.state.clock.solves, 1);

@@ -1,7 +1,7 @@
 /// The four ways to take a step, on one stretched cell that relaxes in a liquid.
 
-#include "coupling/sleep/partial_step.hpp"
-#include "coupling/step/attempt.hpp"
+#include "coupling/step/integrator.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 
 #include <gtest/gtest.h>
@@ -171,7 +171,7 @@ TEST(ExplicitEuler, IsToldAboveItsStabilityLimit) {
     int accepted = 0;
     for (int k = 0; k < 500; ++k) {
       before = hash_state(w.state);
-      result = advance(w, work, step);
+      result = take_step(w, work, step);
       ASSERT_TRUE(all_finite(w)) << "step " << step << " after " << k << " steps";
       if (!result.accepted) break;
       ++accepted;
@@ -189,7 +189,7 @@ TEST(ExplicitEuler, RejectedStepsAreTriedAgainHalfAsLong) {
   w.params.numerics.min_step = 1e-4;
   Workspace work;
   size_workspace(w, work);
-  const StepResult result = advance(w, work, 1000);
+  const StepResult result = take_step(w, work, 1000);
   std::printf("explicit Euler: %d rejections from 1000 s to %.3g s\n", result.rejections,
               result.step);
   EXPECT_TRUE(result.accepted) << result.cause;
@@ -206,7 +206,7 @@ TEST(LinearlyImplicit, ASolveThatFailsGetsMoreIterations) {
   w.params.numerics.cg = {1e-8, 12};
   Workspace work;
   size_workspace(w, work);
-  const StepResult step = advance(w, work, 60);
+  const StepResult step = take_step(w, work, 60);
   std::printf("%d rejections\n", step.rejections);
   EXPECT_TRUE(step.accepted);
   EXPECT_GE(step.rejections, 1);
@@ -220,7 +220,7 @@ TEST(Newton, SolvesBackwardEuler) {
     World w = start;
     Workspace work, at;
     size_workspace(w, work);
-    const StepResult result = advance(w, work, step);
+    const StepResult result = take_step(w, work, step);
     ASSERT_TRUE(result.accepted) << result.cause;
 
     // Gamma/h of the start on the displacement, against the forces of the end.
@@ -278,7 +278,7 @@ TEST(Ros2, ErrorEstimateFallsWithTheSquareOfTheStep) {
     World w = stretched_cell(Integrator::kRos2, step);
     Workspace work;
     size_workspace(w, work);
-    const StepResult result = advance(w, work, step);
+    const StepResult result = take_step(w, work, step);
     ASSERT_TRUE(result.accepted) << result.cause;
     error.push_back(result.error);
   }
@@ -300,7 +300,7 @@ TEST(Friction, OfTheMatrixIsThatOfOneWithoutStiffness) {
     w.params.boundary.capsules = {shell};
     Workspace work;
     size_workspace(w, work);
-    ASSERT_TRUE(advance(w, work, 60).accepted);
+    ASSERT_TRUE(take_step(w, work, 60).accepted);
     const std::vector<double>& x = w.state.last_move;
     std::vector<double> wanted(x.size()), found(x.size()), external(x.size()), outside(x.size());
     find_all_contacts(w, 60, work);

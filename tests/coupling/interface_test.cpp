@@ -238,7 +238,7 @@ TEST(Step, SameBitsForOneAndTwoThreads) {
     world.params.numerics.adaptive = true;
     Workspace work;
     size_workspace(world, work);
-    for (int k = 0; k < 10; ++k) ASSERT_TRUE(advance(world, work, 1e9).accepted);
+    for (int k = 0; k < 10; ++k) ASSERT_TRUE(take_step(world, work, 1e9).accepted);
     hash[threads - 1] = hash_state(world.state);
   }
   EXPECT_EQ(hash[0], hash[1]);
@@ -248,7 +248,7 @@ TEST(Step, PairForcesBalance) {
   World world = make_test_world(checkered_cube());
   Workspace work;
   size_workspace(world, work);
-  for (int k = 0; k < 20; ++k) ASSERT_TRUE(advance(world, work, 1e9).accepted);
+  for (int k = 0; k < 20; ++k) ASSERT_TRUE(take_step(world, work, 1e9).accepted);
   std::printf("momentum %.3g, torque %.3g\n", world.state.balance.momentum,
               world.state.balance.torque);
   EXPECT_LT(world.state.balance.momentum, 1e-9);

@@ -38,7 +38,7 @@ void expect_to_go_on(World& w, double duration) {
   const double end = w.state.clock.time + duration;
   int rejected = 0;
   while (w.state.clock.time < end - 1e-6) {
-    const StepResult r = advance(w, work, end - w.state.clock.time);
+    const StepResult r = take_step(w, work, end - w.state.clock.time);
     ASSERT_TRUE(r.accepted) << r.cause;
     rejected += r.rejections;
     live(w, work);
@@ -212,7 +212,7 @@ TEST(Division, HasTheSameBitsForOneAndTwoThreads) {
     Workspace work;
     size_workspace(w, work);
     for (int k = 0; k < 3; ++k) {
-      ASSERT_TRUE(advance(w, work, 60).accepted);
+      ASSERT_TRUE(take_step(w, work, 60).accepted);
       live(w, work);
     }
     EXPECT_EQ(w.state.divisions, 5);
@@ -284,7 +284,7 @@ TEST(Division, OfASphereMakesTwoOfHalfTheVolumeWithinHer) {
   begin_with_mothers(w);
   Workspace work;
   size_workspace(w, work);
-  ASSERT_TRUE(advance(w, work, 1).accepted);
+  ASSERT_TRUE(take_step(w, work, 1).accepted);
   ASSERT_EQ(w.state.cbm.touching.size(), 1u);
   const Vec3 center = cbm::center_of(w.state.cbm, 0);
   const LifeReport report = live(w, work);
@@ -321,7 +321,7 @@ TEST(Division, OneGenerationAfterAnotherDoublesTheCells) {
   Workspace work;
   size_workspace(w, work);
   while (w.state.clock.time < 5 * 7200) {
-    ASSERT_TRUE(advance(w, work, 600).accepted);
+    ASSERT_TRUE(take_step(w, work, 600).accepted);
     live(w, work);
   }
   std::printf("after five cycles: %zu cells, %d divisions\n", w.state.cbm.n_cell(),

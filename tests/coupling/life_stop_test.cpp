@@ -69,7 +69,7 @@ TEST(LifeStop, SleepersAreLookedAtAgain) {
   through.params.sleep = {true, 600, 1};
   Workspace work, stopped_work;
   size_workspace(through, work);
-  ASSERT_TRUE(advance(through, work, 600).accepted);
+  ASSERT_TRUE(take_step(through, work, 600).accepted);
   through.state.clock.time = 600;
   World stopped = through;
   size_workspace(stopped, stopped_work);

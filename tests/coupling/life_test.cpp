@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "coupling/measure/measure.hpp"
-#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 #include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
@@ -130,7 +130,7 @@ Grown grow_alone(double viscosity, int n_node, double step = 60) {
   begin_life(w);
   Workspace work;
   size_workspace(w, work);
-  for (double t = 0; t < 3600; t += step) EXPECT_TRUE(advance(w, work, step).accepted);
+  for (double t = 0; t < 3600; t += step) EXPECT_TRUE(take_step(w, work, step).accepted);
   observe(w, work);
   const CellMeasure m = measure_cells(w, work).at(0);
   g.volume = m.volume;
@@ -328,7 +328,7 @@ TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
     double volume = 0;  // when it begins
     bool gone = false;
     while (w.state.clock.time < 8 * 3600 && !gone) {
-      const StepResult step = advance(w, work, time_to_event(w));
+      const StepResult step = take_step(w, work, time_to_event(w));
       ASSERT_TRUE(step.accepted) << step.cause;
       const LifeReport report = live(w, work);
       const double t = w.state.clock.time;
@@ -378,7 +378,7 @@ TEST(Death, TakesTheDyingAloneWhenAStepFailsAtThem) {
   EXPECT_EQ(report.events[1].cells, Ids{1});
   EXPECT_EQ(lineages(w.state), (Ids{0, 2}));
   EXPECT_EQ(w.state.deaths, 1);
-  EXPECT_TRUE(advance(w, work, 60).accepted);
+  EXPECT_TRUE(take_step(w, work, 60).accepted);
 }
 
 TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
@@ -395,7 +395,7 @@ TEST(Death, OfTheLastDeformableCellsLeavesNoContactsBehind) {
     Workspace work;
     size_workspace(w, work);
     while (w.state.clock.time < 1200) {
-      const StepResult step = advance(w, work, time_to_event(w));
+      const StepResult step = take_step(w, work, time_to_event(w));
       ASSERT_TRUE(step.accepted) << step.cause;
       live(w, work);
       const bool dead = w.state.clock.time >= 600;

@@ -31,8 +31,8 @@ TEST(ListsOfSpheres, AgeDoesNotChangeTheStep) {
   for (int k = 0; k < 250; ++k) {
     b.cbm.list_position.clear();
     kept.state.clock.coarse = renewed.state.clock.coarse = true;  // groups cells that are joined
-    ASSERT_TRUE(advance(kept, a, 1).accepted);
-    ASSERT_TRUE(advance(renewed, b, 1).accepted);
+    ASSERT_TRUE(take_step(kept, a, 1).accepted);
+    ASSERT_TRUE(take_step(renewed, b, 1).accepted);
     if (b.cbm.pair.size() > a.cbm.pair.size())
       most_more = std::max(most_more, b.cbm.pair.size() - a.cbm.pair.size());
     ASSERT_EQ(hash_state(kept.state), hash_state(renewed.state)) << "step " << k;

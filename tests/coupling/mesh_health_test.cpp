@@ -271,7 +271,7 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
   const double overlap_mended = deepest_overlap(world);
   observe(world, work);
   const std::vector<CellMeasure> after = measure_cells(world, work);
-  const StepResult step = advance(world, work, 60);
+  const StepResult step = take_step(world, work, 60);
   observe(world, work);
   const std::vector<CellMeasure> next = measure_cells(world, work);
   double moved = 0, pressure = 0, contact = 0;
@@ -298,7 +298,7 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
   const std::uint64_t hash = hash_state(world.state);
   // Beyond the hour in which the cortex forgets the new mesh.
   for (const double end = world.state.clock.time + 2 * 3600; world.state.clock.time < end;) {
-    EXPECT_TRUE(advance(world, work, 600).accepted);
+    EXPECT_TRUE(take_step(world, work, 600).accepted);
     EXPECT_TRUE(live(world, work).events.empty());
   }
   EXPECT_LT(deepest_overlap(world), 0.3);
@@ -357,7 +357,7 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
   const double start = thread_cpu_seconds();
   dcm::MeshHealth worst;
   while (dcm::count_cells(world.state.dcm) < 8 || world.state.clock.time < 19.5 * 3600) {
-    ASSERT_TRUE(advance(world, work, 600).accepted);
+    ASSERT_TRUE(take_step(world, work, 600).accepted);
     for (const LifeEvent& e : live(world, work).events) {
       EXPECT_NE(e.code, "remeshed") << e.message;
       EXPECT_NE(e.code, "mesh_degenerate") << e.message;

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "coupling/migration/migration.hpp"
-#include "coupling/step/attempt.hpp"
+#include "coupling/step/integrator.hpp"
 #include "dcm/terms/medium.hpp"
 #include "tests/coupling/worlds.hpp"
 

@@ -71,13 +71,13 @@ TEST_P(Integrators, GoOnBitForBitFromASavedState) {
   const double step = through.params.numerics.max_step;
   Workspace work;
   size_workspace(through, work);
-  for (int k = 0; k < 4; ++k) ASSERT_TRUE(advance(through, work, step).accepted);
+  for (int k = 0; k < 4; ++k) ASSERT_TRUE(take_step(through, work, step).accepted);
   World resumed = through;
   Workspace fresh;
   size_workspace(resumed, fresh);
   for (int k = 0; k < 4; ++k) {
-    ASSERT_TRUE(advance(through, work, step).accepted);
-    ASSERT_TRUE(advance(resumed, fresh, step).accepted);
+    ASSERT_TRUE(take_step(through, work, step).accepted);
+    ASSERT_TRUE(take_step(resumed, fresh, step).accepted);
   }
   EXPECT_EQ(hash_state(resumed.state), hash_state(through.state));
 }
@@ -179,7 +179,7 @@ TEST(NucleusInACell, EachDaughterHasOne) {
   size_workspace(w, work);
   const double end = w.state.clock.time + 5400;
   while (w.state.clock.time < end - 1e-6) {
-    const StepResult r = advance(w, work, end - w.state.clock.time);
+    const StepResult r = take_step(w, work, end - w.state.clock.time);
     ASSERT_TRUE(r.accepted) << r.cause;
     live(w, work);
   }
@@ -196,7 +196,7 @@ TEST(NucleusInACell, GrowsWithIt) {
   const double before = nucleus_volume(w.state, 0), cell = w.state.dcm.volume[0].at(0);
   const double end = 0.5 * kDay;
   while (w.state.clock.time < end - 1e-6)
-    ASSERT_TRUE(advance(w, work, end - w.state.clock.time).accepted);
+    ASSERT_TRUE(take_step(w, work, end - w.state.clock.time).accepted);
   const double growth = w.state.dcm.volume[0].at(end) / cell;
   EXPECT_GT(growth, 1.3);
   // Growth goes on at 1e-5 per s; friction of its nodes holds it back by less than 1e-3.
@@ -258,7 +258,7 @@ TEST(NucleusInACell, HasTheSameBitsForOneAndTwoThreads) {
     give_nuclei(w);
     Workspace work;
     size_workspace(w, work);
-    for (int k = 0; k < 5; ++k) ASSERT_TRUE(advance(w, work, 60).accepted);
+    for (int k = 0; k < 5; ++k) ASSERT_TRUE(take_step(w, work, 60).accepted);
     hash.push_back(hash_state(w.state));
   }
   set_threads(threads);

@@ -30,7 +30,7 @@ int take_steps(World& w, Workspace& work, int n) {
   int with_coarse = 0;
   for (int k = 0; k < n; ++k) {
     with_coarse += w.state.clock.coarse ? 1 : 0;
-    const StepResult result = advance(w, work, kStep);
+    const StepResult result = take_step(w, work, kStep);
     if (!result.accepted) {
       std::printf("step %d failed: %s\n", k, result.cause.c_str());
       return -1;
@@ -85,7 +85,7 @@ TEST_P(Resume, AStepThatIsInterruptedChangesNothing) {
   size_workspace(stopped, other);
   {
     const WallTimeLimit passed(0);
-    const StepResult result = advance(stopped, other, kStep);
+    const StepResult result = take_step(stopped, other, kStep);
     EXPECT_FALSE(result.accepted);
     EXPECT_TRUE(result.interrupted);
   }

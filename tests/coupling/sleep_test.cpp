@@ -31,9 +31,10 @@ World make_pressed_clump(bool sleep) {
 /// Steps and looks as a run does.
 void run_for(World& w, Workspace& work, double duration) {
   const double end = w.state.clock.time + duration;
+  AwakePart awake;
   while (w.state.clock.time < end - 1e-6) {
     const double left = std::min(end - w.state.clock.time, time_to_event(w));
-    const StepResult r = advance(w, work, left);
+    const StepResult r = advance(w, work, awake, left);
     ASSERT_TRUE(r.accepted) << r.cause;
     live(w, work);
   }

@@ -78,7 +78,7 @@ TEST(StartShapes, TheCortexIsAtRestAndForgets) {
   Workspace work;
   size_workspace(w, work);
   const double before = volume_share(w, 0);
-  while (w.state.clock.time < 600) ASSERT_TRUE(advance(w, work, 600).accepted);
+  while (w.state.clock.time < 600) ASSERT_TRUE(take_step(w, work, 600).accepted);
   EXPECT_GT(volume_share(w, 0), before);
   EXPECT_LT(audit_shells(w).dcm_dcm.depth_um, w.params.dcm_contact.max_depth);
 }

@@ -31,7 +31,7 @@ World make_stepped_block() {
   World w = make_block();
   Workspace work;
   size_workspace(w, work);
-  for (int k = 0; k < 3; ++k) EXPECT_TRUE(advance(w, work, 1).accepted);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(take_step(w, work, 1).accepted);
   return w;
 }
 const CellSet kMiddle{{2}, {2}};
@@ -128,7 +128,7 @@ TEST(Subworld, MovesAsTheWholeDoesInAShortStep) {
     World whole = w;
     Workspace whole_work;
     size_workspace(whole, whole_work);
-    ASSERT_TRUE(advance(whole, whole_work, step).accepted);
+    ASSERT_TRUE(take_step(whole, whole_work, step).accepted);
     Subworld sub;
     extract_at_rest(w, kMiddle, find_neighbours(w, kMiddle, 3), sub);
     sub.world.params.numerics.adaptive = false;
@@ -176,7 +176,7 @@ TEST(Subworld, WriteBackChangesTheMovingCellsOnly) {
   EXPECT_FALSE(before.cbm.touching.empty());
   Workspace work;
   size_workspace(w, work);
-  for (int k = 0; k < 3; ++k) EXPECT_TRUE(advance(w, work, 60).accepted);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(take_step(w, work, 60).accepted);
 }
 
 TEST(Subworld, WriteBackTakesOverContactsMadeAndLost) {

@@ -80,8 +80,9 @@ inline void give_nuclei(World& w) {
 
 /// Steps until the time is reached; returns false if a step failed.
 inline bool run_until(World& world, Workspace& work, double time) {
+  AwakePart awake;
   while (world.state.clock.time < time - 1e-9) {
-    const StepResult step = advance(world, work, time - world.state.clock.time);
+    const StepResult step = advance(world, work, awake, time - world.state.clock.time);
     if (step.accepted) continue;
     std::printf("step failed: %s\n", step.cause.c_str());
     return false;

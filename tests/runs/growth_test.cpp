@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/jkr.hpp"
-#include "coupling/sleep/partial_step.hpp"
+#include "coupling/step/controller.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
@@ -184,7 +184,7 @@ Outcome simulate(Scene scene, double duration) {
   Outcome out;
   out.start = take_snapshot(world, work).cells.at(0).center;
   while (world.state.clock.time < duration - 1e-6) {
-    const auto step = coupling::advance(world, work, duration - world.state.clock.time);
+    const auto step = coupling::take_step(world, work, duration - world.state.clock.time);
     EXPECT_TRUE(step.accepted) << step.cause;
     if (!step.accepted) return out;
   }

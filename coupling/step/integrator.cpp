@@ -1,4 +1,4 @@
-#include "coupling/step/attempt.hpp"
+#include "coupling/step/integrator.hpp"
 
 #include "coupling/step/explicit_euler.hpp"
 #include "coupling/step/linearly_implicit.hpp"

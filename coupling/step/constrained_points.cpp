@@ -1,6 +1,4 @@
-#include "coupling/world/constraint.hpp"
-
-#include "coupling/world/workspace.hpp"
+#include "coupling/step/constrained_points.hpp"
 
 namespace acinus::coupling {
 namespace {
