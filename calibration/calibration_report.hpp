@@ -1,5 +1,5 @@
 #pragma once
-/// What a calibration found, for readers.
+/// Results of a calibration as a table, curves and plots.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What kernels are measured on: a packed clump of deformable cells in the middle of a run.
+/// Subject of the kernel benchmarks: a packed clump of deformable cells in the middle of a run.
 
 #include <benchmark/benchmark.h>
 

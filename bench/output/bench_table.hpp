@@ -1,5 +1,5 @@
 #pragma once
-/// What benchmarks are asked and what they measured, ready to print and to write.
+/// Options of benchmarks and the tables of their results, ready to print and to write.
 
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-/// What processes that share a step send, and how long they wait.
+/// Traffic and waiting times of processes that share a step.
 
 #include "bench/output/bench_table.hpp"
 

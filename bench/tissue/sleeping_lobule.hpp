@@ -1,5 +1,5 @@
 #pragma once
-/// What it saves that resting cells sleep, and what that does to the pressures.
+/// Time saved by the sleep of resting cells, and its effect on the pressures.
 
 #include "bench/output/bench_table.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How thick the plates are that cells form between sinusoids.
+/// Thickness of the plates that cells form between sinusoids.
 
 #include <cstdint>
 #include <span>

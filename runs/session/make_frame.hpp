@@ -1,5 +1,5 @@
 #pragma once
-/// What a frame of the run file holds of a world, and what the audit sees of it.
+/// A frame of the run file from a world, and the audit of its overlaps.
 
 #include <array>
 #include <optional>
