@@ -35,6 +35,7 @@ COUNTED = SOURCES + (".py", ".sh", ".cmake", "CMakeLists.txt")
 # The two models and the hybrid world name what plays the same part in each alike: dcm::State, cbm::State, coupling::State.
 MODELS = ("dcm", "cbm", "coupling")
 TYPE = re.compile(r"^\s*(?:struct|class|enum class)\s+(?:alignas\(\w+\)\s+)?(\w+)\b(?:\s+final)?\s*(?::[^:].*)?(?:\{.*)?$")
+DECLARED = re.compile(r"^\s*(?:struct|class|enum class)\s+(\w+)\s*;")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SKIPPED = re.compile(r"^(out|\.git|__pycache__|node_modules|.*\.run)$")
 BUILD = re.compile(r"^build")  # at the top only: rooms may be named so
@@ -82,25 +83,54 @@ def check_rooms(folder, path, target):
     return None
 
 
-def find_rings(includes):
-    """Headers that include each other in a ring. includes: header -> set of headers."""
-    rings, done, trail = [], set(), []
+def find_rings(edges):
+    """Units that need each other in a ring, however long, as sorted lists. edges: unit -> set of units.
 
-    def visit(header):
-        if header in trail:
-            rings.append(trail[trail.index(header):] + [header])
-            return
-        if header in done:
-            return
-        trail.append(header)
-        for target in sorted(includes.get(header, ())):
-            visit(target)
-        trail.pop()
-        done.add(header)
+    Tarjan's strongly connected components.
+    """
+    number, lowest, stack, rings = {}, {}, [], []
 
-    for header in sorted(includes):
-        visit(header)
+    def visit(unit):
+        number[unit] = lowest[unit] = len(number)
+        stack.append(unit)
+        for other in sorted(edges.get(unit, ())):
+            if other not in number:
+                visit(other)
+                lowest[unit] = min(lowest[unit], lowest[other])
+            elif other in stack:
+                lowest[unit] = min(lowest[unit], number[other])
+        if lowest[unit] == number[unit]:
+            ring = stack[stack.index(unit):]
+            del stack[stack.index(unit):]
+            if len(ring) > 1:
+                rings.append(sorted(ring))
+
+    for unit in sorted(edges):
+        if unit not in number:
+            visit(unit)
     return rings
+
+
+def unit_of(path):
+    """A unit is a header with its source."""
+    return path.rsplit(".", 1)[0]
+
+
+def list_edges(includes, declared, types):
+    """Units that a unit includes, or defines a type of that it declares. unit -> set of units.
+
+    includes: path -> paths; declared: path -> names of types declared without being defined; types: (path, line, name).
+    """
+    defined, edges = {}, {}
+    for path, _, name in types:
+        defined.setdefault(name, set()).add(path)
+    for path in includes:
+        own, others = unit_of(path), set(includes[path])
+        for name in declared[path]:
+            others |= {other for other in defined.get(name, ())
+                       if len(defined[name]) == 1 or other.split("/")[0] == path.split("/")[0]}
+        edges.setdefault(own, set()).update({unit_of(other) for other in others} - {own})
+    return edges
 
 
 def list_includes(root, path):
@@ -108,6 +138,13 @@ def list_includes(root, path):
     with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
         found = (INCLUDE.match(line) for line in file)
         return {match.group(2) for match in found if match and match.group(2).split("/")[0] in FLOORS}
+
+
+def list_declared(root, path):
+    """Names of types that a source declares without defining them there."""
+    with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+        found = (DECLARED.match(line) for line in file)
+        return {match.group(1) for match in found if match}
 
 
 def list_types(root, path):
@@ -158,7 +195,7 @@ def check_file(root, path):
 
 def check_tree(root):
     """All findings below root as "path:line: message", and the number of sources read."""
-    findings, n_source, includes, types = [], 0, {}, []
+    findings, n_source, includes, declared, types = [], 0, {}, {}, []
     for folder, folders, names in os.walk(root):
         folders[:] = sorted(name for name in folders
                             if not SKIPPED.match(name) and not (folder == root and BUILD.match(name)))
@@ -167,12 +204,14 @@ def check_tree(root):
             if path.endswith(COUNTED + (".md",)):
                 n_source += path.endswith(SOURCES)
                 findings += [f"{path}:{line}: {text}" for line, text in check_file(root, path)]
-            if path.endswith(".hpp"):
+            if path.endswith(SOURCES) and path.split("/")[0] in FLOORS:
                 includes[path] = list_includes(root, path)
+                declared[path] = list_declared(root, path)
             if path.endswith(SOURCES) and path.split("/")[0] in FLOORS:
                 types += [(path, line, name) for line, name in list_types(root, path)]
-    for ring in find_rings(includes):
-        findings.append(f"{ring[0]}:1: headers include each other: {' -> '.join(ring)}")
+    for ring in find_rings(list_edges(includes, declared, types)):
+        first = ring[0] + (".hpp" if ring[0] + ".hpp" in includes else ".cpp")
+        findings.append(f"{first}:1: units need each other: {', '.join(ring)}")
     findings += find_namesakes(types)
     return findings, n_source
 
@@ -191,7 +230,9 @@ def test_rules():
         "runs/a.cpp": '#include "calibration/a.hpp"\n  #  include <nlohmann/json.hpp>\n',
         "tests/a.cpp": '#include "runs/a.hpp"\n#include "tests/support.hpp"\n',
         "bench/a.cpp": '#include "dcm/a.hpp"\n#include "cbm/a.hpp"\n',
-        "core/ring_b.hpp": '#include "core/ring_a.hpp"\n',
+        "core/ring_b.hpp": '#include "core/ring_c.hpp"\n',
+        "core/ring_c.cpp": '#include "core/ring_a.hpp"\n',
+        "solve/forward_b.hpp": '#include "solve/forward_a.hpp"\nstruct Wide {\n};\n',
         "build/a.cpp": '#include "../runs/a.hpp"\n',
         "runs/assemble/a.hpp": '#include "runs/scene/a.hpp"\nstruct A;\nenum class B { kA };\n',
         "dcm/state.hpp": "struct State {\n};\n",
@@ -220,7 +261,8 @@ def test_rules():
         "coupling/world/b.hpp": ('#include "coupling/simulation.hpp"\n', 1),
         "runs/scene/b.cpp": ('#include <a>\n#include "runs/session/a.hpp"\n', 2),
         "runs/cellar/a.cpp": ('#include "runs/scene/a.hpp"\n', 1),
-        "core/ring_a.hpp": ('#include "core/ring_b.hpp"\n', 1),
+        "core/ring_a.hpp": ('#include "core/ring_b.hpp"\n', 1),  # by way of a source
+        "solve/forward_a.hpp": ("struct Wide;\n", 1),  # by way of a declaration
         "runs/d.cpp": ('#include "bench/a.hpp"\n', 1),
         "runs/study/e.cpp": ("struct A {};\nenum class B : char { kA };\n", 2),
         "dcm/store.hpp": ("\nclass State final {\n", 2),
