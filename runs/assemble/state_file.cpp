@@ -36,19 +36,19 @@ void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
     numbers.insert(numbers.end(), b.triangle.begin(), b.triangle.end());
   }
   d.put("dcm/birth_lane", lane);
-  d.put("dcm/shape/birth_shape", numbers);
+  d.put("dcm/birth_shape", numbers);
 }
 
 void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
   s.birth.assign(s.n_lane(), {});
-  const std::vector<double>& numbers = d.numbers("dcm/shape/birth_shape");
+  const std::vector<double>& numbers = d.numbers("dcm/birth_shape");
   std::size_t at = 0;
   for (std::int64_t lane : d.integers("dcm/birth_lane")) {
     const std::size_t l = lane;
     check_same(d, "dcm/birth_lane", l < s.n_lane() ? 1 : 0, 1);
     const geometry::Topology& t = *s.group[l / kLanes].topology;
     const std::size_t n_edge = t.edge.size(), n_triangle = t.triangle.size();
-    check_same(d, "dcm/shape/birth_shape", numbers.size() >= at + 5 + n_edge + n_triangle ? 1 : 0,
+    check_same(d, "dcm/birth_shape", numbers.size() >= at + 5 + n_edge + n_triangle ? 1 : 0,
                1);
     const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(at);
     dcm::BirthShape& b = s.birth[l];

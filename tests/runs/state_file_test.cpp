@@ -117,7 +117,7 @@ TEST(StateFile, RefusesArraysThatAreMissingOrOfAnotherLength) {
   io::CheckpointData sound;
   put_state(living(), sound);
   for (const char* damaged :
-       {"cbm/strength", "dcm/shape/birth_shape", "dcm/tension", "life/parent", "life/birth",
+       {"cbm/strength", "dcm/birth_shape", "dcm/tension", "life/parent", "life/birth",
         "life/divisions", "life/wait_until", "clock/phase", "life/asleep"})
     for (bool missing : {true, false}) {
       io::CheckpointData data;
