@@ -1,4 +1,6 @@
 #include "cli/cli.hpp"
+
+
 #include "runs/program.hpp"
 
 int main(int argc, char** argv) {

@@ -9,10 +9,10 @@
 #include "core/parallel/arrays.hpp"
 #include "core/parallel/stop.hpp"
 #include "coupling/step/acceptance.hpp"
-#include "coupling/step/integrator.hpp"
 #include "coupling/step/balance.hpp"
 #include "coupling/step/balance_shares.hpp"
 #include "coupling/step/constrained_points.hpp"
+#include "coupling/step/integrator.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {

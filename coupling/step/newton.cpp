@@ -52,7 +52,8 @@ Attempt try_newton(World& world, double step, Workspace& w) {
   Attempt a = try_linearly_implicit(world, step, false, w);
   if (!a.status.ok) return a;
   solve::gather_rows(w.system, w.move);
-  Trial s = make_trial(world);
+  Trial s;
+  begin_trial(world, s);
   find_all_contacts(world, step, s.friction);
   assemble(world, step, s.friction, {.stiffness_scale = 0});
   const double done = kNewtonShare * world.params.numerics.tolerance;

@@ -12,7 +12,8 @@ namespace acinus::coupling {
 Attempt try_ros2(const World& world, double step, Workspace& w) {
   const double gamma = 1 - 1 / std::sqrt(2.0);
   Attempt a;
-  Trial s = make_trial(world);
+  Trial s;
+  begin_trial(world, s);
   find_all_contacts(world, 0, w);
   assemble(world, step, w, {.friction_factor = 1 / gamma});
   a.status = solve_step(world, step * gamma, w, a.cg_iterations);

@@ -1,10 +1,11 @@
 #include "coupling/step/solve.hpp"
-#include "core/parallel/make_room.hpp"
-#include "coupling/step/constrained_points.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
+
+#include "core/parallel/make_room.hpp"
+#include "coupling/step/constrained_points.hpp"
 
 namespace acinus::coupling {
 namespace {

@@ -4,12 +4,10 @@
 
 namespace acinus::coupling {
 
-Trial make_trial(const World& world) {
-  Trial trial;
+void begin_trial(const World& world, Trial& trial) {
   trial.world = world;
   size_workspace(world, trial.friction);
   size_workspace(world, trial.work);
-  return trial;
 }
 
 void move_trial(const World& world, std::span<const double> d, Trial& trial) {

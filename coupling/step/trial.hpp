@@ -16,8 +16,8 @@ struct Trial {
   std::vector<double> first, product;
 };
 
-/// A trial of the world, sized for its cells.
-Trial make_trial(const World& world);
+/// Begins a trial at the present positions.
+void begin_trial(const World& world, Trial& trial);
 
 /// Everything as in `world`, all points moved by d, um.
 void move_trial(const World& world, std::span<const double> d, Trial& trial);

@@ -1,4 +1,6 @@
 #include "dcm/contact/contact_params.hpp"
+
+
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {

@@ -8,8 +8,8 @@
 
 #include "bench/stress/inspect.hpp"
 #include "coupling/life/life.hpp"
-#include "coupling/step/integrator.hpp"
 #include "coupling/step/controller.hpp"
+#include "coupling/step/integrator.hpp"
 #include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"

@@ -1,10 +1,8 @@
 #include "cli/cli.hpp"
-#include "cli/wall_time.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/wall_time.hpp"
 #include "core/error.hpp"
 #include "runs/session/shell_quote.hpp"
 

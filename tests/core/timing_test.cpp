@@ -1,10 +1,10 @@
 #include "core/parallel/timing.hpp"
-#include "core/parallel/clock.hpp"
 
 #include <gtest/gtest.h>
-
 #include <cstdio>
 #include <vector>
+
+#include "core/parallel/clock.hpp"
 
 namespace acinus {
 namespace {

@@ -1,7 +1,7 @@
 /// The four ways to take a step, on one stretched cell that relaxes in a liquid.
 
-#include "coupling/step/integrator.hpp"
 #include "coupling/step/controller.hpp"
+#include "coupling/step/integrator.hpp"
 #include "coupling/step/stages.hpp"
 
 #include <gtest/gtest.h>
