@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "coupling/life/density.hpp"
+#include "coupling/world/population.hpp"
 #include "tests/coupling/lives.hpp"
 
 namespace acinus::coupling {
