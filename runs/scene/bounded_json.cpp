@@ -43,9 +43,9 @@ int count_at(const Json& object, const char* name, const std::string& what) {
 }
 
 template <class Json>
-double seconds_at(const Json& object, const char* name, const std::string& what) {
+double seconds_at(const Json& object, const char* name, const std::string& what, double lowest) {
   const Json& value = object.at(name);
-  check(value.is_number() && value.template get<double>() >= 0,
+  check(value.is_number() && value.template get<double>() >= lowest,
         fmt::format("{}: \"{}\" must be a number of seconds, found {}. The file is damaged or not "
                     "of this program.",
                     what, name, value.dump().substr(0, 40)));
@@ -57,7 +57,7 @@ double seconds_at(const Json& object, const char* name, const std::string& what)
   template Json parse_or_discard<Json>(const std::string&);                  \
   template std::string text_at<Json>(const Json&, const char*);              \
   template int count_at<Json>(const Json&, const char*, const std::string&); \
-  template double seconds_at<Json>(const Json&, const char*, const std::string&);
+  template double seconds_at<Json>(const Json&, const char*, const std::string&, double);
 ACINUS_INSTANTIATE(nlohmann::json)
 ACINUS_INSTANTIATE(nlohmann::ordered_json)
 #undef ACINUS_INSTANTIATE

@@ -28,8 +28,9 @@ template <class Json>
 int count_at(const Json& object, const char* name, const std::string& what);
 
 /// A member that is a time.
-/// @throws Error(kBadInput) naming `what` and the member unless it is a number that is not negative
+/// @param lowest  s; times of start-up are negative
+/// @throws Error(kBadInput) naming `what` and the member unless it is a number from `lowest` on
 template <class Json>
-double seconds_at(const Json& object, const char* name, const std::string& what);
+double seconds_at(const Json& object, const char* name, const std::string& what, double lowest = 0);
 
 }  // namespace acinus::runs

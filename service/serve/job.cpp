@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -62,6 +63,9 @@ void write_job(const std::string& folder, const RunJob& job) {
       j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+/// A run may be killed within its start-up, whose times are negative, s.
+constexpr double kEarliest = -std::numeric_limits<double>::max();
+
 RunJob read_job(const std::string& folder) {
   RunJob job;
   try {
@@ -74,7 +78,7 @@ RunJob read_job(const std::string& folder) {
     job.evaluation = j.at("evaluation");
     job.created = j.at("created");
     job.kills = count_at(j, "kills", record_file(folder));
-    job.checkpoint_s = seconds_at(j, "checkpoint_s", record_file(folder));
+    job.checkpoint_s = seconds_at(j, "checkpoint_s", record_file(folder), kEarliest);
     job.used_s = seconds_at(j, "used_s", record_file(folder));
     job.failed = j.at("failed");
     job.cause = j.at("cause");
