@@ -1,6 +1,5 @@
 #include "cli/cli.hpp"
 
-
 #include "runs/program.hpp"
 
 int main(int argc, char** argv) {

@@ -48,8 +48,7 @@ void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
     check_same(d, "dcm/birth_lane", l < s.n_lane() ? 1 : 0, 1);
     const geometry::Topology& t = *s.group[l / kLanes].topology;
     const std::size_t n_edge = t.edge.size(), n_triangle = t.triangle.size();
-    check_same(d, "dcm/birth_shape", numbers.size() >= at + 5 + n_edge + n_triangle ? 1 : 0,
-               1);
+    check_same(d, "dcm/birth_shape", numbers.size() >= at + 5 + n_edge + n_triangle ? 1 : 0, 1);
     const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(at);
     dcm::BirthShape& b = s.birth[l];
     b.weight = {from[0], from[1], from[2], from[3]};

@@ -1,6 +1,5 @@
 #include "dcm/contact/contact_params.hpp"
 
-
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {

@@ -1,7 +1,7 @@
 /// Meshes that degenerate are found and mended; all others are left alone.
 
-#include "coupling/life/life.hpp"
 #include "coupling/life/mesh_health.hpp"
+#include "coupling/life/life.hpp"
 
 #include <gtest/gtest.h>
 
