@@ -1,6 +1,6 @@
 #pragma once
-/// How fast a compressed clump comes back once it is let go, and the friction that makes it take a
-/// given time.   [VanLiedekerke2020, Appendix 1, Fig. 12c]
+/// Relaxation time of a released compressed clump, and the friction that gives a wanted time.
+/// [VanLiedekerke2020, Appendix 1, Fig. 12c]
 
 #include <functional>
 #include <span>

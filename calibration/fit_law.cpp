@@ -71,6 +71,7 @@ struct Residuals {
   using InputType = Eigen::VectorXd;
   using ValueType = Eigen::VectorXd;
   using JacobianType = Eigen::MatrixXd;
+  // NOLINTNEXTLINE(readability-identifier-naming): the names that Eigen asks for
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   const Samples& samples;
@@ -120,7 +121,7 @@ Solution solve(Residuals& residuals) {
   return s;
 }
 
-/// What the figures of a law say about its curve.
+/// Computes the figures of merit of a fitted curve.
 void rate(const Samples& samples, const cbm::Params& sphere, FitAttempt& attempt) {
   const auto n = static_cast<double>(samples.force.size());
   double mean = 0, total = 0, misfit = 0, pointwise = 0;

@@ -7,9 +7,9 @@
 namespace acinus::calibration {
 namespace {
 
-/// Moduli looked at, over that of plain spheres.
+/// Range of tabulated moduli, relative to that of plain spheres.
 constexpr double kSoftest = 1e-3, kStiffest = 1e3;
-/// How far apart entries of the table are at most: in d, and as a factor of moduli.
+/// Largest spacing of entries: in d, and as a factor of moduli.
 constexpr double kStride = 0.01, kRise = 1.25;
 
 /// Share of the largest force below which pulls and pushes cancel and a ratio of forces says

@@ -308,7 +308,7 @@ class ListBuilder {
   // of the site looked from:
   std::vector<int> near_index_;  ///< of discs_
   Discs near_;                   ///< those that may be closest to one of its points
-  std::vector<float> bound_;     ///< um, of the discs looked at last
+  std::vector<float> bound_;     ///< um, of the discs of the last call
   // of the points collected:
   PointBlock block_;
   std::array<int, PointBlock::kSize> point_{};

@@ -58,8 +58,8 @@ void fill_candidates(std::span<const SurfaceBody> bodies, std::span<const Surfac
 /// triangle decides, opposing or not: nothing that turns while a list lasts must choose what is on
 /// it, for the result does not depend on when the list was made.
 /// @param moved  um, bound of what the two bodies moved relative to each other since then: points
-///               and triangles that cannot touch yet are not looked at
-/// @return how many points were looked at
+///               and triangles that cannot touch yet are skipped
+/// @return number of points examined
 std::size_t find_contacts(const Candidates& list, std::span<const SurfaceBody> bodies,
                           std::span<const SurfaceBody> fixed, const SearchOptions& options,
                           double moved, std::vector<Contact>& out);

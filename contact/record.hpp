@@ -29,8 +29,7 @@ struct Contact {
   int b = 0;           ///< surface, sphere, or number of the obstacle within its kind
   int triangle = -1;   ///< of surface or mesh b
   Partner partner = Partner::kPlane;
-  bool guard =
-      false;  ///< the point is a node or a face centre that only pushes (dcm/contact/contact.hpp)
+  bool guard = false;  ///< the point is a node or a face centre that only pushes
   // Written by the law, here for lack of room below:
   float friction = 0;  ///< nN s/um
   // Written by the search:

@@ -243,16 +243,18 @@ std::string enclose(const std::string& drawings, double width, double height) {
 std::string draw_plot(const Plot& plot) { return draw(plot, page_of(plot)); }
 
 std::string draw_grid(const std::vector<Plot>& plots, std::size_t columns) {
+  std::vector<Page> page;
+  for (const Plot& plot : plots) page.push_back(page_of(plot));
   std::vector<double> left(columns + 1, 0);
   for (std::size_t c = 0; c < columns; ++c)
     for (std::size_t k = c; k < plots.size(); k += columns)
-      left[c + 1] = std::max(left[c + 1], left[c] + width_of(plots[k], page_of(plots[k])));
+      left[c + 1] = std::max(left[c + 1], left[c] + width_of(plots[k], page[k]));
   std::string out;
   double top = 0;
   for (std::size_t row = 0; row < plots.size(); row += columns) {
     double height = 0;
     for (std::size_t k = row; k < std::min(row + columns, plots.size()); ++k) {
-      out += at_place(draw(plots[k], page_of(plots[k])), left[k - row], top);
+      out += at_place(draw(plots[k], page[k]), left[k - row], top);
       height = std::max(height, height_of(plots[k]));
     }
     top += height;

@@ -35,7 +35,7 @@ std::string hash_of_file(const std::string& path) {
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
-/// Whether the run told of a finding itself, in the frame that shows it.
+/// True if the run itself reported the finding, at the frame that shows it.
 bool names(const std::vector<io::Event>& events, const Finding& f) {
   const char* code = f.defect == Defect::kCrossed     ? "self_intersection"
                      : f.defect == Defect::kTunnelled ? "deep_overlap"
@@ -119,7 +119,7 @@ Json RandomRun::summary() const {
   return Json::parse(io::read_text_file(file("run/summary.json")), nullptr, false);
 }
 
-/// Whether the checkpoint opens and the run goes on from it, be it into the same trouble.
+/// True if the run can be resumed from its checkpoint, even if it fails there again.
 bool RandomRun::resumes() const {
   runs::Child again(words("--resume", "0.000001 s"), child_options());
   runs::wait_for_any({&again});

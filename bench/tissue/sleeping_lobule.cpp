@@ -21,7 +21,7 @@ namespace {
 
 /// The scene's cells rest for so long, s, before some of them begin to grow.
 constexpr double kSettle = 3600;
-/// What is compared, s, and how often pressures are looked at.
+/// Compared window and interval between samples of pressures, s.
 constexpr double kWindow = 3 * 3600, kEvery = 1800;
 
 /// By lineage, kPa: contact pressure and that of the cytosol.
@@ -81,7 +81,7 @@ struct Twin {
   }
 };
 
-/// Of the cells that both have.
+/// Relative error of one pressure over the cells of both records.
 double relative_error(const Record& record, const Record& reference,
                       double std::pair<double, double>::*which) {
   std::vector<double> value, wanted;
