@@ -158,7 +158,7 @@ std::string LifeDrawing::draw() {
   scene["time"]["until_cells"] =
       std::max(setting_.cells + 2, static_cast<int>(std::lround(most * setting_.cells)));
   // The other integrators cannot follow cells that come and go. (null takes a key away)
-  scene["time"]["integrator"] = scene["time"]["with_contacts"] = nullptr;
+  scene["time"]["integrator"] = nullptr;
   scene["cell_types"]["cell"] = type;
   scene["life"] = life;
   return scene.dump();

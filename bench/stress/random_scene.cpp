@@ -157,8 +157,7 @@ void Drawing::draw_time() {
   if (tolerance > 0.5) time["tolerance"] = tolerance > 0.75 ? "0.3 um" : "0.1 um";
   const double method = random_.uniform();
   if (wide_ && method < 0.06)
-    time["integrator"] = method < 0.02 ? "explicit-euler" : method < 0.04 ? "ros2" : "newton";
-  if (wide_ && method >= 0.02 && method < 0.04) time["with_contacts"] = true;
+    time["integrator"] = method < 0.03 ? "explicit-euler" : "newton";
   scene_["time"] = time;
   scene_["output"]["every"] = quantity(end_ / 4, "s");
 }

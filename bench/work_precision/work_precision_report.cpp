@@ -30,8 +30,6 @@ const char* short_name(coupling::Integrator integrator) {
   switch (integrator) {
     case coupling::Integrator::kExplicitEuler:
       return "explicit";
-    case coupling::Integrator::kRos2:
-      return "ROS2";
     case coupling::Integrator::kNewton:
       return "Newton";
     case coupling::Integrator::kLinearlyImplicit:

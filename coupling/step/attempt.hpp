@@ -9,8 +9,7 @@ namespace acinus::coupling {
 struct Attempt {
   Status status;
   int cg_iterations = 0;
-  int solves = 0;     ///< linear systems
-  double error = -1;  ///< um, the method's own estimate; negative: it has none
+  int solves = 0;  ///< linear systems
 };
 
 }  // namespace acinus::coupling

@@ -75,7 +75,6 @@ Assessment attempt_and_assess(World& world, double step, bool first_try, Workspa
   }
   const auto scope = w.timings.scope("acceptance");
   a = assess_step(world, step, w);  // stage 7
-  if (attempt.error >= 0) a.error = attempt.error;
   if (a.accepted && n.adaptive && a.error > 4 * n.tolerance && step > n.min_step) {
     a.accepted = false;
     a.cause = "the estimated error is too large";

@@ -3,7 +3,6 @@
 #include "coupling/step/explicit_euler.hpp"
 #include "coupling/step/linearly_implicit.hpp"
 #include "coupling/step/newton.hpp"
-#include "coupling/step/ros2.hpp"
 
 namespace acinus::coupling {
 
@@ -11,8 +10,6 @@ Attempt attempt_step(World& world, double step, bool first_try, Workspace& w) {
   switch (world.params.numerics.integrator) {
     case Integrator::kExplicitEuler:
       return try_explicit_euler(world, step, w);
-    case Integrator::kRos2:
-      return try_ros2(world, step, w);
     case Integrator::kNewton:
       return try_newton(world, step, w);
     case Integrator::kLinearlyImplicit:
@@ -25,8 +22,6 @@ std::string name_of(Integrator integrator) {
   switch (integrator) {
     case Integrator::kExplicitEuler:
       return "explicit-euler";
-    case Integrator::kRos2:
-      return "ros2";
     case Integrator::kNewton:
       return "newton";
     case Integrator::kLinearlyImplicit:

@@ -4,7 +4,7 @@
 ///
 /// Linearly implicit Euler is the method of choice: contacts make the dynamics piecewise smooth,
 /// where higher order does not pay (docs/decisions/0012.md). The others are there to compare with
-/// and for single cells without contacts.
+/// and for equilibria.
 
 #include <string>
 
@@ -19,7 +19,7 @@ namespace acinus::coupling {
 /// @post world is as before
 Attempt attempt_step(World& world, double step, bool first_try, Workspace& work);
 
-/// The name a scene uses: "linearly-implicit", "explicit-euler", "ros2", "newton".
+/// The name a scene uses: "linearly-implicit", "explicit-euler", "newton".
 std::string name_of(Integrator integrator);
 
 }  // namespace acinus::coupling

@@ -238,7 +238,7 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   const Params& p = world.params;
   const PhaseParams phase = phase_params(world);
   const InterfaceInput in = input_of(world, phase, 0, w);
-  w.system.friction_scale = selection.friction_factor / step;
+  w.system.friction_scale = 1 / step;
   w.system.stiffness_scale = selection.stiffness_scale;
   solve::clear_loads(w.system);
   gather_positions(s, w.position);

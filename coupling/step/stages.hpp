@@ -20,7 +20,6 @@ void find_all_contacts(const World& world, double step, Workspace& work);
 struct Selection {
   bool interface = true;       ///< tests look at one model with and without it
   double stiffness_scale = 1;  ///< 0: friction only
-  double friction_factor = 1;  ///< on Gamma/h
 };
 
 /// Stage 5: both models, the interface and the constraint add their loads to one system.

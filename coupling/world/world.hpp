@@ -69,7 +69,7 @@ struct Sleep {
   double traction = 1e-3;  ///< kPa, force out of balance per area below which a cell falls asleep
 };
 
-enum class Integrator { kLinearlyImplicit, kExplicitEuler, kRos2, kNewton };
+enum class Integrator { kLinearlyImplicit, kExplicitEuler, kNewton };
 
 struct Numerics {
   double max_step = 60, min_step = 1e-5;  ///< s

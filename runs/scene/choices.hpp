@@ -68,7 +68,7 @@ template <>
 inline constexpr const char* kChoices<dcm::FrictionForm> = "surface|nodes";
 template <>
 inline constexpr const char* kChoices<coupling::Integrator> =
-    "linearly-implicit|explicit-euler|ros2|newton";
+    "linearly-implicit|explicit-euler|newton";
 template <>
 inline constexpr const char* kChoices<coupling::Leaders> = "foremost|front|border|sector|nearest";
 template <>

@@ -43,17 +43,13 @@ void describe_time(Visitor& v, Scene& s) {
   choice(v,
          {.name = "integrator",
           .meaning = "how a step is taken; linearly-implicit is meant for tissue, the others for "
-                     "comparison (explicit-euler), smooth single cells (ros2) and equilibrium "
-                     "(newton)"},
+                     "comparison (explicit-euler) and equilibrium (newton)"},
          n.integrator);
   v.flag({.name = "extrapolate",
           .meaning =
               "linearly implicit steps look ahead along the last step's velocity: steady motion "
               "has a third of the error"},
          n.extrapolate);
-  v.flag({.name = "with_contacts",
-          .meaning = "allow ros2 although cells may touch something: contacts make it chatter"},
-         b.with_contacts);
   v.integer({.name = "until_cells",
              .meaning = "the run ends when there are so many cells; 0 = only at time.end",
              .range = {.low = 0, .high = 1e9}},

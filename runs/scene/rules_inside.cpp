@@ -60,10 +60,6 @@ void check_nucleus(const Scene& scene, const std::string& name, const CellType& 
                     "{:g} of that radius. Make the nucleus smaller or the cell larger",
                     cell.pointer, quoted_length(cell.radius), pointer, quoted_length(n.gap),
                     kInnerRadius));
-  if (scene.numerics.integrator == coupling::Integrator::kRos2)
-    report.add_relation({pointer, "/time/integrator"}, "",
-                        "is not for \"ros2\": a nucleus meets its cortex. Choose "
-                        "\"linearly-implicit\"");
 }
 
 }  // namespace

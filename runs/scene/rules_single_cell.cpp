@@ -13,9 +13,6 @@ void check_series_friction(const Scene& scene, Report& report) {
   for (const auto& [name, type] : scene.cell_types) {
     if (!(type.dcm.series_friction > 0)) continue;
     const std::string pointer = "/cell_types/" + name + "/dcm/series_friction";
-    if (scene.numerics.integrator == coupling::Integrator::kRos2)
-      report.add_relation({pointer, "/time/integrator"}, "",
-                          "is not for \"ros2\". Choose \"linearly-implicit\"");
     if (scene.life.sleep)
       report.add_relation({pointer, "/life/sleep"}, "",
                           "is not for cells that may sleep: tensions go on falling while a cell is "

@@ -22,9 +22,8 @@
 namespace acinus::runs {
 
 struct TimeBlock {
-  double end = 0;              ///< s after t = 0
-  bool with_contacts = false;  ///< ros2 although cells may touch
-  int until_cells = 0;         ///< the run ends when there are so many cells; 0 = no such end
+  double end = 0;       ///< s after t = 0
+  int until_cells = 0;  ///< the run ends when there are so many cells; 0 = no such end
 };
 
 struct StartUpBlock : coupling::StartUp {

@@ -33,14 +33,6 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
   }
 }
 
-/// Whether anything in the scene may touch anything else.
-bool may_touch(const Scene& scene) {
-  const bool single = (scene.cells.source == CellSource::kList && scene.cells.list.size() == 1) ||
-                      (scene.cells.source == CellSource::kClump && scene.cells.count == 1);
-  return !single || scene.pipette || !scene.walls.empty() || !scene.static_meshes.empty() ||
-         scene.capsule.enabled || !scene.vessels.file.empty() || scene.lobule;
-}
-
 /// What says how a network is read needs one to read.
 void check_vessels(const Scene& scene, Report& report) {
   if (!scene.vessels.file.empty() || scene.lobule) return;
@@ -73,15 +65,6 @@ void check_flexible_vessels(const Scene& scene, Report& report) {
   if (v.flexible && scene.life.sleep)
     report.add_relation({"/vessels/flexible", "/life/sleep"}, "true",
                         "goes only where all cells are awake: set /life/sleep to false");
-}
-
-void check_integrator(const Scene& scene, Report& report) {
-  if (scene.numerics.integrator != coupling::Integrator::kRos2 || scene.time.with_contacts ||
-      !may_touch(scene))
-    return;
-  report.add_relation({"/time/integrator", "/time/with_contacts"}, "\"ros2\"",
-                      "is for one cell that touches nothing: contacts make it chatter. Choose "
-                      "\"linearly-implicit\", or set /time/with_contacts to true");
 }
 
 void check_start_up(const Scene& scene, Report& report) {
@@ -300,7 +283,6 @@ void check_rules(const Scene& scene, Report& report) {
   check_times(scene, report);
   check_vessels(scene, report);
   check_flexible_vessels(scene, report);
-  check_integrator(scene, report);
   check_contact_law(scene, report);
   check_single_cell(scene, report);
   check_inside(scene, report);

@@ -31,7 +31,7 @@ TEST(SceneErrors, UnknownKeyHasPlaceAndHint) {
             "(acinus explain time.step)");
   EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
             "scene.json:2:26 /time/quux: unknown key. Known here: end, step, min_step, adaptive, "
-            "tolerance, max_move, integrator, extrapolate, with_contacts, until_cells");
+            "tolerance, max_move, integrator, extrapolate, until_cells");
 }
 
 TEST(SceneErrors, QuantitiesThatNoTissueHasAreSlipsOfTheUnit) {
@@ -236,7 +236,7 @@ TEST(SceneErrors, RulesOfLife) {
 TEST(SceneErrors, OnlyOneIntegratorFollowsLife) {
   const std::string growing =
       minimal(R"({"hepatocyte": {}})", R"({"hepatocyte": {"cycle": {"time": "24 h"}}})");
-  for (const char* name : {"explicit-euler", "newton", "ros2"}) {
+  for (const char* name : {"explicit-euler", "newton"}) {
     const std::string integrator = std::string("time.integrator=") + name;
     EXPECT_EQ(failure(growing, {integrator}),
               "--set " + integrator + ": /time/integrator = \"" + name +
