@@ -12,7 +12,6 @@
 #include "core/parallel/stop.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
 
 namespace acinus::calibration {
 namespace {

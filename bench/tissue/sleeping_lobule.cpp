@@ -11,7 +11,6 @@
 #include "coupling/measure/difference.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"

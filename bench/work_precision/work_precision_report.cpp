@@ -6,7 +6,7 @@
 #include <iterator>
 #include <set>
 
-#include "coupling/step/integrator.hpp"
+#include "coupling/step/step.hpp"
 
 namespace acinus::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "core/numbers/exact_sum.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/world/fading.hpp"
 #include "dcm/contact/contact_points.hpp"
 

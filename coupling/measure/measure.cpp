@@ -8,8 +8,9 @@
 
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/foreign.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/lane_data.hpp"
 #include "dcm/loads/stress.hpp"
@@ -141,7 +142,6 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
 }  // namespace
 
 void observe(const World& world, Workspace& w) {
-  find_all_contacts(world, kNow, w);
   assemble(world, kNow, w);
   list_sphere_pairs(world, w);
 }

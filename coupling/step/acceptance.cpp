@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/parallel/threads.hpp"
+#include "coupling/step/active_set.hpp"
 #include "coupling/step/cell_sums.hpp"
 #include "coupling/step/clearance.hpp"
-#include "coupling/step/closing.hpp"
 #include "coupling/step/error_estimate.hpp"
 
 namespace acinus::coupling {
@@ -288,13 +288,28 @@ double move_limit(double max_move, double mean_edge) {
   return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
 }
 
-Assessment assess_step(const World& world, double step, Workspace& w) {
+Assessment assess_step(const World& world, double step, const Status& solved, Workspace& w) {
+  if (!solved.ok) {
+    ++w.failed_solves;
+    Assessment failed;
+    failed.accepted = false;
+    failed.cause = solved.cause;
+    return failed;
+  }
+  const auto scope = w.timings.scope("acceptance");
   Assessment a = assess_moves(world, step, w);
   if (!a.accepted) return a;
-  Assessment contacts = assess_contacts(world, w);
-  contacts.max_move = a.max_move;
-  if (contacts.accepted) contacts.error = estimate_error(world, step, w);
-  return contacts;
+  const double max_move = a.max_move;
+  a = assess_contacts(world, w);
+  a.max_move = max_move;
+  if (!a.accepted) return a;
+  a.error = estimate_error(world, step, w);
+  const Numerics& n = world.params.numerics;
+  if (n.adaptive && a.error > kMostError * n.tolerance && step > n.min_step) {
+    a.accepted = false;
+    a.cause = "the estimated error is too large";
+  }
+  return a;
 }
 
 }  // namespace acinus::coupling

@@ -19,7 +19,7 @@ void find_products(const World& world, Workspace& w) {
     for_each_own_number(w.system,
                         [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
-  if (!w.linearisation.is_ahead()) {
+  if (!w.linearisation.is_elsewhere()) {
     w.op.apply_external(w.move, w.cg.product);
     return;
   }

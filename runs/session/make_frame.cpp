@@ -9,7 +9,6 @@
 #include "contact/wall_mesh.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
-#include "coupling/step/stages.hpp"
 
 namespace acinus::runs {
 namespace {

@@ -121,7 +121,6 @@ Course follow(World w, const Vec3& direction, double step, double max_move = 0.3
   w.params.numerics.max_move = max_move;
   size_workspace(w, work);
   c.rest_speed = take_step(w, work, step).max_move / step * 60;
-  find_all_contacts(w, step, work);
   assemble(w, step, work);
   std::vector<Vec3> last = forces_on_spheres(w, work);
   last.push_back(Vec3::Zero());

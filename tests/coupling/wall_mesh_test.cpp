@@ -79,7 +79,6 @@ Vec3 force_on_cell(bool deformable, bool mesh, double depth) {
   w.params.boundary.vessels = vessels_of(fork(), mesh);
   Workspace work;
   size_workspace(w, work);
-  find_all_contacts(w, 1, work);
   assemble(w, 1, work);
   Vec3 sum = Vec3::Zero();
   for (std::size_t row = 0; row < work.system.n_row; ++row)

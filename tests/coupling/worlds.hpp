@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "coupling/sleep/partial_step.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
+#include "coupling/step/step.hpp"
 #include "coupling/world/world.hpp"
 #include "geometry/topology.hpp"
 

@@ -9,7 +9,6 @@ int main() {
   const World world = make_test_world({{{0, 0, 0}}, {{23, 0, 0}, false}});
   Workspace work;
   size_workspace(world, work);
-  find_all_contacts(world, 60, work);
   assemble(world, 60, work);
   work.system.force.shrink_to_fit();  // what lies behind must not belong to it
   const std::size_t past = work.system.force.size();

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/step/integrator.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/reader.hpp"
 #include "tests/runs/scene_texts.hpp"

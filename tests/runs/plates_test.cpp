@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/single_cell.hpp"
 #include "runs/scene/reader.hpp"

@@ -1,25 +1,29 @@
-#include "coupling/step/closing.hpp"
+#include "coupling/step/active_set.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "core/parallel/threads.hpp"
+#include "coupling/step/solve.hpp"
 
 namespace acinus::coupling {
 namespace {
 
-/// A contact that ends less deep, um, is left to the next step: most closing contacts do, and each
-/// change of the active set costs a solve.
-constexpr double kShallow = 0.02;
-/// A switched contact that ends more than this open, um, pulls: with 10 nN/um, 0.02 nN.
-constexpr double kOpen = 0.002;
+/// Depth, um, up to which a closing contact is left to the next step: most closing contacts are
+/// below it, and each change of the active set costs a solve.
+constexpr double kShallowDepth = 0.02;
+/// Gap, um, up to which a contact on its repulsive branch may end open: with 10 nN/um it then pulls
+/// with 0.02 nN.
+constexpr double kMostGap = 0.002;
+/// Changes of the active set within a step.
+constexpr int kMostChanges = 6;
 
 /// The part of a point's move that is not in the gaps of contacts yet.
 Vec3 rest_of_move(const Workspace& w, Address a) {
   const Vec3 move = load_point(w.move.data(), a);
-  return w.linearisation.is_ahead() ? Vec3(move - load_point(w.linearisation.move.data(), a))
-                                    : move;
+  return w.linearisation.is_elsewhere() ? Vec3(move - load_point(w.linearisation.move.data(), a))
+                                        : move;
 }
 
 /// The longest of them, um.
@@ -71,12 +75,12 @@ bool activate_closing(Workspace& w) {
   for_each_index(links.size(), worth_threads(w.system.n_row), [&](std::size_t l) {
     const solve::LinkLoad& load = links.load[l];
     if (!(load.closed_stiffness > 0) || load.clearance <= 0) return;
-    if (load.clearance + kShallow > reach && !links.is_closed(l)) return;
+    if (load.clearance + kShallowDepth > reach && !links.is_closed(l)) return;
     const double end = clearance_at(gap_after(w, links.link[l]), links.link[l], load);
     if (links.is_closed(l)) {
       change[l] = end > 0 ? 2 : 0;
-      if (end > kOpen) wrong = true;
-    } else if (end < -kShallow) {
+      if (end > kMostGap) wrong = true;
+    } else if (end < -kShallowDepth) {
       change[l] = 1;
       if (end < -kControlledDepth) wrong = true;
     }
@@ -106,8 +110,18 @@ bool pulls_open(const Workspace& w) {
   bool open = false;
   for (std::size_t l = 0; l < links.size() && !open; ++l)
     open = links.is_closed(l) &&
-           clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kOpen;
+           clearance_at(gap_after(w, links.link[l]), links.link[l], links.load[l]) > kMostGap;
   return w.system.ownership.ranks.any(open);
+}
+
+Status settle_active_set(const World& world, Workspace& w, Effort& effort) {
+  for (int change = 0; change < kMostChanges; ++change) {
+    if (!activate_closing(w)) return Status::fine();
+    Status status = solve_again(world, w, effort);
+    if (!status.ok) return status;
+  }
+  if (pulls_open(w)) return Status::failed("which contacts close within the step does not settle");
+  return Status::fine();
 }
 
 }  // namespace acinus::coupling

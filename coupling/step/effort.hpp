@@ -1,13 +1,9 @@
 #pragma once
-/// Outcome of one attempt at a step.
-
-#include "core/error.hpp"
+/// Work of the attempts at a step.
 
 namespace acinus::coupling {
 
-/// The displacement is in Workspace::move.
-struct Attempt {
-  Status status;
+struct Effort {
   int cg_iterations = 0;
   int solves = 0;  ///< linear systems
 };
