@@ -1,9 +1,6 @@
 #include "geometry/inner_ball.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <queue>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "geometry/star.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>

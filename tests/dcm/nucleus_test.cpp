@@ -6,7 +6,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdio>
 
 #include "dcm/lane_data.hpp"
 #include "dcm/shape/place_nucleus.hpp"
