@@ -1,7 +1,6 @@
 #include "cbm/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "cbm/obstacle_contacts.hpp"

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <memory>
 
 #include "cli/command.hpp"
 #include "runs/session/child.hpp"

@@ -12,7 +12,6 @@
 #include "geometry/readers/input_file.hpp"
 #include "geometry/readers/read_network.hpp"
 #include "geometry/readers/read_surface.hpp"
-#include "geometry/remesh.hpp"
 #include "geometry/wrap.hpp"
 #include "io/surface_file.hpp"
 #include "runs/assemble/build_boundary.hpp"

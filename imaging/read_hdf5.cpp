@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
-#include <span>
 
 #include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"

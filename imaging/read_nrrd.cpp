@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -12,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"
 #include "imaging/header_fields.hpp"
 #include "imaging/image_formats.hpp"

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "io/disk.hpp"
 #include "io/svg_text.hpp"

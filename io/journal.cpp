@@ -8,7 +8,6 @@
 #include <cstring>
 #include <vector>
 
-#include "core/error.hpp"
 #include "io/disk.hpp"
 #include "io/inside.hpp"
 

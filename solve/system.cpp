@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/parallel/arrays.hpp"
-#include "core/parallel/threads.hpp"
 
 namespace acinus::solve {
 

@@ -2,8 +2,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <string>
-
 #include "acinus_version.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/parallel/timing.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "bench/stress/random_life.hpp"
 #include "bench/stress/random_zoom.hpp"
@@ -156,8 +155,7 @@ void Drawing::draw_time() {
   const double tolerance = random_.uniform();
   if (tolerance > 0.5) time["tolerance"] = tolerance > 0.75 ? "0.3 um" : "0.1 um";
   const double method = random_.uniform();
-  if (wide_ && method < 0.06)
-    time["integrator"] = method < 0.03 ? "explicit-euler" : "newton";
+  if (wide_ && method < 0.06) time["integrator"] = method < 0.03 ? "explicit-euler" : "newton";
   scene_["time"] = time;
   scene_["output"]["every"] = quantity(end_ / 4, "s");
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -233,8 +232,7 @@ BenchTable bench_out_of_sample(const BenchOptions& options) {
   BenchTable table;
   Judged clump = in_sample(root);
   const runs::CellType& type = clump.scene.cell_types.begin()->second;
-  clump.laws =
-      sphere_laws(law, runs::make_cbm_params(clump.scene, type).young, type.dcm.bulk_modulus);
+  clump.laws = sphere_laws(law, runs::make_cbm_params(clump.scene, type).young);
   judge_in_place(clump, table);
   for (const OutOfSampleScene& s : out_of_sample_scenes(cells)) {
     const std::string folder =

@@ -3,12 +3,11 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/law.hpp"
-#include "cbm/room.hpp"
+#include "cbm/stiffness_law.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::bench {
@@ -35,11 +34,10 @@ struct SphereLaw {
   double young = 0;  ///< kPa, of a sphere that nothing touches
   cbm::StiffnessLaw correction;
   OverlapMeasure measure = OverlapMeasure::kProgram;
-  std::optional<cbm::RoomLaw> room;  ///< beside the contact of spheres
 };
 
 /// @param plain  modulus of uncorrected spheres, kPa
-std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain, double bulk_modulus);
+std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain);
 
 /// @param world  spheres with the constants and the boundary of the scene; its cells do not count
 /// @param time   s since t = 0, for which moving walls stand

@@ -6,8 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/units/dimension.hpp"

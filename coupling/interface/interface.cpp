@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/cohesive.hpp"
 #include "core/parallel/threads.hpp"

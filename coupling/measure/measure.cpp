@@ -1,7 +1,6 @@
 #include "coupling/measure/measure.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>

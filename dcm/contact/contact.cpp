@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <utility>
 
 #include "contact/cohesive.hpp"
 #include "core/parallel/make_room.hpp"

@@ -31,7 +31,8 @@
 namespace acinus::runs {
 namespace {
 
-/// A uniformly distributed rotation of a cell's mesh.
+/// Makes the state of the placed cells, ordered along a space-filling curve. Meshes of cells that
+/// are not oriented are turned at random.
 void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
                const std::vector<std::string>& types, const coupling::Params& params,
                coupling::State& state) {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/spelling.hpp"
+#include "core/sphere.hpp"
 #include "core/vec.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/compare/compared_runs.hpp"
@@ -60,7 +61,7 @@ double density_in(const CellRecords& cells, const TissueCenter& m) {
   double count = 0;
   for (const auto& [id, c] : cells)
     count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / m.border, 0.0, 1.0);
-  return 1e9 * count / (4.0 / 3 * kPi * std::pow(m.radius, 3));
+  return 1e9 * count / sphere_volume(m.radius);
 }
 
 /// rms over the cells both have, by lineage, of what the squared difference of two cells is.

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/numbers/time_grid.hpp"

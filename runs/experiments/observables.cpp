@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
-#include "core/error.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/lesion.hpp"
 #include "runs/experiments/sample_lobule.hpp"

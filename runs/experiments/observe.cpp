@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "core/sphere.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/migration/lesion_layers.hpp"
 #include "runs/experiments/observables.hpp"
@@ -36,9 +37,7 @@ std::vector<coupling::LayerCell> layer_cells(const coupling::World& world) {
   const coupling::State& s = world.state;
   const double time = s.clock.time;
   std::vector<coupling::LayerCell> cells;
-  const auto radius = [&](const Ramp& volume) {
-    return std::cbrt(volume.at(time) * 3 / (4 * kPi));
-  };
+  const auto radius = [&](const Ramp& volume) { return sphere_radius(volume.at(time)); };
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l)) cells.push_back({dcm::cell_center(s.dcm, l), radius(s.dcm.volume[l])});
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/box_pairs.hpp"
-
 namespace acinus::runs {
 namespace {
 

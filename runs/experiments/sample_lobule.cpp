@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/migration/lesion_layers.hpp"

@@ -1,7 +1,6 @@
 #include "runs/experiments/sample_tissue.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "coupling/measure/contact_forces.hpp"

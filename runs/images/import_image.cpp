@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "geometry/remesh.hpp"
 #include "imaging/label_surface.hpp"
 #include "imaging/pieces.hpp"
 #include "runs/images/background.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/sphere.hpp"
 #include "geometry/implicit/vessel_mesh.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/topology.hpp"

@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "core/error.hpp"
 #include "core/sphere.hpp"

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"

@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/spelling.hpp"
 #include "runs/assemble/build_boundary.hpp"
-#include "runs/assemble/build_world.hpp"
 #include "runs/assemble/start_state.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/scene/differences.hpp"

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/error.hpp"
-#include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
 #include "runs/study/read_study.hpp"

@@ -17,7 +17,6 @@
 #include "runs/session/child.hpp"
 #include "runs/study/active_run.hpp"
 #include "service/page/page_assets.hpp"
-#include "service/serve/submission.hpp"
 
 namespace acinus::runs {
 namespace {

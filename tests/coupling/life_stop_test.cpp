@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "core/parallel/stop.hpp"
-#include "coupling/life/mesh_health.hpp"
 #include "coupling/simulation.hpp"
 #include "tests/coupling/lives.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "coupling/migration/migration.hpp"
 #include "coupling/step/step.hpp"
-#include "dcm/terms/medium.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

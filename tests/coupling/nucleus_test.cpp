@@ -9,7 +9,6 @@
 #include "coupling/measure/measure.hpp"
 #include "coupling/measure/nuclei.hpp"
 #include "coupling/sleep/sleep.hpp"
-#include "coupling/step/balance.hpp"
 #include "coupling/subworld/subworld.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/measures.hpp"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <string>
 
 #include "core/numbers/random.hpp"
 #include "tests/coupling/changing_cells.hpp"

@@ -9,6 +9,7 @@
 #include "dcm/contact/contact_loads.hpp"
 #include "dcm/contact/contact_workspace.hpp"
 #include "solve/system.hpp"
+#include "tests/reference/net_force.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::dcm {
@@ -51,6 +52,13 @@ struct Clump {
   }
   /// Force of a contact on its side a, nN.
   Vec3 force(std::size_t link) const { return links.load[link].force * links.load[link].normal; }
+  reference::NetForce net_force(std::span<const double> node_force) const {
+    reference::NetForce net;
+    for_each_node([&](Address a) {
+      net.add(load_point(node_force.data(), a), load_point(state.position.data(), a));
+    });
+    return net;
+  }
   /// [n_dof] the force of all links on the nodes.
   std::vector<double> node_force() const {
     std::vector<double> f(state.position.size());

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/dcm/cells.hpp"
 
 namespace acinus::dcm {

@@ -25,12 +25,6 @@ class EveryTerm : public testing::TestWithParam<Term> {
   }
 };
 
-double largest_force(const Cells& c, std::size_t lane) {
-  double f = 0;
-  for (int i = 0; i < c.n_node(); ++i) f = std::max(f, c.force(lane, i).norm());
-  return f;
-}
-
 TEST_P(EveryTerm, EnergyIsThatOfThePlainTwin) {
   const Cells c = make_deformed_cells();
   double worst = 0;
@@ -51,19 +45,9 @@ TEST_P(EveryTerm, ForceIsMinusEnergyGradient) {
   double worst = 0;
   for (std::size_t l = 0; l < kLanes; ++l) {
     if (l == kNoCell) continue;
-    const double scale = largest_force(c, l);
+    const double scale = c.largest_force(l);
     EXPECT_GT(scale, 0);
-    const double h = 1e-4;  // um: h^2 E''' and kEps E / h are both near 1e-8 of the force
-    for (int i = 0; i < c.n_node(); ++i)
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 x = c.node(l, i);
-        c.move(l, i, x + h * Vec3::Unit(k));
-        const double more = energy(c, l);
-        c.move(l, i, x - h * Vec3::Unit(k));
-        const double less = energy(c, l);
-        c.move(l, i, x);
-        worst = std::max(worst, std::abs(c.force(l, i)[k] + (more - less) / (2 * h)) / scale);
-      }
+    worst = std::max(worst, worst_slope_error(c, l, [&] { return energy(c, l); }) / scale);
   }
   std::printf("%s: force against differences %.1e of the largest\n", GetParam().name, worst);
   EXPECT_LT(worst, 1e-6);
@@ -75,16 +59,8 @@ TEST_P(EveryTerm, NetForceAndTorqueVanish) {
   double worst = 0;
   for (std::size_t l = 0; l < kLanes; ++l) {
     if (l == kNoCell) continue;
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    double sum_force = 0, sum_torque = 0;
-    for (int i = 0; i < c.n_node(); ++i) {
-      const Vec3 f = c.force(l, i), x = c.node(l, i);
-      force += f;
-      torque += x.cross(f);
-      sum_force += f.norm();
-      sum_torque += x.norm() * f.norm();
-    }
-    worst = std::max({worst, force.norm() / sum_force, torque.norm() / sum_torque});
+    const reference::NetForce net = c.net_force(l);
+    worst = std::max({worst, net.force_share(), net.torque_share()});
   }
   std::printf("%s: net force and torque %.1e of the sum\n", GetParam().name, worst);
   EXPECT_LT(worst, 64 * kEps);
@@ -103,7 +79,7 @@ TEST_P(EveryTerm, TurnsWithTheCell) {
   double worst = 0;
   for (std::size_t l = 0; l < kLanes; ++l) {
     if (l == kNoCell) continue;
-    const double scale = largest_force(c, l);
+    const double scale = c.largest_force(l);
     for (int i = 0; i < c.n_node(); ++i)
       worst = std::max(worst, (turned.force(l, i) - q * c.force(l, i)).norm() / scale);
     EXPECT_NEAR(energy(turned, l), energy(c, l), 1e-10 * energy(c, l));
@@ -116,7 +92,7 @@ TEST_P(EveryTerm, TurnsWithTheCell) {
 TEST_P(EveryTerm, EmptyLaneGetsNothing) {
   Cells c = make_deformed_cells();
   add(c);
-  EXPECT_EQ(largest_force(c, kNoCell), 0);
+  EXPECT_EQ(c.largest_force(kNoCell), 0);
   EXPECT_EQ(energy(c, kNoCell), 0);
   for (const auto& rank_one : c.system.rank_one) EXPECT_EQ(rank_one.coefficient[kNoCell], 0);
   for (std::size_t k = 0; k < c.system.spring.size(); k += solve::kSpringStride)
@@ -211,7 +187,7 @@ TEST_P(EveryTerm, RestShapeOfAnyRadiusHasNoForce) {
                  1.01 * rough.node(l, i) + reference::random_vector(random, 0.003 * radii[l]));
   add(rough);
   for (std::size_t l = 0; l < kLanes; ++l) {
-    EXPECT_LT(largest_force(c, l), 100 * kEps * largest_force(rough, l) / 0.01) << radii[l];
+    EXPECT_LT(c.largest_force(l), 100 * kEps * rough.largest_force(l) / 0.01) << radii[l];
     // 1 - cos theta0 rounds: kEps per hinge; the others square a strain of kEps.
     EXPECT_LT(std::abs(energy(c, l)),
               1e4 * kEps * (1 + params_.bulk_modulus * radii[l] * radii[l] * radii[l]));
@@ -270,7 +246,7 @@ TEST(Terms, StiffnessScaleSwitchesTheMatrixOff) {
     for (float v : *g) ASSERT_EQ(v, 0);
   for (const auto& family : c.system.rank_one)
     for (double k : family.coefficient) ASSERT_EQ(k, 0);
-  EXPECT_GT(largest_force(c, 0), 0);
+  EXPECT_GT(c.largest_force(0), 0);
 }
 
 TEST(MeshPattern, HasTheElementsThatTermsUse) {

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
-#include <sstream>
-
 #include "core/sphere.hpp"
 #include "geometry/measures.hpp"
 #include "imaging/write_image.hpp"

@@ -14,7 +14,6 @@
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
 #include "runs/experiments/sample_lobule.hpp"
-#include "runs/experiments/sample_tissue.hpp"
 #include "runs/session/make_frame.hpp"
 #include "tests/coupling/worlds.hpp"
 

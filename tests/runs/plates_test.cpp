@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include "coupling/simulation.hpp"
 #include "coupling/step/sizing.hpp"

@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
