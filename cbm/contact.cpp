@@ -185,9 +185,8 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   find_moduli(in.state, in.params, work);
   find_pair_contacts(in, work, link);
   find_obstacle_contacts(in, work, contacts.all);
-  contacts.sphere_obstacle_end = contacts.all.size();
-  if (!work.coupling.empty())
-    scale_coupling(in, work, std::span(contacts.all).subspan(contacts.interface_end));
+  contacts.close(contact::Kind::kSphereObstacle);
+  if (!work.coupling.empty()) scale_coupling(in, work, contacts.of(contact::Kind::kSphereObstacle));
 }
 
 void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
@@ -232,7 +231,7 @@ void add_vessel_loads(const ContactInput& in, const contact::ContactList& contac
     // Spheres may overlap as they like: no depth is too much.
     solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
                    links.link[l]);
-    links.load[l] = {k.normal, k.force, 0, 0};
+    links.load[l] = {k.normal, k.force, 0, 0, static_cast<std::uint32_t>(&k - contacts.all.data())};
   }
 }
 

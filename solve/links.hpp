@@ -60,14 +60,16 @@ struct LinkLoad {
   double force = 0;  ///< nN, positive pushes apart
   /// Law once the gap is closed, force = -closed_stiffness * gap; nN/um. 0: none to switch to.
   double closed_stiffness = 0;
-  double clearance = 0;  ///< um, how far the contact is from that branch; not positive: is on it
+  double clearance = 0;  ///< um, distance of the contact from that branch; not positive: is on it
+  std::uint32_t contact = 0;  ///< its index in the list of contacts
 };
 
 /// Contacts with up to three points a side, sorted by the cell of side a.
 struct Links {
   std::vector<Link> link;
   std::vector<LinkLoad> load;  ///< of the same contact
-  /// [n_link] 1: has its closed law although it was open; see coupling/step/active_set.hpp. Empty: none.
+  /// [n_link] 1: has its closed law although it was open; see coupling/step/active_set.hpp. Empty:
+  /// none.
   std::vector<std::uint8_t> closed;
 
   std::size_t size() const { return link.size(); }

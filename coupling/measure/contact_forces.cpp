@@ -88,6 +88,7 @@ void visit_contacts(const World& world, const Workspace& w,
   const Places places(world, w);
   const std::size_t n_body = w.dcm.body.size();
   for (const contact::Contact& k : w.contacts.all) {
+    if (k.partner == contact::Partner::kNucleus) continue;  // within a cell
     const bool sphere = k.point == contact::kWhole;
     ContactForce f;
     f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);

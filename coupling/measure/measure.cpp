@@ -171,7 +171,8 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   NodeMeasure n;
   std::vector<double> contact(s.dcm.position.size(), 0.0);
   const solve::Links& links = w.system.links;
-  for (std::size_t l = 0; l < w.first_nucleus_link; ++l) {
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    if (w.contacts.all[links.load[l].contact].partner == contact::Partner::kNucleus) continue;
     const solve::Stencil stencil = solve::stencil_of(links.link[l]);
     const Vec3 f = links.load[l].force * links.load[l].normal;
     for (int k = 0; k < stencil.n; ++k)

@@ -11,7 +11,6 @@ namespace acinus::coupling {
 
 void list_sphere_pairs(const World& world, Workspace& w) {
   const PhaseParams phase = phase_params(world);
-  w.contacts.all.resize(w.contacts.sphere_obstacle_end);
   cbm::list_pairs(contact_input(world, world.state, phase, 0, w).cbm, w.cbm, w.contacts);
 }
 

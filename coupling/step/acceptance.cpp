@@ -207,24 +207,17 @@ struct DeepContact {
 
 DeepContact describe_contact(const World& world, const Workspace& w, std::size_t l) {
   const solve::Link& link = w.system.links.link[l];
+  const std::size_t number = w.system.links.load[l].contact;
+  const contact::Contact& k = w.contacts.all[number];
+  const contact::Kind kind = w.contacts.kind_of(number);
   DeepContact deep;
-  deep.inner = l >= w.first_nucleus_link;
+  deep.inner = kind == contact::Kind::kNucleus;
   deep.pair = link.b.exists();
   deep.a = lane_of(w, solve::address_of(link.a.point[0]));
   deep.b = deep.pair ? lane_of(w, solve::address_of(link.b.point[0])) : deep.a;
   deep.depth = depth_after(world, w, l);
-  constexpr int kObstacle = 1, kInterface = 2, kNucleus = 3;
-  if (deep.inner) {
-    deep.place = {kNucleus, static_cast<int>(deep.a), 0};
-    return deep;
-  }
-  const contact::Contact& k = w.contacts.all[l];
-  if (l < w.contacts.surface_end)
-    deep.place = {0, k.a, k.b};
-  else if (l < w.contacts.obstacle_end)
-    deep.place = {kObstacle, k.a, 0};
-  else
-    deep.place = {kInterface, k.a, k.b};
+  const bool of_cells = kind == contact::Kind::kSurface || kind == contact::Kind::kInterface;
+  deep.place = {static_cast<int>(kind), k.a, of_cells ? k.b : 0};
   return deep;
 }
 

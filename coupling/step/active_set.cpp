@@ -94,11 +94,9 @@ bool activate_closing(Workspace& w) {
     if (links.closed[l] != 0) {
       replace_law(load.closed_stiffness, -load.closed_stiffness * load.clearance, links.link[l],
                   load, w.system);
-    } else if (l < w.first_nucleus_link) {  // its own law again
-      const contact::Contact& own = w.contacts.all[l];
+    } else {  // its own law again
+      const contact::Contact& own = w.contacts.all[load.contact];
       replace_law(own.slope, own.force, links.link[l], load, w.system);
-    } else {  // a nucleus pushes or does not
-      replace_law(0, 0, links.link[l], load, w.system);
     }
   }
   w.op.prepare(w.system);

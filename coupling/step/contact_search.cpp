@@ -1,7 +1,5 @@
 #include "coupling/step/contact_search.hpp"
 
-#include <span>
-
 #include "cbm/contact.hpp"
 #include "cbm/pair_kernel.hpp"
 #include "coupling/step/foreign.hpp"
@@ -22,7 +20,6 @@ void refresh_lists(const InterfaceInput& in, Workspace& w) {
 void search_contacts(const InterfaceInput& in, Workspace& w) {
   const auto scope = w.timings.scope("contacts");
   dcm::find_contacts(in.dcm, w.dcm, w.contacts);
-  dcm::find_nucleus_contacts(in.dcm, w.dcm, w.nuclei);
   w.cbm.overlap_sum.clear();
   if (cbm::has_correction(in.cbm.params)) cbm::find_overlaps(in.cbm, w.cbm);
   find_interface(in, w.dcm, w.cbm, w.interface, w.contacts);
@@ -33,9 +30,9 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   exchange_values(w, spheres, w.cbm.overlap_count);
   cbm::find_contacts(in.cbm, w.cbm, w.contacts, w.system.point_links);
   exchange_values(w, spheres, w.cbm.coupling);
-  cbm::add_coupling(w.cbm, std::span(w.contacts.all).subspan(w.contacts.interface_end),
-                    w.system.point_links);
+  cbm::add_coupling(w.cbm, w.contacts.of(contact::Kind::kSphereObstacle), w.system.point_links);
   add_interface_areas(w.interface, w.cbm);
+  dcm::find_nucleus_contacts(in.dcm, w.dcm, w.nuclei, w.contacts);
 }
 
 }  // namespace

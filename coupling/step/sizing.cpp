@@ -31,6 +31,7 @@ void size_workspace(const World& world, Workspace& w) {
   std::vector<solve::Block> blocks = dcm::make_blocks(s.dcm, world.params.dcm, constrained);
   const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
   blocks.insert(blocks.end(), spheres.begin(), spheres.end());
+  w.tree_block = blocks.size();
   if (!s.tree.node.empty()) blocks.push_back({.pattern = &world.params.tree.pattern});
   w.constraint.anchored_row = anchored_rows(world);
   w.boundary.reset();

@@ -51,12 +51,10 @@ void add_cell_loads(const World& world, const State& at, double step, Workspace&
   add_pull_springs(world, at, step, w);
 }
 
-/// Nuclei have no record in the list of contacts: their links come after all others.
 void add_nuclei(const dcm::ContactInput& in, Workspace& w) {
-  w.first_nucleus_link = w.system.links.size();
   if (!dcm::has_nuclei(in.state)) return;
   dcm::add_nucleus_links(in.state, w.dcm_params, in.lanes, w.system);
-  dcm::add_nucleus_contacts(in, w.dcm, w.nuclei, w.system.links);
+  dcm::add_nucleus_contacts(in, w.dcm, w.contacts, w.system.links);
 }
 
 void add_contacts(const InterfaceInput& in, const SystemTerms& terms, Workspace& w) {
@@ -88,7 +86,7 @@ void add_loads(const World& world, const State& at, double step, const SystemTer
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   add_contacts(in, terms, w);
   if (!at.tree.node.empty())
-    add_tree_loads(world.params.tree, at.tree, w.system.block.back(), w.system);
+    add_tree_loads(world.params.tree, at.tree, w.system.block[w.tree_block], w.system);
   add_constraint(step, w);
   w.op.add_link_forces(w.system);
   w.op.prepare(w.system);

@@ -34,6 +34,7 @@ struct Workspace {
   solve::System system;
   /// Boundary of the step if vessels move; written by: refresh_references
   std::optional<contact::Boundary> boundary;
+  std::size_t tree_block = 0;   ///< of the vessels that move; written by: size_workspace
   std::size_t dcm_lanes = 0;    ///< written by: find_foreign_cells
   MeasuredCost cost;            ///< written by: balance_shares
   std::size_t bodies_sent = 0;  ///< whose shares others need; written by: exchange_shares
@@ -51,7 +52,6 @@ struct Workspace {
   std::vector<double> cbm_strength;      ///< empty: all 1; written by: refresh_references
   std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
   std::vector<dcm::Params> dcm_params;   ///< of the step; written by: add_loads
-  std::size_t first_nucleus_link = 0;    ///< links from there on are of nuclei; by the same
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
   MediumFriction medium_friction;        ///< written by: refresh_migration
   CellForces forces;                     ///< written by: refresh_migration

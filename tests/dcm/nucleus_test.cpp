@@ -185,12 +185,12 @@ TEST(Nucleus, ContactPushesWithItsDepth) {
   c.find_contacts();
   double force = 0;
   int n = 0;
-  for (const NucleusContact& k : c.nuclei.found[0]) {
+  for (const contact::Contact& k : c.contacts.nucleus()) {
     if (k.point / 3 != 3) continue;
     ++n;
     EXPECT_NEAR(k.gap, -0.2, 1e-6) << "the place is a float";
     EXPECT_LT((k.normal - normal).norm(), 1e-5);
-    force += -c.params.nucleus->repulsion * k.area * k.gap;
+    force += -k.stiffness * nucleus_contact_area(c.input(), c.cortices, k) * k.gap;
   }
   EXPECT_EQ(n, 3);
   EXPECT_NEAR(force, 5 * cortex.rest_triangle_area[3] * 100 * 0.2, 1e-4);
@@ -199,7 +199,7 @@ TEST(Nucleus, ContactPushesWithItsDepth) {
 TEST(Nucleus, InTheMiddleTouchesNothing) {
   NucleatedCells c = make_nucleated(with_nucleus(), {10, 12});
   c.find_contacts();
-  for (const auto& found : c.nuclei.found) EXPECT_TRUE(found.empty());
+  EXPECT_TRUE(c.contacts.nucleus().empty());
 }
 
 TEST(Nucleus, WithoutAnyModulusDoesNotResist) {

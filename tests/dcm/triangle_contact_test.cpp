@@ -89,7 +89,7 @@ TEST(TriangleContacts, ForcesAreThoseBetweenSurfaces) {
   });
   for (const contact::Contact& k : c.surface()) touching += k.touching;
   std::printf("%zu contacts, node forces against the library's %.1e nN of %.3g nN\n",
-              c.contacts.surface_end, worst, total);
+              c.contacts.surface().size(), worst, total);
   // Of each force 6e-8 goes to another corner.
   EXPECT_LT(worst, 6e-8 * total);
   EXPECT_NEAR(touching, area, 1e-12 * area);
