@@ -23,17 +23,6 @@ double compute_area(std::span<const Vec3> node, Triangles triangle);
 /// Centroid of the enclosed volume, um; closed surfaces with volume.
 Vec3 compute_centroid(std::span<const Vec3> node, Triangles triangle);
 
-/// The ellipsoid with the same volume moments: M = integral of (x-c)(x-c)^T over the ENCLOSED
-/// VOLUME (not the surface); its eigenvalues are V a^2 / 5 for semi-axes a.
-struct PrincipalAxes {
-  Vec3 centroid = Vec3::Zero();   ///< um
-  double volume = 0;              ///< um^3
-  Vec3 semi_axis = Vec3::Zero();  ///< um, longest first
-  Mat3 axis =
-      Mat3::Identity();  ///< columns: unit directions in that order, right-handed, signs arbitrary
-};
-PrincipalAxes compute_principal_axes(std::span<const Vec3> node, Triangles triangle);
-
 /// Mean curvature at each node. [Meyer2003, Eq. (8) with the mixed area of Fig. 4]
 struct MeanCurvature {
   std::vector<Vec3> normal;  ///< [n_node] H n, 1/um: half of K = 1/(2 A) sum (cot a + cot b)(x_i -

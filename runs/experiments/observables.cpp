@@ -274,21 +274,4 @@ std::vector<Observable> wall_observables(const std::string& wall) {
   return list;
 }
 
-std::optional<Observable> find_observable(Experiment experiment, const std::string& name) {
-  const auto look = [&](const List& list) -> std::optional<Observable> {
-    const auto found = std::ranges::find(list, name, &Observable::name);
-    return found == list.end() ? std::nullopt : std::optional(*found);
-  };
-  if (auto known = look(known_observables(experiment))) return known;
-  constexpr std::string_view kWall = "wall_";
-  if (!name.starts_with(kWall)) return {};
-  for (const Observable& o : wall_observables("")) {
-    const std::string_view ending = std::string_view(o.name).substr(kWall.size());
-    if (name.ends_with(ending) && name.size() > kWall.size() + ending.size())
-      return look(
-          wall_observables(name.substr(kWall.size(), name.size() - kWall.size() - ending.size())));
-  }
-  return {};
-}
-
 }  // namespace acinus::runs

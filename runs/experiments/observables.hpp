@@ -1,7 +1,6 @@
 #pragma once
 /// What runs measure at every written frame, by name: the columns of /observables in the run file.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,5 @@ std::string name_in_columns(std::string name);
 
 /// What is measured of a wall, capsule or closed mesh of this name.
 std::vector<Observable> wall_observables(const std::string& wall);
-
-/// The observable of this name, also of a wall of any name; nothing if there is none.
-std::optional<Observable> find_observable(Experiment experiment, const std::string& name);
 
 }  // namespace acinus::runs

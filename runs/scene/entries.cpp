@@ -140,24 +140,23 @@ class EntryCollector final : public Visitor {
 
 }  // namespace
 
-std::vector<Entry> collect_entries(const std::function<void(Visitor&)>& describe) {
+std::vector<Entry> collect_entries(const char* extends,
+                                   const std::function<void(Visitor&)>& describe) {
   EntryCollector collector;
+  Entry& first = collector.entries.emplace_back();
+  first.path = first.short_path = "extends";
+  first.type = "path";
+  first.initial = "none";
+  first.meaning = extends;
   describe(collector);
   return std::move(collector.entries);
 }
 
 const std::vector<Entry>& all_entries() {
   static const std::vector<Entry> entries = [] {
-    Entry extends;
-    extends.path = extends.short_path = "extends";
-    extends.type = "path";
-    extends.initial = "none";
-    extends.meaning = "scene file this one changes, relative to this file: blocks are merged";
-    std::vector<Entry> all{extends};
     Scene scene;
-    for (Entry& entry : collect_entries([&](Visitor& visitor) { describe(visitor, scene); }))
-      all.push_back(std::move(entry));
-    return all;
+    return collect_entries("scene file this one changes, relative to this file: blocks are merged",
+                           [&](Visitor& visitor) { describe(visitor, scene); });
   }();
   return entries;
 }

@@ -25,8 +25,10 @@ struct Entry {
   bool is_block = false;  ///< an object, list or map, not a value
 };
 
-/// The lines of any registry, in its order.
-std::vector<Entry> collect_entries(const std::function<void(Visitor&)>& describe);
+/// The lines of any registry, in its order, below that of the key `extends`.
+/// @param extends  meaning of that key
+std::vector<Entry> collect_entries(const char* extends,
+                                   const std::function<void(Visitor&)>& describe);
 
 /// Every key of a scene, in canonical order; built once.
 const std::vector<Entry>& all_entries();

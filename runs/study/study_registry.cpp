@@ -263,15 +263,9 @@ void describe(Visitor& v, Study& s) {
 
 const std::vector<Entry>& study_entries() {
   static const std::vector<Entry> entries = [] {
-    Entry extends;
-    extends.path = extends.short_path = "extends";
-    extends.type = "path";
-    extends.initial = "none";
-    extends.meaning = kExtends;
-    std::vector<Entry> all{extends};
     Study study;
-    for (Entry& entry : collect_entries([&](Visitor& visitor) { describe(visitor, study); }))
-      all.push_back(std::move(entry));
+    std::vector<Entry> all =
+        collect_entries(kExtends, [&](Visitor& visitor) { describe(visitor, study); });
     for (Entry& entry : all) {
       entry.path = "study." + entry.path;
       entry.short_path = "study." + entry.short_path;

@@ -19,7 +19,6 @@ class Connections {
   Stranger add_stranger(Close close);
   /// It has shown the token, or it is gone.
   void forget_stranger(Stranger stranger) { strangers_.erase(stranger); }
-  std::size_t n_stranger() const { return strangers_.size(); }
 
   /// Makes room for a body, unless those that are being received take too much together already.
   bool take_room(double bytes);

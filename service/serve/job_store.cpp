@@ -19,18 +19,8 @@ namespace fs = std::filesystem;
 
 /// How a job ended stands in its record: the queue need not know.
 const char* queue_of(JobState state) {
-  switch (state) {
-    case JobState::kWaiting:
-      return "waiting";
-    case JobState::kRunning:
-      return "running";
-    case JobState::kStopped:
-      return "stopped";
-    case JobState::kCompleted:
-    case JobState::kFailed:
-      break;
-  }
-  return "ended";
+  const bool ended = state == JobState::kCompleted || state == JobState::kFailed;
+  return ended ? "ended" : name_of(state);
 }
 constexpr const char* kQueues[] = {"waiting", "running", "stopped", "ended"};
 

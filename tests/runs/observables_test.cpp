@@ -99,15 +99,6 @@ TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
   }
 }
 
-TEST(Observables, OfWallsAreFoundByTheirName) {
-  EXPECT_EQ(find_observable(Experiment::kFree, "wall_top_force_nN")->unit, "nN");
-  EXPECT_EQ(find_observable(Experiment::kFree, "wall_my_wall_net_z_nN")->name,
-            "wall_my_wall_net_z_nN");
-  EXPECT_EQ(find_observable(Experiment::kLobule, "lesion_area_open")->unit, "1");
-  for (const char* name : {"wall_force_nN", "wall__force_nN", "wall_top", "lesion_area_open", ""})
-    EXPECT_FALSE(find_observable(Experiment::kFree, name)) << name;
-}
-
 /// Every series of a frame is an observable, and every observable has a series.
 TEST(Observables, AreWhatTheExperimentsMeasure) {
   for (const Experiment experiment : kExperiments) {
