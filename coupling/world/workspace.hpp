@@ -54,16 +54,15 @@ struct Workspace {
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
   MediumFriction medium_friction;        ///< written by: assemble
   CellForces forces;                     ///< written by: assemble
-  std::vector<dcm::PullSpring> pull_spring;  ///< [dcm lanes] written by: assemble
-  std::vector<double> position;              ///< [n_row][3][lane]; written by: assemble
-  std::vector<std::uint8_t> active;          ///< written by: size_workspace
-  Constraint constraint;                     ///< set by the owner
-  std::vector<double> rhs;                   ///< written by: solve_step
-  std::vector<double> move;                  ///< displacement of the step; written by: solve_step
-  std::vector<double> rest_of_move;          ///< scratch of solve_step
-  LinearisationPoint linearisation;          ///< written by: attempt_step
-  int failed_solves = 0;                     ///< attempts at this step; written by: take_step
-  std::vector<std::uint8_t> leader;          ///< written by: choose_leaders_of_step
+  std::vector<double> position;          ///< [n_row][3][lane]; written by: assemble
+  std::vector<std::uint8_t> active;      ///< written by: size_workspace
+  Constraint constraint;                 ///< set by the owner
+  std::vector<double> rhs;               ///< written by: solve_step
+  std::vector<double> move;              ///< displacement of the step; written by: solve_step
+  std::vector<double> rest_of_move;      ///< scratch of solve_step
+  LinearisationPoint linearisation;      ///< written by: attempt_step
+  int failed_solves = 0;                 ///< attempts at this step; written by: take_step
+  std::vector<std::uint8_t> leader;      ///< written by: choose_leaders_of_step
   std::int64_t leader_interval = -1;
   Timings timings;
   std::uint64_t sized = 0;  ///< number of calls of size_workspace: what depends on the set of cells
