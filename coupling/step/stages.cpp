@@ -130,22 +130,14 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
                                                           w.cbm_radius[c], w.cbm.contact_area[c]);
 }
 
-/// The time of a step whose middle decides what holds in it, s since t = 0.
+/// Midpoint time of the step, s since t = 0; devices are evaluated there.
 double middle_of(const World& world, double step) { return time_since_start(world) + 0.5 * step; }
 
-/// Steps end where a course jumps, so its value in their middle is of second order.
-void find_params(const World& world, double step, Workspace& w) {
+/// Constants of the deformable cells in this step.
+void compute_params(const World& world, double step, Workspace& w) {
   w.dcm_params = world.params.dcm;
-  set_temperature(world.params.temperature, middle_of(world, step), w.dcm_params);
-  for (dcm::Params& p : w.dcm_params)
-    if (p.contraction)
-      p.cortex_tension *= contraction_factor(*p.contraction, middle_of(world, step));
+  world.params.apparatus.set_params(middle_of(world, step), w.dcm_params);
   dcm::set_dashpots(world.state.dcm, w.dcm_params, w.system.block);
-}
-
-void add_stretch(const World& world, double step, Workspace& w) {
-  const dcm::StretchLoad load = stretch_at(world.params.stretcher, middle_of(world, step));
-  if (load.stress > 0) dcm::add_stretch_loads(world.state.dcm, w.lanes, load, w.system);
 }
 
 /// After all other contacts: those of nuclei have no record in the list of contacts.
@@ -154,11 +146,6 @@ void add_nuclei(const dcm::ContactInput& in, Workspace& w) {
   if (!dcm::has_nuclei(in.state)) return;
   dcm::add_nucleus_links(in.state, w.dcm_params, in.lanes, w.system);
   dcm::add_nucleus_contacts(in, w.dcm, w.nuclei, w.system.links);
-}
-
-void add_suction(const World& world, double step, Workspace& w) {
-  const dcm::SuctionLoad load = suction_at(world.params.suction, middle_of(world, step));
-  if (load.pressure > 0) dcm::add_suction_loads(world.state.dcm, w.lanes, load, w.system);
 }
 
 /// Vessels of the step are where the tree is.
@@ -183,13 +170,6 @@ void find_anchored_rows(const World& world, Workspace& w) {
       w.constraint.anchored_row.push_back(tree_first_row(world.state) + i);
 }
 
-void add_pull_springs(const World& world, double step, Workspace& w) {
-  if (world.state.clock.phase != Phase::kRun || !any_spring(world.params.pulls)) return;
-  const dcm::State& cells = world.state.dcm;
-  find_springs(world.params.pulls, middle_of(world, step), cells, w.pull_spring);
-  dcm::add_pull_spring_loads(cells, w.lanes, w.pull_spring, w.system);
-}
-
 }  // namespace
 
 void size_workspace(const World& world, Workspace& w) {
@@ -202,7 +182,7 @@ void size_workspace(const World& world, Workspace& w) {
   if (!s.tree.node.empty()) blocks.push_back({.pattern = &world.params.tree.pattern});
   find_anchored_rows(world, w);
   w.boundary.reset();
-  dcm::size_rank_one(s.dcm, world.params.dcm, w.system, any_spring(world.params.pulls));
+  dcm::size_rank_one(s.dcm, world.params.dcm, w.system, world.params.apparatus.count_rank_one());
   w.system.ownership = share_blocks(world, blocks, w.cost);
   solve::set_blocks(w.system, std::move(blocks));
   find_foreign_cells(world, w);
@@ -246,11 +226,9 @@ void assemble(const World& world, double step, Workspace& w, Selection selection
   compute_cell_forces(world, controls_at(s.clock, p.start_up), step, w.medium_friction, w.leader,
                       w.forces);
 
-  find_params(world, step, w);
+  compute_params(world, step, w);
   dcm::add_loads(s.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
-  add_stretch(world, step, w);
-  add_suction(world, step, w);
-  add_pull_springs(world, step, w);
+  p.apparatus.add_loads(middle_of(world, step), {s.dcm, w.lanes, w.system});
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   solve::Links& links = w.system.links;
   dcm::add_contact_loads(in.dcm, w.dcm, w.contacts, links);
