@@ -18,15 +18,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// s, longest step after such a change: what was before says nothing about it.
 constexpr double kFirstStep = 0.1;
 
-/// The next moment after `time` at which what acts on the cells changes at once, s; infinite if
-/// nothing does: a wall or a capsule opens, beams go on or off, the course of temperature,
-/// suction, contraction or a pull bends.
+/// Next time after `time` at which a device changes its action or a wall opens, s; infinite if
+/// there is none.
 double next_change(const Params& p, double time) {
   const double later = time + kSameTime;
-  double next = std::min(next_switch(p.stretcher, later), p.temperature.course.next(later));
-  next = std::min({next, p.suction.pressure.next(later), next_bend(p.pulls, later)});
-  for (const dcm::Params& type : p.dcm)
-    if (type.contraction) next = std::min(next, type.contraction->course.next(later));
+  double next = p.apparatus.next_change(later);
   contact::for_each_wall(p.boundary, [&](auto, auto, const auto& wall) {
     if (wall.opens > later) next = std::min(next, wall.opens);
   });

@@ -24,18 +24,6 @@ Vec3 toward_axis(const Motility& m, const Vec3& center) {
   return r > 0 ? Vec3(d / r) : Vec3::Zero();
 }
 
-/// Prescribed forces over time, by their mean in the step if nothing bends within it.
-void add_pulls(const World& world, const State& s, double middle, CellForces& forces) {
-  for (const Pull& p : world.params.pulls) {
-    if (p.force.entry.empty()) continue;
-    const Vec3 force = p.force.at(middle) * p.direction;
-    if (const auto at = std::ranges::find(s.dcm.lineage, p.cell); at != s.dcm.lineage.end())
-      forces.dcm[at - s.dcm.lineage.begin()] += force;
-    if (const auto at = std::ranges::find(s.cbm.lineage, p.cell); at != s.cbm.lineage.end())
-      forces.cbm[at - s.cbm.lineage.begin()] += force;
-  }
-}
-
 void choose_step_leaders(const World& world, const State& at, Workspace& w) {
   w.leader = at.leader;
   w.leader_interval = at.leader_interval;
@@ -114,7 +102,7 @@ void compute_cell_forces(const World& world, const State& s, double step,
     if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
       forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
   });
-  add_pulls(world, s, time + 0.5 * step, forces);
+  world.params.apparatus.add_cell_forces(time + 0.5 * step, {s.dcm, s.cbm, forces.dcm, forces.cbm});
   add_fading_forces(s, s.clock.time + 0.5 * step, forces);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Active forces on whole cells: random motility, the pull of leaders toward the vein, pulls that
-/// are constant or prescribed over time.
+/// Forces on whole cells: random motility, the pull of leaders toward the vein, constant pulls,
+/// those of devices and those that fade.
 
 #include <cstdint>
 

@@ -35,7 +35,7 @@ void size_workspace(const World& world, Workspace& w) {
   if (!s.tree.node.empty()) blocks.push_back({.pattern = &world.params.tree.pattern});
   w.constraint.anchored_row = anchored_rows(world);
   w.boundary.reset();
-  dcm::size_rank_one(s.dcm, world.params.dcm, w.system, any_spring(world.params.pulls));
+  dcm::size_rank_one(s.dcm, world.params.dcm, w.system, world.params.apparatus.count_rank_one());
   w.system.ownership = share_blocks(world, blocks, w.cost);
   solve::set_blocks(w.system, std::move(blocks));
   find_foreign_cells(world, w);

@@ -14,41 +14,14 @@
 namespace acinus::coupling {
 namespace {
 
-/// The time of a step whose middle decides what holds in it, s since t = 0.
+/// Midpoint time of the step, s since t = 0; devices are evaluated there.
 double middle_of(const World& world, double step) { return time_since_start(world) + 0.5 * step; }
 
-/// Steps end where a course jumps, so its value in their middle is of second order.
-void find_params(const World& world, const State& at, double step, Workspace& w) {
+/// Constants of the deformable cells in this step.
+void refresh_params(const World& world, const State& at, double step, Workspace& w) {
   w.dcm_params = world.params.dcm;
-  set_temperature(world.params.temperature, middle_of(world, step), w.dcm_params);
-  for (dcm::Params& p : w.dcm_params)
-    if (p.contraction)
-      p.cortex_tension *= contraction_factor(*p.contraction, middle_of(world, step));
+  world.params.apparatus.set_params(middle_of(world, step), w.dcm_params);
   dcm::set_dashpots(at.dcm, w.dcm_params, w.system.block);
-}
-
-void add_stretch(const World& world, const State& at, double step, Workspace& w) {
-  const dcm::StretchLoad load = stretch_at(world.params.stretcher, middle_of(world, step));
-  if (load.stress > 0) dcm::add_stretch_loads(at.dcm, w.lanes, load, w.system);
-}
-
-void add_suction(const World& world, const State& at, double step, Workspace& w) {
-  const dcm::SuctionLoad load = suction_at(world.params.suction, middle_of(world, step));
-  if (load.pressure > 0) dcm::add_suction_loads(at.dcm, w.lanes, load, w.system);
-}
-
-void add_pull_springs(const World& world, const State& at, double step, Workspace& w) {
-  if (world.state.clock.phase != Phase::kRun || !any_spring(world.params.pulls)) return;
-  find_springs(world.params.pulls, middle_of(world, step), at.dcm, w.pull_spring);
-  dcm::add_pull_spring_loads(at.dcm, w.lanes, w.pull_spring, w.system);
-}
-
-/// Loads within the deformable cells and on them.
-void add_cell_loads(const World& world, const State& at, double step, Workspace& w) {
-  dcm::add_loads(at.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
-  add_stretch(world, at, step, w);
-  add_suction(world, at, step, w);
-  add_pull_springs(world, at, step, w);
 }
 
 void add_nuclei(const dcm::ContactInput& in, Workspace& w) {
@@ -81,8 +54,9 @@ void add_loads(const World& world, const State& at, double step, const SystemTer
   w.system.stiffness_scale = terms.stiffness ? 1 : 0;
   solve::clear_loads(w.system);
   gather_positions(at, w.position);
-  find_params(world, at, step, w);
-  add_cell_loads(world, at, step, w);
+  refresh_params(world, at, step, w);
+  dcm::add_loads(at.dcm, w.dcm_params, w.lanes, w.medium_area, w.forces.dcm, w.system);
+  world.params.apparatus.add_loads(middle_of(world, step), {at.dcm, w.lanes, w.system});
   cbm::add_cell_loads(in.cbm, w.cbm, w.forces.cbm, w.system);
   add_contacts(in, terms, w);
   if (!at.tree.node.empty())

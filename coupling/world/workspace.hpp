@@ -55,7 +55,6 @@ struct Workspace {
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
   MediumFriction medium_friction;        ///< written by: refresh_migration
   CellForces forces;                     ///< written by: refresh_migration
-  std::vector<dcm::PullSpring> pull_spring;  ///< [dcm lanes] written by: add_loads
   std::vector<double> position;              ///< [n_row][3][lane]; written by: add_loads
   std::vector<std::uint8_t> active;          ///< written by: size_workspace
   Constraint constraint;                     ///< set by the owner

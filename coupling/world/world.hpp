@@ -11,14 +11,11 @@
 #include "cbm/state.hpp"
 #include "contact/boundary.hpp"
 #include "core/parallel/ranks.hpp"
-#include "coupling/apparatus/pull.hpp"
-#include "coupling/apparatus/stretcher.hpp"
-#include "coupling/apparatus/temperature.hpp"
+#include "coupling/apparatus/apparatus.hpp"
 #include "coupling/interface/interface.hpp"
 #include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/fading_force.hpp"
-#include "coupling/world/suction.hpp"
 #include "coupling/world/zoom.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "dcm/params.hpp"
@@ -97,10 +94,7 @@ struct Params {
   Numerics numerics;
   contact::Boundary boundary;  ///< of these vessels with a tree go where it is
   VesselTree tree;
-  Temperature temperature;
-  Stretcher stretcher;
-  Suction suction;
-  std::vector<Pull> pulls;
+  Apparatus apparatus;
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the

@@ -1,5 +1,7 @@
 #include "runs/assemble/build_params.hpp"
 
+#include "runs/scene/apparatus/apparatus.hpp"
+
 namespace acinus::runs {
 namespace {
 
@@ -61,6 +63,7 @@ dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
   p.bending_stiffness =
       dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);
   p.fold_repulsion = scene.contact.repulsion;
+  if (d.contraction) p.ring = *d.contraction;
   if (p.nucleus && !p.nucleus->resists()) p.nucleus.reset();
   p.viscosity = scene.friction.liquid ? scene.friction.viscosity : 0;
   p.diffusion = type.diffusion;
@@ -86,16 +89,7 @@ void set_params(const Scene& scene, coupling::Params& p) {
   set_motility(scene, p.motility);
   set_zoom(scene, p.zoom);
   set_numerics(scene, p.numerics);
-  if (scene.stretcher) p.stretcher = *scene.stretcher;
-  if (const auto& t = scene.pipette)
-    p.suction = {t->mouth, t->axis.normalized(), t->radius + 0.5 * t->thickness, t->suction};
-  if (scene.temperature) p.temperature = *scene.temperature;
-  for (const PullEntry& entry : scene.pulls) {
-    coupling::Pull pull = entry;
-    pull.direction.normalize();
-    pull.anchor = scene.cells.list[pull.cell].position.dot(pull.direction);
-    p.pulls.push_back(std::move(pull));
-  }
+  add_apparatus(scene, p);
 }
 
 }  // namespace acinus::runs

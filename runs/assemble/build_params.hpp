@@ -10,7 +10,7 @@ namespace acinus::runs {
 dcm::Params make_dcm_params(const Scene& scene, const CellType& type);
 cbm::Params make_cbm_params(const Scene& scene, const CellType& type);
 
-/// Contact, friction, start-up, migration and numerics.
+/// Contact, friction, start-up, migration, numerics and devices. @pre the cell types are set
 void set_params(const Scene& scene, coupling::Params& params);
 
 }  // namespace acinus::runs

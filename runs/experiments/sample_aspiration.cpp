@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/apparatus/suction/suction.hpp"
 #include "runs/experiments/single_cell.hpp"
 
 namespace acinus::runs {
@@ -28,14 +29,14 @@ double closed_form_suction(double tension, double pipette_radius, double cell_ra
 }
 
 void sample_aspiration(const ObservedFrame& f, Measures& m) {
-  const coupling::Suction& s = f.world.params.suction;
+  const coupling::Suction& s = f.world.params.apparatus.get<coupling::Suction>();
   const std::vector<Vec3> node = first_cell(f.world);
   double length = node.empty() ? kNotMeasured : 0;
   for (const Vec3& x : node) {
     const Vec3 d = x - s.mouth;
     if (d.cross(s.axis).norm() < s.reach) length = std::max(length, d.dot(s.axis));
   }
-  m["suction_Pa"].push_back(1e3 * coupling::suction_at(s, f.snapshot.time).pressure);
+  m["suction_Pa"].push_back(1e3 * s.load_at(f.snapshot.time).pressure);
   m["aspirated_length_um"].push_back(length);
 }
 

@@ -35,7 +35,7 @@ double vesicle_pull_off(const PairOfCells& pair) {
 }
 
 void sample_pull_off(const ObservedFrame& f, Measures& m) {
-  const std::vector<coupling::Pull>& pulls = f.world.params.pulls;
+  const std::vector<coupling::Pull>& pulls = f.world.params.apparatus.get<coupling::Pulls>().pull;
   const auto& cells = f.snapshot.cells;
   double force = kNotMeasured, distance = kNotMeasured, area = kNotMeasured;
   coupling::ContactTensions t;

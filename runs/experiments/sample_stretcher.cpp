@@ -16,15 +16,15 @@ void add_axis(const std::string& name, double value, Measures& m) {
 
 void sample_stretcher(const Scene&, const coupling::World& world, const Snapshot& snapshot,
                       Measures& m) {
-  const coupling::Params& p = world.params;
+  const coupling::Apparatus& apparatus = world.params.apparatus;
   const double t = snapshot.time;
-  const dcm::StretchLoad load = coupling::stretch_at(p.stretcher, t);
+  const coupling::StretchLoad load = apparatus.get<coupling::Stretcher>().load_at(t);
   const std::vector<Vec3> node = first_cell(world);
   const bool there = !node.empty();
   add_axis("long_axis", there ? extent(node, load.axis) : kNotMeasured, m);
   add_axis("short_axis", there ? extent_across(node, load.axis) : kNotMeasured, m);
   m["stress_Pa"].push_back(kPa * load.stress);
-  m["cortex_friction_factor"].push_back(coupling::friction_factor(p.temperature, t));
+  m["cortex_friction_factor"].push_back(apparatus.get<coupling::Temperature>().friction_factor(t));
 }
 
 }  // namespace acinus::runs

@@ -12,6 +12,9 @@ inline std::string quoted_quantity(double value, Dimension dimension, const char
   return "\"" + format_quantity(value, dimension, unit) + "\"";
 }
 
+/// "\"5 s\""
+inline std::string quoted_time(double value) { return quoted_quantity(value, kTime, "s"); }
+
 /// "\"5 um\""
 inline std::string quoted_length(double value) { return quoted_quantity(value, kLength, "um"); }
 

@@ -1,5 +1,6 @@
 #include "runs/scene/registry.hpp"
 
+#include "runs/scene/apparatus/apparatus.hpp"
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
@@ -278,30 +279,6 @@ void describe_scene(Visitor& v, Scene& s) {
                      "with a model of their own keep it, zoom regions count only with zoom",
           .automatic = "cells.model stays"},
          s.model);
-}
-
-/// What holds, pulls, lights or warms cells from outside.
-void describe_apparatus(Visitor& v, Scene& s) {
-  optional_block(
-      v,
-      {.name = "pipette",
-       .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
-                  "through; null = none"},
-      s.pipette, describe_pipette);
-  blocks(v,
-         {.name = "pulls",
-          .meaning = "forces on single cells over time, or springs that hold them",
-          .item = "pull"},
-         s.pulls, describe_pull);
-  optional_block(v,
-                 {.name = "stretcher",
-                  .meaning = "two laser beams that pull at deformable cells; null = none"},
-                 s.stretcher, describe_stretcher);
-  optional_block(v,
-                 {.name = "temperature",
-                  .meaning = "temperature over time, on which the friction within the cortex of "
-                             "deformable cells depends; null = none"},
-                 s.temperature, describe_temperature);
 }
 
 }  // namespace

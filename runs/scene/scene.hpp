@@ -15,6 +15,9 @@
 #include "cbm/params.hpp"
 #include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
+#include "coupling/apparatus/pull/pull.hpp"
+#include "coupling/apparatus/stretcher/stretcher.hpp"
+#include "coupling/apparatus/temperature/temperature.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/choices.hpp"
@@ -31,12 +34,18 @@ struct StartUpBlock : coupling::StartUp {
   std::string from;           ///< run folder whose state at t = 0 is taken; empty = none
 };
 
+/// Active tension over time and over the surface.
+struct ContractionBlock : dcm::ContractileRing {
+  Schedule course;  ///< factor over s since t = 0; empty: 1
+};
+
 /// Deformable cell parameters of a cell type (Table 1). Left to build/: the stiffness of springs
 /// and hinges, what the cell type says for both models, and friction with vessels.
 struct DcmBlock : dcm::Params {
   int nodes = 162;
   double cortex_young = 1.0;  ///< kPa
   double cortex_poisson = 0.5;
+  std::optional<ContractionBlock> contraction;  ///< of cortex_tension; empty: constant and uniform
   DcmBlock() {
     cortex_thickness = 0.5;
     area_modulus = 0.8;

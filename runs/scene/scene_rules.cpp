@@ -7,6 +7,7 @@
 
 #include "core/spelling.hpp"
 #include "core/units/units.hpp"
+#include "runs/scene/apparatus/apparatus.hpp"
 #include "runs/scene/quoted_quantity.hpp"
 
 namespace acinus::runs {
@@ -286,8 +287,7 @@ void check_rules(const Scene& scene, Report& report) {
   check_contact_law(scene, report);
   check_single_cell(scene, report);
   check_inside(scene, report);
-  check_pipette(scene, report);
-  check_pulls(scene, report);
+  check_apparatus(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);
   check_zoom(scene, report);

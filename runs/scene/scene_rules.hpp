@@ -20,7 +20,10 @@ void check_life(const Scene& scene, Report& report);
 /// The times of a course, the list at `pointer`, must never fall.
 void check_course(const Schedule& course, const std::string& pointer, Report& report);
 
-/// The part about experiments on single cells and what only they use. @pre called by check_rules
+/// Rule of experiments on one deformable cell: there is one.
+void check_one_cell(const Scene& scene, Report& report);
+
+/// The part about plates and cortices that flow. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 
 /// The part about the law of contact. @pre called by check_rules
@@ -28,12 +31,6 @@ void check_contact_law(const Scene& scene, Report& report);
 
 /// The part about what acts within deformable cells. @pre called by check_rules
 void check_inside(const Scene& scene, Report& report);
-
-/// The part about plates and pipettes. @pre called by check_rules
-void check_pipette(const Scene& scene, Report& report);
-
-/// The part about pulls on single cells. @pre called by check_rules
-void check_pulls(const Scene& scene, Report& report);
 
 /// The part about the zoom. @pre called by check_rules
 void check_zoom(const Scene& scene, Report& report);

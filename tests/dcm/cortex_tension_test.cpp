@@ -88,17 +88,17 @@ TEST(CortexTension, TurnsWithTheCell) {
 /// A ring of three times the tension about an axis askew.
 Params ringed() {
   Params p = contractile();
-  p.contraction = Contraction{};
-  p.contraction->ring = 2;
-  p.contraction->width = 0.3;
-  p.contraction->axis = {1, 2, -2};
+  p.ring = ContractileRing{};
+  p.ring->excess = 2;
+  p.ring->width = 0.3;
+  p.ring->axis = {1, 2, -2};
   return p;
 }
 
 // On the equator 1 + ring, at the poles of a narrow band 1; exp(-1/2) one width off the equator.
 TEST(ContractileRing, IsAGaussianOfTheCosine) {
-  Contraction c;
-  c.ring = 2;
+  ContractileRing c;
+  c.excess = 2;
   c.width = 0.25;
   EXPECT_EQ(ring_factor(c, 0), 3);
   EXPECT_NEAR(ring_factor(c, 0.25), 1 + 2 * std::exp(-0.5), 4 * kEps);
@@ -110,7 +110,7 @@ TEST(ContractileRing, IsAGaussianOfTheCosine) {
 TEST(ContractileRing, WideIsUniform) {
   Cells ring = make_deformed_cells(), uniform = ring;
   Params p = ringed(), q = contractile();
-  p.contraction->width = 1000;
+  p.ring->width = 1000;
   q.cortex_tension *= 3;
   add_cortex_tension(p, ring.view(), ring.system);
   add_cortex_tension(q, uniform.view(), uniform.system);
@@ -140,7 +140,7 @@ TEST(ContractileRing, TurnsWithCellAndAxis) {
     for (int i = 0; i < c.n_node(); ++i) turned.move(l, i, q * c.node(l, i) + shift);
   const Params p = ringed();
   Params r = p;
-  r.contraction->axis = q * p.contraction->axis;
+  r.ring->axis = q * p.ring->axis;
   add_cortex_tension(p, c.view(), c.system);
   add_cortex_tension(r, turned.view(), turned.system);
   for (std::size_t l = 0; l < kLanes; ++l)
@@ -166,11 +166,11 @@ TEST(ContractileRing, IsTheTensionOfTheNodes) {
   const Cells c = make_rest_cells(geometry::shared_icosphere(162), {10});
   const Params p = ringed();
   const auto tension = compute_node_tension(p, c.view(), 0);
-  const Vec3 axis = p.contraction->axis.normalized();
+  const Vec3 axis = p.ring->axis.normalized();
   for (int i = 0; i < c.n_node(); ++i) {
     const Vec3& x = c.state.group[0].topology->rest[i];
     // Springs at rest pull by rounding only.
-    EXPECT_NEAR(tension[i], 0.3 * ring_factor(*p.contraction, axis.dot(x) / x.norm()), 1e-12);
+    EXPECT_NEAR(tension[i], 0.3 * ring_factor(*p.ring, axis.dot(x) / x.norm()), 1e-12);
   }
 }
 

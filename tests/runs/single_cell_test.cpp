@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "coupling/apparatus/suction/suction.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {
@@ -75,11 +76,17 @@ TEST(Aspiration, ClosedFormHasItsLimits) {
 
 TEST(Aspiration, MeasuresTheLengthBeyondTheMouth) {
   Watched w;
-  w.world.params.suction = {Vec3(0, 0, 9), Vec3::UnitZ(), 6, {{{0, 0.05}}}};
+  coupling::Suction suction;
+  suction.mouth = Vec3(0, 0, 9);
+  suction.reach = 6;
+  suction.pressure.entry = {{0, 0.05}};
+  w.world.params.apparatus.add(suction);
   Measures m = w.look(sample_aspiration);
   EXPECT_NEAR(m["aspirated_length_um"][0], 3, 0.05) << "the mesh stands 0.3 % out";
   EXPECT_DOUBLE_EQ(m["suction_Pa"][0], 50);
-  w.world.params.suction.mouth.z() = 20;
+  suction.mouth.z() = 20;
+  w.world.params.apparatus = {};
+  w.world.params.apparatus.add(suction);
   EXPECT_EQ(w.look(sample_aspiration)["aspirated_length_um"][0], 0);
 }
 

@@ -2,37 +2,71 @@
 
 #include <algorithm>
 
+#include "coupling/apparatus/suction/suction.hpp"
+#include "runs/scene/apparatus/device_block.hpp"
 #include "runs/scene/quoted_quantity.hpp"
+#include "runs/scene/registry_blocks.hpp"
 #include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {
 
+constexpr Key kSuctionThen{.name = "pressure",
+                           .meaning = "suction then, below the pressure outside",
+                           .dimension = kStress,
+                           .unit = "Pa",
+                           .range = kNotNegative,
+                           .symbol = "dp",
+                           .required = true};
+
+void describe_pipette(Visitor& v, PipetteBlock& b) {
+  v.vector({.name = "mouth",
+            .meaning = "centre of the plane in which the tube begins",
+            .dimension = kLength,
+            .unit = "um"},
+           b.mouth);
+  v.vector({.name = "axis", .meaning = "direction from the mouth into the tube"}, b.axis);
+  v.real({.name = "radius",
+          .meaning = "inner radius",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_p",
+          .required = true},
+         b.radius);
+  v.real({.name = "thickness",
+          .meaning = "thickness of the wall",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.thickness);
+  v.real({.name = "lip",
+          .meaning = "radius with which the edges at both ends are rounded",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kNotNegative},
+         b.lip);
+  v.real({.name = "length",
+          .meaning = "length along the axis",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.length);
+  blocks(v, {.name = "suction", .meaning = "suction over time; none = 0 Pa", .item = "suction"},
+         b.suction.entry, describe_course_point<kSuctionThen>);
+}
+
+void describe_pipette_block(Visitor& v, Scene& s) {
+  optional_block(
+      v,
+      {.name = "pipette",
+       .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
+                  "through; null = none"},
+      s.pipette, describe_pipette);
+}
+
 bool sucks(const PipetteBlock& p) {
   return std::ranges::any_of(p.suction.entry, [](const auto& e) { return e.value > 0; });
-}
-
-/// Experiments with one cell need it, and what they do to it.
-void check_single(const Scene& scene, Report& report) {
-  const std::string name = "\"" + name_of_choice(scene.experiment) + "\"";
-  if (scene.cells.source != CellSource::kList || scene.cells.list.size() != 1)
-    report.add_relation({"/experiment", "/cells/list", "/cells"}, name,
-                        "looks at one cell: give /cells/list with one entry");
-  if (scene.model.value_or(scene.cells.model) == CellModel::kCbm)
-    report.add_relation({"/experiment", "/cells/model"}, name,
-                        "is for deformable cells: set /cells/model to \"dcm\"");
-}
-
-void check_plates(const Scene& scene, Report& report) {
-  if (scene.experiment != Experiment::kPlates) return;
-  check_single(scene, report);
-  constexpr double kOpposite = 1e-9;
-  const std::vector<WallEntry>& w = scene.walls;
-  const bool face =
-      w.size() == 2 && (w[0].normal.normalized() + w[1].normal.normalized()).norm() < kOpposite;
-  if (!face)
-    report.add_relation({"/experiment", "/walls"}, "\"plates\"",
-                        "needs two walls with opposite normals, the plates (acinus explain wall)");
 }
 
 /// The tube must be one, and narrower than a cell that is to be deformed by it.
@@ -68,7 +102,7 @@ void check_suction(const Scene& scene, const PipetteBlock& p, Report& report) {
 void check_experiments(const Scene& scene, Report& report) {
   const bool aspirates = scene.experiment == Experiment::kAspiration;
   if (!aspirates && scene.experiment != Experiment::kNarrowGap) return;
-  check_single(scene, report);
+  check_one_cell(scene, report);
   const std::string name = "\"" + name_of_choice(scene.experiment) + "\"";
   if (!scene.pipette) {
     report.add_relation({"/experiment", "/pipette"}, name,
@@ -87,14 +121,27 @@ void check_experiments(const Scene& scene, Report& report) {
                         "/cells/list/0");
 }
 
-}  // namespace
-
 void check_pipette(const Scene& scene, Report& report) {
-  check_plates(scene, report);
   check_experiments(scene, report);
   if (!scene.pipette) return;
   check_tube(scene, *scene.pipette, report);
   check_suction(scene, *scene.pipette, report);
 }
+
+/// The suction; the tube is a wall and is built with the boundary.
+void add_suction(const Scene& scene, coupling::Params& params) {
+  if (!scene.pipette || scene.pipette->suction.entry.empty()) return;
+  const PipetteBlock& p = *scene.pipette;
+  coupling::Suction suction;
+  suction.mouth = p.mouth;
+  suction.axis = p.axis.normalized();
+  suction.reach = p.radius + 0.5 * p.thickness;
+  suction.pressure = p.suction;
+  params.apparatus.add(std::move(suction));
+}
+
+}  // namespace
+
+const DeviceBlock kPipetteBlock{"pipette", describe_pipette_block, check_pipette, add_suction};
 
 }  // namespace acinus::runs

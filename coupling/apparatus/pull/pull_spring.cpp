@@ -1,8 +1,8 @@
-#include "dcm/terms/pull_spring.hpp"
+#include "coupling/apparatus/pull/pull_spring.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 
-void add_pull_springs(const GroupView& g, std::span<const PullSpring> spring, solve::System& s,
+void add_pull_springs(const dcm::GroupView& g, std::span<const PullSpring> spring, solve::System& s,
                       solve::RankOne& family) {
   for (std::size_t l = 0; l < kLanes; ++l) {
     const PullSpring& held = spring[l];
@@ -22,4 +22,4 @@ void add_pull_springs(const GroupView& g, std::span<const PullSpring> spring, so
   }
 }
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

@@ -1,17 +1,19 @@
-/// What an optical stretcher does to a cell.
+/// Loads of an optical stretcher on a cell.
 
-#include "dcm/terms/stretch_load.hpp"
+#include "coupling/apparatus/stretcher/stretch_load.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "dcm/optical_stress.hpp"
+#include "coupling/apparatus/stretcher/optical_stress.hpp"
 #include "tests/dcm/cells.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 namespace {
+
+using namespace dcm;
 
 using reference::kEps;
 
@@ -106,4 +108,4 @@ TEST(StretchLoad, TurnsWithCellAndAxis) {
 }
 
 }  // namespace
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

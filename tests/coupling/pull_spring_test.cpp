@@ -1,6 +1,6 @@
-/// What a spring at its centre does to a cell.
+/// Loads of a spring at the centre of a cell.
 
-#include "dcm/terms/pull_spring.hpp"
+#include "coupling/apparatus/pull/pull_spring.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,10 @@
 #include "dcm/loads/loads.hpp"
 #include "tests/dcm/cells.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 namespace {
+
+using namespace dcm;
 
 using Springs = std::array<PullSpring, kLanes>;
 
@@ -21,7 +23,7 @@ Vec3 load_of(const Cells& c, std::size_t lane, int i) {
 /// Deformed cells with room for the springs in their system, and nothing else in it.
 Cells make_cells() {
   Cells c = make_deformed_cells();
-  size_rank_one(c.state, {}, c.system, true);
+  size_rank_one(c.state, {}, c.system, 1);
   return c;
 }
 
@@ -113,4 +115,4 @@ TEST(PullSpring, LeavesCellsWithoutOneAlone) {
 }
 
 }  // namespace
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

@@ -1,14 +1,14 @@
-#include "dcm/terms/stretch_load.hpp"
+#include "coupling/apparatus/stretcher/stretch_load.hpp"
 
 #include <cmath>
 #include <vector>
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 namespace {
 
 /// Six times dV/dx of every node of a lane.
-void find_gradients(const geometry::Topology& t, const std::vector<Vec3>& arm,
-                    std::vector<Vec3>& gradient) {
+void compute_gradients(const geometry::Topology& t, const std::vector<Vec3>& arm,
+                       std::vector<Vec3>& gradient) {
   gradient.assign(arm.size(), Vec3::Zero());
   for (const auto& [a, b, c] : t.triangle) {
     gradient[a] += arm[b].cross(arm[c]);
@@ -19,7 +19,7 @@ void find_gradients(const geometry::Topology& t, const std::vector<Vec3>& arm,
 
 }  // namespace
 
-void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System& s) {
+void add_stretch_load(const dcm::GroupView& g, const StretchLoad& load, solve::System& s) {
   const geometry::Topology& t = *g.topology;
   thread_local std::vector<Vec3> arm, force;  // a warmed-up step allocates nothing
   arm.resize(t.n_node);
@@ -31,7 +31,7 @@ void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System
       center += t.rest_node_area[i] / t.rest_area * arm[i];
     }
     for (Vec3& a : arm) a -= center;
-    find_gradients(t, arm, force);
+    compute_gradients(t, arm, force);
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < t.n_node; ++i) {
       const double cosine = std::abs(arm[i].dot(load.axis)) / arm[i].norm();
@@ -44,4 +44,4 @@ void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System
   }
 }
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

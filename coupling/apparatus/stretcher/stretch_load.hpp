@@ -5,7 +5,7 @@
 #include "dcm/group_view.hpp"
 #include "solve/system.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 
 struct StretchLoad {
   Vec3 axis = Vec3::UnitX();  ///< a unit vector
@@ -19,6 +19,6 @@ struct StretchLoad {
 /// force is taken off again, spread by rest areas, so that the cell stays between the beams. The
 /// torque is 0 for a cell that is even about the axis; it turns others as the beams would.
 /// [VanLiedekerke2020, Eq. (32) with n = 2, and Appendix 3]
-void add_stretch_load(const GroupView& g, const StretchLoad& load, solve::System& system);
+void add_stretch_load(const dcm::GroupView& g, const StretchLoad& load, solve::System& system);
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

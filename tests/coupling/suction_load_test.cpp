@@ -1,13 +1,15 @@
-/// What the suction of a pipette does to a cell.
+/// Loads of the suction of a pipette on a cell.
 
-#include "dcm/terms/suction_load.hpp"
+#include "coupling/apparatus/suction/suction_load.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/dcm/cells.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 namespace {
+
+using namespace dcm;
 
 Vec3 load_of(const Cells& c, std::size_t lane, int i) {
   return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
@@ -121,4 +123,4 @@ TEST(SuctionLoad, TurnsWithCellAndPipette) {
 }
 
 }  // namespace
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

@@ -1,11 +1,11 @@
 #pragma once
-/// The stress that two laser beams facing each other put on a cell between them.
+/// Stress of two laser beams facing each other on a cell between them.
 
 #include <cmath>
 
 #include "core/vec.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 
 inline constexpr double kLightSpeed = 2.99792458e14;  ///< um/s
 
@@ -34,4 +34,4 @@ inline double stress_amplitude(const LaserBeams& b) {
   return (leaves - enters) * b.power / kLightSpeed / (kPi * b.radius * b.radius);
 }
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

@@ -1,8 +1,8 @@
-#include "dcm/terms/suction_load.hpp"
+#include "coupling/apparatus/suction/suction_load.hpp"
 
 #include <algorithm>
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 namespace {
 
 /// positive_part of a triangle in which only corner `k` has the sign that is looked for.
@@ -32,7 +32,7 @@ std::array<double, 3> positive_part(const std::array<double, 3>& height) {
   return part;
 }
 
-void add_suction_load(const GroupView& g, const SuctionLoad& load, solve::System& s) {
+void add_suction_load(const dcm::GroupView& g, const SuctionLoad& load, solve::System& s) {
   for (int l = 0; l < kLanes; ++l) {
     if (g.active[l] == 0) continue;
     for (const auto& corner : g.topology->triangle) {
@@ -54,4 +54,4 @@ void add_suction_load(const GroupView& g, const SuctionLoad& load, solve::System
   }
 }
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

@@ -6,7 +6,7 @@
 #include "dcm/group_view.hpp"
 #include "solve/system.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 
 struct SuctionLoad {
   Vec3 mouth = Vec3::Zero();  ///< um, centre of the pipette's mouth
@@ -19,10 +19,10 @@ struct SuctionLoad {
 /// Adds pressure times area, along the outward normal, on the part of the surface behind the mouth.
 /// A triangle that the plane of the mouth cuts counts with the part behind it, so that the force
 /// has no jumps. It has a net force: whatever holds the cell, the pipette, balances it.
-void add_suction_load(const GroupView& g, const SuctionLoad& load, solve::System& system);
+void add_suction_load(const dcm::GroupView& g, const SuctionLoad& load, solve::System& system);
 
 /// Integrals of the three linear shape functions of a triangle over its part where the linear
 /// function with these values at the corners is positive, over the area of the triangle.
 std::array<double, 3> positive_part(const std::array<double, 3>& height);
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling

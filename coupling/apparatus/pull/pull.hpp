@@ -5,8 +5,7 @@
 
 #include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
-#include "dcm/state.hpp"
-#include "dcm/terms/pull_spring.hpp"
+#include "coupling/apparatus/device.hpp"
 
 namespace acinus::coupling {
 
@@ -21,7 +20,7 @@ struct Pull {
   Schedule displacement;           ///< um by which it has moved, over s since t = 0
 };
 
-/// Where the far end of a spring is, um along its direction.
+/// Position of the far end of a spring, um along its direction.
 inline double spring_end(const Pull& p, double time) {
   return p.anchor + (p.displacement.entry.empty() ? 0 : p.displacement.at(time));
 }
@@ -32,15 +31,19 @@ inline double pull_force(const Pull& p, double time, const Vec3& center) {
   return p.force.entry.empty() ? 0 : p.force.at(time);
 }
 
-/// Whether any of them is a spring.
-bool any_spring(const std::vector<Pull>& pulls);
+/// All pulls of a scene. Forces are added as forces on whole cells, springs as loads; springs act
+/// from t = 0 on, and of two on one cell the later in the list does.
+struct Pulls final : Device {
+  std::vector<Pull> pull;
 
-/// The springs of all deformable cells; without stiffness where there is none.
-/// @param[out] spring  [n_lane]
-void find_springs(const std::vector<Pull>& pulls, double time, const dcm::State& cells,
-                  std::vector<dcm::PullSpring>& spring);
+  bool any_spring() const;
 
-/// The next time after `time` at which a force or a displacement bends, s; infinite if none does.
-double next_bend(const std::vector<Pull>& pulls, double time);
+  double next_change(double time) const override;
+  void add_cell_forces(double time, const ForcedCells& cells) const override;
+  void add_loads(double time, const LoadedCells& cells,
+                 std::span<solve::RankOne> own) const override;
+  std::size_t count_rank_one() const override { return any_spring() ? 1 : 0; }
+  bool acts_at_rest() const override { return false; }
+};
 
 }  // namespace acinus::coupling

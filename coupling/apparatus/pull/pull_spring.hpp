@@ -6,7 +6,7 @@
 #include "dcm/group_view.hpp"
 #include "solve/system.hpp"
 
-namespace acinus::dcm {
+namespace acinus::coupling {
 
 struct PullSpring {
   Vec3 direction = Vec3::UnitX();  ///< unit; across it the cell is free
@@ -16,10 +16,10 @@ struct PullSpring {
 
 /// Energy k/2 (d.c - end)^2 with the centre c = sum A_i x_i / sum A_i (cell_center), so that the
 /// force is spread over the cell as that of add_body_load and does not deform it. It has a net
-/// force: whoever holds the far end balances it.
+/// force, which the support of the far end balances.
 /// @param spring  [kLanes]
 /// @param family  its rank-one terms
-void add_pull_springs(const GroupView& g, std::span<const PullSpring> spring, solve::System& system,
-                      solve::RankOne& family);
+void add_pull_springs(const dcm::GroupView& g, std::span<const PullSpring> spring,
+                      solve::System& system, solve::RankOne& family);
 
-}  // namespace acinus::dcm
+}  // namespace acinus::coupling
