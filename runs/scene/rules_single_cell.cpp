@@ -24,9 +24,6 @@ void check_series_friction(const Scene& scene, Report& report) {
 }
 
 void check_stretcher(const Scene& scene, Report& report) {
-  if (scene.experiment == Experiment::kOpticalStretcher && !scene.stretcher)
-    report.add_relation({"/experiment", "/stretcher"}, "\"optical_stretcher\"",
-                        "needs a stretcher block (acinus explain stretcher)");
   if (!scene.stretcher) return;
   const coupling::Stretcher& s = *scene.stretcher;
   if (s.pulse.empty())

@@ -14,6 +14,10 @@ void check_rules(const Scene& scene, Report& report);
 /// The part about steps and the times between frames and other events. @pre called by check_rules
 void check_times(const Scene& scene, Report& report);
 
+/// The part about the scene's experiment. It stands in the row of the experiment and so is defined
+/// with the table of experiments (runs/experiments/experiment.cpp). @pre called by check_rules
+void check_experiment(const Scene& scene, Report& report);
+
 /// The part about growth, division and death. @pre called by check_rules
 void check_life(const Scene& scene, Report& report);
 
@@ -34,6 +38,12 @@ void check_pipette(const Scene& scene, Report& report);
 
 /// The part about pulls on single cells. @pre called by check_rules
 void check_pulls(const Scene& scene, Report& report);
+
+/// True if the pipette ever sucks.
+bool has_suction(const PipetteBlock& pipette);
+
+/// Model of a listed cell.
+CellModel model_of(const Scene& scene, const CellEntry& cell);
 
 /// The part about the zoom. @pre called by check_rules
 void check_zoom(const Scene& scene, Report& report);
