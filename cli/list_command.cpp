@@ -3,7 +3,8 @@
 #include <memory>
 
 #include "cli/command.hpp"
-#include "runs/scene/entries.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/scene/choices.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/study/shipped_studies.hpp"
@@ -20,9 +21,10 @@ int list() {
     for (const ShippedScene& study : studies)
       fmt::print("  {:20}  {}\n", study.name, study.description);
   }
-  for (const Entry& entry : all_entries())
-    if (entry.path == "experiment")
-      fmt::print("experiments (scene key experiment)\n  {}\n", entry.range);
+  fmt::print("experiments (scene key experiment)\n");
+  const std::vector<std::string> names = split_choices(kChoices<Experiment>);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    fmt::print("  {:20}  {}\n", names[k], experiment_row(static_cast<Experiment>(k)).meaning);
   return 0;
 }
 

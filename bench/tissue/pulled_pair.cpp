@@ -10,7 +10,7 @@
 #include "coupling/simulation.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/experiments/single_cell.hpp"
+#include "runs/experiments/pull_off_experiment.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 

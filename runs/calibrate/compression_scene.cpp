@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "runs/assemble/place_cells.hpp"
+#include "runs/experiments/capsule_experiment.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {
@@ -46,7 +47,7 @@ std::string choose_type(const Scene& scene, const std::string& type) {
 }
 
 Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
-  const bool itself = scene.experiment == Experiment::kCapsule && scene.capsule.enabled;
+  const bool itself = is_capsule_compression(scene);
   Scene s = scene;
   if (!itself) {
     s = Scene{};

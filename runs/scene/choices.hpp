@@ -12,24 +12,10 @@
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_params.hpp"
+#include "runs/scene/experiment_list.hpp"
 
 namespace acinus::runs {
 
-/// What is measured.
-enum class Experiment {
-  kFree,
-  kLobule,
-  kPatch,
-  kCapsule,
-  kRelaxation,
-  kSpheroid,
-  kMonolayer,
-  kOpticalStretcher,
-  kPlates,
-  kAspiration,
-  kNarrowGap,
-  kPullOff
-};
 /// kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
 enum class CellSource { kList, kClump, kBox, kFill, kLobule, kMeshes };
@@ -42,9 +28,7 @@ enum class VesselWalls { kCones, kMesh };
 template <class E>
 inline constexpr const char* kChoices = nullptr;
 template <>
-inline constexpr const char* kChoices<Experiment> =
-    "free|lobule|patch|capsule|relaxation|spheroid|monolayer|optical_stretcher|plates|aspiration|"
-    "narrow_gap|pull_off";
+inline constexpr const char* kChoices<Experiment> = kExperimentNames;
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>

@@ -18,18 +18,6 @@ void check_series_friction(const Scene& scene, Report& report) {
   }
 }
 
-void check_plates(const Scene& scene, Report& report) {
-  if (scene.experiment != Experiment::kPlates) return;
-  check_one_cell(scene, report);
-  constexpr double kOpposite = 1e-9;
-  const std::vector<WallEntry>& w = scene.walls;
-  const bool face =
-      w.size() == 2 && (w[0].normal.normalized() + w[1].normal.normalized()).norm() < kOpposite;
-  if (!face)
-    report.add_relation({"/experiment", "/walls"}, "\"plates\"",
-                        "needs two walls with opposite normals, the plates (acinus explain wall)");
-}
-
 }  // namespace
 
 void check_course(const Schedule& course, const std::string& pointer, Report& report) {
@@ -54,7 +42,6 @@ void check_one_cell(const Scene& scene, Report& report) {
 
 void check_single_cell(const Scene& scene, Report& report) {
   check_series_friction(scene, report);
-  check_plates(scene, report);
 }
 
 }  // namespace acinus::runs

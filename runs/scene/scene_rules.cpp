@@ -166,10 +166,6 @@ void check_cells(const Scene& scene, Report& report) {
     report.add_relation({"/cells/source", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
   }
-  if (scene.experiment == Experiment::kLobule && !scene.lobule) {
-    report.add_relation({"/experiment", "/lobule"}, "\"lobule\"",
-                        "needs a lobule block (acinus explain lobule)");
-  }
   if (!scene.zoom.empty() && cells.model != CellModel::kZoom && !scene.model) {
     report.add_relation({"/zoom", "/cells/model"}, "",
                         fmt::format("zoom regions need /cells/model = \"zoom\", not \"{}\". Remove "
@@ -282,6 +278,7 @@ void check_region(const Region& region, const std::string& pointer, Report& repo
 
 void check_rules(const Scene& scene, Report& report) {
   check_times(scene, report);
+  check_experiment(scene, report);
   check_vessels(scene, report);
   check_flexible_vessels(scene, report);
   check_contact_law(scene, report);

@@ -14,6 +14,10 @@ void check_rules(const Scene& scene, Report& report);
 /// The part about steps and the times between frames and other events. @pre called by check_rules
 void check_times(const Scene& scene, Report& report);
 
+/// The part about the scene's experiment. It stands in the row of the experiment and so is defined
+/// with the table of experiments (runs/experiments/experiment.cpp). @pre called by check_rules
+void check_experiment(const Scene& scene, Report& report);
+
 /// The part about growth, division and death. @pre called by check_rules
 void check_life(const Scene& scene, Report& report);
 
@@ -23,7 +27,7 @@ void check_course(const Schedule& course, const std::string& pointer, Report& re
 /// Rule of experiments on one deformable cell: there is one.
 void check_one_cell(const Scene& scene, Report& report);
 
-/// The part about plates and cortices that flow. @pre called by check_rules
+/// The part about cortices that flow. @pre called by check_rules
 void check_single_cell(const Scene& scene, Report& report);
 
 /// The part about the law of contact. @pre called by check_rules
@@ -31,6 +35,12 @@ void check_contact_law(const Scene& scene, Report& report);
 
 /// The part about what acts within deformable cells. @pre called by check_rules
 void check_inside(const Scene& scene, Report& report);
+
+/// True if the pipette ever sucks.
+bool has_suction(const PipetteBlock& pipette);
+
+/// Model of a listed cell.
+CellModel model_of(const Scene& scene, const CellEntry& cell);
 
 /// The part about the zoom. @pre called by check_rules
 void check_zoom(const Scene& scene, Report& report);

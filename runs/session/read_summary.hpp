@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/measures.hpp"
 
 namespace acinus::runs {
 

@@ -7,7 +7,7 @@
 #include "core/parallel/timing.hpp"
 #include "coupling/world/world.hpp"
 #include "runs/assemble/notes.hpp"
-#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/measures.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_options.hpp"
 #include "runs/session/totals.hpp"

@@ -11,9 +11,11 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/lobule_experiment.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
-#include "runs/experiments/sample_lobule.hpp"
+#include "runs/experiments/sample_tissue.hpp"
 #include "runs/session/make_frame.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -81,14 +83,25 @@ void move_inward(Snapshot& s, double by) {
   }
 }
 
-constexpr Experiment kExperiments[] = {
-    Experiment::kFree,       Experiment::kLobule,           Experiment::kPatch,
-    Experiment::kCapsule,    Experiment::kRelaxation,       Experiment::kSpheroid,
-    Experiment::kMonolayer,  Experiment::kOpticalStretcher, Experiment::kPlates,
-    Experiment::kAspiration, Experiment::kNarrowGap};
+std::vector<Experiment> all_experiments() {
+  std::vector<Experiment> all;
+  for (std::size_t k = 0; k < split_choices(kChoices<Experiment>).size(); ++k)
+    all.push_back(static_cast<Experiment>(k));
+  return all;
+}
+
+TEST(Experiments, HaveARowEach) {
+  std::set<std::string> meanings;
+  for (const Experiment experiment : all_experiments()) {
+    const std::string meaning = experiment_row(experiment).meaning;
+    EXPECT_FALSE(meaning.empty()) << name_of_choice(experiment);
+    EXPECT_TRUE(meanings.insert(meaning).second) << meaning;
+  }
+  EXPECT_GT(meanings.size(), 1U);
+}
 
 TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
-  for (const Experiment experiment : kExperiments) {
+  for (const Experiment experiment : all_experiments()) {
     std::set<std::string> seen{"time"};
     for (const Observable& o : known_observables(experiment)) {
       EXPECT_TRUE(seen.insert(o.name).second)
@@ -101,9 +114,10 @@ TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
 
 /// Every series of a frame is an observable, and every observable has a series.
 TEST(Observables, AreWhatTheExperimentsMeasure) {
-  for (const Experiment experiment : kExperiments) {
+  for (const Experiment experiment : all_experiments()) {
     Scene scene = lobule_scene();
     scene.experiment = experiment;
+    scene.cells.list.resize(2);
     Watched w(scene, coupling::make_test_world(
                          {{Vec3(60, 0, 20), true}, {Vec3(83.5, 0, 20), false}}, 60, 42));
     contact::Plane plane;

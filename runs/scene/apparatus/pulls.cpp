@@ -60,10 +60,6 @@ void describe_pulls_block(Visitor& v, Scene& s) {
          s.pulls, describe_pull);
 }
 
-CellModel model_of(const Scene& scene, const CellEntry& cell) {
-  return cell.model.value_or(scene.model.value_or(scene.cells.model));
-}
-
 void check_pull(const Scene& scene, const PullEntry& p, const std::string& pointer,
                 Report& report) {
   const auto n = static_cast<int>(scene.cells.list.size());
@@ -84,25 +80,7 @@ void check_pull(const Scene& scene, const PullEntry& p, const std::string& point
                         "is for deformable cells: set /cells/model to \"dcm\"");
 }
 
-/// Two cells that are pulled apart, each by a pull of its own.
-void check_pull_off(const Scene& scene, Report& report) {
-  if (scene.experiment != Experiment::kPullOff) return;
-  const auto& list = scene.cells.list;
-  const bool pair = scene.cells.source == CellSource::kList && list.size() == 2 &&
-                    model_of(scene, list[0]) == CellModel::kDcm &&
-                    model_of(scene, list[1]) == CellModel::kDcm;
-  if (!pair)
-    report.add_relation({"/experiment", "/cells/list", "/cells"}, "\"pull_off\"",
-                        "looks at two cells and is for deformable cells: give /cells/list with two "
-                        "entries and set /cells/model to \"dcm\"");
-  const auto& pulls = scene.pulls;
-  if (pulls.size() != 2 || pulls[0].cell == pulls[1].cell)
-    report.add_relation({"/experiment", "/pulls"}, "\"pull_off\"",
-                        "needs two pulls, one on each cell (acinus explain pull)");
-}
-
 void check_pulls(const Scene& scene, Report& report) {
-  check_pull_off(scene, report);
   if (scene.pulls.empty()) return;
   if (scene.cells.source != CellSource::kList) {
     report.add_relation({"/pulls", "/cells/source"}, "", "is for cells that are listed one by one");
@@ -128,6 +106,10 @@ void add_pulls(const Scene& scene, coupling::Params& params) {
 }
 
 }  // namespace
+
+CellModel model_of(const Scene& scene, const CellEntry& cell) {
+  return cell.model.value_or(scene.model.value_or(scene.cells.model));
+}
 
 const DeviceBlock kPullsBlock{"pulls", describe_pulls_block, check_pulls, add_pulls};
 

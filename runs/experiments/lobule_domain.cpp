@@ -1,4 +1,4 @@
-#include "runs/experiments/lobule_room.hpp"
+#include "runs/experiments/lobule_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,14 +44,14 @@ double vessel_volume(const coupling::Domain& domain, const geometry::Network& ne
 
 }  // namespace
 
-LobuleRoom make_lobule_room(const Scene& scene, const contact::Vessels& vessels) {
+LobuleDomain make_lobule_domain(const Scene& scene, const contact::Vessels& vessels) {
   const LobuleBlock& b = *scene.lobule;
-  LobuleRoom room;
-  room.frame = {b.height, b.central_vein_radius, scene.cell_types.begin()->second.radius};
-  room.axis = scene.axis_point;
+  LobuleDomain lobule;
+  lobule.frame = {b.height, b.central_vein_radius, scene.cell_types.begin()->second.radius};
+  lobule.axis = scene.axis_point;
   if (b.shape == coupling::LobuleShape::kPie) {
-    room.from_angle = -kPi / 6;
-    room.to_angle = kPi / 6;
+    lobule.from_angle = -kPi / 6;
+    lobule.to_angle = kPi / 6;
   }
   coupling::LobuleParameters p;
   p.shape = b.shape;
@@ -61,10 +61,10 @@ LobuleRoom make_lobule_room(const Scene& scene, const contact::Vessels& vessels)
   p.central_vein_radius = b.central_vein_radius;
   p.portal_vein_radius = b.portal_vein_radius;
   const coupling::Domain domain = coupling::make_domain(p);
-  room.free_volume = domain.volume - vessel_volume(domain, vessels.network);
+  lobule.free_volume = domain.volume - vessel_volume(domain, vessels.network);
   for (const auto& [at_a, at_b] : vessels.network.radius)
-    room.sinusoid.push_back(std::max(at_a, at_b) < b.central_vein_radius ? 1 : 0);
-  return room;
+    lobule.sinusoid.push_back(std::max(at_a, at_b) < b.central_vein_radius ? 1 : 0);
+  return lobule;
 }
 
 }  // namespace acinus::runs

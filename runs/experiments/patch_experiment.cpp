@@ -1,3 +1,9 @@
+/// Experiment "patch": a box cut in two halves across x, one of each model.
+///
+/// Pressure is the mean contact pressure of the cells of a half; density is their number per volume
+/// between the walls on their side of the plane midway between the innermost layers of the two
+/// models.
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -7,7 +13,7 @@
 namespace acinus::runs {
 namespace {
 
-/// The box between the walls at a time, clipped by every plane that faces along an axis.
+/// Box between the walls at a time, clipped by every plane that faces along an axis.
 struct WallBox {
   Vec3 low = Vec3::Constant(-std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -40,9 +46,17 @@ double innermost_layer(const Snapshot& s, bool deformable, double sign) {
   return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace
+std::vector<Observable> patch_columns() {
+  return {{"box_length_um", "um", "distance of the walls across x"},
+          {"pressure_dcm_Pa", "Pa", "mean contact pressure of the deformable half; 0 without"},
+          {"pressure_cbm_Pa", "Pa", "mean contact pressure of the half of spheres; 0 without"},
+          {"density_dcm_per_mm3", "1/mm^3", "density of the deformable half; 0 without"},
+          {"density_cbm_per_mm3", "1/mm^3", "density of the half of spheres; 0 without"}};
+}
 
-void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s, Measures& m) {
+void sample_patch(const ObservedFrame& frame, ObservedRun& observed) {
+  const Snapshot& s = frame.snapshot;
+  Measures& m = observed.measures;
   double mean_x[2] = {0, 0}, pressure[2] = {0, 0};
   int count[2] = {0, 0};
   for (const coupling::CellMeasure& c : s.cells) {
@@ -52,7 +66,7 @@ void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s,
     ++count[k];
   }
   if (count[0] == 0 && count[1] == 0) return;
-  const WallBox box = wall_box(world.params.boundary, std::max(0.0, s.time));
+  const WallBox box = wall_box(frame.world.params.boundary, std::max(0.0, s.time));
   const double area = (box.high.y() - box.low.y()) * (box.high.z() - box.low.z());
   m["box_length_um"].push_back(box.high.x() - box.low.x());
   double middle = 0.5 * (box.low.x() + box.high.x());
@@ -72,5 +86,12 @@ void sample_patch(const Scene&, const coupling::World& world, const Snapshot& s,
     m["density_" + name + "_per_mm3"].push_back(1e9 * count[k] / (length * area));
   }
 }
+
+}  // namespace
+
+const ExperimentRow patch_experiment{
+    .meaning = "pressure and density of both models in the two halves of a box",
+    .columns = patch_columns,
+    .sample = sample_patch};
 
 }  // namespace acinus::runs

@@ -1,7 +1,15 @@
+/// Experiment "narrow_gap": a cell that is driven through the hole of a short pipette.
+
+#include "runs/experiments/narrow_gap_experiment.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/figures.hpp"
 #include "runs/experiments/single_cell.hpp"
+#include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -27,9 +35,25 @@ double section_area(std::span<const Vec3> node, const geometry::Topology& t, con
   return std::abs(area);
 }
 
-}  // namespace
+void check_narrow_gap(const Scene& scene, Report& report) {
+  if (!check_pipette_experiment(scene, report) || has_suction(*scene.pipette)) return;
+  if (std::ranges::all_of(scene.cells.list, [](const CellEntry& c) { return c.pull.norm() == 0; }))
+    report.add_relation({"/experiment", "/pipette/suction", "/cells/list"}, "\"narrow_gap\"",
+                        "needs something that drives the cell: /pipette/suction, or pull in "
+                        "/cells/list/0");
+}
 
-void sample_narrow_gap(const ObservedFrame& f, Measures& m) {
+std::vector<Observable> narrow_gap_columns() {
+  return {{"position_um", "um", "the cell's centre along the axis of the hole, from its mouth"},
+          {"length_um", "um", "extent of the cell along the axis"},
+          {"width_um", "um", "mean extent across it"},
+          {"waist_um", "um",
+           "diameter of a circle as large as the cell's section halfway through the hole"},
+          {"passed", "1", "1 once all of the cell is beyond the hole"}};
+}
+
+void sample_narrow_gap(const ObservedFrame& f, ObservedRun& observed) {
+  Measures& m = observed.measures;
   const std::vector<Vec3> node = first_cell(f.world);
   const auto& pipettes = f.world.params.boundary.pipettes;
   double position = kNotMeasured, length = kNotMeasured, width = kNotMeasured, waist = kNotMeasured,
@@ -53,6 +77,12 @@ void sample_narrow_gap(const ObservedFrame& f, Measures& m) {
   m["passed"].push_back(passed);
 }
 
+void add_passage_figures(const Scene&, const Measures& m, nlohmann::ordered_json& figures) {
+  figures["passage_h"] = finite_number(passage_time(m));
+}
+
+}  // namespace
+
 std::optional<double> passage_time(const Measures& m) {
   const auto at = m.find("position_um"), size = m.find("length_um"), passed = m.find("passed"),
              time = m.find("time_s");
@@ -64,5 +94,12 @@ std::optional<double> passage_time(const Measures& m) {
   }
   return {};
 }
+
+const ExperimentRow narrow_gap_experiment{
+    .meaning = "passage of a cell through a hole narrower than itself",
+    .check = check_narrow_gap,
+    .columns = narrow_gap_columns,
+    .sample = sample_narrow_gap,
+    .add_figures = add_passage_figures};
 
 }  // namespace acinus::runs

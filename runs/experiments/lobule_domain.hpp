@@ -1,5 +1,5 @@
 #pragma once
-/// What of a lobule stays as it is through a run: its sizes, its vessels, the room they leave.
+/// Constant geometry of a lobule: sizes, sinusoids, volume outside vessels.
 
 #include <cstdint>
 #include <vector>
@@ -11,16 +11,18 @@
 
 namespace acinus::runs {
 
-struct LobuleRoom {
+/// Sizes and vessels of a lobule that do not change through a run.
+struct LobuleDomain {
   LesionFrame frame;
   Vec3 axis = Vec3::Zero();                  ///< um, foot of the central vein
-  double from_angle = -kPi, to_angle = kPi;  ///< rad, what of the full turn there is
+  double from_angle = -kPi, to_angle = kPi;  ///< rad, sector of the full turn
   double free_volume = 0;                    ///< um^3 between the planes outside vessels
   std::vector<std::uint8_t> sinusoid;        ///< [segment] 1: thinner than the central vein
 };
 
-/// The volume of the vessels is counted on a grid of 2 um; its error is about 1 % of it.
+/// Domain of the scene's lobule. The volume of the vessels is counted on a grid of 2 um with an
+/// error of about 1 %.
 /// @pre the scene has a lobule
-LobuleRoom make_lobule_room(const Scene& scene, const contact::Vessels& vessels);
+LobuleDomain make_lobule_domain(const Scene& scene, const contact::Vessels& vessels);
 
 }  // namespace acinus::runs
