@@ -17,14 +17,16 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kFirstLook = 5;           ///< s after the release, at Table 1 friction
-constexpr double kGrowth = 1.15;           ///< of the time from look to look
-constexpr double kRest = 0.01;             ///< share of the way in the second half of the time
-constexpr double kShortest = 600;          ///< s, at Table 1 friction
-constexpr double kSolverTolerance = 1e-5;  ///< the slow tail is small change
+constexpr double kFirstLook =
+    5;  ///< s after the release, time of the first sample at Table 1 friction
+constexpr double kGrowth = 1.15;  ///< ratio of the times of successive samples
+constexpr double kRest =
+    0.01;  ///< largest share of the recovery in the second half of the time at its end
+constexpr double kShortest = 600;          ///< s, least duration at Table 1 friction
+constexpr double kSolverTolerance = 1e-5;  ///< the slow tail consists of small changes
 constexpr double kLongest = 1e3 * 3600;
 
-/// Time each sample stands for, the trapezoidal rule's weights.
+/// Weights of the samples by the trapezoidal rule: the time that each stands for.
 std::vector<double> weights_of(std::span<const double> t) {
   std::vector<double> w(t.size(), 0.0);
   for (std::size_t k = 1; k < t.size(); ++k) {
@@ -34,7 +36,7 @@ std::vector<double> weights_of(std::span<const double> t) {
   return w;
 }
 
-/// Best start and end for a given time, and the misfit that remains.
+/// Best start and end for a given decay time, and the remaining misfit.
 Decay fit_with_time(double time, std::span<const double> t, std::span<const double> y,
                     std::span<const double> w) {
   double s = 0, se = 0, see = 0, sy = 0, sey = 0;
@@ -58,7 +60,7 @@ Decay fit_with_time(double time, std::span<const double> t, std::span<const doub
   return d;
 }
 
-/// The compressed clump without its capsule, steps and solver as its way back asks.
+/// Compressed clump without its capsule, with the steps and solver settings of its relaxation.
 coupling::World let_go(coupling::World world, double scale) {
   world.params.boundary.capsules.clear();
   world.params.motility.random = false;

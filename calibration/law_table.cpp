@@ -12,21 +12,21 @@ constexpr double kSoftest = 1e-3, kStiffest = 1e3;
 /// Largest spacing of entries: in d, and as a factor of moduli.
 constexpr double kStride = 0.01, kRise = 1.25;
 
-/// Share of the largest force below which pulls and pushes cancel and a ratio of forces says
-/// nothing.
+/// Share of the largest force below which repulsion and attraction cancel and a ratio of forces has
+/// no meaning.
 constexpr double kTells = 0.002;
-constexpr int kRounds = 4;  ///< of corrections; the error stands still after two or three
-/// What one round changes at most.
+constexpr int kRounds = 4;  ///< of corrections; the error stays the same after two or three
+/// Largest factor by which one round changes a modulus.
 constexpr double kLargestChange = 1.5;
 
-/// An overlap, and the modulus that it asks for.
+/// Overlap with the modulus that fits it.
 struct Demand {
   double overlap = 0, modulus = 0;
   double force = 0;  ///< nN, of the cells
   const ClumpSnapshot* snapshot = nullptr;
 };
 
-/// The modulus all spheres must have for the force of a snapshot, which rises with it.
+/// Modulus of all spheres that gives the force of a snapshot; the force rises with it.
 double find_modulus(const ClumpSnapshot& snapshot, double force, cbm::Params sphere,
                     const std::vector<std::size_t>& inner) {
   const double plain = sphere.young;
@@ -53,8 +53,8 @@ std::vector<Demand> find_demands(const Compression& compression, const cbm::Para
   return demands;
 }
 
-/// Means over demands near each other, finest where moduli rise fastest. Where they fall they are
-/// made level.
+/// Table of means over neighbouring demands, finest where moduli rise fastest. Falling moduli are
+/// levelled.
 std::vector<TableEntry> make_table(std::vector<Demand> demands) {
   struct Bin {
     double overlap = 0, modulus = 0, weight = 0;

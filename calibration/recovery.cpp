@@ -7,14 +7,14 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kAtOnce = 10;    ///< s
-constexpr double kThere = 0.01;   ///< share of the way that does not count
-constexpr double kMost = 0.5;     ///< share of the largest way before which nothing ends
-constexpr double kNoWay = 1e-12;  ///< relative to the values: nothing moved
+constexpr double kAtOnce = 10;    ///< s, end of the immediate recovery
+constexpr double kThere = 0.01;   ///< share of the recovery that does not count
+constexpr double kMost = 0.5;     ///< share of the largest recovery before which it has no end
+constexpr double kNoWay = 1e-12;  ///< relative to the values: no recovery
 
-/// The first time at which as long again brings less than 1 % more, and the value after that; an
-/// infinite time if it was not followed so far. Before half of the way a curve that turns round
-/// once must not be taken for one that ends.
+/// End of the recovery: the first time at which as long again brings less than 1 % more, and the
+/// value after that; an infinite time if the record is too short. Not before half of the recovery,
+/// lest a single turn of the curve be taken for its end.
 struct WayEnd {
   double time = std::numeric_limits<double>::infinity(), value = 0;
 };
@@ -31,7 +31,7 @@ WayEnd find_end(std::span<const double> t, std::span<const double> y) {
   return {std::numeric_limits<double>::infinity(), farthest};
 }
 
-/// When a falling line between samples k - 1 and k is at a level.
+/// Time at which a falling line between samples k - 1 and k crosses a level.
 double crossing(double level, std::size_t k, std::span<const double> t, std::span<const double> y) {
   const double drop = y[k - 1] - y[k];
   const double share = drop != 0 ? (y[k - 1] - level) / drop : 1;

@@ -27,7 +27,7 @@ struct Sym3 {
   }
 };
 
-/// g_n n n^T + g_t (I - n n^T)   [VanLiedekerke2020, Eq. (2)]
+/// Axially symmetric tensor g_n n n^T + g_t (I - n n^T). [VanLiedekerke2020, Eq. (2)]
 inline Sym3 axial(double along, double across, const Vec3& n) {
   return Sym3::outer(along - across, n) + Sym3::identity(across);
 }

@@ -20,8 +20,8 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-/// Pairs of triangles at an edge between which their solid lies; empty where their directions do
-/// not alternate round the edge. @param outward  the normals point out of the solids
+/// Pairs of triangles at an edge that bound the same solid; empty where their directions do not
+/// alternate round the edge. @param outward  the normals point out of the solids
 std::vector<std::array<int, 2>> pair_round_edge(std::span<const HalfEdge> half,
                                                 const std::vector<Vec3>& node, bool outward) {
   constexpr double kSame = 1e-6;  // radians: walls of two bodies that lie upon each other
@@ -66,7 +66,7 @@ struct EdgePart {
   bool closed = true;
 };
 
-/// Pieces of some triangles that hang together at edges, ordered by their first.
+/// Parts of some triangles that are connected by edges, ordered by their first triangle.
 std::vector<EdgePart> split_at_edges(const Surface& surface, const std::vector<int>& some) {
   std::vector<Triangle> triangle;
   for (const int t : some) triangle.push_back(surface.triangle[static_cast<std::size_t>(t)]);
@@ -98,8 +98,8 @@ std::vector<EdgePart> split_at_edges(const Surface& surface, const std::vector<i
   return pieces;
 }
 
-/// Joins nodes of the given triangles that stand at the same place.
-/// @return whether there were any
+/// Merges nodes of the given triangles that have the same position.
+/// @return true if there were any
 bool join_by_place(const std::vector<int>& some, Surface& surface) {
   std::map<std::array<double, 3>, int> first;
   bool any = false;
@@ -121,8 +121,7 @@ Box box_of(const Surface& s) {
   return box;
 }
 
-/// True for a point inside a closed surface, by the solid angle of its triangles
-/// [VanOosterom1983].
+/// True for a point inside a closed surface, by the solid angle of its triangles. [VanOosterom1983]
 bool encloses(const Surface& s, const Vec3& x) {
   double sum = 0;
   for (const auto& [i, j, k] : s.triangle) {

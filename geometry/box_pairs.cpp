@@ -10,7 +10,7 @@
 namespace acinus::contact {
 namespace {
 
-/// Boxes that are looked at by all threads.
+/// Fewest boxes that are searched by all threads.
 constexpr std::size_t kWorthThreads = 500;
 
 using Key = std::uint64_t;
@@ -37,7 +37,7 @@ class BoxGrid {
       c[k] = static_cast<std::int64_t>(std::floor(std::clamp(at[k], -1e6, 1e6))) + kBias;
     return c;
   }
-  /// f(box index) for every box in the 27 cells around c.
+  /// Calls f(box index) for every box in the 27 grid cells around c.
   template <class F>
   void for_each_near(const CellIndex& c, F f) const {
     for (std::int64_t dz = -1; dz <= 1; ++dz)

@@ -9,20 +9,20 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Another plane as seen in the plane of a face: x . normal <= distance is kept.
+/// Intersection of another plane with the plane of a face: x . normal <= distance is kept.
 struct CutLine {
   Vec2 normal;
   double distance;
 };
 
-/// Pieces of one face, added up about the foot of the ball's middle.
+/// Sums over pieces of one face, about the projection of the ball's centre on it.
 struct FaceSum {
   double area = 0;
-  Vec2 moment = Vec2::Zero();  ///< area times middle
-  double angle = 0;            ///< solid angle, seen from the middle of the ball
+  Vec2 moment = Vec2::Zero();  ///< area times centroid
+  double angle = 0;            ///< solid angle, seen from the centre of the ball
 };
 
-/// The lines that cross the disc. @return false: nothing is left of the face
+/// Collects the lines that cross the disc. @return false: nothing is left of the face
 bool find_lines(std::span<const BallCut> planes, std::size_t face, const Vec3& along_u,
                 const Vec3& along_v, double disc, std::vector<CutLine>& lines) {
   constexpr double kParallel = 1e-12;
@@ -45,14 +45,14 @@ bool find_lines(std::span<const BallCut> planes, std::size_t face, const Vec3& a
   return true;
 }
 
-/// Integral of 1 - h/|x| over the angle from the foot of a line at distance c to the place t along
-/// it: solid angle of a right triangle.
+/// Solid angle of a right triangle: integral of 1 - h/|x| over the angle from the foot of a line at
+/// distance c to the point t along it.
 double triangle_angle(double t, double c, double h) {
   const double angle = std::atan2(t, c);
   return angle - std::asin(std::clamp(std::sin(angle) * h / std::hypot(h, c), -1.0, 1.0));
 }
 
-/// What lies between the foot and the piece of a line that bounds the face.
+/// Adds the triangle between the foot and the segment of a line that bounds the face.
 void add_straight(const std::vector<CutLine>& lines, std::size_t own, double disc, double height,
                   FaceSum& sum) {
   const CutLine& line = lines[own];
@@ -77,7 +77,7 @@ void add_straight(const std::vector<CutLine>& lines, std::size_t own, double dis
                                line.distance);
 }
 
-/// What lies between the foot and the pieces of the disc's rim that no line cuts off.
+/// Adds the sectors between the foot and the arcs of the disc's rim that no line cuts off.
 void add_round(const std::vector<CutLine>& lines, double disc, double height, double radius,
                FaceSum& sum) {
   std::vector<std::pair<double, double>> cut;  // angles

@@ -1,5 +1,5 @@
 #pragma once
-/// A ball of which planes cut parts off: its volume, and area and middle of every cut face.
+/// Ball cut by planes: its volume, and area and centroid of every cut face.
 
 #include <span>
 #include <vector>
@@ -8,21 +8,21 @@
 
 namespace acinus::geometry {
 
-/// Where the power plane of two balls, that of the circle in which they meet, crosses the line of
-/// their middles: share of the distance from the first. The shares of the two add up to 1.
+/// Position of the power plane of two balls (that of their circle of intersection) on the line of
+/// centres: share of the distance from the first. The shares of the two add up to 1.
 inline double share_to_power_plane(double radius, double other_radius, double distance) {
   return 0.5 * (1 + (radius * radius - other_radius * other_radius) / (distance * distance));
 }
 
-/// What stands behind it is cut off: x . normal > distance, x from the middle of the ball.
+/// Cutting plane: points with x . normal > distance are cut off, x from the centre of the ball.
 struct BallCut {
-  Vec3 normal = Vec3::UnitZ();  ///< unit
-  double distance = 0;          ///< um, negative if the middle itself is cut off
+  Vec3 normal = Vec3::UnitZ();  ///< unit vector
+  double distance = 0;          ///< um, negative if the centre itself is cut off
 };
 
 struct CutFace {
   double area = 0;             ///< um^2
-  Vec3 middle = Vec3::Zero();  ///< um, its centroid, from the middle of the ball
+  Vec3 middle = Vec3::Zero();  ///< um, its centroid, from the centre of the ball
 };
 
 struct CutBall {
@@ -30,9 +30,9 @@ struct CutBall {
   std::vector<CutFace> face;  ///< [plane]
 };
 
-/// Exact up to rounding, whatever the planes: no corners are stored, every face is worked out by
+/// Cuts a ball by planes, exactly up to rounding. No corners are stored: every face is computed by
 /// itself from its straight and its round pieces. About n^3 operations for n planes. The volume is
-/// that of cones over the faces and over what is left of the sphere (divergence theorem).
+/// that of cones over the faces and over the rest of the sphere (divergence theorem).
 CutBall cut_ball(double radius, std::span<const BallCut> planes);
 
 }  // namespace acinus::geometry

@@ -7,7 +7,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// Joined numbers, a node each; those that were never joined to anything are not counted.
+/// Union-find over node numbers; those that were never joined are not counted.
 class JoinedNodes {
  public:
   explicit JoinedNodes(std::size_t n) : sets_(n), used_(n, 0) {}

@@ -21,8 +21,8 @@ void for_each_line(const Grid& g, int axis, Visit visit) {
       visit(i * stride[u] + j * stride[v], stride[axis], static_cast<std::size_t>(g.size[axis]));
 }
 
-/// Squares of distances along one line: the lower envelope of parabolas that stand on the squares
-/// found along the other axes.
+/// Squared distances along one line: the lower envelope of parabolas on the squared distances found
+/// along the previous axes.
 class Envelope {
  public:
   void run(std::vector<double>& f, std::size_t first, std::size_t stride, std::size_t n,
@@ -55,7 +55,7 @@ class Envelope {
   }
 
  private:
-  /// Where the parabola on the later foot q falls below that on p, um.
+  /// Position at which the parabola on the later foot q falls below that on p, um.
   double crossing(std::size_t p, std::size_t q, double step) const {
     const double a = step * static_cast<double>(p), b = step * static_cast<double>(q);
     return ((height_[q] + b * b) - (height_[p] + a * a)) / (2 * (b - a));
@@ -64,7 +64,7 @@ class Envelope {
   std::vector<std::size_t> foot_;
 };
 
-/// um, from the nearest voxel of a kind.
+/// Distances from the nearest voxel of a kind, um.
 std::vector<double> distances_to(const std::vector<std::uint8_t>& inside, bool kind,
                                  const Grid& grid) {
   std::vector<double> f(inside.size());

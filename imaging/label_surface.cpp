@@ -27,7 +27,7 @@ double volume_of(const geometry::Surface& s) {
   return geometry::compute_volume(s.node, s.triangle);
 }
 
-/// The smoothed distance in and around the box of a piece.
+/// Smoothed signed distance in and around the box of a piece.
 Grid distance_about(const LabelImage& image, const Piece& piece, double smoothing) {
   const int margin = 2 + static_cast<int>(std::ceil(3 * smoothing));
   Grid grid;
@@ -50,8 +50,8 @@ Grid distance_about(const LabelImage& image, const Piece& piece, double smoothin
   return grid;
 }
 
-/// The value at which what lies below has a volume: a voxel counts in part within half its smallest
-/// side of the wall.
+/// Value of the grid below which a given volume lies: voxels within half their smallest side of the
+/// wall count in part.
 double find_level(const Grid& grid, double volume) {
   constexpr int kHalvings = 40;
   const double side = grid.voxel.minCoeff(), voxel = grid.voxel.prod();
@@ -66,7 +66,7 @@ double find_level(const Grid& grid, double volume) {
   return 0.5 * (low + high);
 }
 
-/// The surface at a value of the grid; what is largest of it, if it has parts.
+/// Level surface of the grid; its largest part if it has several.
 geometry::Surface surface_at(const Grid& grid, double level, double steepest, double edge) {
   geometry::Shape shape;
   shape.value = [&](const Vec3& x, std::span<const int>) { return grid.at(x) - level; };

@@ -15,7 +15,7 @@
 namespace acinus::imaging {
 namespace {
 
-/// A name without its prefix: "ome:Pixels" is Pixels.
+/// Name without its prefix: "ome:Pixels" is Pixels.
 std::string_view local(const char* name) {
   const std::string_view text = name;
   return text.substr(text.find(':') + 1);
@@ -54,7 +54,7 @@ class OmeReader {
                             path_, what));
   }
 
-  /// An attribute that is a whole number; `otherwise` where it is not there.
+  /// Whole number of an attribute; `otherwise` if it is missing.
   std::int64_t whole(const pugi::xml_node& node, const char* name, std::int64_t least,
                      std::optional<std::int64_t> otherwise) const {
     const pugi::xml_attribute attribute = node.attribute(name);
@@ -135,13 +135,13 @@ class OmeReader {
     }
   }
 
-  /// Names of the files that hold planes; empty where a TiffData names none.
+  /// Name of the file that holds the planes; empty where a TiffData names none.
   static std::string file_of(const pugi::xml_node& data) {
     const std::vector<pugi::xml_node> id = children(data, "UUID");
     return id.empty() ? "" : id[0].attribute("FileName").value();
   }
 
-  /// The order of first use, and the page, of the planes of one TiffData.
+  /// Reads the order of first use, and the pages, of the planes of one TiffData.
   void take_planes(const std::vector<pugi::xml_node>& all) {
     std::set<std::string> files;
     for (const pugi::xml_node& data : all) files.insert(file_of(data));

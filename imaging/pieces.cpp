@@ -10,10 +10,10 @@
 namespace acinus::imaging {
 namespace {
 
-/// Rows of voxels of one label along x, without the background, in the order of the image.
+/// Runs of voxels of one label along x, without the background, in the order of the image.
 struct Rows {
   std::vector<PieceRow> row;
-  std::vector<std::size_t> first;  ///< [z * size y + y] the first of that line; one more at the end
+  std::vector<std::size_t> first;  ///< [z * size y + y] first row of that line; one more at the end
 };
 
 Rows find_rows(const LabelImage& image) {
@@ -33,7 +33,7 @@ Rows find_rows(const LabelImage& image) {
   return rows;
 }
 
-/// Joins the rows of two lines that touch and have one label.
+/// Joins the rows of two lines that touch and have the same label.
 void join_lines(const LabelImage& image, const Rows& rows, std::size_t a, std::size_t b,
                 DisjointSets& sets) {
   std::size_t i = rows.first[a], j = rows.first[b];

@@ -1,5 +1,5 @@
-/// HDF5, as ilastik, Fiji's plugin and others write it: a dataset with the axes z, y, x, or with
-/// axes that the file names.
+/// Reader of HDF5 images as ilastik, Fiji's plugin and others write them: a dataset with the axes
+/// z, y, x, or with axes that the file names.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ bool named(const io::VolumeInfo& v, const std::string& dataset) {
   return dataset.empty() || v.name == (dataset.starts_with("/") ? dataset : "/" + dataset);
 }
 
-/// @param lenient  the name counts only where there are several
+/// Chooses the dataset. @param lenient  the name counts only where there are several
 io::VolumeInfo choose(const std::string& path, const std::string& said, bool lenient) {
   std::vector<io::VolumeInfo> volumes = io::list_volumes(path);
   const std::string dataset = lenient && volumes.size() == 1 ? "" : said;
@@ -85,7 +85,7 @@ std::string text_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Names of axes that the file says, slowest first; empty where it says none.
+/// Axis names that the file states, slowest first; empty: none.
 std::vector<std::string> named_axes(const std::string& path, const io::VolumeInfo& v) {
   std::vector<std::string> label = v.axis_label;
   for (std::string& l : label) l = geometry::lower_case(l);
@@ -125,7 +125,8 @@ Axes find_named(const std::string& path, const io::VolumeInfo& v,
   return axes;
 }
 
-/// Axes z, y, x; those of length 1 (a channel, a time) may stand anywhere among the three.
+/// Axes z, y, x of a dataset without names; axes of length 1 (a channel, a time) may be anywhere
+/// among the three.
 Axes find_unnamed(const std::string& path, const io::VolumeInfo& v) {
   constexpr std::size_t kAxes = 3;
   std::vector<std::size_t> axis;
@@ -150,7 +151,8 @@ void check_storage(const std::string& path, const io::VolumeInfo& v) {
         fmt::format("{}: {} has a shape but no numbers: none were ever written.", path, v.name));
 }
 
-/// Sides of voxels, um, by axis of the shape or, if there are three, of space in that order.
+/// Reads the sides of voxels, um, by axis of the shape or, if there are three, of space in that
+/// order.
 void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& axes,
                 ImageFile& file) {
   if (v.element_size.empty()) return;
@@ -171,7 +173,7 @@ void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& ax
   }
 }
 
-/// The numbers of one channel of one time as [z][y][x].
+/// Extracts the numbers of one channel of one time as [z][y][x].
 std::vector<std::byte> arrange(const std::vector<std::byte>& all, const io::VolumeInfo& v,
                                const Axes& axes, const ImageFile& file, std::int64_t chosen) {
   std::vector<std::size_t> stride(v.shape.size(), static_cast<std::size_t>(v.bytes));

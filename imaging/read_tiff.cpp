@@ -1,4 +1,4 @@
-/// TIFF stacks, by libtiff: a page a slice.
+/// Reader of TIFF stacks, by libtiff: a page a slice.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ std::string& last_words() {
   return words;
 }
 
-/// libtiff tells errors to a function of the process.
+/// Error handler of libtiff, which has one per process; keeps the message.
 void keep_words(const char* module, const char* format, va_list values) {
   std::array<char, 400> text{};
   std::vsnprintf(text.data(), text.size(), format, values);
@@ -60,7 +60,7 @@ TiffPage page_of(TIFF* t) {
   return p;
 }
 
-/// Labels that came through a lossy compression are no labels any more.
+/// Throws Error at a lossy compression, which does not preserve labels.
 void check_lossless(const std::string& path, const TiffPage& p) {
   constexpr std::array<std::pair<std::uint16_t, const char*>, 9> kLossy{
       {{COMPRESSION_JPEG, "JPEG"},
@@ -111,7 +111,7 @@ Scalar type_of(const std::string& path, const TiffPage& p) {
   throw Error(fmt::format("{}: {} bits a pixel are not read; use 8, 16 or 32.", path, p.bits));
 }
 
-/// The rows of a page, from its strips or tiles.
+/// Reads the rows of a page, from its strips or tiles.
 void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int64_t number,
                std::vector<std::byte>& rows) {
   const std::size_t bytes = page.bits / 8u, row = page.width * bytes;
@@ -162,7 +162,7 @@ TiffText describe(const std::string& path, TIFF* t) {
   return text;
 }
 
-/// The pages that the description speaks of are there.
+/// Throws Error unless the pages that the description states are there.
 void check_pages(const std::string& path, const TiffPage& first, const TiffChain& chain,
                  TiffText& text) {
   const auto pages = static_cast<std::int64_t>(chain.page.size());
@@ -198,7 +198,7 @@ void check_pages(const std::string& path, const TiffPage& first, const TiffChain
                     path, first.width, first.height, text.width, text.height));
 }
 
-/// Statements about the meaning of rows and numbers that are not followed.
+/// Adds notes about the meaning of rows and numbers that are ignored.
 void note_page(TIFF* t, ImageFile& file) {
   std::uint16_t orientation = ORIENTATION_TOPLEFT, meaning = PHOTOMETRIC_MINISBLACK;
   TIFFGetFieldDefaulted(t, TIFFTAG_ORIENTATION, &orientation);

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint16_t kWidth = 256, kStripOffsets = 273, kStripBytes = 279, kTileOffsets = 324,
                         kTileBytes = 325, kSubPages = 330, kUic2 = 33629;
 
-/// Bytes of a value by its type's number in TIFF 6.0 and BigTIFF; 0: unknown.
+/// Size of a value by the number of its type in TIFF 6.0 and BigTIFF, bytes; 0: unknown.
 std::uint64_t bytes_of_type(std::uint16_t type) {
   constexpr std::array<std::uint8_t, 19> kBytes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4,
                                                 8, 4, 8, 4, 0, 0, 8, 8, 8};
@@ -35,7 +35,7 @@ struct Directory {
   std::uint64_t end = 0, next = 0;
 };
 
-/// Bytes from begin to end.
+/// Range of bytes [begin, end).
 struct Span {
   std::uint64_t begin = 0, end = 0;
 };
@@ -72,7 +72,7 @@ class Walker {
     throw Error(fmt::format("{}: {}. The file is truncated or damaged.", path_, what));
   }
 
-  /// A whole number of so many bytes.
+  /// Unsigned integer of `bytes` bytes.
   std::uint64_t number(std::uint64_t place, std::uint64_t bytes) {
     std::array<unsigned char, 8> raw{};
     file_.clear();
@@ -88,7 +88,7 @@ class Walker {
     return value;
   }
 
-  /// @pre  the bytes are in the file
+  /// Bytes of the file. @pre  they are in the file
   std::string bytes(std::uint64_t place, std::uint64_t n) {
     std::string out(n, '\0');
     file_.clear();
@@ -141,7 +141,7 @@ class Walker {
     return d;
   }
 
-  /// The numbers of an entry; empty where it is not there or not in the file.
+  /// Values of an entry; empty where it is missing or not in the file.
   std::vector<std::uint64_t> values(const Directory& d, std::uint16_t tag) {
     const auto found = d.entry.find(tag);
     if (found == d.entry.end()) return {};
@@ -163,7 +163,7 @@ class Walker {
     if (width.size() == 1) width_ = width[0];
   }
 
-  /// Strips or tiles of a page: where they are.
+  /// Byte ranges of the strips or tiles of a page.
   std::vector<Span> data_of(const Directory& d) {
     for (const auto& [offsets, counts] :
          {std::pair{kStripOffsets, kStripBytes}, std::pair{kTileOffsets, kTileBytes}}) {
@@ -178,7 +178,8 @@ class Walker {
     return {};
   }
 
-  /// Takes the data of a page, its further values and pages below it as used.
+  /// Marks the data of a page, its further values and pages below it as used; returns the bytes of
+  /// the data.
   double use_data(const Directory& d, const std::string& name) {
     double stored = 0;
     for (const Span& s : data_of(d)) {
@@ -200,7 +201,8 @@ class Walker {
     return stored;
   }
 
-  /// A directory in bytes that no page uses, whose data are there as well: its page is lost.
+  /// Throws Error at a lost page: a directory in bytes that no page uses, with its data in such
+  /// bytes too.
   void find_lost() {
     std::ranges::sort(used_, {}, &Span::begin);
     std::uint64_t end = 0, searched = 0;

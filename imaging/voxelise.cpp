@@ -16,7 +16,7 @@
 namespace acinus::imaging {
 namespace {
 
-/// A part of the image, with the share that one body has in its voxels.
+/// Part of the image, with the share of each voxel that one body fills.
 struct BodyShare {
   Voxel low{};
   Grid grid;
@@ -28,11 +28,11 @@ Box box_of(const geometry::Surface& s) {
   return box;
 }
 
-/// Lines along x through every voxel, in y and in z: where a face lies along a plane of the
-/// lattice, a share is right to half a line.
+/// Lines along x through every voxel, in y and in z: where a face is parallel to a lattice plane, a
+/// share is accurate to half a line.
 constexpr int kLines = 4;
 
-/// Adds the part of a line between two places, in voxels, to the voxels along it.
+/// Adds a segment of a line, from and to in voxels, to the voxels along it.
 void add_interval(double from, double to, Grid& g, std::size_t first) {
   constexpr double kWeight = 1.0 / (kLines * kLines);
   from = std::max(from, 0.0);
@@ -42,8 +42,9 @@ void add_interval(double from, double to, Grid& g, std::size_t first) {
         kWeight * (std::min(to, x + 1.0) - std::max(from, static_cast<double>(x)));
 }
 
-/// What of every voxel is inside: lines along x are cut with all triangles, upward and downward
-/// crossings counted. Lines lie aside of regular places by a little, so as not to meet nodes.
+/// Fills in the share of every voxel that is inside: lines along x are intersected with all
+/// triangles, upward and downward crossings counted. Lines are slightly displaced from the lattice,
+/// so that they miss nodes.
 void fill_inside(const geometry::Surface& body, const Vec3& corner, BodyShare& share) {
   constexpr double kAside = 1.3e-7, kAsideZ = 0.7e-7;  // lines
   Grid& g = share.grid;
@@ -92,7 +93,7 @@ void fill_inside(const geometry::Surface& body, const Vec3& corner, BodyShare& s
     }
 }
 
-/// A random number a voxel, grainy over a voxel, of standard deviation 1 in the mean.
+/// Correlated noise at every voxel, with a grain of one voxel and standard deviation 1.
 Grid make_grain(const Grid& like, std::uint64_t seed, std::uint64_t body) {
   constexpr double kGrain = 1;  // voxels
   Grid grain = like;

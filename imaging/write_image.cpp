@@ -22,7 +22,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);  // as the headers below say
 
-/// Bytes that all labels of an image fit into.
+/// Bytes per label that hold all labels of an image.
 std::size_t bytes_needed(const LabelImage& image) {
   Label most = 0;
   for (const Label l : image.label) most = std::max(most, l);
@@ -30,7 +30,7 @@ std::size_t bytes_needed(const LabelImage& image) {
   return most <= std::numeric_limits<std::uint16_t>::max() ? 2 : 4;
 }
 
-/// Labels of a run of voxels in so many bytes each.
+/// Labels of a run of voxels, in `bytes` bytes each.
 std::string narrow(const Label* label, std::size_t n, std::size_t bytes) {
   std::string out(n * bytes, '\0');
   for (std::size_t k = 0; k < n; ++k) std::memcpy(out.data() + k * bytes, label + k, bytes);
@@ -65,7 +65,7 @@ std::string nrrd_text(const LabelImage& i) {
          deflate_bytes(all_bytes(i, bytes), true);
 }
 
-/// Beyond this a TIFF needs addresses of 64 bits, bytes.
+/// Largest classic TIFF, bytes; beyond it addresses need 64 bits.
 constexpr double kMostClassic = 3.9e9;
 
 void write_tiff(const std::string& path, const LabelImage& i) {

@@ -26,7 +26,7 @@ void sync(const std::string& path, int flags) {
   if (error != 0 && error != EINVAL) fail_on_disk(path, "write to disk", error);
 }
 
-/// A device or a pipe takes bytes; a file in its place would put an end to it.
+/// True for a device or a pipe: it must be written to, not replaced by a file.
 bool is_stream(const std::string& path) {
   namespace fs = std::filesystem;
   // Descriptors of this process.

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t kMostTexts = 32, kMostBytes = 1 << 16;
 
-/// Little-endian number of so many bytes.
+/// Little-endian number of `bytes` bytes.
 std::uint64_t number(const char* raw, std::size_t bytes) {
   std::uint64_t value = 0;
   for (std::size_t k = bytes; k-- > 0;) value = value << 8 | static_cast<unsigned char>(raw[k]);
   return value;
 }
 
-/// Place of a text of variable length: an object in a global heap of the file.
+/// Position of a text of variable length: an object in a global heap of the file.
 struct HeapReference {
   std::uint64_t length = 0, heap = 0, object = 0;
 };
@@ -33,7 +33,7 @@ herr_t keep_as_stored(hid_t, hid_t, H5T_cdata_t* data, std::size_t, std::size_t,
   return 0;
 }
 
-/// The references as they are stored, by a conversion that changes nothing.
+/// Reads the stored references of an attribute by a conversion that changes nothing.
 std::vector<HeapReference> read_references(hid_t attribute, std::size_t n) {
   const h5::Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(text.id(), H5T_VARIABLE);
@@ -51,8 +51,8 @@ std::vector<HeapReference> read_references(hid_t attribute, std::size_t n) {
   return out;
 }
 
-/// The heap's objects stand one behind another, each with its number and size [HDF5 File Format,
-/// III.E]. @return whether the object is there
+/// Reads a text from its heap, in which objects follow each other, each with its number and size
+/// [HDF5 File Format, III.E]. @return false if the object is not there
 bool find_in_heap(std::ifstream& file, const HeapReference& place, std::string& out) {
   constexpr std::size_t kHead = 16, kMostObjects = 1 << 16;
   std::array<char, kHead> head{};

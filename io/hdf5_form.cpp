@@ -10,9 +10,9 @@
 namespace acinus::io::h5 {
 namespace {
 
-constexpr double kMostPacked = 1100;        ///< deflate makes data at most 1032 times smaller
-constexpr double kWithoutSearch = 1 << 20;  ///< bytes for which chunks are not counted
-constexpr int kMostRank = 32;               ///< of HDF5
+constexpr double kMostPacked = 1100;  ///< bytes from one stored byte: deflate yields at most 1032
+constexpr double kWithoutSearch = 1 << 20;  ///< bytes, below which chunks are not counted
+constexpr int kMostRank = 32;               ///< limit of HDF5
 
 Form describe_form(hid_t type, hid_t space) {
   Form form;
@@ -28,8 +28,8 @@ Form describe_form(hid_t type, hid_t space) {
   return form;
 }
 
-/// Checks that the filters of a chunked dataset are among those that this program writes.
-/// @param packs  set where one of them makes data smaller
+/// True if the filters of a chunked dataset are among those that this program writes.
+/// @param packs  set if one of them compresses
 bool has_known_filters(hid_t list, bool& packs) {
   const int n = H5Pget_nfilters(list);
   for (int k = 0; k < n; ++k) {
@@ -45,7 +45,7 @@ bool has_known_filters(hid_t list, bool& packs) {
   return n >= 0;
 }
 
-/// Bytes of one chunk.
+/// Size of one chunk, bytes.
 double chunk_size(hid_t list, double width) {
   std::array<hsize_t, kMostRank> chunk{};
   const int rank = H5Pget_chunk(list, kMostRank, chunk.data());

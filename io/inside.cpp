@@ -18,7 +18,7 @@
 namespace acinus::io {
 namespace {
 
-/// openat2 of the kernel: all of the path below the folder, no link anywhere.
+/// Opens a path below a folder by the kernel's openat2, with no link anywhere.
 int open_beneath(int folder, const std::string& path, std::uint64_t flags) {
   open_how how{};
   how.flags = flags;
@@ -26,7 +26,7 @@ int open_beneath(int folder, const std::string& path, std::uint64_t flags) {
   return static_cast<int>(syscall(SYS_openat2, folder, path.c_str(), &how, sizeof how));
 }
 
-/// The same component by component, for kernels and sandboxes that do not know openat2.
+/// Opens a path below a folder component by component, for kernels and sandboxes without openat2.
 int walk_beneath(int folder, const std::string& path, int flags) {
   const std::filesystem::path parts(path);
   Descriptor at(fcntl(folder, F_DUPFD_CLOEXEC, 0));

@@ -35,7 +35,7 @@ std::vector<double> element_size_of(const h5::Handle& dataset) {
   return size;
 }
 
-/// Names of axes that stand in the file without JSON.
+/// Names of axes from attributes that are not JSON.
 std::vector<std::string> labels_of(const std::string& path, const h5::Handle& dataset) {
   std::vector<std::string> labels = read_foreign_texts(path, dataset, "DIMENSION_LABELS");
   const bool said = std::ranges::any_of(labels, [](const auto& t) { return !t.empty(); });
@@ -62,8 +62,8 @@ std::string name_of_filter(H5Z_filter_t id, const char* stored) {
   return fmt::format("{} (filter {})", stored[0] != 0 ? stored : "an unknown codec", id);
 }
 
-/// Codecs, bytes and chunks of a dataset.
-/// @param file_size  bytes of the file, which no number in it can be trusted beyond
+/// Reads codecs, bytes and chunks of a dataset, and any contradiction among them.
+/// @param file_size  bytes of the file, an upper bound for every number in it
 void look_at_storage(const h5::Handle& dataset, const h5::Handle& space, double file_size,
                      VolumeInfo& v) {
   const h5::Handle list(H5Dget_create_plist(dataset.id()), H5Pclose);

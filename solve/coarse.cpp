@@ -12,11 +12,11 @@
 namespace acinus::solve {
 namespace {
 
-/// What is added to the diagonal when the incomplete factor meets a block that is not positive, in
-/// parts of that diagonal; doubled until none does.
+/// First shift of the diagonal where a block of the incomplete factor is not positive, in parts of
+/// that diagonal; doubled until all are.
 constexpr double kShift = 1e-3;
 
-/// sum of r and of arm x r over the points of a block, [6][lane].
+/// Restriction: sums of r and of arm x r over the points of a block, [6][lane].
 template <class T>
 ACINUS_INLINE void restrict_points(int n, const float* arm, const T* r, double* out) {
   Lane3Of<T> force = {}, torque = {};
@@ -28,7 +28,7 @@ ACINUS_INLINE void restrict_points(int n, const float* arm, const T* r, double* 
   store3(out, force);
   store3(out + 3 * kLanes, torque);
 }
-/// z += motion + turn x arm.
+/// Prolongation: z += motion + turn x arm.
 template <class T>
 ACINUS_INLINE void prolong_points(int n, const float* arm, const double* in, T* z) {
   const Lane3Of<T> motion = load3<T>(in), turn = load3<T>(in + 3 * kLanes);
@@ -127,7 +127,7 @@ void CoarseSpace::find_neighbours() {
   block_.assign(column_.size(), Mat6::Zero());
 }
 
-/// Gets the rows of the cells of other processes.
+/// Gathers the rows of cells that other processes own.
 void CoarseSpace::gather_rows() {
   const Ownership& ownership = system_->ownership;
   if (ownership.is_whole()) return;
@@ -142,7 +142,7 @@ void CoarseSpace::gather_rows() {
   block_ = std::move(all);
 }
 
-/// Gets what belongs to the cells of other processes.
+/// Gathers the values of cells that other processes own.
 void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
   const Ownership& ownership = system_->ownership;
   if (ownership.is_whole()) return;
@@ -155,7 +155,8 @@ void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
   v = std::move(all);
 }
 
-/// What a cell alone holds against its six motions: medium, and dashpots or strain against turning.
+/// Adds the resistance of single cells to their six motions: medium, and dashpots or strain against
+/// rotation.
 void CoarseSpace::add_cells(const Operator& op) {
   const System& s = *system_;
   std::vector<double> mode(s.n_dof()), product(s.n_dof());
@@ -255,7 +256,7 @@ void CoarseSpace::add_links(std::span<const double> position) {
   });
 }
 
-/// Incomplete block Cholesky, E ~ L L^T with the pattern of E.
+/// Factors E ~ L L^T by incomplete block Cholesky with the pattern of E.
 void CoarseSpace::factor() {
   const std::vector<Mat6> matrix = block_;
   for (double shift = 0;; shift = shift > 0 ? 2 * shift : kShift) {

@@ -8,15 +8,15 @@ namespace acinus {
 namespace {
 
 constexpr int kWordBits = 32;
-constexpr int kFraction = 52;               ///< bits of a double behind its leading one
-constexpr std::uint64_t kExponents = 2047;  ///< the largest exponent field: not finite
+constexpr int kFraction = 52;               ///< stored mantissa bits of a double
+constexpr std::uint64_t kExponents = 2047;  ///< exponent field of infinity and NaN
 constexpr int kUnit = -1075;                ///< power of two of the lowest bit of word 0
-/// A term adds less than 2^52 to a word, which has room for 2^63.
+/// Terms between two carries: each adds less than 2^52 to a word, which overflows at 2^63.
 constexpr int kMostTerms = 2047;
 
 __extension__ using Wide = unsigned __int128;
 
-/// An integer of 96 bits or less times 2^power, rounded to even.
+/// Double nearest to v * 2^power, ties to even. @param v  96 bits or less
 double round_to_double(Wide v, int power) {
   int top = 127;
   while (top > 0 && ((v >> top) & 1) == 0) --top;
@@ -61,7 +61,7 @@ void ExactSum::add(const ExactSum& other) {
   carry();
 }
 
-/// Leaves 32 bits in each word but the last, which has the sign.
+/// Propagates carries: each word but the last, which has the sign, keeps 32 bits.
 void ExactSum::carry() {
   for (int k = 0; k + 1 < kDigitWords; ++k) {
     const std::int64_t over = word_[k] >> kWordBits;  // towards minus infinity

@@ -10,7 +10,7 @@
 namespace acinus {
 namespace {
 
-/// What Zoltan asks about: each process tells of a run of the places.
+/// Points to partition, for Zoltan's queries. Each process contributes the run [first, last).
 struct SharedPlaces {
   std::span<const Vec3> place;
   std::span<const double> cost;
@@ -51,7 +51,7 @@ void require(int status, const char* what) {
         Exit::kInternal);
 }
 
-/// Zoltan with its settings.
+/// Zoltan instance with its parameters.
 class Partitioner {
  public:
   Partitioner(const Ranks& ranks, SharedPlaces& places) {
@@ -74,7 +74,7 @@ class Partitioner {
   Partitioner(const Partitioner&) = delete;
   Partitioner& operator=(const Partitioner&) = delete;
 
-  /// f(place, rank) for the places of this process.
+  /// Partitions the points; calls f(point, rank) for those that this process contributed.
   template <class F>
   void run(F f) {
     int changes = 0, n_global = 0, n_local = 0, n_import = 0, n_export = 0;

@@ -48,11 +48,11 @@ bool started_by_launcher() {
   return std::getenv("PMIX_RANK") != nullptr;  // tells no size: let MPI say
 }
 
-constexpr std::size_t kLargestCount = std::size_t{1} << 30;  ///< bytes of one call of MPI
+constexpr std::size_t kLargestCount = std::size_t{1} << 30;  ///< bytes in one MPI call
 
 Traffic g_traffic;
 
-/// Adds the time of a call to what is waited.
+/// Adds the duration of a call to the time spent waiting.
 class Waiting {
  public:
   Waiting() : started_(MPI_Wtime()) {}

@@ -17,7 +17,7 @@
 namespace acinus {
 namespace {
 
-/// Both micro signs (U+00B5 and U+03BC) as "u", the middle dot as "*".
+/// Text with both micro signs (U+00B5 and U+03BC) as "u" and the middle dot as "*".
 std::string plain_letters(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -35,11 +35,11 @@ std::string plain_letters(std::string_view text) {
   return plain;
 }
 
-/// The number a quantity starts with, cut into digits and decimal exponent.
+/// Leading number of a quantity, cut into digits and decimal exponent.
 struct Number {
   std::string_view digits;  ///< sign, digits, point
   long exponent = 0;
-  std::size_t length = 0;  ///< characters read; 0 = no number there
+  std::size_t length = 0;  ///< characters read; 0 = no number
 };
 
 Number scan_number(std::string_view text) {
@@ -76,7 +76,7 @@ Number scan_number(std::string_view text) {
   return number;
 }
 
-/// digits * 10^exponent, rounded once.
+/// Double nearest to digits * 10^exponent.
 double to_double(std::string_view digits, long exponent, std::string_view whole) {
   if (digits.front() == '+') digits.remove_prefix(1);
   const std::string text = fmt::format("{}e{}", digits, exponent);
@@ -95,7 +95,7 @@ double scaled(const Number& number, const Scale& scale, std::string_view whole) 
   return value;
 }
 
-/// "2.50e+03" -> "2500", "1.0e-05" -> "1e-5": the same decimal number as people write it.
+/// Decimal number in plain spelling: "2.50e+03" -> "2500", "1.0e-05" -> "1e-5".
 std::string tidy(const std::string& scientific) {
   const std::size_t e = scientific.find('e');
   std::string digits = scientific.substr(0, e);

@@ -27,7 +27,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// Far more triangles than are allowed would take for ever to be counted.
+/// Throws Error for far more triangles than are allowed, which would take too long to count.
 void check_extent(const geometry::Network& network, const VesselMeshOptions& o) {
   constexpr double kMargin = 10;  // the estimate is rough
   double all = 0, most = 0;
@@ -76,10 +76,10 @@ Shape make_shape(const VesselPieces& pieces, const VesselField& field) {
   return shape;
 }
 
-/// Which pieces matter at a place near the surface, looked up in cubes.
+/// Search structure for the pieces that matter at a place near the surface: a grid of cubes.
 class NearbyPieces {
  public:
-  /// @param farthest  um, that a place asked for is from the surface
+  /// Sorts pieces into cubes. @param farthest  um, largest distance of a query from the surface
   NearbyPieces(const geometry::Network& pieces, const Shape& shape, double farthest) {
     std::vector<double> sizes = shape.size;
     std::ranges::nth_element(sizes, sizes.begin() + sizes.size() / 2);
@@ -131,8 +131,8 @@ class NearbyPieces {
   std::unordered_map<Place, std::vector<int>, Hash> cube_;
 };
 
-/// Lays the triangles about the vessels' wall; where they cross each other then, nodes go back.
-/// @return whether they do not cross each other in the end
+/// Fits the triangles to the vessels' wall; where they cross each other then, nodes go back.
+/// @return true if no triangles cross in the end
 bool fit_without_crossing(const Distance& distance, geometry::Surface& surface) {
   constexpr double kMost = 0.3;
   constexpr int kRounds = 6;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFarthest = 1e9;  // um: a kilometre
 
-/// The attribute by which programs number the bodies of a file; nullptr: there is none.
+/// Attribute that numbers the bodies of a file; nullptr: none.
 const VtkArray* find_numbers(const VtkLegacy& vtk) {
   for (const char* name : {"label", "regionid", "cell_id", "body"})
     for (const VtkArray& a : vtk.cell_data)
@@ -29,7 +29,7 @@ const VtkArray* find_numbers(const VtkLegacy& vtk) {
   return nullptr;
 }
 
-/// A group for every value of the attribute, face by face.
+/// Groups of faces, one for every value of the attribute.
 class FaceGroups {
  public:
   FaceGroups(const VtkLegacy& vtk, std::size_t before)
@@ -43,7 +43,7 @@ class FaceGroups {
 
  private:
   const VtkArray* array_;
-  std::size_t before_;  ///< cells that come before the faces in the data of cells
+  std::size_t before_;  ///< cells that precede the faces in the cell data
   std::map<double, int> number_;
 };
 
