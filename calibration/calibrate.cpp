@@ -13,14 +13,14 @@ namespace acinus::calibration {
 namespace {
 
 /// Smallest overlap that a compression which ended early must reach to be fitted.
-constexpr double kWorthFitting = 0.15;
+constexpr double kLeastFittedOverlap = 0.15;
 
 constexpr int kCannotContinue = static_cast<int>(Exit::kCannotContinue);
 
 /// True if a compression that ended early reached overlaps that are worth a fit.
-bool got_far(const ForceCurve& curve, const Runs& runs) {
+bool is_worth_fitting(const ForceCurve& curve, const Runs& runs) {
   const double reached = curve.overlap.back();
-  if (reached < kWorthFitting) return false;
+  if (reached < kLeastFittedOverlap) return false;
   runs.say(fmt::format("the compression ended early, at d = {:.3f}: the law is fitted up to there",
                        reached));
   return true;
@@ -104,7 +104,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
                           find_inner_cells(deformable.snapshots, clump.center)};
   found.inner = static_cast<int>(cells.inner.size());
   found.dcm = force_curve(cells.snapshots, cells.inner);
-  if (found.exit != 0 && !got_far(found.dcm, runs)) return found;
+  if (found.exit != 0 && !is_worth_fitting(found.dcm, runs)) return found;
   const CompressionRun plain = runs.compress(ClumpModel::kSpheres, {});
   found.exit = plain.exit;
   if (found.exit != 0) return found;

@@ -17,14 +17,14 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kFirstLook =
+constexpr double kFirstSample =
     5;  ///< s after the release, time of the first sample at Table 1 friction
-constexpr double kGrowth = 1.15;  ///< ratio of the times of successive samples
-constexpr double kRest =
+constexpr double kSampleRatio = 1.15;  ///< ratio of the times of successive samples
+constexpr double kRestShare =
     0.01;  ///< largest share of the recovery in the second half of the time at its end
-constexpr double kShortest = 600;          ///< s, least duration at Table 1 friction
+constexpr double kLeastDuration = 600;     ///< s, least duration at Table 1 friction
 constexpr double kSolverTolerance = 1e-5;  ///< the slow tail consists of small changes
-constexpr double kLongest = 1e3 * 3600;
+constexpr double kLargestDuration = 1e3 * 3600;
 
 /// Weights of the samples by the trapezoidal rule: the time that each stands for.
 std::vector<double> weights_of(std::span<const double> t) {
@@ -61,14 +61,14 @@ Decay fit_with_time(double time, std::span<const double> t, std::span<const doub
 }
 
 /// Compressed clump without its capsule, with the steps and solver settings of its relaxation.
-coupling::World let_go(coupling::World world, double scale) {
+coupling::World make_released(coupling::World world, double scale) {
   world.params.boundary.capsules.clear();
   world.params.motility.random = false;
   coupling::Numerics& numerics = world.params.numerics;
   numerics.max_step *= scale;
   numerics.min_step *= scale;
   numerics.cg.tolerance = std::min(numerics.cg.tolerance, kSolverTolerance);
-  world.state.clock.step = kFirstLook * scale / 10;
+  world.state.clock.step = kFirstSample * scale / 10;
   world.state.clock.last_step = 0;  // what happened in the capsule says nothing about what comes
   return world;
 }
@@ -125,7 +125,7 @@ Relaxation relax_clump(coupling::World world, double scale) {
   const Vec3 center = world.params.boundary.capsules.empty()
                           ? Vec3(Vec3::Zero())
                           : world.params.boundary.capsules.front().center;
-  coupling::Simulation simulation(let_go(std::move(world), scale));
+  coupling::Simulation simulation(make_released(std::move(world), scale));
   Relaxation r;
   std::size_t central = 0;
   const auto look = [&](double time) {
@@ -137,7 +137,7 @@ Relaxation relax_clump(coupling::World world, double scale) {
     r.overlap.push_back(measure_clump(cells, central).shell_overlap);
   };
   look(0);
-  for (double time = 0, next = kFirstLook * scale;; next *= kGrowth) {
+  for (double time = 0, next = kFirstSample * scale;; next *= kSampleRatio) {
     const coupling::LoopResult steps = simulation.run_until(simulation.time() + (next - time));
     check(!steps.last.interrupted, "relaxation: stopped by " + describe_stop(), Exit::kStopped);
     check(
@@ -150,9 +150,9 @@ Relaxation relax_clump(coupling::World world, double scale) {
     const auto half = std::ranges::lower_bound(r.time, time / 2) - r.time.begin();
     const double late = std::abs(r.overlap.back() - r.overlap[half]),
                  way = std::abs(r.overlap.back() - r.overlap.front());
-    if (time >= kShortest * scale && late <= kRest * way) break;
+    if (time >= kLeastDuration * scale && late <= kRestShare * way) break;
     check(
-        time < kLongest * scale,
+        time < kLargestDuration * scale,
         fmt::format("relaxation: the clump still moves {:.3g} h after its release, overlap {:.4g}",
                     time / 3600, r.overlap.back()),
         Exit::kCannotContinue);

@@ -58,10 +58,10 @@ struct LeadingTerm {
   double modulus = 0, highest = 0, power = 4;
   /// Lower bound of the factor, which is what the term adds at the end of the range, over the
   /// modulus. A trial of the solver below -1 would leave no modulus at `highest`.
-  static constexpr double kSoftest = -0.99;
+  static constexpr double kLeastFactor = -0.99;
   cbm::StiffnessLaw::Term at(const Eigen::VectorXd& x) const {
     const double p = x.size() > 1 ? kLeastPower + (power - kLeastPower) * std::exp(x[1]) : power;
-    return {std::max(x[0], kSoftest) * modulus / std::pow(highest, p), p};
+    return {std::max(x[0], kLeastFactor) * modulus / std::pow(highest, p), p};
   }
 };
 

@@ -33,7 +33,7 @@ std::string fault_of_json_size(std::string_view text, const JsonBounds& bounds) 
     switch (text[at]) {
       case '{':
       case '[':
-        if (names.size() >= static_cast<std::size_t>(bounds.depth))
+        if (std::ssize(names) >= bounds.depth)
           return fmt::format("nested deeper than {} levels", bounds.depth);
         names.push_back(0);
         ++values;

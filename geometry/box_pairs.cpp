@@ -11,7 +11,7 @@ namespace acinus::contact {
 namespace {
 
 /// Fewest boxes that are searched by all threads.
-constexpr std::size_t kWorthThreads = 500;
+constexpr std::size_t kLeastShared = 500;
 
 using Key = std::uint64_t;
 using CellIndex = std::array<std::int64_t, 3>;
@@ -74,7 +74,7 @@ std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double m
   std::vector<BoxGrid::Item> item;
   const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low, item);
   // In the order of the boxes, whoever finds them.
-  const std::size_t n_part = n < kWorthThreads ? 1 : static_cast<std::size_t>(thread_count());
+  const std::size_t n_part = n < kLeastShared ? 1 : thread_count();
   std::vector<std::vector<std::pair<int, int>>> found(n_part);
   for_each_part(n_part, [&](std::size_t part) {
     std::vector<std::pair<int, int>>& pairs = found[part];

@@ -15,10 +15,10 @@ struct Connectivity {
 };
 
 /// Connectivity of a closed surface; nodes of no triangle do not count.
-Connectivity find_connectivity(const Surface& surface);
+Connectivity compute_connectivity(const Surface& surface);
 
 /// Connectivity of the wall of a network whose segments meet only where they share a node: a handle
 /// for every loop.
-Connectivity find_connectivity(const Network& network);
+Connectivity compute_connectivity(const Network& network);
 
 }  // namespace acinus::geometry

@@ -146,7 +146,7 @@ class OmeReader {
     std::set<std::string> files;
     for (const pugi::xml_node& data : all) files.insert(file_of(data));
     const std::string own = std::filesystem::path(path_).filename().string();
-    out_.page_of_plane.assign(static_cast<std::size_t>(out_.planes()), TiffText::kNowhere);
+    out_.page_of_plane.assign(out_.planes(), TiffText::kNowhere);
     std::set<std::int64_t> pages;
     for (const pugi::xml_node& data : all) {
       const std::string file = file_of(data);
@@ -164,7 +164,7 @@ class OmeReader {
       if (first + n > out_.planes())
         fail(fmt::format("gives {} planes from plane {}, of {} in all", n, first, out_.planes()));
       for (std::int64_t k = 0; k < n; ++k) {
-        std::int64_t& page = out_.page_of_plane[static_cast<std::size_t>(first + k)];
+        std::int64_t& page = out_.page_of_plane[first + k];
         const std::int64_t wanted = elsewhere ? TiffText::kElsewhere : ifd + k;
         if (page == wanted) continue;
         if (page != TiffText::kNowhere)

@@ -112,7 +112,7 @@ Axes find_named(const std::string& path, const io::VolumeInfo& v,
   for (std::size_t k = 0; k < name.size(); ++k) {
     std::optional<std::size_t>* axis = nullptr;
     if (name[k].size() == 1 && name[k][0] >= 'x' && name[k][0] <= 'z')
-      axis = &axes.space[static_cast<std::size_t>(name[k][0] - 'x')];
+      axis = &axes.space[name[k][0] - 'x'];
     if (name[k] == "c" || name[k] == "channel") axis = &axes.channel;
     if (name[k] == "t" || name[k] == "time") axis = &axes.time;
     if (axis == nullptr && v.shape[k] == 1) continue;
@@ -168,7 +168,7 @@ void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& ax
   for (std::size_t k = 0; k < 3; ++k) {
     if (!axes.space[k]) continue;
     const std::size_t at = *axes.space[k];
-    const auto rank = static_cast<std::size_t>(std::ranges::find(spatial, at) - spatial.begin());
+    const std::size_t rank = std::ranges::find(spatial, at) - spatial.begin();
     file.step[static_cast<int>(k)] = v.element_size[by_axis ? at : rank];
   }
 }
@@ -176,15 +176,13 @@ void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& ax
 /// Extracts the numbers of one channel of one time as [z][y][x].
 std::vector<std::byte> arrange(const std::vector<std::byte>& all, const io::VolumeInfo& v,
                                const Axes& axes, const ImageFile& file, std::int64_t chosen) {
-  std::vector<std::size_t> stride(v.shape.size(), static_cast<std::size_t>(v.bytes));
-  for (std::size_t k = v.shape.size() - 1; k-- > 0;)
-    stride[k] = stride[k + 1] * static_cast<std::size_t>(v.shape[k + 1]);
+  std::vector<std::size_t> stride(v.shape.size(), v.bytes);
+  for (std::size_t k = v.shape.size() - 1; k-- > 0;) stride[k] = stride[k + 1] * v.shape[k + 1];
   const auto stride_of = [&](const std::optional<std::size_t>& a) { return a ? stride[*a] : 0; };
-  const auto channels = static_cast<std::size_t>(axes.channel ? v.shape[*axes.channel] : 1);
-  const auto c = static_cast<std::size_t>(chosen) % channels,
-             t = static_cast<std::size_t>(chosen) / channels;
+  const std::size_t channels = axes.channel ? v.shape[*axes.channel] : 1;
+  const std::size_t c = chosen % channels, t = chosen / channels;
   const std::size_t first = c * stride_of(axes.channel) + t * stride_of(axes.time);
-  const auto bytes = static_cast<std::size_t>(v.bytes);
+  const std::size_t bytes = v.bytes;
   const Voxel size = file.voxels();
   std::vector<std::byte> out;
   out.reserve(bytes * size[0] * size[1] * size[2]);

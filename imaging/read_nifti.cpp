@@ -167,8 +167,8 @@ ImageFile read_nifti(const std::string& path, const ChannelChoice& channel) {
         fmt::format("{}: the data cannot be read: the file is truncated or damaged.", path));
   const auto* data = static_cast<const std::byte*>(n->data);  // in this machine's byte order
   file.label.reserve(voxels);
-  append_labels(path, std::span(data + static_cast<std::size_t>(chosen) * bytes, bytes), file.type,
-                false, file.voxels(), file.label);
+  append_labels(path, std::span(data + chosen * bytes, bytes), file.type, false, file.voxels(),
+                file.label);
   return file;
 }
 

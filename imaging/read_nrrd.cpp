@@ -153,7 +153,7 @@ void check_kinds(const HeaderFields& h) {
 
 /// Bytes of labels that are written as text.
 std::string take_text(std::string_view text, geometry::InputFile& file, std::size_t n) {
-  file.set_position(static_cast<std::size_t>(text.data() - file.bytes().data()));
+  file.set_position(text.data() - file.bytes().data());
   std::string out;
   for (std::size_t k = 0; k < n; ++k) {
     const double value = file.next_double("a label");

@@ -120,7 +120,7 @@ void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int6
                              path, number, last_words()));
   };
   if (TIFFIsTiled(t) == 0) {
-    if (static_cast<std::size_t>(TIFFScanlineSize64(t)) != row) throw damaged();
+    if (TIFFScanlineSize64(t) != row) throw damaged();
     for (std::uint32_t y = 0; y < page.height; ++y)
       if (TIFFReadScanline(t, rows.data() + y * row, y, 0) < 0) throw damaged();
     return;
@@ -132,7 +132,7 @@ void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int6
   if (wide == 0 || high == 0 || wide > kMostTile || high > kMostTile) throw damaged();
   check_announced(path, static_cast<double>(TIFFTileSize64(t)),
                   static_cast<double>(std::filesystem::file_size(path)), true);
-  std::vector<std::byte> tile(static_cast<std::size_t>(TIFFTileSize64(t)));
+  std::vector<std::byte> tile(TIFFTileSize64(t));
   if (tile.size() < wide * high * bytes) throw damaged();
   for (std::uint32_t y = 0; y < page.height; y += high)
     for (std::uint32_t x = 0; x < page.width; x += wide) {
@@ -217,7 +217,7 @@ std::int64_t page_number(const std::string& path, const TiffText& text, std::int
                          std::int64_t channel) {
   const std::int64_t plane = text.plane(slice, channel);
   if (text.page_of_plane.empty()) return plane;
-  const std::int64_t page = text.page_of_plane[static_cast<std::size_t>(plane)];
+  const std::int64_t page = text.page_of_plane[plane];
   check(page >= 0 && page < text.planes(),
         fmt::format("{}: slice {} of channel {} is {} by its OME description. Write one file with "
                     "all slices.",
@@ -271,11 +271,10 @@ ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
   const std::size_t voxels = count_voxels(path, file.size);
   check_announced(path, static_cast<double>(voxels * bytes_of(file.type)), chain.stored, true);
   file.label.reserve(voxels);
-  std::vector<std::byte> rows(static_cast<std::size_t>(first.width) * first.height *
-                              bytes_of(file.type));
+  std::vector<std::byte> rows(bytes_of(file.type) * first.width * first.height);
   for (std::int64_t slice = 0; slice < text.slices; ++slice) {
     const std::int64_t number = page_number(path, text, slice, chosen);
-    open_page(path, tiff.get(), chain.page[static_cast<std::size_t>(number)], number, first);
+    open_page(path, tiff.get(), chain.page[number], number, first);
     read_page(path, tiff.get(), first, number, rows);
     append_labels(path, rows, file.type, false, file.voxels(), file.label);
   }

@@ -133,7 +133,7 @@ std::size_t count_voxels(const std::string& path, const std::array<std::int64_t,
             "{}: an image of {} x {} x {} voxels may take {:.3g} GB; this machine has {:.3g}. "
             "Crop the image, or make its voxels larger.",
             path, size[0], size[1], size[2], 1e-9 * kBytes * voxels, 1e-9 * memory));
-  return static_cast<std::size_t>(size[0] * size[1] * size[2]);
+  return size[0] * size[1] * size[2];
 }
 
 }  // namespace acinus::imaging

@@ -57,13 +57,13 @@ class Walker {
     while (at != 0) {
       const std::string name = fmt::format("page {}", chain.page.size());
       const Directory d = read_new(at, name);
-      if (chain.page.empty()) look_at_first(d, chain);
+      if (chain.page.empty()) read_first(d, chain);
       chain.page.push_back(at);
       chain.stored += use_data(d, name);
       at = d.next;
     }
     check(!chain.page.empty(), fmt::format("{}: has no pages. The file is damaged.", path_));
-    if (!pages_known) find_lost();
+    if (!pages_known) check_lost_pages();
     return chain;
   }
 
@@ -155,7 +155,7 @@ class Walker {
     return out;
   }
 
-  void look_at_first(const Directory& d, TiffChain& chain) {
+  void read_first(const Directory& d, TiffChain& chain) {
     if (const auto found = d.entry.find(kUic2); found != d.entry.end())
       chain.planes_in_first =
           static_cast<std::int64_t>(std::min<std::uint64_t>(found->second.count, 1u << 30));
@@ -203,7 +203,7 @@ class Walker {
 
   /// Throws Error at a lost page: a directory in bytes that no page uses, with its data in such
   /// bytes too.
-  void find_lost() {
+  void check_lost_pages() {
     std::ranges::sort(used_, {}, &Span::begin);
     std::uint64_t end = 0, searched = 0;
     constexpr std::uint64_t kMostSearched = 1u << 28;
@@ -215,11 +215,11 @@ class Walker {
     }
     for (const Span& g : gap) {
       if ((searched += g.end - g.begin) > kMostSearched) return;
-      search(g, gap);
+      check_gap(g, gap);
     }
   }
 
-  void search(const Span& g, const std::vector<Span>& gap) {
+  void check_gap(const Span& g, const std::vector<Span>& gap) {
     const std::string text = bytes(g.begin, g.end - g.begin);
     const auto* raw = reinterpret_cast<const unsigned char*>(text.data());
     const std::uint64_t head = big_ ? 8 : 2, each = big_ ? 20 : 12;

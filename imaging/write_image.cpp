@@ -70,7 +70,7 @@ constexpr double kMostClassic = 3.9e9;
 
 void write_tiff(const std::string& path, const LabelImage& i) {
   io::RemoveUnlessMoved part{path + ".part"};
-  const std::size_t bytes = bytes_needed(i), row = static_cast<std::size_t>(i.size[0]);
+  const std::size_t bytes = bytes_needed(i), row = i.size[0];
   const bool big = static_cast<double>(bytes * i.label.size()) > kMostClassic;
   const auto failed = [&] { io::fail_on_disk(path, "write the image", errno); };
   TIFFSetErrorHandler(nullptr);

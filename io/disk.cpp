@@ -85,7 +85,7 @@ int write_stream(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = write(descriptor, text.data(), text.size());
     if (n >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(n));
+      text.remove_prefix(n);
     } else if (errno == EAGAIN) {  // another process that has the pipe made it non-blocking
       pollfd room{descriptor, POLLOUT, 0};
       poll(&room, 1, -1);

@@ -72,9 +72,9 @@ bool lock(int descriptor, int how) {
   return true;
 }
 
-constexpr double kWait = 0.02;  // s, between two looks
+constexpr double kRetryInterval = 0.02;  // s, between two looks
 
-void wait_a_moment() { usleep(static_cast<useconds_t>(1e6 * kWait)); }
+void wait_a_moment() { usleep(static_cast<useconds_t>(1e6 * kRetryInterval)); }
 
 std::string this_host() {
   std::array<char, 256> host{};
@@ -93,7 +93,7 @@ std::string first_line(const std::string& path) {
   if (descriptor < 0) return "";
   const ssize_t n = pread(descriptor, text.data(), text.size(), 0);
   close(descriptor);
-  const std::string line(text.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  const std::string line(text.data(), std::max<ssize_t>(n, 0));
   return line.substr(0, line.find('\n'));
 }
 
@@ -149,7 +149,7 @@ std::optional<FileLock> FileLock::try_take(const std::string& path, double patie
       close(descriptor);
       return std::nullopt;
     }
-    patience_s -= kWait;
+    patience_s -= kRetryInterval;
     wait_a_moment();
   }
   FileLock held(descriptor);
@@ -177,7 +177,7 @@ std::string name_holder(const std::string& path, double patience_s) {
     const std::string line = first_line(path);
     if (names_a_process(line)) return line;
     if (patience_s <= 0) return "another process";
-    patience_s -= kWait;
+    patience_s -= kRetryInterval;
     wait_a_moment();
   }
 }

@@ -80,7 +80,7 @@ std::optional<std::size_t> size_inside(const std::string& folder, const std::str
   struct stat status {};
   if (!file.valid() || fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
     return std::nullopt;
-  return static_cast<std::size_t>(status.st_size);
+  return status.st_size;
 }
 
 std::string read_text_inside(const std::string& folder, const std::string& path, std::size_t most) {
@@ -101,7 +101,7 @@ std::string read_text_inside(const std::string& folder, const std::string& path,
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail_on_disk(name, "read", errno);
     if (n == 0) return text;
-    text.append(buffer.data(), static_cast<std::size_t>(n));
+    text.append(buffer.data(), n);
     check(text.size() <= most,
           fmt::format("{}: is longer than the {} bytes that are read.", name, most),
           Exit::kFileError);

@@ -72,11 +72,11 @@ bool read_all(int descriptor, std::byte* data, haddr_t size, haddr_t address) {
 /// new page and an old sum: a mismatch is checked again before it counts as damage.
 bool is_as_written(StagedFile* file, std::uint64_t page) {
   constexpr int kTries = 4;
-  constexpr useconds_t kBetween = 20'000;  // us
+  constexpr useconds_t kRetryInterval = 20'000;  // us
   if (page < file->checked.size() && file->checked[page]) return true;
   for (int attempt = 0; !file->sums.is_as_written(file->descriptor, page); ++attempt) {
     if (errno != EBADMSG || file->writable || attempt == kTries - 1) return false;
-    usleep(kBetween);
+    usleep(kRetryInterval);
     file->sums = PageSums::read(file->path);
   }
   if (file->checked.size() <= page) file->checked.resize(page + 1, false);

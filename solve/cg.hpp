@@ -43,15 +43,23 @@ struct CgWorkspace {
   CgVectors<double> full;
 };
 
+/// Linear system A x = b with its preconditioner.
+struct CgProblem {
+  Operator& op;               ///< A; its contacts are merged when passes in float turn out long
+  std::span<const double> b;  ///< [n_row][3][lane] right-hand side
+  /// Second part of the preconditioner, prepared for op; null: diagonal blocks alone. The tolerance
+  /// is in the norm of the diagonal blocks either way.
+  const CoarseSpace* coarse = nullptr;
+  std::span<const double> product = {};  ///< A x of the start value if known, not in the workspace
+};
+
 /// Solves A x = b from the start value in x (warm start). The tolerance is relative to the
 /// right-hand side, not to the first residual, so that a good start saves iterations. Passes of
 /// iterations solve for a correction of x; each starts from the true residual in double, which also
 /// decides convergence. A pass in float that breaks down or gains nothing is followed by one in
 /// double; when that gains nothing either, rounding limits the accuracy: the result is ok if the
 /// residual is below 1e-3, and states it. Fails when the process is asked to stop.
-/// @param op  its contacts are merged when passes in float turn out long
-CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse = nullptr,
-                  std::span<const double> product = {});
+CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
+                  CgWorkspace& work);
 
 }  // namespace acinus::solve

@@ -30,16 +30,29 @@ class CoarseSpace {
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
   using Mat6 = Eigen::Matrix<double, 6, 6>;
+  /// Rows of E that one of n_part parts adds to.
+  struct RowShare {
+    std::size_t part, n_part;
+    bool owns(std::size_t cell) const { return cell % n_part == part; }
+  };
   template <class T>
   double add_of(std::span<const T> r, std::span<T> z) const;
   void place_cells(std::span<const double> position, std::span<const std::uint8_t> active);
   int cell_of(Point p) const;
   bool owns(int cell) const { return system_->ownership.owns(block_of_cell_[cell]); }
-  void find_neighbours();
+  void make_pattern();
   void gather_rows();
   void gather_cells(std::vector<Vec6>& v) const;
   void add_cells(const Operator& op);
   void add_links(std::span<const double> position);
+  /// Adds the entries of one contact to the rows of the cells that a part owns.
+  /// @param ends  places of the two sides, um; that of b is unused if b < 0 (boundary)
+  template <class L, class Ends>
+  void add_link(const RowShare& share, int a, int b, const Ends& ends, const L& link);
+  /// Vector from the centre of a cell to a place, over the cell's size; zero for a single point.
+  Vec3 arm_of(std::size_t cell, const Vec3& place) const;
+  /// Index in block_ of the entry of two cells.
+  std::size_t entry_of(int a, int b) const;
   void factor();
   void solve(std::vector<Vec6>& v) const;
 

@@ -57,8 +57,7 @@ class GroupSums {
     for (std::size_t l = 0; l < kLanes; ++l)
       if (const int g = group_[b * kLanes + l]; g >= 0)
         for (int i = 0; i < block.pattern->n_point; ++i)
-          f(make_address(block.first_row + static_cast<std::size_t>(i), static_cast<int>(l)),
-            static_cast<std::size_t>(g));
+          f(make_address(block.first_row + i, static_cast<int>(l)), g);
   }
   std::span<const std::uint32_t> parts_of(std::size_t group) const {
     return std::span(by_group_).subspan(start_[group], start_[group + 1] - start_[group]);
@@ -87,9 +86,8 @@ template <std::size_t N>
 void GroupSums::add_exactly(std::span<const std::uint32_t> parts,
                             std::span<const std::array<double, N>> number,
                             std::span<ExactSum, N> sum) const {
-  constexpr std::size_t kWorthThreads = 2000;  // parts
-  const std::size_t n_part =
-      parts.size() * N > kWorthThreads ? static_cast<std::size_t>(thread_count()) : 1;
+  constexpr std::size_t kLeastShared = 2000;  // parts
+  const std::size_t n_part = parts.size() * N > kLeastShared ? thread_count() : 1;
   const auto add = [&](std::size_t part, std::span<ExactSum> to) {
     for (std::size_t k = part * parts.size() / n_part; k < (part + 1) * parts.size() / n_part; ++k)
       for (std::size_t n = 0; n < N; ++n) to[n].add(number[parts[k]][n]);
@@ -154,7 +152,7 @@ void GroupSums::sum(const F& f, const Put& put) {
     std::array<double, N> total{};
     for (; k < all.size() && all[k].part.group == g; ++k)
       for (std::size_t n = 0; n < N; ++n) total[n] += all[k].number[n];
-    put(static_cast<std::size_t>(g), total);
+    put(g, total);
   }
 }
 

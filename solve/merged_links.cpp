@@ -68,7 +68,7 @@ bool is_merged(const System& s, const Link& l) {
 }
 
 /// Collects runs of consecutive contacts that join the same cells, and sorts them by pair of cells.
-void LinkMerger::find_runs(const System& s) {
+void LinkMerger::update_runs(const System& s) {
   const auto add = [](std::vector<LinkRun>& runs, const LinkRun& next) {
     if (!runs.empty() && runs.back().last == next.first && runs.back().cells == next.cells &&
         runs.back().swapped == next.swapped)
@@ -167,7 +167,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
 }
 
 void LinkMerger::merge(const System& s, MergedLinks& out) {
-  find_runs(s);
+  update_runs(s);
   add_across(s, out.pairs);
   add_within(s, out.edge);
 }

@@ -46,7 +46,7 @@ class LinkMerger {
     std::uint32_t block, run;
     bool is_b;
   };
-  void find_runs(const System& system);
+  void update_runs(const System& system);
   void add_across(const System& system, PointPairs& pairs);
   void add_within(const System& system, std::vector<float>& edge);
 

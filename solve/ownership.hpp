@@ -50,7 +50,7 @@ void gather_in_order(const Ranks& ranks, std::size_t n, const Owner& owner, cons
   all.clear();
   all.reserve(by_rank.size());
   for (std::size_t k = 0; k < n; ++k) {
-    std::size_t& from = next[static_cast<std::size_t>(owner(k))];
+    std::size_t& from = next[owner(k)];
     const auto first = by_rank.begin() + static_cast<std::ptrdiff_t>(from);
     from += count(k);
     all.insert(all.end(), first, by_rank.begin() + static_cast<std::ptrdiff_t>(from));

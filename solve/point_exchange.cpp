@@ -18,8 +18,7 @@ class PointSet {
   void append_to(std::vector<Point>& points) const {
     for (std::size_t w = 0; w < word_.size(); ++w)
       for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
-        points.push_back(
-            static_cast<Point>(w * kBits + static_cast<std::size_t>(std::countr_zero(left))));
+        points.push_back(static_cast<Point>(w * kBits + std::countr_zero(left)));
   }
 
  private:

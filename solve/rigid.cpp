@@ -130,7 +130,7 @@ class RigidModes {
   /// Sums each group's residual and its resistance to rigid motion by medium and boundary. That
   /// matrix is a lower bound of the projected one, and equal to it except for rotations: links and
   /// elements within a group do not resist translation.
-  void tie_to_outside(std::span<const double> residual) {
+  void compute_bounds(std::span<const double> residual) {
     work_.sums.largest(
         [&](Address a, std::size_t g) { return (at(a) - groups_[g].center).squaredNorm(); },
         work_.squared_reach);
@@ -221,23 +221,21 @@ class RigidModes {
   static double size_of(const Vec6& motion, const RigidGroup& g) {
     return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
   }
-  std::size_t cell_of(Address a) const {
-    return static_cast<std::size_t>(s_.block_of_row[a / kPointStride]) * kLanes + a % kPointStride;
-  }
+  std::size_t block_of(Address a) const { return s_.block_of_row[a / kPointStride]; }
+  std::size_t cell_of(Address a) const { return block_of(a) * kLanes + a % kPointStride; }
   bool is_first_point(Address a) const {
-    const auto block = static_cast<std::size_t>(s_.block_of_row[a / kPointStride]);
-    return a / kPointStride == s_.block[block].first_row;
+    return a / kPointStride == s_.block[block_of(a)].first_row;
   }
   /// Adds the resistance of the boundary to the matrices of the groups.
   void add_ties() {
-    find_ties();
+    compute_ties();
     if (!s_.ownership.ranks.any(!work_.tie.empty())) return;
     work_.sums.sum<kUpper>(
         [&](Address a, std::size_t, std::array<double, kUpper>& sum) {
           if (!is_first_point(a)) return;
           const int tie = work_.tie_of_cell[cell_of(a)];
           if (tie < 0) return;
-          for_each_upper(std::as_const(work_.tie[static_cast<std::size_t>(tie)]),
+          for_each_upper(std::as_const(work_.tie[tie]),
                          [&](std::size_t n, double v, double) { sum[n] += v; });
         },
         [&](std::size_t g, const std::array<double, kUpper>& sum) {
@@ -249,7 +247,7 @@ class RigidModes {
   }
   /// Sums the resistance of the boundary to each cell, about the centre of its group, in the order
   /// of the contacts.
-  void find_ties() {
+  void compute_ties() {
     work_.tie.clear();
     work_.tie_of_cell.assign(work_.group.size(), -1);
     op_.for_each_external([&](const Stencil& stencil, const auto& l) {
@@ -258,7 +256,7 @@ class RigidModes {
       if (g < 0) return;
       Vec3 place = Vec3::Zero();
       for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
-      const Map3x6 z = unit_motions(place - groups_[static_cast<std::size_t>(g)].center);
+      const Map3x6 z = unit_motions(place - groups_[g].center);
       const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
                    static_cast<double>(l.normal[2]));
       const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
@@ -268,7 +266,7 @@ class RigidModes {
         tie = static_cast<int>(work_.tie.size());
         work_.tie.push_back(Mat6::Zero());
       }
-      work_.tie[static_cast<std::size_t>(tie)] += z.transpose() * m * z;
+      work_.tie[tie] += z.transpose() * m * z;
     });
   }
 
@@ -285,7 +283,7 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> resi
                                 std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work) {
   RigidModes modes(op, cells, work);
-  modes.tie_to_outside(residual);
+  modes.compute_bounds(residual);
   RigidResult result;
   result.corrected_groups = modes.choose(threshold);
   if (result.corrected_groups == 0) return result;

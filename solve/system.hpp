@@ -53,7 +53,7 @@ inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
     ++k;
     ACINUS_ASSERT(k < p.first_spring_of[i + 1]);
   }
-  return static_cast<std::size_t>(p.spring_of[k][1]);
+  return p.spring_of[k][1];
 }
 
 /// Floats of one element, all eight lanes.
@@ -106,7 +106,7 @@ struct System {
   std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
 
   std::size_t n_dof() const { return n_row * kPointStride; }
-  std::size_t block_of(Point p) const { return static_cast<std::size_t>(block_of_row[p / kLanes]); }
+  std::size_t block_of(Point p) const { return block_of_row[p / kLanes]; }
   bool owns(Point p) const { return ownership.is_whole() || ownership.owns(block_of(p)); }
   /// First row of a block; for b = number of blocks, the number of rows.
   std::size_t row_of(std::size_t b) const { return b < block.size() ? block[b].first_row : n_row; }

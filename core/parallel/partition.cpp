@@ -18,31 +18,28 @@ struct SharedPlaces {
 };
 const SharedPlaces& of(void* data) { return *static_cast<const SharedPlaces*>(data); }
 
-int count(void* data, int* error) {
+int count_points(void* data, int* error) {
   *error = ZOLTAN_OK;
   return static_cast<int>(of(data).last - of(data).first);
 }
 
-void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR, int, float* weight,
-          int* error) {
-  const SharedPlaces& p = of(data);
+/// Writes the numbers and costs of the points that this process contributes.
+void list_points(const SharedPlaces& p, ZOLTAN_ID_PTR number, float* cost) {
   for (std::size_t k = p.first; k < p.last; ++k) {
-    *global++ = static_cast<ZOLTAN_ID_TYPE>(k);
-    *weight++ = static_cast<float>(p.cost[k]);
+    *number++ = static_cast<ZOLTAN_ID_TYPE>(k);
+    *cost++ = static_cast<float>(p.cost[k]);
   }
-  *error = ZOLTAN_OK;
 }
 
-int dimensions(void*, int* error) {
+int count_dimensions(void*, int* error) {
   *error = ZOLTAN_OK;
   return 3;
 }
 
-void locate(void* data, int, int, int n, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR, int, double* at,
-            int* error) {
-  for (int k = 0; k < n; ++k)
-    for (int c = 0; c < 3; ++c) *at++ = of(data).place[global[k]][c];
-  *error = ZOLTAN_OK;
+/// Writes the coordinates of points, um.
+void locate_points(const SharedPlaces& p, std::span<const ZOLTAN_ID_TYPE> number, double* at) {
+  for (const ZOLTAN_ID_TYPE k : number)
+    for (int c = 0; c < 3; ++c) *at++ = p.place[k][c];
 }
 
 void require(int status, const char* what) {
@@ -65,9 +62,20 @@ class Partitioner {
                                             {"IMBALANCE_TOL", "1.02"}};
     for (const auto& [name, value] : kSettings)
       require(Zoltan_Set_Param(zoltan_, name, value), name);
-    Zoltan_Set_Num_Obj_Fn(zoltan_, count, &places);
+    // The arguments of the callbacks are Zoltan's.
+    const ZOLTAN_OBJ_LIST_FN* list = [](void* data, int, int, ZOLTAN_ID_PTR number, ZOLTAN_ID_PTR,
+                                        int, float* cost, int* error) {
+      list_points(of(data), number, cost);
+      *error = ZOLTAN_OK;
+    };
+    const ZOLTAN_GEOM_MULTI_FN* locate = [](void* data, int, int, int n, ZOLTAN_ID_PTR number,
+                                            ZOLTAN_ID_PTR, int, double* at, int* error) {
+      locate_points(of(data), {number, static_cast<std::size_t>(n)}, at);
+      *error = ZOLTAN_OK;
+    };
+    Zoltan_Set_Num_Obj_Fn(zoltan_, count_points, &places);
     Zoltan_Set_Obj_List_Fn(zoltan_, list, &places);
-    Zoltan_Set_Num_Geom_Fn(zoltan_, dimensions, &places);
+    Zoltan_Set_Num_Geom_Fn(zoltan_, count_dimensions, &places);
     Zoltan_Set_Geom_Multi_Fn(zoltan_, locate, &places);
   }
   ~Partitioner() { Zoltan_Destroy(&zoltan_); }
@@ -100,8 +108,7 @@ std::vector<int> partition(const Ranks& ranks, std::span<const Vec3> place,
   ACINUS_ASSERT(place.size() == cost.size());
   std::vector<int> owner(place.size(), 0);
   if (ranks.is_alone()) return owner;
-  const auto n_rank = static_cast<std::size_t>(ranks.size()),
-             rank = static_cast<std::size_t>(ranks.rank());
+  const std::size_t n_rank = ranks.size(), rank = ranks.rank();
   if (place.size() <= n_rank) {  // which Zoltan does not take
     for (std::size_t k = 0; k < place.size(); ++k) owner[k] = static_cast<int>(k);
     return owner;

@@ -158,7 +158,7 @@ void Team::wait_for_helpers() {
 }
 
 void Team::share(std::size_t n_part, Job job) {
-  const std::size_t n = std::min(static_cast<std::size_t>(size()), n_part);
+  const std::size_t n = std::min<std::size_t>(size(), n_part);
   if (n < 2) return work_alone(n_part, job);
   const std::unique_lock lock(in_use_, std::try_to_lock);
   if (!lock.owns_lock() || (alone_until_ > 0 && wall_seconds() < alone_until_)) {
@@ -195,7 +195,7 @@ int processor_count() {
 }
 
 std::size_t count_threads(std::size_t n_row) {
-  return worth_threads(n_row) && !t_within_part ? static_cast<std::size_t>(thread_count()) : 1;
+  return worth_threads(n_row) && !t_within_part ? thread_count() : 1;
 }
 
 void threads::share(std::size_t n_part, const void* work, Part part) {

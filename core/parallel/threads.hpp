@@ -45,7 +45,7 @@ template <class F>
 void for_each_index(std::size_t n, bool shared, const F& f) {
   // Several parts a thread: one that comes late gets fewer.
   constexpr std::size_t kPartsPerThread = 8;
-  std::size_t n_part = shared ? kPartsPerThread * static_cast<std::size_t>(thread_count()) : 1;
+  std::size_t n_part = shared ? kPartsPerThread * thread_count() : 1;
   if (thread_count() == 1) n_part = 1;
   if (n_part > n) n_part = n;
   if (n_part == 0) return;

@@ -155,7 +155,7 @@ class UnitParser {
       fail(fmt::format("the power after ^ must be a whole number from -{0} to {0}, not 0",
                        kLargestPower));
     }
-    at_ += static_cast<std::size_t>(end - first);
+    at_ += end - first;
     return value;
   }
 

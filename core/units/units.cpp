@@ -110,7 +110,7 @@ std::string tidy(const std::string& scientific) {
     return fmt::format("{}{}e{}", sign, digits, exponent);
   }
   if (exponent < 0) {
-    digits.insert(0, "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0'));
+    digits.insert(0, "0." + std::string(-exponent - 1, '0'));
   } else if (exponent + 1 >= n_digit) {
     digits.append(exponent + 1 - n_digit, '0');
   } else {
@@ -181,8 +181,7 @@ std::string format_quantity(double value, Dimension dimension, std::string_view 
     const auto [end, code] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                            std::chars_format::scientific);
     ACINUS_ASSERT(code == std::errc());
-    const Number shortest =
-        scan_number({buffer.data(), static_cast<std::size_t>(end - buffer.data())});
+    const Number shortest = scan_number({buffer.data(), end});
     return tidy(fmt::format("{}e{}", shortest.digits, shortest.exponent - scale.ten)) + gap +
            std::string(unit);
   }

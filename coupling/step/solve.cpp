@@ -74,7 +74,7 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations,
   const bool coarse = world.state.clock.coarse;
   if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
-      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, coarse ? &w.coarse : nullptr, product);
+      solve::solve_cg({w.op, w.rhs, coarse ? &w.coarse : nullptr, product}, w.move, options, w.cg);
   cg_iterations += result.iterations;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.

@@ -7,6 +7,6 @@ namespace acinus::geometry {
 
 /// Removes the walls of cavities: closed parts that face inward. Where vessels bend or meet, round
 /// cones enclose pockets that are not part of the network.
-void leave_out_cavities(ZeroSurface& z);
+void remove_cavities(ZeroSurface& z);
 
 }  // namespace acinus::geometry

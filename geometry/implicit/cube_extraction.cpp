@@ -73,7 +73,7 @@ class CubeExtraction {
 
   /// Bisects a tetrahedron as far as necessary and cuts the resulting ones.
   void visit(const Tetrahedron& t, int level, const NearRange& parts, const NearRange& fine) {
-    const std::size_t end = 3 - static_cast<std::size_t>(level) % 3;
+    const std::size_t end = 3 - level % 3;
     // One decision for all, six to eight, that have this edge.
     const auto [at, fresh] = decision_.try_emplace(edge_key(t[0].place, t[end].place));
     if (fresh) at->second = decide(t[0], t[end], level, parts, fine);
@@ -109,7 +109,7 @@ class CubeExtraction {
     }
     out.fine.last = near_.fine.size();
     // What matters to this tetrahedron, or to the middles of all that come of it.
-    const double farthest = bisect ? lattice_.ahead[level] : extent;
+    const double farthest = bisect ? lattice_.remaining[level] : extent;
     out.parts.first = near_.part.size();
     for (std::size_t k = 0; k < distance_.size(); ++k) {
       const int part = near_.part[parts.first + k];
@@ -124,7 +124,7 @@ class CubeExtraction {
     part_.coarsest = std::min(part_.coarsest, level);
     if (find_missed_ && a.is_inside() == b.is_inside() && changes_between(a, b, span_of(out.parts)))
       part_.missed.push_back(
-          {{x, 0, kShorter * kLongest[level % 3] * lattice_.side[level]}, a.is_inside()});
+          {{x, 0, kMissedSize * kLongest[level % 3] * lattice_.side[level]}, a.is_inside()});
     return out;
   }
 
@@ -222,7 +222,7 @@ class CubeExtraction {
     return a + std::clamp(t, kEdgeEnd, 1 - kEdgeEnd) * (b - a);
   }
 
-  static constexpr double kShorter =
+  static constexpr double kMissedSize =
       0.45;  ///< size of a missed edge's tetrahedra over its length: one bisection
   const Shape& shape_;
   std::span<const FineBall> fine_;

@@ -22,8 +22,8 @@ inline constexpr std::array<double, 3> kExtent{0.8660254037844387, 0.70710678118
                                                0.7071067811865476};
 /// Largest distance from that midpoint to the midpoints of all further bisections: the sum of the
 /// distances from one bisection to the next.
-inline constexpr std::array<double, 3> kToGo{2.8660254037844387, 2.3660254037844387,
-                                             1.8660254037844387};
+inline constexpr std::array<double, 3> kRemaining{2.8660254037844387, 2.3660254037844387,
+                                                  1.8660254037844387};
 /// Distance to a surface within which all tetrahedra must have its size, in sides of the cube at
 /// the last bisection: enough for those one bisection before, which extend by kExtent, to be
 /// bisected wherever they meet it.
@@ -32,13 +32,13 @@ inline constexpr double kMargin = 0.6;
 /// Root cubes, and the number of bisections within them.
 struct CubeLattice {
   Vec3 origin = Vec3::Zero();
-  double root = 1;             ///< um, side of the root cubes
-  int halvings = 0;            ///< of that side, down to the distance of neighbouring places
-  double spacing = 1;          ///< um, distance of neighbouring places
-  std::vector<double> side;    ///< [level] um, of the cube that a bisection is in
-  std::vector<double> ahead;   ///< [level] um, as kRemaining
-  std::vector<int> last;       ///< [part] level at which tetrahedra are small enough
-  std::vector<int> last_fine;  ///< [fine ball] likewise
+  double root = 1;                ///< um, side of the root cubes
+  int halvings = 0;               ///< of that side, down to the distance of neighbouring places
+  double spacing = 1;             ///< um, distance of neighbouring places
+  std::vector<double> side;       ///< [level] um, of the cube that a bisection is in
+  std::vector<double> remaining;  ///< [level] um, as kRemaining
+  std::vector<int> last;          ///< [part] level at which tetrahedra are small enough
+  std::vector<int> last_fine;     ///< [fine ball] likewise
   Place n_root{};
 
   int unit() const { return 1 << halvings; }
@@ -47,7 +47,7 @@ struct CubeLattice {
   /// this level that it makes necessary. -1: none.
   double reach(int end, int level) const {
     if (level >= end) return -1;
-    return ahead[level] - ahead[end] + kMargin * side[end];
+    return remaining[level] - remaining[end] + kMargin * side[end];
   }
   /// Level of tetrahedra whose edges are no longer than this, um; at most the last level.
   int level_of(double size) const;

@@ -46,7 +46,7 @@ void for_each_cube(const CubeLattice& l, const Box& box, const Call& call) {
 Cubes find_cubes(const Shape& shape, const CubeLattice& l) {
   Cubes cubes;
   for (int part = 0; part < static_cast<int>(shape.box.size()); ++part) {
-    const double reach = l.ahead[0] + 2 * shape.reach[part];
+    const double reach = l.remaining[0] + 2 * shape.reach[part];
     for_each_cube(l, shape.box[part].grown(reach), [&](const Place& cube, const Vec3& center) {
       if (shape.distance(center, part) <= reach) cubes[cube].nearby.part.push_back(part);
     });

@@ -120,7 +120,7 @@ class GapSearch {
     const double cosine = distance > 0 ? -here.normal.dot(across.apart) / distance : 1;
     const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double bend = reach * (1 / thinnest + 1 / across.radius);
-    if (turn - (bend > kMostBend ? bend : 0) > kPi / 2) return;
+    if (turn - (bend > kLargestTurn ? bend : 0) > kPi / 2) return;
     const double least = gap - reach * std::sin(std::min(turn + bend, kPi / 2));
     const double usual = of_radius_ * thinnest;
     double finest = kFinest * usual;
@@ -128,9 +128,9 @@ class GapSearch {
       finest = std::max(kOfCrease * crease_radius(rounding_, own, across),
                         kOfOpen * usual * (1 - std::cos(turn)));
     const double size = std::max(kOfGap * least, finest);
-    if (bend <= kMostBend && size >= usual) return;
+    if (bend <= kLargestTurn && size >= usual) return;
     const Vec3 x = here.center + own.apart;
-    if (bend > kMostBend || reach > kPatch * size) {
+    if (bend > kLargestTurn || reach > kLargestPatch * size) {
       split(p, half_across);
     } else if (!is_filled(n_, x, reach, segment_, other_, beside_)) {
       ball_.push_back({x, reach, size});
@@ -153,7 +153,7 @@ class GapSearch {
   }
 
   /// Bounds of a patch that has one size: extent over that size, and turn of its normals.
-  static constexpr double kPatch = 2, kMostBend = 0.5;
+  static constexpr double kLargestPatch = 2, kLargestTurn = 0.5;
   static constexpr double kOfGap = 0.9, kOfCrease = 1.5, kOfOpen = 0.35, kFinest = 0.015;
   const geometry::Network& n_;
   double rounding_, of_radius_;

@@ -166,7 +166,7 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
   check_network(network);
   check_extent(network, o);
   VesselMesh out;
-  out.expected = geometry::find_connectivity(network);
+  out.expected = geometry::compute_connectivity(network);
   out.fineness = o.fineness;
   VesselPieces pieces;
   std::optional<VesselField> field;
@@ -182,14 +182,14 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
     out.overlapping = gaps.overlapping;
     // Loops may be narrower than the triangles. For walls that cross no triangle is small enough.
     const auto count_faults = [&](ZeroSurface& z) {
-      leave_out_cavities(z);
-      out.found = geometry::find_connectivity(z.surface);
+      remove_cavities(z);
+      out.found = geometry::compute_connectivity(z.surface);
       if (out.overlapping > 0) return 0L;
       return std::abs(out.found.parts - out.expected.parts) +
              std::abs(out.found.handles() - out.expected.handles());
     };
     raw = extract_zero(shape, o.most_triangles, count_faults);
-    out.found = geometry::find_connectivity(raw.surface);
+    out.found = geometry::compute_connectivity(raw.surface);
     if (out.is_as_expected() || out.overlapping > 0) break;
     if (attempt + 1 < o.attempts) out.fineness *= kFiner;
   }
@@ -200,7 +200,7 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
   if (o.edge > 0) {
     geometry::Surface even = geometry::remesh(out.surface, o.edge);
     out.remeshed =
-        geometry::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
+        geometry::compute_connectivity(even) == out.found && fit_without_crossing(distance, even);
     if (out.remeshed) out.surface = std::move(even);
   }
   return out;

@@ -90,9 +90,9 @@ void check_corners(const InputFile& file, const std::vector<ObjFace>& faces, std
   std::size_t n_bad = 0, first_bad = 0;
   int bad_node = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (const int node : faces[f].corner) {
-      last_used = std::max(last_used, static_cast<std::size_t>(node) + 1);
-      if (static_cast<std::size_t>(node) < n_node) continue;
+    for (const std::size_t node : faces[f].corner) {
+      last_used = std::max(last_used, node + 1);
+      if (node < n_node) continue;
       if (n_bad++ > 0) continue;
       first_bad = f;
       bad_node = node;
@@ -131,8 +131,8 @@ Soup read_obj(const std::string& path) {
       faces.push_back(parse_face(file, place, word, surface.node.size()));
       faces.back().group = number.try_emplace(name, static_cast<int>(number.size())).first->second;
     } else if (word[0] == "l" || word[0] == "p") {  // lines and points use nodes as well
-      for (const int node : parse_face(file, place, word, surface.node.size()).corner)
-        last_used = std::max(last_used, static_cast<std::size_t>(node) + 1);
+      for (const std::size_t node : parse_face(file, place, word, surface.node.size()).corner)
+        last_used = std::max(last_used, node + 1);
     } else if (word[0] == "g" || word[0] == "o") {
       name[word[0] == "g" ? 1 : 0] = fmt::format("{}", fmt::join(word, " "));
     } else if (!is_keyword(word[0])) {

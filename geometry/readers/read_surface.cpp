@@ -198,9 +198,7 @@ std::vector<Surface> read_closed_surfaces(const std::string& path, double um_per
     check_closed(bodies[b], fmt::format("{}: body {}", path, b));
   }
   // Turned the other way than what is about it, a surface bounds a cavity; bodies are solid here.
-  if (const Nested n = find_nested(bodies);
-      n.inner >= 0 &&
-      inward[static_cast<std::size_t>(n.inner)] != inward[static_cast<std::size_t>(n.outer)])
+  if (const Nested n = find_nested(bodies); n.inner >= 0 && inward[n.inner] != inward[n.outer])
     throw Error(
         fmt::format("{}: body {} lies inside body {} and is turned the other way: a cavity "
                     "(lumen) in it. Bodies are solid here: leave the inner surface out.",

@@ -1,4 +1,4 @@
-#include "io/foreign_text.hpp"
+#include "io/attribute_texts.hpp"
 
 #include <fmt/format.h>
 
@@ -27,12 +27,6 @@ struct HeapReference {
 };
 constexpr std::size_t kReferenceBytes = 16;
 
-herr_t keep_as_stored(hid_t, hid_t, H5T_cdata_t* data, std::size_t, std::size_t, std::size_t, void*,
-                      void*, hid_t) {
-  data->need_bkg = H5T_BKG_NO;
-  return 0;
-}
-
 /// Reads the stored references of an attribute by a conversion that changes nothing.
 std::vector<HeapReference> read_references(hid_t attribute, std::size_t n) {
   const h5::Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -40,6 +34,10 @@ std::vector<HeapReference> read_references(hid_t attribute, std::size_t n) {
   const h5::Handle raw(H5Tcreate(H5T_OPAQUE, kReferenceBytes), H5Tclose);
   std::vector<char> bytes(kReferenceBytes * n);
   constexpr const char* kName = "stored reference";
+  const H5T_conv_t keep_as_stored = [](hid_t, hid_t, H5T_cdata_t* data, auto...) -> herr_t {
+    data->need_bkg = H5T_BKG_NO;
+    return 0;
+  };
   H5Tregister(H5T_PERS_SOFT, kName, text.id(), raw.id(), keep_as_stored);
   const herr_t status = H5Aread(attribute, raw.id(), bytes.data());
   H5Tunregister(H5T_PERS_SOFT, kName, text.id(), raw.id(), keep_as_stored);
@@ -82,8 +80,8 @@ bool find_in_heap(std::ifstream& file, const HeapReference& place, std::string& 
 
 }  // namespace
 
-std::vector<std::string> read_foreign_texts(const std::string& path, const h5::Handle& object,
-                                            const char* name) {
+std::vector<std::string> read_attribute_texts(const std::string& path, const h5::Handle& object,
+                                              const char* name) {
   if (H5Aexists(object.id(), name) <= 0) return {};
   const auto damaged = [&] {
     return Error(
@@ -99,7 +97,7 @@ std::vector<std::string> read_foreign_texts(const std::string& path, const h5::H
   const hssize_t n = H5Sget_simple_extent_npoints(space.id());
   if (H5Tget_class(type.id()) != H5T_STRING) return {};
   if (n < 1 || n > static_cast<hssize_t>(kMostTexts)) throw damaged();
-  std::vector<std::string> out(static_cast<std::size_t>(n));
+  std::vector<std::string> out(n);
   if (H5Tis_variable_str(type.id()) > 0) {
     const std::vector<HeapReference> place = read_references(attribute.id(), out.size());
     std::ifstream file(path, std::ios::binary);

@@ -11,7 +11,7 @@ namespace acinus::io {
 /// Texts of an attribute; empty where the object has none of that name, or it is no text. Throws
 /// Error(kFileError) at lengths that the file cannot contain: HDF5 allocates the stated length of a
 /// variable text, up to 4 GB each, before it reads the text.
-std::vector<std::string> read_foreign_texts(const std::string& path, const h5::Handle& object,
-                                            const char* name);
+std::vector<std::string> read_attribute_texts(const std::string& path, const h5::Handle& object,
+                                              const char* name);
 
 }  // namespace acinus::io
