@@ -9,7 +9,7 @@
 /// that burst costs nothing: the next open takes them from the journal. A session that fails or is
 /// abandoned is cut back to the old length: the file is then what it was before, byte for byte.
 ///
-/// Where a file has checksums of its pages, every page is checked before HDF5 gets its bytes.
+/// Every page of a file with checksums is checked before HDF5 gets its bytes.
 
 #include <hdf5.h>
 

@@ -23,12 +23,24 @@ int count_points(void* data, int* error) {
   return static_cast<int>(of(data).last - of(data).first);
 }
 
+/// Arguments of Zoltan's query for the list of objects.
+struct ListQuery {
+  void* data;
+  int n_global, n_local;
+  ZOLTAN_ID_PTR global, local;
+  int n_weight;
+  float* weight;
+  int* error;
+};
+
 /// Writes the numbers and costs of the points that this process contributes.
-void list_points(const SharedPlaces& p, ZOLTAN_ID_PTR number, float* cost) {
+void list_points(const ListQuery& q) {
+  const SharedPlaces& p = of(q.data);
   for (std::size_t k = p.first; k < p.last; ++k) {
-    *number++ = static_cast<ZOLTAN_ID_TYPE>(k);
-    *cost++ = static_cast<float>(p.cost[k]);
+    q.global[k - p.first] = static_cast<ZOLTAN_ID_TYPE>(k);
+    q.weight[k - p.first] = static_cast<float>(p.cost[k]);
   }
+  *q.error = ZOLTAN_OK;
 }
 
 int count_dimensions(void*, int* error) {
@@ -36,10 +48,21 @@ int count_dimensions(void*, int* error) {
   return 3;
 }
 
+/// Arguments of Zoltan's query for the coordinates of objects.
+struct PlaceQuery {
+  void* data;
+  int n_global, n_local, n_object;
+  ZOLTAN_ID_PTR global, local;
+  int n_dimension;
+  double* coordinate;
+  int* error;
+};
+
 /// Writes the coordinates of points, um.
-void locate_points(const SharedPlaces& p, std::span<const ZOLTAN_ID_TYPE> number, double* at) {
-  for (const ZOLTAN_ID_TYPE k : number)
-    for (int c = 0; c < 3; ++c) *at++ = p.place[k][c];
+void locate_points(const PlaceQuery& q) {
+  for (int k = 0; k < q.n_object; ++k)
+    for (int c = 0; c < 3; ++c) q.coordinate[3 * k + c] = of(q.data).place[q.global[k]][c];
+  *q.error = ZOLTAN_OK;
 }
 
 void require(int status, const char* what) {
@@ -62,17 +85,8 @@ class Partitioner {
                                             {"IMBALANCE_TOL", "1.02"}};
     for (const auto& [name, value] : kSettings)
       require(Zoltan_Set_Param(zoltan_, name, value), name);
-    // The arguments of the callbacks are Zoltan's.
-    const ZOLTAN_OBJ_LIST_FN* list = [](void* data, int, int, ZOLTAN_ID_PTR number, ZOLTAN_ID_PTR,
-                                        int, float* cost, int* error) {
-      list_points(of(data), number, cost);
-      *error = ZOLTAN_OK;
-    };
-    const ZOLTAN_GEOM_MULTI_FN* locate = [](void* data, int, int, int n, ZOLTAN_ID_PTR number,
-                                            ZOLTAN_ID_PTR, int, double* at, int* error) {
-      locate_points(of(data), {number, static_cast<std::size_t>(n)}, at);
-      *error = ZOLTAN_OK;
-    };
+    const ZOLTAN_OBJ_LIST_FN* list = [](auto... argument) { list_points({argument...}); };
+    const ZOLTAN_GEOM_MULTI_FN* locate = [](auto... argument) { locate_points({argument...}); };
     Zoltan_Set_Num_Obj_Fn(zoltan_, count_points, &places);
     Zoltan_Set_Obj_List_Fn(zoltan_, list, &places);
     Zoltan_Set_Num_Geom_Fn(zoltan_, count_dimensions, &places);

@@ -29,7 +29,7 @@ struct VesselMesh {
 };
 
 /// Meshes the wall of a network. Triangles are smaller where walls face each other across a narrow
-/// gap, and everywhere, for a few attempts, where parts or loops are wrong: is_as_expected tells
+/// gap, and everywhere, for a few attempts, where parts or loops are wrong: is_as_expected has
 /// the result. Overlapping walls never give the expected one. Remeshing that makes the surface
 /// cross itself is undone. Throws Error if a radius is not above 0, the network has no segment, or
 /// there would be too many triangles.
