@@ -11,7 +11,7 @@
 namespace acinus::calibration {
 namespace {
 
-/// d of the inner cells.
+/// Mean overlap d of the inner cells.
 double mean_overlap(const ClumpSnapshot& snapshot, const std::vector<std::size_t>& inner) {
   double sum = 0;
   for (const std::size_t i : inner)

@@ -119,7 +119,7 @@ int mesh_wrap(const MeshArguments& a) {
                     a.what, extent, alpha, offset, extent / kFinest, extent / kFinest / kOffsets));
   const geometry::Surface wrapped = geometry::wrap(all, alpha, offset);
   io::write_surface(a.out, wrapped);
-  tell(a, wrapped, geometry::find_connectivity(wrapped), wall_seconds() - before);
+  tell(a, wrapped, geometry::compute_connectivity(wrapped), wall_seconds() - before);
   return 0;
 }
 

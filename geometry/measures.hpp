@@ -29,7 +29,8 @@ struct MeanCurvature {
                              ///< x_j); outward on convex parts, length 1/R on a sphere
   std::vector<double> mixed_area;  ///< [n_node] um^2, sums to the surface area
 };
-/// Closed surfaces; triangles of zero area add nothing. Nodes of no triangle get zeros.
+/// Mean curvature of a closed surface; triangles of zero area add nothing. Nodes of no triangle get
+/// zeros.
 MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles triangle);
 
 /// Shape of one triangle, 4 sqrt(3) area / (sum of squared sides): 1 = equilateral, 0 = degenerate.
@@ -42,11 +43,11 @@ double compute_quality(std::span<const Vec3> node, Triangles triangle);
 double compute_distance(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
 
 /// Winding number of a closed surface about p: 1 inside, 0 outside (round-off about 1e-13), sum of
-/// the solid angles of the triangles / 4 pi [VanOosterom1983, Eq. (8)]. On the surface itself it is
-/// between the two. Cost linear.
+/// the solid angles of the triangles / 4 pi [VanOosterom1983, Eq. (8)]. Between the two for p on
+/// the surface itself. Cost linear.
 double compute_winding_number(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
 
-/// Whether p lies inside a closed outward surface: winding number above 1/2.
+/// True if p lies inside a closed outward surface: winding number above 1/2.
 bool is_inside(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
 
 }  // namespace acinus::geometry

@@ -76,7 +76,7 @@ Status solve_system(const World& world, Workspace& w, Effort& effort,
   const bool coarse = world.state.clock.coarse;
   if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
-      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, coarse ? &w.coarse : nullptr, product);
+      solve::solve_cg({w.op, w.rhs, coarse ? &w.coarse : nullptr, product}, w.move, options, w.cg);
   effort.cg_iterations += result.iterations;
   ++effort.solves;
   if (!result.status.ok) return result.status;

@@ -23,10 +23,10 @@ std::vector<double> means_over(const Distance& distance, const geometry::Surface
   return mean;
 }
 
-/// What is summed up over the triangles about a node: normals, the function's means and areas.
+/// Sums over the triangles about a node: normals, the function's means and areas.
 using NodeSums = Eigen::Matrix<double, 5, 1>;
 
-/// Replaces sums of nodes by their mean over the triangles about each, as often as said.
+/// Replaces the sums at nodes by their means over the triangles about each, `times` times.
 void smooth(const geometry::Surface& s, int times, std::vector<NodeSums>& value) {
   std::vector<int> about(value.size(), 0);
   for (const auto& corner : s.triangle)
@@ -43,9 +43,9 @@ void smooth(const geometry::Surface& s, int times, std::vector<NodeSums>& value)
   }
 }
 
-/// How far the function wants a node to go, along the normal there.
+/// Displacement of a node along its normal that brings the function nearer to zero.
 struct FitMove {
-  Vec3 normal = Vec3::Zero();  ///< unit; zero: of no triangle
+  Vec3 normal = Vec3::Zero();  ///< unit; zero: node of no triangle
   double distance = 0;         ///< um
   double edge = 0;             ///< um, mean about it
 };

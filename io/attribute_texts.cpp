@@ -1,4 +1,4 @@
-#include "io/foreign_text.hpp"
+#include "io/attribute_texts.hpp"
 
 #include <fmt/format.h>
 
@@ -14,32 +14,30 @@ namespace {
 
 constexpr std::size_t kMostTexts = 32, kMostBytes = 1 << 16;
 
-/// Little-endian number of so many bytes.
+/// Little-endian number of `bytes` bytes.
 std::uint64_t number(const char* raw, std::size_t bytes) {
   std::uint64_t value = 0;
   for (std::size_t k = bytes; k-- > 0;) value = value << 8 | static_cast<unsigned char>(raw[k]);
   return value;
 }
 
-/// Place of a text of variable length: an object in a global heap of the file.
+/// Position of a text of variable length: an object in a global heap of the file.
 struct HeapReference {
   std::uint64_t length = 0, heap = 0, object = 0;
 };
 constexpr std::size_t kReferenceBytes = 16;
 
-herr_t keep_as_stored(hid_t, hid_t, H5T_cdata_t* data, std::size_t, std::size_t, std::size_t, void*,
-                      void*, hid_t) {
-  data->need_bkg = H5T_BKG_NO;
-  return 0;
-}
-
-/// The references as they are stored, by a conversion that changes nothing.
+/// Reads the stored references of an attribute by a conversion that changes nothing.
 std::vector<HeapReference> read_references(hid_t attribute, std::size_t n) {
   const h5::Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(text.id(), H5T_VARIABLE);
   const h5::Handle raw(H5Tcreate(H5T_OPAQUE, kReferenceBytes), H5Tclose);
   std::vector<char> bytes(kReferenceBytes * n);
   constexpr const char* kName = "stored reference";
+  const H5T_conv_t keep_as_stored = [](hid_t, hid_t, H5T_cdata_t* data, auto...) -> herr_t {
+    data->need_bkg = H5T_BKG_NO;
+    return 0;
+  };
   H5Tregister(H5T_PERS_SOFT, kName, text.id(), raw.id(), keep_as_stored);
   const herr_t status = H5Aread(attribute, raw.id(), bytes.data());
   H5Tunregister(H5T_PERS_SOFT, kName, text.id(), raw.id(), keep_as_stored);
@@ -51,8 +49,8 @@ std::vector<HeapReference> read_references(hid_t attribute, std::size_t n) {
   return out;
 }
 
-/// The heap's objects stand one behind another, each with its number and size [HDF5 File Format,
-/// III.E]. @return whether the object is there
+/// Reads a text from its heap, in which objects follow each other, each with its number and size
+/// [HDF5 File Format, III.E]. @return false if the object is not there
 bool find_in_heap(std::ifstream& file, const HeapReference& place, std::string& out) {
   constexpr std::size_t kHead = 16, kMostObjects = 1 << 16;
   std::array<char, kHead> head{};
@@ -82,8 +80,8 @@ bool find_in_heap(std::ifstream& file, const HeapReference& place, std::string& 
 
 }  // namespace
 
-std::vector<std::string> read_foreign_texts(const std::string& path, const h5::Handle& object,
-                                            const char* name) {
+std::vector<std::string> read_attribute_texts(const std::string& path, const h5::Handle& object,
+                                              const char* name) {
   if (H5Aexists(object.id(), name) <= 0) return {};
   const auto damaged = [&] {
     return Error(
@@ -99,7 +97,7 @@ std::vector<std::string> read_foreign_texts(const std::string& path, const h5::H
   const hssize_t n = H5Sget_simple_extent_npoints(space.id());
   if (H5Tget_class(type.id()) != H5T_STRING) return {};
   if (n < 1 || n > static_cast<hssize_t>(kMostTexts)) throw damaged();
-  std::vector<std::string> out(static_cast<std::size_t>(n));
+  std::vector<std::string> out(n);
   if (H5Tis_variable_str(type.id()) > 0) {
     const std::vector<HeapReference> place = read_references(attribute.id(), out.size());
     std::ifstream file(path, std::ios::binary);
