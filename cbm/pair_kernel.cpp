@@ -316,7 +316,7 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
 
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,
                 contact::ContactList& contacts) {
-  contacts.all.resize(contacts.first(contact::Kind::kSphere));
+  contacts.all.resize(contacts.first(contact::ContactKind::kSphere));
   const double friction = in.options.friction_factor * in.options.cell_friction;
   PairBatch batch(in, work);
   const auto flush = [&] {
@@ -333,7 +333,7 @@ void list_pairs(const ContactInput& in, const ContactWorkspace& work,
     if (batch.push(k)) flush();
   }
   flush();
-  contacts.close(contact::Kind::kSphere);
+  contacts.close(contact::ContactKind::kSphere);
 }
 
 }  // namespace acinus::cbm

@@ -73,7 +73,7 @@ static_assert(sizeof(Contact) == 120);  // a step reads and writes all of them: 
 
 /// Kinds of contacts by their sides, in the order of the list. Spheres with spheres are listed on
 /// demand: a step evaluates them eight at a time without records.
-enum class Kind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus, kSphere };
+enum class ContactKind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus, kSphere };
 inline constexpr std::size_t kKinds = 6;
 
 /// All contacts at a time, one kind after the other. Contacts of one cell a stand together.
@@ -82,28 +82,28 @@ struct ContactList {
   std::array<std::size_t, kKinds> end{};  ///< of each kind in `all`
 
   /// Ends a kind with what `all` holds; later kinds are empty.
-  void close(Kind kind) {
+  void close(ContactKind kind) {
     for (std::size_t k = static_cast<std::size_t>(kind); k < kKinds; ++k) end[k] = all.size();
   }
-  std::size_t first(Kind kind) const {
+  std::size_t first(ContactKind kind) const {
     const auto k = static_cast<std::size_t>(kind);
     return k == 0 ? 0 : end[k - 1];
   }
-  std::span<const Contact> of(Kind kind) const {
+  std::span<const Contact> of(ContactKind kind) const {
     return std::span(all).subspan(first(kind), end[static_cast<std::size_t>(kind)] - first(kind));
   }
-  std::span<Contact> of(Kind kind) {
+  std::span<Contact> of(ContactKind kind) {
     return std::span(all).subspan(first(kind), end[static_cast<std::size_t>(kind)] - first(kind));
   }
-  Kind kind_of(std::size_t contact) const {
-    return static_cast<Kind>(std::ranges::upper_bound(end, contact) - end.begin());
+  ContactKind kind_of(std::size_t contact) const {
+    return static_cast<ContactKind>(std::ranges::upper_bound(end, contact) - end.begin());
   }
-  std::span<const Contact> surface() const { return of(Kind::kSurface); }  ///< and static meshes
-  std::span<const Contact> obstacle() const { return of(Kind::kObstacle); }
-  std::span<const Contact> interface() const { return of(Kind::kInterface); }
-  std::span<const Contact> sphere_obstacle() const { return of(Kind::kSphereObstacle); }
-  std::span<const Contact> nucleus() const { return of(Kind::kNucleus); }
-  std::span<const Contact> sphere() const { return of(Kind::kSphere); }
+  std::span<const Contact> surface() const { return of(ContactKind::kSurface); }  ///< and static meshes
+  std::span<const Contact> obstacle() const { return of(ContactKind::kObstacle); }
+  std::span<const Contact> interface() const { return of(ContactKind::kInterface); }
+  std::span<const Contact> sphere_obstacle() const { return of(ContactKind::kSphereObstacle); }
+  std::span<const Contact> nucleus() const { return of(ContactKind::kNucleus); }
+  std::span<const Contact> sphere() const { return of(ContactKind::kSphere); }
 };
 
 }  // namespace acinus::contact

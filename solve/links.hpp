@@ -68,7 +68,8 @@ struct LinkLoad {
 struct Links {
   std::vector<Link> link;
   std::vector<LinkLoad> load;  ///< [n_link] force of the same contact
-  /// [n_link] 1: takes its closed law although it was open; see coupling/step/active_set.hpp. Empty: none.
+  /// [n_link] 1: takes its closed law although it was open; see coupling/step/active_set.hpp.
+  /// Empty: none.
   std::vector<std::uint8_t> closed;
 
   std::size_t size() const { return link.size(); }

@@ -116,7 +116,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                     contact::ContactList& contacts) {
   work.area.clear();
-  contacts.close(contact::Kind::kInterface);
+  contacts.close(contact::ContactKind::kInterface);
   if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
   const dcm::ContactParams& c = in.dcm.options;
   const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
@@ -154,7 +154,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
     }
     contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
   }
-  contacts.close(contact::Kind::kInterface);
+  contacts.close(contact::ContactKind::kInterface);
 }
 
 void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work) {
@@ -170,8 +170,8 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
                          solve::Links& links) {
   std::size_t at = links.size();
   links.resize(at + contacts.interface().size());
-  std::size_t number = contacts.first(contact::Kind::kInterface);
-  for (Contact& k : contacts.of(contact::Kind::kInterface)) {
+  std::size_t number = contacts.first(contact::ContactKind::kInterface);
+  for (Contact& k : contacts.of(contact::ContactKind::kInterface)) {
     const contact::SurfaceBody& body = dcm_work.body[k.a];
     const double radius = in.dcm.lanes.radius[dcm_work.lane_of_body[k.a]];
     const contact::Quadrature quadrature = in.dcm.options.quadrature;

@@ -209,14 +209,14 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   const solve::Link& link = w.system.links.link[l];
   const std::size_t number = w.system.links.load[l].contact;
   const contact::Contact& k = w.contacts.all[number];
-  const contact::Kind kind = w.contacts.kind_of(number);
+  const contact::ContactKind kind = w.contacts.kind_of(number);
   DeepContact deep;
-  deep.inner = kind == contact::Kind::kNucleus;
+  deep.inner = kind == contact::ContactKind::kNucleus;
   deep.pair = link.b.exists();
   deep.a = lane_of(w, solve::address_of(link.a.point[0]));
   deep.b = deep.pair ? lane_of(w, solve::address_of(link.b.point[0])) : deep.a;
   deep.depth = depth_after(world, w, l);
-  const bool of_cells = kind == contact::Kind::kSurface || kind == contact::Kind::kInterface;
+  const bool of_cells = kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
   deep.place = {static_cast<int>(kind), k.a, of_cells ? k.b : 0};
   return deep;
 }

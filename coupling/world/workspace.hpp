@@ -55,15 +55,15 @@ struct Workspace {
   std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
   MediumFriction medium_friction;        ///< written by: refresh_migration
   CellForces forces;                     ///< written by: refresh_migration
-  std::vector<double> position;              ///< [n_row][3][lane]; written by: add_loads
-  std::vector<std::uint8_t> active;          ///< written by: size_workspace
-  Constraint constraint;                     ///< set by the owner
-  std::vector<double> rhs;                   ///< written by: solve_step
-  std::vector<double> move;                  ///< displacement of the step; written by: solve_step
-  std::vector<double> rest_of_move;          ///< scratch of solve_step
-  LinearisationPoint linearisation;          ///< written by: choose_linearisation_point
-  int failed_solves = 0;                     ///< attempts at this step; written by: take_step
-  std::vector<std::uint8_t> leader;          ///< written by: refresh_migration
+  std::vector<double> position;          ///< [n_row][3][lane]; written by: add_loads
+  std::vector<std::uint8_t> active;      ///< written by: size_workspace
+  Constraint constraint;                 ///< set by the owner
+  std::vector<double> rhs;               ///< written by: solve_step
+  std::vector<double> move;              ///< displacement of the step; written by: solve_step
+  std::vector<double> rest_of_move;      ///< scratch of solve_step
+  LinearisationPoint linearisation;      ///< written by: choose_linearisation_point
+  int failed_solves = 0;                 ///< attempts at this step; written by: take_step
+  std::vector<std::uint8_t> leader;      ///< written by: refresh_migration
   std::int64_t leader_interval = -1;
   Timings timings;
   std::uint64_t sized = 0;  ///< number of calls of size_workspace: what depends on the set of cells

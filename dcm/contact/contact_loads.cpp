@@ -100,7 +100,7 @@ double cell_friction_at(const ContactParams& c, const ContactWorkspace& work, co
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        contact::ContactList& contacts, solve::Links& links) {
   const Completion completion{in, work};
-  const std::size_t first = links.size(), n = contacts.first(contact::Kind::kInterface);
+  const std::size_t first = links.size(), n = contacts.first(contact::ContactKind::kInterface);
   links.resize(first + n);
   const bool triangles = in.options.law == ContactLaw::kMaugisDugdale;
   for_each_index(n, worth_threads(in.state.n_row()), [&](std::size_t k) {

@@ -155,7 +155,7 @@ void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices, std:
 
 void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortices,
                            NucleusWorkspace& work, contact::ContactList& contacts) {
-  contacts.close(contact::Kind::kNucleus);
+  contacts.close(contact::ContactKind::kNucleus);
   work.cortex.clear();
   if (!has_nuclei(in.state)) return;
   for (std::size_t b = 0; b < cortices.lane_of_body.size(); ++b) {
@@ -179,13 +179,13 @@ void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& corti
     make_room(contacts.all, found.size());
     contacts.all.insert(contacts.all.end(), found.begin(), found.end());
   }
-  contacts.close(contact::Kind::kNucleus);
+  contacts.close(contact::ContactKind::kNucleus);
 }
 
 void add_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortices,
                           contact::ContactList& contacts, solve::Links& links) {
-  std::size_t at = links.size(), number = contacts.first(contact::Kind::kNucleus);
-  const std::span<contact::Contact> nuclei = contacts.of(contact::Kind::kNucleus);
+  std::size_t at = links.size(), number = contacts.first(contact::ContactKind::kNucleus);
+  const std::span<contact::Contact> nuclei = contacts.of(contact::ContactKind::kNucleus);
   if (nuclei.empty()) return;
   links.resize(at + nuclei.size());
   for (contact::Contact& c : nuclei) {

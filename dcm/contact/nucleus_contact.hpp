@@ -10,7 +10,7 @@
 
 namespace acinus::dcm {
 
-/// A contact of Kind::kNucleus joins a point of the cortex (contact::Quadrature::kThreePoint) and
+/// A contact of ContactKind::kNucleus joins a point of the cortex (contact::Quadrature::kThreePoint) and
 /// the nearest place of the nucleus. Its gap is that between the surfaces less the one at which
 /// they begin to push. Only the cortex probes: the distance from a round body to a point outside
 /// has a direction that changes smoothly, that from a node of the nucleus to the hollow cortex

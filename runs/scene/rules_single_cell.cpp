@@ -40,8 +40,6 @@ void check_one_cell(const Scene& scene, Report& report) {
                         "is for deformable cells: set /cells/model to \"dcm\"");
 }
 
-void check_single_cell(const Scene& scene, Report& report) {
-  check_series_friction(scene, report);
-}
+void check_single_cell(const Scene& scene, Report& report) { check_series_friction(scene, report); }
 
 }  // namespace acinus::runs
