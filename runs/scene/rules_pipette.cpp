@@ -12,7 +12,7 @@ bool sucks(const PipetteBlock& p) {
   return std::ranges::any_of(p.suction.entry, [](const auto& e) { return e.value > 0; });
 }
 
-/// Experiments with one cell need it, and what they do to it.
+/// Checks that an experiment on a single cell has one deformable cell.
 void check_single(const Scene& scene, Report& report) {
   const std::string name = "\"" + name_of_choice(scene.experiment) + "\"";
   if (scene.cells.source != CellSource::kList || scene.cells.list.size() != 1)
@@ -35,7 +35,7 @@ void check_plates(const Scene& scene, Report& report) {
                         "needs two walls with opposite normals, the plates (acinus explain wall)");
 }
 
-/// The tube must be one, and narrower than a cell that is to be deformed by it.
+/// Checks the shape of the tube, and that it is narrower than a cell that it is to deform.
 void check_tube(const Scene& scene, const PipetteBlock& p, Report& report) {
   if (!(p.axis.norm() > 0)) report.add_relation({"/pipette/axis"}, "[0, 0, 0]", "has no direction");
   for (const auto& [key, size] : {std::pair("thickness", p.thickness), {"length", p.length}})

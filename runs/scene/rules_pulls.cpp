@@ -29,7 +29,7 @@ void check_pull(const Scene& scene, const PullEntry& p, const std::string& point
                         "is for deformable cells: set /cells/model to \"dcm\"");
 }
 
-/// Two cells that are pulled apart, each by a pull of its own.
+/// Checks that a pull-off has two cells, each with a pull of its own.
 void check_pull_off(const Scene& scene, Report& report) {
   if (scene.experiment != Experiment::kPullOff) return;
   const auto& list = scene.cells.list;
