@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "runs/assemble/build_params.hpp"
 #include "runs/scene/key_values.hpp"
-#include "runs/scene/registry.hpp"
+#include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
 namespace {

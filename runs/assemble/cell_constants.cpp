@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "runs/scene/key_values.hpp"
-#include "runs/scene/registry.hpp"
+#include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
 

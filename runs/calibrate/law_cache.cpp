@@ -19,7 +19,7 @@
 #include "runs/assemble/build_correction.hpp"
 #include "runs/calibrate/calibrate_scene.hpp"
 #include "runs/scene/key_values.hpp"
-#include "runs/scene/registry.hpp"
+#include "runs/scene/registry_blocks.hpp"
 #include "runs/session/read_summary.hpp"
 
 namespace acinus::runs {

@@ -137,7 +137,7 @@ class EntryCollector final : public Visitor {
   /// Visits the members of a block or of an element of a list or map.
   /// @param name  of the block within the one around: "life", "walls.<number>"
   void inside(const Key& block, const std::string& name, const std::function<void()>& members) {
-    const Surroundings around = at_;
+    const EnclosingBlock around = at_;
     const std::string item = block.item;
     at_.path += name + ".";
     at_.short_path = item.empty() ? at_.short_path + name + "." : item + ".";
@@ -148,12 +148,12 @@ class EntryCollector final : public Visitor {
   }
 
   /// Block whose members are visited.
-  struct Surroundings {
+  struct EnclosingBlock {
     std::string path, short_path;
     Affects affects = Affects::kStart;
     bool compared = true;
   };
-  Surroundings at_;
+  EnclosingBlock at_;
   std::string condition_;
 };
 

@@ -13,10 +13,4 @@ namespace acinus::runs {
 /// Shows the visitor every key of the scene, with the scene's own fields as values.
 void describe(Visitor& visitor, Scene& scene);
 
-/// Shows the visitor the keys of one cell type.
-void describe_cell_type(Visitor& visitor, CellType& type);
-
-/// Shows the visitor the keys of the block `contact`.
-void describe_contact(Visitor& visitor, ContactBlock& contact);
-
 }  // namespace acinus::runs

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "runs/scene/choices.hpp"
-#include "runs/scene/registry.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/visitor.hpp"
 
@@ -119,6 +118,8 @@ inline void real_or_auto(Visitor& visitor, const Key& key, double& value, double
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
+void describe_contact(Visitor& v, ContactBlock& b);
+void describe_cell_type(Visitor& v, CellType& b);
 void describe_cycle(Visitor& v, coupling::CycleParams& b);
 void describe_inhibition(Visitor& v, coupling::Inhibition& b);
 void describe_death(Visitor& v, CellType& b);

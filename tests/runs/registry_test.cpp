@@ -14,6 +14,7 @@
 #include "runs/scene/entries.hpp"
 #include "runs/scene/key_values.hpp"
 #include "runs/scene/reader.hpp"
+#include "runs/scene/registry_blocks.hpp"
 #include "tests/runs/scene_texts.hpp"
 
 namespace acinus::runs {
