@@ -47,7 +47,7 @@ enum class Leaders {
 
 struct Motility {
   std::uint64_t seed = 1;
-  bool random = false;
+  bool random = true;
   bool in_plane = false;     ///< the random force is horizontal: cells crawl on a substrate
   double grid = 60;          ///< s, time grid of the random force
   double leader_force = 0;   ///< nN toward the vein axis

@@ -68,19 +68,9 @@ void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
 }  // namespace
 
 coupling::LobuleParameters lobule_parameters(const Scene& scene) {
-  const LobuleBlock& b = *scene.lobule;
-  return {b.shape,
-          b.radius,
-          b.height,
-          b.lesion_radius,
-          b.central_vein_radius,
-          b.portal_vein_radius,
-          b.sinusoid_radius,
-          b.vessel_fraction,
-          b.branch_density,
-          b.min_distance,
-          b.cells,
-          scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
+  coupling::LobuleParameters p = *scene.lobule;
+  p.initial_radius = scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene);
+  return p;
 }
 
 coupling::Lobule draw_lobule(const Scene& scene) {

@@ -11,7 +11,7 @@
 
 namespace acinus::runs {
 
-/// Every constant of a cell type that a calibrated law depends on.
+/// Every constant of a cell type that a calibrated law depends on (Key::in_law).
 struct LawParameters {
   calibration::Parameters dcm, cbm;
 };

@@ -24,8 +24,8 @@ void set_contact(const Scene& scene, coupling::Params& p) {
     p.dcm_contact.range_factor = default_range(scene.contact.quadrature);
   p.cbm_contact.skin = scene.contact.skin;
   p.cbm_contact.cell_friction = scene.friction.cbm_cbm;
-  const double a = scene.contact.cell_friction, b = scene.friction.cbm_cbm;
-  p.interface.friction = scene.friction.dcm_cbm.value_or(a + b > 0 ? 2 * a * b / (a + b) : 0);
+  p.interface.friction = scene.friction.dcm_cbm.value_or(
+      coupling::mean_friction(scene.contact.cell_friction, scene.friction.cbm_cbm));
 }
 
 void set_motility(const Scene& scene, coupling::Motility& m) {

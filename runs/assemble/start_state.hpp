@@ -20,8 +20,8 @@ void save_start(const std::string& folder, const Scene& scene, const coupling::S
 /// @throws Error(kBadInput) naming the keys that differ, Error(kFileError) for a damaged file
 std::string take_start(const Scene& scene, const StateTypes& types, coupling::State& state);
 
-/// Whether a key of a canonical scene (its pointer) may differ between this scene and that of the
-/// run it starts from. Cells that start at any age have its size, so their cycle must be the same.
+/// True for the pointer of a key that may differ between this scene and that of the run it starts
+/// from (Affects). Cells that start at any age have its size, so their cycle must be the same.
 bool may_differ_at_start(const Scene& scene, const std::string& pointer);
 
 }  // namespace acinus::runs

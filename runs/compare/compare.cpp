@@ -14,19 +14,18 @@
 #include "runs/assemble/read_cells.hpp"
 #include "runs/compare/compared_runs.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/session/stage.hpp"
 
 namespace acinus::runs {
 namespace {
 
-/// Keys that may differ between runs of the same scene: which cells are which model, the constants
-/// of spheres, and how the run was made.
-bool may_differ(const std::string& path) {
-  for (const char* start : {"/name", "/description", "/model", "/cells/model", "/zoom", "/time",
-                            "/solver", "/output", "/friction/cbm", "/friction/dcm_cbm", "/contact"})
-    if (path.starts_with(start)) return true;
-  return path.starts_with("/cell_types/") && path.find("/cbm/") != std::string::npos;
+/// True for keys that may differ between runs of the same scene: the models of cells, the constants
+/// of spheres, and settings of the computation.
+bool may_differ(const std::string& pointer) {
+  const Entry* key = find_innermost_entry(pointer);
+  return key != nullptr && !key->compared;
 }
 
 double mean(const CellRecords& cells, double CellRecord::*what) {

@@ -1,6 +1,5 @@
 #pragma once
-/// Values of keys that are one of a few names: their types, and the names in the order of the
-/// values.
+/// Keys whose value is one of a few names: their types, and the names in the order of the values.
 
 #include <cstddef>
 #include <string>
@@ -16,13 +15,13 @@
 
 namespace acinus::runs {
 
-/// kZoom: deformable inside the zoom regions.
+/// Model of cells. kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
 enum class CellSource { kList, kClump, kBox, kFill, kLobule, kMeshes };
-/// By a prescribed force, or by a spring whose far end is moved.
+/// Cause of a pull: a prescribed force, or a spring whose far end is moved.
 enum class PullBy { kForce, kSpring };
 
-/// What cells touch of vessels: a round cone a segment, or one closed surface about them.
+/// Surface of vessels that cells touch: a round cone a segment, or one closed surface about them.
 enum class VesselWalls { kCones, kMesh };
 
 template <class E>
@@ -68,7 +67,7 @@ std::vector<std::string> split_choices(const char* choices);
 /// Part `index` of "dcm|cbm|zoom"; "" beyond its end.
 std::string choice_name(const char* choices, int index);
 
-/// Which part of "dcm|cbm|zoom" a name is; -1: none.
+/// Index of a name among the parts of "dcm|cbm|zoom"; -1: it is none of them.
 int choice_index(const char* choices, const std::string& name);
 
 /// The name of a value, as scenes write it.

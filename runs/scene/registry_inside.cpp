@@ -1,4 +1,4 @@
-/// Keys of what acts within a deformable cell beside its cortex at rest.
+/// Registry: nucleus and contraction of a deformable cell.
 
 #include "runs/scene/registry_blocks.hpp"
 

@@ -7,10 +7,11 @@
 namespace acinus::runs {
 namespace {
 
-/// Faces of the coarsest mesh stand this far inside the sphere of its volume.
+/// Smallest distance of a face of the coarsest mesh from its centre, over the radius of the sphere
+/// of its volume.
 constexpr double kInnerRadius = 0.9;
 
-/// The smallest radius that a cell of this type has at the start, um, and the key that says so.
+/// Smallest radius that a cell of a type has at the start, um, and the key that gives it.
 struct Smallest {
   double radius;
   std::string pointer;

@@ -23,7 +23,7 @@ std::vector<std::string> type_names(const Scene& scene) {
   return names;
 }
 
-/// low < high in every coordinate.
+/// Checks low < high in every coordinate.
 void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer,
                const std::string& high_pointer, Report& report) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -34,7 +34,7 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
   }
 }
 
-/// What says how a network is read needs one to read.
+/// Checks that keys for reading a network stand beside a network to read.
 void check_vessels(const Scene& scene, Report& report) {
   if (!scene.vessels.file.empty() || scene.lobule) return;
   const VesselBlock given = scene.vessels, plain;
@@ -53,7 +53,7 @@ void check_vessels(const Scene& scene, Report& report) {
                           "command line --set vessels.file=my_network.vtk");
 }
 
-/// Cells asleep are stepped without the vessels they lie on.
+/// Checks flexible vessels. They exclude sleep, which steps cells without the vessels they lie on.
 void check_flexible_vessels(const Scene& scene, Report& report) {
   const VesselBlock& v = scene.vessels;
   if (v.file.empty() && !scene.lobule && v.flexible)
@@ -127,7 +127,7 @@ void check_list(const Scene& scene, Report& report) {
   }
 }
 
-/// Types of cells that are not listed.
+/// Checks the types of generated cells.
 void check_types(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
   if (cells.types.empty() && cells.source != CellSource::kList && scene.cell_types.size() > 1) {

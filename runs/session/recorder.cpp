@@ -145,7 +145,7 @@ void Recorder::add_life(const coupling::LifeReport& report) {
   const coupling::World& world = simulation_.world();
   runs::add_life(life_, report, coupling::count_cells(world.state), wall_s());
   observe_births(scene_, world, report, observed_);
-  for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
+  for (const coupling::LifeEvent& e : report.events) add_event(name_of(e.kind), e.message, e.cells);
 }
 
 io::CheckpointData Recorder::make_checkpoint() {

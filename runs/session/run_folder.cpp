@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -35,10 +36,10 @@ constexpr const char* kLockedFile = "run.lock";
 
 std::string lock_file(const std::string& folder) { return folder + "/" + kLockedFile; }
 
-/// Keys that a resumed run may change.
+/// True for keys that a resumed run may change: the steps that were taken do not depend on them.
 bool may_change(const std::string& pointer) {
-  return pointer == "/name" || pointer == "/description" || pointer == "/time/end" ||
-         pointer == "/start_up/from" || pointer.starts_with("/output");
+  const Entry* key = find_innermost_entry(pointer);
+  return key != nullptr && key->affects >= Affects::kOutput;
 }
 
 /// Whether the folder may be used: it holds what the run needs, and nothing that it may not

@@ -67,9 +67,9 @@ void add_life(LifeTotals& t, const coupling::LifeReport& report, int n_cell, dou
     t.steps += f.steps;
   }
   for (const coupling::LifeEvent& e : report.events) {
-    if (e.code == "division_waits") t.waits += 1;
-    if (e.code == "remeshed") t.remeshed += 1;
-    if (e.code == "mesh_degenerate") t.degenerate += 1;
+    if (e.kind == coupling::EventKind::kDivisionWaits) t.waits += 1;
+    if (e.kind == coupling::EventKind::kRemeshed) t.remeshed += 1;
+    if (e.kind == coupling::EventKind::kMeshDegenerate) t.degenerate += 1;
   }
 }
 

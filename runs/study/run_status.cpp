@@ -15,6 +15,7 @@
 #include "io/file_lock.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
 
@@ -40,9 +41,10 @@ std::optional<OrderedJson> read_record(const std::string& root, const StudyRun& 
   return j;
 }
 
-/// Keys that say nothing about results; the start is compared by the scenes it came from.
+/// True for keys without an effect on results; starts are compared by the scenes they came from.
 bool is_without_effect(const std::string& pointer) {
-  return pointer == "/name" || pointer == "/description" || pointer == "/start_up/from";
+  const Entry* key = find_innermost_entry(pointer);
+  return key != nullptr && key->affects == Affects::kNothing;
 }
 
 /// True if the folders of a run and of those it starts from hold these very scenes. Their hashes

@@ -70,7 +70,7 @@ class LifeInspection : public testing::Test {
         EXPECT_TRUE(coupling::take_step(world, work, limit).accepted);
         time = coupling::time_since_start(world);
         for (const coupling::LifeEvent& e : coupling::live(world, work).events)
-          record.events.push_back({time, e.code, e.cells, e.message});
+          record.events.push_back({time, name_of(e.kind), e.cells, e.message});
       }
       if (next != 750) write();
     }

@@ -65,9 +65,9 @@ inline std::vector<std::int64_t> lineages(const State& s) {
   return all;
 }
 
-inline int count_events(const LifeReport& r, const std::string& code) {
+inline int count_events(const LifeReport& r, EventKind kind) {
   int n = 0;
-  for (const LifeEvent& e : r.events) n += e.code == code ? 1 : 0;
+  for (const LifeEvent& e : r.events) n += e.kind == kind ? 1 : 0;
   return n;
 }
 

@@ -163,7 +163,7 @@ TEST(NucleusInACell, EachDaughterHasOne) {
   World w = dividing();
   const LifeReport report = look(w, 60);
   ASSERT_EQ(report.divisions.size(), 1u);
-  EXPECT_EQ(count_events(report, "settling_failed"), 0);
+  EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
   EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
   const double at_rest = 4.0 / 3 * kPi * 6 * 6 * 6;
   for (std::size_t lane : {0u, 1u}) {
@@ -223,8 +223,8 @@ TEST(NucleusInACell, SurvivesAFreshMesh) {
   w.state.clock.last_step = w.params.life.grid;
   LifeReport report;
   mend_meshes(w, work, report);
-  ASSERT_EQ(count_events(report, "remeshed"), 1);
-  EXPECT_EQ(count_events(report, "settling_failed"), 0);
+  ASSERT_EQ(count_events(report, EventKind::kRemeshed), 1);
+  EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
   EXPECT_EQ(w.state.dcm.birth[0].link.size(), 42u);
   EXPECT_EQ(find_nucleus_leak(w.state).depth_um, 0);
   // Chords of the turned mesh cut off at most 1 - (1 - 14 / 42 / 5)^(3/2) of it; bulk regains it.

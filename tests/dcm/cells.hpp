@@ -24,7 +24,7 @@ namespace acinus::dcm {
 
 /// Table 1: cortex 1 kPa, 500 nm; K_A 0.8 mN/m; K_V 2500 Pa.
 inline Params table_one() {
-  Params p;
+  Params p = params_without_terms();
   p.spring_stiffness = cortex_spring_stiffness(1.0, 0.5);
   p.bending_stiffness = cortex_bending_stiffness(1.0, 0.5, 0.5);
   p.fold_repulsion = 5;

@@ -17,7 +17,7 @@ namespace acinus::dcm {
 struct Clump {
   State state;
   std::vector<Params> params;
-  ContactParams options;
+  ContactParams options{.cell_friction = 0};
   contact::Boundary boundary;
   double time = 0;
   LaneData lanes;
@@ -31,7 +31,7 @@ struct Clump {
 
   void add_cells(const std::vector<NewCell>& cells) {
     state = make_state(cells);
-    params.assign(1, {});
+    params.assign(1, params_without_terms());
     params[0].adhesion = 0.01;
     options.cell_friction = 50;
   }

@@ -17,7 +17,7 @@ namespace {
 using reference::kEps;
 
 Params contractile() {
-  Params p;
+  Params p = params_without_terms();
   p.cortex_tension = 0.3;
   return p;
 }

@@ -25,7 +25,7 @@ inline Params with_nucleus(const Nucleus& nucleus = {}) {
 /// One group of cells with nuclei, and all that is inside them.
 struct NucleatedCells {
   Params params;
-  ContactParams options;
+  ContactParams options{.cell_friction = 0};
   contact::Boundary boundary;
   State state;
   LaneData lanes;

@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(Dcm, EveryTerm, testing::ValuesIn(all_terms()),
                          [](const auto& term) { return std::string(term.param.name); });
 
 TEST(Cortex, StiffnessOfATautCellIsTheHessian) {
-  Params p;
+  Params p = params_without_terms();
   p.spring_stiffness = 0.433;
   Cells c = make_rest_cells(geometry::shared_icosphere(42), {8, 9, 10});
   auto random = reference::stream(3);
@@ -253,7 +253,7 @@ TEST(MeshPattern, HasTheElementsThatTermsUse) {
   const geometry::Topology& t = geometry::shared_icosphere(42);
   for (double bending : {0.0, 0.01})
     for (double area : {0.0, 0.8}) {
-      Params p;
+      Params p = params_without_terms();
       p.bending_stiffness = bending;
       p.local_area_modulus = area;
       const solve::BlockPattern& pattern = shared_mesh_pattern(t, p);
@@ -273,8 +273,8 @@ TEST(MeshPattern, HasTheElementsThatTermsUse) {
       EXPECT_EQ(c.system.hinge.empty(), bending == 0);
       EXPECT_EQ(c.system.face.empty(), area == 0);
     }
-  EXPECT_NE(&shared_mesh_pattern(t, Params{}),
-            &shared_mesh_pattern(geometry::shared_icosphere(162), Params{}));
+  EXPECT_NE(&shared_mesh_pattern(t, params_without_terms()),
+            &shared_mesh_pattern(geometry::shared_icosphere(162), params_without_terms()));
 }
 
 // Two types in one system: one with hinges only, one with faces only. Offsets must not run

@@ -309,7 +309,9 @@ TEST(Lesion, BirthsCountInTheLayerTheyHappenIn) {
                                                        {Vec3(0, 90, 40), true},
                                                        {Vec3(0, 92, 40), true}}));
   coupling::LifeReport report;
-  report.events = {{"division", {7, 1, 2}, ""}, {"division", {8, 3, 4}, ""}, {"death", {5}, ""}};
+  report.events = {{coupling::EventKind::kDivision, {7, 1, 2}, ""},
+                   {coupling::EventKind::kDivision, {8, 3, 4}, ""},
+                   {coupling::EventKind::kDeath, {5}, ""}};
   observe_births(w.scene, w.world, report, w.observer);
   w.look();
   EXPECT_EQ(w["births"], 2);

@@ -60,7 +60,7 @@ TEST(Plates, MeasureGapForceAndArea) {
 }
 
 TEST(Plates, ShellForceByHand) {
-  dcm::Params p;
+  dcm::Params p = dcm::params_without_terms();
   p.spring_stiffness = 2 / std::sqrt(3.0);  // K = 1, Y = 4/3
   p.bending_stiffness = 2 / std::sqrt(3.0);
   p.area_modulus = 2;
