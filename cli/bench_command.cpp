@@ -1,4 +1,4 @@
-/// acinus bench: hands over to the program acinus-bench that stands beside this one
+/// Command `acinus bench`: runs the program acinus-bench that stands beside this one.
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-/// acinus calibrate
+/// Command `acinus calibrate`.
 
 #include "runs/calibrate/calibrate_scene.hpp"
 

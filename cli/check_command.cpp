@@ -1,4 +1,4 @@
-/// acinus check
+/// Command `acinus check`.
 
 #include <memory>
 
@@ -18,7 +18,7 @@ struct CheckArguments {
   std::string scene_file;
   std::vector<std::string> set;
   std::string max_walltime;
-  bool resolved = false;  ///< print the scene with every default
+  bool resolved = false;  ///< print the scene with all defaults
 };
 
 int check_scene(const CheckArguments& arguments) {

@@ -21,14 +21,14 @@ std::string version_text() {
 
 namespace {
 
-/// As several. Other launchers may start processes that are meant to be on their own, such as tasks
-/// of a study.
+/// True if mpirun started this program as one of several processes. Other launchers are not
+/// recognised: they also start independent processes, such as tasks of a study.
 bool started_by_mpirun() {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   return size != nullptr && std::atoi(size) > 1;
 }
 
-/// An empty word comes from a variable of a shell that is not set; it means nothing here.
+/// Refuses empty words, which come from unset shell variables.
 void check_words(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& word : option->results())

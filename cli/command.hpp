@@ -1,5 +1,5 @@
 #pragma once
-/// What the files of this folder share: each adds one command to the command line.
+/// Interface of the commands: each file of this folder adds one to the command line.
 
 #include <fmt/format.h>
 
@@ -15,8 +15,8 @@
 namespace acinus::runs {
 
 struct Command {
-  CLI::App* app;             ///< knows whether it was asked for
-  std::function<int()> run;  ///< does it, once the command line is parsed; returns the exit code
+  CLI::App* app;             ///< subcommand, which knows if it was given
+  std::function<int()> run;  ///< runs the command after parsing; returns the exit code
 };
 
 inline CLI::App* add_command(CLI::App& app, const char* name, const char* meaning,
@@ -40,8 +40,9 @@ inline CLI::Option* add_threads(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 4096));
 }
 
-/// The positive value of a flag.   @param parse  text to value
-/// @throws Error that names the flag
+/// Positive value of a flag.
+/// @param parse  conversion of a text to a value
+/// @throws Error naming the flag
 template <class Parse>
 double flag_value(const char* flag, const std::string& text, Parse parse) {
   try {
@@ -57,7 +58,7 @@ inline double quantity_of(const char* flag, const std::string& text, const Dimen
   return flag_value(flag, text, [&](const std::string& t) { return parse_quantity(t, dimension); });
 }
 
-/// A command line without one of its words.
+/// Command line without one of its words.
 inline std::string without_flag(const std::string& command_line, const std::string& flag) {
   const std::string words = command_line + " ", found = " " + flag + " ";
   const std::size_t at = words.find(found);
@@ -67,16 +68,16 @@ inline std::string without_flag(const std::string& command_line, const std::stri
                    command_line.substr(std::min(command_line.size(), at + flag.size() + 1));
 }
 
-/// Says how to go on with a job that was stopped and is taken up where it was by the same command.
-/// @return the exit code of that job
+/// Prints how to continue a stopped job that the same command resumes.
+/// @return `code`, the exit code of the job
 inline int tell_how_to_go_on(int code, const std::string& command_line, bool quiet) {
   if (code == static_cast<int>(Exit::kStopped) && !quiet)
     fmt::print("stopped; continue with: {}\n", command_line);
   return code;
 }
 
-/// @param command_line  as typed but in a shell's quotes, for the provenance of what is written;
-///                      lives as long as the app
+/// Adds a command to the command line.
+/// @param command_line  as typed, quoted for a shell, recorded as provenance; must outlive the app
 Command add_bench(CLI::App& app);
 Command add_calibrate(CLI::App& app, const std::string& command_line);
 Command add_check(CLI::App& app);

@@ -1,4 +1,4 @@
-/// acinus compare
+/// Command `acinus compare`.
 
 #include "runs/compare/compare.hpp"
 
@@ -23,7 +23,7 @@ struct CompareArguments {
   CompareScenes scenes;
 };
 
-/// "pressure=0.2" and so on.
+/// Parses tolerances such as "pressure=0.2".
 std::map<std::string, double> read_tolerances(const std::vector<std::string>& texts) {
   std::map<std::string, double> out;
   for (const std::string& text : texts) {

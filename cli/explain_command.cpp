@@ -1,4 +1,4 @@
-/// acinus explain, acinus schema: the keys of scenes and studies
+/// Commands `acinus explain` and `acinus schema`: keys of scenes and studies.
 
 #include <memory>
 

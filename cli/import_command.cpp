@@ -1,4 +1,4 @@
-/// acinus import
+/// Command `acinus import`.
 
 #include <algorithm>
 #include <map>
@@ -86,7 +86,7 @@ int run(const ImportArguments& a) {
   return 0;
 }
 
-/// An option that changes nothing is a mistake of the user's.
+/// Refuses options without effect in this combination.
 void check_effects(const CLI::App& command, const ImportArguments& a) {
   check(command.count("--nodes") == 0 || a.model != "cbm",
         "--nodes is for deformable cells, and --model cbm makes none. Leave one out.");

@@ -1,4 +1,4 @@
-/// acinus list, acinus new: the scenes that come with the program
+/// Commands `acinus list` and `acinus new`: scenes that ship with the program.
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-/// acinus mesh
+/// Command `acinus mesh`.
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-/// acinus openvt
+/// Command `acinus openvt`.
 
 #include "runs/openvt/openvt.hpp"
 

@@ -1,4 +1,4 @@
-/// acinus report
+/// Command `acinus report`.
 
 #include "service/report/make_report.hpp"
 

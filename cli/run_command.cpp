@@ -1,4 +1,4 @@
-/// acinus run
+/// Command `acinus run`.
 
 #include <algorithm>
 #include <cstdlib>
@@ -30,8 +30,8 @@ struct RunArguments {
   std::optional<int> max_cells;
 };
 
-/// A launcher that started several processes, and processes that know nothing of each other: each
-/// would run the whole scene into the same folder.
+/// Refuses several processes that a launcher started without connecting them: each would run the
+/// whole scene into the same folder.
 void check_launcher(const Ranks& ranks) {
   if (!ranks.is_alone()) return;
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
@@ -46,7 +46,7 @@ void check_launcher(const Ranks& ranks) {
   }
 }
 
-/// Options that the scene or the launcher leave without effect.
+/// Warns of options without effect for this scene or launcher.
 void check_effect(const RunArguments& arguments, const Scene& scene, const Ranks& ranks) {
   const RunOptions& run = arguments.run;
   check(!run.until_s || *run.until_s <= scene.time.end + kSameTime,

@@ -1,4 +1,4 @@
-/// acinus serve
+/// Command `acinus serve`.
 
 #include <filesystem>
 #include <memory>
@@ -16,7 +16,7 @@ namespace {
 struct ServeArguments {
   ServeOptions serve;
   bool no_token = false;
-  std::string prepare;  ///< run folder of a submission; "" = serve
+  std::string prepare;  ///< run folder of a submission to prepare; "" = serve
   std::string checkpoint_every, max_walltime, max_memory, max_run_disk, max_disk, max_body;
 };
 

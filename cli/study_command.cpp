@@ -1,4 +1,4 @@
-/// acinus study
+/// Command `acinus study`.
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-/// acinus voxelise
+/// Command `acinus voxelise`.
 
 #include <filesystem>
 #include <memory>

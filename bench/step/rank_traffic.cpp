@@ -13,7 +13,7 @@
 namespace acinus::bench {
 namespace {
 
-/// Mean and largest over the processes.
+/// Mean and maximum over the processes.
 struct RankSpread {
   double mean = 0, most = 0;
 };

@@ -11,15 +11,15 @@
 namespace acinus::bench {
 namespace {
 
-/// Deviation of cycle times in standard deviations, at most.
+/// Largest deviation of cycle times, in standard deviations.
 constexpr double kCut = 3;
-/// Times and volumes are sums of some thousand steps, and are written to a run file in full.
+/// Relative tolerance of times and volumes, which are sums over some thousand steps.
 constexpr double kRounding = 1e-6;
 
 const std::vector<std::int64_t>& ids_of(const io::Frame& f, const char* name) {
   return std::ranges::find(f.cells.ids, name, &io::IdColumn::name)->value;
 }
-/// The cells that a frame draws, and whether as surfaces.
+/// Lineages of the cells drawn in a frame, with true for surfaces.
 std::map<std::int64_t, bool> drawn_cells(const io::Frame& f) {
   std::map<std::int64_t, bool> drawn;
   for (std::size_t k = 0; k < f.cell_id.size(); ++k)

@@ -17,18 +17,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Steps of a deformable 162-node cell that a scene may cost if the controller leaves the step
-/// alone: about two seconds.
+/// Budget of a scene in steps of a deformable 162-node cell, if step-size control does not
+/// interfere: about two seconds.
 constexpr double kCellSteps = 2500;
 constexpr double kFewestSteps = 15, kMostSteps = 150;
-/// Closest packing that a compression aims at before cells are compressed: coarse meshes do not
-/// fill the corners of a box, and would be pressed far harder than asked.
+/// Target packing fractions of a compression before cells are compressed. Coarse meshes leave the
+/// corners of a box empty and would be compressed far more than asked.
 constexpr double kFullPacking = 0.75, kTightPacking = 0.92;
-/// Smallest volume, relative to the start, that a compression may ask of a cell.
+/// Least volume of a compressed cell, relative to its start.
 constexpr double kSmallestVolume = 0.6;
-constexpr double kGap = 0.2;       ///< um between cells and walls at the start
-constexpr double kSlowWall = 20;   ///< um/h, fastest wall of a nominal scene
-constexpr double kSinusoid = 4.7;  ///< um
+constexpr double kGap = 0.2;       ///< between cells and walls at the start, um
+constexpr double kSlowWall = 20;   ///< fastest wall of a nominal scene, um/h
+constexpr double kSinusoid = 4.7;  ///< vessel radius, um
 
 std::string quantity(double value, const char* unit) {
   return fmt::format("{:.5g} {}", value, unit);
@@ -37,7 +37,8 @@ Json place(const Vec3& x) {
   return {quantity(x.x(), "um"), quantity(x.y(), "um"), quantity(x.z(), "um")};
 }
 
-/// One scene in the making. Members are drawn in a fixed order: the text depends on the seed alone.
+/// Generator of one scene. Members are drawn in a fixed order, so that the text depends on the seed
+/// alone.
 class Drawing {
  public:
   explicit Drawing(std::uint64_t seed)
@@ -49,7 +50,7 @@ class Drawing {
  private:
   bool chance(double p) { return random_.uniform() < p; }
   double decades(double low, double high) { return low * std::pow(high / low, random_.uniform()); }
-  /// A value of Table 1, or up to ten times less or more.
+  /// Value of Table 1, in wide scenes up to ten times smaller or larger.
   double near(double value) { return wide_ ? value * std::pow(10, random_.uniform(-1, 1)) : value; }
   double range(double low, double high) { return near(decades(low, high)); }
 
@@ -66,10 +67,10 @@ class Drawing {
   void draw_time();
   void add_life();
   void add_moving_zoom();
-  /// Volume into which the cells are compressed, as a share of theirs at rest.
+  /// Volume of the cells after compression relative to their rest volume.
   double compressed_volume();
   double rest_volume() const { return count_ * 4.0 / 3 * kPi * std::pow(radius_, 3); }
-  /// Speed, um/h, and travel, um, of a wall that is to move so far.
+  /// Limits speed (um/h) and travel (um) of a moving wall to the scene's duration.
   void limit_motion(double& travel, double& speed) const;
 
   std::uint64_t seed_;
@@ -219,7 +220,7 @@ void Drawing::draw_clump() {
   }
 }
 
-/// Cells one by one: meshes in one orientation, models mixed at random, some cells pulled.
+/// Draws a list of cells: fixed mesh orientation, random models, some cells pulled.
 void Drawing::draw_list() {
   const bool pulled = chance(0.5) && !scene_["friction"].contains("medium");
   const coupling::Uniform uniform = [this] { return random_.uniform(); };
@@ -243,7 +244,7 @@ void Drawing::draw_list() {
   scene_["cells"] = {{"source", "list"}, {"list", list}};
 }
 
-/// A box of walls, one of which moves in.
+/// Draws a box of walls, one of them moving inwards.
 void Drawing::draw_box() {
   std::array<int, 3> grid{};
   int left = count_;
@@ -277,7 +278,7 @@ void Drawing::draw_box() {
   scene_["walls"] = walls;
 }
 
-/// Darts around a forked vessel of a network file.
+/// Draws cells placed at random about a branching vessel of a network file.
 void Drawing::draw_fill() {
   // Darts at 0.15 of their balls' volume find room; more than 0.38 they never do.
   const double distance =

@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Wall time a run is given, s, and the time after which it hangs: it did not obey the first.
+/// Wall-time limit given to a run, and time after which it counts as hung for ignoring that limit,
+/// s.
 constexpr double kRunTime = 60, kHangTime = 300;
 constexpr std::size_t kAtATime = 2;
 
@@ -35,7 +36,7 @@ std::string hash_of_file(const std::string& path) {
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
-/// True if the run itself reported the finding, at the frame that shows it.
+/// True if the run itself reported the finding at the frame that shows it.
 bool names(const std::vector<io::Event>& events, const Finding& f) {
   const char* code = f.defect == Defect::kCrossed     ? "self_intersection"
                      : f.defect == Defect::kTunnelled ? "deep_overlap"
@@ -45,7 +46,7 @@ bool names(const std::vector<io::Event>& events, const Finding& f) {
   });
 }
 
-/// A folder for everything; a temporary one goes away at the end.
+/// Folder of all scenes; a temporary one is removed at the end.
 class Workplace {
  public:
   explicit Workplace(const std::string& folder) : keep_(!folder.empty()), path_(folder) {
@@ -70,7 +71,7 @@ class Workplace {
   fs::path path_;
 };
 
-/// One scene on its way: written, running, inspected.
+/// Trial of one scene: written, run and inspected.
 class RandomRun {
  public:
   RandomRun(std::uint64_t seed, bool life, const fs::path& root);

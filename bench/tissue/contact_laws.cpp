@@ -24,14 +24,14 @@ namespace {
 
 using dcm::ContactLaw;
 
-constexpr double kSpacing = 0.99;  ///< of the clump, in diameters: the reach of h0 is 20 nm
+constexpr double kSpacing = 0.99;  ///< of the clump, diameters; h0 acts over 20 nm
 
-/// Short steps, in which contacts of 20 nm come to rest; with 2 s they chatter. Nothing changes
-/// much after 200 s.
-constexpr double kStep = 0.5, kHold = 400;  ///< s
+/// Step and hold time of the pair, s. Contacts with a range of 20 nm come to rest with it and
+/// oscillate with 2 s; little changes after 200 s.
+constexpr double kStep = 0.5, kHold = 400;
 
-/// Of the clump, without step-size control: the same for both laws.
-constexpr double kClumpStep = 60, kClumpEnd = 7200;  ///< s
+/// Step and end of the clump, s, without step-size control: the same for both laws.
+constexpr double kClumpStep = 60, kClumpEnd = 7200;
 
 struct LawCase {
   std::string name;
@@ -96,7 +96,7 @@ BenchRow measure_pair(const LawCase& l, const BenchOptions& options) {
   return row;
 }
 
-/// Forces of the pair at rest shape, R = 12 um.
+/// Forces of the pair with rigid cells of R = 12 um.
 BenchRow measure_rigid(const LawCase& l, const BenchOptions& options) {
   double pull = 0, near = 0, nearer = 0;
   for (int k = 0; k < options.seeds; ++k) {
@@ -115,8 +115,10 @@ BenchRow measure_rigid(const LawCase& l, const BenchOptions& options) {
   return row;
 }
 
-/// Work per area of drawing two triangles straight apart, from where nothing pushes, over W: of a
-/// flat triangle what it costs to lift, of a curved one of the middle of its contact.
+/// Work per area of adhesion to separate two triangles along their normal, relative to W. Starts
+/// where no force repels; the area is the largest contact area.
+/// @param radius  of curvature, um
+/// @param h0      range of adhesion, um
 double lifting_work(double radius, double h0) {
   constexpr double kEdge = 3.6, kAdhesion = 0.02, kDraw = 1e-4;  // um, nN/um, um
   const dcm::ContactParams c;
@@ -164,7 +166,7 @@ BenchRow measure_pull_off(const LawCase& l) {
   return row;
 }
 
-/// The clump under a law, after two hours.
+/// Clump under a contact law after two hours.
 BenchRow measure_clump(const std::string& name, ContactLaw law, const BenchOptions& options) {
   runs::Scene scene = runs::read_scene(runs::scene_folder() + "/clump13.json");
   scene.seed = options.first;

@@ -56,8 +56,8 @@ std::vector<JudgedFrame> read_frames(const std::string& folder) {
   return frames;
 }
 
-/// Leaves out frames in which cells were just born: they overlap by more than this share of their
-/// radii. Spheres of that age push each other with a part of their force, which frames do not hold.
+/// Overlap relative to the sum of radii above which cells count as newborn. Frames with newborn
+/// cells are excluded: spheres of that age repel with a reduced force, which frames do not hold.
 constexpr double kNewborn = 0.3;
 
 void leave_out_births(std::vector<JudgedFrame>& frames) {
@@ -70,7 +70,8 @@ void leave_out_births(std::vector<JudgedFrame>& frames) {
   });
 }
 
-/// How dense cells are, up to a factor: from the distances of the six nearest of each.
+/// Mean relative density from the distances of the six nearest neighbours of each cell, up to a
+/// factor.
 double mean_density(const JudgedCells& cells) {
   constexpr std::size_t kNear = 6;
   double sum = 0;
@@ -89,7 +90,7 @@ double mean_density(const JudgedCells& cells) {
   return n > 0 ? sum / n : 0;
 }
 
-/// A sum of squared differences beside that of the reference.
+/// Sum of squared differences and of squared reference values.
 struct Misfit {
   double squares = 0, reference = 0;
   int count = 0;
@@ -109,6 +110,7 @@ double mean_of(const JudgedCells& cells, Get get) {
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
 }
 
+/// Compares two series of frames at the same times; single cells are compared if both have them.
 /// @param spheres  frames at the same times; single cells are compared where both have them
 BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deformable,
                  const std::vector<JudgedFrame>& spheres) {
@@ -145,7 +147,7 @@ BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deform
            {"density_error", density.relative()}}};
 }
 
-/// What one scene is judged with.
+/// Scene to judge laws in, with its run of deformable cells.
 struct Judged {
   std::string name;
   runs::Scene scene;       ///< with spheres
@@ -197,7 +199,7 @@ void judge_by_themselves(const Judged& j, const std::string& law_file, int threa
   }
 }
 
-/// The law for cells of 12 um, from its file if it was found before.
+/// Law for cells of 12 um, from its file, or calibrated if that is missing.
 calibration::Law find_law(const std::string& file, int threads) {
   if (!std::filesystem::exists(file)) {
     runs::CalibrateOptions options;
@@ -212,7 +214,7 @@ calibration::Law find_law(const std::string& file, int threads) {
   return calibration::read_law(file);
 }
 
-/// The clump in which the law was found.
+/// Clump of the calibration itself.
 Judged in_sample(const std::string& root) {
   const runs::Scene scene =
       runs::compression_scene(runs::read_scene(runs::scene_folder() + "/calibration.json"), {});

@@ -21,20 +21,20 @@
 namespace acinus::bench {
 namespace {
 
-/// Pressures of the deformable ball at which the models are compared, Pa.
+/// Range of the pressure of the deformable ball in which the models are compared, Pa.
 constexpr double kLowest = 5, kHighest = 250;
-/// Cells this near the middle count, over the radius of the capsule: others touch it.
+/// Radius of the inner cells relative to that of the capsule, which the outer ones touch.
 constexpr double kInner = 0.65;
-/// Neighbours whose distance stands for the density about a cell.
+/// Number of nearest neighbours that define the density about a cell.
 constexpr std::size_t kNear = 12;
 
-/// A frame: its cells, and how dense they are about each, 1/um^3 up to a factor.
+/// Cells of a frame with the density about each, up to a factor.
 struct PatchFrame {
   runs::CellRecords cells;
   std::map<std::int64_t, double> density;
 };
 
-/// From the distances of the nearest neighbours.
+/// Number density about a cell from the distances of its nearest neighbours, 1/um^3 up to a factor.
 double density_about(const runs::CellRecords& cells, std::int64_t id) {
   std::vector<double> distance;
   for (const auto& [other, c] : cells)
@@ -57,14 +57,16 @@ std::vector<PatchFrame> read_frames(const std::string& folder) {
   return frames;
 }
 
-/// Means over the inner cells of one kind.
+/// Means over the inner cells of one model.
 struct HalfMean {
   double pressure = 0, force = 0, density = 0;
   int cells = 0;
 };
 
-/// @param like        where the cells stand that count, and which of them are deformable
-/// @param deformable  which of both kinds counts
+/// Means over the inner cells of one model in a reference frame.
+/// @param like        frame that defines position and model of the cells
+/// @param deformable  which model to average
+/// @param reach       radius of the inner region, um
 HalfMean measure(const PatchFrame& frame, const PatchFrame& like, bool deformable, double reach) {
   HalfMean b;
   for (const auto& [id, c] : frame.cells) {
@@ -86,7 +88,7 @@ HalfMean measure(const PatchFrame& frame, const PatchFrame& like, bool deformabl
 
 double jump(double a, double b) { return 2 * std::abs(a - b) / (a + b); }
 
-/// A variant of the scene.
+/// Variant of the scene with its run folder.
 struct PatchVariant {
   std::string name, folder;
   runs::Scene scene;
@@ -164,7 +166,7 @@ BenchRow compare(const PatchVariant& v, const std::string& folder, const runs::S
            {"cost", summary.cpu_s / reference.cpu}}};
 }
 
-/// A compression may end early where surfaces crumple: what was reached is compared.
+/// Runs a variant. Compressions may end early when surfaces crumple; what they reached is compared.
 void run(const PatchVariant& v, const std::string& folder, int threads) {
   const int code = runs::run_stage(v.scene, {folder, threads, true, false, "acinus bench patch"});
   check(code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),

@@ -30,7 +30,7 @@ struct PullOffPoint {
 
 double contact_radius(double area) { return std::sqrt(area / kPi); }
 
-/// A case with several orientations of the meshes.
+/// Pull-off force of a case over several mesh orientations.
 BenchRow measure(const std::string& name, PairCase c, const BenchOptions& options,
                  std::vector<PullOffPoint>& points) {
   OrientationSpread ratio, rigid, radius, distance, last_radius, last_distance, outside, lowest;
@@ -63,7 +63,7 @@ BenchRow measure(const std::string& name, PairCase c, const BenchOptions& option
   return row;
 }
 
-/// Straight line of force over adhesion energy by least squares.
+/// Least-squares line of force over adhesion energy.
 BenchRow fit(const std::string& name, const std::vector<PullOffPoint>& points, double radius) {
   OrientationSpread x, y;
   double product = 0;

@@ -17,10 +17,10 @@
 namespace acinus::bench {
 namespace {
 
-constexpr double kStill = 2e-4;  ///< um/s
-constexpr double kRise = 0.2;    ///< first step of the force, in pi W R^
-constexpr int kHalvings = 5;     ///< of that step
-constexpr double kMost = 40;     ///< in pi W R^: no pair bears that
+constexpr double kStill = 2e-4;  ///< speed of a node at rest, um/s
+constexpr double kRise = 0.2;    ///< first force increment, in pi W R^
+constexpr int kHalvings = 5;     ///< of the increment after separation
+constexpr double kMost = 40;     ///< force no pair bears, in pi W R^
 
 runs::Scene make_scene(const PairCase& c) {
   runs::Scene scene = runs::read_scene(runs::scene_folder() + "/adhering_pair.json");
@@ -55,7 +55,8 @@ class PulledPair {
  public:
   explicit PulledPair(const PairCase& c) : hold_(c.hold), simulation_(make_world(c)) {}
 
-  /// Holds a force until the pair is at rest, or as long as it may. @return whether it is borne
+  /// Holds a force (nN) until the pair is at rest, or for the longest hold time.
+  /// @return true if the pair still adheres
   bool hold(double force) {
     dcm::State& cells = state().dcm;
     const Vec3 along = (center(1) - center(0)).normalized();
@@ -84,7 +85,7 @@ class PulledPair {
             tension.least};
   }
 
-  /// Attraction of the two with their centres at +-x, nN.
+  /// Attraction of the cells with their centres at +-x (um), nN.
   double attraction_at(double x) {
     for (const int k : {0, 1}) {
       const Vec3 shift = Vec3((k == 0 ? -1 : 1) * x, 0, 0) - center(k);
@@ -113,7 +114,7 @@ class PulledPair {
   }
 
  private:
-  /// Both cells are of one type and mesh, in the order of the list.
+  /// Lanes of the two cells, which share type and mesh, in the order of the list.
   static constexpr std::array<std::size_t, 2> kLane{0, 1};
 
   Vec3 center(int cell) { return dcm::cell_center(state().dcm, kLane[cell]); }

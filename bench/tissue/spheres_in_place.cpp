@@ -10,7 +10,7 @@
 namespace acinus::bench {
 namespace {
 
-/// Overlaps of one cell with cells and walls.
+/// Sum and number of the overlaps of one cell with cells and walls.
 struct CellOverlaps {
   double sum = 0;
   int contacts = 0;
@@ -39,7 +39,7 @@ std::vector<CellOverlaps> find_crowding(const cbm::RoomInput& in) {
   return out;
 }
 
-/// Planes, capsules and vessels within two radii, as planes.
+/// Tangent planes of walls, capsules and vessels within two radii of each sphere.
 std::vector<cbm::RoomWall> find_walls(const std::vector<Vec3>& center,
                                       const std::vector<double>& radius, double time,
                                       const contact::Boundary& boundary) {
@@ -60,7 +60,7 @@ std::vector<cbm::RoomWall> find_walls(const std::vector<Vec3>& center,
   return walls;
 }
 
-/// The spheres' world at that moment, with moduli set where the program has no such law.
+/// Sets the spheres of the world, with moduli set directly for laws the program does not have.
 void place(const JudgedCells& cells, double time, const SphereLaw& law, const cbm::RoomInput& in,
            coupling::World& world) {
   const bool own = law.measure != OverlapMeasure::kProgram;

@@ -31,7 +31,8 @@
 namespace acinus::runs {
 namespace {
 
-/// A uniformly distributed rotation of a cell's mesh.
+/// Creates the state of deformable cells and spheres along a space-filling curve. Meshes get a
+/// uniformly distributed random orientation unless the cell fixes it.
 void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
                const std::vector<std::string>& types, const coupling::Params& params,
                coupling::State& state) {
@@ -59,7 +60,9 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
   state.next_lineage = static_cast<std::int64_t>(cells.size());
 }
 
-/// The lobule of a scene that has one, with what is to be said about it.
+/// Generates the lobule of the scene. Notes give its packing, and warn if it has fewer cells than
+/// asked for.
+/// @pre the scene has a lobule
 coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   const LobuleBlock& b = *scene.lobule;
   coupling::Lobule lobule = draw_lobule(scene);
@@ -82,9 +85,9 @@ coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   return lobule;
 }
 
-/// Adhesion that the cortex cannot hold: cells wet each other until their faces fold and cross. Of
-/// 382 random scenes with W from 0.005 to 26 E h, 13 of the 14 in which cells crossed themselves
-/// had more than 0.7 (docs/verification.md).
+/// Warns of adhesion too strong for the cortex: cells spread over each other until faces fold and
+/// cross. Of 382 random scenes with W from 0.005 to 26 E h, 13 of the 14 with self-intersecting
+/// cells had W above 0.7 E h (docs/verification.md).
 void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes) {
   constexpr double kMostAdhesion = 0.5;  // E h
   const auto empty = std::ranges::count(cells.lineage, dcm::kEmptyLane);
@@ -121,7 +124,8 @@ void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double de
       more ? ", ..." : "", depth, cut.smallest_volume, fmt::join(ways, ", or ")));
 }
 
-/// Cells take the shape of their surfaces, cell k that of surface k.
+/// Deforms cell k to the shape of surface k; cells whose mesh cannot follow stay spherical, with a
+/// warning.
 void give_shapes(const std::vector<geometry::Surface>& surfaces, coupling::World& world,
                  Notes& notes) {
   std::vector<coupling::CellSurface> shape;

@@ -4,12 +4,12 @@ namespace acinus::runs {
 namespace {
 
 struct TermConstant {
-  const char* name;  ///< in law files
+  const char* name;  ///< key in law files
   double DcmBlock::*value;
   bool softens;
 };
 
-/// A new term's constants are entered here.
+/// Constants of all terms of a deformable cell; a new term enters its own here.
 constexpr TermConstant kTermConstants[] = {
     {"cortex_young_kPa", &DcmBlock::cortex_young, true},
     {"cortex_thickness_um", &DcmBlock::cortex_thickness, false},

@@ -1,16 +1,16 @@
 #pragma once
-/// The constants of the terms of a deformable cell, as its scene gives them: what softening scales
-/// and what a law of spheres depends on.
+/// Constants of the terms of a deformable cell: those scaled by softening and those a stiffness law
+/// depends on.
 
 #include "calibration/law.hpp"
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
 
-/// The cell type while its cells dissolve: what softens, times type.softening.
+/// Cell type during lysis: its softening constants and its adhesion, times type.softening.
 CellType softened(const CellType& type);
 
-/// The constants of all terms by name with unit, as law files have them.
+/// Constants of all terms under their names in law files, which end in the unit.
 calibration::Parameters term_constants(const DcmBlock& cell);
 
 }  // namespace acinus::runs

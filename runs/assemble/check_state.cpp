@@ -11,7 +11,8 @@
 namespace acinus::runs {
 namespace {
 
-/// Lengths in um and times in s beyond these are those of no tissue; sums of them would overflow.
+/// Bounds of coordinates (um) and times (s) in a valid checkpoint; sums of larger ones could
+/// overflow.
 constexpr double kFarthestPlace = 1e9, kLongest = 1e12;
 
 class Checks {
@@ -117,7 +118,7 @@ class Checks {
          "a count of steps");
   }
 
-  /// Cells are found by their lineage.
+  /// Checks that lineages are unique and not negative; cells are looked up by them.
   void check_lineages() const {
     std::set<std::int64_t> seen;
     for (const std::int64_t id : s_.dcm.lineage)

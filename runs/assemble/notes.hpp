@@ -1,5 +1,5 @@
 #pragma once
-/// What is worth telling about a run beside its figures.
+/// Messages about a run for its log and summary.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@ namespace acinus::runs {
 
 struct Notes {
   std::vector<std::string> said;
-  /// What a user must not miss: always on stderr, also with --quiet, and in summary.json.
+  /// Warnings: always on stderr, also with --quiet, and in summary.json.
   std::vector<std::string> warned;
 };
 

@@ -22,22 +22,28 @@
 namespace acinus::runs {
 namespace {
 
-/// How deep a cell may start in an obstacle, um: contact forces push it out in the first steps.
+/// Largest overlap of a starting cell with an obstacle, um; contact forces resolve it in the first
+/// steps.
 constexpr double kStartDepth = 0.3;
 
 double start_radius(const Scene& scene, double radius) {
   return scene.start_up.enabled ? scene.start_up.initial_radius : radius;
 }
 
-/// Sizes beyond these are slips of the unit; the run file stores single precision.
+/// Bounds of radius and coordinates, um. Values beyond them are mistaken units; the run file stores
+/// single precision.
 constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthestCell = 1e6;  // um
 
-/// Cells that start anywhere in their cycle have up to twice the volume.
+/// Largest start radius of a cell type, um: cells at a random point of their cycle have up to twice
+/// the volume.
 double largest_start(const CellType& t) {
   return t.radius * (t.cycle.time > 0 && t.cycle.random_start ? std::cbrt(2.0) : 1);
 }
 
-/// Darts thrown into a box, at least min_distance apart and clear of the boundary.
+/// Random sequential addition of centres in a box, at least cells.min_distance apart and clear of
+/// the boundary.
+/// @return [cells.count] um
+/// @throws Error if the box cannot hold them
 std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
   UniformStream random(scene.seed, Purpose::kPlacement, 0);
@@ -66,14 +72,15 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary
   return seeds;
 }
 
-/// Where a cell comes from, for messages.
+/// Name of a placed cell in messages: its entry of cells.list or its number.
 std::string name_of(const Scene& scene, const PlacedCell& cell) {
   return fmt::format("{}{}",
                      scene.cells.source == CellSource::kList ? "/cells/list/" : "generated cell ",
                      cell.lineage);
 }
 
-/// Pairs of cells closer than half the larger radius, in the order of the list.
+/// Pairs of cells whose centres are closer than half the larger radius, as ascending indices into
+/// the list.
 std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
                                               const std::vector<PlacedCell>& cells) {
   std::vector<Box> boxes;
@@ -88,7 +95,8 @@ std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
   return pairs;
 }
 
-/// A wrong unit often shows as an absurd size or place; the numbers then overflow far from here.
+/// Checks radius and position of every cell against the bounds above, before they overflow
+/// elsewhere.
 void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
   for (const PlacedCell& c : cells) {
     if (!(c.radius >= kSmallestRadius && c.radius <= kLargestRadius))
@@ -108,7 +116,8 @@ void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
 
 namespace {
 
-/// Which of the cells that the zoom decides about start deformable.
+/// Chooses the model of zoomed cells: deformable within a region, else a sphere.
+/// @param zoomed  indices into cells
 void choose_models(const Scene& scene, const geometry::Network& vessels,
                    const std::vector<std::size_t>& zoomed, std::vector<PlacedCell>& cells) {
   if (zoomed.empty()) return;

@@ -14,9 +14,10 @@
 namespace acinus::runs {
 namespace {
 
-/// Blocks and keys that act only after t = 0, or only on the way to rest. "model" has gone into
-/// cells.model; of start_up only what places the cells counts. What cells touch of vessels shapes a
-/// start as well, but both ways may be compared from one.
+/// Blocks and keys that may differ from the run that left the start: they act only after t = 0 or
+/// only during start-up. "model" is merged into cells.model; of start_up only the keys that place
+/// cells count. Contact with vessels shapes a start too, but both kinds may be compared from one
+/// start.
 constexpr std::array kFree{"/name",
                            "/description",
                            "/experiment",
@@ -35,7 +36,7 @@ constexpr std::array kFree{"/name",
                            "/start_up/from",
                            "/vessels/contact"};
 
-/// The same for keys of a cell type.
+/// Keys of a cell type that may differ from the run that left the start.
 constexpr std::array kFreeOfType{"/cycle",
                                  "/inhibition",
                                  "/death",

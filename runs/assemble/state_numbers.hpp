@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of a state as the plain lists of numbers that a checkpoint holds.
+/// Conversion of parts of a state to the flat arrays of a checkpoint, and back.
 
 #include <fmt/format.h>
 

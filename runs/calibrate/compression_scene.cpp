@@ -13,17 +13,17 @@
 namespace acinus::runs {
 namespace {
 
-/// Volume of a capsule in which neighbours overlap by d = 0.2, over that of the free cells:
+/// Ratio of the capsule volume at an overlap d = 0.2 of neighbours to the volume of the free cells,
 /// measured with 15 cells.
 constexpr double kCompressedVolume = 0.70;
-/// Shrink rate over the smallest radius, 1/s: 0.3 um/h at 26 um. Half of it changes the force by
-/// 1 % (docs/calibration.md).
+/// Shrink rate relative to the smallest radius, 1/s: 0.3 um/h at 26 um. Halving it changes the
+/// force by 1 % (docs/calibration.md).
 constexpr double kRate = 0.0115 / 3600;
-/// Least modulus of each triangle over the bulk modulus, um: surfaces under this pressure would
-/// fold.
+/// Least ratio of the local area modulus to the bulk modulus, um; softer surfaces fold under this
+/// pressure.
 constexpr double kLeastLocalArea = 0.04;
 
-/// Largest distance of a cell's centre from the middle, um.
+/// Largest distance of a cell's centre from the origin, um.
 double reach_of(const Scene& scene) {
   double reach = 0;
   for (const PlacedCell& c : place_cells(scene, nullptr, {}, {}))

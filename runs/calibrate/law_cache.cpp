@@ -30,8 +30,9 @@ std::string cache_folder() {
   return std::string(home) + "/.cache/acinus/laws";
 }
 
-/// Two processes must not calibrate the same law: they would write in the same run folders.
-/// Nothing if it was asked to stop meanwhile.
+/// Takes the lock of a law in the cache. Concurrent calibrations of one law would write to the same
+/// run folders.
+/// @return empty if a stop signal came while waiting
 std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   std::error_code code;
   fs::create_directories(fs::path(file).parent_path(), code);
@@ -46,8 +47,8 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   return {};
 }
 
-/// The scene by which "auto" calibrates: what a law stands for, and nothing that only says how a
-/// scene is computed, so that it does not matter which scene asks first.
+/// Scene with which "auto" calibrates: the keys a law depends on, and defaults for numerics and
+/// output, so that the law does not depend on which scene asks first.
 Scene made_for_law(const Scene& scene) {
   Scene s;
   s.file = scene.file;
@@ -59,7 +60,7 @@ Scene made_for_law(const Scene& scene) {
   return s;
 }
 
-/// Name of a law in the cache: all it depends on, to the last digit.
+/// Cache key of a law: hash of all constants it depends on, to the last digit.
 std::string key_of(const Scene& scene, const LawParameters& p) {
   std::string text = fmt::format(
       "{}\n{} {:a} {:a}\n", calibration::kLawSchema, name_of_choice(scene.contact.quadrature),
@@ -69,7 +70,7 @@ std::string key_of(const Scene& scene, const LawParameters& p) {
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
-/// Cause of the failure of a calibration's run.
+/// Cause of failure of a calibration, from the summaries of its runs.
 std::string find_failure(const std::string& law_file) {
   const fs::path folder = fs::path(law_file).replace_extension(".calibration");
   std::error_code code;

@@ -25,7 +25,8 @@ double same_frame(const io::RunReader& reader) {
 
 std::string hours_text(double s) { return fmt::format("{:.4g} h", s / 3600); }
 
-/// A run that is written on has a summary of its past only, if any.
+/// Opens a run and checks that its summary is of its last frames; that of a run in progress is
+/// outdated.
 ComparedRun open_run(const std::string& folder) {
   check(!is_being_written(folder),
         fmt::format("{}: the run goes on: a process writes in this folder. Wait until it ends, or "
@@ -43,7 +44,7 @@ ComparedRun open_run(const std::string& folder) {
   return run;
 }
 
-/// The frame nearest to a time, -1 if none is within `reach`.
+/// Frame nearest to a time, within `reach` (s); -1 if there is none.
 int find_frame(const io::RunReader& reader, double time, double reach) {
   int nearest = -1;
   for (int k = 0; k < reader.n_frame(); ++k) {

@@ -36,7 +36,7 @@ std::string verdict(const Difference& d) {
                                 : fmt::format("{:g} %", 100 * *d.tolerance));
 }
 
-/// Reasons for missing verdicts, each once.
+/// Distinct reasons for missing verdicts.
 std::set<std::string> reasons_of(const Comparison& c) {
   std::set<std::string> reasons;
   for (const auto& run : c.difference)

@@ -14,7 +14,7 @@ using imaging::Label;
 using imaging::LabelImage;
 using imaging::Voxel;
 
-/// Calls visit(label) for the outermost voxels of a side.
+/// Calls visit(label) for the outermost voxel layer of one side of the image.
 template <class Visit>
 void visit_side(const LabelImage& image, std::size_t axis, bool high, Visit visit) {
   Voxel low{}, end = image.size;
@@ -24,7 +24,8 @@ void visit_side(const LabelImage& image, std::size_t axis, bool high, Visit visi
       for (int x = low[0]; x < end[0]; ++x) visit(image.label[image.index({x, y, z})]);
 }
 
-/// The label, not 0, that has so large a share of the outermost voxels on every side; 0: none.
+/// Label other than 0 that fills at least this share of the outermost voxels on all six sides; 0 if
+/// there is none.
 Label find_enclosing(const LabelImage& image, double share) {
   Label found = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -1,13 +1,14 @@
 #pragma once
-/// The background of a label image, where it is not 0.
+/// Background of a label image with a label other than 0.
 
 #include "imaging/label_image.hpp"
 #include "runs/images/import_options.hpp"
 
 namespace acinus::runs {
 
-/// Makes the label that the options name 0. Throws Error if no voxel has it; or if they name none,
-/// and one label looks like a background: it has most of the outermost voxels on all six sides.
+/// Sets the background label of the options to 0.
+/// @throws Error if no voxel has it; without that option, if one label has most of the outermost
+/// voxels on all six sides and so may be the background
 void clear_background(const ImportOptions& options, imaging::LabelImage& image);
 
 }  // namespace acinus::runs

@@ -22,9 +22,10 @@ using imaging::LabelImage;
 using imaging::Piece;
 using imaging::Pieces;
 
-/// Sides of triangles over the radius of a ball of the label's volume: some 2500 to a cell.
+/// Edge length of the triangles relative to the radius of a ball of the label's volume: some 2500
+/// triangles a cell.
 constexpr double kEdge = 0.12;
-/// No side is below this share of a voxel's.
+/// Least edge length, in voxel sides.
 constexpr double kLeastEdge = 0.7;
 
 double edge_for(const LabelImage& image, const Piece& piece) {
@@ -42,7 +43,7 @@ void check_uneven(const LabelImage& image, std::vector<std::string>& warned) {
                   image.voxel[0], image.voxel[1], image.voxel[2], ratio));
 }
 
-/// Vessels as an image of their own, label 1, taken out of the cells' image.
+/// Moves the vessels from the image of the cells into an image of their own, with label 1.
 LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
                         std::vector<std::string>& warned) {
   LabelImage vessels = cells;
@@ -77,7 +78,7 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
   return vessels;
 }
 
-/// Numbers that an 8-bit file ran out of come twice: told by labels in several large pieces.
+/// Refuses images whose labels overflowed 8 bits: many labels then consist of several large pieces.
 void check_overflow(const ImportOptions& o, const LabelImage& image, const Pieces& pieces) {
   constexpr double kLargePart = 0.3, kMostShare = 0.1;
   std::size_t labels = 0, twice = 0;
@@ -102,13 +103,14 @@ void check_overflow(const ImportOptions& o, const LabelImage& image, const Piece
                 : ""));
 }
 
-/// What is left out before any surface is made, and taken out of the image.
+/// Selection of the pieces that become cells; all others are erased from the image.
 class Sorting {
  public:
   Sorting(const ImportOptions& o, LabelImage& image, ImportedTissue& tissue)
       : o_(o), image_(image), tissue_(tissue) {}
 
-  /// The pieces to keep, each the only one of its label.
+  /// Selects pieces and erases the rest.
+  /// @return the pieces to keep, each the only one of its label
   std::vector<Piece> run() {
     Pieces pieces = imaging::find_pieces(image_);
     check(!pieces.piece.empty(),
@@ -139,8 +141,8 @@ class Sorting {
   double volume(const Piece& p) const {
     return static_cast<double>(p.n_voxel) * image_.voxel_volume();
   }
-  /// um^3, of the labels that have the size of cells: specks do not count, however many, nor does
-  /// one piece that is larger than all others together.
+  /// Median volume of the pieces by voxels, um^3. Weighting by voxels excludes specks; a piece
+  /// larger than all others together is left out.
   double median_volume(const Pieces& pieces) const {
     std::vector<double> all;
     for (const Piece& p : pieces.piece) all.push_back(volume(p));
@@ -166,7 +168,8 @@ class Sorting {
     if (p.at_border && !o_.keep_border) return "cut off by the border of the image";
     return {};
   }
-  /// A background that is no 0 and does not enclose the image passes for a cell.
+  /// Warns of a piece with many times the median volume: probably a background that does not
+  /// enclose the image.
   void warn_of_giant(const std::vector<Piece>& kept) {
     constexpr double kGiant = 50;
     std::vector<double> all;
@@ -181,7 +184,7 @@ class Sorting {
                         "the background, give --background {}",
                         p.label, volume(p) / *middle, p.label));
   }
-  /// Pieces of one label become labels of their own, the main one keeps it.
+  /// Gives every piece of a label but the largest a label of its own.
   void number_anew(const Pieces& pieces, const std::vector<char>& keep, std::vector<Piece>& kept) {
     Label next = pieces.piece.back().label;
     std::vector<Label> label(pieces.piece.size());
@@ -201,8 +204,8 @@ class Sorting {
   ImportedTissue& tissue_;
 };
 
-/// The surface of a piece, smoothed more where it has holes at first.
-/// @return why there is none, or empty
+/// Triangulates the surface of a piece, with stronger smoothing where it has handles at first.
+/// @return cause of failure, empty on success
 std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
                          geometry::Surface& surface) {
   constexpr std::array<double, 3> kMore{1, 1.6, 2.5};
@@ -248,7 +251,7 @@ void add_cells(const ImportOptions& o, const LabelImage& image, const std::vecto
   }
 }
 
-/// Who touches whom in the image, cells and vessels.
+/// Counts the neighbours of every cell in the image and marks the cells that touch vessels.
 void add_neighbours(const LabelImage& image, const LabelImage& vessels, ImportedTissue& tissue) {
   constexpr int kFaces = 4;  // of voxels: fewer are chance
   const Label vessel = [&] {

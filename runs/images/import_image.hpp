@@ -1,5 +1,5 @@
 #pragma once
-/// A scene from a label image: its cells as deformable cells or spheres, its vessels as a surface.
+/// Cells and vessels of a label image as closed surfaces.
 
 #include <array>
 #include <string>
@@ -11,36 +11,37 @@
 
 namespace acinus::runs {
 
-/// A label, or a piece of one, that is no cell of the scene.
+/// Label, or piece of a label, without a cell.
 struct LeftOut {
   imaging::Label label = 0;
   std::size_t n_voxel = 0;
-  Vec3 center = Vec3::Zero();  ///< um
+  Vec3 center = Vec3::Zero();  ///< centroid, um
   std::string why;
 };
 
 struct ImportedCell {
   imaging::Label label = 0;
   std::size_t n_voxel = 0;
-  double volume = 0;           ///< um^3, of its voxels
-  Vec3 center = Vec3::Zero();  ///< um, of its voxels
-  int neighbours = 0;          ///< cells that touch it in the image
+  double volume = 0;           ///< volume of its voxels, um^3
+  Vec3 center = Vec3::Zero();  ///< centroid of its voxels, um
+  int neighbours = 0;          ///< number of touching cells in the image
   bool at_border = false, at_vessel = false;
   geometry::Surface surface;
 };
 
 struct ImportedTissue {
   imaging::Voxel size{};
-  Vec3 voxel = Vec3::Zero();       ///< um
-  std::vector<ImportedCell> cell;  ///< by label
-  std::vector<LeftOut> left_out;   ///< by label, the larger first
+  Vec3 voxel = Vec3::Zero();       ///< sides of a voxel, um
+  std::vector<ImportedCell> cell;  ///< ascending labels
+  std::vector<LeftOut> left_out;   ///< ascending labels, larger pieces first
   std::vector<geometry::Surface> vessel;
-  std::vector<std::array<imaging::Label, 2>> touching;  ///< pairs of kept cells
+  std::vector<std::array<imaging::Label, 2>> touching;  ///< touching pairs among `cell`
   std::vector<std::string> warned;
 };
 
-/// Reads, sorts out and makes surfaces. um from the corner of the image.
-/// @throws Error for an image that cannot be used or holds no cell that can be kept
+/// Reads a label image, selects the cells and triangulates their surfaces. Coordinates are um from
+/// the corner of the image.
+/// @throws Error for an unusable image, or one without a cell to keep
 ImportedTissue import_image(const ImportOptions& options);
 
 /// Writes scene.json, cells.vtk, cells.csv, and where there are any vessels.vtk and left_out.csv,

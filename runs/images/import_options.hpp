@@ -1,5 +1,5 @@
 #pragma once
-/// Options of an import: the image, what in it is a cell, and how cells are made.
+/// Options of an image import: image, vessels, selection of cells and their surfaces.
 
 #include <optional>
 #include <string>
@@ -13,16 +13,16 @@ namespace acinus::runs {
 struct ImportOptions {
   std::string image;
   imaging::ReadImage read;
-  std::string vessels;              ///< an image of the same size, not 0 inside vessels; "" = none
-  imaging::Label vessel_label = 0;  ///< or the label of vessels in the image; 0 = none
-  /// A label that is background besides 0; 0: no other is, however it looks.
+  std::string vessels;              ///< image of the same size, not 0 inside vessels; "" = none
+  imaging::Label vessel_label = 0;  ///< label of the vessels in the image; 0 = none
+  /// Background label besides 0; 0: none, whatever encloses the image.
   std::optional<imaging::Label> background;
   CellModel model = CellModel::kDcm;
-  int nodes = 162;           ///< of a cell's mesh
-  double smallest = 0;       ///< um^3; smaller labels are specks; 0: a tenth of the median
-  double smoothing = 0.7;    ///< voxels, standard deviation
-  bool keep_border = false;  ///< cells cut off by the border stay, between mirror walls
-  bool split = false;        ///< every connected piece of a label is a cell of its own
+  int nodes = 162;           ///< nodes of a deformable cell's mesh
+  double smallest = 0;       ///< least volume of a cell, um^3; 0: a tenth of the median
+  double smoothing = 0.7;    ///< standard deviation of the Gaussian filter, voxels
+  bool keep_border = false;  ///< keep cells cut by the image border, between mirror walls
+  bool split = false;        ///< make every connected piece of a label a cell of its own
 };
 
 }  // namespace acinus::runs

@@ -27,7 +27,8 @@ Vec3 point_of(const io::Frame& f, std::int64_t k) {
   return {f.point[at], f.point[at + 1], f.point[at + 2]};
 }
 
-/// Closed surfaces by lineage.
+/// Closed surfaces of all cells of a frame by lineage: meshes as they are, spheres as icospheres.
+/// Coordinates in um.
 std::map<std::int64_t, geometry::Surface> surfaces_of(const io::Frame& f) {
   std::map<std::int64_t, geometry::Surface> out;
   std::map<std::pair<std::int64_t, std::int64_t>, int> number;  // of a node among those of a cell

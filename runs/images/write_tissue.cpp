@@ -1,4 +1,4 @@
-/// The folder of a scene from an image.
+/// Scene folder of an imported tissue.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,12 +24,12 @@ namespace {
 constexpr const char *kScene = "scene.json", *kCells = "cells.vtk", *kVessels = "vessels.vtk",
                      *kTable = "cells.csv", *kLeftOut = "left_out.csv";
 
-/// um, with the digits that a voxel deserves.
+/// Quoted length with unit for a scene file, six significant digits.
 std::string length(double um) { return fmt::format("\"{:.6g} um\"", um); }
 
 std::string quoted(const std::string& text) { return nlohmann::json(as_utf8(text)).dump(); }
 
-/// Takes a folder away again unless it was finished.
+/// Guard that removes a folder unless it was finished.
 struct UnfinishedFolder {
   std::string folder;
   bool finished = false;
@@ -45,7 +45,7 @@ double mean_radius(const ImportedTissue& t) {
   return sphere_radius(volume / static_cast<double>(t.cell.size()));
 }
 
-/// Mirror walls where the border cuts cells off: the tissue goes on there.
+/// Scene text of mirror walls at the image borders that cut cells: the tissue continues there.
 std::string walls_text(const ImportedTissue& t) {
   constexpr std::array<const char*, 3> kAxis{"x", "y", "z"};
   std::array<std::array<bool, 2>, 3> cut{};
@@ -76,7 +76,7 @@ std::string walls_text(const ImportedTissue& t) {
   return walls.empty() ? "" : fmt::format("  \"walls\": [\n{}\n  ],\n", fmt::join(walls, ",\n"));
 }
 
-/// Deformable cells in the middle third.
+/// Scene text of a zoom: deformable cells within a ball of a third of the tissue's extent.
 std::string zoom_text(const ImportedTissue& t) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const ImportedCell& c : t.cell) {

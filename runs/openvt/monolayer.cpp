@@ -14,7 +14,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr int kTimesPerCycle = 5;  ///< of the relaxation of eleven cells, as agreed there
+constexpr int kTimesPerCycle =
+    5;  ///< relaxation times of the row per cell cycle, as specified by OpenVT
 constexpr int kAngles = 720, kMonolayerRings = 40;
 
 bool is_covered(const std::vector<const Disc*>& neighbours, double x, double y) {

@@ -12,7 +12,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kRelaxed = 9;  ///< diameters, of the ten that eleven cells have between centres
+constexpr double kRelaxed =
+    9;  ///< nine of the ten diameters between the outer centres of eleven cells
 
 RowLength read_row(const std::string& folder) {
   RowLength row;

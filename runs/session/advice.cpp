@@ -13,7 +13,7 @@
 namespace acinus::runs {
 namespace {
 
-/// What helps where there are more cells than room. Empty where cells still fit.
+/// Advice for overcrowded tissue; empty if the cells fit.
 std::string advise_if_full(const coupling::World& world, std::span<const std::int64_t> cells) {
   const std::optional<Crowd> crowd = find_crowd(world, cells);
   if (!crowd) return {};

@@ -17,7 +17,7 @@ namespace acinus::runs {
 
 namespace {
 
-/// Error for a folder without a summary, which is written when a run ends.
+/// Error for a folder without summary.json, which is written when a run ends.
 Error missing_summary(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code code;

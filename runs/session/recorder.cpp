@@ -25,7 +25,7 @@ std::string now_text() {
   return text;
 }
 
-/// Calls f(name, count) for what is in a run file.
+/// Calls f(name, count) for every kind of record in a run file.
 template <class Counts, class F>
 void visit(Counts& c, F f) {
   f("file/frames", c.frame);

@@ -29,20 +29,19 @@ constexpr std::array kResultFiles{"run.vtkhdf",
                                   "start.h5",
                                   "run.log"};
 
-/// Held while a run writes in the folder. It is never removed, else two processes could hold two
-/// files of that name.
+/// Lock file held while a run writes in the folder. It is never removed: two processes could
+/// otherwise hold two files of that name.
 constexpr const char* kLockedFile = "run.lock";
 
 std::string lock_file(const std::string& folder) { return folder + "/" + kLockedFile; }
 
-/// Keys that a resumed run may change.
+/// True if a resumed run may change the key.
 bool may_change(const std::string& pointer) {
   return pointer == "/name" || pointer == "/description" || pointer == "/time/end" ||
          pointer == "/start_up/from" || pointer.starts_with("/output");
 }
 
-/// Whether the folder may be used: it holds what the run needs, and nothing that it may not
-/// replace.
+/// Checks that the folder holds the checkpoint the run needs, and no results it may not replace.
 void check_use(const std::string& folder, const RunOptions& options) {
   std::error_code failed;
   check(!fs::exists(folder, failed) || fs::is_directory(folder),

@@ -39,7 +39,7 @@
 namespace acinus::runs {
 namespace {
 
-/// The logger of a run goes with it: a process may run several scenes.
+/// Guard that restores the default logger after a run, since a process may run several scenes.
 struct LoggerKept {
   std::shared_ptr<spdlog::logger> before = spdlog::default_logger();
   LoggerKept() = default;
@@ -51,7 +51,7 @@ struct LoggerKept {
   LoggerKept& operator=(const LoggerKept&) = delete;
 };
 
-/// What to type to go on: the same scene, changes and folder.
+/// Command line that resumes the run with the same scene, changes and folder.
 std::string resume_command(const RunOptions& options) {
   std::string command = "acinus run " + quote_for_shell(options.scene_file) + " --resume --out " +
                         quote_for_shell(options.out);
@@ -95,19 +95,19 @@ class SceneRun {
 
   const Scene& scene_;
   const RunOptions& options_;
-  Notes notes_;           ///< of the geometry
-  double vessel_length_;  ///< um
+  Notes notes_;           ///< on the construction of the world
+  double vessel_length_;  ///< total length, um
   coupling::Simulation simulation_;
   Recorder recorder_;
-  double end_;  ///< s
+  double end_;  ///< simulated time at which the run ends, s
   Progress progress_;
   double started_ = wall_seconds(), last_save_ = started_;
   std::int64_t accepted_before_ = 0;  ///< steps of the runs this one continues
   double memory_limit_;               ///< bytes
-  double next_look_ = 0;              ///< at the memory in use, on the clock of wall_seconds()
+  double next_look_ = 0;              ///< of memory use, on the clock of wall_seconds()
   bool was_running_ = false;          ///< before this step
-  std::string stopped_by_;            ///< empty: it was not
-  Excess excess_;                     ///< why a frame ended the run, if its depth is > 0
+  std::string stopped_by_;            ///< empty: not stopped
+  Excess excess_;                     ///< overlaps that end the run if depth_um > 0
 };
 
 SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld built)
@@ -170,7 +170,8 @@ void SceneRun::end_phase(const std::string& what) {
   recorder_.add_event("start_up", what);
 }
 
-/// Overlaps of the first frame are told at once: hours later the run may stop because of them.
+/// Writes a frame. Overlaps of the first frame are reported at once, since the run may stop because
+/// of them hours later.
 void SceneRun::write_frame(bool last) {
   const bool first = !recorder_.has_frame();
   excess_ = recorder_.write_frame(last);
@@ -183,7 +184,8 @@ void SceneRun::write_frame(bool last) {
   warn(warning);
 }
 
-/// Frames, checkpoints and reasons to stop, once the events after a step are over.
+/// Writes frames and checkpoints that are due, after the life events of a step.
+/// @return true if the run goes on
 bool SceneRun::events_over() {
   if (frame_is_due()) write_frame(time() >= end_ - kSameTime);
   if (excess_.depth_um > 0) return false;
@@ -343,8 +345,8 @@ std::shared_ptr<spdlog::logger> open_log(const RunOptions& options, const Ranks&
   return log;
 }
 
-/// Ends all processes because of what happened to this one. What happened to all alike the first
-/// one says, and the others wait for it.
+/// Ends all processes because this one failed. A failure common to all is reported by the first
+/// process only; the others wait for it.
 [[noreturn]] void end_all(const Ranks& ranks, const std::exception& failed) {
   constexpr unsigned kPatience = 3;  // s
   const auto* error = dynamic_cast<const Error*>(&failed);

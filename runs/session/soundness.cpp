@@ -14,7 +14,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Share of a mean edge that a surface may stand deeper between contact points.
+/// Additional overlap of a surface between contact points, as a share of the mean edge length.
 constexpr double kBetweenPoints = 0.25;
 
 double radius_of(const coupling::State& s, std::int64_t id) {
@@ -22,7 +22,7 @@ double radius_of(const coupling::State& s, std::int64_t id) {
   return sphere_radius(s.cbm.volume[k].at(s.clock.time));
 }
 
-/// The sphere whose centre is deepest inside its boundary.
+/// Sphere whose centre lies deepest inside an obstacle; depth_um = 0 if there is none.
 Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::World& world,
                         const coupling::Workspace& work) {
   const cbm::State& s = world.state.cbm;
@@ -59,8 +59,8 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
   return worst;
 }
 
-/// The nucleus that stands farthest outside its cortex. Contact looks max_depth far for the way
-/// back, so that a half of it is still safe.
+/// Nucleus that protrudes farthest from its cortex. Contact searches max_depth deep for it, so that
+/// half of that is still safe.
 Excess find_leak(const coupling::World& world) {
   const coupling::NucleusLeak leak = coupling::find_nucleus_leak(world.state);
   const double limit = 0.5 * world.params.dcm_contact.max_depth;

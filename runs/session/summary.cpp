@@ -18,12 +18,12 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// Every number in a file is finite; what is not is an error of ours and is shown as null.
+/// JSON number; null for a value that is not finite, which JSON cannot hold.
 OrderedJson finite_number(double v) {
   return std::isfinite(v) ? OrderedJson(v) : OrderedJson(nullptr);
 }
 
-/// The worst of all divisions of deformable cells.
+/// Worst figures of all divisions of deformable cells.
 OrderedJson division_figures(const LifeTotals& t) {
   return {{"max_volume_error", finite_number(t.volume_error)},
           {"max_outside_um", finite_number(t.outside_um)},
@@ -41,8 +41,8 @@ OrderedJson mesh_figures(const LifeTotals& t) {
           {"left_degenerate", static_cast<int>(t.degenerate)}};
 }
 
-/// Cells and births of every layer at the end, the last: deeper; and when the lesion closed, by
-/// every measure of its area; null if it did not.
+/// Adds cells and births per layer at the end (last entry: all deeper layers) and the closing time
+/// of the lesion by each measure of its area, null if it did not close.
 void add_lobule_figures(const Measures& m, OrderedJson& measures) {
   for (const char* what : {"cells", "births"})
     for (const std::string& layer : layer_names())
@@ -60,7 +60,7 @@ void add_lobule_figures(const Measures& m, OrderedJson& measures) {
   measures["closed_d_by_area"] = by_area;
 }
 
-/// Pressure at which the cell is drawn in, beside that of a surface with the tension of its type.
+/// Adds the critical aspiration pressure, with that of a surface of the cell type's tension.
 void add_aspiration_figures(const Scene& scene, const Measures& m, OrderedJson& measures) {
   const CellType& type = scene.cell_types.begin()->second;
   const std::optional<double> found = critical_suction(*scene.pipette, m);
@@ -74,7 +74,7 @@ void add_passage_figures(const Measures& m, OrderedJson& measures) {
   measures["passage_h"] = hours ? finite_number(*hours) : OrderedJson(nullptr);
 }
 
-/// The force that took the cells apart, beside that of vesicles.
+/// Adds the pull-off force, with that of vesicles.
 void add_pull_off_figures(const Scene& scene, const Measures& m, OrderedJson& measures) {
   const PairOfCells pair = pair_of(scene);
   const std::optional<double> force = pull_off_force(m);
@@ -85,7 +85,7 @@ void add_pull_off_figures(const Scene& scene, const Measures& m, OrderedJson& me
       force ? finite_number(*force / vesicle_pull_off(pair)) : OrderedJson(nullptr);
 }
 
-/// What was run and how it ended.
+/// Adds identity and outcome of the run.
 void add_run(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   j["scene"] = in.scene.name;
@@ -129,7 +129,7 @@ void add_cells(const SummaryInput& in, OrderedJson& j) {
   if (in.life.remeshed + in.life.degenerate > 0) j["meshes"] = mesh_figures(in.life);
 }
 
-/// How far the state is from what it should be.
+/// Adds the error measures of the run.
 void add_errors(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   const RunTotals& t = in.totals;

@@ -6,8 +6,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kBasis = 30;    ///< s of wall time
-constexpr double kMemory = 0.3;  ///< of the wall time so far
+constexpr double kBasis = 30;    ///< least wall time, s
+constexpr double kMemory = 0.3;  ///< share of the wall time so far
 
 }  // namespace
 

@@ -17,7 +17,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Where a process runs.
+/// Host, permitted processors and threads of a process.
 struct ProcessPlace {
   std::array<char, 64> host{};
   cpu_set_t processors{};
@@ -36,7 +36,7 @@ bool share_all(const ProcessPlace& a, const ProcessPlace& b) {
   return a.host == b.host && CPU_EQUAL(&a.processors, &b.processors) != 0;
 }
 
-/// Names the machines on which threads outnumber processors.
+/// Lists the machines with more threads than processors; empty if there are none.
 std::string find_crowded(const std::vector<ProcessPlace>& places) {
   struct NodeLoad {
     cpu_set_t processors{};

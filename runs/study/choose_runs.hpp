@@ -1,5 +1,5 @@
 #pragma once
-/// Which runs a process takes, and in which order.
+/// Selection and order of the runs of one process.
 
 #include <string>
 #include <vector>
@@ -15,12 +15,13 @@ struct RunChoice {
 
 struct ChosenRun {
   std::size_t run = 0;  ///< index into the plan's runs
-  bool own = true;      ///< false: run here only if one of ours waits for its start
+  bool own =
+      true;  ///< false: belongs to another task; run here only if one of ours waits for its start
 };
 
-/// The runs of one process: seed by seed, so that a study cut short has something of everything;
-/// those that others start from first, then the expensive ones. Tasks get equal expected cost; the
-/// split depends on the study alone. Runs that the chosen ones start from are among them.
+/// Chooses the runs of one process, seed by seed so that a partial study covers every variant; runs
+/// that others start from come first, then expensive ones. Tasks get equal expected cost. The split
+/// depends on the study alone. Runs that chosen ones start from are included.
 /// @throws Error for a variant that does not exist
 std::vector<ChosenRun> choose_runs(const StudyPlan& plan, const RunChoice& choice);
 

@@ -7,9 +7,9 @@
 namespace acinus::runs {
 namespace {
 
-/// CPU seconds of a cell-step [docs/benchmarks.md], packed tissue.
+/// CPU time per sphere and step in packed tissue, s (docs/benchmarks.md).
 constexpr double kSphereCost = 4e-6;
-/// Contacts that close within a step with size control ask for some solves.
+/// Mean number of solves per step with step-size control, since contacts close within the step.
 constexpr double kSolves = 3;
 double cell_step(const Scene& scene, int nodes) {
   const double at_162 =
@@ -23,7 +23,7 @@ double count_final_cells(const Scene& scene) {
   return count_wanted_cells(scene);
 }
 
-/// Share of deformable cells; of zoomed scenes half, where they lie is not looked at.
+/// Expected share of deformable cells: half for zoomed scenes, whose regions are not evaluated.
 double share_deformable(const Scene& scene) {
   if (scene.cells.model == CellModel::kZoom) return scene.zoom.empty() ? 0 : 0.5;
   return scene.cells.model == CellModel::kDcm ? 1 : 0;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kSameFrame = 1e-3;  // s: times of frames closer than this are the same moment
 
-/// Continued fraction of the incomplete beta function [Press et al., Numerical Recipes, 6.4], by
-/// the modified Lentz method; written for x < (a + 1) / (a + b + 2).
+/// Continued fraction of the incomplete beta function [Press et al., Numerical Recipes, 6.4] by the
+/// modified Lentz method, for x < (a + 1) / (a + b + 2).
 double beta_fraction(double a, double b, double x) {
   constexpr double kTiny = 1e-300, kClose = 1e-15;
   constexpr int kMost = 10000;
@@ -51,7 +51,9 @@ Moments moments(const std::vector<double>& v) {
   return m;
 }
 
-/// How often |t| of Student's distribution is larger by chance.
+/// Two-sided tail probability of Student's t distribution.
+/// @param t2       squared t statistic
+/// @param freedom  degrees of freedom
 double two_sided(double t2, double freedom) {
   return incomplete_beta(freedom / 2, 0.5, freedom / (freedom + t2));
 }

@@ -40,13 +40,13 @@ std::optional<OrderedJson> read_record(const std::string& root, const StudyRun& 
   return j;
 }
 
-/// Keys that say nothing about results; the start is compared by the scenes it came from.
+/// True for keys without effect on results. The start is compared by the scenes it came from.
 bool is_without_effect(const std::string& pointer) {
   return pointer == "/name" || pointer == "/description" || pointer == "/start_up/from";
 }
 
-/// True if the folders of a run and of those it starts from hold these very scenes. Their hashes
-/// also differ by descriptions and by keys that are younger than a run.
+/// True if the folders of a run and of those it starts from hold these very scenes. Hashes alone
+/// would also differ by descriptions and by keys newer than a run.
 bool has_same_scenes(const std::string& root, const StudyRun& run) {
   const auto holds = [&](const std::string& folder, const std::string& scene) {
     const std::string file = root + "/" + folder + "/scene.json";

@@ -23,7 +23,8 @@ std::vector<std::string> split(std::string path) {
   return parts;
 }
 
-/// "cell_types.<name>.radius" stands for "cell_types.hepatocyte.radius".
+/// True if a path matches a key with placeholders: "cell_types.<name>.radius" matches
+/// "cell_types.hepatocyte.radius".
 bool fits(const std::vector<std::string>& pattern, const std::vector<std::string>& path) {
   return std::ranges::equal(pattern, path, [](const std::string& a, const std::string& b) {
     return a == b || a.front() == '<';

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kFile = "/study.json";
 
-/// Whether the folder is a study's. Another task may be making it this moment: waits a little.
+/// True if the folder is that of a study. Waits up to 2 s, since another task may be creating it.
 bool has_study_file(const std::string& root) {
   constexpr int kLooks = 40;
   for (int look = 0; look < kLooks; ++look) {

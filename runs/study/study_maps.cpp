@@ -12,7 +12,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Values of the two keys in the scene of a variant; nothing if it lacks one.
+/// Values of the two keys in the scene of a variant; empty if it lacks one.
 std::optional<std::pair<double, double>> place_of(const StudyPlan& plan, std::size_t variant,
                                                   const StudyMap& wanted) {
   for (const StudyRun& run : plan.runs) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a study says while it runs: one line that is renewed on a terminal, one a minute otherwise.
+/// Progress of a study: one line renewed on a terminal, one line a minute otherwise.
 
 #include <cstddef>
 #include <string>
@@ -12,7 +12,7 @@ namespace acinus::runs {
 
 struct StudyCounts {
   int all = 0, done = 0, failed = 0;
-  std::vector<std::size_t> waiting;  ///< runs, by index
+  std::vector<std::size_t> waiting;  ///< indices of runs
 };
 
 class StudyProgress {
@@ -21,7 +21,7 @@ class StudyProgress {
 
   void add(const StudyRun& run, double cpu_s) { costs_.add(run, cpu_s); }
   void show(const StudyCounts& counts, const std::vector<ActiveRun>& active);
-  void tell(const std::string& text);  ///< a line that stays
+  void tell(const std::string& text);  ///< prints a permanent line
   void finish();
 
  private:
@@ -29,10 +29,10 @@ class StudyProgress {
   ExpectedCosts costs_;
   int jobs_;
   bool quiet_, terminal_, line_open_ = false;
-  double last_ = -1e300;  ///< wall_seconds()
+  double last_ = -1e300;  ///< time of the last line, wall_seconds()
 };
 
-/// "40 s", "12.5 min", "3.2 h", "2.5 d".
+/// Duration with a suitable unit: "40 s", "12.5 min", "3.2 h", "2.5 d".
 std::string short_duration(double seconds);
 
 }  // namespace acinus::runs

@@ -98,7 +98,7 @@ void describe_figure(Visitor& v, StudyFigure& b) {
             b.columns);
 }
 
-/// Level, moment and window of a measure, by its kind.
+/// Describes level, time and window of a measure, depending on its kind.
 void describe_moment(Visitor& v, StudyMeasure& b) {
   v.when(b.kind == "first_below" || b.kind == "first_above", "kind = first_below or first_above",
          [&b](Visitor& w) {
@@ -156,7 +156,7 @@ void describe_measure(Visitor& v, StudyMeasure& b) {
   describe_moment(v, b);
 }
 
-/// Range of values for which a claim holds.
+/// Describes the range of values for which a claim holds.
 void describe_bounds(Visitor& v, std::optional<Node>& low, std::optional<Node>& high) {
   v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
           low);

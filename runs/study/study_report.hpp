@@ -1,5 +1,5 @@
 #pragma once
-/// Everything a study says about its runs, written from what stands in its folder.
+/// Report on the runs of a study, from the files of its folder.
 
 #include <string>
 

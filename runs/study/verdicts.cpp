@@ -61,7 +61,8 @@ std::string describe_bounds(const Verdict& v) {
   return text + (v.every_seed ? ", every seed" : "");
 }
 
-/// What never happened is later than the end of the runs; about what comes after they say nothing.
+/// Evaluates a claim. An event that did not happen within the runs counts as later than their end;
+/// runs say nothing beyond it.
 ClaimStatus check_claim(Verdict& v) {
   Measured& m = v.measured;
   if (!m.value) return ClaimStatus::kNotMeasured;

@@ -39,7 +39,7 @@ ItemKind kind_of(const std::string& path) {
                   path));
 }
 
-/// "lobule.run" -> "lobule.html", in this folder.
+/// Default name of the report, in the working directory: "lobule.html" for "lobule.run".
 std::string file_named_after(const std::string& first) {
   fs::path name = fs::path(first).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();

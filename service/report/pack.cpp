@@ -12,7 +12,8 @@
 namespace acinus::runs {
 namespace {
 
-/// @param width  bytes of each
+/// Appends integers as byte planes.
+/// @param width  bytes per integer
 void append_planes(std::string& bytes, const std::vector<std::uint32_t>& value, int width) {
   for (int plane = width - 1; plane >= 0; --plane)
     for (const std::uint32_t v : value) bytes += static_cast<char>((v >> (8 * plane)) & 0xff);

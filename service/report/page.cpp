@@ -7,7 +7,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Nothing may be loaded from anywhere: the page is all there is.
+/// Head of the page. Its policy allows no external resource, so that the page is self-contained.
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
 <head>

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLimit = 120;  // s
 
-/// The first browser in PATH, "" if there is none.
+/// Name of the first known browser in PATH, "" if there is none.
 std::string find_browser() {
   const char* path = std::getenv("PATH");
   for (const char* name : {"chromium", "chromium-browser", "google-chrome", "chrome"}) {

@@ -32,7 +32,7 @@ OrderedJson curve(const std::vector<double>& time, const std::vector<double>& va
   return {{"time", numbers(thin.time)}, {"value", numbers(thin.value)}};
 }
 
-/// All columns but the time as curves of their own: thinning keeps each one's peaks.
+/// Converts every column but the time to a curve of its own, so that thinning keeps its extremes.
 OrderedJson curves(const std::map<std::string, std::vector<double>>& columns,
                    const std::map<std::string, std::string>& unit) {
   OrderedJson list = OrderedJson::object();
@@ -47,7 +47,7 @@ OrderedJson curves(const std::map<std::string, std::vector<double>>& columns,
   return list;
 }
 
-/// Quantiles over the cells of a frame: 5, 25, 50, 75, 95 %.
+/// Appends the quantiles of a cell property in one frame: 5, 25, 50, 75, 95 %.
 void add_quantiles(OrderedJson& band, double time_s, std::vector<double> values) {
   std::erase_if(values, [](double x) { return !std::isfinite(x); });  // they have no order
   if (values.empty()) return;
@@ -66,7 +66,7 @@ std::vector<double> relative_volumes(const io::Table& cells) {
   return volume;
 }
 
-/// Pressure and volume of the cells at up to so many frames: tables are read without the meshes.
+/// Describes pressure and volume of the cells over time, from the cell tables alone.
 OrderedJson describe_cells(RunRecord& run) {
   constexpr int kMostTables = 200;
   OrderedJson bands{{"pressure", OrderedJson::object()}, {"volume", OrderedJson::object()}};
@@ -125,7 +125,7 @@ OrderedJson describe_events(const std::vector<io::Event>& events) {
   return {{"counts", counts}, {"last", last}, {"all", events.size()}};
 }
 
-/// What of the scene is not as a scene that says nothing has it.
+/// Keys of a scene whose values differ from the defaults.
 std::vector<std::string> differences_from_defaults(const std::string& scene) {
   Scene plain;
   const OrderedJson types =
@@ -137,7 +137,7 @@ std::vector<std::string> differences_from_defaults(const std::string& scene) {
                                 [](const std::string&) { return false; });
 }
 
-/// The scene that the run keeps; a line in `damage` where it is none.
+/// Adds the scene recorded in the run file, or a line to `damage` if it is invalid.
 void describe_scene(RunRecord& run, const std::string& text, OrderedJson& j) {
   OrderedJson scene = parse_or_discard<OrderedJson>(text);
   std::string fault;

@@ -13,7 +13,8 @@ namespace acinus::runs {
 namespace {
 namespace fs = std::filesystem;
 
-/// Notes what fails and goes on.   @return whether it did not fail
+/// Runs a read operation and records its failure.
+/// @return true if it succeeded
 template <class Read>
 bool attempt(RunRecord& run, const std::string& what, Read read) {
   try {

@@ -17,7 +17,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// One field of a line, and the rest of the line. Quotes as in RFC 4180.
+/// Removes and returns the first field of a CSV line, with quotes as in RFC 4180.
 std::string take_field(std::istringstream& line) {
   std::string field;
   if (line.peek() != '"') {

@@ -31,7 +31,7 @@ std::string session_of(const ServiceAccess& access, const HttpRequest& request) 
   return "";
 }
 
-/// The token of the Authorization header; "" = none.
+/// Token of the Authorization header; "" = none.
 std::string header_token(const HttpRequest& request) {
   const std::string value = request.header("authorization");
   if (value.starts_with("Bearer ")) return value.substr(7);

@@ -1,5 +1,5 @@
 #pragma once
-/// What waits without a thread: coroutines on the loop of the service.
+/// Coroutines on the event loop of the service, which wait without a thread.
 
 #include <boost/asio/awaitable.hpp>
 

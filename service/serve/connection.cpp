@@ -33,13 +33,13 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 
-constexpr auto kPatience = std::chrono::seconds(30);  ///< with a client that sends or takes slowly
-constexpr auto kStrangerPatience = std::chrono::seconds(10);  ///< with one of whom nothing is known
+constexpr auto kPatience = std::chrono::seconds(30);          ///< timeout of a slow client
+constexpr auto kStrangerPatience = std::chrono::seconds(10);  ///< timeout before authentication
 constexpr auto kRoomPoll = std::chrono::milliseconds(20);
-constexpr auto kLinger = std::chrono::seconds(2);  ///< with what comes after the reply
+constexpr auto kLinger = std::chrono::seconds(2);  ///< time to discard input after the last reply
 constexpr auto kEventPoll = std::chrono::milliseconds(500);
 constexpr std::uint32_t kMostHeader = 16384;      ///< bytes
-constexpr std::uint64_t kMostStrangeBody = 4096;  ///< bytes, of whom nothing is known
+constexpr std::uint64_t kMostStrangeBody = 4096;  ///< before authentication, bytes
 
 constexpr std::array kSingle{"host",           "origin",        "authorization",
                              "content-length", "content-type",  "transfer-encoding",
@@ -108,8 +108,7 @@ class Connection {
  private:
   auto token() { return asio::redirect_error(asio::use_awaitable, failed_); }
 
-  /// Takes what is still on its way, else the client would see a broken connection in place of the
-  /// reply.
+  /// Discards remaining input before the socket is closed; a reset would otherwise lose the reply.
   Task<void> drain() {
     std::array<char, 65536> bytes;
     stream_.expires_after(kLinger);
@@ -123,7 +122,8 @@ class Connection {
 
   void give_room() { connections_.give_room(std::exchange(room_, 0)); }
 
-  /// Waits until a body may be received.
+  /// Waits until the receive budget admits the body.
+  /// @return false on timeout
   Task<bool> take_room(double bytes) {
     asio::steady_timer timer(stream_.get_executor());
     const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -136,7 +136,8 @@ class Connection {
     co_return true;
   }
 
-  /// Reads the body: of strangers, a few bytes.
+  /// Reads the body, of an unauthenticated client only a few bytes.
+  /// @return false if a refusal was sent or the client has gone
   Task<bool> take_body(http::request_parser<http::string_body>& parser, bool allowed) {
     if (!allowed) {
       parser.body_limit(kMostStrangeBody);  // of chunks; the length was compared with the other one
@@ -169,7 +170,8 @@ class Connection {
     co_return false;
   }
 
-  /// @return whether there may be another one
+  /// Serves one request.
+  /// @return true if the connection may carry another
   Task<bool> serve_one() {
     http::request_parser<http::string_body> parser;
     parser.header_limit(kMostHeader);
@@ -208,7 +210,7 @@ class Connection {
     co_return co_await send(reply, false);
   }
 
-  /// What is our fault ends one request, not the service.
+  /// Computes the reply. An internal error becomes status 500 and does not end the service.
   Task<HttpReply> answer(HttpRequest request) {
     std::string fault;
     try {
@@ -289,7 +291,7 @@ class Connection {
   bool head_only_ = false;
   Connections& connections_;
   std::optional<Connections::Stranger> stranger_;
-  double room_ = 0;  ///< bytes that the connections count for it
+  double room_ = 0;  ///< bytes charged to the receive budget
 };
 
 }  // namespace

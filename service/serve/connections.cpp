@@ -6,7 +6,7 @@ namespace acinus::runs {
 namespace {
 
 constexpr std::size_t kMostStrangers = 512;
-constexpr double kMostReceived = 64e6;  ///< bytes, together
+constexpr double kMostReceived = 64e6;  ///< bytes in all connections together
 
 }  // namespace
 

@@ -29,12 +29,11 @@ namespace asio = boost::asio;
 namespace fs = std::filesystem;
 
 constexpr auto kLook = std::chrono::seconds(1);
-constexpr int kMostKills = 5;      ///< in a row, without getting any further
-constexpr double kGrace = 60;      ///< s that a run may take to end beyond its limits
-constexpr int kLooksPerSize = 10;  ///< the size of a folder is looked at less often
-/// Address space of a run beyond the memory it may use: the program, stacks, pools of threads. Size
-/// of one file beyond the disk it may use. Its limits are kept otherwise; this is for a run that
-/// gets around them.
+constexpr int kMostKills = 5;      ///< consecutive kills without progress
+constexpr double kGrace = 60;      ///< time for a run to end after exceeding a limit, s
+constexpr int kLooksPerSize = 10;  ///< folder sizes are measured every so many polls
+/// Hard resource limits beyond those of a run, bytes: address space for program, stacks and thread
+/// pools, and file size. They only catch runs that evade the ordinary limits.
 constexpr double kRoom = 4e9, kRoomOfThread = 2e8;
 
 std::string progress_file(const std::string& folder) { return folder + "/progress.txt"; }
@@ -45,14 +44,15 @@ struct Dispatcher::Active {
   Active(asio::io_context& io, Child process, double limit)
       : child(std::move(process)), ended(io, ::dup(child.descriptor())), limit_s(limit) {}
   Child child;
-  asio::posix::stream_descriptor ended;  ///< readable when the child has ended
+  asio::posix::stream_descriptor ended;  ///< readable once the child has ended
   double started = wall_seconds();
-  /// Summaries before this are of earlier attempts. Clocks of file systems may be a little behind.
+  /// Summaries older than this belong to earlier attempts. One second of margin for the file
+  /// system's clock.
   FileTime began = FileTime::clock::now() - std::chrono::seconds(1);
-  double limit_s;  ///< wall time, of this attempt
+  double limit_s;  ///< wall time of this attempt
   int looks = 0;
-  bool to_stop = false;  ///< by a client
-  std::string too_much;  ///< the limit it has broken; "" = none
+  bool to_stop = false;  ///< at a client's request
+  std::string too_much;  ///< exceeded limit; "" = none
 };
 
 struct Dispatcher::Timers {

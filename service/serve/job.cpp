@@ -63,7 +63,7 @@ void write_job(const std::string& folder, const RunJob& job) {
       j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-/// A run may be killed within its start-up, whose times are negative, s.
+/// Smallest simulated time of a record: times of the start-up phase are negative.
 constexpr double kEarliest = -std::numeric_limits<double>::max();
 
 RunJob read_job(const std::string& folder) {

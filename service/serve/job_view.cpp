@@ -16,8 +16,8 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kMostListed = 200;
-constexpr int kQuietLooks = 30;  ///< looks without news before a comment is sent
-/// Bounds of a run within a list; GET /runs/ID gives it whole.
+constexpr int kQuietLooks = 30;  ///< polls without news before a keep-alive comment
+/// Limits of a run's entry in a list; GET /runs/ID returns it in full.
 constexpr std::size_t kMostListedSet = 8, kMostListedText = 200;
 constexpr const char* kComment = ": still here\n\n";
 

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What a study sweeps; where it sweeps nothing, the numbers in which its variants differ.
+/// Default parameters of a study's models: the numeric keys it sweeps, else those its variants set.
 std::vector<std::string> default_parameters(const Study& study) {
   std::vector<std::string> keys;
   const auto add = [&](const std::string& key) {

@@ -25,13 +25,13 @@ namespace asio = boost::asio;
 namespace fs = std::filesystem;
 
 constexpr int kMostAtOnce = 2;
-constexpr double kLimit = 60;                ///< s of wall and of processor time
-constexpr double kMostMemory = 4e9;          ///< bytes of address space
-constexpr std::size_t kMostWords = 200'000;  ///< bytes of the faults of a scene
+constexpr double kLimit = 60;                ///< wall time and processor time, s
+constexpr double kMostMemory = 4e9;          ///< address space, bytes
+constexpr std::size_t kMostWords = 200'000;  ///< bytes of the error messages
 constexpr auto kPreparationPoll = std::chrono::milliseconds(4);
 constexpr const char* kWordsFile = "prepare.txt";
 
-/// Removes the run folder of what is refused.
+/// Guard that removes the run folder of a refused submission.
 struct RemoveUnlessKept {
   std::string folder;
   bool keep = false;
@@ -41,7 +41,7 @@ struct RemoveUnlessKept {
   }
 };
 
-/// Counts one that is being prepared, also when its client goes.
+/// Counter of preparations in progress that also decrements when the client disconnects.
 struct Counted {
   explicit Counted(std::shared_ptr<int> count) : n(std::move(count)) { ++*n; }
   ~Counted() { --*n; }
@@ -50,7 +50,7 @@ struct Counted {
   std::shared_ptr<int> n;
 };
 
-/// Faults of a submission, without the path of its run folder.
+/// Faults of a submission as printed, without the path of its run folder.
 std::string told_in(const std::string& folder) {
   std::string text;
   try {

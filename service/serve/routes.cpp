@@ -27,14 +27,14 @@ namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
 using Path = std::vector<std::string>;
 
-/// Files of a run folder that may be fetched.
+/// Downloadable files of a run folder.
 constexpr std::array kFiles{"scene.json", "summary.json", "run.vtkhdf", "run.vtkhdf.sums",
                             "run.xmf",    "run.log",      "output.txt", "checkpoint.h5",
                             "start.h5",   "report.html"};
-constexpr double kReportLimit = 120;   ///< s of wall time
-constexpr double kReportMemory = 8e9;  ///< bytes of address space
-constexpr int kMostReports = 2;        ///< made at a time
-/// The script is one line of others' work, too.
+constexpr double kReportLimit = 120;   ///< wall time, s
+constexpr double kReportMemory = 8e9;  ///< address space, bytes
+constexpr int kMostReports = 2;        ///< concurrent
+/// Licence notice before the bundled script, which contains third-party code.
 constexpr const char* kServiceNotice = "/*! Licences: /page/licences.txt */\n";
 constexpr auto kReportPoll = std::chrono::milliseconds(50);
 
@@ -49,16 +49,18 @@ HttpReply from_error(const Error& error) {
   return error_reply(clients ? 400 : 503, clients ? "InvalidInput" : "FileError", error.what());
 }
 
-/// Only what the service itself sends may run in its page; frames are its own reports.
+/// Content security policy of the service's page: only resources of the service; frames are its own
+/// reports.
 constexpr const char* kPagePolicy =
     "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; frame-ancestors "
     "'self'; "
     "base-uri 'none'; form-action 'self'";
-/// It has a script of its own, since whoever opens it may fetch nothing yet.
+/// Policy of the login page, which has an inline script, since unauthenticated clients may fetch
+/// nothing.
 constexpr const char* kLoginPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src "
     "'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
-/// A report is a page of a run, and knows nothing of the service: no cookie, no request.
+/// Policy of reports: isolated from the service, without cookies and requests.
 constexpr const char* kReportPolicy = "sandbox allow-scripts allow-downloads";
 
 HttpReply page(std::string_view text, const char* policy, int status = 200) {
@@ -214,7 +216,7 @@ HttpReply Routes::send_file(const std::string& id, const std::string& name) {
   return reply;
 }
 
-/// By a process of its own: making it takes a while, and must not take the service along.
+/// Makes the report in a child process, since that takes time and may crash.
 Task<HttpReply> Routes::report(std::string id) {
   const std::string folder = store_.run_folder(id), file = folder + "/report.html";
   asio::steady_timer timer(co_await asio::this_coro::executor);

@@ -37,7 +37,8 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-/// Returns freed memory to the system, unlike a simulation: requests are large and gone soon.
+/// Configures the allocator to return freed memory to the system: requests are large and
+/// short-lived, unlike the arrays of a simulation.
 void return_freed_memory() {
 #if defined(__GLIBC__)
   constexpr int kLarge = 1 << 17;  // bytes
@@ -46,7 +47,7 @@ void return_freed_memory() {
 #endif
 }
 
-/// Every listener of events holds a socket.
+/// Raises the limit of open files: every event stream holds a socket.
 void allow_many_files() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -121,7 +122,7 @@ void tell(const ServeOptions& options, const ServiceAccess& access, int port) {
   std::fflush(stdout);
 }
 
-/// Until the loop is stopped. A fault in one handler does not end the others.
+/// Runs the event loop until it is stopped. An exception in one handler does not end the others.
 void run(asio::io_context& io) {
   for (;;) {
     try {

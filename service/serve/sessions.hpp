@@ -1,6 +1,6 @@
 #pragma once
-/// Browsers that have logged in. What a browser keeps is not the token: cookies go to every port of
-/// a machine.
+/// Login sessions of browsers. The cookie holds a session id instead of the token, since cookies
+/// are sent to all ports of a machine.
 
 #include <deque>
 #include <string>
@@ -9,7 +9,7 @@ namespace acinus::runs {
 
 class Sessions {
  public:
-  /// A new id. The oldest session ends when there are too many.
+  /// New session id. The oldest session ends beyond the limit.
   std::string open();
   bool knows(const std::string& id) const;
 

@@ -34,7 +34,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostFiles = 100, kMostSet = 200, kMostSetBytes = 64'000;
 
-/// Last names of the keys whose values are paths: "file", "from".
+/// Last components of the keys whose values are paths: "file", "from".
 const std::set<std::string>& path_keys() {
   static const std::set<std::string> names = [] {
     std::set<std::string> all{"extends"};
@@ -51,7 +51,7 @@ bool stays_inside(const std::string& path) {
          std::ranges::none_of(p, [](const fs::path& part) { return part == ".."; });
 }
 
-/// "2 h", "1e-5 J/m^2": a value that no file is named by.
+/// True for a number with an optional unit, which names no file: "2 h", "1e-5 J/m^2".
 bool is_number_with_unit(const std::string& text) {
   char* end = nullptr;
   std::strtod(text.c_str(), &end);
@@ -59,7 +59,8 @@ bool is_number_with_unit(const std::string& text) {
          text.find("..") == std::string::npos;
 }
 
-/// Before anything is read: a scene may name files it sent along, or those of shipped scenes.
+/// Checks all paths of a scene before any is read: only files sent along or files of shipped
+/// scenes.
 void check_paths(const Node& node, const std::string& pointer) {
   for (const JsonMember& member : node.members) {
     const std::string below = pointer + "/" + pointer_part(member.name);
@@ -81,7 +82,7 @@ std::string text_of(const Json& j, const char* key) {
   return j[key];
 }
 
-/// {"time.end": "2 h"} as PATH=VALUE.
+/// Changes of a request, {"time.end": "2 h"}, as PATH=VALUE.
 std::vector<std::string> read_set(const Json& j) {
   std::vector<std::string> set;
   if (!j.contains("set")) return set;
@@ -124,7 +125,7 @@ void write_files(const Json& j, const std::string& folder) {
   }
 }
 
-/// Refuses what is no shipped scene's name, so that a name is no path either.
+/// Refuses a name that is not that of a shipped scene, and so any path.
 void check_shipped(const std::string& name, const std::string& where) {
   std::vector<std::string> names;
   for (const ShippedScene& scene : shipped_scenes()) names.push_back(scene.name);
@@ -133,7 +134,7 @@ void check_shipped(const std::string& name, const std::string& where) {
                     did_you_mean_and(nearest_name(name, names), "GET /scenes lists them")));
 }
 
-/// The shipped scene that an own one extends; "" = none.
+/// Name of the shipped scene that a submitted scene extends; "" = none.
 std::string extended(const Node& root) {
   const Node* node = root.find("extends");
   if (node == nullptr || node->text.empty()) return "";

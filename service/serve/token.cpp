@@ -18,7 +18,7 @@ namespace acinus::runs {
 
 namespace {
 
-constexpr std::size_t kMostToken = 4096;  ///< bytes
+constexpr std::size_t kMostToken = 4096;  ///< of the token file, bytes
 
 }  // namespace
 

@@ -25,14 +25,16 @@ using Json = nlohmann::json;
 constexpr std::array kPosts{"ModelInfo",     "InputSizes",   "OutputSizes", "Evaluate",
                             "ApplyJacobian", "ApplyHessian", "Gradient"};
 constexpr auto kResultPoll = std::chrono::milliseconds(20);
-constexpr std::size_t kMostTexts = 1000;    ///< evaluations whose keys are remembered
-constexpr std::size_t kMostBody = 256'000;  ///< bytes; parsed in the thread that answers all others
+constexpr std::size_t kMostTexts = 1000;    ///< remembered evaluation keys
+constexpr std::size_t kMostBody = 256'000;  ///< bytes; parsed on the thread of the event loop
 
 HttpReply invalid_input(const std::string& message) {
   return error_reply(400, "InvalidInput", message);
 }
 
-/// The one vector of inputs.   @throws Error where it has another form
+/// Input vector of an evaluation.
+/// @param n  number of parameters
+/// @throws Error for another form
 std::vector<double> read_input(const Json& body, std::size_t n) {
   check(body.contains("input") && body["input"].is_array() && body["input"].size() == 1 &&
             body["input"][0].is_array(),
