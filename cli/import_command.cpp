@@ -9,7 +9,7 @@
 #include "core/parallel/clock.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/units/dimension.hpp"
-#include "runs/images/import_image.hpp"
+#include "runs/images/write_tissue.hpp"
 #include "runs/session/guarded.hpp"
 #include "runs/session/shell_quote.hpp"
 
@@ -17,14 +17,15 @@ namespace acinus::runs {
 namespace {
 
 struct ImportArguments {
-  ImportOptions import;
+  imaging::ImportOptions import;
+  int nodes = TissueScene{}.nodes;
   std::string out, voxel, unit, smallest, model = "dcm", border = "drop";
   int threads = 0;
   bool quiet = false;
 };
 
-ImportOptions options_of(const ImportArguments& a) {
-  ImportOptions o = a.import;
+imaging::ImportOptions options_of(const ImportArguments& a) {
+  imaging::ImportOptions o = a.import;
   if (!a.voxel.empty()) o.read.voxel = parse_voxel("--voxel", a.voxel);
   if (!a.unit.empty()) o.read.unit = quantity_of("--unit", a.unit, kLength);
   if (!a.smallest.empty()) {
@@ -32,16 +33,17 @@ ImportOptions options_of(const ImportArguments& a) {
     o.smallest = quantity_of("--smallest", a.smallest, kVolume);
   }
   o.keep_border = a.border == "keep";
-  o.model = a.model == "dcm"   ? CellModel::kDcm
-            : a.model == "cbm" ? CellModel::kCbm
-                               : CellModel::kZoom;
   return o;
 }
 
-void tell_left_out(const ImportedTissue& t, const std::string& folder) {
+TissueScene scene_of(const ImportArguments& a) {
+  return {static_cast<CellModel>(choice_index(kChoices<CellModel>, a.model)), a.nodes};
+}
+
+void print_left_out(const imaging::ImportedTissue& t, const std::string& folder) {
   constexpr std::size_t kNamed = 5;
-  std::map<std::string, std::vector<const LeftOut*>> by_reason;
-  for (const LeftOut& l : t.left_out) by_reason[l.why].push_back(&l);
+  std::map<std::string, std::vector<const imaging::LeftOut*>> by_reason;
+  for (const imaging::LeftOut& l : t.left_out) by_reason[l.why].push_back(&l);
   for (const auto& [why, all] : by_reason) {
     std::string names;
     for (std::size_t k = 0; k < std::min(kNamed, all.size()); ++k)
@@ -53,13 +55,13 @@ void tell_left_out(const ImportedTissue& t, const std::string& folder) {
   if (!t.left_out.empty()) fmt::print("all that is left out: {}/left_out.csv\n", folder);
 }
 
-void tell(const ImportArguments& a, const ImportedTissue& t,
-          const std::vector<std::string>& written, double seconds) {
+void print_result(const ImportArguments& a, const imaging::ImportedTissue& t,
+                  const std::vector<std::string>& written, double seconds) {
   for (const std::string& w : t.warned) fmt::print(stderr, "acinus: warning: {}\n", w);
   if (a.quiet) return;
   double least = t.cell.front().volume, most = least, sum = 0;
   int at_vessel = 0;
-  for (const ImportedCell& c : t.cell) {
+  for (const imaging::ImportedCell& c : t.cell) {
     least = std::min(least, c.volume);
     most = std::max(most, c.volume);
     sum += c.volume;
@@ -72,17 +74,17 @@ void tell(const ImportArguments& a, const ImportedTissue& t,
   if (!t.vessel.empty())
     fmt::print("{} vessel surface{}, touched by {} cells\n", t.vessel.size(),
                t.vessel.size() == 1 ? "" : "s", at_vessel);
-  tell_left_out(t, a.out);
+  print_left_out(t, a.out);
   fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds, quote_for_shell(written.front()));
 }
 
 int run(const ImportArguments& a) {
   set_threads(a.threads > 0 ? a.threads : processor_count());
-  const ImportOptions o = options_of(a);
+  const imaging::ImportOptions o = options_of(a);
   const double before = wall_seconds();
-  const ImportedTissue tissue = import_image(o);
-  const std::vector<std::string> written = write_tissue(tissue, o, a.out);
-  tell(a, tissue, written, wall_seconds() - before);
+  const imaging::ImportedTissue tissue = imaging::import_image(o);
+  const std::vector<std::string> written = write_tissue(tissue, o, scene_of(a), a.out);
+  print_result(a, tissue, written, wall_seconds() - before);
   return 0;
 }
 
@@ -146,7 +148,7 @@ Command add_import(CLI::App& app) {
   command
       ->add_option("--model", a.model, "dcm, cbm or zoom: deformable in the middle (default: dcm)")
       ->check(CLI::IsMember({"dcm", "cbm", "zoom"}));
-  command->add_option("--nodes", a.import.nodes, "nodes of a cell's mesh (default: 162)")
+  command->add_option("--nodes", a.nodes, "nodes of a cell's mesh (default: 162)")
       ->type_name("N")
       ->check(CLI::IsMember({42, 92, 162, 252, 362, 642, 1442, 2562}));
   command

@@ -30,15 +30,16 @@ int run(const VoxeliseArguments& a) {
   o.how.voxel = parse_voxel("--voxel", a.voxel);
   if (!a.blur.empty()) o.how.blur = quantity_of("--blur", a.blur, kLength);
   const RunImage made = voxelise_run(o);
-  imaging::write_image(a.out, made.image);
+  imaging::write_image(a.out, made.cells.image);
   const std::string table = std::filesystem::path(a.out).replace_extension(".csv").string();
-  io::write_text_file(table, labels_text(made));
+  io::write_text_file(table, imaging::labels_text(made.cells));
   if (a.quiet) return 0;
-  fmt::print(
-      "{}: frame {}, {} x {} x {} voxels, {} cells{}; which label is which cell: {}\n", a.out,
-      made.frame, made.image.size[0], made.image.size[1], made.image.size[2], made.cell.size(),
-      made.vessels == 0 ? std::string() : fmt::format(", vessels have label {}", made.vessels),
-      table);
+  fmt::print("{}: frame {}, {} x {} x {} voxels, {} cells{}; which label is which cell: {}\n",
+             a.out, made.frame, made.cells.image.size[0], made.cells.image.size[1],
+             made.cells.image.size[2], made.cells.cell.size(),
+             made.cells.vessels == 0 ? std::string()
+                                     : fmt::format(", vessels have label {}", made.cells.vessels),
+             table);
   return 0;
 }
 

@@ -1,4 +1,4 @@
-#include "runs/images/import_image.hpp"
+#include "imaging/import_image.hpp"
 
 #include <fmt/format.h>
 
@@ -10,33 +10,29 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "geometry/remesh.hpp"
+#include "imaging/background.hpp"
 #include "imaging/label_surface.hpp"
 #include "imaging/pieces.hpp"
-#include "runs/images/background.hpp"
 
-namespace acinus::runs {
+namespace acinus::imaging {
 namespace {
-
-using imaging::Label;
-using imaging::LabelImage;
-using imaging::Piece;
-using imaging::Pieces;
 
 /// Edge length of the triangles relative to the radius of a ball of the label's volume: some 2500
 /// triangles a cell.
-constexpr double kEdge = 0.12;
+constexpr double kEdgeOverRadius = 0.12;
 /// Least edge length, in voxel sides.
-constexpr double kLeastEdge = 0.7;
+constexpr double kLeastEdgeInVoxels = 0.7;
 
 double edge_for(const LabelImage& image, const Piece& piece) {
   const double volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
-  return std::max(kEdge * sphere_radius(volume), kLeastEdge * image.voxel.minCoeff());
+  return std::max(kEdgeOverRadius * sphere_radius(volume),
+                  kLeastEdgeInVoxels * image.voxel.minCoeff());
 }
 
 void check_uneven(const LabelImage& image, std::vector<std::string>& warned) {
-  constexpr double kMost = 4;
+  constexpr double kMostAspectRatio = 4;
   const double ratio = image.voxel.maxCoeff() / image.voxel.minCoeff();
-  if (ratio <= kMost) return;
+  if (ratio <= kMostAspectRatio) return;
   warned.push_back(
       fmt::format("voxels of {:.3g} x {:.3g} x {:.3g} um are {:.2g} times as long as wide: shapes "
                   "along the long side are guesses between slices",
@@ -49,11 +45,11 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
   LabelImage vessels = cells;
   std::ranges::fill(vessels.label, 0);
   if (!o.vessels.empty()) {
-    imaging::ReadImage read = o.read;
+    ReadImage read = o.read;
     read.voxel = cells.voxel;
     read.unit = 0;
     read.second = true;
-    const LabelImage other = imaging::read_image(o.vessels, read, &warned);
+    const LabelImage other = read_image(o.vessels, read, &warned);
     check(other.size == cells.size,
           fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
                       o.vessels, other.size[0], other.size[1], other.size[2], o.image,
@@ -80,7 +76,7 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
 
 /// Refuses images whose labels overflowed 8 bits: many labels then consist of several large pieces.
 void check_overflow(const ImportOptions& o, const LabelImage& image, const Pieces& pieces) {
-  constexpr double kLargePart = 0.3, kMostShare = 0.1;
+  constexpr double kLargePart = 0.3, kMostRepeated = 0.1;
   std::size_t labels = 0, twice = 0;
   Label first = 0;
   for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
@@ -92,7 +88,7 @@ void check_overflow(const ImportOptions& o, const LabelImage& image, const Piece
                            kLargePart * static_cast<double>(p.n_voxel);
     if (large && twice++ == 0) first = p.label;
   }
-  const bool many = static_cast<double>(twice) > kMostShare * static_cast<double>(labels);
+  const bool many = static_cast<double>(twice) > kMostRepeated * static_cast<double>(labels);
   check(!many || o.split,
         fmt::format(
             "{}: {} of {} labels are in several large pieces, label {} first{}. Give --split to "
@@ -112,7 +108,7 @@ class Sorting {
   /// Selects pieces and erases the rest.
   /// @return the pieces to keep, each the only one of its label
   std::vector<Piece> run() {
-    Pieces pieces = imaging::find_pieces(image_);
+    Pieces pieces = find_pieces(image_);
     check(!pieces.piece.empty(),
           fmt::format("{}: all voxels are 0, the background. Is this the label image?", o_.image));
     check_overflow(o_, image_, pieces);
@@ -131,7 +127,7 @@ class Sorting {
     }
     warn_of_giant(kept);
     if (o_.split) number_anew(pieces, keep, kept);
-    for (const imaging::PieceRow& row : pieces.row)
+    for (const PieceRow& row : pieces.row)
       if (keep[row.piece] == 0)
         std::fill_n(&image_.label[image_.index(row.first)], row.length, Label{0});
     return kept;
@@ -171,14 +167,14 @@ class Sorting {
   /// Warns of a piece with many times the median volume: probably a background that does not
   /// enclose the image.
   void warn_of_giant(const std::vector<Piece>& kept) {
-    constexpr double kGiant = 50;
+    constexpr double kGiantRatio = 50;
     std::vector<double> all;
     for (const Piece& p : kept) all.push_back(volume(p));
     if (all.size() < 3) return;
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::ranges::nth_element(all, middle);
     for (const Piece& p : kept)
-      if (volume(p) > kGiant * *middle)
+      if (volume(p) > kGiantRatio * *middle)
         tissue_.warned.push_back(
             fmt::format("label {} has {:.0f} times the volume of the cell in the middle: if it is "
                         "the background, give --background {}",
@@ -194,7 +190,7 @@ class Sorting {
       label[k] = main ? pieces.piece[k].label : ++next;
       if (keep[k] != 0) kept[at++].label = label[k];
     }
-    for (const imaging::PieceRow& row : pieces.row)
+    for (const PieceRow& row : pieces.row)
       std::fill_n(&image_.label[image_.index(row.first)], row.length, label[row.piece]);
     std::ranges::sort(kept, {}, &Piece::label);
   }
@@ -208,18 +204,18 @@ class Sorting {
 /// @return cause of failure, empty on success
 std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
                          geometry::Surface& surface) {
-  constexpr std::array<double, 3> kMore{1, 1.6, 2.5};
-  constexpr double kMostLost = 0.1;
+  constexpr std::array<double, 3> kSmoothingFactors{1, 1.6, 2.5};
+  constexpr double kMostLostVolume = 0.1;
   std::string why;
-  for (const double more : kMore) {
+  for (const double more : kSmoothingFactors) {
     try {
-      imaging::LabelSurface made =
-          imaging::make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
+      LabelSurface made =
+          make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
       if (made.handles > 0) {
         why = "it has a hole through it";
         continue;
       }
-      if (made.left_out > kMostLost * made.volume)
+      if (made.left_out > kMostLostVolume * made.volume)
         return "its parts hang together by a few voxels only";
       surface = std::move(made.surface);
       return {};
@@ -253,7 +249,7 @@ void add_cells(const ImportOptions& o, const LabelImage& image, const std::vecto
 
 /// Counts the neighbours of every cell in the image and marks the cells that touch vessels.
 void add_neighbours(const LabelImage& image, const LabelImage& vessels, ImportedTissue& tissue) {
-  constexpr int kFaces = 4;  // of voxels: fewer are chance
+  constexpr int kLeastFaces = 4;  // of voxels: fewer are chance
   const Label vessel = [&] {
     Label most = 0;
     for (const ImportedCell& c : tissue.cell) most = std::max(most, c.label);
@@ -264,7 +260,7 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
     if (vessels.label[k] != 0) both.label[k] = vessel;
   std::map<Label, ImportedCell*> by_label;
   for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
-  for (const auto& [a, b] : imaging::find_touching(both, kFaces)) {
+  for (const auto& [a, b] : find_touching(both, kLeastFaces)) {
     const auto p = by_label.find(a), q = by_label.find(b);
     if (p == by_label.end()) continue;
     if (b == vessel) p->second->at_vessel = true;
@@ -276,11 +272,11 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
 }
 
 void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
-  Pieces pieces = imaging::find_pieces(vessels);
+  Pieces pieces = find_pieces(vessels);
   LabelImage numbered = vessels;
   constexpr std::size_t kLeastVoxels = 27;
-  constexpr double kSmoother = 1.5, kVesselEdge = 1.5;
-  for (const imaging::PieceRow& row : pieces.row)
+  constexpr double kVesselSmoothing = 1.5, kVesselEdge = 1.5;
+  for (const PieceRow& row : pieces.row)
     std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
                 static_cast<Label>(row.piece) + 1);
   std::size_t specks = 0;
@@ -294,8 +290,7 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
     // A network is thin where a cell of its volume is not; walls with the steps of voxels are
     // rough.
     const double edge = kVesselEdge * numbered.voxel.maxCoeff();
-    imaging::LabelSurface made =
-        imaging::make_label_surface(numbered, p, edge, kSmoother * o.smoothing);
+    LabelSurface made = make_label_surface(numbered, p, edge, kVesselSmoothing * o.smoothing);
     tissue.vessel.push_back(std::move(made.surface));
   }
   if (specks > 0)
@@ -317,7 +312,7 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
 
 ImportedTissue import_image(const ImportOptions& o) {
   ImportedTissue tissue;
-  LabelImage image = imaging::read_image(o.image, o.read, &tissue.warned);
+  LabelImage image = read_image(o.image, o.read, &tissue.warned);
   clear_background(o, image);
   tissue.size = image.size;
   tissue.voxel = image.voxel;
@@ -334,4 +329,4 @@ ImportedTissue import_image(const ImportOptions& o) {
   return tissue;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::imaging

@@ -1,4 +1,4 @@
-#include "runs/images/background.hpp"
+#include "imaging/background.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,8 @@
 
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::imaging {
 namespace {
-
-using imaging::Label;
-using imaging::LabelImage;
-using imaging::Voxel;
 
 /// Calls visit(label) for the outermost voxel layer of one side of the image.
 template <class Visit>
@@ -55,8 +51,8 @@ void clear_background(const ImportOptions& o, LabelImage& image) {
     std::ranges::replace(image.label, *o.background, Label{0});
     return;
   }
-  constexpr double kMost = 0.6;
-  const Label label = find_enclosing(image, kMost);
+  constexpr double kLeastShare = 0.6;
+  const Label label = find_enclosing(image, kLeastShare);
   if (label == 0 || label == o.vessel_label) return;
   const auto n = static_cast<double>(std::ranges::count(image.label, label));
   throw Error(fmt::format(
@@ -66,4 +62,4 @@ void clear_background(const ImportOptions& o, LabelImage& image) {
       o.image, label, 100 * n / static_cast<double>(image.label.size()), label, label));
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::imaging

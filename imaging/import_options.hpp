@@ -6,23 +6,20 @@
 
 #include "imaging/label_image.hpp"
 #include "imaging/read_image.hpp"
-#include "runs/scene/choices.hpp"
 
-namespace acinus::runs {
+namespace acinus::imaging {
 
 struct ImportOptions {
   std::string image;
-  imaging::ReadImage read;
-  std::string vessels;              ///< image of the same size, not 0 inside vessels; "" = none
-  imaging::Label vessel_label = 0;  ///< label of the vessels in the image; 0 = none
+  ReadImage read;
+  std::string vessels;     ///< image of the same size, not 0 inside vessels; "" = none
+  Label vessel_label = 0;  ///< label of the vessels in the image; 0 = none
   /// Background label besides 0; 0: none, whatever encloses the image.
-  std::optional<imaging::Label> background;
-  CellModel model = CellModel::kDcm;
-  int nodes = 162;           ///< nodes of a deformable cell's mesh
+  std::optional<Label> background;
   double smallest = 0;       ///< least volume of a cell, um^3; 0: a tenth of the median
   double smoothing = 0.7;    ///< standard deviation of the Gaussian filter, voxels
   bool keep_border = false;  ///< keep cells cut by the image border, between mirror walls
   bool split = false;        ///< make every connected piece of a label a cell of its own
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::imaging
