@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 /// Parses the command line and runs its command.
 /// @return exit code; 2 for an invalid command line
@@ -13,4 +13,4 @@ int run_cli(int argc, const char* const* argv);
 /// Version, git hash and compiler of this program.
 std::string version_text();
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

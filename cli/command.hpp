@@ -12,13 +12,15 @@
 #include "core/error.hpp"
 #include "core/units/units.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
+/// Subcommand with its action.
 struct Command {
   CLI::App* app;             ///< subcommand, which knows if it was given
   std::function<int()> run;  ///< runs the command after parsing; returns the exit code
 };
 
+/// Adds a subcommand with its help text and an example.
 inline CLI::App* add_command(CLI::App& app, const char* name, const char* meaning,
                              const char* example) {
   CLI::App* command = app.add_subcommand(name, meaning);
@@ -26,6 +28,7 @@ inline CLI::App* add_command(CLI::App& app, const char* name, const char* meanin
   return command;
 }
 
+/// Adds the flag --set for changes of the scene, PATH=VALUE.
 inline CLI::Option* add_set(CLI::App& command, std::vector<std::string>& set) {
   return command
       .add_option("--set", set,
@@ -34,6 +37,7 @@ inline CLI::Option* add_set(CLI::App& command, std::vector<std::string>& set) {
       ->allow_extra_args(false);
 }
 
+/// Adds the flag --threads; 0 = all cores.
 inline CLI::Option* add_threads(CLI::App& command, int& threads) {
   return command.add_option("--threads", threads, "threads (default: all cores)")
       ->type_name("N")
@@ -54,6 +58,8 @@ double flag_value(const char* flag, const std::string& text, Parse parse) {
   }
 }
 
+/// Positive quantity of a flag in base units.
+/// @throws Error naming the flag
 inline double quantity_of(const char* flag, const std::string& text, const Dimension& dimension) {
   return flag_value(flag, text, [&](const std::string& t) { return parse_quantity(t, dimension); });
 }
@@ -70,7 +76,7 @@ inline std::string without_flag(const std::string& command_line, const std::stri
 
 /// Prints how to continue a stopped job that the same command resumes.
 /// @return `code`, the exit code of the job
-inline int tell_how_to_go_on(int code, const std::string& command_line, bool quiet) {
+inline int print_how_to_continue(int code, const std::string& command_line, bool quiet) {
   if (code == static_cast<int>(Exit::kStopped) && !quiet)
     fmt::print("stopped; continue with: {}\n", command_line);
   return code;
@@ -95,4 +101,4 @@ Command add_schema(CLI::App& app);
 Command add_study(CLI::App& app);
 Command add_voxelise(CLI::App& app);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

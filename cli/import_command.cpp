@@ -13,12 +13,12 @@
 #include "runs/session/guarded.hpp"
 #include "runs/session/shell_quote.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct ImportArguments {
   imaging::ImportOptions import;
-  int nodes = TissueScene{}.nodes;
+  int nodes = runs::TissueScene{}.nodes;
   std::string out, voxel, unit, smallest, model = "dcm", border = "drop";
   int threads = 0;
   bool quiet = false;
@@ -36,28 +36,30 @@ imaging::ImportOptions options_of(const ImportArguments& a) {
   return o;
 }
 
-TissueScene scene_of(const ImportArguments& a) {
-  return {static_cast<CellModel>(choice_index(kChoices<CellModel>, a.model)), a.nodes};
+runs::TissueScene scene_of(const ImportArguments& a) {
+  return {
+      static_cast<runs::CellModel>(runs::choice_index(runs::kChoices<runs::CellModel>, a.model)),
+      a.nodes};
 }
 
 void print_left_out(const imaging::ImportedTissue& t, const std::string& folder) {
-  constexpr std::size_t kNamed = 5;
+  constexpr std::size_t kMostNamed = 5;
   std::map<std::string, std::vector<const imaging::LeftOut*>> by_reason;
   for (const imaging::LeftOut& l : t.left_out) by_reason[l.why].push_back(&l);
   for (const auto& [why, all] : by_reason) {
     std::string names;
-    for (std::size_t k = 0; k < std::min(kNamed, all.size()); ++k)
+    for (std::size_t k = 0; k < std::min(kMostNamed, all.size()); ++k)
       names += fmt::format("{}{} near ({:.4g}, {:.4g}, {:.4g}) um", k == 0 ? "" : "; ",
                            all[k]->label, all[k]->center[0], all[k]->center[1], all[k]->center[2]);
     fmt::print("left out: {} ({}: label {}{})\n", why, all.size(), names,
-               all.size() > kNamed ? "; ..." : "");
+               all.size() > kMostNamed ? "; ..." : "");
   }
   if (!t.left_out.empty()) fmt::print("all that is left out: {}/left_out.csv\n", folder);
 }
 
 void print_result(const ImportArguments& a, const imaging::ImportedTissue& t,
                   const std::vector<std::string>& written, double seconds) {
-  for (const std::string& w : t.warned) fmt::print(stderr, "acinus: warning: {}\n", w);
+  for (const std::string& w : t.warnings) fmt::print(stderr, "acinus: warning: {}\n", w);
   if (a.quiet) return;
   double least = t.cell.front().volume, most = least, sum = 0;
   int at_vessel = 0;
@@ -75,7 +77,8 @@ void print_result(const ImportArguments& a, const imaging::ImportedTissue& t,
     fmt::print("{} vessel surface{}, touched by {} cells\n", t.vessel.size(),
                t.vessel.size() == 1 ? "" : "s", at_vessel);
   print_left_out(t, a.out);
-  fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds, quote_for_shell(written.front()));
+  fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds,
+             runs::quote_for_shell(written.front()));
 }
 
 int run(const ImportArguments& a) {
@@ -83,7 +86,7 @@ int run(const ImportArguments& a) {
   const imaging::ImportOptions o = options_of(a);
   const double before = wall_seconds();
   const imaging::ImportedTissue tissue = imaging::import_image(o);
-  const std::vector<std::string> written = write_tissue(tissue, o, scene_of(a), a.out);
+  const std::vector<std::string> written = runs::write_tissue(tissue, o, scene_of(a), a.out);
   print_result(a, tissue, written, wall_seconds() - before);
   return 0;
 }
@@ -170,8 +173,8 @@ Command add_import(CLI::App& app) {
   command->add_flag("--quiet", a.quiet, "errors and warnings only");
   return {command, [arguments, command] {
             check_effects(*command, *arguments);
-            return run_guarded(arguments->import.image, [&] { return runs::run(*arguments); });
+            return runs::run_guarded(arguments->import.image, [&] { return cli::run(*arguments); });
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

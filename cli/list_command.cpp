@@ -8,28 +8,28 @@
 #include "runs/session/shell_quote.hpp"
 #include "runs/study/shipped_studies.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 int list() {
-  fmt::print("scenes in {}\n", scene_folder());
-  for (const ShippedScene& scene : shipped_scenes())
+  fmt::print("scenes in {}\n", runs::scene_folder());
+  for (const runs::ShippedScene& scene : runs::shipped_scenes())
     fmt::print("  {:20}  {}\n", scene.name, scene.description);
-  if (const std::vector<ShippedScene> studies = shipped_studies(); !studies.empty()) {
+  if (const std::vector<runs::ShippedScene> studies = runs::shipped_studies(); !studies.empty()) {
     fmt::print("studies (acinus study NAME)\n");
-    for (const ShippedScene& study : studies)
+    for (const runs::ShippedScene& study : studies)
       fmt::print("  {:20}  {}\n", study.name, study.description);
   }
-  for (const Entry& entry : all_entries())
+  for (const runs::Entry& entry : runs::all_entries())
     if (entry.path == "experiment")
       fmt::print("experiments (scene key experiment)\n  {}\n", entry.range);
   return 0;
 }
 
 int copy(const std::string& name, const std::string& folder) {
-  const std::vector<std::string> written = copy_scene(name, folder);
+  const std::vector<std::string> written = runs::copy_scene(name, folder);
   for (const std::string& file : written) fmt::print("wrote {}\n", file);
-  fmt::print("run it with: acinus run {}\n", quote_for_shell(written.front()));
+  fmt::print("run it with: acinus run {}\n", runs::quote_for_shell(written.front()));
   return 0;
 }
 
@@ -50,4 +50,4 @@ Command add_new(CLI::App& app) {
   return {command, [name, folder] { return copy(*name, *folder); }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 double parse_size(const std::string& text) {
   double value = 0;
@@ -20,4 +20,4 @@ double parse_size(const std::string& text) {
   return scale * value;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 /// Bytes of a size such as "16GB" or "500 MB".
 /// @throws Error
 double parse_size(const std::string& text);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -5,10 +5,10 @@
 
 #include "core/vec.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 /// Sides of a voxel, um: "0.5 um" for all three, or "0.5 um, 0.5 um, 1 um" along x, y and z.
 /// @throws Error naming the flag
 Vec3 parse_voxel(const char* flag, const std::string& text);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

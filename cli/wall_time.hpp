@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 /// Wall time such as "10min", "23h30m", "600 s" or "1d", s. Here m means minutes.
 /// @throws Error naming the text
@@ -18,4 +18,4 @@ void add_wall_time_limit(
 /// @throws Error naming the flag
 double read_wall_time_limit(const std::string& text);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

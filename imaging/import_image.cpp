@@ -29,11 +29,11 @@ double edge_for(const LabelImage& image, const Piece& piece) {
                   kLeastEdgeInVoxels * image.voxel.minCoeff());
 }
 
-void check_uneven(const LabelImage& image, std::vector<std::string>& warned) {
+void check_uneven(const LabelImage& image, std::vector<std::string>& warnings) {
   constexpr double kMostAspectRatio = 4;
   const double ratio = image.voxel.maxCoeff() / image.voxel.minCoeff();
   if (ratio <= kMostAspectRatio) return;
-  warned.push_back(
+  warnings.push_back(
       fmt::format("voxels of {:.3g} x {:.3g} x {:.3g} um are {:.2g} times as long as wide: shapes "
                   "along the long side are guesses between slices",
                   image.voxel[0], image.voxel[1], image.voxel[2], ratio));
@@ -41,7 +41,7 @@ void check_uneven(const LabelImage& image, std::vector<std::string>& warned) {
 
 /// Moves the vessels from the image of the cells into an image of their own, with label 1.
 LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
-                        std::vector<std::string>& warned) {
+                        std::vector<std::string>& warnings) {
   LabelImage vessels = cells;
   std::ranges::fill(vessels.label, 0);
   if (!o.vessels.empty()) {
@@ -49,7 +49,7 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
     read.voxel = cells.voxel;
     read.unit = 0;
     read.second = true;
-    const LabelImage other = read_image(o.vessels, read, &warned);
+    const LabelImage other = read_image(o.vessels, read, &warnings);
     check(other.size == cells.size,
           fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
                       o.vessels, other.size[0], other.size[1], other.size[2], o.image,
@@ -66,7 +66,7 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
     cells.label[k] = 0;
   }
   if (both > 0)
-    warned.push_back(
+    warnings.push_back(
         fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", both));
   check(any > 0 || (o.vessels.empty() && o.vessel_label == 0),
         fmt::format("{}: no voxel is {}.", o.vessels.empty() ? o.image : o.vessels,
@@ -175,7 +175,7 @@ class Sorting {
     std::ranges::nth_element(all, middle);
     for (const Piece& p : kept)
       if (volume(p) > kGiantRatio * *middle)
-        tissue_.warned.push_back(
+        tissue_.warnings.push_back(
             fmt::format("label {} has {:.0f} times the volume of the cell in the middle: if it is "
                         "the background, give --background {}",
                         p.label, volume(p) / *middle, p.label));
@@ -294,7 +294,7 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
     tissue.vessel.push_back(std::move(made.surface));
   }
   if (specks > 0)
-    tissue.warned.push_back(fmt::format(
+    tissue.warnings.push_back(fmt::format(
         "{} specks of vessels with fewer than {} voxels are left out", specks, kLeastVoxels));
 }
 
@@ -312,12 +312,12 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
 
 ImportedTissue import_image(const ImportOptions& o) {
   ImportedTissue tissue;
-  LabelImage image = read_image(o.image, o.read, &tissue.warned);
+  LabelImage image = read_image(o.image, o.read, &tissue.warnings);
   clear_background(o, image);
   tissue.size = image.size;
   tissue.voxel = image.voxel;
-  check_uneven(image, tissue.warned);
-  const LabelImage vessels = take_vessels(o, image, tissue.warned);
+  check_uneven(image, tissue.warnings);
+  const LabelImage vessels = take_vessels(o, image, tissue.warnings);
   const std::vector<Piece> pieces = Sorting(o, image, tissue).run();
   add_cells(o, image, pieces, tissue);
   std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {

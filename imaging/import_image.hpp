@@ -36,7 +36,7 @@ struct ImportedTissue {
   std::vector<LeftOut> left_out;   ///< ascending labels, larger pieces first
   std::vector<geometry::Surface> vessel;
   std::vector<std::array<Label, 2>> touching;  ///< touching pairs among `cell`
-  std::vector<std::string> warned;
+  std::vector<std::string> warnings;
 };
 
 /// Reads a label image, selects the cells and triangulates their surfaces. Coordinates are um from

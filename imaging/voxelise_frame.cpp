@@ -15,7 +15,7 @@ constexpr std::uint8_t kDeformable = 0, kSphereKind = 1;  // io::Frame::kind
 constexpr int kSphereNodes = 642;
 
 Vec3 point_of(const io::Frame& f, std::int64_t k) {
-  const auto at = static_cast<std::size_t>(3 * k);
+  const std::size_t at = 3 * k;
   return {f.point[at], f.point[at + 1], f.point[at + 2]};
 }
 
@@ -40,7 +40,7 @@ CellSurfaces frame_surfaces(const io::Frame& f) {
   for (const io::Field& field : f.cell_data) {
     if (field.name != "radius") continue;
     for (std::int64_t k = 0; k < f.n_sphere; ++k) {
-      const std::size_t at = f.triangle.size() + static_cast<std::size_t>(k);
+      const std::size_t at = f.triangle.size() + k;
       if (f.kind[at] != kSphereKind) continue;
       geometry::Surface s;
       s.triangle = ball.triangle;

@@ -7,6 +7,7 @@
 
 namespace acinus::bench {
 
+/// Options of all benchmarks.
 struct BenchOptions {
   std::string json_file;  ///< JSON file for the rows; "" = none
   std::string folder;     ///< folder for plots and scenes; "" = none

@@ -10,6 +10,7 @@
 
 namespace acinus::bench {
 
+/// Parameters of the standard clump.
 struct PackedClump {
   int count = 27;
   int nodes = 162;

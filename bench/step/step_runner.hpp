@@ -21,6 +21,7 @@ struct StepCase {
   bool always_coarse = false;  ///< use the coarse space in every solve
 };
 
+/// Cost of the measured steps, and the state they lead to.
 struct StepSample {
   double cpu = 0, wall = 0;  ///< s
   Traffic traffic;           ///< of this process
@@ -29,6 +30,7 @@ struct StepSample {
   std::uint64_t hash = 0;  ///< of the final state
 };
 
+/// Scene after its warm-up, whose next steps can be timed repeatedly.
 class StepRunner {
  public:
   /// Runs the warm-up.

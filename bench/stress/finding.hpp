@@ -5,6 +5,7 @@
 
 namespace acinus::bench {
 
+/// Kinds of physically impossible states and of faults in the bookkeeping of cells.
 enum class Defect {
   kNotFinite,
   kInverted,

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint8_t kShell = 0;
 
 /// Additional overlap of a surface between contact points, as a share of the mean edge length.
-constexpr double kBetweenPoints = 0.25;
+constexpr double kOverlapBetweenPoints = 0.25;
 
 struct Mesh {
   std::int64_t id = 0;
@@ -71,7 +71,7 @@ std::vector<coupling::AuditSphere> spheres_of(const io::Frame& f) {
   const auto strength = std::ranges::find(f.cell_data, "strength", &io::Field::name);
   std::vector<coupling::AuditSphere> spheres;
   for (std::int64_t k = 0; k < f.n_sphere; ++k) {
-    const auto row = f.triangle.size() + static_cast<std::size_t>(k);
+    const auto row = f.triangle.size() + k;
     spheres.push_back(
         {f.cell_id[row], point_of(f, f.n_mesh_node + k), radius->value[row], strength->value[row]});
   }
@@ -190,7 +190,7 @@ void Inspection::inspect_shapes() {
 double Inspection::deepest_overlap() const {
   double radius = 0;
   for (const Mesh& m : meshes_) radius = std::max(radius, sphere_radius(rest_.at(m.id)));
-  return start_.params.dcm_contact.max_depth + kBetweenPoints * unit_edge(start_) * radius;
+  return start_.params.dcm_contact.max_depth + kOverlapBetweenPoints * unit_edge(start_) * radius;
 }
 
 void Inspection::inspect_overlaps() {

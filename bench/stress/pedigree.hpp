@@ -27,10 +27,12 @@ struct Relative {
   bool deformable = false;  ///< model, by its events
 };
 
+/// Closed interval.
 struct Interval {
   double low = 0, high = 0;
 };
 
+/// Family tree of all cells of a run, built from its events.
 class Pedigree {
  public:
   /// Pedigree of the founder cells.
@@ -60,7 +62,7 @@ class Pedigree {
   }
   double shortest_cycle(const Relative& cell) const;
   bool may_die(std::int64_t id, const Relative& cell, double time) const;
-  std::string bear(const io::Event& event);
+  std::string add_daughters(const io::Event& event);
   std::string end_life(const io::Event& event);
   std::string change_model(const io::Event& event);
 

@@ -19,16 +19,16 @@ using Json = nlohmann::ordered_json;
 
 /// Budget of a scene in steps of a deformable 162-node cell, if step-size control does not
 /// interfere: about two seconds.
-constexpr double kCellSteps = 2500;
+constexpr double kMostCellSteps = 2500;
 constexpr double kFewestSteps = 15, kMostSteps = 150;
 /// Target packing fractions of a compression before cells are compressed. Coarse meshes leave the
 /// corners of a box empty and would be compressed far more than asked.
 constexpr double kFullPacking = 0.75, kTightPacking = 0.92;
 /// Least volume of a compressed cell, relative to its start.
-constexpr double kSmallestVolume = 0.6;
-constexpr double kGap = 0.2;       ///< between cells and walls at the start, um
-constexpr double kSlowWall = 20;   ///< fastest wall of a nominal scene, um/h
-constexpr double kSinusoid = 4.7;  ///< vessel radius, um
+constexpr double kLeastCompressedVolume = 0.6;
+constexpr double kStartGap = 0.2;           ///< between cells and walls at the start, um
+constexpr double kFastestNominalWall = 20;  ///< fastest wall of a nominal scene, um/h
+constexpr double kSinusoidRadius = 4.7;     ///< vessel radius, um
 
 std::string quantity(double value, const char* unit) {
   return fmt::format("{:.5g} {}", value, unit);
@@ -148,7 +148,7 @@ void Drawing::draw_time() {
   Json time;
   const double cell = 0.0004 * std::pow(nodes_, 1.5);  // contacts of fine meshes cost more
   const double weight = count_ * (share_ * cell + (1 - share_) * 0.03);
-  const double steps = std::clamp(kCellSteps / weight, kFewestSteps, kMostSteps);
+  const double steps = std::clamp(kMostCellSteps / weight, kFewestSteps, kMostSteps);
   // A controlled step rarely becomes longer than some minutes.
   end_ = steps * (adaptive ? std::min(adaptive_step, 120.0) : adaptive_step);
   time["end"] = quantity(end_, "s");
@@ -166,13 +166,13 @@ void Drawing::draw_time() {
 
 double Drawing::compressed_volume() {
   const double pressure = wide_ ? decades(50, 1000) : decades(50, 300);  // Pa
-  return std::max(std::exp(-pressure / bulk_), kSmallestVolume) /
+  return std::max(std::exp(-pressure / bulk_), kLeastCompressedVolume) /
          (wide_ ? kTightPacking : kFullPacking);
 }
 
 void Drawing::limit_motion(double& travel, double& speed) const {
   const double duration = 0.6 * end_ / 3600;  // the rest of the time shows what comes after
-  if (!wide_) travel = std::min(travel, kSlowWall * duration);
+  if (!wide_) travel = std::min(travel, kFastestNominalWall * duration);
   speed = travel / duration;
 }
 
@@ -188,7 +188,7 @@ void Drawing::add_zoom(double half_width) {
 }
 
 void Drawing::add_capsule(double reach) {
-  const double radius = reach + radius_ + kGap;
+  const double radius = reach + radius_ + kStartGap;
   double travel = radius - std::cbrt(3 / (4 * kPi) * rest_volume() * compressed_volume());
   if (travel <= 0) return;
   double speed = 0;
@@ -256,7 +256,7 @@ void Drawing::draw_box() {
   scene_["cells"] = {{"source", "box"}, {"grid", grid}, {"spacing", spacing_}, {"jitter", jitter_}};
   Vec3 half;
   for (int k = 0; k < 3; ++k)
-    half[k] = radius_ * ((grid[k] - 1) * spacing_ + 1 + 2 * jitter_) + kGap;
+    half[k] = radius_ * ((grid[k] - 1) * spacing_ + 1 + 2 * jitter_) + kStartGap;
   add_zoom(half.x());
   double travel = 2 * half.x() - rest_volume() * compressed_volume() / (4 * half.y() * half.z());
   double speed = 0;
@@ -296,8 +296,8 @@ void Drawing::draw_fill() {
                                    radius, parent);
   };
   const double out = half + 2 * radius_;
-  const double thick = wide_ ? decades(2, 20) : kSinusoid;
-  const double thin = wide_ ? thick * random_.uniform(0.3, 1) : kSinusoid;
+  const double thick = wide_ ? decades(2, 20) : kSinusoidRadius;
+  const double thin = wide_ ? thick * random_.uniform(0.3, 1) : kSinusoidRadius;
   const double bend = random_.uniform(-0.3, 0.3) * half, lift = random_.uniform(-0.3, 0.3) * half;
   line(1, {-out, 0, 0}, thick, -1);
   line(2, {0, bend, lift}, thick, 1);

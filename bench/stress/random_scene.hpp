@@ -16,6 +16,7 @@ const char* name_of(Family family);
 /// Family of a seed: odd seeds are nominal, even ones wide.
 Family family_of(std::uint64_t seed);
 
+/// Files of a random scene.
 struct RandomScene {
   std::string text;     ///< JSON in the scene format
   std::string network;  ///< SWC text of kNetworkFile beside the scene; "" = none

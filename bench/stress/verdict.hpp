@@ -12,6 +12,7 @@
 
 namespace acinus::bench {
 
+/// Outcome of a random scene by exit code, events and inspection.
 enum class TrialOutcome {
   kClean,      ///< completed without findings
   kNamed,      ///< completed; all findings were reported as events

@@ -8,6 +8,7 @@
 
 namespace acinus::bench {
 
+/// Scene in which a stiffness law is judged.
 struct OutOfSampleScene {
   std::string name;
   runs::Scene scene;        ///< with deformable cells

@@ -22,11 +22,11 @@ namespace acinus::bench {
 namespace {
 
 /// Range of the pressure of the deformable ball in which the models are compared, Pa.
-constexpr double kLowest = 5, kHighest = 250;
+constexpr double kLowestPressure = 5, kHighestPressure = 250;
 /// Radius of the inner cells relative to that of the capsule, which the outer ones touch.
-constexpr double kInner = 0.65;
+constexpr double kInnerRadius = 0.65;
 /// Number of nearest neighbours that define the density about a cell.
-constexpr std::size_t kNear = 12;
+constexpr std::size_t kDensityNeighbours = 12;
 
 /// Cells of a frame with the density about each, up to a factor.
 struct PatchFrame {
@@ -39,7 +39,7 @@ double density_about(const runs::CellRecords& cells, std::int64_t id) {
   std::vector<double> distance;
   for (const auto& [other, c] : cells)
     if (other != id) distance.push_back((c.center - cells.at(id).center).norm());
-  const std::size_t n = std::min(kNear, distance.size());
+  const std::size_t n = std::min(kDensityNeighbours, distance.size());
   std::ranges::partial_sort(distance, distance.begin() + static_cast<std::ptrdiff_t>(n));
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += distance[k];
@@ -128,17 +128,18 @@ BenchRow compare(const PatchVariant& v, const std::string& folder, const runs::S
   int n = 0, cells = 0;
   std::vector<double> alone;  // pressure of the deformable ball at every frame
   for (const PatchFrame& m : reference.frame)
-    alone.push_back(measure(m, m, true, kInner * shipped.capsule.min_radius).pressure);
+    alone.push_back(measure(m, m, true, kInnerRadius * shipped.capsule.min_radius).pressure);
   for (std::size_t k = 0; k < std::min(frames.size(), reference.frame.size()); ++k) {
     const double time = static_cast<double>(k) * shipped.output.every;
-    const double reach = kInner * std::max(shipped.capsule.min_radius,
-                                           shipped.capsule.radius - shipped.capsule.speed * time);
+    const double reach =
+        kInnerRadius *
+        std::max(shipped.capsule.min_radius, shipped.capsule.radius - shipped.capsule.speed * time);
     const HalfMean shells = measure(frames[k], frames[k], true, reach),
                    spheres = measure(frames[k], frames[k], false, reach),
                    same = measure(reference.frame[k], frames[k], true, reach);
     cells = static_cast<int>(frames[k].cells.size());
     if (shells.cells == 0 || spheres.cells == 0) continue;
-    if (!(same.pressure > kLowest && same.pressure < kHighest)) continue;
+    if (!(same.pressure > kLowestPressure && same.pressure < kHighestPressure)) continue;
     reached = same.pressure;
     const double p = jump(shells.pressure, spheres.pressure);
     pressure += p;

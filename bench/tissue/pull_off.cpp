@@ -36,10 +36,10 @@ BenchRow measure(const std::string& name, PairCase c, const BenchOptions& option
   OrientationSpread ratio, rigid, radius, distance, last_radius, last_distance, outside, lowest;
   for (int k = 0; k < options.seeds; ++k) {
     c.seed = options.first + k;
-    const PullOff p = find_pull_off(c);
+    const PullOff p = measure_pull_off(c);
     points.push_back({c.adhesion, p.force()});
     ratio.add(p.force() / vesicle_force(c));
-    rigid.add(find_rigid_pull_off(c) / (2 * vesicle_force(c)));
+    rigid.add(compute_rigid_pull_off(c) / (2 * vesicle_force(c)));
     radius.add(contact_radius(p.start.area));
     distance.add(p.start.distance);
     last_radius.add(contact_radius(p.last.area));

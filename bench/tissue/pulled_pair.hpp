@@ -51,7 +51,7 @@ double vesicle_force(const PairCase& c);
 /// faster than 2e-4 um/s, or for `hold`. After separation the increment is halved five times, each
 /// time from the state under the largest force borne, which gives the force to pi W R^ / 160.
 /// @throws Error if a step of the simulation fails or the cells do not separate
-PullOff find_pull_off(const PairCase& c);
+PullOff measure_pull_off(const PairCase& c);
 
 /// Pair at rest without force, or after `hold`, and then under a force.
 struct HeldPair {
@@ -69,10 +69,10 @@ HeldPair hold_pair(const PairCase& c, double force, bool after_cohesive);
 
 /// Largest attraction of two rigid cells over the distance of their centres, nN: 2 pi W R^ by
 /// Derjaguin.
-double find_rigid_pull_off(const PairCase& c);
+double compute_rigid_pull_off(const PairCase& c);
 
 /// Repulsion of two rigid cells, nN.
 /// @param distance  of the centres, um
-double find_rigid_push(const PairCase& c, double distance);
+double compute_rigid_push(const PairCase& c, double distance);
 
 }  // namespace acinus::bench

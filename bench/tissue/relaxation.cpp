@@ -22,9 +22,9 @@ namespace acinus::bench {
 namespace {
 
 constexpr double kHour = 3600;
-constexpr double kHolds[] = {1 * kHour, 10 * kHour};
+constexpr double kHoldTimes[] = {1 * kHour, 10 * kHour};
 /// Sampling times of the remaining compression, s after the release.
-constexpr std::pair<const char*, double> kLooks[] = {
+constexpr std::pair<const char*, double> kSampleTimes[] = {
     {"10s", 10}, {"10min", 600}, {"1h", kHour}, {"5h", 5 * kHour}, {"24h", 24 * kHour}};
 
 /// Variant of a relaxation scene with its row and run folder.
@@ -82,7 +82,7 @@ RelaxationVariant make_variant(const runs::Scene& shipped, double held, int node
 
 std::vector<RelaxationVariant> make_variants(const runs::Scene& shipped) {
   std::vector<RelaxationVariant> all;
-  for (const double held : kHolds) {
+  for (const double held : kHoldTimes) {
     for (const int nodes : {162, 642})
       for (const char* form : {"surface", "nodes"})
         all.push_back(make_variant(shipped, held, nodes, form));
@@ -112,7 +112,7 @@ BenchRow make_row(const RelaxationVariant& v, const std::string& folder) {
   for (std::size_t k = from; k < time.size(); ++k) since.push_back(time[k] - release);
   row.value.emplace_back(name + "_compressed", after.front());
   const double compression = y.front() - after.front();
-  for (const auto& [label, t] : kLooks)
+  for (const auto& [label, t] : kSampleTimes)
     row.value.emplace_back(fmt::format("left_after_{}", label),
                            (y.front() - calibration::value_at(t, since, after)) / compression);
   for (const char* what : {"back_10s", "efold_h", "return_h"})

@@ -20,9 +20,9 @@ namespace acinus::bench {
 namespace {
 
 /// Rest of the cells before some begin to grow, s.
-constexpr double kSettle = 3600;
+constexpr double kRestTime = 3600;
 /// Length of the comparison and interval of pressure samples, s.
-constexpr double kWindow = 3 * 3600, kEvery = 1800;
+constexpr double kWindow = 3 * 3600, kSampleInterval = 1800;
 
 /// Contact pressure and cytosol pressure by lineage, kPa.
 using Pressures = std::map<std::int64_t, std::pair<double, double>>;
@@ -102,10 +102,10 @@ BenchTable bench_sleep(const BenchOptions&) {
   coupling::Simulation start(runs::build_world(scene, Ranks::serial()).world);
   run_until(start, 0);
   Twin awake(start.world(), false), asleep(start.world(), true);
-  for (Twin* twin : {&awake, &asleep}) twin->run(kSettle);
+  for (Twin* twin : {&awake, &asleep}) twin->run(kRestTime);
   // In turns: the machine has slow and fast minutes.
-  for (double t = 0; t < kWindow - 1; t += kEvery)
-    for (Twin* twin : {&awake, &asleep}) twin->run_recorded(kEvery);
+  for (double t = 0; t < kWindow - 1; t += kSampleInterval)
+    for (Twin* twin : {&awake, &asleep}) twin->run_recorded(kSampleInterval);
   const Record &reference = awake.record, &record = asleep.record;
   using Both = std::pair<double, double>;
   BenchRow row{"lobule with resting cells, 3 h",

@@ -108,8 +108,8 @@ std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain, do
           {"room and a1 d^4", 0.02, soft, kSum, all}};
 }
 
-JudgedCells bear_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
-                          coupling::World world) {
+JudgedCells compute_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
+                             coupling::World world) {
   std::vector<Vec3> center;
   std::vector<double> radius;
   for (const auto& [id, c] : cells) {

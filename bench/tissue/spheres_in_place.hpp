@@ -31,6 +31,7 @@ enum class OverlapMeasure {
   kByContacts,  ///< sum times (n / 7)^0.1 with n contacts
 };
 
+/// Candidate law: modulus of a sphere over its overlaps.
 struct SphereLaw {
   std::string name;
   double young = 0;  ///< modulus without contact, kPa
@@ -46,7 +47,7 @@ std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain, do
 /// Contact figures of spheres in place of the cells.
 /// @param time   s since t = 0, for moving walls
 /// @param world  constants and boundary of the scene; its cells are replaced
-JudgedCells bear_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
-                          coupling::World world);
+JudgedCells compute_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
+                             coupling::World world);
 
 }  // namespace acinus::bench

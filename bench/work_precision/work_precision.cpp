@@ -136,15 +136,15 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                                  const std::vector<PrecisionOutcome>& long_window,
                                  const std::vector<PrecisionOutcome>& short_window,
                                  CaseReport& report) {
-  constexpr double kError = 0.02;
+  constexpr double kComparedError = 0.02;
   const auto explicits = of_method(short_window, coupling::Integrator::kExplicitEuler);
   const auto implicits = of_method(long_window, coupling::Integrator::kLinearlyImplicit);
   const auto brief = of_method(short_window, coupling::Integrator::kLinearlyImplicit);
-  const PrecisionOutcome *slow = find_cheapest(explicits, kError),
-                         *fast = find_cheapest(implicits, kError);
+  const PrecisionOutcome *slow = find_cheapest(explicits, kComparedError),
+                         *fast = find_cheapest(implicits, kComparedError);
   if (!slow || !fast) {
-    say(report,
-        fmt::format("\nNo ratio to explicit Euler: no setting within {:g} %.\n", 100 * kError));
+    say(report, fmt::format("\nNo ratio to explicit Euler: no setting within {:g} %.\n",
+                            100 * kComparedError));
     return {};
   }
   // The usual step is more careful than the error asks for; its ratio is what users see.
@@ -159,9 +159,9 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                   "within {:g} %: **{:.0f}** (from {:.0f} to {:.0f} in {} turns).\nExplicit Euler: "
                   "dt {:g} s, {:.2g} % over {:g} s, the cheapest of its settings within the limit. "
                   "Linearly implicit: dt {:g} s, {:.2g} % over {:g} s",
-                  100 * kError, middle, ratio.front(), ratio.back(), kTurns, slow->setting.step,
-                  100 * slow->main_error, slow->window, fast->setting.step, 100 * fast->main_error,
-                  fast->window));
+                  100 * kComparedError, middle, ratio.front(), ratio.back(), kTurns,
+                  slow->setting.step, 100 * slow->main_error, slow->window, fast->setting.step,
+                  100 * fast->main_error, fast->window));
   BenchRow row{c.scene.title + ": explicit Euler over linearly implicit",
                slow->cells,
                {{"cpu_ratio", middle},

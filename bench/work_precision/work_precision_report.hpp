@@ -27,6 +27,7 @@ io::Plot make_plot(const WorkScene& scene, const std::string& title,
                    const std::vector<PrecisionOutcome>& outcomes, const std::string& y_label,
                    double (*error)(const PrecisionOutcome&));
 
+/// Row of the benchmark's table for one outcome.
 BenchRow bench_row(const WorkScene& scene, const std::string& study,
                    const PrecisionOutcome& outcome);
 

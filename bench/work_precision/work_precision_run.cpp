@@ -18,9 +18,9 @@
 namespace acinus::bench {
 namespace {
 
-/// CPU time below which a run is repeated, up to kRepeats times, s.
-constexpr double kLongEnough = 1;
-constexpr int kRepeats = 3;
+/// CPU time below which a run is repeated, up to kMostRepeats times, s.
+constexpr double kLeastTimedCpu = 1;
+constexpr int kMostRepeats = 3;
 
 void set_numerics(const PrecisionSetting& setting, coupling::Numerics& n) {
   const coupling::Numerics usual;
@@ -184,7 +184,7 @@ std::vector<PrecisionOutcome> run_study(WarmScene& scene, const PrecisionStudy& 
   for (const PrecisionSetting& setting : study.setting) {
     Trajectory t = scene.run(setting, study.window, study.samples);
     std::vector<double> cpu{t.cpu};
-    while (t.failure.empty() && t.cpu < kLongEnough && cpu.size() < kRepeats)
+    while (t.failure.empty() && t.cpu < kLeastTimedCpu && cpu.size() < kMostRepeats)
       cpu.push_back(scene.run(setting, study.window, study.samples).cpu);
     std::ranges::sort(cpu);
     PrecisionOutcome e{setting, t.failure, cpu[cpu.size() / 2], study.window,

@@ -63,6 +63,7 @@ struct Sample {
   double strain = 0;                                    ///< of the first cell, along the axis
 };
 
+/// Samples of one run with its cost.
 struct Trajectory {
   std::vector<Sample> sample;  ///< fewer than asked for after a failure
   std::string failure;         ///< cause of an early end; "" = none
@@ -77,6 +78,7 @@ struct Errors {
   double center_max = 0, center_rms = 0;                           ///< um
 };
 
+/// Cost and error of one setting.
 struct PrecisionOutcome {
   PrecisionSetting setting;
   std::string failure;

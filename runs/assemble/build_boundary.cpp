@@ -60,7 +60,7 @@ void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
   constexpr double kFineness = 0.15;
   geometry::VesselMesh mesh =
       geometry::make_vessel_mesh(vessels.network, {.fineness = kFineness, .attempts = 1});
-  if (!mesh.is_as_expected()) notes.warned.push_back(geometry::describe_connectivity(mesh));
+  if (!mesh.is_as_expected()) notes.warnings.push_back(geometry::describe_connectivity(mesh));
   vessels.wall = std::make_shared<const contact::WallMesh>(
       contact::make_wall_mesh(vessels.network, std::move(mesh.surface)));
 }

@@ -14,7 +14,7 @@ namespace acinus::runs {
 /// alone.
 /// @param number  index in the order of generation
 /// @param center  um
-const std::string& type_of_generated(const Scene& scene, std::int64_t number, const Vec3& center);
+const std::string& draw_cell_type(const Scene& scene, std::int64_t number, const Vec3& center);
 
 /// Radius of the largest type among generated cells, um.
 double largest_radius(const Scene& scene);

@@ -6,10 +6,11 @@
 
 namespace acinus::runs {
 
+/// Information and warnings about a run.
 struct Notes {
-  std::vector<std::string> said;
+  std::vector<std::string> info;
   /// Warnings: always on stderr, also with --quiet, and in summary.json.
-  std::vector<std::string> warned;
+  std::vector<std::string> warnings;
 };
 
 }  // namespace acinus::runs

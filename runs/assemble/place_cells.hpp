@@ -14,6 +14,7 @@
 
 namespace acinus::runs {
 
+/// Cell at its starting position.
 struct PlacedCell {
   std::int64_t lineage = 0;  ///< index in the order of generation, independent of the models
   Vec3 center = Vec3::Zero();

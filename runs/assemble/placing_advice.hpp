@@ -10,9 +10,9 @@ namespace acinus::runs {
 
 /// Changes of the scene that let cells start small or newborn, as far as they apply.
 /// @pre no start-up phase
-std::vector<std::string> ways_to_start_smaller(const Scene& scene);
+std::vector<std::string> list_smaller_starts(const Scene& scene);
 
 /// Change of the scene that places its cells farther apart.
-std::string way_to_part(const Scene& scene);
+std::string advise_spacing(const Scene& scene);
 
 }  // namespace acinus::runs

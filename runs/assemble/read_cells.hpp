@@ -11,6 +11,7 @@
 
 namespace acinus::runs {
 
+/// Figures of one cell in a frame.
 struct CellRecord {
   Vec3 center = Vec3::Zero();  ///< centroid, um
   double pressure = 0;         ///< contact pressure, Pa

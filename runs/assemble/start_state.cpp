@@ -18,33 +18,33 @@ namespace {
 /// only during start-up. "model" is merged into cells.model; of start_up only the keys that place
 /// cells count. Contact with vessels shapes a start too, but both kinds may be compared from one
 /// start.
-constexpr std::array kFree{"/name",
-                           "/description",
-                           "/experiment",
-                           "/model",
-                           "/time",
-                           "/solver",
-                           "/output",
-                           "/motility",
-                           "/life",
-                           "/friction",
-                           "/start_up/growth_time",
-                           "/start_up/adhesion_ramp",
-                           "/start_up/max_duration",
-                           "/start_up/speed_tolerance",
-                           "/start_up/pressure_tolerance",
-                           "/start_up/from",
-                           "/vessels/contact"};
+constexpr std::array kFreeKeys{"/name",
+                               "/description",
+                               "/experiment",
+                               "/model",
+                               "/time",
+                               "/solver",
+                               "/output",
+                               "/motility",
+                               "/life",
+                               "/friction",
+                               "/start_up/growth_time",
+                               "/start_up/adhesion_ramp",
+                               "/start_up/max_duration",
+                               "/start_up/speed_tolerance",
+                               "/start_up/pressure_tolerance",
+                               "/start_up/from",
+                               "/vessels/contact"};
 
 /// Keys of a cell type that may differ from the run that left the start.
-constexpr std::array kFreeOfType{"/cycle",
-                                 "/inhibition",
-                                 "/death",
-                                 "/diffusion",
-                                 "/dcm/nodal_friction",
-                                 "/dcm/nodal_friction_across",
-                                 "/dcm/ecm_friction",
-                                 "/cbm/ecm_friction"};
+constexpr std::array kFreeTypeKeys{"/cycle",
+                                   "/inhibition",
+                                   "/death",
+                                   "/diffusion",
+                                   "/dcm/nodal_friction",
+                                   "/dcm/nodal_friction_across",
+                                   "/dcm/ecm_friction",
+                                   "/cbm/ecm_friction"};
 
 bool is_or_is_below(const std::string& pointer, const std::string& block) {
   return pointer == block || pointer.starts_with(block + "/");
@@ -53,17 +53,17 @@ bool is_or_is_below(const std::string& pointer, const std::string& block) {
 }  // namespace
 
 bool may_differ_at_start(const Scene& scene, const std::string& pointer) {
-  constexpr const char* kTypes = "/cell_types/";
-  if (!pointer.starts_with(kTypes))
-    return std::ranges::any_of(kFree,
+  constexpr const char* kTypesPointer = "/cell_types/";
+  if (!pointer.starts_with(kTypesPointer))
+    return std::ranges::any_of(kFreeKeys,
                                [&](const char* key) { return is_or_is_below(pointer, key); });
-  const std::size_t end = pointer.find('/', std::string(kTypes).size());
+  const std::size_t end = pointer.find('/', std::string(kTypesPointer).size());
   if (end == std::string::npos) return false;
-  const std::string rest = pointer.substr(end), first = std::string(kTypes);
+  const std::string rest = pointer.substr(end), first = std::string(kTypesPointer);
   const auto type = scene.cell_types.find(pointer.substr(first.size(), end - first.size()));
   const bool any_age = type != scene.cell_types.end() && type->second.cycle.random_start;
   if (rest == "/cycle/start" || (any_age && is_or_is_below(rest, "/cycle"))) return false;
-  return std::ranges::any_of(kFreeOfType,
+  return std::ranges::any_of(kFreeTypeKeys,
                              [&](const char* key) { return is_or_is_below(rest, key); });
 }
 

@@ -141,7 +141,7 @@ void get_shells(const io::CheckpointData& d, dcm::State& s) {
     const geometry::Topology& topology =
         geometry::shared_icosphere(as_int(d, "dcm/group", group[k + 1]));
     s.group.push_back({&topology, rows, as_int(d, "dcm/group", group[k]), nucleus_of(d, k / 2)});
-    rows += static_cast<std::size_t>(s.group.back().n_point());
+    rows += s.group.back().n_point();
   }
   const std::size_t n = s.group.size() * kLanes;
   s.position = d.numbers("dcm/position");

@@ -7,6 +7,7 @@
 
 namespace acinus::runs {
 
+/// Writes the state as named arrays.
 void put_state(const coupling::State& state, io::CheckpointData& data);
 
 /// Replaces the state of a world built from the same scene.

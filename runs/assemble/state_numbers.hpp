@@ -41,6 +41,8 @@ inline std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
   return points;
 }
 
+/// Checks the number of entries of an array.
+/// @throws Error(kFileError)
 inline void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
                        std::size_t expected) {
   check(found == expected,

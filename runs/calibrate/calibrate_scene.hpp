@@ -8,6 +8,7 @@
 
 namespace acinus::runs {
 
+/// Options of a calibration.
 struct CalibrateOptions {
   ClumpOptions clump;
   calibration::Options calibration;

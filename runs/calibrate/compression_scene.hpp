@@ -7,6 +7,7 @@
 
 namespace acinus::runs {
 
+/// Options of the compressed clump.
 struct ClumpOptions {
   std::string type;  ///< cell type; empty = the only type of the scene
   int cells = 0;     ///< number of cells; 0: as in the scene, 59 without a clump there

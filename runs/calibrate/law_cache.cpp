@@ -40,10 +40,10 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   if (auto held = io::FileLock::try_take(lock)) return held;
   if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
   std::fflush(stdout);
-  constexpr double kLook = 0.2;  // s between looks at signals
+  constexpr double kLockPollInterval = 0.2;  // s between looks at signals
   const StopSignals signals;
   while (!stop_requested())
-    if (auto held = io::FileLock::try_take(lock, kLook)) return held;
+    if (auto held = io::FileLock::try_take(lock, kLockPollInterval)) return held;
   return {};
 }
 
@@ -77,7 +77,7 @@ std::string find_failure(const std::string& law_file) {
   for (const fs::directory_entry& run : fs::directory_iterator(folder, code)) {
     if (!fs::exists(run.path() / "summary.json", code)) continue;
     const RunSummary summary = read_summary(run.path().string());
-    if (summary.status == "failed") return summary.cause;
+    if (summary.status == RunOutcome::kFailed) return summary.cause;
   }
   return "see the runs in " + folder.string();
 }

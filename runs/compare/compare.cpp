@@ -93,6 +93,12 @@ std::string describe_unshared_cells(const std::string& folder_a, const CellRecor
                      only_a, a.size(), folder_a, only_b, b.size(), folder_b);
 }
 
+/// Quantity of one run, with its value in the reference.
+struct Quantity {
+  std::string name, unit;
+  double reference = 0, value = 0;
+};
+
 /// Writer of the table of differences.
 struct DifferenceTable {
   const std::map<std::string, double>& tolerance;
@@ -122,14 +128,13 @@ struct DifferenceTable {
   /// Adds a relative difference.
   /// @param difference    relative to the reference
   /// @param not_measured  reason for a missing verdict, empty if there is a verdict
-  void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
-                double value, double difference, const std::string& not_measured = {}) const {
-    add(run, {name, unit, reference, value, difference, false, {}, not_measured});
+  void relative(std::size_t run, const Quantity& q, double difference,
+                const std::string& not_measured = {}) const {
+    add(run, {q.name, q.unit, q.reference, q.value, difference, false, {}, not_measured});
   }
-  void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
-                double value) const {
-    relative(run, name, unit, reference, value,
-             ratio(std::abs(value - reference), std::abs(reference)));
+  /// Adds the relative difference of two values.
+  void relative(std::size_t run, const Quantity& q) const {
+    relative(run, q, ratio(std::abs(q.value - q.reference), std::abs(q.reference)));
   }
   void absolute(std::size_t run, const std::string& name, const std::string& unit,
                 double difference, const std::string& not_measured = {}) const {
@@ -154,7 +159,7 @@ double rms_over_time(const std::vector<double>& reference, const std::vector<dou
 }
 
 void record_trace(const DifferenceTable& record, std::size_t run, const Trace& t) {
-  record.relative(run, t.name, t.unit, average(t.value[0]), average(t.value[run]),
+  record.relative(run, {t.name, t.unit, average(t.value[0]), average(t.value[run])},
                   rms_over_time(t.value[0], t.value[run]));
 }
 
@@ -248,18 +253,18 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
     const double rms = rms_by_lineage(
         reference, end,
         [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
-    record.relative(r, name, unit, size, rms_of(end, what), ratio(rms, size), apart);
+    record.relative(r, {name, unit, size, rms_of(end, what)}, ratio(rms, size), apart);
   };
   const TissueCenter middle = middle_of(reference);
   const double density = density_in(reference, middle), here = density_in(end, middle);
-  record.relative(r, "cells", "1", t.count.value[0].back(), t.count.value[r].back());
+  record.relative(r, {"cells", "1", t.count.value[0].back(), t.count.value[r].back()});
   record.absolute(r, "positions", "um",
                   rms_by_lineage(reference, end,
                                  [](const CellRecord& a, const CellRecord& b) {
                                    return (a.center - b.center).squaredNorm();
                                  }),
                   apart);
-  record.relative(r, "density", "1/mm^3", density, here, ratio(std::abs(here - density), density),
+  record.relative(r, {"density", "1/mm^3", density, here}, ratio(std::abs(here - density), density),
                   std::isfinite(density) ? "" : "the density of a single cell is not defined");
   record_trace(record, r, t.pressure);
   by_cell("cell_pressure", "Pa", &CellRecord::pressure);
@@ -291,8 +296,8 @@ void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellR
 
 /// Records the runs without a verdict: they or the reference did not reach the judged time. A run
 /// that ended early is named as the cause if others have no frame in common with it.
-void find_shortfalls(const std::vector<ComparedRun>& runs, std::optional<double> until,
-                     Comparison& c) {
+void record_shortfalls(const std::vector<ComparedRun>& runs, std::optional<double> until,
+                       Comparison& c) {
   std::vector<Shortfall> gap;
   for (const ComparedRun& run : runs) gap.push_back(find_shortfall(run, until));
   std::string first;
@@ -344,7 +349,7 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   Comparison c;
   c.runs = folders;
   c.difference.resize(folders.size() - 1);
-  find_shortfalls(runs, until, c);
+  record_shortfalls(runs, until, c);
   c.frames = static_cast<int>(runs[0].frame.size());
   c.from = runs[0].reader.time_s(runs[0].frame.front());
   c.to = runs[0].reader.time_s(runs[0].frame.back());
@@ -355,7 +360,7 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   c.trace = {traces.count, traces.pressure, traces.force, traces.contacts};
   compare_measures(runs, record, c);
   for (std::size_t r = 1; r < runs.size(); ++r)
-    record.relative(r, "cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s);
+    record.relative(r, {"cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s});
   for (std::size_t r = 1; r < runs.size(); ++r) record.add_missing(r);
   describe_runs(runs, traces.end, until, c);
   return c;

@@ -24,7 +24,7 @@ struct Difference {
 
 /// Friction coefficients of one model: of a cell with the medium and between cells.
 struct Drag {
-  std::string model;         ///< dcm | cbm
+  CellModel model = CellModel::kDcm;
   double medium = 0;         ///< of a free cell with the medium, 4 pi R^2 gamma, nN s/um
   double cell_friction = 0;  ///< between cells, nN s/um^3
 };
@@ -36,13 +36,14 @@ struct Trace {
   std::vector<std::vector<double>> value;  ///< [run][time]
 };
 
+/// Result of a comparison of runs.
 struct Comparison {
   std::vector<std::string> runs;  ///< run folders, the reference first
   double from = 0, to = 0;        ///< of the compared frames, s
   int frames = 0;
   std::vector<std::vector<Difference>> difference;  ///< [run - 1]
-  std::vector<std::string>
-      gap;  ///< [run - 1], reason why the run or the reference misses the judged time
+  /// [run - 1], reason why the run or the reference misses the judged time
+  std::vector<std::string> gap;
   std::vector<Trace> trace;
   std::vector<std::vector<Drag>> drag;  ///< [run], of its models
   std::vector<std::string> notes;       ///< differences of scenes and frames
@@ -82,6 +83,7 @@ struct CompareScenes {
 /// @return exit code: 0, or that of the run that stopped or failed
 int run_models(const Scene& scene, const CompareScenes& options, std::vector<std::string>& folders);
 
+/// Comparison as a text table for the terminal.
 std::string comparison_table(const Comparison& c);
 /// Writes the comparison as JSON to `file`, and its plots (SVG) beside it under the same name.
 void write_comparison(const Comparison& c, const std::string& file);

@@ -10,6 +10,7 @@
 
 namespace acinus::runs {
 
+/// Run with its summary and the frames to compare.
 struct ComparedRun {
   RunSummary summary;
   io::RunReader reader;

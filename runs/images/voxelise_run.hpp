@@ -7,6 +7,7 @@
 
 namespace acinus::runs {
 
+/// Options of voxelising a frame.
 struct VoxeliseRun {
   std::string folder;   ///< run folder
   int frame = -1;       ///< frame number from 0; -1: the last
@@ -14,6 +15,7 @@ struct VoxeliseRun {
   imaging::Voxelise how;
 };
 
+/// Label image with the number of its frame.
 struct RunImage {
   imaging::CellImage cells;
   int frame = 0;

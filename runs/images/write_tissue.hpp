@@ -9,6 +9,7 @@
 
 namespace acinus::runs {
 
+/// Options of the scene of an imported tissue.
 struct TissueScene {
   CellModel model = CellModel::kDcm;
   int nodes = 162;  ///< nodes of a deformable cell's mesh

@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "runs/scene/choices.hpp"
+
 namespace acinus::runs {
 
+/// Options of a reference model.
 struct OpenVtOptions {
-  std::string model = "cbm";     ///< "cbm" or "dcm"
+  CellModel model = CellModel::kCbm;
   std::vector<std::string> set;  ///< changes of the scene, PATH=VALUE
   std::string out;               ///< run folder; of monolayer: parent of its two runs
   std::string csv;               ///< result file; "" = none
@@ -46,11 +49,12 @@ struct FreeShares {
 /// Free shares of every disc, by sampling to 1e-3.
 std::vector<FreeShares> free_shares(const std::vector<Disc>& discs);
 
+/// Cells of the monolayer at its end.
 struct Layer {
   double cycle = 0;        ///< cell cycle, five relaxation times of the row, s
   std::vector<Disc> cell;  ///< at the end of the run
-  std::vector<FreeShares>
-      free;  ///< [cell]; of deformable cells the share of the surface without contact
+  /// [cell]; of deformable cells the share of the surface without contact
+  std::vector<FreeShares> free;
 };
 
 /// Runs openvt_relax11, then openvt_monolayer with five of its relaxation times as cell cycle.

@@ -16,8 +16,8 @@ namespace acinus::runs {
 /// Overcrowded neighbourhood: the cells have more rest volume than space.
 struct Crowd {
   std::int64_t cell = -1;  ///< lineage of the cell at its centre
-  double share =
-      0;  ///< rest volume of the cells around it relative to the volume of the neighbourhood
+  /// Rest volume of the cells around it relative to the volume of the neighbourhood.
+  double share = 0;
 };
 
 /// Most crowded neighbourhood among those of the named cells, or of all cells if none is named;

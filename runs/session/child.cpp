@@ -210,8 +210,8 @@ std::optional<std::size_t> wait_for_any(const std::vector<const Child*>& childre
     deadline = std::min(deadline, child->deadline());
   }
   for (;;) {
-    constexpr double kLongest = 1e6;  // s: poll counts milliseconds in an int
-    const double left = std::clamp(deadline - wall_seconds(), 0.0, kLongest);
+    constexpr double kLongestWait = 1e6;  // s: poll counts milliseconds in an int
+    const double left = std::clamp(deadline - wall_seconds(), 0.0, kLongestWait);
     const int n = poll(ends.data(), ends.size(), static_cast<int>(std::ceil(1000 * left)));
     for (std::size_t k = 0; k < ends.size(); ++k)
       if ((n > 0 && ends[k].revents != 0) || wall_seconds() > children[k]->deadline()) return k;

@@ -11,6 +11,7 @@
 
 namespace acinus::runs {
 
+/// End of a child process.
 struct ChildEnd {
   int code = -1;           ///< exit code; -1 if a signal ended it
   int signal = 0;          ///< signal that ended it; 0 = none
@@ -18,6 +19,7 @@ struct ChildEnd {
   double cpu_s = 0;        ///< CPU time, user and system, s
 };
 
+/// Program, output and limits of a child process.
 struct ChildOptions {
   /// Executable file. By default this very program, even if its file was replaced meanwhile.
   std::string program = "/proc/self/exe";
@@ -30,8 +32,8 @@ struct ChildOptions {
   /// Resource limits; infinite: those of this process.
   double most_memory = std::numeric_limits<double>::infinity();  ///< address space, bytes
   double most_cpu_s = std::numeric_limits<double>::infinity();   ///< processor time, s
-  double largest_file =
-      std::numeric_limits<double>::infinity();  ///< largest file it may write, bytes
+  /// Largest file it may write, bytes.
+  double largest_file = std::numeric_limits<double>::infinity();
 };
 
 /// Path of a program in the folder of this one.

@@ -19,8 +19,8 @@ namespace acinus::runs {
 namespace {
 
 /// Signals of crashes: out-of-bounds access, failed assertions, arithmetic faults.
-constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
-constexpr std::array kPassedOn{SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGQUIT};
+constexpr std::array kCrashSignals{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+constexpr std::array kForwardedSignals{SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGQUIT};
 
 /// Blocks signals so that they can be waited for instead of taking effect.
 class SignalsTaken {
@@ -28,7 +28,7 @@ class SignalsTaken {
   SignalsTaken() {
     sigemptyset(&taken_);
     sigaddset(&taken_, SIGCHLD);
-    for (const int signal : kPassedOn) sigaddset(&taken_, signal);
+    for (const int signal : kForwardedSignals) sigaddset(&taken_, signal);
     sigprocmask(SIG_BLOCK, &taken_, &before_);
   }
   ~SignalsTaken() { give_back(); }
@@ -89,7 +89,7 @@ int run_guarded(const std::string& files, const std::function<int()>& work) {
   const int status = wait_for(child, signals);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const int signal = WTERMSIG(status);
-  check(std::ranges::find(kCrashes, signal) == kCrashes.end(),
+  check(std::ranges::find(kCrashSignals, signal) == kCrashSignals.end(),
         fmt::format("{}: reading ended with signal {} ({}). A file there is damaged in a way that "
                     "the reader of its format does not bear. Use an intact copy.",
                     files, signal, strsignal(signal)),

@@ -10,6 +10,7 @@
 
 namespace acinus::runs {
 
+/// Printer of the progress of a run, and its logger.
 class Progress {
  public:
   /// Progress of a run until `end` (s since t = 0). Only the first of several processes prints.

@@ -5,16 +5,19 @@
 #include <vector>
 
 #include "runs/experiments/experiment.hpp"
+#include "runs/session/run_outcome.hpp"
 
 namespace acinus::runs {
 
+/// Figures of a finished run.
 struct RunSummary {
   std::string folder;
-  std::string scene, hash, version, git, status;
+  std::string scene, hash, version, git;
+  RunOutcome status = RunOutcome::kFailed;
   std::string cause;       ///< cause of a failure or stop; "" = none
   std::string state_hash;  ///< hash of the final state
-  std::string
-      start_hash;  ///< hash of the state at t = 0 taken from another run; "" = its own start
+  /// Hash of the state at t = 0 taken from another run; "" = its own start.
+  std::string start_hash;
   double simulated_s = 0, wall_s = 0, cpu_s = 0;
   int dcm = 0, cbm = 0;  ///< number of cells at the end
   Measures measures;     ///< NaN for missing values

@@ -23,6 +23,7 @@
 
 namespace acinus::runs {
 
+/// Writer of the files of a run.
 class Recorder {
  public:
   /// Recorder of a simulation, which it only reads.
@@ -45,19 +46,16 @@ class Recorder {
                  const std::vector<std::int64_t>& cells = {});
   void add_life(const coupling::LifeReport& report);
   /// Adds a note to the summary.
-  void add_note(const std::string& note) { notes_.said.push_back(note); }
-  void add_warning(const std::string& warning) { notes_.warned.push_back(warning); }
+  void add_note(const std::string& note) { notes_.info.push_back(note); }
+  void add_warning(const std::string& warning) { notes_.warnings.push_back(warning); }
 
   void save();  ///< Writes a checkpoint. @throws Error(kFileError)
   /// Writes checkpoint, run file and summary in their final form.
-  /// @param status  completed | stopped | failed
-  void close(const std::string& status, const std::string& cause);
+  void close(RunOutcome status, const std::string& cause);
 
   double last_frame() const { return last_frame_; }  ///< time of the last frame, s since t = 0
   /// Reason why the frames so far complete the experiment; empty if they do not.
-  std::string why_experiment_is_over() const {
-    return why_over(scene_.experiment, observed_.measures);
-  }
+  std::string completion_reason() const { return why_over(scene_.experiment, observed_.measures); }
   bool has_frame() const { return last_frame_ > kNoFrame; }
   /// Unresolvable overlaps of the last frame.
   const Excess& excess() const { return excess_; }

@@ -64,10 +64,10 @@ void check_use(const std::string& folder, const RunOptions& options) {
 }
 
 Error being_written(const std::string& folder) {
-  constexpr double kPatience = 2;  // s
+  constexpr double kLockTimeout = 2;  // s
   return Error(fmt::format(
       "--out {}: {} is writing in this folder. Wait until it ends, or choose another --out.",
-      folder, io::name_holder(lock_file(folder), kPatience)));
+      folder, io::name_holder(lock_file(folder), kLockTimeout)));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 namespace acinus::runs {
 
+/// Options of one run.
 struct RunOptions {
   std::string scene_file;
   std::vector<std::string> set;  ///< changes of the scene, PATH=VALUE, already applied

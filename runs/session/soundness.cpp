@@ -15,7 +15,7 @@ namespace acinus::runs {
 namespace {
 
 /// Additional overlap of a surface between contact points, as a share of the mean edge length.
-constexpr double kBetweenPoints = 0.25;
+constexpr double kOverlapBetweenPoints = 0.25;
 
 double radius_of(const coupling::State& s, std::int64_t id) {
   const std::size_t k = std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin();
@@ -50,7 +50,7 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
   // Contact sees meshes from near only, and not which side is which from far inside: the audit
   // does.
   if (const coupling::WorstPair& lost = audit.center_in_static; lost.depth_um > worst.depth_um) {
-    const contact::StaticMesh& mesh = boundary.meshes[static_cast<std::size_t>(lost.ids[1])];
+    const contact::StaticMesh& mesh = boundary.meshes[lost.ids[1]];
     worst = {lost.depth_um,
              fmt::format("CBM cell {} has its centre {:.3g} um {} static mesh {}", lost.ids[0],
                          lost.depth_um, mesh.inside ? "outside" : "inside", mesh.name),
@@ -81,7 +81,7 @@ double deepest_overlap(const coupling::World& world) {
     if (s.active(l))
       edge = std::max(edge, s.group[l / kLanes].topology->mean_rest_length *
                                 sphere_radius(s.volume[l].at(world.state.clock.time)));
-  return world.params.dcm_contact.max_depth + kBetweenPoints * edge;
+  return world.params.dcm_contact.max_depth + kOverlapBetweenPoints * edge;
 }
 
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,

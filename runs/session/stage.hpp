@@ -9,6 +9,7 @@
 
 namespace acinus::runs {
 
+/// Options of a run as a stage.
 struct StageOptions {
   std::string folder;
   int threads = 0;  ///< 0 = all cores

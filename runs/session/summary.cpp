@@ -93,7 +93,7 @@ void add_run(const SummaryInput& in, OrderedJson& j) {
   j["version"] = ACINUS_VERSION;
   j["git"] = ACINUS_GIT;
   j["seed"] = in.scene.seed;
-  j["status"] = in.status;
+  j["status"] = name_of_choice(in.status);
   if (!in.cause.empty()) j["cause"] = in.cause;
   j["simulated_s"] = finite_number(std::max(0.0, coupling::time_since_start(in.world)));
   j["start_up_s"] =
@@ -186,8 +186,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
       finite_number(geometry::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
-  j["notes"] = in.notes.said;
-  j["warnings"] = in.notes.warned;
+  j["notes"] = in.notes.info;
+  j["warnings"] = in.notes.warnings;
   OrderedJson timings = OrderedJson::object();
   for (const StageTime& stage : in.timings.stages())
     timings[stage.name] = finite_number(stage.wall);

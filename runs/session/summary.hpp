@@ -14,6 +14,7 @@
 
 namespace acinus::runs {
 
+/// Sources of the figures of a summary.
 struct SummaryInput {
   const Scene& scene;
   const RunOptions& options;
@@ -24,8 +25,8 @@ struct SummaryInput {
   const Timings& timings;
   const std::vector<std::string>& skipped;
   const Notes& notes;
-  std::string status;  ///< completed | stopped | failed
-  std::string cause;   ///< cause of a stop or failure
+  RunOutcome status;
+  std::string cause;  ///< cause of a stop or failure
   int threads = 1;
 };
 

@@ -40,6 +40,7 @@ struct LifeTotals {
   double degenerate = 0;   ///< failed remeshings
 };
 
+/// Takes over the worst figures of the audit of a frame.
 void add_audit(RunTotals& totals, const coupling::AuditResult& audit);
 
 /// Adds the events and divisions of a step.
@@ -47,6 +48,7 @@ void add_audit(RunTotals& totals, const coupling::AuditResult& audit);
 /// @param wall_s  wall time since the start of the run, s
 void add_life(LifeTotals& totals, const coupling::LifeReport& report, int n_cell, double wall_s);
 
+/// Writes the totals to a checkpoint.
 void put_totals(const RunTotals& totals, io::CheckpointData& data);
 void put_totals(const LifeTotals& totals, io::CheckpointData& data);
 /// Reads the totals of a checkpoint.

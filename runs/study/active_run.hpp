@@ -18,7 +18,7 @@ struct RunProgress {
   std::string phase;             ///< phase of the simulation
   std::optional<double> left_s;  ///< own estimate of the remaining wall time, s
   bool starting = true;          ///< before t = 0, or before any progress
-  bool said = false;             ///< a progress line was printed
+  bool printed = false;          ///< a progress line was printed
 };
 
 /// Options of every child process of a study.
@@ -27,6 +27,7 @@ struct ChildRunOptions {
   double checkpoint_every_s = 120;  ///< wall time between checkpoints, s
 };
 
+/// Run in progress with its claim and its child process.
 struct ActiveRun {
   std::size_t run = 0;  ///< index into the plan's runs
   io::FileLock claim;   ///< lock on the claim file of the run's folder

@@ -8,15 +8,17 @@
 
 namespace acinus::runs {
 
+/// Part of a study that a process runs.
 struct RunChoice {
   std::vector<std::string> only;  ///< variants, NAME/* allowed; empty = all
   int task = 1, tasks = 1;        ///< part `task` of `tasks`, from 1
 };
 
+/// Run chosen for this process.
 struct ChosenRun {
   std::size_t run = 0;  ///< index into the plan's runs
-  bool own =
-      true;  ///< false: belongs to another task; run here only if one of ours waits for its start
+  /// False: belongs to another task; run here only if one of ours waits for its start.
+  bool own = true;
 };
 
 /// Chooses the runs of one process, seed by seed so that a partial study covers every variant; runs

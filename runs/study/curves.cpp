@@ -12,11 +12,11 @@ constexpr double kSameFrame = 1e-3;  // s: times of frames closer than this are 
 /// Continued fraction of the incomplete beta function [Press et al., Numerical Recipes, 6.4] by the
 /// modified Lentz method, for x < (a + 1) / (a + b + 2).
 double beta_fraction(double a, double b, double x) {
-  constexpr double kTiny = 1e-300, kClose = 1e-15;
-  constexpr int kMost = 10000;
+  constexpr double kTiny = 1e-300, kConverged = 1e-15;
+  constexpr int kMostTerms = 10000;
   const auto guarded = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
   double c = 1, d = 1 / guarded(1 - (a + b) * x / (a + 1)), h = d;
-  for (int m = 1; m <= kMost; ++m) {
+  for (int m = 1; m <= kMostTerms; ++m) {
     const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
     d = 1 / guarded(1 + even * d);
     c = guarded(1 + even / c);
@@ -25,7 +25,7 @@ double beta_fraction(double a, double b, double x) {
     d = 1 / guarded(1 + odd * d);
     c = guarded(1 + odd / c);
     h *= d * c;
-    if (std::abs(d * c - 1) < kClose) break;
+    if (std::abs(d * c - 1) < kConverged) break;
   }
   return h;
 }

@@ -12,6 +12,7 @@
 
 namespace acinus::runs {
 
+/// Expected CPU time of every run of a study.
 class ExpectedCosts {
  public:
   /// Takes the costs of the runs that are complete in the study's folder.

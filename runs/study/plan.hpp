@@ -27,6 +27,7 @@ struct StudyRun {
   std::vector<std::pair<std::string, std::string>> sources;
 };
 
+/// Study with its variants and runs.
 struct StudyPlan {
   Study study;
   std::vector<Variant> variants;

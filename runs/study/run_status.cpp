@@ -80,8 +80,8 @@ void take_summary(const std::string& folder, RunStatus& status) {
     status.start_hash = s.start_hash;
     status.version = s.version;
     status.git = s.git;
-    if (s.status == "completed") status.state = RunState::kDone;
-    if (s.status == "failed") status.state = RunState::kFailed;
+    if (s.status == RunOutcome::kCompleted) status.state = RunState::kDone;
+    if (s.status == RunOutcome::kFailed) status.state = RunState::kFailed;
     if (!s.cause.empty()) status.cause = s.cause;
   } catch (const Error& error) {
     status.cause = error.what();

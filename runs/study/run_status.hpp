@@ -7,6 +7,7 @@
 
 namespace acinus::runs {
 
+/// State of a run of a study.
 enum class RunState {
   kToDo,
   kToResume,  ///< stopped or killed, with a checkpoint
@@ -23,6 +24,7 @@ bool has_failed(RunState state);
 /// True for a run that the next start of the study takes up.
 bool is_left(RunState state);
 
+/// State of a run with its recorded figures.
 struct RunStatus {
   RunState state = RunState::kToDo;
   std::string cause;  ///< cause of a failure or of the last attempt's end

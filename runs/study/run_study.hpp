@@ -8,6 +8,7 @@
 
 namespace acinus::runs {
 
+/// Options of `acinus study`.
 struct StudyOptions {
   std::string file;  ///< study file, or name of a shipped study
   std::string out;   ///< folder of the study; "" = <study name>.study in the working directory

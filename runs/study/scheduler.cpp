@@ -21,7 +21,7 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kLook = 1;  ///< interval between checks of other processes, s
+constexpr double kPollInterval = 1;  ///< interval between checks of other processes, s
 
 class Scheduler {
  public:
@@ -62,7 +62,7 @@ class Scheduler {
       if (is_left(inspect_run(options_.root, plan_.runs[c.run]).state))
         runs.push_back(&plan_.runs[c.run]);
     }
-    return find_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
+    return resolve_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
   }
 
   /// Counts the runs completed earlier, so that the first estimate of the time left includes them.
@@ -88,7 +88,7 @@ class Scheduler {
   }
 
   void fail(const ChosenRun& c, const std::string& cause) {
-    progress_.tell(fmt::format("{} failed: {}", run_of(c).name, cause));
+    progress_.note(fmt::format("{} failed: {}", run_of(c).name, cause));
     count(c, false);
   }
 
@@ -163,7 +163,7 @@ class Scheduler {
   void wait() {
     std::vector<const Child*> children;
     for (const ActiveRun& a : active_) children.push_back(&a.child);
-    if (const auto ended = wait_for_any(children, kLook)) finish(*ended);
+    if (const auto ended = wait_for_any(children, kPollInterval)) finish(*ended);
   }
 
   void finish(std::size_t k) {
@@ -200,7 +200,7 @@ class Scheduler {
   /// Stops all children with a checkpoint and waits for them; a second signal kills them.
   void stop() {
     result_.stopped = true;
-    progress_.tell("stopping: every run writes a checkpoint");
+    progress_.note("stopping: every run writes a checkpoint");
     for (const ActiveRun& a : active_) a.child.send(SIGTERM);
     const int first = count_stop_signals();
     while (!active_.empty()) {

@@ -11,6 +11,7 @@
 
 namespace acinus::runs {
 
+/// Options of the scheduler.
 struct ScheduleOptions {
   std::string root;  ///< folder of the study
   int jobs = 1;      ///< concurrent processes

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runs/scene/choices.hpp"
 #include "runs/scene/json_text.hpp"
 
 namespace acinus::runs {
@@ -36,6 +37,7 @@ struct StudyReference {
   std::vector<Node> low, high;  ///< error bars; empty = none
 };
 
+/// Plot of an observable over time or over a scene key.
 struct StudyPlot {
   std::string name, title, observable;
   std::vector<std::string> beside;    ///< observables of further panels, in the unit of the first
@@ -54,8 +56,27 @@ struct StudyFigure {
   int columns = 2;
 };
 
+/// Kind of a measure of one variant up to kMax; kDistance to kPValue compare several runs or
+/// variants.
+enum class MeasureKind {
+  kValue,
+  kFirstBelow,
+  kFirstAbove,
+  kMean,
+  kMin,
+  kMax,
+  kDistance,
+  kOutside,
+  kBand,
+  kPValue
+};
+template <>
+inline constexpr const char* kChoices<MeasureKind> =
+    "value|first_below|first_above|mean|min|max|distance|outside|band|p_value";
+
+/// Measure: one number from the curves of an observable.
 struct StudyMeasure {
-  std::string kind = "value";
+  MeasureKind kind = MeasureKind::kValue;
   std::string observable, variant;
   std::string other;         ///< second variant, for the kinds distance, outside and p_value
   std::string another;       ///< third variant, for the kind outside
@@ -64,8 +85,14 @@ struct StudyMeasure {
   std::optional<Node> level;          ///< for first_below and first_above
 };
 
+/// True if the measure compares two variants.
 inline bool needs_other(const StudyMeasure& m) {
-  return m.kind == "distance" || m.kind == "outside" || m.kind == "p_value";
+  return m.kind == MeasureKind::kDistance || m.kind == MeasureKind::kOutside ||
+         m.kind == MeasureKind::kPValue;
+}
+/// True if the measure is the time of a first passage.
+inline bool is_passage(const StudyMeasure& m) {
+  return m.kind == MeasureKind::kFirstBelow || m.kind == MeasureKind::kFirstAbove;
 }
 
 /// Heat map of a claim over two scene keys: share of the seeds whose measure lies within the
@@ -89,6 +116,7 @@ struct StudyExpectation {
   int least_seeds = 0;  ///< least number of seeds within the bounds; 0 = their mean must be
 };
 
+/// All keys of a study file.
 struct Study {
   std::string file;  ///< path it was read from
   std::string name, description;

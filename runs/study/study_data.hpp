@@ -12,6 +12,7 @@
 
 namespace acinus::runs {
 
+/// Status and recorded curves of one run.
 struct RunData {
   RunStatus status;
   std::map<std::string, TimeCurve> curve;  ///< by observable, in the plan's units

@@ -14,7 +14,7 @@ namespace acinus::runs {
 /// @param threads  of a calibration
 /// @param failed   receives run name -> reason why its law is missing
 /// @return true if a signal stopped a calibration
-bool find_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
-               std::map<std::string, std::string>& failed);
+bool resolve_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
+                  std::map<std::string, std::string>& failed);
 
 }  // namespace acinus::runs

@@ -84,8 +84,7 @@ io::HeatMap make_map(const StudyPlan& plan, const StudyData& data, const StudyMa
   for (const MapPlace& f : fields) {
     const auto row = std::ranges::lower_bound(ys, f.y) - ys.begin();
     const auto column = std::ranges::lower_bound(xs, f.x) - xs.begin();
-    map.field[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
-        make_field(plan, data, wanted, f.variant);
+    map.field[row][column] = make_field(plan, data, wanted, f.variant);
   }
   return map;
 }

@@ -57,8 +57,9 @@ double first_time(const TimeCurve& curve) { return std::max(0.0, curve.time.fron
 
 /// Tolerance for equal times on a curve, s: 1e-3 of its duration, at most 1 s.
 double same_time(const TimeCurve& curve) {
-  constexpr double kMost = 1, kShare = 1e-3;  // s; of the duration
-  return std::clamp(kShare * (curve.time.back() - curve.time.front()), kSameTime, kMost);
+  constexpr double kMostTolerance = 1, kToleranceShare = 1e-3;  // s; of the duration
+  return std::clamp(kToleranceShare * (curve.time.back() - curve.time.front()), kSameTime,
+                    kMostTolerance);
 }
 
 /// Time at which a value is taken, s. The end only for complete runs that have a value there.
@@ -78,22 +79,22 @@ std::optional<TimeCurve> window_of(const RunCurve& s, const StudyMeasure& m) {
 
 /// Measure of one run; empty if its curve does not reach the times needed.
 std::optional<double> of_run(const RunCurve& s, const StudyMeasure& m, double level) {
-  if (m.kind == "value") {
+  if (m.kind == MeasureKind::kValue) {
     const std::optional<double> t = time_of(s, m.at);
     return t ? value_at(*s.curve, *t) : std::nullopt;
   }
-  if (m.kind == "first_below" || m.kind == "first_above") {
+  if (is_passage(m)) {
     const double from = m.from.value_or(first_time(*s.curve));
-    const auto passed = first_passage(*s.curve, level, m.kind == "first_below", from,
+    const auto passed = first_passage(*s.curve, level, m.kind == MeasureKind::kFirstBelow, from,
                                       m.until.value_or(s.curve->time.back()));
     if (passed) return passed;
     return window_of(s, m) ? std::optional(kNever) : std::nullopt;
   }
   const std::optional<TimeCurve> w = window_of(s, m);
   if (!w) return std::nullopt;
-  if (m.kind == "mean") return time_mean(*w);
-  return m.kind == "min" ? *std::ranges::min_element(w->value)
-                         : *std::ranges::max_element(w->value);
+  if (m.kind == MeasureKind::kMean) return time_mean(*w);
+  return m.kind == MeasureKind::kMin ? *std::ranges::min_element(w->value)
+                                     : *std::ranges::max_element(w->value);
 }
 
 /// Sets the mean over the seeds, or the median if some are infinite, since one seed must not decide
@@ -259,21 +260,23 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyM
   const std::vector<RunCurve> a = find_curves(plan, data, m.variant, m.observable, missing);
   std::vector<RunCurve> b, c;
   if (needs_other(m)) b = find_curves(plan, data, m.other, m.observable, missing);
-  if (m.kind == "outside") c = find_curves(plan, data, m.another, m.observable, missing);
+  if (m.kind == MeasureKind::kOutside)
+    c = find_curves(plan, data, m.another, m.observable, missing);
   if (!missing.empty()) return none(out, missing);
   if (a.empty() || (needs_other(m) && b.empty())) return none(out, "no runs");
   std::string note = "the runs have not come so far, ended before, or have no value there";
-  if ((needs_other(m) || m.kind == "band") && m.kind != "p_value") {
+  if ((needs_other(m) || m.kind == MeasureKind::kBand) && m.kind != MeasureKind::kPValue) {
     std::vector<RunCurve> all = a;
     for (const auto* more : {&b, &c}) all.insert(all.end(), more->begin(), more->end());
     if (const std::string unequal = find_unequal_ends(m, all); !unequal.empty())
       return none(out, unequal);
   }
-  if (needs_other(m) || m.kind == "band") {
-    out.value = m.kind == "p_value"    ? p_value(a, b, m, note)
-                : m.kind == "outside"  ? largest_excess(windows(a, m), windows(b, m), windows(c, m))
-                : m.kind == "distance" ? largest_distance(windows(a, m), windows(b, m))
-                                       : widest_band(windows(a, m));
+  if (needs_other(m) || m.kind == MeasureKind::kBand) {
+    out.value = m.kind == MeasureKind::kPValue ? p_value(a, b, m, note)
+                : m.kind == MeasureKind::kOutside
+                    ? largest_excess(windows(a, m), windows(b, m), windows(c, m))
+                : m.kind == MeasureKind::kDistance ? largest_distance(windows(a, m), windows(b, m))
+                                                   : widest_band(windows(a, m));
     return out.value ? out : none(out, note);
   }
   const double level = m.level ? number_in(*m.level, plan.units.at(m.observable)) : 0;

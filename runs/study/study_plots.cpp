@@ -206,7 +206,7 @@ std::string draw_figure(const StudyPlan& plan, const StudyData& data, const Stud
         make_plot(plan, data, *std::ranges::find(plan.study.plots, name, &StudyPlot::name)));
   for (std::size_t k = 0; k < plots.size() && plots.size() <= 26; ++k)
     plots[k].title = fmt::format("{}: {}", static_cast<char>('a' + k), plots[k].title);
-  return io::draw_grid(plots, static_cast<std::size_t>(figure.columns));
+  return io::draw_grid(plots, figure.columns);
 }
 
 }  // namespace

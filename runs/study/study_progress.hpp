@@ -10,18 +10,20 @@
 
 namespace acinus::runs {
 
+/// Numbers of runs by state.
 struct StudyCounts {
   int all = 0, done = 0, failed = 0;
   std::vector<std::size_t> waiting;  ///< indices of runs
 };
 
+/// Printer of the progress of a study, with the estimated time left.
 class StudyProgress {
  public:
   StudyProgress(const StudyPlan& plan, const std::string& root, int jobs, bool quiet);
 
   void add(const StudyRun& run, double cpu_s) { costs_.add(run, cpu_s); }
   void show(const StudyCounts& counts, const std::vector<ActiveRun>& active);
-  void tell(const std::string& text);  ///< prints a permanent line
+  void note(const std::string& text);  ///< prints a permanent line
   void finish();
 
  private:

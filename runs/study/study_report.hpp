@@ -7,6 +7,7 @@
 
 namespace acinus::runs {
 
+/// Numbers of claims by verdict and of runs by state.
 struct ReportCounts {
   int holds = 0, does_not_hold = 0, not_measured = 0;
   int done = 0, failed = 0, missing = 0;  ///< runs

@@ -11,8 +11,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr std::size_t kMostVariants = 10000;  ///< in one study
-constexpr std::size_t kMostExtended = 64;     ///< in one chain of extends
+constexpr std::size_t kMostVariants = 10000;   ///< in one study
+constexpr std::size_t kMostExtendsChain = 64;  ///< in one chain of extends
 
 /// Advice for scene keys that a study sets in another way; null for other keys.
 const char* instead_of(const std::string& key) {
@@ -59,9 +59,9 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
       std::vector<std::string> names;
       for (const auto& [other, unused] : study.variants) names.push_back(other);
       report.add(origin, pointer + "/extends", no_variant(variant.extends, names));
-    } else if (chain.size() > kMostExtended) {
+    } else if (chain.size() > kMostExtendsChain) {
       report.add(origin, pointer + "/extends",
-                 fmt::format("more than {} variants extend one another", kMostExtended));
+                 fmt::format("more than {} variants extend one another", kMostExtendsChain));
     } else if (std::ranges::find(chain, variant.extends) != chain.end()) {
       report.add(origin, pointer + "/extends",
                  fmt::format("variants extend each other in a circle: {}, {}",
@@ -75,12 +75,12 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
 
 /// Name as a safe path component: replaces unsafe characters and limits the length.
 std::string safe_component(const std::string& name) {
-  constexpr std::size_t kLongest = 120;
-  constexpr const char* kSafe =
+  constexpr std::size_t kMostCharacters = 120;
+  constexpr const char* kSafeCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.=";
-  std::string safe = name.substr(0, kLongest);
+  std::string safe = name.substr(0, kMostCharacters);
   for (char& c : safe)
-    if (std::string_view(kSafe).find(c) == std::string_view::npos) c = '_';
+    if (std::string_view(kSafeCharacters).find(c) == std::string_view::npos) c = '_';
   if (safe.empty() || safe.front() == '.') safe.insert(safe.begin(), '_');
   return safe;
 }

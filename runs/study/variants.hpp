@@ -16,6 +16,7 @@ struct Setting {
   std::string pointer;  ///< "/variants/III/set/time.end"
 };
 
+/// Variant with all its settings.
 struct Variant {
   std::string name;  ///< "III", or "III/leader_force=0.3 nN"
   std::string title;

@@ -8,8 +8,10 @@
 
 namespace acinus::runs {
 
+/// Verdict on a claim.
 enum class ClaimStatus { kHolds, kDoesNotHold, kNotMeasured };
 
+/// Claim with its measure, expectation and verdict.
 struct Verdict {
   std::string id, claim;
   std::string how;       ///< description of the measure

@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Assets of report pages, as bundled by bundle.sh.
 extern const std::string_view kPageScript, kPageStyle, kPageBody, kPageLicences;
 /// Assets of the service's pages.
 extern const std::string_view kServiceScript, kServiceStyle, kServicePage, kLoginPage;
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

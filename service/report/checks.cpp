@@ -3,7 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -45,4 +45,4 @@ OrderedJson list_checks(const OrderedJson& summary) {
   return list;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -3,11 +3,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Checks of the figures present in a summary: name, value, unit, limit, at_most (else at least),
 /// pass.
 /// @param summary  of summary.json
 nlohmann::ordered_json list_checks(const nlohmann::ordered_json& summary);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -7,7 +7,7 @@
 #include "service/report/pack.hpp"
 #include "service/report/thin.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 constexpr std::uint8_t kBoundaryKind = 2;
@@ -45,7 +45,7 @@ Surfaces take_surfaces(const io::Frame& f, bool boundary) {
 template <class Item>
 std::size_t place_of(std::vector<Item>& list, Item item) {
   const auto at = std::ranges::find(list, item.chunk, &Item::chunk);
-  const auto place = static_cast<std::size_t>(at - list.begin());
+  const std::size_t place = at - list.begin();
   if (at == list.end()) list.push_back(std::move(item));
   return place;
 }
@@ -143,4 +143,4 @@ PackedRun pack_frames(RunRecord& run, const FrameLimits& limits) {
   return {};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

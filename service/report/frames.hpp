@@ -8,8 +8,9 @@
 
 #include "service/report/run_record.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Limits of the packed frames of a run.
 struct FrameLimits {
   int most_frames = 50;
   std::size_t bytes = 8'000'000;  ///< of all chunks, encoded as in the page
@@ -27,6 +28,7 @@ struct PackedStill {
   std::string chunk;  ///< quantised x, y, z of the nodes; corners
 };
 
+/// Packed positions and cell table of one frame.
 struct PackedFrame {
   double time_s = 0;
   int number = 0;                   ///< in the run file
@@ -41,6 +43,7 @@ struct InterfaceSample {
   int pairs = 0;  ///< pairs with a contact force
 };
 
+/// Packed frames of a run.
 struct PackedRun {
   std::vector<PackedMesh> mesh;
   std::vector<PackedStill> still;
@@ -55,4 +58,4 @@ struct PackedRun {
 /// least the last. Unreadable frames are left out and reported in run.damage.
 PackedRun pack_frames(RunRecord& run, const FrameLimits& limits);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Options of `acinus report`.
 struct ReportOptions {
   std::vector<std::string> what;          ///< run folders, law files, study folders
   std::string out = "";                   ///< HTML file; "" = named after the first
@@ -23,4 +24,4 @@ struct ReportOptions {
 /// files, or if no browser is found for the screenshot
 std::string write_report(const ReportOptions& options);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Describes a calibrated law, with the force-overlap curves it was fitted to if they stand beside
 /// it.
@@ -21,4 +21,4 @@ nlohmann::ordered_json describe_study(const std::string& folder);
 /// cannot be compared.
 nlohmann::ordered_json describe_comparison(const std::vector<std::string>& folders);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Largest quantised value, with 0 the smallest; the next one stands for NaN.
 inline constexpr int kQuantisedSteps = 65534;
@@ -23,4 +23,4 @@ void append_quantised(std::string& bytes, std::span<const double> value);
 /// Compresses with zlib (RFC 1950) and encodes as base64.
 std::string encode_chunk(std::string_view bytes);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -4,7 +4,7 @@
 
 #include "service/page/page_assets.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 /// Head of the page. Its policy allows no external resource, so that the page is self-contained.
@@ -45,4 +45,4 @@ std::string write_page(std::string_view title, std::string_view data) {
       kPageLicences);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

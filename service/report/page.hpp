@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Size of the page without data, bytes.
 std::size_t empty_page_size();
@@ -14,4 +14,4 @@ std::size_t empty_page_size();
 /// @param data   JSON for page/src/report.js
 std::string write_page(std::string_view title, std::string_view data);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -7,7 +7,7 @@
 #include "service/report/frames.hpp"
 #include "service/report/run_record.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Most samples of a curve; longer curves are thinned (thin.hpp).
 inline constexpr int kMostSamples = 800;
@@ -19,4 +19,4 @@ nlohmann::ordered_json describe_run(RunRecord& run, const FrameLimits& limits);
 /// Number rounded to six significant digits; null if it is not finite.
 nlohmann::ordered_json short_number(double value);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -9,7 +9,7 @@
 #include "io/inside.hpp"
 #include "runs/session/run_folder.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 namespace fs = std::filesystem;
 
@@ -42,7 +42,7 @@ RunRecord read_run_record(const std::string& folder) {
                     "`acinus run` wrote.",
                     folder),
         Exit::kFileError);
-  attempt(run, "lock of the folder", [&] { run.going_on = is_being_written(folder); });
+  attempt(run, "lock of the folder", [&] { run.going_on = runs::is_being_written(folder); });
   if (has_summary)
     attempt(run, "summary", [&] { run.summary = io::read_text_inside(folder, "summary.json"); });
   if (!has_file) {
@@ -86,4 +86,4 @@ std::vector<double> table_column(const io::Table& table, const std::string& name
   return {};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

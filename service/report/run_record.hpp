@@ -8,8 +8,9 @@
 
 #include "io/run_reader.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Content of a run folder and the faults met while reading it.
 struct RunRecord {
   std::string folder;
   std::string summary;                            ///< text of summary.json; "" = none
@@ -34,4 +35,4 @@ std::optional<io::Table> read_cell_table(RunRecord& run, int frame);
 /// Column of a table by name; empty if there is none.
 std::vector<double> table_column(const io::Table& table, const std::string& name);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -9,13 +9,14 @@
 #include "service/serve/http_message.hpp"
 #include "service/serve/sessions.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Credentials and names under which the service may be used.
 struct ServiceAccess {
   std::string token;               ///< "" = no authentication
   std::vector<std::string> hosts;  ///< allowed values of the header Host: "127.0.0.1:8642"
-  std::string
-      cookie;  ///< cookie name; contains the port, since services of one machine share cookies
+  /// Cookie name; contains the port, since services of one machine share cookies.
+  std::string cookie;
   Sessions& sessions;
 };
 
@@ -31,4 +32,4 @@ std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& 
 /// Reply to the form of the login page, {"token": ...}.
 HttpReply log_in(const ServiceAccess& access, const HttpRequest& request);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

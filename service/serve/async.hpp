@@ -3,9 +3,9 @@
 
 #include <boost/asio/awaitable.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 template <class T>
 using Task = boost::asio::awaitable<T>;
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -7,10 +7,10 @@
 #include "service/serve/connections.hpp"
 #include "service/serve/routes.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Serves requests until the client goes, is too slow or sends invalid HTTP.
 Task<void> serve_connection(boost::asio::ip::tcp::socket socket, Routes& routes,
                             const ServeOptions& options, Connections& connections);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

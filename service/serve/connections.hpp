@@ -6,8 +6,9 @@
 #include <functional>
 #include <list>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Counters of unauthenticated connections and of bytes being received.
 class Connections {
  public:
   using Close = std::function<void()>;
@@ -29,4 +30,4 @@ class Connections {
   double receiving_ = 0;        ///< bytes
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -14,8 +14,9 @@
 #include "service/serve/job_store.hpp"
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Supervisor of all jobs of the service.
 class Dispatcher {
  public:
   /// Takes over the jobs of the store.
@@ -41,6 +42,7 @@ class Dispatcher {
   void resume(RunJob& job);
   void remove(RunJob& job);
 
+  /// Job by id, null if there is none.
   RunJob* find(const std::string& id);
   /// Updates the recorded size of a job's folder.
   void measure(const std::string& id);
@@ -66,9 +68,9 @@ class Dispatcher {
   /// @param since  older summaries belong to earlier attempts
   void finish_as(RunJob& job, int code, std::filesystem::file_time_type since);
   void wait_again_after_kill(RunJob& job);
-  void look_again();
-  void look(RunJob& job, Active& active);
-  void read_news(RunJob& job);
+  void schedule_poll();
+  void poll(RunJob& job, Active& active);
+  void read_progress_of(RunJob& job);
   void keep_limits(RunJob& job, Active& active);
   void measure(RunJob& job);
   void fail(RunJob& job, const std::string& cause);
@@ -89,4 +91,4 @@ class Dispatcher {
   std::unique_ptr<Timers> timers_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

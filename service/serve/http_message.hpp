@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Parsed HTTP request.
 struct HttpRequest {
   std::string method;                          ///< "GET"
   std::vector<std::string> path;               ///< "/runs/ID" as {"runs", "ID"}, not decoded
@@ -25,6 +26,7 @@ struct HttpRequest {
 /// Source of the pieces of a streamed reply: "" if there is nothing new, empty at its end.
 using EventSource = std::function<std::optional<std::string>()>;
 
+/// HTTP reply: a body, a file, or a stream of events.
 struct HttpReply {
   int status = 200;
   std::string type = "application/json";
@@ -38,6 +40,7 @@ struct HttpReply {
 /// Path segments of a request target, without the query.
 std::vector<std::string> split_target(std::string_view target);
 
+/// Reply with a JSON body.
 HttpReply json_reply(int status, const nlohmann::ordered_json& value);
 /// Error reply in the form of UM-Bridge: {"error": {"type": ..., "message": ...}}.
 HttpReply error_reply(int status, const std::string& type, const std::string& message);
@@ -53,4 +56,4 @@ std::string quoted(const std::string& text);
 /// @pre no line break in `data`
 std::string event_text(const std::string& data);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

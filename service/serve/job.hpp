@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// State of a job in the queue.
 enum class JobState {
   kWaiting,
   kRunning,
@@ -17,6 +18,7 @@ enum class JobState {
 };
 const char* name_of(JobState state);
 
+/// Record of a job and its progress.
 struct RunJob {
   // What stands in job.json.
   std::string id;
@@ -53,4 +55,4 @@ std::string make_job_id();
 void write_job(const std::string& folder, const RunJob& job);
 RunJob read_job(const std::string& folder);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

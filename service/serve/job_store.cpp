@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "io/disk.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,4 +171,4 @@ double JobStore::size_of(const std::string& folder) {
   return bytes;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

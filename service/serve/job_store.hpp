@@ -15,8 +15,9 @@
 #include "io/file_lock.hpp"
 #include "service/serve/job.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Reader and writer of the data folder, which it keeps locked.
 class JobStore {
  public:
   /// Creates the folder if needed, restricts it to this account and locks it.
@@ -54,4 +55,4 @@ class JobStore {
   io::FileLock lock_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -7,8 +7,9 @@
 #include "service/serve/dispatcher.hpp"
 #include "service/serve/http_message.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Job as JSON for GET /runs/ID.
 nlohmann::ordered_json view_job(const RunJob& job);
 
 /// Counts of jobs, and the newest runs without evaluations, newest first.
@@ -34,4 +35,4 @@ EventSource watch_list(const Dispatcher& dispatcher, JobList& list);
 /// @throws Error(kFileError)
 std::string view_series(const std::string& run_folder);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

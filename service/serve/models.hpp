@@ -11,13 +11,13 @@
 #include "runs/study/plan.hpp"
 #include "service/serve/results.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Model of one observable of a study.
 struct StudyModel {
   std::string name;  ///< "closing_force/lesion_area_relative"
   std::string observable, unit;
-  const StudyPlan* plan = nullptr;
+  const runs::StudyPlan* plan = nullptr;
   std::vector<std::string> parameters;  ///< scene keys, by default those the study sweeps
 };
 
@@ -38,7 +38,7 @@ class Models {
   const std::map<std::string, StudyModel>& all() const { return models_; }
 
  private:
-  std::vector<StudyPlan> plans_;
+  std::vector<runs::StudyPlan> plans_;
   std::map<std::string, StudyModel> models_;
 };
 
@@ -47,7 +47,7 @@ class Models {
 ModelConfig read_config(const StudyModel& model, const nlohmann::json& config);
 
 /// Resolved scene of the configured variant, before the changes of an evaluation.
-const Scene& model_scene(const StudyModel& model, const ModelConfig& config);
+const runs::Scene& model_scene(const StudyModel& model, const ModelConfig& config);
 
 /// Changes of that scene for an evaluation, PATH=VALUE.
 /// @param values  one per parameter, in the units of the keys
@@ -59,4 +59,4 @@ std::vector<std::string> model_changes(const ModelConfig& config,
 std::vector<double> model_output(const StudyModel& model, const ModelConfig& config,
                                  const RunResult& result);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

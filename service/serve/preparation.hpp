@@ -10,8 +10,9 @@
 #include "service/serve/job_store.hpp"
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Preparation of submissions, at most a few at a time.
 class Preparation {
  public:
   Preparation(const ServeOptions& options, JobStore& store) : options_(options), store_(store) {}
@@ -36,4 +37,4 @@ class Preparation {
   std::shared_ptr<int> n_running_ = std::make_shared<int>(0);
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

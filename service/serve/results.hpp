@@ -7,11 +7,12 @@
 
 #include "runs/study/curves.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Observables of a run over time.
 struct RunResult {
-  std::map<std::string, TimeCurve> curve;   ///< by observable
-  std::map<std::string, std::string> unit;  ///< of the values, by observable
+  std::map<std::string, runs::TimeCurve> curve;  ///< by observable
+  std::map<std::string, std::string> unit;       ///< of the values, by observable
 };
 
 /// Observables of a run folder, also of a run in progress.
@@ -27,4 +28,4 @@ void keep_result(const std::string& file, const RunResult& result);
 /// Reads a result; empty if it is missing or unreadable, and then evaluated again.
 std::optional<RunResult> find_result(const std::string& file);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

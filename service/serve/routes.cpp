@@ -19,7 +19,7 @@
 #include "service/page/page_assets.hpp"
 #include "service/serve/submission.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
@@ -70,9 +70,9 @@ HttpReply page(std::string_view text, const char* policy, int status = 200) {
   return reply;
 }
 
-OrderedJson library_of(const std::vector<ShippedScene>& documents) {
+OrderedJson library_of(const std::vector<runs::ShippedScene>& documents) {
   OrderedJson all = OrderedJson::array();
-  for (const ShippedScene& d : documents)
+  for (const runs::ShippedScene& d : documents)
     all.push_back({{"name", d.name}, {"description", d.description}});
   return all;
 }
@@ -107,7 +107,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
     if (UmBridge::is_asked(request)) co_return co_await um_bridge_.answer(request);
     if (path.empty() || path[0] == "page" || path[0] == "login") co_return answer_page(request);
     if (path == Path{"scenes"})
-      co_return request.reads() ? json_reply(200, library_of(shipped_scenes()))
+      co_return request.reads() ? json_reply(200, library_of(runs::shipped_scenes()))
                                 : wrong_method("GET");
     if (path == Path{"events"}) {
       if (!request.reads()) co_return wrong_method("GET");
@@ -236,20 +236,20 @@ Task<HttpReply> Routes::report(std::string id) {
     fs::remove(words, ignored);
     const RunJob* job = dispatcher_.find(id);
     const std::string title = job != nullptr ? job->name : id;
-    Child child({"report", folder, "--out", fresh, "--title=" + title},
-                {.output = words,
-                 .limit_s = kReportLimit,
-                 .follows_parent = true,
-                 .most_memory = kReportMemory});
+    runs::Child child({"report", folder, "--out", fresh, "--title=" + title},
+                      {.output = words,
+                       .limit_s = kReportLimit,
+                       .follows_parent = true,
+                       .most_memory = kReportMemory});
     // Not the descriptor: the coroutine may go before the child does.
-    while (!wait_for_any({&child}, 0)) {
+    while (!runs::wait_for_any({&child}, 0)) {
       timer.expires_after(kReportPoll);
       co_await timer.async_wait(asio::use_awaitable);
     }
-    const ChildEnd end = child.collect();
+    const runs::ChildEnd end = child.collect();
     if (end.code != 0)
       co_return error_reply(503, "FileError",
-                            fmt::format("no report could be made: {}", printed_cause(words)));
+                            fmt::format("no report could be made: {}", runs::printed_cause(words)));
     fs::rename(fresh, file, ignored);
     fs::remove(words, ignored);
     dispatcher_.measure(id);
@@ -262,4 +262,4 @@ Task<HttpReply> Routes::report(std::string id) {
   co_return reply;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

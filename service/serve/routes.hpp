@@ -14,8 +14,9 @@
 #include "service/serve/preparation.hpp"
 #include "service/serve/um_bridge.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Handlers of all requests of the service.
 class Routes {
  public:
   Routes(boost::asio::io_context& io, const ServeOptions& options, const ServiceAccess& access,
@@ -51,4 +52,4 @@ class Routes {
   std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

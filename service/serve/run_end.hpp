@@ -7,7 +7,7 @@
 
 #include "runs/session/read_summary.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 using FileTime = std::filesystem::file_time_type;
 
@@ -15,12 +15,12 @@ using FileTime = std::filesystem::file_time_type;
 std::string output_file(const std::string& folder);
 
 /// Messages that a run printed on stderr, without warnings and the program's name.
-std::string told(const std::string& folder);
+std::string printed_messages(const std::string& folder);
 
 /// Summary of a run folder; empty if it is missing, incomplete or older than `since`.
-std::optional<RunSummary> find_summary(const std::string& folder, FileTime since);
+std::optional<runs::RunSummary> find_summary(const std::string& folder, FileTime since);
 
 /// Cause of a stop that no client requested.
-std::string why_stopped(const std::string& folder, FileTime since);
+std::string find_stop_cause(const std::string& folder, FileTime since);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

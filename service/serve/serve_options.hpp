@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Options and limits of the service.
 struct ServeOptions {
   std::string data = "acinus_service";  ///< data folder
   std::string address = "127.0.0.1";    ///< to listen on
@@ -26,4 +27,4 @@ struct ServeOptions {
   bool quiet = false;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

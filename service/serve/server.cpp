@@ -31,7 +31,7 @@
 #include "service/serve/routes.hpp"
 #include "service/serve/token.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
@@ -41,9 +41,9 @@ using asio::ip::tcp;
 /// short-lived, unlike the arrays of a simulation.
 void return_freed_memory() {
 #if defined(__GLIBC__)
-  constexpr int kLarge = 1 << 17;  // bytes
-  mallopt(M_MMAP_THRESHOLD, kLarge);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLarge);
+  constexpr int kLargeAllocation = 1 << 17;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kLargeAllocation);
+  mallopt(M_TRIM_THRESHOLD, 2 * kLargeAllocation);
 #endif
 }
 
@@ -58,8 +58,9 @@ void allow_many_files() {
 void fill_in(ServeOptions& options) {
   if (options.jobs == 0)
     options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  constexpr double kShare = 0.9;  // the rest is for the system and this service
-  if (options.max_memory == 0) options.max_memory = kShare * machine_memory() / options.jobs;
+  constexpr double kMostMemoryShare = 0.9;  // the rest is for the system and this service
+  if (options.max_memory == 0)
+    options.max_memory = kMostMemoryShare * machine_memory() / options.jobs;
 }
 
 tcp::acceptor listen(asio::io_context& io, const ServeOptions& options) {
@@ -171,4 +172,4 @@ void serve(ServeOptions options) {
   run(io);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

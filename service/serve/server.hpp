@@ -3,7 +3,7 @@
 
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Serves until SIGTERM or SIGINT. Runs then end with a checkpoint and continue with the next
 /// service.
@@ -11,4 +11,4 @@ namespace acinus::runs {
 /// service holds; kFileError
 void serve(ServeOptions options);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -5,8 +5,9 @@
 #include <deque>
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Set of open login sessions, bounded in number.
 class Sessions {
  public:
   /// New session id. The oldest session ends beyond the limit.
@@ -17,4 +18,4 @@ class Sessions {
   std::deque<std::string> id_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

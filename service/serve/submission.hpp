@@ -9,7 +9,7 @@
 #include "service/serve/job_store.hpp"
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// Files of a run folder that hold the client's data until preparation: a submission, or an
 /// evaluation of a model.
@@ -39,6 +39,6 @@ std::string evaluation_text(const std::string& name, const std::string& resolved
 void prepare_evaluation(const std::string& folder, const ServeOptions& options);
 
 /// Cache key of the result of a scene: its hash and the version of the program.
-std::string result_key(const Scene& scene);
+std::string result_key(const runs::Scene& scene);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

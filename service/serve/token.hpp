@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 /// New token: 32 hexadecimal digits from the system's random generator.
 /// @throws Error(kFileError)
@@ -16,4 +16,4 @@ std::string keep_token(const std::string& file);
 /// True if two texts are equal, in a time independent of where they differ.
 bool same_secret(const std::string& a, const std::string& b);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -11,8 +11,9 @@
 #include "service/serve/models.hpp"
 #include "service/serve/preparation.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Handler of UM-Bridge requests.
 class UmBridge {
  public:
   UmBridge(boost::asio::io_context& io, const ServeOptions& options, JobStore& store,
@@ -47,4 +48,4 @@ class UmBridge {
   std::map<std::string, std::string> key_by_text_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -72,8 +72,8 @@ TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
     const double volume = geometry::compute_volume(t.vessel[0].node, t.vessel[0].triangle);
     EXPECT_NEAR(volume, kPi * 25 * 40, 0.03 * kPi * 25 * 40);
   }
-  ASSERT_EQ(other.warned.size(), 1u);
-  EXPECT_CONTAINS(other.warned[0], "voxels belong to a cell and to a vessel");
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_CONTAINS(other.warnings[0], "voxels belong to a cell and to a vessel");
   o.vessels.clear();
   o.vessel_label = 5;
   EXPECT_CONTAINS(message_of([&] { import_image(o); }), "no voxel is labelled 5");
@@ -146,9 +146,9 @@ TEST(ImportImage, DoesNotTakeTheUsualVolumeFromOneGiant) {
   all[0].radius = 19;
   all.push_back({4, {10, 20, 10}, 3.5});
   all.push_back({5, {10, 20, 30}, 3.5});
-  const ImportedTissue warned = import_image(options_for(folder, balls(all)));
-  ASSERT_EQ(warned.warned.size(), 1u);
-  EXPECT_CONTAINS(warned.warned[0], "--background 1");
+  const ImportedTissue warnings = import_image(options_for(folder, balls(all)));
+  ASSERT_EQ(warnings.warnings.size(), 1u);
+  EXPECT_CONTAINS(warnings.warnings[0], "--background 1");
 }
 
 TEST(ImportImage, NeverTakesATightCropForABackground) {
@@ -170,9 +170,9 @@ TEST(ImportImage, ReadsVesselsWithTheChoicesOfTheCells) {
   const ImportedTissue t = import_image(o);
   EXPECT_NEAR(t.voxel[0], 2, 1e-12);
   EXPECT_EQ(t.vessel.size(), 1u);
-  ASSERT_EQ(t.warned.size(), 2u);
-  EXPECT_CONTAINS(t.warned[0], "the file says units of 1 um; 2 um is taken, as --unit says");
-  EXPECT_CONTAINS(t.warned[1], "vessels.tif: the file says voxels of 1 x 1 x 1 um; 2 x 2 x 2 um");
+  ASSERT_EQ(t.warnings.size(), 2u);
+  EXPECT_CONTAINS(t.warnings[0], "the file says units of 1 um; 2 um is taken, as --unit says");
+  EXPECT_CONTAINS(t.warnings[1], "vessels.tif: the file says voxels of 1 x 1 x 1 um; 2 x 2 x 2 um");
 }
 
 TEST(ImportImage, SmoothsHolesAway) {
