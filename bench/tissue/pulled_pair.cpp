@@ -20,7 +20,7 @@ namespace {
 constexpr double kRestSpeed = 2e-4;      ///< speed of a node at rest, um/s
 constexpr double kFirstIncrement = 0.2;  ///< first force increment, in pi W R^
 constexpr int kMostHalvings = 5;         ///< of the increment after separation
-constexpr double kMostForce = 40;        ///< force no pair bears, in pi W R^
+constexpr double kMostForce = 40;        ///< force beyond any pull-off, in pi W R^
 
 runs::Scene make_scene(const PairCase& c) {
   runs::Scene scene = runs::read_scene(runs::scene_folder() + "/adhering_pair.json");

@@ -24,7 +24,7 @@ struct PairCase {
   double h0 = 0.02;  ///< range of adhesion of Maugis-Dugdale, um
 };
 
-/// State of the pair under a force it bears.
+/// State of the pair under a force below pull-off.
 struct PairRest {
   double area = 0;      ///< contact area within the range of adhesion, um^2
   double distance = 0;  ///< of the centres, um

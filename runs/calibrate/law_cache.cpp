@@ -40,7 +40,7 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   if (auto held = io::FileLock::try_take(lock)) return held;
   if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
   std::fflush(stdout);
-  constexpr double kLockPollInterval = 0.2;  // s between looks at signals
+  constexpr double kLockPollInterval = 0.2;  // s between checks for signals
   const StopSignals signals;
   while (!stop_requested())
     if (auto held = io::FileLock::try_take(lock, kLockPollInterval)) return held;

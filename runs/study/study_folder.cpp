@@ -46,7 +46,7 @@ void check_study_folder(const std::string& root, const StudyPlan& plan) {
 void make_study_folder(const std::string& root, const StudyPlan& plan) {
   std::error_code code;
   fs::create_directories(root, code);
-  // First what tells whose folder it is: others may poll into it already.
+  // First the file that names the study: other tasks may open it already.
   if (!code && !fs::exists(root + kFile, code)) {
     const nlohmann::ordered_json j{{"study", plan.study.name}};
     try {

@@ -321,7 +321,7 @@ void Dispatcher::keep_limits(RunJob& job, Active& active) {
                     1e-9 * job.bytes);
     active.child.send(SIGTERM);
   }
-  // The run polls at its limit itself; this is for one that does not get there.
+  // A run checks its limits itself; this is for one that does not get there.
   if (wall_seconds() > active.started + active.limit_s + kEndGracePeriod) {
     active.too_much = "the wall-time limit of this service (--max-walltime)";
     active.child.send(SIGKILL);
