@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 double parse_size(const std::string& text) {
   double value = 0;
@@ -19,4 +19,4 @@ double parse_size(const std::string& text) {
   return scale * value;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

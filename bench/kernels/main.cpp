@@ -1,4 +1,4 @@
-/// Entry point of every kernel benchmark: Google Benchmark on one thread.
+/// Entry point of the kernel benchmarks: Google Benchmark on one thread.
 
 #include <benchmark/benchmark.h>
 

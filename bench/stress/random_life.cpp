@@ -13,15 +13,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kStream = 1;  ///< the rest of the scene is drawn from stream 0
-/// Shortest cycle of a nominal scene, s: fifty times as fast as the day of a real cell.
+constexpr std::uint64_t kLifeStream = 1;  ///< the rest of the scene uses stream 0
+/// Shortest cycle of a nominal scene, s: a fiftieth of a real cell's day.
 constexpr double kShortestCycle = 1800;
 
-/// The life of one scene in the making, drawn in a fixed order.
+/// Generator of the life blocks of one scene, drawn in a fixed order.
 class LifeDrawing {
  public:
   explicit LifeDrawing(const LifeSetting& setting)
-      : setting_(setting), random_(setting.seed, Purpose::kSampling, kStream) {}
+      : setting_(setting), random_(setting.seed, Purpose::kSampling, kLifeStream) {}
   std::string draw();
 
  private:

@@ -10,7 +10,7 @@
 namespace acinus::bench {
 namespace {
 
-/// Overlaps of one cell with cells and walls.
+/// Sum and number of the overlaps of one cell with cells and walls.
 struct CellOverlaps {
   double sum = 0;
   int contacts = 0;
@@ -47,7 +47,7 @@ std::vector<CellOverlaps> find_crowding(const JudgedCells& cells, double time,
   return out;
 }
 
-/// The spheres' world at that moment, with moduli set where the program has no such law.
+/// Sets the spheres of the world, with moduli set directly for laws the program does not have.
 void place(const JudgedCells& cells, double time, const SphereLaw& law, coupling::World& world) {
   const bool own = law.measure != OverlapMeasure::kProgram;
   for (cbm::Params& p : world.params.cbm) {
@@ -88,8 +88,8 @@ std::vector<SphereLaw> sphere_laws(const calibration::Law& law, double plain) {
           {"table by contacts", law.a0, table, kByContacts}};
 }
 
-JudgedCells bear_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
-                          coupling::World world) {
+JudgedCells compute_in_place(const JudgedCells& cells, double time, const SphereLaw& law,
+                             coupling::World world) {
   place(cells, time, law, world);
   coupling::Workspace work;
   coupling::size_workspace(world, work);

@@ -12,7 +12,7 @@ namespace {
 
 using coupling::Integrator;
 
-const Discretisation kUsual{};  ///< what a scene has by default
+const Discretisation kUsual{};  ///< defaults of a scene
 const Discretisation kNodes{162, "nodes"};
 const Discretisation kNodesAndEdges{162, "nodes-and-edges"};
 
@@ -21,7 +21,7 @@ std::string clump_text(int count, const Discretisation& space) {
       {.count = count, .nodes = space.nodes, .quadrature = space.quadrature, .step = {}});
 }
 
-/// Longer by a tenth along the axis, thinner across it so that the volume stays.
+/// Stretches the first cell by a tenth along the axis at constant volume.
 void stretch_first(coupling::World& world, const Vec3& axis) {
   constexpr double kStretch = 1.1;
   dcm::State& s = world.state.dcm;
@@ -49,7 +49,7 @@ PrecisionSetting usual_control(const Discretisation& space) {
   return {.space = space, .step = coupling::Numerics{}.max_step, .adaptive = true};
 }
 
-/// The same numerics on every mesh and with both quadratures, against the finest.
+/// Study of meshes and quadratures with the same numerics, against the finest mesh.
 PrecisionStudy space_study(double window, int samples, double step, int finest,
                            const std::vector<int>& meshes) {
   PrecisionStudy s{"error of mesh and quadrature", window, samples, {{finest, "3-point"}}, {}};

@@ -47,7 +47,7 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
     if (file == "none") continue;
     if (file == "paper") {
       p.correction = cbm::paper_law();
-      notes.said.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
+      notes.info.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
       continue;
     }
     check(file != "auto",
@@ -55,14 +55,14 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
                       "Calibrate first and name the law file.",
                       name));
     const calibration::Law law = calibration::read_law(file);
-    notes.said.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    notes.info.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
     for (const std::string& warning : law.warnings)
-      notes.warned.push_back(fmt::format("{}: {}", file, warning));
+      notes.warnings.push_back(fmt::format("{}: {}", file, warning));
     const LawParameters here = law_parameters(scene, type);
     const std::vector<std::string> differences =
         calibration::list_differences(law, here.dcm, here.cbm);
     if (!differences.empty())
-      notes.warned.push_back(
+      notes.warnings.push_back(
           fmt::format("{} is the law of other cells than {}: {}. Calibrate for "
                       "these cells, or set stiffness_correction to \"auto\"",
                       file, name, fmt::join(differences, "; ")));

@@ -5,7 +5,7 @@
 namespace acinus::runs {
 namespace {
 
-/// In mean edges: the farther points are apart, the more they need.
+/// Default contact range, in mean edge lengths. It grows with the spacing of the contact points.
 double default_range(contact::Quadrature quadrature) {
   switch (quadrature) {
     case contact::Quadrature::kThreePoint:
@@ -36,7 +36,7 @@ void set_motility(const Scene& scene, coupling::Motility& m) {
   if (scene.lobule) m.axis_radius = scene.lobule->central_vein_radius;
 }
 
-/// With --set model=dcm or cbm the zoom has nothing to say.
+/// Sets the moving zoom. No effect with a uniform model ("--set model=dcm" or "cbm").
 void set_zoom(const Scene& scene, coupling::ZoomParams& p) {
   const CellModel model = scene.model.value_or(scene.cells.model);
   if (!scene.moving_zoom || model != CellModel::kZoom) return;

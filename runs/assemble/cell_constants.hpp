@@ -5,7 +5,7 @@
 
 namespace acinus::runs {
 
-/// The cell type while its cells dissolve: keys that soften (Key::softens), times type.softening.
+/// Cell type during lysis: its constants that soften (Key::softens), times type.softening.
 CellType softened(const CellType& type);
 
 }  // namespace acinus::runs

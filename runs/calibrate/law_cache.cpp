@@ -37,8 +37,9 @@ std::string cache_folder() {
   return std::string(home) + "/.cache/acinus/laws";
 }
 
-/// Two processes must not calibrate the same law: they would write in the same run folders.
-/// Nothing if it was asked to stop meanwhile.
+/// Takes the lock of a law in the cache. Concurrent calibrations of one law would write to the same
+/// run folders.
+/// @return empty if a stop signal came while waiting
 std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   std::error_code code;
   fs::create_directories(fs::path(file).parent_path(), code);
@@ -46,10 +47,10 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   if (auto held = io::FileLock::try_take(lock)) return held;
   if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
   std::fflush(stdout);
-  constexpr double kLook = 0.2;  // s between looks at signals
+  constexpr double kLockPollInterval = 0.2;  // s between checks for signals
   const StopSignals signals;
   while (!stop_requested())
-    if (auto held = io::FileLock::try_take(lock, kLook)) return held;
+    if (auto held = io::FileLock::try_take(lock, kLockPollInterval)) return held;
   return {};
 }
 
@@ -94,14 +95,14 @@ std::string key_of(const Scene& scene, const LawParameters& p) {
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
-/// Cause of the failure of a calibration's run.
+/// Cause of failure of a calibration, from the summaries of its runs.
 std::string find_failure(const std::string& law_file) {
   const fs::path folder = fs::path(law_file).replace_extension(".calibration");
   std::error_code code;
   for (const fs::directory_entry& run : fs::directory_iterator(folder, code)) {
     if (!fs::exists(run.path() / "summary.json", code)) continue;
     const RunSummary summary = read_summary(run.path().string());
-    if (summary.status == "failed") return summary.cause;
+    if (summary.status == RunOutcome::kFailed) return summary.cause;
   }
   return "see the runs in " + folder.string();
 }

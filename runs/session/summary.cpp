@@ -17,7 +17,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// The worst of all divisions of deformable cells.
+/// Worst figures of all divisions of deformable cells.
 OrderedJson division_figures(const LifeTotals& t) {
   return {{"max_volume_error", finite_number(t.volume_error)},
           {"max_outside_um", finite_number(t.outside_um)},
@@ -35,7 +35,7 @@ OrderedJson mesh_figures(const LifeTotals& t) {
           {"left_degenerate", static_cast<int>(t.degenerate)}};
 }
 
-/// What was run and how it ended.
+/// Adds identity and outcome of the run.
 void add_run(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   j["scene"] = in.scene.name;
@@ -43,7 +43,7 @@ void add_run(const SummaryInput& in, OrderedJson& j) {
   j["version"] = ACINUS_VERSION;
   j["git"] = ACINUS_GIT;
   j["seed"] = in.scene.seed;
-  j["status"] = in.status;
+  j["status"] = name_of_choice(in.status);
   if (!in.cause.empty()) j["cause"] = in.cause;
   j["simulated_s"] = finite_number(std::max(0.0, coupling::time_since_start(in.world)));
   j["start_up_s"] =
@@ -79,7 +79,7 @@ void add_cells(const SummaryInput& in, OrderedJson& j) {
   if (in.life.remeshed + in.life.degenerate > 0) j["meshes"] = mesh_figures(in.life);
 }
 
-/// How far the state is from what it should be.
+/// Adds the error measures of the run.
 void add_errors(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   const RunTotals& t = in.totals;
@@ -132,8 +132,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
       finite_number(geometry::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
-  j["notes"] = in.notes.said;
-  j["warnings"] = in.notes.warned;
+  j["notes"] = in.notes.info;
+  j["warnings"] = in.notes.warnings;
   OrderedJson timings = OrderedJson::object();
   for (const StageTime& stage : in.timings.stages())
     timings[stage.name] = finite_number(stage.wall);

@@ -13,7 +13,7 @@
 #include "service/report/make_report.hpp"
 #include "tests/io/sample.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 namespace fs = std::filesystem;
 using io::test::Folder;
@@ -107,4 +107,4 @@ TEST(ReportHostile, DoesNotWaitForPipes) {
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::service

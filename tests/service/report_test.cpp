@@ -19,7 +19,7 @@
 #include "service/report/thin.hpp"
 #include "tests/io/sample.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 namespace fs = std::filesystem;
 using io::test::Folder;
@@ -94,12 +94,12 @@ TEST(ReportThin, KeepsEndsAndPeaks) {
   EXPECT_EQ(choose_evenly(101, 5), (std::vector<int>{0, 25, 50, 75, 100}));
   EXPECT_EQ(choose_evenly(3, 5), (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(choose_evenly(7, 1), std::vector<int>{6});
-  TimeCurve curve;
+  runs::TimeCurve curve;
   for (int k = 0; k < 10000; ++k) {
     curve.time.push_back(k);
     curve.value.push_back(k == 4321 ? 100 : k == 4322 ? -100 : 0);
   }
-  const TimeCurve thin = thin_curve(curve, 100);
+  const runs::TimeCurve thin = thin_curve(curve, 100);
   EXPECT_LE(thin.time.size(), 100u);
   EXPECT_TRUE(std::ranges::is_sorted(thin.time));
   EXPECT_EQ(*std::ranges::max_element(thin.value), 100);
@@ -123,7 +123,7 @@ Json data_of(const std::string& page) {
   return Json::parse(text.substr(from, text.find("</script>", from) - from));
 }
 
-TEST(Report, ShowsWhatARunHolds) {
+TEST(runs::Report, ShowsWhatARunHolds) {
   const Folder f("report");
   write_run(f.path + "/a.run", 5, 2);
   const std::string page = write_report({.what = {f.path + "/a.run"}, .out = f.path + "/a.html"});
@@ -140,7 +140,7 @@ TEST(Report, ShowsWhatARunHolds) {
     EXPECT_EQ(text.find(from), std::string::npos) << from;
 }
 
-TEST(Report, KeepsItsSizeByLeavingOutFrames) {
+TEST(runs::Report, KeepsItsSizeByLeavingOutFrames) {
   const Folder f("report_limit");
   write_run(f.path + "/a.run", 40, 400);
   ReportOptions options{.what = {f.path + "/a.run"}, .out = f.path + "/a.html"};
@@ -155,7 +155,7 @@ TEST(Report, KeepsItsSizeByLeavingOutFrames) {
   EXPECT_THROW(write_report(options), Error);
 }
 
-TEST(Report, TellsWhatIsDamagedAndShowsTheRest) {
+TEST(runs::Report, TellsWhatIsDamagedAndShowsTheRest) {
   const Folder f("report_damage");
   const std::string folder = f.path + "/a.run";
   write_run(folder, 3, 2);
@@ -168,7 +168,7 @@ TEST(Report, TellsWhatIsDamagedAndShowsTheRest) {
   EXPECT_GE(run["damage"].size(), 2u);
 }
 
-TEST(Report, RefusesWhatItDoesNotKnow) {
+TEST(runs::Report, RefusesWhatItDoesNotKnow) {
   const Folder f("report_unknown");
   EXPECT_THROW(write_report({.what = {f.path}, .out = f.path + "/a.html"}), Error);
   EXPECT_THROW(write_report({.what = {f.path + "/none"}, .out = f.path + "/a.html"}), Error);
@@ -178,4 +178,4 @@ TEST(Report, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,58 +1,28 @@
-/// Scenes from images: what is kept, what is left out and why, what is refused.
+/// Import of label images: cells that are kept, labels left out and their reasons, refused images.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/sphere.hpp"
 #include "geometry/measures.hpp"
-#include "imaging/write_image.hpp"
-#include "runs/assemble/build_world.hpp"
-#include "runs/images/import_image.hpp"
-#include "runs/scene/reader.hpp"
-#include "tests/geometry/temp_folder.hpp"
-#include "tests/imaging/images.hpp"
+#include "imaging/import_image.hpp"
+#include "tests/imaging/labelled_balls.hpp"
 
-namespace acinus::runs {
+namespace acinus::imaging {
 namespace {
 
 using geometry::contains;
 using geometry::message_of;
 using geometry::TempFolder;
 
-struct LabelledBall {
-  imaging::Label label;
-  Vec3 center;
-  double radius;
-};
-
-/// Balls in an image of 60 x 40 x 40 um; later ones cover earlier ones.
-imaging::LabelImage balls(const std::vector<LabelledBall>& all) {
-  return imaging::make_image({60, 40, 40}, Vec3::Ones(), [&](const Vec3& x) {
-    imaging::Label label = 0;
-    for (const LabelledBall& b : all)
-      if ((x - b.center).norm() < b.radius) label = b.label;
-    return label;
-  });
-}
-
-ImportOptions options_for(const TempFolder& folder, const imaging::LabelImage& image) {
-  ImportOptions o;
-  o.image = folder.path() + "/labels.mha";
-  imaging::write_image(o.image, image);
-  return o;
-}
-
-std::string why(const ImportedTissue& t, imaging::Label label, std::size_t n_voxel = 0) {
+std::string why(const ImportedTissue& t, Label label, std::size_t n_voxel = 0) {
   for (const LeftOut& l : t.left_out)
     if (l.label == label && (n_voxel == 0 || l.n_voxel == n_voxel)) return l.why;
   return "";
 }
 
-const std::vector<LabelledBall> kTwo{{3, {15, 20, 20}, 8}, {9, {29, 20, 20}, 8}};
-
 TEST(ImportImage, KeepsCellsAndSaysWhatItLeavesOut) {
   const TempFolder folder;
-  auto all = kTwo;
+  auto all = kTwoBalls;
   all.push_back({4, {50, 30, 30}, 2.6});  // a speck
   all.push_back({5, {45, 8, 30}, 0.9});   // one voxel
   all.push_back({6, {58, 10, 10}, 6});    // cut off by the border
@@ -61,7 +31,7 @@ TEST(ImportImage, KeepsCellsAndSaysWhatItLeavesOut) {
   ASSERT_EQ(t.cell.size(), 2u);
   EXPECT_EQ(t.cell[0].label, 3u);
   EXPECT_EQ(t.cell[1].label, 9u);
-  EXPECT_EQ(t.touching, (std::vector<std::array<imaging::Label, 2>>{{3, 9}}));
+  EXPECT_EQ(t.touching, (std::vector<std::array<Label, 2>>{{3, 9}}));
   EXPECT_EQ(t.cell[0].neighbours, 1);
   for (const ImportedCell& c : t.cell)
     EXPECT_NEAR(geometry::compute_volume(c.surface.node, c.surface.triangle), c.volume,
@@ -73,42 +43,11 @@ TEST(ImportImage, KeepsCellsAndSaysWhatItLeavesOut) {
   EXPECT_TRUE(t.vessel.empty());
 }
 
-TEST(ImportImage, MakesASceneThatStartsWithTheVolumesOfTheImage) {
-  const TempFolder folder;
-  const ImportOptions o = options_for(folder, balls(kTwo));
-  const std::string out = folder.path() + "/tissue";
-  const ImportedTissue t = import_image(o);
-  const std::vector<std::string> written = write_tissue(t, o, out);
-  EXPECT_CONTAINS(message_of([&] { write_tissue(t, o, out); }), "exists already");
-  const Scene scene = read_scene(written.front());
-  EXPECT_EQ(scene.name, "tissue");
-  const BuiltWorld built = build_world(scene, Ranks::serial());
-  const dcm::State& s = built.world.state.dcm;
-  int seen = 0;
-  for (std::size_t lane = 0; lane < s.n_lane(); ++lane) {
-    if (!s.active(lane)) continue;
-    ++seen;
-    const ImportedCell& c = t.cell[static_cast<std::size_t>(s.lineage[lane])];
-    std::vector<Vec3> node;
-    dcm::copy_nodes(s, lane, node);
-    const auto& triangle = s.group[lane / kLanes].topology->triangle;
-    EXPECT_NEAR(geometry::compute_volume(node, triangle), c.volume, 1e-6 * c.volume);
-    EXPECT_NEAR(s.volume[lane].at(0), c.volume, 1e-6 * c.volume);
-    EXPECT_LT((geometry::compute_centroid(node, triangle) - c.center).norm(), 0.3);
-  }
-  EXPECT_EQ(seen, 2);
-  // The same as spheres.
-  const BuiltWorld spheres =
-      build_world(read_scene(written.front(), {"model=cbm"}), Ranks::serial());
-  ASSERT_EQ(spheres.world.state.cbm.n_cell(), 2u);
-  EXPECT_NEAR(sphere_volume(8), spheres.world.state.cbm.volume[0].at(0), 0.15 * sphere_volume(8));
-}
-
 TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
   const TempFolder folder;
   const auto tube = [](const Vec3& x) { return std::hypot(x[0] - 45, x[1] - 20) < 5; };
-  imaging::LabelImage image = balls({{3, {15, 20, 20}, 8}, {9, {33, 20, 20}, 8}});
-  imaging::LabelImage vessels = image;
+  LabelImage image = balls({{3, {15, 20, 20}, 8}, {9, {33, 20, 20}, 8}});
+  LabelImage vessels = image;
   for (int z = 0; z < 40; ++z)
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 60; ++x) {
@@ -121,7 +60,7 @@ TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
   const ImportedTissue named = import_image(o);
   o.vessel_label = 0;
   o.vessels = folder.path() + "/vessels.mha";
-  imaging::write_image(o.vessels, vessels);
+  write_image(o.vessels, vessels);
   const ImportedTissue other = import_image(o);
   for (const ImportedTissue& t : {named, other}) {
     ASSERT_EQ(t.vessel.size(), 1u);
@@ -131,35 +70,29 @@ TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
     const double volume = geometry::compute_volume(t.vessel[0].node, t.vessel[0].triangle);
     EXPECT_NEAR(volume, kPi * 25 * 40, 0.03 * kPi * 25 * 40);
   }
-  ASSERT_EQ(other.warned.size(), 1u);
-  EXPECT_CONTAINS(other.warned[0], "voxels belong to a cell and to a vessel");
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_CONTAINS(other.warnings[0], "voxels belong to a cell and to a vessel");
   o.vessels.clear();
   o.vessel_label = 5;
   EXPECT_CONTAINS(message_of([&] { import_image(o); }), "no voxel is labelled 5");
 }
 
-TEST(ImportImage, KeepsCellsAtTheBorderBetweenMirrorWallsIfAsked) {
+TEST(ImportImage, KeepsCellsAtTheBorderIfAsked) {
   const TempFolder folder;
   ImportOptions o = options_for(folder, balls({{1, {0, 20, 20}, 9}, {2, {60, 20, 20}, 9}}));
   const std::string message = message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "none of its 2 labels can be kept");
   EXPECT_CONTAINS(message, "--border keep");
   o.keep_border = true;
-  const std::vector<std::string> written =
-      write_tissue(import_image(o), o, folder.path() + "/tissue");
-  const Scene scene = read_scene(written.front());
-  ASSERT_EQ(scene.walls.size(), 2u);
-  EXPECT_EQ(scene.walls[0].normal, Vec3(1, 0, 0));
-  EXPECT_EQ(scene.walls[1].point, Vec3(60, 0, 0));
-  EXPECT_TRUE(scene.walls[1].mirror);
+  EXPECT_EQ(import_image(o).cell.size(), 2u);
 }
 
 TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
   const TempFolder folder;
   std::vector<LabelledBall> all;
   for (int k = 0; k < 6; ++k)
-    all.push_back({static_cast<imaging::Label>(k % 3 + 1),
-                   Vec3(10 + 20 * (k / 2), k % 2 == 0 ? 10 : 30, 20), 6});
+    all.push_back(
+        {static_cast<Label>(k % 3 + 1), Vec3(10 + 20 * (k / 2), k % 2 == 0 ? 10 : 30, 20), 6});
   ImportOptions o = options_for(folder, balls(all));
   const std::string message = message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "3 of 3 labels are in several large pieces, label 1 first");
@@ -179,15 +112,15 @@ TEST(ImportImage, RefusesImagesWithoutCells) {
 }
 
 /// The two balls with 1 added to every label: 1 is outside.
-imaging::LabelImage raised(const std::vector<LabelledBall>& all) {
-  imaging::LabelImage image = balls(all);
-  for (imaging::Label& l : image.label) ++l;
+LabelImage raised(const std::vector<LabelledBall>& all) {
+  LabelImage image = balls(all);
+  for (Label& l : image.label) ++l;
   return image;
 }
 
 TEST(ImportImage, AsksAboutALabelThatEnclosesTheImage) {
   const TempFolder folder;
-  ImportOptions o = options_for(folder, raised(kTwo));
+  ImportOptions o = options_for(folder, raised(kTwoBalls));
   const std::string message = message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "label 1 fills 96 % of the image");
   EXPECT_CONTAINS(message, "--background 1");
@@ -211,17 +144,16 @@ TEST(ImportImage, DoesNotTakeTheUsualVolumeFromOneGiant) {
   all[0].radius = 19;
   all.push_back({4, {10, 20, 10}, 3.5});
   all.push_back({5, {10, 20, 30}, 3.5});
-  const ImportedTissue warned = import_image(options_for(folder, balls(all)));
-  ASSERT_EQ(warned.warned.size(), 1u);
-  EXPECT_CONTAINS(warned.warned[0], "--background 1");
+  const ImportedTissue warnings = import_image(options_for(folder, balls(all)));
+  ASSERT_EQ(warnings.warnings.size(), 1u);
+  EXPECT_CONTAINS(warnings.warnings[0], "--background 1");
 }
 
 TEST(ImportImage, NeverTakesATightCropForABackground) {
   const TempFolder folder;
-  const imaging::LabelImage one =
-      imaging::make_image({16, 16, 16}, Vec3::Ones(), [](const Vec3& x) {
-        return (x - Vec3(8, 8, 8)).norm() < 8 ? imaging::Label{1} : imaging::Label{0};
-      });
+  const LabelImage one = make_image({16, 16, 16}, Vec3::Ones(), [](const Vec3& x) {
+    return (x - Vec3(8, 8, 8)).norm() < 8 ? Label{1} : Label{0};
+  });
   ImportOptions o = options_for(folder, one);
   o.keep_border = true;
   EXPECT_EQ(import_image(o).cell.size(), 1u);
@@ -229,25 +161,25 @@ TEST(ImportImage, NeverTakesATightCropForABackground) {
 
 TEST(ImportImage, ReadsVesselsWithTheChoicesOfTheCells) {
   const TempFolder folder;
-  ImportOptions o = options_for(folder, balls(kTwo));
+  ImportOptions o = options_for(folder, balls(kTwoBalls));
   o.read.unit = 2;
   o.vessels = folder.path() + "/vessels.tif";
-  imaging::write_image(o.vessels, balls({{1, {30, 36, 20}, 3}}));
+  write_image(o.vessels, balls({{1, {30, 36, 20}, 3}}));
   const ImportedTissue t = import_image(o);
   EXPECT_NEAR(t.voxel[0], 2, 1e-12);
   EXPECT_EQ(t.vessel.size(), 1u);
-  ASSERT_EQ(t.warned.size(), 2u);
-  EXPECT_CONTAINS(t.warned[0], "the file says units of 1 um; 2 um is taken, as --unit says");
-  EXPECT_CONTAINS(t.warned[1], "vessels.tif: the file says voxels of 1 x 1 x 1 um; 2 x 2 x 2 um");
+  ASSERT_EQ(t.warnings.size(), 2u);
+  EXPECT_CONTAINS(t.warnings[0], "the file says units of 1 um; 2 um is taken, as --unit says");
+  EXPECT_CONTAINS(t.warnings[1], "vessels.tif: the file says voxels of 1 x 1 x 1 um; 2 x 2 x 2 um");
 }
 
 TEST(ImportImage, SmoothsHolesAway) {
   const TempFolder folder;
-  imaging::LabelImage image = balls(kTwo);
+  LabelImage image = balls(kTwoBalls);
   for (int x = 0; x < 60; ++x) image.label[image.index({x, 20, 20})] = 0;  // a needle through both
   const ImportedTissue t = import_image(options_for(folder, image));
   EXPECT_EQ(t.cell.size(), 2u);
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::imaging

@@ -1,4 +1,4 @@
-#include "runs/images/background.hpp"
+#include "imaging/background.hpp"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,10 @@
 
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::imaging {
 namespace {
 
-using imaging::Label;
-using imaging::LabelImage;
-using imaging::Voxel;
-
-/// Calls visit(label) for the outermost voxels of a side.
+/// Calls visit(label) for the outermost voxel layer of one side of the image.
 template <class Visit>
 void visit_side(const LabelImage& image, std::size_t axis, bool high, Visit visit) {
   Voxel low{}, end = image.size;
@@ -24,7 +20,8 @@ void visit_side(const LabelImage& image, std::size_t axis, bool high, Visit visi
       for (int x = low[0]; x < end[0]; ++x) visit(image.label[image.index({x, y, z})]);
 }
 
-/// The label, not 0, that has so large a share of the outermost voxels on every side; 0: none.
+/// Label other than 0 that fills at least this share of the outermost voxels on all six sides; 0 if
+/// there is none.
 Label find_enclosing(const LabelImage& image, double share) {
   Label found = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -54,8 +51,8 @@ void clear_background(const ImportOptions& o, LabelImage& image) {
     std::ranges::replace(image.label, *o.background, Label{0});
     return;
   }
-  constexpr double kMost = 0.6;
-  const Label label = find_enclosing(image, kMost);
+  constexpr double kLeastShare = 0.6;
+  const Label label = find_enclosing(image, kLeastShare);
   if (label == 0 || label == o.vessel_label) return;
   const auto n = static_cast<double>(std::ranges::count(image.label, label));
   throw Error(fmt::format(
@@ -65,4 +62,4 @@ void clear_background(const ImportOptions& o, LabelImage& image) {
       o.image, label, 100 * n / static_cast<double>(image.label.size()), label, label));
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::imaging

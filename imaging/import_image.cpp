@@ -1,4 +1,4 @@
-#include "runs/images/import_image.hpp"
+#include "imaging/import_image.hpp"
 
 #include <fmt/format.h>
 
@@ -9,49 +9,46 @@
 #include "core/error.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
+#include "imaging/background.hpp"
 #include "imaging/label_surface.hpp"
 #include "imaging/pieces.hpp"
-#include "runs/images/background.hpp"
 
-namespace acinus::runs {
+namespace acinus::imaging {
 namespace {
 
-using imaging::Label;
-using imaging::LabelImage;
-using imaging::Piece;
-using imaging::Pieces;
-
-/// Sides of triangles over the radius of a ball of the label's volume: some 2500 to a cell.
-constexpr double kEdge = 0.12;
-/// No side is below this share of a voxel's.
-constexpr double kLeastEdge = 0.7;
+/// Edge length of the triangles relative to the radius of a ball of the label's volume: some 2500
+/// triangles a cell.
+constexpr double kEdgeOverRadius = 0.12;
+/// Least edge length, in voxel sides.
+constexpr double kLeastEdgeInVoxels = 0.7;
 
 double edge_for(const LabelImage& image, const Piece& piece) {
   const double volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
-  return std::max(kEdge * sphere_radius(volume), kLeastEdge * image.voxel.minCoeff());
+  return std::max(kEdgeOverRadius * sphere_radius(volume),
+                  kLeastEdgeInVoxels * image.voxel.minCoeff());
 }
 
-void check_uneven(const LabelImage& image, std::vector<std::string>& warned) {
-  constexpr double kMost = 4;
+void check_uneven(const LabelImage& image, std::vector<std::string>& warnings) {
+  constexpr double kMostAspectRatio = 4;
   const double ratio = image.voxel.maxCoeff() / image.voxel.minCoeff();
-  if (ratio <= kMost) return;
-  warned.push_back(
+  if (ratio <= kMostAspectRatio) return;
+  warnings.push_back(
       fmt::format("voxels of {:.3g} x {:.3g} x {:.3g} um are {:.2g} times as long as wide: shapes "
                   "along the long side are guesses between slices",
                   image.voxel[0], image.voxel[1], image.voxel[2], ratio));
 }
 
-/// Vessels as an image of their own, label 1, taken out of the cells' image.
+/// Moves the vessels from the image of the cells into an image of their own, with label 1.
 LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
-                        std::vector<std::string>& warned) {
+                        std::vector<std::string>& warnings) {
   LabelImage vessels = cells;
   std::ranges::fill(vessels.label, 0);
   if (!o.vessels.empty()) {
-    imaging::ReadImage read = o.read;
+    ReadImage read = o.read;
     read.voxel = cells.voxel;
     read.unit = 0;
     read.second = true;
-    const LabelImage other = imaging::read_image(o.vessels, read, &warned);
+    const LabelImage other = read_image(o.vessels, read, &warnings);
     check(other.size == cells.size,
           fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
                       o.vessels, other.size[0], other.size[1], other.size[2], o.image,
@@ -68,7 +65,7 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
     cells.label[k] = 0;
   }
   if (both > 0)
-    warned.push_back(
+    warnings.push_back(
         fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", both));
   check(any > 0 || (o.vessels.empty() && o.vessel_label == 0),
         fmt::format("{}: no voxel is {}.", o.vessels.empty() ? o.image : o.vessels,
@@ -76,9 +73,9 @@ LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
   return vessels;
 }
 
-/// Numbers that an 8-bit file ran out of come twice: told by labels in several large pieces.
+/// Refuses images whose labels overflowed 8 bits: many labels then consist of several large pieces.
 void check_overflow(const ImportOptions& o, const LabelImage& image, const Pieces& pieces) {
-  constexpr double kLargePart = 0.3, kMostShare = 0.1;
+  constexpr double kLargePart = 0.3, kMostRepeated = 0.1;
   std::size_t labels = 0, twice = 0;
   Label first = 0;
   for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
@@ -90,7 +87,7 @@ void check_overflow(const ImportOptions& o, const LabelImage& image, const Piece
                            kLargePart * static_cast<double>(p.n_voxel);
     if (large && twice++ == 0) first = p.label;
   }
-  const bool many = static_cast<double>(twice) > kMostShare * static_cast<double>(labels);
+  const bool many = static_cast<double>(twice) > kMostRepeated * static_cast<double>(labels);
   check(!many || o.split,
         fmt::format(
             "{}: {} of {} labels are in several large pieces, label {} first{}. Give --split to "
@@ -101,15 +98,16 @@ void check_overflow(const ImportOptions& o, const LabelImage& image, const Piece
                 : ""));
 }
 
-/// What is left out before any surface is made, and taken out of the image.
+/// Selection of the pieces that become cells; all others are erased from the image.
 class Sorting {
  public:
   Sorting(const ImportOptions& o, LabelImage& image, ImportedTissue& tissue)
       : o_(o), image_(image), tissue_(tissue) {}
 
-  /// The pieces to keep, each the only one of its label.
+  /// Selects pieces and erases the rest.
+  /// @return the pieces to keep, each the only one of its label
   std::vector<Piece> run() {
-    Pieces pieces = imaging::find_pieces(image_);
+    Pieces pieces = find_pieces(image_);
     check(!pieces.piece.empty(),
           fmt::format("{}: all voxels are 0, the background. Is this the label image?", o_.image));
     check_overflow(o_, image_, pieces);
@@ -128,7 +126,7 @@ class Sorting {
     }
     warn_of_giant(kept);
     if (o_.split) number_anew(pieces, keep, kept);
-    for (const imaging::PieceRow& row : pieces.row)
+    for (const PieceRow& row : pieces.row)
       if (keep[row.piece] == 0)
         std::fill_n(&image_.label[image_.index(row.first)], row.length, Label{0});
     return kept;
@@ -138,8 +136,8 @@ class Sorting {
   double volume(const Piece& p) const {
     return static_cast<double>(p.n_voxel) * image_.voxel_volume();
   }
-  /// um^3, of the labels that have the size of cells: specks do not count, however many, nor does
-  /// one piece that is larger than all others together.
+  /// Median volume of the pieces by voxels, um^3. Weighting by voxels excludes specks; a piece
+  /// larger than all others together is left out.
   double median_volume(const Pieces& pieces) const {
     std::vector<double> all;
     for (const Piece& p : pieces.piece) all.push_back(volume(p));
@@ -165,22 +163,23 @@ class Sorting {
     if (p.at_border && !o_.keep_border) return "cut off by the border of the image";
     return {};
   }
-  /// A background that is no 0 and does not enclose the image passes for a cell.
+  /// Warns of a piece with many times the median volume: probably a background that does not
+  /// enclose the image.
   void warn_of_giant(const std::vector<Piece>& kept) {
-    constexpr double kGiant = 50;
+    constexpr double kGiantRatio = 50;
     std::vector<double> all;
     for (const Piece& p : kept) all.push_back(volume(p));
     if (all.size() < 3) return;
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::ranges::nth_element(all, middle);
     for (const Piece& p : kept)
-      if (volume(p) > kGiant * *middle)
-        tissue_.warned.push_back(
+      if (volume(p) > kGiantRatio * *middle)
+        tissue_.warnings.push_back(
             fmt::format("label {} has {:.0f} times the volume of the cell in the middle: if it is "
                         "the background, give --background {}",
                         p.label, volume(p) / *middle, p.label));
   }
-  /// Pieces of one label become labels of their own, the main one keeps it.
+  /// Gives every piece of a label but the largest a label of its own.
   void number_anew(const Pieces& pieces, const std::vector<char>& keep, std::vector<Piece>& kept) {
     Label next = pieces.piece.back().label;
     std::vector<Label> label(pieces.piece.size());
@@ -190,7 +189,7 @@ class Sorting {
       label[k] = main ? pieces.piece[k].label : ++next;
       if (keep[k] != 0) kept[at++].label = label[k];
     }
-    for (const imaging::PieceRow& row : pieces.row)
+    for (const PieceRow& row : pieces.row)
       std::fill_n(&image_.label[image_.index(row.first)], row.length, label[row.piece]);
     std::ranges::sort(kept, {}, &Piece::label);
   }
@@ -200,22 +199,22 @@ class Sorting {
   ImportedTissue& tissue_;
 };
 
-/// The surface of a piece, smoothed more where it has holes at first.
-/// @return why there is none, or empty
+/// Triangulates the surface of a piece, with stronger smoothing where it has handles at first.
+/// @return cause of failure, empty on success
 std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
                          geometry::Surface& surface) {
-  constexpr std::array<double, 3> kMore{1, 1.6, 2.5};
-  constexpr double kMostLost = 0.1;
+  constexpr std::array<double, 3> kSmoothingFactors{1, 1.6, 2.5};
+  constexpr double kMostLostVolume = 0.1;
   std::string why;
-  for (const double more : kMore) {
+  for (const double more : kSmoothingFactors) {
     try {
-      imaging::LabelSurface made =
-          imaging::make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
+      LabelSurface made =
+          make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
       if (made.handles > 0) {
         why = "it has a hole through it";
         continue;
       }
-      if (made.left_out > kMostLost * made.volume)
+      if (made.left_out > kMostLostVolume * made.volume)
         return "its parts hang together by a few voxels only";
       surface = std::move(made.surface);
       return {};
@@ -247,9 +246,9 @@ void add_cells(const ImportOptions& o, const LabelImage& image, const std::vecto
   }
 }
 
-/// Who touches whom in the image, cells and vessels.
+/// Counts the neighbours of every cell in the image and marks the cells that touch vessels.
 void add_neighbours(const LabelImage& image, const LabelImage& vessels, ImportedTissue& tissue) {
-  constexpr int kFaces = 4;  // of voxels: fewer are chance
+  constexpr int kLeastFaces = 4;  // of voxels: fewer are chance
   const Label vessel = [&] {
     Label most = 0;
     for (const ImportedCell& c : tissue.cell) most = std::max(most, c.label);
@@ -260,7 +259,7 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
     if (vessels.label[k] != 0) both.label[k] = vessel;
   std::map<Label, ImportedCell*> by_label;
   for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
-  for (const auto& [a, b] : imaging::find_touching(both, kFaces)) {
+  for (const auto& [a, b] : find_touching(both, kLeastFaces)) {
     const auto p = by_label.find(a), q = by_label.find(b);
     if (p == by_label.end()) continue;
     if (b == vessel) p->second->at_vessel = true;
@@ -272,11 +271,11 @@ void add_neighbours(const LabelImage& image, const LabelImage& vessels, Imported
 }
 
 void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
-  Pieces pieces = imaging::find_pieces(vessels);
+  Pieces pieces = find_pieces(vessels);
   LabelImage numbered = vessels;
   constexpr std::size_t kLeastVoxels = 27;
-  constexpr double kSmoother = 1.5, kVesselEdge = 1.5;
-  for (const imaging::PieceRow& row : pieces.row)
+  constexpr double kVesselSmoothing = 1.5, kVesselEdge = 1.5;
+  for (const PieceRow& row : pieces.row)
     std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
                 static_cast<Label>(row.piece) + 1);
   std::size_t specks = 0;
@@ -290,12 +289,11 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
     // A network is thin where a cell of its volume is not; walls with the steps of voxels are
     // rough.
     const double edge = kVesselEdge * numbered.voxel.maxCoeff();
-    imaging::LabelSurface made =
-        imaging::make_label_surface(numbered, p, edge, kSmoother * o.smoothing);
+    LabelSurface made = make_label_surface(numbered, p, edge, kVesselSmoothing * o.smoothing);
     tissue.vessel.push_back(std::move(made.surface));
   }
   if (specks > 0)
-    tissue.warned.push_back(fmt::format(
+    tissue.warnings.push_back(fmt::format(
         "{} specks of vessels with fewer than {} voxels are left out", specks, kLeastVoxels));
 }
 
@@ -313,12 +311,12 @@ void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTiss
 
 ImportedTissue import_image(const ImportOptions& o) {
   ImportedTissue tissue;
-  LabelImage image = imaging::read_image(o.image, o.read, &tissue.warned);
+  LabelImage image = read_image(o.image, o.read, &tissue.warnings);
   clear_background(o, image);
   tissue.size = image.size;
   tissue.voxel = image.voxel;
-  check_uneven(image, tissue.warned);
-  const LabelImage vessels = take_vessels(o, image, tissue.warned);
+  check_uneven(image, tissue.warnings);
+  const LabelImage vessels = take_vessels(o, image, tissue.warnings);
   const std::vector<Piece> pieces = Sorting(o, image, tissue).run();
   add_cells(o, image, pieces, tissue);
   std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {
@@ -330,4 +328,4 @@ ImportedTissue import_image(const ImportOptions& o) {
   return tissue;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::imaging
