@@ -186,7 +186,8 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   find_pair_contacts(in, work, link);
   find_obstacle_contacts(in, work, contacts.all);
   contacts.close(contact::ContactKind::kSphereObstacle);
-  if (!work.coupling.empty()) scale_coupling(in, work, contacts.of(contact::ContactKind::kSphereObstacle));
+  if (!work.coupling.empty())
+    scale_coupling(in, work, contacts.of(contact::ContactKind::kSphereObstacle));
 }
 
 void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,

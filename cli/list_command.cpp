@@ -24,7 +24,8 @@ int list() {
   fmt::print("experiments (scene key experiment)\n");
   const std::vector<std::string> names = runs::split_choices(runs::kChoices<runs::Experiment>);
   for (std::size_t k = 0; k < names.size(); ++k)
-    fmt::print("  {:20}  {}\n", names[k], runs::experiment_row(static_cast<runs::Experiment>(k)).meaning);
+    fmt::print("  {:20}  {}\n", names[k],
+               runs::experiment_row(static_cast<runs::Experiment>(k)).meaning);
   return 0;
 }
 

@@ -98,7 +98,9 @@ struct ContactList {
   ContactKind kind_of(std::size_t contact) const {
     return static_cast<ContactKind>(std::ranges::upper_bound(end, contact) - end.begin());
   }
-  std::span<const Contact> surface() const { return of(ContactKind::kSurface); }  ///< and static meshes
+  std::span<const Contact> surface() const {
+    return of(ContactKind::kSurface);
+  }  ///< and static meshes
   std::span<const Contact> obstacle() const { return of(ContactKind::kObstacle); }
   std::span<const Contact> interface() const { return of(ContactKind::kInterface); }
   std::span<const Contact> sphere_obstacle() const { return of(ContactKind::kSphereObstacle); }

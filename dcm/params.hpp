@@ -33,13 +33,13 @@ struct Params {
       cortex_spring_stiffness(kCortexYoung, kCortexThickness);  ///< nN/um, k_s
   double bending_stiffness = cortex_bending_stiffness(kCortexYoung, kCortexThickness,
                                                       kCortexPoisson);  ///< nN um, k_b
-  double fold_repulsion = 5;               ///< nN/um^3, of two faces folded onto each other
-  double area_modulus = 0.8;               ///< nN/um, K_A of the whole surface
-  double local_area_modulus = 0;           ///< nN/um, K_A of each triangle
-  double cortex_tension = 0;               ///< nN/um, active tension T of the surface
-  std::optional<ContractileRing> ring;     ///< of that tension; empty: uniform
-  double bulk_modulus = 2.5;               ///< kPa, K_V
-  double nodal_friction = 0.1;             ///< nN s/um, gamma_int per edge
+  double fold_repulsion = 5;            ///< nN/um^3, of two faces folded onto each other
+  double area_modulus = 0.8;            ///< nN/um, K_A of the whole surface
+  double local_area_modulus = 0;        ///< nN/um, K_A of each triangle
+  double cortex_tension = 0;            ///< nN/um, active tension T of the surface
+  std::optional<ContractileRing> ring;  ///< of that tension; empty: uniform
+  double bulk_modulus = 2.5;            ///< kPa, K_V
+  double nodal_friction = 0.1;          ///< nN s/um, gamma_int per edge
   double friction_across = 1;    ///< nodal friction across an edge over that along it: 1 isotropic,
                                  ///< 0 along the edge only (objective)
   double series_friction = 0;    ///< nN s/um, dashpot in series with each spring; 0: none, the

@@ -216,7 +216,8 @@ DeepContact describe_contact(const World& world, const Workspace& w, std::size_t
   deep.a = lane_of(w, solve::address_of(link.a.point[0]));
   deep.b = deep.pair ? lane_of(w, solve::address_of(link.b.point[0])) : deep.a;
   deep.depth = depth_after(world, w, l);
-  const bool of_cells = kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
+  const bool of_cells =
+      kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
   deep.place = {static_cast<int>(kind), k.a, of_cells ? k.b : 0};
   return deep;
 }

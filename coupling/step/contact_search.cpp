@@ -30,7 +30,8 @@ void search_contacts(const InterfaceInput& in, Workspace& w) {
   exchange_values(w, spheres, w.cbm.overlap_count);
   cbm::find_contacts(in.cbm, w.cbm, w.contacts, w.system.point_links);
   exchange_values(w, spheres, w.cbm.coupling);
-  cbm::add_coupling(w.cbm, w.contacts.of(contact::ContactKind::kSphereObstacle), w.system.point_links);
+  cbm::add_coupling(w.cbm, w.contacts.of(contact::ContactKind::kSphereObstacle),
+                    w.system.point_links);
   add_interface_areas(w.interface, w.cbm);
   dcm::find_nucleus_contacts(in.dcm, w.dcm, w.nuclei, w.contacts);
 }

@@ -10,11 +10,11 @@
 
 namespace acinus::dcm {
 
-/// A contact of ContactKind::kNucleus joins a point of the cortex (contact::Quadrature::kThreePoint) and
-/// the nearest place of the nucleus. Its gap is that between the surfaces less the one at which
-/// they begin to push. Only the cortex probes: the distance from a round body to a point outside
-/// has a direction that changes smoothly, that from a node of the nucleus to the hollow cortex
-/// around it jumps from face to face, and steps would chatter.
+/// A contact of ContactKind::kNucleus joins a point of the cortex
+/// (contact::Quadrature::kThreePoint) and the nearest place of the nucleus. Its gap is that between
+/// the surfaces less the one at which they begin to push. Only the cortex probes: the distance from
+/// a round body to a point outside has a direction that changes smoothly, that from a node of the
+/// nucleus to the hollow cortex around it jumps from face to face, and steps would chatter.
 
 /// Scratch; sized by and empty without nuclei.
 struct NucleusWorkspace {

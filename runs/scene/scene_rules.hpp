@@ -14,8 +14,9 @@ void check_rules(const Scene& scene, Report& report);
 /// Checks steps and the times between frames and other events. @pre called by check_rules
 void check_times(const Scene& scene, Report& report);
 
-/// Checks the rule of the scene's experiment. It stands in the row of the experiment and so is defined
-/// with the table of experiments (runs/experiments/experiment.cpp). @pre called by check_rules
+/// Checks the rule of the scene's experiment. It stands in the row of the experiment and so is
+/// defined with the table of experiments (runs/experiments/experiment.cpp). @pre called by
+/// check_rules
 void check_experiment(const Scene& scene, Report& report);
 
 /// Checks growth, division and death. @pre called by check_rules

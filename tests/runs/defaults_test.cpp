@@ -127,8 +127,8 @@ TEST(Defaults, OfTheLibraryAreThoseOfScenes) {
 
 TEST(Defaults, OfBlocksThatMayBeAbsentAreThoseOfTheLibrary) {
   const coupling::Params p =
-      params_of({"life.proliferation={}", "cell_types.hepatocyte.cycle.time=24 h", "moving_zoom={}", "cells.model=zoom",
-                 "zoom=[{\"kind\": \"all\"}]", "temperature={}"});
+      params_of({"life.proliferation={}", "cell_types.hepatocyte.cycle.time=24 h", "moving_zoom={}",
+                 "cells.model=zoom", "zoom=[{\"kind\": \"all\"}]", "temperature={}"});
   EXPECT_EQ(fields(p.life.proliferation.value()), fields(coupling::Proliferation{}));
   coupling::ZoomParams zoom;
   zoom.region.resize(1);
