@@ -51,8 +51,7 @@ struct Runs {
 
 /// Results of a calibration.
 struct Calibration {
-  int exit =
-      0;  ///< exit code of a run that was stopped or failed, else 0; if not 0 the rest is unknown
+  int exit = 0;  ///< exit code of a run that was stopped or failed; the rest is then unknown
   Law law;
   std::vector<FitAttempt> attempts;             ///< the last one is the law
   int inner = 0;                                ///< number of cells that are not at the capsule

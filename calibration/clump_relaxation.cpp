@@ -16,11 +16,9 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kFirstSample =
-    5;  ///< s after the release, time of the first sample at Table 1 friction
+constexpr double kFirstSample = 5;     ///< s after the release, at Table 1 friction
 constexpr double kSampleRatio = 1.15;  ///< ratio of the times of successive samples
-constexpr double kRestShare =
-    0.01;  ///< largest share of the recovery in the second half of the time at its end
+constexpr double kRestShare = 0.01;  ///< largest share of the recovery in its second half, at rest
 constexpr double kLeastDuration = 600;     ///< s, least duration at Table 1 friction
 constexpr double kSolverTolerance = 1e-5;  ///< the slow tail consists of small changes
 constexpr double kLargestDuration = 1e3 * 3600;

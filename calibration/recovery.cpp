@@ -7,11 +7,10 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kImmediate = 10;   ///< s, end of the immediate recovery
-constexpr double kEndShare = 0.01;  ///< share of the recovery that does not count
-constexpr double kLeastProgress =
-    0.5;                               ///< share of the largest recovery before which it has no end
-constexpr double kNegligible = 1e-12;  ///< relative to the values: no recovery
+constexpr double kImmediate = 10;       ///< s, end of the immediate recovery
+constexpr double kEndShare = 0.01;      ///< share of the recovery that does not count
+constexpr double kLeastProgress = 0.5;  ///< share of the largest recovery before its end
+constexpr double kNegligible = 1e-12;   ///< relative to the values: no recovery
 
 /// End of the recovery: the first time at which as long again brings less than 1 % more, and the
 /// value after that; an infinite time if the record is too short. Not before half of the recovery,

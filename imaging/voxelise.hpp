@@ -21,8 +21,7 @@ struct Voxelise {
 
 struct VoxelisedBodies {
   LabelImage image;
-  Vec3 corner =
-      Vec3::Zero();  ///< um, position of the image's corner in the coordinates of the bodies
+  Vec3 corner = Vec3::Zero();  ///< um, the image's corner in the coordinates of the bodies
 };
 
 /// Label image of bodies; body k gets label k + 1. Every voxel belongs to the body with the largest

@@ -10,10 +10,9 @@
 namespace acinus::io::h5 {
 namespace {
 
-constexpr double kLargestCompression =
-    1100;  ///< bytes from one stored byte: deflate yields at most 1032
-constexpr double kUncheckedBytes = 1 << 20;  ///< bytes, below which chunks are not counted
-constexpr int kMostRank = 32;                ///< limit of HDF5
+constexpr double kLargestCompression = 1100;  ///< over bytes stored: deflate yields at most 1032
+constexpr double kUncheckedBytes = 1 << 20;   ///< bytes, below which chunks are not counted
+constexpr int kMostRank = 32;                 ///< limit of HDF5
 
 Form describe_form(hid_t type, hid_t space) {
   Form form;

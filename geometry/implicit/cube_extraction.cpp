@@ -222,8 +222,7 @@ class CubeExtraction {
     return a + std::clamp(t, kEdgeEnd, 1 - kEdgeEnd) * (b - a);
   }
 
-  static constexpr double kMissedSize =
-      0.45;  ///< size of a missed edge's tetrahedra over its length: one bisection
+  static constexpr double kMissedSize = 0.45;  ///< size at a missed edge over its length: bisected
   const Shape& shape_;
   std::span<const FineBall> fine_;
   const CubeLattice& lattice_;
