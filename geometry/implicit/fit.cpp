@@ -9,7 +9,7 @@
 namespace acinus::geometry {
 namespace {
 
-constexpr int kRounds = 2, kSmooth = 3;
+constexpr int kFitRounds = 2, kSmooth = 3;
 
 /// Means of a function over the triangles, exact for quadratic ones: from corners and centre.
 std::vector<double> means_over(const Distance& distance, const geometry::Surface& s) {
@@ -74,7 +74,7 @@ std::vector<FitMove> find_moves(const Distance& distance, const geometry::Surfac
 
 void fit(const Distance& distance, double most, geometry::Surface& s) {
   if (s.node.empty()) return;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const std::vector<FitMove> move = find_moves(distance, s);
     for (std::size_t k = 0; k < s.node.size(); ++k) {
       const double farthest = most * move[k].edge;
@@ -86,7 +86,7 @@ void fit(const Distance& distance, double most, geometry::Surface& s) {
 void fit(const Distance& distance, ZeroSurface& z) {
   constexpr double kMostSlanting = 0.2;  // cosine: nodes would go far along such an edge
   if (z.surface.node.empty()) return;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const std::vector<FitMove> move = find_moves(distance, z.surface);
     for (std::size_t k = 0; k < z.surface.node.size(); ++k) {
       const auto& [a, b] = z.edge[k];
