@@ -51,7 +51,7 @@ void count_births_by_layer(const Scene& scene, const coupling::World& world,
                                     scene.axis_point);
   };
   for (const coupling::LifeEvent& e : report.events) {
-    if (e.code != "division" || e.cells.size() != 3) continue;
+    if (e.kind != coupling::EventKind::kDivision || e.cells.size() != 3) continue;
     const std::optional<Vec3> a = find_center(world.state, e.cells[1]),
                               b = find_center(world.state, e.cells[2]);
     if (!a || !b) continue;  // a daughter that is gone already

@@ -10,6 +10,7 @@
 #include "io/checkpoint.hpp"
 #include "io/disk.hpp"
 #include "runs/scene/bounded_json.hpp"
+#include "runs/scene/json_text.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 
