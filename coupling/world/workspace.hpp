@@ -19,7 +19,7 @@
 
 namespace acinus::coupling {
 
-/// Where a step was linearised, as displacements from the present positions; empty: there.
+/// Linearisation point of a step, as displacements from the present positions; empty: these.
 struct LinearisationPoint {
   std::vector<double> move;                        ///< [n_row][3][lane] um
   std::vector<double> friction;                    ///< Gamma/h times it, nN

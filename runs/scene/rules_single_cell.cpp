@@ -6,7 +6,7 @@
 namespace acinus::runs {
 namespace {
 
-/// What knows nothing of tensions that depend on the past.
+/// Rules of cortices that flow, whose tensions depend on the past.
 void check_series_friction(const Scene& scene, Report& report) {
   for (const auto& [name, type] : scene.cell_types) {
     if (!(type.dcm.series_friction > 0)) continue;

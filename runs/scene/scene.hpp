@@ -105,7 +105,7 @@ struct MotilityBlock : coupling::Motility {
 using coupling::Region;
 using coupling::RegionKind;
 
-/// Which cells rest or die, and when. A cell is meant if `region` and `cells` both are.
+/// A rule by which cells rest or die. A cell is meant if `region` and `cells` both are.
 struct LifeRuleBlock : coupling::LifeRule {
   std::optional<Region> region;  ///< cells with their centre in it; empty = anywhere
 };

@@ -34,7 +34,7 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
   }
 }
 
-/// Whether anything in the scene may touch anything else.
+/// True if anything in the scene may touch anything else.
 bool may_touch(const Scene& scene) {
   const bool single = (scene.cells.source == CellSource::kList && scene.cells.list.size() == 1) ||
                       (scene.cells.source == CellSource::kClump && scene.cells.count == 1);
@@ -42,7 +42,7 @@ bool may_touch(const Scene& scene) {
          scene.capsule.enabled || !scene.vessels.file.empty() || scene.lobule;
 }
 
-/// What says how a network is read needs one to read.
+/// Keys of how a network is read need a network.
 void check_vessels(const Scene& scene, Report& report) {
   if (!scene.vessels.file.empty() || scene.lobule) return;
   const VesselBlock given = scene.vessels, plain;
