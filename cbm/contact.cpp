@@ -29,7 +29,7 @@ void find_moduli(const State& s, std::span<const Params> params, ContactWorkspac
     }
     const double d = relative_overlap(work, i, law);
     work.modulus[i] = corrected_modulus(law, s.young[i], d);
-    if (work.is_foreign(i)) continue;
+    if (work.is_ghost(i)) continue;
     ++work.corrected;
     work.beyond += d > law.range ? 1 : 0;
   }
@@ -85,7 +85,7 @@ void find_overlaps(const ContactInput& in, ContactWorkspace& work) {
   }
   // A wall is as much of an obstacle as the cell's own image behind it.
   for (std::size_t i = 0; i < s.n_cell(); ++i) {
-    if (work.is_foreign(i)) continue;
+    if (work.is_ghost(i)) continue;
     const auto count = [&](double gap) {
       count_overlap(work, i, contact::mirror_wall_compression(radius[i], gap),
                     cells.strength_of(i));
@@ -146,7 +146,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
   }
   const double margin = largest_separation(s, in.params, radius, in.boundary) + skin;
   work.pair = {};  // before the new ones take memory
-  work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.foreign);
+  work.pair = contact::find_sphere_pairs(s.position.data(), radius, margin, work.ghost);
   work.segment.clear();
   const geometry::Network& network = in.boundary.vessels.network;
   if (!network.segment.empty()) {
@@ -167,7 +167,7 @@ bool refresh_pairs(const ContactInput& in, ContactWorkspace& work) {
     work.segment = contact::find_pairs_between(boxes, segments, beyond);
     std::erase_if(work.segment, [&](const std::pair<int, int>& p) {
       const std::size_t i = p.first;
-      return work.is_foreign(i) ||
+      return work.is_ghost(i) ||
              contact::gap_to_segment(network, p.second, center_of(s, i)).gap > radius[i] + beyond;
     });
   }
@@ -248,7 +248,7 @@ void add_cell_loads(const ContactInput& in, const ContactWorkspace& work,
                     std::span<const Vec3> cell_force, solve::System& system) {
   const State& s = in.state;
   for (std::size_t i = 0; i < s.n_row() * kLanes; ++i) {
-    if (i < s.n_cell() && work.is_foreign(i)) continue;
+    if (i < s.n_cell() && work.is_ghost(i)) continue;
     const Address a = cell_address(in.first_row, i);
     const bool cell = i < s.n_cell();
     const double friction =

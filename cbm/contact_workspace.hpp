@@ -46,7 +46,7 @@ struct TypeFactors {
 struct ContactWorkspace {
   /// [n_cell] 1: another process computes this cell; empty: none. Set by the caller. What is
   /// summed over the contacts of a cell is whole for own cells only.
-  std::vector<std::uint8_t> foreign;
+  std::vector<std::uint8_t> ghost;
   /// Near pairs with an own cell, ascending; written by: refresh_pairs
   std::vector<std::pair<int, int>> pair;
   std::vector<std::pair<int, int>> segment;  ///< (cell, vessel segment) near pairs
@@ -71,7 +71,7 @@ struct ContactWorkspace {
   std::int64_t searches = 0;               ///< calls of find_contacts
   std::int64_t corrected = 0, beyond = 0;  ///< moduli by a law, and those beyond its range
 
-  bool is_foreign(std::size_t cell) const { return !foreign.empty() && foreign[cell] != 0; }
+  bool is_ghost(std::size_t cell) const { return !ghost.empty() && ghost[cell] != 0; }
 };
 
 }  // namespace acinus::cbm

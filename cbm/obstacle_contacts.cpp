@@ -51,7 +51,7 @@ class ObstacleSearch {
     const contact::Boundary& boundary = in_.boundary;
     if (boundary.empty()) return;
     for (std::size_t i = 0; i < in_.state.n_cell(); ++i) {
-      if (work_.is_foreign(i)) continue;
+      if (work_.is_ghost(i)) continue;
       const Vec3 x = center_of(in_.state, i);
       contact::for_each_wall(
           boundary, [&](Partner kind, int k, const auto& wall) { meet_wall(kind, i, k, wall, x); });

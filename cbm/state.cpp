@@ -26,11 +26,11 @@ State make_size(std::size_t n) {
 }
 
 /// The pairs that touch among cells of other states, by their new numbers, ascending.
-std::vector<std::pair<int, int>> find_touching(std::span<const CellRef> cells) {
+std::vector<std::pair<int, int>> find_touching(std::span<const SelectedCell<State>> cells) {
   std::map<const State*, std::vector<int>> new_index;  // [cell of that state], -1: left out
   for (std::size_t k = 0; k < cells.size(); ++k)
     new_index.try_emplace(cells[k].state, cells[k].state->n_cell(), -1)
-        .first->second[cells[k].cell] = static_cast<int>(k);
+        .first->second[cells[k].index] = static_cast<int>(k);
   const auto for_each_pair = [&](const auto& f) {
     for (const auto& [from, index] : new_index)
       for (const auto& [a, b] : from->touching) {
@@ -68,7 +68,7 @@ State make_state(const std::vector<NewCell>& cells) {
   return s;
 }
 
-State compose(std::span<const CellRef> cells) {
+State compose(std::span<const SelectedCell<State>> cells) {
   State s = make_size(cells.size());
   for_each_index(cells.size(), worth_threads(s.n_row()), [&](std::size_t k) {
     const auto& [from, cell, type] = cells[k];

@@ -9,6 +9,7 @@
 
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/ramp.hpp"
+#include "core/selected_cell.hpp"
 #include "core/vec.hpp"
 #include "solve/system.hpp"
 
@@ -43,16 +44,9 @@ struct NewCell {
 
 State make_state(const std::vector<NewCell>& cells);
 
-/// One cell of some state, to become one of another type or stay what it is (-1).
-struct CellRef {
-  const State* state = nullptr;
-  std::size_t cell = 0;
-  int type = -1;
-};
-
 /// Copies cells into a new state, in the order given. Contacts that exist between cells of one
 /// state, or with boundary, are kept.
-State compose(std::span<const CellRef> cells);
+State compose(std::span<const SelectedCell<State>> cells);
 
 /// Address in arrays that start with the CBM rows at `first_row`.
 inline Address cell_address(std::size_t first_row, std::size_t cell) {

@@ -86,9 +86,9 @@ bool are_near(const double* position, std::span<const double> radius, double mar
 
 std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
                                                    std::span<const double> radius, double margin,
-                                                   std::span<const std::uint8_t> foreign) {
+                                                   std::span<const std::uint8_t> ghost) {
   if (radius.size() < 2) return {};
-  const auto is_foreign = [&](std::size_t i) { return !foreign.empty() && foreign[i] != 0; };
+  const auto is_ghost = [&](std::size_t i) { return !ghost.empty() && ghost[i] != 0; };
   const PointGrid g = make_grid(position, radius, margin);
   if (g.start.empty()) {
     std::vector<Box> boxes;
@@ -96,18 +96,18 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
       boxes.push_back(sphere_box(center(position, i), radius[i]));
     Pairs pairs = find_pairs(boxes, margin);
     std::erase_if(pairs, [&](const auto& p) {
-      return (is_foreign(p.first) && is_foreign(p.second)) ||
+      return (is_ghost(p.first) && is_ghost(p.second)) ||
              !are_near(position, radius, margin, p.first, p.second);
     });
     return pairs;
   }
   const auto n_part = static_cast<std::size_t>(thread_count());
-  std::vector<Pairs> part(n_part), before(n_part);  // before: of foreign ones with later own ones
+  std::vector<Pairs> part(n_part), before(n_part);  // before: of ghost ones with later own ones
   for_each_part(n_part, [&](std::size_t k) {
     // A packed sphere has 12 neighbours, half of them its own.
-    if (foreign.empty()) part[k].reserve(7 * radius.size() / n_part);
+    if (ghost.empty()) part[k].reserve(7 * radius.size() / n_part);
     for (std::size_t i = k * radius.size() / n_part; i < (k + 1) * radius.size() / n_part; ++i) {
-      if (is_foreign(i)) continue;
+      if (is_ghost(i)) continue;
       const auto c = g.cell_of(center(position, i));
       const std::size_t first = part[k].size();
       for (std::int64_t z = std::max<std::int64_t>(c[2] - 1, 0);
@@ -118,7 +118,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
           const std::size_t to = g.index(std::min(c[0] + 1, g.n[0] - 1), y, z);
           for (std::uint32_t e = g.start[from]; e < g.start[to + 1]; ++e) {
             const std::size_t j = g.item[e];
-            if (j <= i && (foreign.empty() || j == i || foreign[j] == 0)) continue;
+            if (j <= i && (ghost.empty() || j == i || ghost[j] == 0)) continue;
             if (!are_near(position, radius, margin, i, j)) continue;
             if (j > i) {
               make_room(part[k], 1);
@@ -134,7 +134,7 @@ std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
   Pairs pairs = std::move(part[0]);
   for (std::size_t k = 1; k < n_part; ++k)
     pairs.insert(pairs.end(), part[k].begin(), part[k].end());
-  if (foreign.empty()) return pairs;
+  if (ghost.empty()) return pairs;
   const auto n_own = static_cast<std::ptrdiff_t>(pairs.size());
   for (const Pairs& p : before) pairs.insert(pairs.end(), p.begin(), p.end());
   std::sort(pairs.begin() + n_own, pairs.end());

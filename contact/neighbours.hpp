@@ -13,9 +13,9 @@ namespace acinus::contact {
 /// of threads.
 /// @param position  [row][3][lane] um, sphere i in lane i % kLanes of row i / kLanes
 /// @param radius    [n_sphere] um
-/// @param foreign   [n_sphere] pairs of two with a 1 are left out; empty: none are
+/// @param ghost   [n_sphere] pairs of two with a 1 are left out; empty: none are
 std::vector<std::pair<int, int>> find_sphere_pairs(const double* position,
                                                    std::span<const double> radius, double margin,
-                                                   std::span<const std::uint8_t> foreign = {});
+                                                   std::span<const std::uint8_t> ghost = {});
 
 }  // namespace acinus::contact

@@ -95,18 +95,18 @@ State make_state(const std::vector<NewCell>& cells) {
   return s;
 }
 
-State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane) {
+State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane) {
   Grouping grouping;
   lane.clear();
-  for (const CellRef& c : cells) {
-    const Group& g = c.state->group[c.lane / kLanes];
-    lane.push_back(grouping.add(c.state->lineage[c.lane],
+  for (const SelectedCell<State>& c : cells) {
+    const Group& g = c.state->group[c.index / kLanes];
+    lane.push_back(grouping.add(c.state->lineage[c.index],
                                 {g.topology, 0, c.type < 0 ? g.type : c.type, g.nucleus}));
   }
   State s = std::move(grouping).make_state();
   for_each_index(cells.size(), worth_threads(s.n_row()), [&](std::size_t k) {
     const State& from = *cells[k].state;
-    const std::size_t at = cells[k].lane, to = lane[k];
+    const std::size_t at = cells[k].index, to = lane[k];
     s.volume[to] = from.volume[at];
     s.birth[to] = from.birth[at];
     s.tension[to] = from.tension[at];

@@ -11,6 +11,7 @@
 
 #include "core/numbers/lanes.hpp"
 #include "core/numbers/ramp.hpp"
+#include "core/selected_cell.hpp"
 #include "core/vec.hpp"
 #include "dcm/birth_shape.hpp"
 #include "dcm/edge_tension.hpp"
@@ -65,16 +66,9 @@ struct NewCell {
 /// Groups cells by type and topology in the order given (put them in space-filling order first).
 State make_state(const std::vector<NewCell>& cells);
 
-/// One cell of some state, to become one of another type or stay what it is (-1).
-struct CellRef {
-  const State* state = nullptr;
-  std::size_t lane = 0;
-  int type = -1;
-};
-
 /// Copies cells into a new state, grouped by type and topology in the order given.
 /// @param lane  [cells] where each came to stand
-State compose(std::span<const CellRef> cells, std::vector<std::size_t>& lane);
+State compose(std::span<const SelectedCell<State>> cells, std::vector<std::size_t>& lane);
 
 /// Number of cells (not lanes).
 int count_cells(const State& state);

@@ -84,9 +84,9 @@ void find_near(const InterfaceInput& in, double range, dcm::ContactWorkspace& dc
   for (std::size_t i = 0; i < in.cbm.state.n_cell(); ++i)
     work.sphere.push_back(sphere_box(cbm::center_of(in.cbm.state, i), in.cbm.cells.radius[i]));
   contact::find_pairs_between(work.body, work.sphere, range, work.near);
-  if (dcm_work.foreign.empty() && cbm_work.foreign.empty()) return;
+  if (dcm_work.ghost.empty() && cbm_work.ghost.empty()) return;
   std::erase_if(work.near, [&](const std::pair<int, int>& p) {
-    return dcm_work.is_foreign_body(p.first) && cbm_work.is_foreign(p.second);
+    return dcm_work.is_ghost_body(p.first) && cbm_work.is_ghost(p.second);
   });
   std::vector<int> bodies;
   for (const auto& [body, sphere] : work.near) bodies.push_back(body);

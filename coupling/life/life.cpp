@@ -110,9 +110,9 @@ State make_state(const World& world, const Newborn& born, double time) {
   s.dcm = dcm::make_state(born.shell);
   s.cbm = cbm::make_state(born.sphere);
   s.cycle.assign(s.dcm.n_lane() + s.cbm.n_cell(), Cycle{});
+  const CellIndex index = index_cells(s);
   for (std::size_t k = 0; k < born.shell.size(); ++k) {
-    const std::size_t lane =
-        std::ranges::find(s.dcm.lineage, born.shell[k].lineage) - s.dcm.lineage.begin();
+    const std::size_t lane = index.at(born.shell[k].lineage).at;
     dcm::give_shape(
         world.params.dcm[born.shell[k].type],
         {born.node[k], born.shell[k].radius, born.stretch[k], {1, 0, time, time + born.mitosis[k]}},

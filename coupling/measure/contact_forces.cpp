@@ -180,7 +180,7 @@ double interface_residual(const World& world, const Workspace& w) {
   };
   std::vector<Load> loads;
   for (const contact::Contact& k : w.contacts.interface()) {
-    if (w.dcm.is_foreign_body(static_cast<std::size_t>(k.a))) continue;  // another one's to add
+    if (w.dcm.is_ghost_body(static_cast<std::size_t>(k.a))) continue;  // another one's to add
     const solve::Stencil stencil = stencil_of(world, w, k);
     for (int m = 0; m < stencil.n; ++m)
       loads.push_back({load_point(w.position.data(), stencil.address[m]),

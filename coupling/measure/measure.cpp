@@ -8,7 +8,7 @@
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
 #include "coupling/measure/pair_contacts.hpp"
-#include "coupling/step/foreign.hpp"
+#include "coupling/step/ghost_cells.hpp"
 #include "coupling/step/step.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/lane_data.hpp"
@@ -59,7 +59,7 @@ CellMeasure measure_surface(const World& world, const Workspace& w, std::size_t 
   if (lane < s.cycle.size()) set_origin(s, s.cycle[lane], m);
   m.center = dcm::cell_center(s.dcm, lane);
   m.radius = w.lanes.radius[lane];
-  if (w.dcm.is_foreign(lane)) return m;  // its owner measures it
+  if (w.dcm.is_ghost(lane)) return m;  // its owner measures it
   m.volume = dcm::compute_volumes(g)[l];
   m.area = dcm::compute_areas(g)[l];
   m.cytosol_pressure = dcm::cytosol_pressure(world.params.dcm[m.type].bulk_modulus, m.volume,
@@ -89,7 +89,7 @@ CellMeasure measure_sphere(const World& world, const Workspace& w, std::size_t c
   if (at < s.cycle.size()) set_origin(s, s.cycle[at], m);
   m.center = cbm::center_of(s.cbm, c);
   m.radius = w.cbm_radius[c];
-  if (w.cbm.is_foreign(c)) return m;
+  if (w.cbm.is_ghost(c)) return m;
   if (!w.cbm_strength.empty()) m.strength = w.cbm_strength[c];
   m.volume = sphere_volume(m.radius);
   m.area = 4 * kPi * m.radius * m.radius;
@@ -181,7 +181,7 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   }
   for (std::size_t b = 0; b < w.dcm.body.size(); ++b) {
     const std::size_t lane = w.dcm.lane_of_body[b];
-    if (w.dcm.is_foreign(lane)) continue;
+    if (w.dcm.is_ghost(lane)) continue;
     const dcm::Group& group = s.dcm.group[lane / kLanes];
     const dcm::GroupView g = dcm::view_group(s.dcm, w.lanes, w.system, lane / kLanes);
     const auto tension =

@@ -1,9 +1,9 @@
 #include "coupling/measure/pair_contacts.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "cbm/pair_kernel.hpp"
+#include "coupling/world/cell.hpp"
 #include "coupling/world/contact_input.hpp"
 #include "dcm/contact/contact_sides.hpp"
 
@@ -21,10 +21,9 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Workspace
   const solve::Ownership& ownership = w.system.ownership;
   if (ownership.is_whole()) return forces;
   // Each by the owner of its deformable cell, in the order of these.
-  std::map<std::int64_t, std::size_t> lane;
-  for (const std::size_t l : w.dcm.lane_of_body) lane.emplace(world.state.dcm.lineage[l], l);
-  const auto lane_of = [&lane](const InterfaceForce& f) { return lane.at(f.dcm_id); };
-  std::erase_if(forces, [&](const InterfaceForce& f) { return w.dcm.is_foreign(lane_of(f)); });
+  const CellIndex cells = index_cells(world.state);
+  const auto lane_of = [&cells](const InterfaceForce& f) { return cells.at(f.dcm_id).at; };
+  std::erase_if(forces, [&](const InterfaceForce& f) { return w.dcm.is_ghost(lane_of(f)); });
   std::vector<InterfaceForce> all;
   ownership.ranks.gather<InterfaceForce>(forces, all);
   std::ranges::stable_sort(all, {}, lane_of);

@@ -39,8 +39,8 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
   dcm::compute_medium_areas(in.dcm, w.dcm, w.medium_area);
   w.medium_friction.dcm.assign(shells.n_lane(), 0.0);
   for (std::size_t l = 0; l < shells.n_lane(); ++l) {
-    if (w.dcm.is_foreign(l)) w.medium_friction.dcm[l] = kOfOtherProcess;
-    if (!shells.active(l) || w.dcm.is_foreign(l)) continue;
+    if (w.dcm.is_ghost(l)) w.medium_friction.dcm[l] = kOfOtherProcess;
+    if (!shells.active(l) || w.dcm.is_ghost(l)) continue;
     const dcm::Group& g = shells.group[l / kLanes];
     double area = 0;
     for (int i = 0; i < g.topology->n_node; ++i)
@@ -51,7 +51,7 @@ void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace
   }
   w.medium_friction.cbm.resize(spheres.n_cell());
   for (std::size_t c = 0; c < spheres.n_cell(); ++c)
-    w.medium_friction.cbm[c] = w.cbm.is_foreign(c)
+    w.medium_friction.cbm[c] = w.cbm.is_ghost(c)
                                    ? kOfOtherProcess
                                    : cbm::medium_friction(world.params.cbm[spheres.type[c]],
                                                           w.cbm_radius[c], w.cbm.contact_area[c]);

@@ -24,8 +24,8 @@ void for_each_constrained_point(const Workspace& w, F f) {
 
 void apply_constraints(Workspace& w) {
   w.dcm.constrained.clear();
-  for (std::size_t lane = 0; lane < w.dcm.foreign.size(); ++lane)
-    if (w.dcm.foreign[lane] != 0) w.lanes.active[lane] = 0;
+  for (std::size_t lane = 0; lane < w.dcm.ghost.size(); ++lane)
+    if (w.dcm.ghost[lane] != 0) w.lanes.active[lane] = 0;
   if (!w.constraint.applies()) return;
   for (std::size_t lane = 0; lane < w.lanes.active.size(); ++lane) {
     w.dcm.constrained.push_back(w.constraint.holds(lane) ? 1 : 0);

@@ -2,7 +2,7 @@
 
 #include "cbm/contact.hpp"
 #include "cbm/pair_kernel.hpp"
-#include "coupling/step/foreign.hpp"
+#include "coupling/step/ghost_cells.hpp"
 #include "coupling/world/contact_input.hpp"
 #include "dcm/contact/contact.hpp"
 #include "dcm/contact/contact_bodies.hpp"

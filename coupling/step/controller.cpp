@@ -24,7 +24,7 @@ void gather_touching(Workspace& w) {
   using Touching = std::array<int, 2>;
   std::vector<Touching> own, all;
   for (const auto& [a, b] : w.cbm.touching)
-    if (!w.cbm.is_foreign(static_cast<std::size_t>(a))) own.push_back({a, b});
+    if (!w.cbm.is_ghost(static_cast<std::size_t>(a))) own.push_back({a, b});
   std::vector<std::size_t> start;
   ownership.ranks.gather<Touching>(own, all, &start);
   const auto at = [&](std::size_t k) { return all.begin() + static_cast<std::ptrdiff_t>(k); };

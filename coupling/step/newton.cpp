@@ -19,6 +19,13 @@ constexpr double kNewtonShare = 0.1;
 /// one.
 constexpr double kKink = 2e-3;
 
+/// The step to be solved.
+struct Equation {
+  const World& world;
+  double step;  ///< s
+  const Assembler& assemble;
+};
+
 /// State on the way of the iteration and what is assembled there.
 struct Trial {
   State state;
@@ -29,11 +36,10 @@ struct Trial {
 
 /// Residual of backward Euler at the trial positions, F(x + d) - Gamma/h d, into work.rhs of the
 /// trial; returns its size in the norm of the preconditioner.
-double newton_residual(const World& world, double step, std::span<const double> d,
-                       const Assembler& assemble, Trial& trial) {
-  trial.state = world.state;
+double newton_residual(const Equation& e, std::span<const double> d, Trial& trial) {
+  trial.state = e.world.state;
   move_points(trial.state, d);
-  assemble(world, trial.state, step, trial.work, {});
+  e.assemble(e.world, trial.state, e.step, trial.work, {});
   trial.product.resize(d.size());
   trial.friction.op.apply(d, trial.product);
   for_each_own_number(trial.work.system, [&](std::size_t k) {
@@ -59,14 +65,13 @@ double largest_move(const Workspace& w, std::span<const double> field) {
 /// @param[in,out] move  takes the corrected displacement
 /// @param[in,out] size  of the residual
 /// @return false if no share of the correction makes it fall
-bool search_line(const World& world, double step, const Assembler& assemble,
-                 std::span<const double> correction, std::vector<double>& move, double& size,
-                 Trial& trial) {
+bool search_line(const Equation& equation, std::span<const double> correction,
+                 std::vector<double>& move, double& size, Trial& trial) {
   std::vector<double> tried(move.size());
   double share = 1;
   for (int halving = 0; halving <= kMaxHalvings; ++halving, share /= 2) {
     for (std::size_t k = 0; k < tried.size(); ++k) tried[k] = move[k] + share * correction[k];
-    const double next = newton_residual(world, step, tried, assemble, trial);
+    const double next = newton_residual(equation, tried, trial);
     if (!(next < size)) continue;
     move = tried;
     size = next;
@@ -80,12 +85,13 @@ bool search_line(const World& world, double step, const Assembler& assemble,
 Status iterate_newton(const World& world, double step, const Assembler& assemble, Workspace& w,
                       Effort& effort) {
   solve::gather_rows(w.system, w.move);
+  const Equation equation{world, step, assemble};
   Trial trial;
   size_workspace(world, trial.friction);
   size_workspace(world, trial.work);
   assemble(world, world.state, step, trial.friction, {.stiffness = false});
   const double done = kNewtonShare * world.params.numerics.tolerance;
-  double size = newton_residual(world, step, w.move, assemble, trial);
+  double size = newton_residual(equation, w.move, trial);
   for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
     std::ranges::fill(trial.work.move, 0.0);
     Status status = solve_system(world, trial.work, effort);
@@ -94,7 +100,7 @@ Status iterate_newton(const World& world, double step, const Assembler& assemble
     const std::vector<double> correction = trial.work.move;
     const double largest = largest_move(w, correction);
     if (largest <= done) return Status::fine();
-    if (search_line(world, step, assemble, correction, w.move, size, trial)) continue;
+    if (search_line(equation, correction, w.move, size, trial)) continue;
     if (largest > kKink) return Status::failed("Newton's method found no way down");
     return Status::fine();
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/parallel/arrays.hpp"
-#include "coupling/step/foreign.hpp"
+#include "coupling/step/ghost_cells.hpp"
 #include "coupling/world/sharing.hpp"
 #include "dcm/loads/loads.hpp"
 
@@ -38,7 +38,7 @@ void size_workspace(const World& world, Workspace& w) {
   dcm::size_rank_one(s.dcm, world.params.dcm, w.system, world.params.apparatus.count_rank_one());
   w.system.ownership = share_blocks(world, blocks, w.cost);
   solve::set_blocks(w.system, std::move(blocks));
-  find_foreign_cells(world, w);
+  mark_ghost_cells(world, w);
   w.active = active_lanes(s);
   assign_zeros(w.rhs, w.system.n_dof());
   assign_zeros(w.move, w.system.n_dof());

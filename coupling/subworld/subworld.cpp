@@ -100,7 +100,7 @@ CellSet find_neighbours(const World& world, const CellSet& cells, double reach) 
 }
 
 void take_cells(const State& state, CellSet moving, CellSet constrained, Subworld& sub) {
-  std::vector<Member> shells, spheres;
+  std::vector<SelectedCell<State>> shells, spheres;
   for (const CellSet* cells : {&moving, &constrained}) {
     for (std::size_t l : cells->dcm) shells.push_back({&state, l});
     for (std::size_t c : cells->cbm) spheres.push_back({&state, c});

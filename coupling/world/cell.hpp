@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <unordered_map>
 
 #include "coupling/world/world.hpp"
 
@@ -44,6 +46,14 @@ inline Vec3 center_of(const State& s, const Cell& c) {
 inline const CycleParams& cycle_of(const Params& p, const State& s, const Cell& c) {
   return p.life.type[type_of(s, c)];
 }
+
+/// Cells by lineage.
+using CellIndex = std::unordered_map<std::int64_t, Cell>;
+CellIndex index_cells(const State& state);
+
+/// The living cell of a lineage, if there is one. Linear in the number of cells: for many cells use
+/// index_cells.
+std::optional<Cell> find_cell(const State& state, std::int64_t lineage);
 
 /// Calls f with where each point of a cell stands among all unknowns.
 template <class F>

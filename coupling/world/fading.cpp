@@ -1,27 +1,18 @@
 #include "coupling/world/fading.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "coupling/world/cell.hpp"
 
 namespace acinus::coupling {
 namespace {
 
-/// Where cells stand, by lineage.
-std::unordered_map<std::int64_t, Cell> find_cells(const State& s) {
-  std::unordered_map<std::int64_t, Cell> cells;
-  for_each_cell(s, [&](const Cell& c) { cells.emplace(lineage_of(s, c), c); });
-  return cells;
-}
-
-Vec3 find_apart(const State& s, const std::unordered_map<std::int64_t, Cell>& cells,
-                const FadingForce& f) {
+Vec3 find_apart(const State& s, const CellIndex& cells, const FadingForce& f) {
   const Vec3 a = center_of(s, cells.at(f.a));
   return f.b == kNoPartner ? a : Vec3(a - center_of(s, cells.at(f.b)));
 }
 
-bool has_both(const std::unordered_map<std::int64_t, Cell>& cells, const FadingForce& f) {
+bool has_both(const CellIndex& cells, const FadingForce& f) {
   return cells.contains(f.a) && (f.b == kNoPartner || cells.contains(f.b));
 }
 
@@ -33,7 +24,7 @@ double left_of(const FadingForce& f, double time, const Vec3& apart) {
 
 void add_fading_forces(const State& s, double time, CellForces& forces) {
   if (s.fading.empty()) return;
-  const auto cells = find_cells(s);
+  const auto cells = index_cells(s);
   const auto add = [&](std::int64_t lineage, const Vec3& force) {
     const Cell& c = cells.at(lineage);
     (c.deformable ? forces.dcm : forces.cbm)[c.at] += force;
@@ -48,7 +39,7 @@ void add_fading_forces(const State& s, double time, CellForces& forces) {
 
 void keep_fading(const State& before, State& s) {
   if (s.fading.empty()) return;
-  const auto was = find_cells(before), is = find_cells(s);
+  const auto was = index_cells(before), is = index_cells(s);
   for (FadingForce& f : s.fading)
     if (has_both(was, f) && has_both(is, f))
       f.apart += find_apart(s, is, f) - find_apart(before, was, f);
@@ -56,7 +47,7 @@ void keep_fading(const State& before, State& s) {
 
 void forget_faded(State& s) {
   if (s.fading.empty()) return;
-  const auto cells = find_cells(s);
+  const auto cells = index_cells(s);
   std::erase_if(s.fading, [&](const FadingForce& f) {
     return s.clock.time >= f.share.end || !has_both(cells, f);
   });

@@ -16,12 +16,12 @@ T value_of(const std::vector<T>& values, std::size_t index, T otherwise) {
 
 /// @param center_of  place of a member
 template <class CenterOf>
-void sort_along_curve(std::vector<Member>& members, const CenterOf& center_of) {
+void sort_along_curve(std::vector<SelectedCell<State>>& members, const CenterOf& center_of) {
   constexpr std::size_t kWorthThreads = 200;
   std::vector<Vec3> center(members.size());
   for_each_index(members.size(), members.size() > kWorthThreads,
                  [&](std::size_t k) { center[k] = center_of(members[k]); });
-  std::vector<Member> sorted;
+  std::vector<SelectedCell<State>> sorted;
   sorted.reserve(members.size());
   for (int k : space_filling_order(center)) sorted.push_back(members[k]);
   members = std::move(sorted);
@@ -29,11 +29,11 @@ void sort_along_curve(std::vector<Member>& members, const CenterOf& center_of) {
 
 }  // namespace
 
-State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
-              std::vector<std::size_t>* stands) {
+State compose(std::span<const SelectedCell<State>> dcm, std::span<const SelectedCell<State>> cbm,
+              const State& like, std::vector<std::size_t>* stands) {
   State s;
-  std::vector<dcm::CellRef> shells;
-  std::vector<cbm::CellRef> spheres;
+  std::vector<SelectedCell<dcm::State>> shells;
+  std::vector<SelectedCell<cbm::State>> spheres;
   for (const auto& [state, lane, type] : dcm) shells.push_back({&state->dcm, lane, type});
   for (const auto& [state, cell, type] : cbm) spheres.push_back({&state->cbm, cell, type});
   std::vector<std::size_t> lane;
@@ -87,34 +87,36 @@ State compose(std::span<const Member> dcm, std::span<const Member> cbm, const St
   return s;
 }
 
-void sort_by_place(std::vector<Member>& dcm, std::vector<Member>& cbm) {
-  sort_along_curve(dcm, [](const Member& m) { return dcm::cell_center(m.state->dcm, m.index); });
-  sort_along_curve(cbm, [](const Member& m) { return cbm::center_of(m.state->cbm, m.index); });
+void sort_by_place(std::vector<SelectedCell<State>>& dcm, std::vector<SelectedCell<State>>& cbm) {
+  sort_along_curve(
+      dcm, [](const SelectedCell<State>& m) { return dcm::cell_center(m.state->dcm, m.index); });
+  sort_along_curve(
+      cbm, [](const SelectedCell<State>& m) { return cbm::center_of(m.state->cbm, m.index); });
 }
 
-std::vector<Member> list_dcm(const State& s) {
-  std::vector<Member> list;
+std::vector<SelectedCell<State>> list_dcm(const State& s) {
+  std::vector<SelectedCell<State>> list;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
     if (s.dcm.active(l)) list.push_back({&s, l});
   return list;
 }
 
-std::vector<Member> list_cbm(const State& s) {
-  std::vector<Member> list;
+std::vector<SelectedCell<State>> list_cbm(const State& s) {
+  std::vector<SelectedCell<State>> list;
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c) list.push_back({&s, c});
   return list;
 }
 
 void exchange_cells(std::span<const std::uint8_t> gone, std::span<const int> type,
                     std::span<const State> fresh, State& s) {
-  std::vector<Member> shells, spheres;
+  std::vector<SelectedCell<State>> shells, spheres;
   for_each_cell(s, [&](const Cell& c) {
     if (gone[c.index] == 0)
       (c.deformable ? shells : spheres).push_back({&s, c.at, type.empty() ? -1 : type[c.index]});
   });
   for (const State& f : fresh) {
-    for (const Member& m : list_dcm(f)) shells.push_back(m);
-    for (const Member& m : list_cbm(f)) spheres.push_back(m);
+    for (const SelectedCell<State>& m : list_dcm(f)) shells.push_back(m);
+    for (const SelectedCell<State>& m : list_cbm(f)) spheres.push_back(m);
   }
   sort_by_place(shells, spheres);
   State next = compose(shells, spheres, s);

@@ -6,32 +6,26 @@
 #include <span>
 #include <vector>
 
+#include "core/selected_cell.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
-
-/// A cell of some state: the lane of a deformable cell, or the index of a sphere.
-struct Member {
-  const State* state = nullptr;
-  std::size_t index = 0;
-  int type = -1;  ///< the cell becomes one of this type; -1: stays what it is
-};
 
 /// A state with these cells in this order and everything that belongs to each of them (position,
 /// last movement, contacts that exist, cycle). Deformable cells are grouped by type and mesh.
 /// Clock, balance and counters are those of `like`.
 /// @param lane  [dcm] where each deformable cell came to stand; null: not wanted. Spheres keep
 ///              their order
-State compose(std::span<const Member> dcm, std::span<const Member> cbm, const State& like,
-              std::vector<std::size_t>* lane = nullptr);
+State compose(std::span<const SelectedCell<State>> dcm, std::span<const SelectedCell<State>> cbm,
+              const State& like, std::vector<std::size_t>* lane = nullptr);
 
 /// Sorts the members along a space-filling curve, so that neighbours stand near each other in
 /// memory.
-void sort_by_place(std::vector<Member>& dcm, std::vector<Member>& cbm);
+void sort_by_place(std::vector<SelectedCell<State>>& dcm, std::vector<SelectedCell<State>>& cbm);
 
 /// All cells of a state.
-std::vector<Member> list_dcm(const State& state);
-std::vector<Member> list_cbm(const State& state);
+std::vector<SelectedCell<State>> list_dcm(const State& state);
+std::vector<SelectedCell<State>> list_cbm(const State& state);
 
 /// Puts fresh cells in the place of those that are gone, neighbours near each other.
 /// @param gone   [dcm lanes, then cbm cells] 1: this cell leaves

@@ -35,7 +35,7 @@ struct Workspace {
   /// Boundary of the step if vessels move; written by: refresh_references
   std::optional<contact::Boundary> boundary;
   std::size_t tree_block = 0;   ///< of the vessels that move; written by: size_workspace
-  std::size_t dcm_lanes = 0;    ///< written by: find_foreign_cells
+  std::size_t dcm_lanes = 0;    ///< written by: mark_ghost_cells
   MeasuredCost cost;            ///< written by: balance_shares
   std::size_t bodies_sent = 0;  ///< whose shares others need; written by: exchange_shares
   solve::Operator op;

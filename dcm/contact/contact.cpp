@@ -88,22 +88,22 @@ double contact_range(const ContactParams& c, const geometry::Topology& t, double
 void refresh_lists(const ContactInput& in, ContactWorkspace& work) {
   work.lineage_of_body.clear();
   work.body_constrained.clear();
-  work.body_foreign.clear();
+  work.body_ghost.clear();
   for (std::size_t lane : work.lane_of_body) {
     work.lineage_of_body.push_back(in.state.lineage[lane]);
     if (!work.constrained.empty()) work.body_constrained.push_back(work.constrained[lane]);
-    if (!work.foreign.empty()) work.body_foreign.push_back(work.foreign[lane]);
+    if (!work.ghost.empty()) work.body_ghost.push_back(work.ghost[lane]);
   }
   const ListInput input{work.body,
                         work.fixed,
                         work.lineage_of_body,
                         work.body_constrained,
-                        work.body_foreign,
+                        work.body_ghost,
                         in.boundary.vessels.network,
                         search_options(in),
                         in.vessel_row != contact::kAtRest};
   refresh_pairs(input, work.lists);
-  if (!work.foreign.empty()) {
+  if (!work.ghost.empty()) {
     std::vector<int> listed;
     for (const contact::Candidates& c : work.lists.pair)
       for (const int b : {c.body_a, c.body_b})
@@ -127,7 +127,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
     work.obstacle[k].clear();
     const std::size_t lane = work.lane_of_body[k];
-    if ((work.constrained.empty() || work.constrained[lane] == 0) && !work.is_foreign(lane))
+    if ((work.constrained.empty() || work.constrained[lane] == 0) && !work.is_ghost(lane))
       find_obstacle_contacts(in, work, static_cast<int>(k), options.range, work.obstacle[k]);
   });
   for (const auto& o : work.obstacle) append(o, all);
@@ -142,7 +142,7 @@ void compute_medium_areas(const ContactInput& in, const ContactWorkspace& work,
   medium_area.assign(state.n_row() * kLanes, 0.0);
   for_each_index(work.body.size(), worth_threads(state.n_row()), [&](std::size_t k) {
     const std::size_t lane = work.lane_of_body[k];
-    if (work.is_foreign(lane)) return;
+    if (work.is_ghost(lane)) return;
     const contact::SurfaceBody& b = work.body[k];
     const std::size_t first = state.group[lane / kLanes].first_row;
     for (std::size_t p = 0; p < work.share[k].size(); ++p) {

@@ -29,7 +29,7 @@ void refresh_bodies(const State& state, ContactWorkspace& work) {
     contact::SurfaceBody& b = work.body[k];
     b.topology = state.group[work.lane_of_body[k] / kLanes].topology;
     b.triangle = &b.topology->triangle;
-    if (!work.is_foreign_body(k)) return complete_body(state, k, work);
+    if (!work.is_ghost_body(k)) return complete_body(state, k, work);
     b.box = Box{};
     for (int i = 0; i < b.topology->n_node; ++i)
       b.box.include(

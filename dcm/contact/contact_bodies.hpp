@@ -1,5 +1,5 @@
 #pragma once
-/// Bodies of deformable cells as the contact search sees them: of foreign ones no more than is
+/// Bodies of deformable cells as the contact search sees them: of ghost ones no more than is
 /// needed.
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace acinus::dcm {
 
-/// Copies the nodes out of the lanes and recomputes normals and boxes; of foreign bodies only the
+/// Copies the nodes out of the lanes and recomputes normals and boxes; of ghost bodies only the
 /// boxes.
 void refresh_bodies(const State& state, ContactWorkspace& work);
 
-/// Refreshes the foreign bodies among some in full, any number of times each. @pre refresh_bodies
+/// Refreshes the ghost bodies among some in full, any number of times each. @pre refresh_bodies
 void complete_bodies(const State& state, std::span<const int> bodies, ContactWorkspace& work);
 
 /// Copies the nodes of the bodies that have none, for measures that need all of them.

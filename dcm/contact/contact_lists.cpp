@@ -23,8 +23,8 @@ bool is_constrained(const ListInput& in, std::size_t body) {
 
 /// Whether another process looks for what a body touches; what nobody works out, a static mesh,
 /// counts as such.
-bool is_foreign(const ListInput& in, std::size_t body) {
-  return !in.foreign.empty() && (body >= in.body.size() || in.foreign[body] != 0);
+bool is_ghost(const ListInput& in, std::size_t body) {
+  return !in.ghost.empty() && (body >= in.body.size() || in.ghost[body] != 0);
 }
 
 /// Whether lists made then say anything about now.
@@ -42,7 +42,7 @@ bool pairs_hold(const ListInput& in, const ContactLists& lists) {
   for (std::size_t k = 0; k < in.body.size(); ++k) {
     const ListedBody& b = lists.body[k];
     if (b.lineage != in.lineage[k] || b.topology != in.body[k].topology ||
-        b.constrained != is_constrained(in, k) || b.foreign != is_foreign(in, k))
+        b.constrained != is_constrained(in, k) || b.ghost != is_ghost(in, k))
       return false;
     const Box within = b.box.grown(room);
     if (!within.contains(in.body[k].box.low) || !within.contains(in.body[k].box.high)) return false;
@@ -98,7 +98,7 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
     if (was[k] >= 0) {
       const std::size_t from = was[k];
       b = std::move(lists.body[from]);
-      if (!is_foreign(in, k)) {
+      if (!is_ghost(in, k)) {
         next.segment[k] = std::move(lists.segment[from]);
         next.segment_age[k] = lists.segment_age[from];
       }
@@ -106,13 +106,13 @@ void renew_pairs(const ListInput& in, ContactLists& lists) {
     b.lineage = in.lineage[k];
     b.topology = in.body[k].topology;
     b.constrained = is_constrained(in, k);
-    b.foreign = is_foreign(in, k);
+    b.ghost = is_ghost(in, k);
     b.box = in.body[k].box;
   }
   next.pair = contact::list_pairs(in.body, in.fixed, in.options, kReserve);
   std::erase_if(next.pair, [&](const contact::Candidates& c) {
     return (is_constrained(in, c.body_a) && is_constrained(in, c.body_b)) ||
-           (is_foreign(in, c.body_a) && is_foreign(in, c.body_b));
+           (is_ghost(in, c.body_a) && is_ghost(in, c.body_b));
   });
   next.age.resize(next.pair.size());
   const auto number_before = [&](int body) {
@@ -227,6 +227,38 @@ void refresh_pairs(const ListInput& in, ContactLists& lists) {
   if (!made_alike(lists, in) || !pairs_hold(in, lists)) renew_pairs(in, lists);
 }
 
+namespace {
+
+/// Lists the pairs of bodies and the bodies at vessels whose points have to be listed anew, in the
+/// scratch.
+void find_expired(const ListInput& in, ContactLists& lists) {
+  const double range = in.options.range, skin = in.options.skin;
+  ListScratch& scratch = lists.scratch;
+  scratch.expired.clear();
+  scratch.segments_expired.clear();
+  std::vector<std::uint8_t>& is_expired = scratch.is_expired;
+  is_expired.resize(lists.pair.size());
+  for_each_index(is_expired.size(), is_expired.size() > kWorthThreads, [&](std::size_t k) {
+    const ListAge& age = lists.age[k];
+    is_expired[k] = !age.made() || relative_motion(lists, k) + range - age.range > skin ? 1 : 0;
+  });
+  for (std::size_t k = 0; k < is_expired.size(); ++k)
+    if (is_expired[k] != 0) scratch.expired.push_back(k);
+  if (in.network.segment.empty()) return;
+  // Half the skin is for the body, half for the motion of vessels, either way from where they were.
+  const double allowed = in.network_moves ? 0.5 * skin : skin;
+  const bool moved = network_moved(in, 0.25 * skin, lists);
+  for (std::size_t k = 0; k < in.body.size(); ++k) {
+    if (is_constrained(in, k) || is_ghost(in, k)) continue;
+    const ListAge& age = lists.segment_age[k];
+    const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
+    if (moved || s == nullptr || s->spread + s->mean.norm() + range - age.range > allowed)
+      scratch.segments_expired.push_back(k);
+  }
+}
+
+}  // namespace
+
 void refresh_lists(const ListInput& in, ContactLists& lists) {
   const std::size_t n_body = in.body.size();
   const bool shared =
@@ -235,36 +267,14 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
     for (ListSnapshot& s : lists.body[k].snapshot)
       if (s.lists > 0) find_motion(in.body[k], s);
   });
-
-  const double range = in.options.range, skin = in.options.skin;
+  find_expired(in, lists);
   ListScratch& scratch = lists.scratch;
-  std::vector<std::size_t>&expired = scratch.expired, &segments_expired = scratch.segments_expired;
-  expired.clear();
-  segments_expired.clear();
-  std::vector<std::uint8_t>& is_expired = scratch.is_expired;
-  is_expired.resize(lists.pair.size());
-  for_each_index(is_expired.size(), is_expired.size() > kWorthThreads, [&](std::size_t k) {
-    const ListAge& age = lists.age[k];
-    is_expired[k] = !age.made() || relative_motion(lists, k) + range - age.range > skin ? 1 : 0;
-  });
-  for (std::size_t k = 0; k < is_expired.size(); ++k)
-    if (is_expired[k] != 0) expired.push_back(k);
-  if (!in.network.segment.empty()) {
-    // Half the skin is for the body, half for how far vessels move, each way from where they were.
-    const double room = in.network_moves ? 0.5 * skin : skin;
-    const bool moved = network_moved(in, 0.25 * skin, lists);
-    for (std::size_t k = 0; k < n_body; ++k) {
-      if (is_constrained(in, k) || is_foreign(in, k)) continue;
-      const ListAge& age = lists.segment_age[k];
-      const ListSnapshot* s = snapshot_of(lists, static_cast<int>(k), age.a);
-      if (moved || s == nullptr || s->spread + s->mean.norm() + range - age.range > room)
-        segments_expired.push_back(k);
-    }
-  }
+  const std::vector<std::size_t>&expired = scratch.expired, &segments = scratch.segments_expired;
   lists.checked += static_cast<std::int64_t>(lists.pair.size());
   lists.made += static_cast<std::int64_t>(expired.size());
-  if (expired.empty() && segments_expired.empty()) return;
+  if (expired.empty() && segments.empty()) return;
 
+  const double range = in.options.range;
   std::vector<int>& latest = scratch.latest;
   latest.assign(n_body, -1);
   const auto snapshot_now = [&](std::size_t body) {
@@ -273,20 +283,20 @@ void refresh_lists(const ListInput& in, ContactLists& lists) {
     return latest[body];
   };
   scratch.to_fill.clear();
-  for (std::size_t k : expired) {
+  for (const std::size_t k : expired) {
     contact::Candidates& list = lists.pair[k];
     const int a = snapshot_now(list.body_a), b = snapshot_now(list.body_b);
     lists.age[k] = {a, b, range};
     scratch.to_fill.push_back(&list);
   }
-  for (std::size_t k : segments_expired) lists.segment_age[k] = {snapshot_now(k), -1, range};
+  for (const std::size_t k : segments) lists.segment_age[k] = {snapshot_now(k), -1, range};
   for_each_index(n_body, shared, [&](std::size_t k) {
     if (latest[k] >= 0) take_snapshot(in.body[k], lists.body[k].snapshot[latest[k]]);
   });
   count_lists(lists);
   contact::fill_candidates(in.body, in.fixed, in.options, scratch.to_fill);
-  for_each_index(segments_expired.size(), shared, [&](std::size_t e) {
-    const std::size_t k = segments_expired[e];
+  for_each_index(segments.size(), shared, [&](std::size_t e) {
+    const std::size_t k = segments[e];
     find_segments(in.body[k], in.options, in.network, lists.segment[k]);
   });
 }

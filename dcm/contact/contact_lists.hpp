@@ -34,7 +34,7 @@ struct ListSnapshot {
 struct ListedBody {
   std::int64_t lineage = -1;
   const geometry::Topology* topology = nullptr;
-  bool constrained = false, foreign = false;
+  bool constrained = false, ghost = false;
   Box box;  ///< when pairs were looked for
   std::vector<ListSnapshot> snapshot;
 };
@@ -74,14 +74,14 @@ struct ListInput {
   std::span<const contact::SurfaceBody> body, fixed;
   std::span<const std::int64_t> lineage;      ///< [body]
   std::span<const std::uint8_t> constrained;  ///< [body] 1: does not move; empty: all move
-  std::span<const std::uint8_t> foreign;      ///< [body] 1: of another process; empty: none
+  std::span<const std::uint8_t> ghost;        ///< [body] 1: of another process; empty: none
   const geometry::Network& network;
   contact::SearchOptions options;
   bool network_moves = false;
 };
 
 /// Looks for the pairs of near bodies again if those listed no longer hold; reads only boxes.
-/// Nothing is listed between bodies that are constrained, nor between foreign ones.
+/// Nothing is listed between bodies that are constrained, nor between ghost ones.
 void refresh_pairs(const ListInput& in, ContactLists& lists);
 
 /// Makes those lists again that no longer hold. @pre refresh_pairs

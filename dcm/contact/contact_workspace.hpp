@@ -42,7 +42,7 @@ struct ContactWorkspace {
       constrained;  ///< [n_lane] 1: does not move; empty: all move. Set by the caller
   /// [n_lane] 1: another process computes this cell; empty: none. Set by the caller. Of two such
   /// cells nothing is looked for, and of one only what own cells may touch is known.
-  std::vector<std::uint8_t> foreign;
+  std::vector<std::uint8_t> ghost;
   std::vector<std::size_t> lane_of_body;  ///< written by: refresh_bodies
   /// Boxes of all; the rest of own bodies and of those that complete_bodies was asked for. Written
   /// by: refresh_bodies
@@ -54,7 +54,7 @@ struct ContactWorkspace {
   ContactLists lists;                          ///< written by: refresh_lists
   std::vector<std::int64_t> lineage_of_body;   ///< written by: refresh_lists
   std::vector<std::uint8_t> body_constrained;  ///< empty: all move; written by: refresh_lists
-  std::vector<std::uint8_t> body_foreign;      ///< empty: none; written by: refresh_lists
+  std::vector<std::uint8_t> body_ghost;        ///< empty: none; written by: refresh_lists
   std::vector<std::vector<contact::Contact>>
       found;  ///< [other threads than the first] by: find_contacts
   std::vector<std::vector<contact::Contact>> obstacle;  ///< [body] with boundary; by: find_contacts
@@ -65,8 +65,8 @@ struct ContactWorkspace {
   std::int64_t searches = 0;                        ///< calls of find_contacts
   std::int64_t points_listed = 0, points_seen = 0;  ///< over all searches
 
-  bool is_foreign(std::size_t lane) const { return !foreign.empty() && foreign[lane] != 0; }
-  bool is_foreign_body(std::size_t b) const { return is_foreign(lane_of_body[b]); }
+  bool is_ghost(std::size_t lane) const { return !ghost.empty() && ghost[lane] != 0; }
+  bool is_ghost_body(std::size_t b) const { return is_ghost(lane_of_body[b]); }
 };
 
 }  // namespace acinus::dcm

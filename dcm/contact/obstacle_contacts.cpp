@@ -63,19 +63,27 @@ void set_wall_stiffness(const ContactParams& c, const contact::Material& wall,
   }
 }
 
-/// Looks for the vessels near one body.
+/// A body and the vessels that its points may touch.
+struct BodyAtVessels {
+  const contact::SurfaceBody& body;
+  int number;
+  double range;  ///< um, of the search
+  const SegmentCandidates& list;
+  std::span<const Contact> wall;  ///< contacts with the surface about the vessels, if they have one
+};
+
+/// Search for the contacts of one body with vessels.
 class VesselSearch {
  public:
-  VesselSearch(const contact::SurfaceBody& body, int number, const ContactParams& c, double range,
-               const SegmentCandidates& list, const contact::Vessels& vessels,
-               std::span<const Contact> wall, VesselScratch& scratch)
-      : b_(body),
-        number_(number),
+  VesselSearch(const BodyAtVessels& at, const ContactParams& c, const contact::Vessels& vessels,
+               VesselScratch& scratch)
+      : b_(at.body),
+        number_(at.number),
         c_(c),
-        range_(range),
-        list_(list),
+        range_(at.range),
+        list_(at.list),
         vessels_(vessels),
-        wall_(wall),
+        wall_(at.wall),
         scratch_(scratch) {}
 
   /// Finds one contact per point, with the nearest segment of the network or with the surface about
@@ -206,7 +214,7 @@ void find_obstacle_contacts(const ContactInput& in, const ContactWorkspace& work
   if (!work.wall.empty()) wall = work.wall[number];
   if (list.site.empty() && wall.empty()) return;
   thread_local VesselScratch scratch;
-  VesselSearch(b, number, c, range, list, boundary.vessels, wall, scratch).find();
+  VesselSearch({b, number, range, list, wall}, c, boundary.vessels, scratch).find();
   for (const VesselContact& v : scratch.found) out.push_back(v.contact);
 }
 

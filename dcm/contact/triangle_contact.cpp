@@ -140,9 +140,9 @@ void find_triangle_contacts(const ContactInput& in, ContactWorkspace& work,
     gap = std::max(gap, largest_gap(law_between(in, work, k, k)));
   const double reach = gap + in.options.max_depth;
   auto pairs = contact::find_pairs(boxes, reach);
-  if (!work.foreign.empty()) {
+  if (!work.ghost.empty()) {
     std::erase_if(pairs, [&](const std::pair<int, int>& p) {
-      return work.is_foreign_body(p.first) && work.is_foreign_body(p.second);
+      return work.is_ghost_body(p.first) && work.is_ghost_body(p.second);
     });
     std::vector<int> near;
     for (const auto& [a, b] : pairs) near.insert(near.end(), {a, b});

@@ -90,6 +90,29 @@ double touch_stiffness(const Params& p, const geometry::Topology& t) {
   return 0.5 * p.fold_repulsion * kTouchDepth * kTouchDepth * t.rest_area / t.n_triangle;
 }
 
+/// Both faces of an edge as the barrier against their collapse needs them.
+struct EdgeFaces {
+  Lane stiffness;
+  double stiffness_scale;
+  Lane3 x[4];           ///< um, nodes of the hinge
+  Lane3 n1, n2;         ///< um^2, twice the vector areas
+  Lane s1, s2;          ///< um^4, their squares
+  Lane least1, least2;  ///< um^2, areas below which the barrier acts
+};
+
+/// Adds the barriers of faces that have almost no area left.
+ACINUS_INLINE void add_collapses(const EdgeFaces& f, const std::array<int, 4>& h, double* force,
+                                 float* spring) {
+  const Collapse c1 = find_collapse(f.least1, 0.5 * lane_sqrt(f.s1)),
+                 c2 = find_collapse(f.least2, 0.5 * lane_sqrt(f.s2));
+  double* const at[4] = {force + h[0] * kPointStride, force + h[1] * kPointStride,
+                         force + h[2] * kPointStride, force + h[3] * kPointStride};
+  add_collapse(f.stiffness, c1, f.stiffness_scale,
+               {{f.x[0], f.x[2], f.x[3]}, f.n1, {at[0], at[2], at[3]}}, spring);
+  add_collapse(f.stiffness, c2, f.stiffness_scale,
+               {{f.x[1], f.x[3], f.x[2]}, f.n2, {at[1], at[3], at[2]}}, spring);
+}
+
 ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double stiffness_scale,
                                   double* force, float* element, float* spring) {
   const geometry::Topology& t = *g.topology;
@@ -143,14 +166,9 @@ ACINUS_KERNEL void bending_kernel(const Params& p, const GroupView& g, double st
     const Lane least1 = least_area(face[0]), least2 = least_area(face[1]);
     const Lane missing =
         lane_max0(4.0 * least1 * least1 - s1) + lane_max0(4.0 * least2 * least2 - s2);
-    if (sum_lanes<double>(missing) > 0) {  // hardly ever
-      const Collapse c1 = find_collapse(least1, 0.5 * lane_sqrt(s1)),
-                     c2 = find_collapse(least2, 0.5 * lane_sqrt(s2));
-      double* const at[4] = {force + h[0] * kPointStride, force + h[1] * kPointStride,
-                             force + h[2] * kPointStride, force + h[3] * kPointStride};
-      add_collapse(k, c1, stiffness_scale, {{x1, x3, x4}, n1, {at[0], at[2], at[3]}}, spring);
-      add_collapse(k, c2, stiffness_scale, {{x2, x4, x3}, n2, {at[1], at[3], at[2]}}, spring);
-    }
+    if (sum_lanes<double>(missing) > 0)  // hardly ever
+      add_collapses({k, stiffness_scale, {x1, x2, x3, x4}, n1, n2, s1, s2, least1, least2}, h,
+                    force, spring);
     spring += solve::kSpringStride;
   }
 }

@@ -1,36 +1,23 @@
 #include "runs/experiments/lobule_births.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
+#include "core/sphere.hpp"
 #include "coupling/life/proliferation.hpp"
 #include "coupling/migration/lesion_layers.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::runs {
 namespace {
 
 std::vector<coupling::LayerCell> layer_cells(const coupling::World& world) {
   const coupling::State& s = world.state;
-  const double time = s.clock.time;
   std::vector<coupling::LayerCell> cells;
-  const auto radius = [&](const Ramp& volume) {
-    return std::cbrt(volume.at(time) * 3 / (4 * kPi));
-  };
-  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (s.dcm.active(l)) cells.push_back({dcm::cell_center(s.dcm, l), radius(s.dcm.volume[l])});
-  for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    cells.push_back({cbm::center_of(s.cbm, c), radius(s.cbm.volume[c])});
+  coupling::for_each_cell(s, [&](const coupling::Cell& c) {
+    cells.push_back({center_of(s, c), sphere_radius(volume_of(s, c).at(s.clock.time))});
+  });
   return cells;
-}
-
-/// Centre of a living cell, um.
-std::optional<Vec3> find_center(const coupling::State& s, std::int64_t id) {
-  for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    if (s.dcm.active(l) && s.dcm.lineage[l] == id) return dcm::cell_center(s.dcm, l);
-  const auto at = std::ranges::find(s.cbm.lineage, id);
-  if (at == s.cbm.lineage.end()) return {};
-  return cbm::center_of(s.cbm, at - s.cbm.lineage.begin());
 }
 
 }  // namespace
@@ -52,10 +39,10 @@ void count_births_by_layer(const Scene& scene, const coupling::World& world,
   };
   for (const coupling::LifeEvent& e : report.events) {
     if (e.kind != coupling::EventKind::kDivision || e.cells.size() != 3) continue;
-    const std::optional<Vec3> a = find_center(world.state, e.cells[1]),
-                              b = find_center(world.state, e.cells[2]);
+    const std::optional<coupling::Cell> a = coupling::find_cell(world.state, e.cells[1]),
+                                        b = coupling::find_cell(world.state, e.cells[2]);
     if (!a || !b) continue;  // a daughter that is gone already
-    const int layer = layer_at(0.5 * (*a + *b));
+    const int layer = layer_at(0.5 * (center_of(world.state, *a) + center_of(world.state, *b)));
     observed.births[std::min(layer, kLayers + 1) - 1] += 1;
   }
 }

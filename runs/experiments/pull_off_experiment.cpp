@@ -10,6 +10,7 @@
 #include "coupling/apparatus/pull/pull.hpp"
 #include "coupling/measure/adhesion.hpp"
 #include "coupling/measure/measure.hpp"
+#include "coupling/world/cell.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/experiments/figures.hpp"
 #include "runs/experiments/single_cell.hpp"
@@ -20,11 +21,10 @@ namespace {
 
 /// Force on the pulled cell along its pull, nN.
 double force_on(const coupling::Pull& pull, const ObservedFrame& f) {
-  const dcm::State& cells = f.world.state.dcm;
-  const auto at = std::ranges::find(cells.lineage, pull.cell);
-  if (at == cells.lineage.end()) return kNotMeasured;
-  const Vec3 center = dcm::cell_center(cells, at - cells.lineage.begin());
-  return coupling::pull_force(pull, f.snapshot.time, center);
+  const coupling::State& s = f.world.state;
+  const std::optional<coupling::Cell> cell = coupling::find_cell(s, pull.cell);
+  if (!cell) return kNotMeasured;
+  return coupling::pull_force(pull, f.snapshot.time, coupling::center_of(s, *cell));
 }
 
 const CellType& type_of(const Scene& scene, const CellEntry& cell) {

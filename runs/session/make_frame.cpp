@@ -9,6 +9,7 @@
 #include "contact/wall_mesh.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -198,6 +199,7 @@ namespace {
 std::vector<coupling::KnownIndentation> explained_indentations(const coupling::World& world,
                                                                const Snapshot& snapshot) {
   const cbm::State& s = world.state.cbm;
+  const coupling::CellIndex cells = coupling::index_cells(world.state);
   auto find = [&](std::int64_t id, bool deformable) {
     return std::ranges::find_if(snapshot.cells, [&](const CellMeasure& c) {
       return c.id == id && c.deformable == deformable;
@@ -206,7 +208,7 @@ std::vector<coupling::KnownIndentation> explained_indentations(const coupling::W
   std::vector<coupling::KnownIndentation> indentations;
   for (const coupling::InterfaceForce& f : snapshot.interface) {
     const auto cell = find(f.dcm_id, true), sphere = find(f.cbm_id, false);
-    const std::size_t k = std::ranges::find(s.lineage, f.cbm_id) - s.lineage.begin();
+    const std::size_t k = cells.at(f.cbm_id).at;
     const cbm::Params& p = world.params.cbm[s.type[k]];
     const contact::SphereBody body{sphere->radius, s.young[k], p.poisson};
     const double press = f.force.dot((cell->center - sphere->center).normalized());

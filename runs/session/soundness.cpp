@@ -9,6 +9,7 @@
 
 #include "core/sphere.hpp"
 #include "coupling/measure/nuclei.hpp"
+#include "coupling/world/cell.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -17,8 +18,7 @@ namespace {
 constexpr double kOverlapBetweenPoints = 0.25;
 
 double radius_of(const coupling::State& s, std::int64_t id) {
-  const std::size_t k = std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin();
-  return sphere_radius(s.cbm.volume[k].at(s.clock.time));
+  return sphere_radius(volume_of(s, coupling::find_cell(s, id).value()).at(s.clock.time));
 }
 
 /// Sphere whose centre lies deepest inside an obstacle; depth_um = 0 if there is none.

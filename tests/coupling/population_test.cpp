@@ -135,7 +135,7 @@ void expect_same_cell(State& now, const Cell& c, State& before, const Cell& d) {
 
 TEST(Compose, KeepsAllThatBelongsToACellInAnyOrder) {
   State before = make_state();
-  std::vector<Member> shells = list_dcm(before), spheres = list_cbm(before);
+  std::vector<SelectedCell<State>> shells = list_dcm(before), spheres = list_cbm(before);
   ASSERT_EQ(shells.size(), 12u);
   ASSERT_EQ(spheres.size(), 11u);
   std::ranges::reverse(shells);
@@ -181,7 +181,7 @@ TEST(Compose, LanesWithoutACellHoldTheRestShapeAndNothingElse) {
 
 TEST(Compose, WithoutSomeCellsKeepsTheContactsOfTheOthers) {
   State before = make_state();
-  std::vector<Member> shells = list_dcm(before), spheres = list_cbm(before);
+  std::vector<SelectedCell<State>> shells = list_dcm(before), spheres = list_cbm(before);
   shells.erase(shells.begin() + 2);
   spheres.erase(spheres.begin() + 3);  // touches 0 and 2
   State now = compose(shells, spheres, before);
@@ -199,7 +199,7 @@ TEST(Compose, OfTwoStatesAddsTheCellsOfTheSecond) {
   born.last_move.clear();
   born.leader.clear();
   born.asleep.clear();
-  std::vector<Member> shells = list_dcm(born), spheres = list_cbm(born);
+  std::vector<SelectedCell<State>> shells = list_dcm(born), spheres = list_cbm(born);
   std::ranges::copy(list_dcm(before), std::back_inserter(shells));
   std::ranges::copy(list_cbm(before), std::back_inserter(spheres));
   State now = compose(shells, spheres, before);
@@ -236,7 +236,7 @@ TEST(Compose, OfAllCellsAsTheyStandIsTheSameStateToTheBit) {
 
 TEST(Compose, ChangesTheTypeOfAMemberAndNothingElse) {
   State before = make_state();
-  std::vector<Member> shells = list_dcm(before), spheres = list_cbm(before);
+  std::vector<SelectedCell<State>> shells = list_dcm(before), spheres = list_cbm(before);
   shells[4].type = 2;
   spheres[7].type = 2;
   const std::int64_t shell = before.dcm.lineage[shells[4].index],
@@ -260,8 +260,8 @@ TEST(SortByPlace, IsAPermutationThatBringsNeighboursTogether) {
     cells.push_back({24.0 * Vec3(shuffled % 8, shuffled / 8 % 8, shuffled / 64), k % 8 == 0});
   }
   const State s = make_test_world(cells, 60, 12).state;
-  std::vector<Member> shells = list_dcm(s), spheres = list_cbm(s);
-  const auto walk = [&](const std::vector<Member>& members) {
+  std::vector<SelectedCell<State>> shells = list_dcm(s), spheres = list_cbm(s);
+  const auto walk = [&](const std::vector<SelectedCell<State>>& members) {
     double length = 0;
     for (std::size_t k = 1; k < members.size(); ++k)
       length +=
@@ -269,9 +269,9 @@ TEST(SortByPlace, IsAPermutationThatBringsNeighboursTogether) {
               .norm();
     return length;
   };
-  const auto indices = [](const std::vector<Member>& members) {
+  const auto indices = [](const std::vector<SelectedCell<State>>& members) {
     std::multiset<std::size_t> set;
-    for (const Member& m : members) set.insert(m.index);
+    for (const SelectedCell<State>& m : members) set.insert(m.index);
     return set;
   };
   const double before = walk(spheres);

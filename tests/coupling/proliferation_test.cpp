@@ -109,7 +109,7 @@ TEST(Proliferation, DoesNotDependOnTheOrderOfCells) {
   p.rate = {{1, 9, 0.1 / 3600, 0}};
   World a = make_layers(4, 10, p);
   World b = a;
-  std::vector<Member> members = list_cbm(a.state);
+  std::vector<SelectedCell<State>> members = list_cbm(a.state);
   std::ranges::reverse(members);
   b.state = compose({}, members, a.state);
   for (double t = 600; t <= 7200; t += 600) look(a, t), look(b, t);

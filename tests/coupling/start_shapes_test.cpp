@@ -95,7 +95,7 @@ TEST(StartShapes, DoNotDependOnTheOrderOfCells) {
   World a = make_test_world(cells);
   const CutCells cut = cut_overlapping(a);
   World b = make_test_world(cells);
-  std::vector<Member> dcm = list_dcm(b.state), cbm = list_cbm(b.state);
+  std::vector<SelectedCell<State>> dcm = list_dcm(b.state), cbm = list_cbm(b.state);
   std::ranges::reverse(dcm);
   std::ranges::reverse(cbm);
   b.state = compose(dcm, cbm, b.state);

@@ -61,7 +61,8 @@ TEST(ContactLists, ListsOutliveNewNumbersOfTheCells) {
   Clump c = make_bounded_clump(93);
   c.find();
   const auto made = c.work.lists.made;
-  const std::vector<CellRef> rest{{&c.state, 3}, {&c.state, 8}, {&c.state, 0}, {&c.state, 2}};
+  const std::vector<SelectedCell<State>> rest{
+      {&c.state, 3}, {&c.state, 8}, {&c.state, 0}, {&c.state, 2}};
   std::vector<std::size_t> lane;
   State fewer = compose(rest, lane);
   c.state = std::move(fewer);

@@ -11,13 +11,13 @@
 namespace acinus::coupling {
 
 /// Tells the contact search which cells are not own. @pre the blocks of the system are set
-void find_foreign_cells(const World& world, Workspace& work);
+void mark_ghost_cells(const World& world, Workspace& work);
 
 /// The process that works out a cell; lanes count [dcm lanes, then cbm cells].
 /// @pre the work is shared: the ownership is not whole
 int owner_of_lane(const Workspace& work, std::size_t lane);
 
-/// Gets the touching shares of the points of foreign bodies that own cells are in contact with.
+/// Gets the touching shares of the points of ghost bodies that own cells are in contact with.
 /// @pre all contacts of deformable cells are found
 void exchange_shares(Workspace& work);
 
@@ -29,7 +29,7 @@ struct SphereExchange {
 /// @pre near pairs of spheres, and of spheres with deformable cells, are listed
 SphereExchange plan_sphere_exchange(const Workspace& work);
 
-/// Gets the values of foreign spheres next to own cells. @param value [n_cell], or empty
+/// Gets the values of ghost spheres next to own cells. @param value [n_cell], or empty
 void exchange_values(const Workspace& work, const SphereExchange& spheres,
                      std::vector<double>& value);
 

@@ -1,4 +1,4 @@
-#include "coupling/step/foreign.hpp"
+#include "coupling/step/ghost_cells.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -54,17 +54,17 @@ int owner_of_lane(const Workspace& w, std::size_t lane) {
   return w.system.ownership.owner[lane / kLanes];
 }
 
-void find_foreign_cells(const World& world, Workspace& w) {
+void mark_ghost_cells(const World& world, Workspace& w) {
   const State& s = world.state;
   w.dcm_lanes = s.dcm.n_lane();
-  w.dcm.foreign.clear();
-  w.cbm.foreign.clear();
+  w.dcm.ghost.clear();
+  w.cbm.ghost.clear();
   const solve::Ownership& ownership = w.system.ownership;
   if (ownership.is_whole()) return;
   for (std::size_t l = 0; l < s.dcm.n_lane(); ++l)
-    w.dcm.foreign.push_back(ownership.owns(l / kLanes) ? 0 : 1);
+    w.dcm.ghost.push_back(ownership.owns(l / kLanes) ? 0 : 1);
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
-    w.cbm.foreign.push_back(ownership.owns((w.dcm_lanes + c) / kLanes) ? 0 : 1);
+    w.cbm.ghost.push_back(ownership.owns((w.dcm_lanes + c) / kLanes) ? 0 : 1);
 }
 
 void exchange_shares(Workspace& w) {
@@ -111,7 +111,7 @@ void exchange_shares(Workspace& w) {
 
 SphereExchange plan_sphere_exchange(const Workspace& w) {
   SphereExchange spheres;
-  if (w.system.ownership.is_whole() || w.cbm.foreign.empty()) return spheres;
+  if (w.system.ownership.is_whole() || w.cbm.ghost.empty()) return spheres;
   SharedCells cells;
   const int self = w.system.ownership.ranks.rank();
   const auto meet = [&](int sphere, int other_owner) {
