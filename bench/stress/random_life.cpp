@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kStream = 1;  ///< the rest of the scene is drawn from stream 0
+constexpr std::uint64_t kLifeStream = 1;  ///< the rest of the scene is drawn from stream 0
 /// Shortest cycle of a nominal scene, s: fifty times as fast as the day of a real cell.
 constexpr double kShortestCycle = 1800;
 
@@ -21,7 +21,7 @@ constexpr double kShortestCycle = 1800;
 class LifeDrawing {
  public:
   explicit LifeDrawing(const LifeSetting& setting)
-      : setting_(setting), random_(setting.seed, Purpose::kSampling, kStream) {}
+      : setting_(setting), random_(setting.seed, Purpose::kSampling, kLifeStream) {}
   std::string draw();
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kStream = 2;  ///< life is drawn from stream 1
+constexpr std::uint64_t kZoomStream = 2;  ///< life is drawn from stream 1
 
 std::string length(double value) { return fmt::format("{:.5g} um", value); }
 std::string time(double value) { return fmt::format("{:.5g} s", value); }
@@ -24,7 +24,7 @@ std::string stress(double value) { return fmt::format("{:.5g} Pa", value); }
 class ZoomDrawing {
  public:
   explicit ZoomDrawing(const ZoomSetting& setting)
-      : setting_(setting), random_(setting.seed, Purpose::kSampling, kStream) {}
+      : setting_(setting), random_(setting.seed, Purpose::kSampling, kZoomStream) {}
   std::string draw();
 
  private:

@@ -24,7 +24,7 @@ namespace acinus::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Wall time a run is given, s, and the time after which it hangs: it did not obey the first.
 constexpr double kRunTime = 60, kHangTime = 300;
