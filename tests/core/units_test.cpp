@@ -8,19 +8,14 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "tests/messages.hpp"
 
 namespace acinus {
 namespace {
 
 /// The message of the error, "" if there is none.
 std::string failure(const std::string& text, Dimension needed) {
-  try {
-    parse_quantity(text, needed);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Exit::kBadInput);
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { parse_quantity(text, needed); });
 }
 
 TEST(Units, TableOneInBaseUnitsIsExact) {

@@ -52,8 +52,7 @@ void divide_cell(World& world, std::size_t cell, const Vec3& direction) {
 
 World settled(World w) {
   w.params.numerics.cg.tolerance = 1e-6;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   EXPECT_TRUE(run_until(w, work, 10 * 86400));
   return w;
 }
@@ -305,8 +304,7 @@ TEST(SphereStrength, DoesNotWeakenTheInterfaceWithDeformableCells) {
 
 TEST(SphereStrength, ScalesWhatIsMeasuredOfTwoYoungSpheres) {
   World w = make_test_world({{Vec3::Zero(), false}, {Vec3(22, 0, 0), false}});
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   observe(w, work);
   const CellMeasure full = measure_cells(w, work)[0];
   w.state.cbm.strength[1] = Ramp::constant(0.25);

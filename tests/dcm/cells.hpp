@@ -2,6 +2,7 @@
 /// Deformed cells for the tests of the terms.
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -61,6 +62,23 @@ struct Cells {
     return c;
   }
 };
+
+inline double largest_force(const Cells& c, std::size_t lane) {
+  double f = 0;
+  for (int i = 0; i < c.n_node(); ++i) f = std::max(f, c.force(lane, i).norm());
+  return f;
+}
+
+inline reference::NetForce net_force(const Cells& c, std::size_t lane) {
+  reference::NetForce net;
+  for (int i = 0; i < c.n_node(); ++i) net.add(c.node(lane, i), c.force(lane, i));
+  return net;
+}
+
+/// Force of a device on a node.
+inline Vec3 load_of(const Cells& c, std::size_t lane, int i) {
+  return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
+}
 
 /// The lane of make_deformed_cells that holds no cell.
 inline constexpr std::size_t kNoCell = 3;

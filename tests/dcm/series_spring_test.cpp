@@ -137,21 +137,14 @@ TEST(SeriesSpring, BalancesAndTurnsWithTheCell) {
     for (int i = 0; i < c.n_node(); ++i) turned.move(l, i, q * c.node(l, i) + shift);
   add_series_springs(p, turned.view(), turned.system);
   for (std::size_t l = 0; l < kLanes; ++l) {
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    double sum = 0, largest = 0;
-    for (int i = 0; i < c.n_node(); ++i) {
-      const Vec3 f = c.force(l, i);
-      force += f;
-      torque += c.node(l, i).cross(f);
-      sum += f.norm();
-      largest = std::max(largest, f.norm());
-    }
+    const reference::NetForce net = net_force(c, l);
+    const double largest = largest_force(c, l);
     if (l == kNoCell) {
-      EXPECT_EQ(sum, 0);
+      EXPECT_EQ(net.sum_force, 0);
       continue;
     }
-    EXPECT_LT(force.norm(), 64 * kEps * sum);
-    EXPECT_LT(torque.norm(), 64 * kEps * 20 * sum);
+    EXPECT_LT(net.force.norm(), 64 * kEps * net.sum_force);
+    EXPECT_LT(net.torque.norm(), 64 * kEps * 20 * net.sum_force);
     for (int i = 0; i < c.n_node(); ++i)
       EXPECT_LT((turned.force(l, i) - q * c.force(l, i)).norm(), 1e4 * kEps * largest);
   }

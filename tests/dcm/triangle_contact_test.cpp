@@ -37,17 +37,12 @@ struct Residual {
   double force = 0, torque = 0;  ///< over the sum of magnitudes
 };
 Residual residual_of(const Clump& c, const std::vector<double>& force) {
-  Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
-  double sum = 0, sum_torque = 0;
+  reference::NetForce net;
   c.for_each_node([&](Address a) {
-    const Vec3 f = load_point(force.data(), a), x = load_point(c.state.position.data(), a);
-    net += f;
-    torque += x.cross(f);
-    sum += f.norm();
-    sum_torque += f.norm() * x.norm();
+    net.add(load_point(c.state.position.data(), a), load_point(force.data(), a));
   });
-  EXPECT_GT(sum, 1);
-  return {net.norm() / sum, torque.norm() / sum_torque};
+  EXPECT_GT(net.sum_force, 1);
+  return {net.force.norm() / net.sum_force, net.torque.norm() / net.sum_torque};
 }
 
 // Forces balance whatever weights are rounded to; moments to the rounding of the places, 6e-8 of an

@@ -15,7 +15,7 @@ namespace {
 /// Some tens of sums of numbers of order one.
 constexpr double kRounding = 1e-13;
 
-std::vector<BallCut> box(const Vec3& low, const Vec3& high) {
+std::vector<BallCut> box_planes(const Vec3& low, const Vec3& high) {
   std::vector<BallCut> planes;
   for (int m = 0; m < 3; ++m) {
     planes.push_back({Vec3::Unit(m), high[m]});
@@ -54,7 +54,7 @@ TEST(CutBall, LosesACap) {
 
 TEST(CutBall, IsTheBoxInsideIt) {
   const Vec3 low(-1, -0.5, 0.25), high(0.5, 1, 1.5);  // the middle of the ball is outside
-  const CutBall b = cut_ball(10, box(low, high));
+  const CutBall b = cut_ball(10, box_planes(low, high));
   const Vec3 size = high - low;
   EXPECT_NEAR(b.volume, size.prod(), 1e3 * kRounding) << "differences of 10^3";
   EXPECT_NEAR(b.face[0].area, size.y() * size.z(), 10 * kRounding);
@@ -63,7 +63,7 @@ TEST(CutBall, IsTheBoxInsideIt) {
 
 TEST(CutBall, LosesSixCapsInAWideCube) {
   const double h = 0.9;  // caps that do not meet
-  const CutBall b = cut_ball(1, box(Vec3::Constant(-h), Vec3::Constant(h)));
+  const CutBall b = cut_ball(1, box_planes(Vec3::Constant(-h), Vec3::Constant(h)));
   EXPECT_NEAR(b.volume, sphere_volume(1) - 6 * kPi / 3 * (1 - h) * (1 - h) * (2 + h),
               10 * kRounding);
 }

@@ -19,8 +19,6 @@
 namespace acinus::runs {
 namespace {
 
-using geometry::contains;
-using geometry::message_of;
 using geometry::TempFolder;
 
 struct LabelledBall {
@@ -83,7 +81,7 @@ TEST(ImportImage, MakesASceneThatStartsWithTheVolumesOfTheImage) {
   const std::string out = folder.path() + "/tissue";
   const ImportedTissue t = import_image(o);
   const std::vector<std::string> written = write_tissue(t, o, out);
-  EXPECT_CONTAINS(message_of([&] { write_tissue(t, o, out); }), "exists already");
+  EXPECT_CONTAINS(test::message_of([&] { write_tissue(t, o, out); }), "exists already");
   const Scene scene = read_scene(written.front());
   EXPECT_EQ(scene.name, "tissue");
   const BuiltWorld built = build_world(scene, Ranks::serial());
@@ -139,13 +137,13 @@ TEST(ImportImage, TakesVesselsFromALabelOrAnotherImage) {
   EXPECT_CONTAINS(other.warned[0], "voxels belong to a cell and to a vessel");
   o.vessels.clear();
   o.vessel_label = 5;
-  EXPECT_CONTAINS(message_of([&] { import_image(o); }), "no voxel is labelled 5");
+  EXPECT_CONTAINS(test::message_of([&] { import_image(o); }), "no voxel is labelled 5");
 }
 
 TEST(ImportImage, KeepsCellsAtTheBorderBetweenMirrorWallsIfAsked) {
   const TempFolder folder;
   ImportOptions o = options_for(folder, balls({{1, {0, 20, 20}, 9}, {2, {60, 20, 20}, 9}}));
-  const std::string message = message_of([&] { import_image(o); });
+  const std::string message = test::message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "none of its 2 labels can be kept");
   EXPECT_CONTAINS(message, "--border keep");
   o.keep_border = true;
@@ -165,7 +163,7 @@ TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
     all.push_back({static_cast<imaging::Label>(k % 3 + 1),
                    Vec3(10 + 20 * (k / 2), k % 2 == 0 ? 10 : 30, 20), 6});
   ImportOptions o = options_for(folder, balls(all));
-  const std::string message = message_of([&] { import_image(o); });
+  const std::string message = test::message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "3 of 3 labels are in several large pieces, label 1 first");
   EXPECT_CONTAINS(message, "its type counts to 255 only");
   EXPECT_CONTAINS(message, "--split");
@@ -178,7 +176,7 @@ TEST(ImportImage, TellsLabelsThatWereUsedTwice) {
 
 TEST(ImportImage, RefusesImagesWithoutCells) {
   const TempFolder folder;
-  EXPECT_CONTAINS(message_of([&] { import_image(options_for(folder, balls({}))); }),
+  EXPECT_CONTAINS(test::message_of([&] { import_image(options_for(folder, balls({}))); }),
                   "all voxels are 0, the background");
 }
 
@@ -192,7 +190,7 @@ imaging::LabelImage raised(const std::vector<LabelledBall>& all) {
 TEST(ImportImage, AsksAboutALabelThatEnclosesTheImage) {
   const TempFolder folder;
   ImportOptions o = options_for(folder, raised(kTwo));
-  const std::string message = message_of([&] { import_image(o); });
+  const std::string message = test::message_of([&] { import_image(o); });
   EXPECT_CONTAINS(message, "label 1 fills 96 % of the image");
   EXPECT_CONTAINS(message, "--background 1");
   o.background = 1;
@@ -201,7 +199,8 @@ TEST(ImportImage, AsksAboutALabelThatEnclosesTheImage) {
   EXPECT_EQ(t.cell[0].label, 4u);
   EXPECT_NEAR(t.cell[0].volume, sphere_volume(8), 0.03 * sphere_volume(8));
   o.background = 7;
-  EXPECT_CONTAINS(message_of([&] { import_image(o); }), "--background 7: no voxel has this label");
+  EXPECT_CONTAINS(test::message_of([&] { import_image(o); }),
+                  "--background 7: no voxel has this label");
   o.background = 0;  // it is a cell, cut off by the border
   EXPECT_CONTAINS(why(import_image(o), 1), "cut off by the border");
 }

@@ -12,7 +12,7 @@ namespace acinus::runs {
 namespace {
 
 /// One deformable cell of 12 um at the origin, and what a frame of it measures.
-struct Watched {
+struct WatchedCell {
   Scene scene{};
   coupling::World world = coupling::make_test_world({{Vec3::Zero(), true}}, 60, 642);
   coupling::Workspace work{};
@@ -36,7 +36,7 @@ contact::Pipette hole(double start, double length) {
 }
 
 TEST(Plates, MeasureGapForceAndArea) {
-  Watched w;
+  WatchedCell w;
   contact::Plane low, high;
   low.point = Vec3(0, 0, -11.5);
   high.point = Vec3(0, 0, 11.5);
@@ -74,7 +74,7 @@ TEST(Aspiration, ClosedFormHasItsLimits) {
 }
 
 TEST(Aspiration, MeasuresTheLengthBeyondTheMouth) {
-  Watched w;
+  WatchedCell w;
   w.world.params.suction = {Vec3(0, 0, 9), Vec3::UnitZ(), 6, {{{0, 0.05}}}};
   Measures m = w.look(sample_aspiration);
   EXPECT_NEAR(m["aspirated_length_um"][0], 3, 0.05) << "the mesh stands 0.3 % out";
@@ -97,7 +97,7 @@ TEST(Aspiration, CriticalPressureIsWhereTheLengthIsRadiusAndLip) {
 }
 
 TEST(NarrowGap, MeasuresWhereTheCellIs) {
-  Watched w;
+  WatchedCell w;
   w.world.params.boundary.pipettes = {hole(-5, 10)};
   Measures m = w.look(sample_narrow_gap);
   EXPECT_NEAR(m["position_um"][0], 5, 1e-12);
