@@ -1,5 +1,5 @@
 #pragma once
-/// Measured speed and error of named cases.
+/// Benchmarks of speed and error, by name.
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 namespace acinus::bench {
 
 /// Runs a benchmark and prints its table.
-/// @return the process exit code: 1 if a row did not pass
-/// @throws Error for an unknown name or a file that cannot be written
+/// @return exit code: 1 if a row did not pass
+/// @throws Error for an unknown name or an unwritable file
 int run_bench(const std::string& name, const BenchOptions& options);
 
-/// Names that run_bench knows.
+/// Names of all benchmarks.
 std::vector<std::string> list_benches();
 
 }  // namespace acinus::bench

@@ -1,4 +1,4 @@
-/// acinus-bench, also started by `acinus bench`.
+/// Program acinus-bench, also started by `acinus bench`.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

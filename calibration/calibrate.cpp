@@ -12,29 +12,29 @@
 namespace acinus::calibration {
 namespace {
 
-/// Largest overlap from which on a compression that ended early still says how cells stiffen.
-constexpr double kWorthFitting = 0.15;
+/// Smallest overlap that a compression which ended early must reach to be fitted.
+constexpr double kLeastFittedOverlap = 0.15;
 
 constexpr int kCannotContinue = static_cast<int>(Exit::kCannotContinue);
 
-/// Whether a compression that could not go on reached overlaps that are worth a fit.
-bool got_far(const ForceCurve& curve, const Runs& runs) {
+/// True if a compression that ended early reached overlaps that are worth a fit.
+bool is_worth_fitting(const ForceCurve& curve, const Runs& runs) {
   const double reached = curve.overlap.back();
-  if (reached < kWorthFitting) return false;
+  if (reached < kLeastFittedOverlap) return false;
   runs.say(fmt::format("the compression ended early, at d = {:.3f}: the law is fitted up to there",
                        reached));
   return true;
 }
 
-/// d of the central cell when its clump has come to rest and nothing presses it yet: where its
-/// contact pressure is smallest after the first tenth of the time.
+/// Overlap d of the central cell in the relaxed, unloaded clump: at the smallest contact pressure
+/// after the first tenth of the time.
 double overlap_at_rest(const std::vector<ClumpSample>& central) {
   const auto first = central.begin() + static_cast<std::ptrdiff_t>(central.size() / 10);
   return std::ranges::min_element(first, central.end(), {}, &ClumpSample::pressure)->overlap;
 }
 
-/// Compresses spheres with the law until they bear what the cells do in a capsule as wide: each
-/// time they meet it later by as much as theirs is too wide.
+/// Compresses spheres with the law until they carry the force of the cells in a capsule as wide, by
+/// increasing their recess at walls by the excess of the capsule each time.
 /// @return exit code of a run that was stopped or failed, else 0
 int fit_wall_recess(const Clump& clump, const Compression& cells, double highest, const Runs& runs,
                     Calibration& found) {
@@ -83,7 +83,7 @@ void relax(const Options& options, const Runs& runs, Calibration& found) {
   found.friction = fit_friction(world, options.relaxation_time);
 }
 
-/// The form that fits best, before it is known how its spheres meet walls.
+/// Law of the best form, before the recess at walls is known.
 Law make_law(const Clump& clump, const FitAttempt& attempt) {
   Law law = attempt.law;
   law.dcm = clump.dcm;
@@ -104,7 +104,7 @@ Calibration calibrate(const Clump& clump, const Options& options, const Runs& ru
                           find_inner_cells(deformable.snapshots, clump.center)};
   found.inner = static_cast<int>(cells.inner.size());
   found.dcm = force_curve(cells.snapshots, cells.inner);
-  if (found.exit != 0 && !got_far(found.dcm, runs)) return found;
+  if (found.exit != 0 && !is_worth_fitting(found.dcm, runs)) return found;
   const CompressionRun plain = runs.compress(ClumpModel::kSpheres, {});
   found.exit = plain.exit;
   if (found.exit != 0) return found;

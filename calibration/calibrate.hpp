@@ -1,5 +1,5 @@
 #pragma once
-/// From a clump that both models compress to the law that corrects the spheres.
+/// Calibration of the law that corrects the spheres, from a clump that both models compress.
 
 #include <functional>
 #include <string>
@@ -14,13 +14,13 @@ namespace acinus::calibration {
 
 struct Options {
   FitOptions fit;
-  bool relaxation = true;      ///< also the time the clump takes to relax
-  double relaxation_time = 0;  ///< s, to which the cell-cell friction is fitted; 0 = it is not
-  /// nN s/um^3: relaxation time with this cell-cell friction too; 0 = no
+  bool relaxation = true;      ///< also compute the relaxation time of the clump
+  double relaxation_time = 0;  ///< s, to which the cell-cell friction is fitted; 0 = no fit
+  /// Cell-cell friction for which the relaxation time is computed too, nN s/um^3; 0 = none
   double check_friction = 0;
 };
 
-/// What is calibrated.
+/// Clump to calibrate with, and its cells.
 struct Clump {
   cbm::Params sphere;                         ///< constants of the spheres; young is a0
   double radius = 0;                          ///< um, of a cell
@@ -31,45 +31,44 @@ struct Clump {
 
 enum class ClumpModel { kDeformable, kSpheres, kCorrectedSpheres };
 
-/// How the clump was compressed as cells of one model.
+/// Compression of the clump as cells of one model.
 struct CompressionRun {
   int exit = 0;  ///< exit code of a run that was stopped or failed, else 0
-  /// Empty if the run was stopped, or plain spheres could not go on. Other runs that could not go
-  /// on have those they got to.
+  /// Snapshots over time. Empty if the run was stopped, or plain spheres could not go on. Other
+  /// runs that could not go on have those up to that point.
   std::vector<ClumpSnapshot> snapshots;
   std::vector<ClumpSample> central;  ///< the central cell in each snapshot
 };
 
-/// The runs that a calibration is made of. Where they stand, and how they are stopped and taken up
-/// again, is the business of the caller.
+/// Simulations of a calibration. The caller keeps their folders, stops and resumes them.
 struct Runs {
-  /// @param law  of corrected spheres; other models do not look at it
+  /// Compresses the clump. @param law  of corrected spheres; other models ignore it
   std::function<CompressionRun(ClumpModel model, const Law& law)> compress;
-  /// The deformable cells at the end of their compression.
+  /// Deformable cells at the end of their compression.
   std::function<coupling::World()> compressed_world;
-  std::function<void(const std::string& text)> say;  ///< progress
+  std::function<void(const std::string& text)> say;  ///< reports progress
 };
 
-/// What a calibration found.
+/// Results of a calibration.
 struct Calibration {
-  int exit = 0;  ///< exit code of a run that was stopped or failed: the rest is not known then
+  int exit = 0;  ///< exit code of a run that was stopped or failed; the rest is then unknown
   Law law;
-  std::vector<FitAttempt> attempts;             ///< the last one became the law
-  int inner = 0;                                ///< cells that are not at the capsule
+  std::vector<FitAttempt> attempts;             ///< the last one is the law
+  int inner = 0;                                ///< number of cells that are not at the capsule
   ForceCurve dcm, plain, corrected;             ///< force over overlap, means over inner cells
   double error_plain = 0, error_corrected = 0;  ///< relative, over the fitted range
   double capsule_excess = 0;  ///< um, by which the capsule of the corrected spheres is wider
   double contacts_first = 0, contacts_last = 0;  ///< of the central deformable cell
-  double overlap_at_rest = 0;                    ///< its d when nothing presses
+  double overlap_at_rest = 0;                    ///< its d without load
   std::vector<Relaxation> relaxation;            ///< Table 1, all friction x 5 (empty: not asked)
-  FrictionFit friction;                          ///< 0: not asked for
-  double friction_before = 0;                    ///< nN s/um^3
-  FrictionFit checked;                           ///< Options::check_friction
+  FrictionFit friction;        ///< fit to Options::relaxation_time; 0: not asked for
+  double friction_before = 0;  ///< nN s/um^3
+  FrictionFit checked;         ///< relaxation with Options::check_friction
 };
 
-/// Compresses the clump as deformable cells and as spheres, fits, compresses the corrected spheres
-/// until their capsule is as wide, lets the deformable ones relax.
-/// @throws Error(kCannotContinue) where the compression says too little or no law fits
+/// Calibrates the law: compresses the clump as deformable cells and as spheres, fits, compresses
+/// the corrected spheres until their capsule is as wide, lets the deformable ones relax.
+/// @throws Error(kCannotContinue) where the compression gives too little data or no law fits
 Calibration calibrate(const Clump& clump, const Options& options, const Runs& runs);
 
 }  // namespace acinus::calibration

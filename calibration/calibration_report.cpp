@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "calibration/recovery.hpp"
@@ -36,7 +35,7 @@ Json json_of(const Relaxation& r) {
           {"misfit", r.decay.rms}};
 }
 
-/// The relaxation with another cell-cell friction: the one that was asked for, else the fitted one.
+/// Relaxation with another cell-cell friction: the one that was asked for, else the fitted one.
 const FrictionFit& other_friction(const Calibration& c) {
   return c.checked.friction > 0 ? c.checked : c.friction;
 }

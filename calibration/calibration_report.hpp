@@ -7,7 +7,7 @@
 
 namespace acinus::calibration {
 
-/// The table that `acinus calibrate` prints.
+/// Table that `acinus calibrate` prints.
 std::string calibration_table(const Calibration& found);
 
 /// Writes curves.json, force.svg and relaxation.svg into the folder.   @throws Error(kFileError)

@@ -16,7 +16,7 @@ constexpr std::size_t kShell = 14;
 std::size_t find_central_cell(std::span<const coupling::CellMeasure> cells, const Vec3& point) {
   const auto nearest = std::ranges::min_element(
       cells, {}, [&](const coupling::CellMeasure& c) { return (c.center - point).squaredNorm(); });
-  return static_cast<std::size_t>(nearest - cells.begin());
+  return nearest - cells.begin();
 }
 
 ClumpSample measure_clump(std::span<const coupling::CellMeasure> cells, std::size_t cell) {

@@ -12,19 +12,18 @@
 #include "core/parallel/stop.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
 
 namespace acinus::calibration {
 namespace {
 
-constexpr double kFirstLook = 5;           ///< s after the release, at Table 1 friction
-constexpr double kGrowth = 1.15;           ///< of the time from look to look
-constexpr double kRest = 0.01;             ///< share of the way in the second half of the time
-constexpr double kShortest = 600;          ///< s, at Table 1 friction
-constexpr double kSolverTolerance = 1e-5;  ///< the slow tail is small change
-constexpr double kLongest = 1e3 * 3600;
+constexpr double kFirstSample = 5;     ///< s after the release, at Table 1 friction
+constexpr double kSampleRatio = 1.15;  ///< ratio of the times of successive samples
+constexpr double kRestShare = 0.01;  ///< largest share of the recovery in its second half, at rest
+constexpr double kLeastDuration = 600;     ///< s, least duration at Table 1 friction
+constexpr double kSolverTolerance = 1e-5;  ///< the slow tail consists of small changes
+constexpr double kLargestDuration = 1e3 * 3600;
 
-/// Time each sample stands for, the trapezoidal rule's weights.
+/// Weights of the samples by the trapezoidal rule: the time that each stands for.
 std::vector<double> weights_of(std::span<const double> t) {
   std::vector<double> w(t.size(), 0.0);
   for (std::size_t k = 1; k < t.size(); ++k) {
@@ -34,7 +33,7 @@ std::vector<double> weights_of(std::span<const double> t) {
   return w;
 }
 
-/// Best start and end for a given time, and the misfit that remains.
+/// Best start and end for a given decay time, and the remaining misfit.
 Decay fit_with_time(double time, std::span<const double> t, std::span<const double> y,
                     std::span<const double> w) {
   double s = 0, se = 0, see = 0, sy = 0, sey = 0;
@@ -58,15 +57,15 @@ Decay fit_with_time(double time, std::span<const double> t, std::span<const doub
   return d;
 }
 
-/// The compressed clump without its capsule, steps and solver as its way back asks.
-coupling::World let_go(coupling::World world, double scale) {
+/// Compressed clump without its capsule, with the steps and solver settings of its relaxation.
+coupling::World make_released(coupling::World world, double scale) {
   world.params.boundary.capsules.clear();
   world.params.motility.random = false;
   coupling::Numerics& numerics = world.params.numerics;
   numerics.max_step *= scale;
   numerics.min_step *= scale;
   numerics.cg.tolerance = std::min(numerics.cg.tolerance, kSolverTolerance);
-  world.state.clock.step = kFirstLook * scale / 10;
+  world.state.clock.step = kFirstSample * scale / 10;
   world.state.clock.last_step = 0;  // what happened in the capsule says nothing about what comes
   return world;
 }
@@ -123,7 +122,7 @@ Relaxation relax_clump(coupling::World world, double scale) {
   const Vec3 center = world.params.boundary.capsules.empty()
                           ? Vec3(Vec3::Zero())
                           : world.params.boundary.capsules.front().center;
-  coupling::Simulation simulation(let_go(std::move(world), scale));
+  coupling::Simulation simulation(make_released(std::move(world), scale));
   Relaxation r;
   std::size_t central = 0;
   const auto look = [&](double time) {
@@ -135,7 +134,7 @@ Relaxation relax_clump(coupling::World world, double scale) {
     r.overlap.push_back(measure_clump(cells, central).shell_overlap);
   };
   look(0);
-  for (double time = 0, next = kFirstLook * scale;; next *= kGrowth) {
+  for (double time = 0, next = kFirstSample * scale;; next *= kSampleRatio) {
     const coupling::LoopResult steps = simulation.run_until(simulation.time() + (next - time));
     check(!steps.last.interrupted, "relaxation: stopped by " + describe_stop(), Exit::kStopped);
     check(
@@ -148,9 +147,9 @@ Relaxation relax_clump(coupling::World world, double scale) {
     const auto half = std::ranges::lower_bound(r.time, time / 2) - r.time.begin();
     const double late = std::abs(r.overlap.back() - r.overlap[half]),
                  way = std::abs(r.overlap.back() - r.overlap.front());
-    if (time >= kShortest * scale && late <= kRest * way) break;
+    if (time >= kLeastDuration * scale && late <= kRestShare * way) break;
     check(
-        time < kLongest * scale,
+        time < kLargestDuration * scale,
         fmt::format("relaxation: the clump still moves {:.3g} h after its release, overlap {:.4g}",
                     time / 3600, r.overlap.back()),
         Exit::kCannotContinue);

@@ -1,5 +1,5 @@
 #pragma once
-/// Relaxation time of a released compressed clump, and the friction that gives a wanted time.
+/// Relaxation time of a released compressed clump, and the friction for a given relaxation time.
 /// [VanLiedekerke2020, Appendix 1, Fig. 12c]
 
 #include <functional>
@@ -10,14 +10,15 @@
 
 namespace acinus::calibration {
 
-/// y(t) = end + (start - end) exp(-t / time), by least squares over time.
+/// Exponential decay y(t) = end + (start - end) exp(-t / time), by least squares over time.
 struct Decay {
   double time = 0;  ///< s
   double start = 0, end = 0;
-  double rms = 0;  ///< of the misfit, over |start - end|
+  double rms = 0;  ///< of the misfit, relative to |start - end|
 };
 
-/// Samples count with the time they stand for, so that their spacing does not matter.
+/// Fits an exponential decay. Samples are weighted by the time they stand for, so that their
+/// spacing does not matter.
 /// @param t  [n] s, ascending from 0, n >= 4
 Decay fit_decay(std::span<const double> t, std::span<const double> y);
 
@@ -27,12 +28,13 @@ struct Relaxation {
   Decay decay;
 };
 
-/// Follows a compressed clump from the moment its capsule opens, until the second half of the time
-/// brings less than 1 % of the way.
-/// @param world   compressed; its capsules are taken away, motion of its own is off
-/// @param friction_scale  expected slow-down over Table 1 friction: times and steps scale with it
+/// Simulates the relaxation of a compressed clump from the opening of its capsule, until the second
+/// half of the time contributes less than 1 % of the recovery.
+/// @param world   compressed; its capsules are removed, active motion is off
+/// @param friction_scale  expected slow-down relative to Table 1 friction: times and steps scale
+///                        with it
 /// @throws Error(kCannotContinue) if a step fails or the clump does not come to rest,
-///         Error(kStopped) if the process was asked to stop
+/// Error(kStopped) if the process was asked to stop
 Relaxation relax_clump(coupling::World world, double friction_scale);
 
 /// Multiplies every friction coefficient of a run. All times scale with the factor exactly.
@@ -43,8 +45,8 @@ struct FrictionFit {
   Relaxation relaxation;
 };
 
-/// Cell-cell friction of deformable cells with which the clump takes `time` s to relax, all other
-/// friction as it is, to 2 %.
+/// Fits the cell-cell friction of deformable cells to a relaxation time of `time` s, to 2 %, with
+/// all other friction unchanged.
 /// @throws Error(kCannotContinue) when no friction does within 12 attempts
 FrictionFit fit_friction(const coupling::World& world, double time);
 

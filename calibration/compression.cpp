@@ -4,14 +4,14 @@
 #include <numeric>
 
 #include "coupling/measure/measure.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::calibration {
 namespace {
 
-/// d of the inner cells.
+/// Mean overlap d of the inner cells.
 double mean_overlap(const ClumpSnapshot& snapshot, const std::vector<std::size_t>& inner) {
   double sum = 0;
   for (const std::size_t i : inner)
@@ -95,6 +95,8 @@ ClumpSnapshot as_spheres(const ClumpSnapshot& snapshot, const cbm::Params& spher
   coupling::World world;
   world.params.cbm = {sphere, sphere};
   world.params.cbm[1].correction = {};
+  world.params.cbm_contact.cell_friction = 0;
+  world.params.motility.random = false;
   world.state.cbm = cbm::make_state(cells);
   coupling::Workspace work;
   coupling::size_workspace(world, work);

@@ -19,13 +19,13 @@ constexpr double kLeastPower = 1.05;
 constexpr double kNormal95 = 1.96;
 constexpr std::size_t kLeastSamples = 8;
 
-/// The snapshots that count, and what is known about them.
+/// Snapshots of the fit, with derived numbers.
 struct Samples {
   Compression compression;
   std::vector<double> force;      ///< nN, of each snapshot
   std::array<double, 2> range{};  ///< of d
   double rms = 0;                 ///< nN, of the force
-  double stiffer = 0;  ///< their force over that of plain spheres at the end of the range
+  double stiffer = 0;  ///< their force relative to that of plain spheres at the end of the range
 };
 
 Samples choose_samples(const Compression& compression, const cbm::Params& sphere, double highest) {
@@ -53,19 +53,19 @@ Samples choose_samples(const Compression& compression, const cbm::Params& sphere
   return chosen;
 }
 
-/// The leading term, and its power if that is sought as well: x = {factor, power}, of order one.
+/// Leading term, and its power if that is fitted as well: x = {factor, power}, of order one.
 struct LeadingTerm {
   double modulus = 0, highest = 0, power = 4;
-  /// The factor is what the term adds at the end of the range, over the modulus.
-  /// A trial of the solver below -1 would leave no modulus at `highest`.
-  static constexpr double kSoftest = -0.99;
+  /// Lower bound of the factor, which is what the term adds at the end of the range, over the
+  /// modulus. A trial of the solver below -1 would leave no modulus at `highest`.
+  static constexpr double kLeastFactor = -0.99;
   cbm::StiffnessLaw::Term at(const Eigen::VectorXd& x) const {
     const double p = x.size() > 1 ? kLeastPower + (power - kLeastPower) * std::exp(x[1]) : power;
-    return {std::max(x[0], kSoftest) * modulus / std::pow(highest, p), p};
+    return {std::max(x[0], kLeastFactor) * modulus / std::pow(highest, p), p};
   }
 };
 
-/// Residuals as Eigen's solver wants them: force of spheres minus target, over the rms of it.
+/// Residuals for Eigen's solver: force of spheres minus target, over the rms of the target.
 struct Residuals {
   using Scalar = double;
   using InputType = Eigen::VectorXd;

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All that is hashed: everything but the hash itself, warnings and where the law came from.
+/// Hashed content of a law: everything but the hash itself, warnings and provenance.
 Json numbers_of(const Law& law) {
   Json j;
   j["schema_version"] = kLawSchema;
@@ -46,7 +46,7 @@ std::string hash_of(const Json& numbers) {
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
-/// Where the first number that is no number stands; empty: all are fine.
+/// Path of the first number that is not finite; empty: all are.
 std::string find_not_finite(const Json& j, const std::string& path = "") {
   if (j.is_number_float() && !std::isfinite(j.get<double>())) return path.empty() ? "/" : path;
   if (!j.is_structured()) return "";
@@ -55,7 +55,7 @@ std::string find_not_finite(const Json& j, const std::string& path = "") {
   return "";
 }
 
-/// Reads keys of one object and tells the user where something is wrong.
+/// Reader of the keys of one object, with errors for the user.
 class Reader {
  public:
   Reader(const Json& json, std::string where) : json_(json), where_(std::move(where)) {
@@ -89,7 +89,7 @@ class Reader {
       p[name] = number(value, where + "/" + name, -kAny, kAny);
     return p;
   }
-  /// A key that nobody reads is a slip, or of another program.
+  /// Throws Error at an unknown key: a typing error, or a key of another program.
   void has_only(const std::vector<std::string>& known) const {
     for (const auto& [name, unused] : json_.items())
       check(std::ranges::find(known, name) != known.end(),

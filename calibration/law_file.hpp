@@ -9,15 +9,15 @@ namespace acinus::calibration {
 
 inline constexpr int kLawSchema = 3;
 
-/// The law as JSON text. Throws Error when a number is not finite: no NaN ever reaches a file.
+/// Law as JSON text. Throws Error when a number is not finite: no NaN ever reaches a file.
 std::string law_text(const Law& law);
 
-/// Writes it, all or nothing. Throws Error(kFileError).
+/// Writes a law file, all or nothing. Throws Error(kFileError).
 void write_law(const Law& law, const std::string& path);
 
-/// Throws Error naming the file, the key, what was found and what is allowed: a file that cannot be
-/// read or is no JSON, another schema version, keys that are missing or of the wrong kind, numbers
-/// out of their range, or a hash that says that the numbers were edited.
+/// Reads a law file. Throws Error naming the file, the key, the value found and the values allowed:
+/// a file that cannot be read or is no JSON, another schema version, keys that are missing or of
+/// the wrong kind, numbers out of their range, or a hash that shows that the numbers were edited.
 Law read_law(const std::string& path);
 
 }  // namespace acinus::calibration

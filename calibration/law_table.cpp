@@ -8,29 +8,29 @@ namespace acinus::calibration {
 namespace {
 
 /// Range of tabulated moduli, relative to that of plain spheres.
-constexpr double kSoftest = 1e-3, kStiffest = 1e3;
+constexpr double kLeastModulus = 1e-3, kLargestModulus = 1e3;
 /// Largest spacing of entries: in d, and as a factor of moduli.
-constexpr double kStride = 0.01, kRise = 1.25;
+constexpr double kOverlapSpacing = 0.01, kModulusRatio = 1.25;
 
-/// Share of the largest force below which pulls and pushes cancel and a ratio of forces says
-/// nothing.
-constexpr double kTells = 0.002;
-constexpr int kRounds = 4;  ///< of corrections; the error stands still after two or three
-/// What one round changes at most.
+/// Share of the largest force below which repulsion and attraction cancel and a ratio of forces has
+/// no meaning.
+constexpr double kLeastForceShare = 0.002;
+constexpr int kRounds = 4;  ///< of corrections; the error stays the same after two or three
+/// Largest factor by which one round changes a modulus.
 constexpr double kLargestChange = 1.5;
 
-/// An overlap, and the modulus that it asks for.
+/// Overlap with the modulus that fits it.
 struct Demand {
   double overlap = 0, modulus = 0;
   double force = 0;  ///< nN, of the cells
   const ClumpSnapshot* snapshot = nullptr;
 };
 
-/// The modulus all spheres must have for the force of a snapshot, which rises with it.
+/// Modulus of all spheres that gives the force of a snapshot; the force rises with it.
 double find_modulus(const ClumpSnapshot& snapshot, double force, cbm::Params sphere,
                     const std::vector<std::size_t>& inner) {
   const double plain = sphere.young;
-  double low = kSoftest * plain, high = kStiffest * plain;
+  double low = kLeastModulus * plain, high = kLargestModulus * plain;
   while (high > 1.0001 * low) {
     sphere.young = std::sqrt(low * high);
     (bulk_as_spheres(snapshot, sphere, inner).force < force ? low : high) = sphere.young;
@@ -53,8 +53,8 @@ std::vector<Demand> find_demands(const Compression& compression, const cbm::Para
   return demands;
 }
 
-/// Means over demands near each other, finest where moduli rise fastest. Where they fall they are
-/// made level.
+/// Table of means over neighbouring demands, finest where moduli rise fastest. Falling moduli are
+/// levelled.
 std::vector<TableEntry> make_table(std::vector<Demand> demands) {
   struct Bin {
     double overlap = 0, modulus = 0, weight = 0;
@@ -63,7 +63,8 @@ std::vector<TableEntry> make_table(std::vector<Demand> demands) {
   std::vector<Bin> bins;
   Demand start;
   for (const Demand& d : demands) {
-    if (bins.empty() || d.overlap > start.overlap + kStride || d.modulus > kRise * start.modulus) {
+    if (bins.empty() || d.overlap > start.overlap + kOverlapSpacing ||
+        d.modulus > kModulusRatio * start.modulus) {
       bins.push_back({});
       start = d;
     }
@@ -114,7 +115,7 @@ Law tabulate_law(const Compression& compression, const cbm::Params& sphere, cons
     for (Demand& d : demands) {
       const double force = force_with(law, *d.snapshot, sphere, compression.inner);
       misfit += std::pow(force - d.force, 2);
-      if (d.force > kTells * largest)
+      if (d.force > kLeastForceShare * largest)
         d.modulus *= force > 0 ? std::clamp(d.force / force, 1 / kLargestChange, kLargestChange)
                                : kLargestChange;
     }

@@ -7,31 +7,31 @@
 namespace acinus::calibration {
 namespace {
 
-constexpr double kAtOnce = 10;    ///< s
-constexpr double kThere = 0.01;   ///< share of the way that does not count
-constexpr double kMost = 0.5;     ///< share of the largest way before which nothing ends
-constexpr double kNoWay = 1e-12;  ///< relative to the values: nothing moved
+constexpr double kImmediate = 10;       ///< s, end of the immediate recovery
+constexpr double kEndShare = 0.01;      ///< share of the recovery that does not count
+constexpr double kLeastProgress = 0.5;  ///< share of the largest recovery before its end
+constexpr double kNegligible = 1e-12;   ///< relative to the values: no recovery
 
-/// The first time at which as long again brings less than 1 % more, and the value after that; an
-/// infinite time if it was not followed so far. Before half of the way a curve that turns round
-/// once must not be taken for one that ends.
-struct WayEnd {
+/// End of the recovery: the first time at which as long again brings less than 1 % more, and the
+/// value after that; an infinite time if the record is too short. Not before half of the recovery,
+/// lest a single turn of the curve be taken for its end.
+struct RecoveryEnd {
   double time = std::numeric_limits<double>::infinity(), value = 0;
 };
-WayEnd find_end(std::span<const double> t, std::span<const double> y) {
+RecoveryEnd find_end(std::span<const double> t, std::span<const double> y) {
   const double farthest =
       *std::ranges::max_element(y, {}, [&](double v) { return std::abs(v - y.front()); });
-  const double most = kMost * std::abs(farthest - y.front());
+  const double most = kLeastProgress * std::abs(farthest - y.front());
   for (std::size_t k = 1; k < t.size() && 2 * t[k] <= t.back(); ++k) {
     const double later = value_at(2 * t[k], t, y);
-    if (t[k] >= kAtOnce && std::abs(y[k] - y.front()) >= most &&
-        std::abs(later - y[k]) <= kThere * std::abs(later - y.front()))
+    if (t[k] >= kImmediate && std::abs(y[k] - y.front()) >= most &&
+        std::abs(later - y[k]) <= kEndShare * std::abs(later - y.front()))
       return {t[k], later};
   }
   return {std::numeric_limits<double>::infinity(), farthest};
 }
 
-/// When a falling line between samples k - 1 and k is at a level.
+/// Time at which a falling line between samples k - 1 and k crosses a level.
 double crossing(double level, std::size_t k, std::span<const double> t, std::span<const double> y) {
   const double drop = y[k - 1] - y[k];
   const double share = drop != 0 ? (y[k - 1] - level) / drop : 1;
@@ -50,10 +50,10 @@ double value_at(double time, std::span<const double> t, std::span<const double> 
 
 Recovery measure_recovery(std::span<const double> t, std::span<const double> y) {
   Recovery r;
-  if (t.size() < 2 || !(t.back() > kAtOnce)) return r;
-  const WayEnd end = find_end(t, y);
+  if (t.size() < 2 || !(t.back() > kImmediate)) return r;
+  const RecoveryEnd end = find_end(t, y);
   const double way = end.value - y.front();
-  if (!(std::abs(way) > kNoWay * std::max(std::abs(end.value), std::abs(y.front())))) return r;
+  if (!(std::abs(way) > kNegligible * std::max(std::abs(end.value), std::abs(y.front())))) return r;
   r.end = end.value;
   std::vector<double> left;  // share of the way
   for (const double v : y) left.push_back((r.end - v) / way);
@@ -62,11 +62,11 @@ Recovery measure_recovery(std::span<const double> t, std::span<const double> y) 
       if (t[k] > after && left[k] <= level) return std::max(after, crossing(level, k, t, left));
     return t.back();
   };
-  if (std::isfinite(end.time)) r.time = first_below(kThere, 0);
-  const double slow = value_at(kAtOnce, t, left);
+  if (std::isfinite(end.time)) r.time = first_below(kEndShare, 0);
+  const double slow = value_at(kImmediate, t, left);
   r.sprung = 1 - slow;
   // Of what is there already nothing is left to be slow.
-  if (slow > kThere) r.efold = first_below(slow / std::exp(1), kAtOnce) - kAtOnce;
+  if (slow > kEndShare) r.efold = first_below(slow / std::exp(1), kImmediate) - kImmediate;
   return r;
 }
 

@@ -1,7 +1,6 @@
 #include "cbm/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "cbm/obstacle_contacts.hpp"
@@ -186,9 +185,9 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   find_moduli(in.state, in.params, work);
   find_pair_contacts(in, work, link);
   find_obstacle_contacts(in, work, contacts.all);
-  contacts.sphere_obstacle_end = contacts.all.size();
+  contacts.close(contact::ContactKind::kSphereObstacle);
   if (!work.coupling.empty())
-    scale_coupling(in, work, std::span(contacts.all).subspan(contacts.interface_end));
+    scale_coupling(in, work, contacts.of(contact::ContactKind::kSphereObstacle));
 }
 
 void add_coupling(ContactWorkspace& work, std::span<Contact> obstacle,
@@ -233,7 +232,7 @@ void add_vessel_loads(const ContactInput& in, const contact::ContactList& contac
     // Spheres may overlap as they like: no depth is too much.
     solve::set_law(k.slope, k.friction, std::numeric_limits<double>::infinity(), k.normal,
                    links.link[l]);
-    links.load[l] = {k.normal, k.force, 0, 0};
+    links.load[l] = {k.normal, k.force, 0, 0, static_cast<std::uint32_t>(&k - contacts.all.data())};
   }
 }
 

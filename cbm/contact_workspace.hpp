@@ -18,7 +18,7 @@ namespace acinus::cbm {
 
 struct ContactParams {
   double skin = 0.3;           ///< um
-  double cell_friction = 0;    ///< nN s/um^3, cell-cell
+  double cell_friction = 10;   ///< nN s/um^3, cell-cell
   double adhesion_factor = 1;  ///< ramps up after start-up
   double friction_factor = 1;  ///< 0 while cells grow to size
 };

@@ -78,7 +78,8 @@ class ObstacleSearch {
     return {shape, m.young, m.poisson};
   }
 
-  /// As RangeSearch::couple; a bound, since a partner's own softness only makes it less.
+  /// Largest change of a contact force of the cell with the modulus that all its contacts set, as
+  /// `by_modulus` for pairs; a bound, since a partner's own softness only makes it less.
   void couple(std::size_t i, const contact::SphereForce& law, double slope) {
     if (work_.coupling.empty()) return;
     const double poisson = params_of(i).poisson;

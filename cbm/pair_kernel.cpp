@@ -69,22 +69,129 @@ FaceModulus face_toward(const ContactInput& in, const ContactWorkspace& work, st
   return modulus_toward(law, in.state.young[cell], crowd, overlap);
 }
 
+/// Up to eight near pairs and their law.
+class PairBatch {
+ public:
+  PairBatch(const ContactInput& in, const ContactWorkspace& work)
+      : in_(in), s_(in.state), cells_(in.cells), work_(work) {}
+
+  std::size_t size() const { return n_; }
+  void clear() { n_ = 0; }
+
+  /// Takes pair k of the list of near pairs. Pairs that come in its order are fastest.
+  /// @return true if the batch is full
+  bool push(std::size_t k) {
+    index[n_] = k;
+    const auto [a, b] = work_.pair[k];
+    const std::size_t i = a, j = b;
+    const Address at_a = cell_address(0, i), at_b = cell_address(0, j);
+    const double* x = s_.position.data();
+    for (std::size_t m = 0; m < 3; ++m) {
+      value.xa[m][n_] = x[at_a + m * kLanes];
+      value.xb[m][n_] = x[at_b + m * kLanes];
+    }
+    value.radius_a[n_] = cells_.radius[i];
+    value.radius_b[n_] = cells_.radius[j];
+    if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
+    const std::size_t ta = s_.type[i], tb = s_.type[j];
+    const Modulus *of_a = &work_.modulus[i], *of_b = &work_.modulus[j];
+    if (!work_.coupling.empty()) {  // a law corrects
+      const double overlap = overlap_now();
+      face[n_] = {face_toward(in_, work_, i, overlap), face_toward(in_, work_, j, overlap)};
+      of_a = &face[n_][0];
+      of_b = &face[n_][1];
+    }
+    const TypeFactors &of_ta = work_.type_factors[ta], &of_tb = work_.type_factors[tb];
+    value.compliance[n_] = of_ta.softness / of_a->value + of_tb.softness / of_b->value;
+    value.adhesion[n_] = of_ta.root_adhesion * of_tb.root_adhesion;
+    value.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
+    return ++n_ == kLanes;
+  }
+
+  /// Evaluates the law of all pairs taken.
+  void evaluate_all() {
+    for (std::size_t l = n_; l < kLanes; ++l) {  // idle lanes repeat the last pair
+      for (std::size_t m = 0; m < 3; ++m) {
+        value.xa[m][l] = value.xa[m][n_ - 1];
+        value.xb[m][l] = value.xb[m][n_ - 1];
+      }
+      value.radius_a[l] = value.radius_a[n_ - 1];
+      value.radius_b[l] = value.radius_b[n_ - 1];
+      value.compliance[l] = value.compliance[n_ - 1];
+      value.adhesion[l] = value.adhesion[n_ - 1];
+      value.was_touching[l] = value.was_touching[n_ - 1];
+    }
+    evaluate(value);
+    if (!cells_.strength.empty()) weaken(share_, value);
+    if (!work_.coupling.empty())
+      for (std::size_t l = 0; l < n_; ++l) stiffen(l);
+  }
+
+  /// Growth of the slope of a contact because the modulus of a side grows with its overlap, nN/um.
+  /// dF/dE^ is (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
+  double by_modulus(std::size_t cell, const Modulus& m, std::size_t l) const {
+    const double softness = work_.type_factors[s_.type[cell]].softness;
+    const double by_own = 2.0 / 3 * std::max(value.overlap[l], 0.0) * value.stiffness[l] *
+                          softness / (value.compliance[l] * m.value * m.value);
+    return by_own * m.slope / (value.radius_a[l] + value.radius_b[l]);
+  }
+
+  Batch value{};
+  std::array<std::array<FaceModulus, 2>, kLanes> face{};  ///< of both sides, if a law corrects
+  std::size_t index[kLanes] = {};                         ///< in the list of near pairs
+
+ private:
+  /// Overlap of the pair being pushed, over the sum of its radii.
+  double overlap_now() const {
+    double squared = 0;
+    for (std::size_t m = 0; m < 3; ++m) {
+      const double d = value.xa[m][n_] - value.xb[m][n_];
+      squared += d * d;
+    }
+    return 1 - std::sqrt(squared) / (value.radius_a[n_] + value.radius_b[n_]);
+  }
+
+  /// Pairs come in the order of the touching set, so that a finger moves along both.
+  bool was_touching(std::pair<int, int> p) {
+    const auto& t = s_.touching;
+    if (finger_ == kUnset || (finger_ > 0 && !(t[finger_ - 1] < p)))
+      finger_ = static_cast<std::size_t>(std::ranges::lower_bound(t, p) - t.begin());
+    while (finger_ < t.size() && t[finger_] < p) ++finger_;
+    return finger_ < t.size() && t[finger_] == p;
+  }
+
+  /// Adds the growth of the moduli to the slope of a contact whose own overlap decides them.
+  void stiffen(std::size_t l) {
+    const auto [a, b] = work_.pair[index[l]];
+    double more = 0;
+    if (face[l][0].own) more += by_modulus(a, face[l][0], l);
+    if (face[l][1].own) more += by_modulus(b, face[l][1], l);
+    value.stiffness[l] += more;
+  }
+
+  static constexpr std::size_t kUnset = -1;
+  const ContactInput& in_;
+  const State& s_;
+  const CellData& cells_;
+  const ContactWorkspace& work_;
+  double share_[kLanes] = {};  ///< used only when not all strengths are 1
+  std::size_t n_ = 0, finger_ = kUnset;
+};
+
 /// One thread's cells [first, last): all pairs that have a side among them.
 class RangeSearch {
  public:
   RangeSearch(const ContactInput& in, std::pair<std::size_t, std::size_t> range,
               ContactWorkspace& work, std::vector<solve::PointLink>& link,
               std::vector<std::pair<int, int>>& touching)
-      : in_(in),
-        s_(in.state),
-        friction_(in.options.friction_factor * in.options.cell_friction),
-        cells_(in.cells),
+      : friction_(in.options.friction_factor * in.options.cell_friction),
         first_row_(in.first_row),
         first_(static_cast<int>(range.first)),
         last_(static_cast<int>(range.second)),
         work_(work),
         link_(link),
-        touching_(touching) {}
+        touching_(touching),
+        batch_(in, work) {}
 
   void run() {
     clear();
@@ -115,71 +222,14 @@ class RangeSearch {
   }
 
   void push(std::size_t k) {
-    index_[n_] = k;
-    const auto [a, b] = work_.pair[k];
-    const std::size_t i = a, j = b;
-    const Address at_a = cell_address(0, i), at_b = cell_address(0, j);
-    const double* x = s_.position.data();
-    for (std::size_t m = 0; m < 3; ++m) {
-      batch_.xa[m][n_] = x[at_a + m * kLanes];
-      batch_.xb[m][n_] = x[at_b + m * kLanes];
-    }
-    batch_.radius_a[n_] = cells_.radius[i];
-    batch_.radius_b[n_] = cells_.radius[j];
-    if (!cells_.strength.empty()) share_[n_] = cells_.pair_share(i, j);
-    const std::size_t ta = s_.type[i], tb = s_.type[j];
-    const Modulus *of_a = &work_.modulus[i], *of_b = &work_.modulus[j];
-    if (!work_.coupling.empty()) {  // a law corrects
-      const double overlap = overlap_now();
-      face_[n_] = {face_toward(in_, work_, i, overlap), face_toward(in_, work_, j, overlap)};
-      of_a = &face_[n_][0];
-      of_b = &face_[n_][1];
-    }
-    const TypeFactors &of_ta = work_.type_factors[ta], &of_tb = work_.type_factors[tb];
-    batch_.compliance[n_] = of_ta.softness / of_a->value + of_tb.softness / of_b->value;
-    batch_.adhesion[n_] = of_ta.root_adhesion * of_tb.root_adhesion;
-    batch_.was_touching[n_] = was_touching({a, b}) ? 1 : 0;
-    if (++n_ == kLanes) flush();
-  }
-
-  /// Of the pair being pushed, over the sum of its radii.
-  double overlap_now() const {
-    double squared = 0;
-    for (std::size_t m = 0; m < 3; ++m) {
-      const double d = batch_.xa[m][n_] - batch_.xb[m][n_];
-      squared += d * d;
-    }
-    return 1 - std::sqrt(squared) / (batch_.radius_a[n_] + batch_.radius_b[n_]);
-  }
-
-  /// Pairs come in the order of the touching set, so that a finger moves along both.
-  bool was_touching(std::pair<int, int> p) {
-    const auto& t = s_.touching;
-    if (finger_ == kUnset || (finger_ > 0 && !(t[finger_ - 1] < p)))
-      finger_ = static_cast<std::size_t>(std::ranges::lower_bound(t, p) - t.begin());
-    while (finger_ < t.size() && t[finger_] < p) ++finger_;
-    return finger_ < t.size() && t[finger_] == p;
+    if (batch_.push(k)) flush();
   }
 
   void flush() {
-    if (n_ == 0) return;
-    for (std::size_t l = n_; l < kLanes; ++l) {  // idle lanes repeat the last pair
-      for (std::size_t m = 0; m < 3; ++m) {
-        batch_.xa[m][l] = batch_.xa[m][n_ - 1];
-        batch_.xb[m][l] = batch_.xb[m][n_ - 1];
-      }
-      batch_.radius_a[l] = batch_.radius_a[n_ - 1];
-      batch_.radius_b[l] = batch_.radius_b[n_ - 1];
-      batch_.compliance[l] = batch_.compliance[n_ - 1];
-      batch_.adhesion[l] = batch_.adhesion[n_ - 1];
-      batch_.was_touching[l] = batch_.was_touching[n_ - 1];
-    }
-    evaluate(batch_);
-    if (!cells_.strength.empty()) weaken(share_, batch_);
-    if (!work_.coupling.empty())
-      for (std::size_t l = 0; l < n_; ++l) stiffen(l);
-    for (std::size_t l = 0; l < n_; ++l) spread(index_[l], l);
-    n_ = 0;
+    if (batch_.size() == 0) return;
+    batch_.evaluate_all();
+    for (std::size_t l = 0; l < batch_.size(); ++l) spread(batch_.index[l], l);
+    batch_.clear();
   }
 
   /// Adds one pair to the cells of this range.
@@ -187,7 +237,7 @@ class RangeSearch {
     const auto [a, b] = work_.pair[k];
     const bool own = a >= first_;
     if (own) write_link(k, l);
-    if (batch_.touching[l] == 0) return;
+    if (batch_.value.touching[l] == 0) return;
     if (own) {
       make_room(touching_, 1);
       touching_.emplace_back(a, b);
@@ -197,59 +247,49 @@ class RangeSearch {
       const std::size_t i = cell;
       const Address at = cell_address(0, i);
       for (std::size_t m = 0; m < 3; ++m)
-        work_.force[at + m * kLanes] += sign * batch_.force[l] * batch_.normal[m][l];
-      work_.contact_area[i] += batch_.area[l];
+        work_.force[at + m * kLanes] += sign * batch_.value.force[l] * batch_.value.normal[m][l];
+      work_.contact_area[i] += batch_.value.area[l];
       if (work_.coupling.empty()) return;
-      const FaceModulus& face = face_[l][sign > 0 ? 0 : 1];
-      if (!face.own) work_.coupling[i] = std::max(work_.coupling[i], by_modulus(i, face, l));
+      const FaceModulus& face = batch_.face[l][sign > 0 ? 0 : 1];
+      if (!face.own) work_.coupling[i] = std::max(work_.coupling[i], batch_.by_modulus(i, face, l));
     };
     add(a, 1);
     add(b, -1);
-  }
-
-  /// How much stiffer a contact is because the modulus of a side grows with its overlap. dF/dE^ is
-  /// (2/3) (overlap / E^) dF/d overlap, since F depends on overlap E^(2/3) alone.
-  double by_modulus(std::size_t cell, const Modulus& m, std::size_t l) const {
-    const double softness = work_.type_factors[s_.type[cell]].softness;
-    const double by_own = 2.0 / 3 * std::max(batch_.overlap[l], 0.0) * batch_.stiffness[l] *
-                          softness / (batch_.compliance[l] * m.value * m.value);
-    return by_own * m.slope / (batch_.radius_a[l] + batch_.radius_b[l]);
-  }
-
-  /// Adds that to a contact whose own overlap decides.
-  void stiffen(std::size_t l) {
-    const auto [a, b] = work_.pair[index_[l]];
-    double more = 0;
-    if (face_[l][0].own) more += by_modulus(a, face_[l][0], l);
-    if (face_[l][1].own) more += by_modulus(b, face_[l][1], l);
-    batch_.stiffness[l] += more;
   }
 
   void write_link(std::size_t k, std::size_t l) {
     solve::PointLink& link = link_[k];
     link.a = cell_point(first_row_, work_.pair[k].first);
     link.b = cell_point(first_row_, work_.pair[k].second);
-    for (std::size_t m = 0; m < 3; ++m) link.normal[m] = static_cast<float>(batch_.normal[m][l]);
-    link.stiffness = static_cast<float>(batch_.stiffness[l]);
-    link.friction = static_cast<float>(friction_ * batch_.area[l]);
+    for (std::size_t m = 0; m < 3; ++m)
+      link.normal[m] = static_cast<float>(batch_.value.normal[m][l]);
+    link.stiffness = static_cast<float>(batch_.value.stiffness[l]);
+    link.friction = static_cast<float>(friction_ * batch_.value.area[l]);
   }
 
-  static constexpr std::size_t kUnset = -1;
-  const ContactInput& in_;
-  const State& s_;
   double friction_;
-  const CellData& cells_;
   std::size_t first_row_;
   int first_, last_;
   ContactWorkspace& work_;
   std::vector<solve::PointLink>& link_;
   std::vector<std::pair<int, int>>& touching_;
-  Batch batch_{};
-  std::array<std::array<FaceModulus, 2>, kLanes> face_{};  ///< of both sides
-  double share_[kLanes] = {};  ///< used only when not all strengths are 1
-  std::size_t index_[kLanes] = {};
-  std::size_t n_ = 0, finger_ = kUnset;
+  PairBatch batch_;
 };
+
+/// Record of pair l of an evaluated batch.
+contact::Contact record_of(const PairBatch& batch, std::size_t l, std::pair<int, int> pair,
+                           double friction) {
+  const Batch& v = batch.value;
+  return {.a = pair.first,
+          .b = pair.second,
+          .partner = contact::Partner::kSphere,
+          .friction = static_cast<float>(friction * v.area[l]),
+          .normal = Vec3(v.normal[0][l], v.normal[1][l], v.normal[2][l]),
+          .gap = -v.overlap[l],
+          .touching = v.area[l],
+          .force = v.force[l],
+          .slope = v.stiffness[l]};
+}
 
 }  // namespace
 
@@ -276,36 +316,24 @@ void find_pair_contacts(const ContactInput& in, ContactWorkspace& work,
 
 void list_pairs(const ContactInput& in, const ContactWorkspace& work,
                 contact::ContactList& contacts) {
-  const State& s = in.state;
-  const std::span<const double> radius = in.cells.radius;
-  for (const auto& [a, b] : work.touching) {
-    if (b < 0) continue;  // boundary
-    const std::size_t i = a, j = b;
-    const std::size_t ta = s.type[i], tb = s.type[j];
-    const Vec3 d = center_of(s, i) - center_of(s, j);
-    const double distance = d.norm(), overlap = radius[i] + radius[j] - distance;
-    const double sum = radius[i] + radius[j];
-    auto softness = [&](std::size_t cell, std::size_t type) {
-      return work.type_factors[type].softness / face_toward(in, work, cell, overlap / sum).value;
-    };
-    const contact::SpherePair pair{
-        radius[i] * radius[j] / sum, 1 / (softness(i, ta) + softness(j, tb)),
-        work.type_factors[ta].root_adhesion * work.type_factors[tb].root_adhesion};
-    const contact::SphereForce law =
-        weaken(contact::jkr_force(pair, overlap, true), in.cells.pair_share(i, j));
-    const double area = kPi * law.contact_radius * law.contact_radius;
-    contacts.all.push_back({.a = a,
-                            .b = b,
-                            .partner = contact::Partner::kSphere,
-                            .friction = static_cast<float>(in.options.friction_factor *
-                                                           in.options.cell_friction * area),
-                            .place = {},
-                            .normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitX(),
-                            .gap = -overlap,
-                            .touching = area,
-                            .force = law.force,
-                            .slope = std::max(0.0, law.stiffness)});
+  contacts.all.resize(contacts.first(contact::ContactKind::kSphere));
+  const double friction = in.options.friction_factor * in.options.cell_friction;
+  PairBatch batch(in, work);
+  const auto flush = [&] {
+    if (batch.size() == 0) return;
+    batch.evaluate_all();
+    for (std::size_t l = 0; l < batch.size(); ++l)
+      contacts.all.push_back(record_of(batch, l, work.pair[batch.index[l]], friction));
+    batch.clear();
+  };
+  std::size_t k = 0;
+  for (const auto& touching : work.touching) {
+    if (touching.second < 0) continue;  // boundary
+    while (work.pair[k] != touching) ++k;
+    if (batch.push(k)) flush();
   }
+  flush();
+  contacts.close(contact::ContactKind::kSphere);
 }
 
 }  // namespace acinus::cbm

@@ -1,19 +1,18 @@
-/// acinus bench: hands over to the program acinus-bench that stands beside this one
+/// Command `acinus bench`: runs the program acinus-bench that stands beside this one.
 
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <memory>
 
 #include "cli/command.hpp"
 #include "runs/session/child.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 int start_bench(std::vector<std::string>& words) {
-  std::string program = program_beside("acinus-bench");
+  std::string program = runs::program_beside("acinus-bench");
   std::vector<char*> argv{program.data()};
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -36,4 +35,4 @@ Command add_bench(CLI::App& app) {
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

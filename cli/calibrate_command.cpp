@@ -1,4 +1,4 @@
-/// acinus calibrate
+/// Command `acinus calibrate`.
 
 #include "runs/calibrate/calibrate_scene.hpp"
 
@@ -11,18 +11,18 @@
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct CalibrateArguments {
-  CalibrateOptions options;
+  runs::CalibrateOptions options;
   std::string scene_file = "calibration";
   std::vector<std::string> set;
   std::string check_friction, relaxation_time, max_walltime;
 };
 
 int run(CalibrateArguments& arguments) {
-  CalibrateOptions& options = arguments.options;
+  runs::CalibrateOptions& options = arguments.options;
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   if (!arguments.check_friction.empty())
     options.calibration.check_friction =
@@ -30,17 +30,18 @@ int run(CalibrateArguments& arguments) {
   if (!arguments.relaxation_time.empty())
     options.calibration.relaxation_time =
         quantity_of("--relaxation-time", arguments.relaxation_time, kTime);
-  const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
+  const runs::Scene scene =
+      runs::read_scene(runs::find_scene_file(arguments.scene_file), arguments.set);
   // --fresh would throw away what there is.
-  return tell_how_to_go_on(calibrate(scene, options), without_flag(options.command_line, "--fresh"),
-                           options.quiet);
+  return print_how_to_continue(runs::calibrate(scene, options),
+                               without_flag(options.command_line, "--fresh"), options.quiet);
 }
 
 }  // namespace
 
 Command add_calibrate(CLI::App& app, const std::string& command_line) {
   const auto arguments = std::make_shared<CalibrateArguments>();
-  CalibrateOptions& o = arguments->options;
+  runs::CalibrateOptions& o = arguments->options;
   CLI::App* command =
       add_command(app, "calibrate", "find the law that makes spheres push as deformable cells do",
                   "acinus calibrate lobule_hybrid --out law.json");
@@ -98,4 +99,4 @@ Command add_calibrate(CLI::App& app, const std::string& command_line) {
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

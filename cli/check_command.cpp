@@ -1,4 +1,4 @@
-/// acinus check
+/// Command `acinus check`.
 
 #include <memory>
 
@@ -11,31 +11,32 @@
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct CheckArguments {
   std::string scene_file;
   std::vector<std::string> set;
   std::string max_walltime;
-  bool resolved = false;  ///< print the scene with every default
+  bool resolved = false;  ///< print the scene with all defaults
 };
 
 int check_scene(const CheckArguments& arguments) {
   const WallTimeLimit limit(read_wall_time_limit(arguments.max_walltime));
   const ExitAtLimit nothing_to_save;
-  const Scene scene = read_scene(find_scene_file(arguments.scene_file), arguments.set);
-  Scene plain = scene;
+  const runs::Scene scene =
+      runs::read_scene(runs::find_scene_file(arguments.scene_file), arguments.set);
+  runs::Scene plain = scene;
   std::vector<std::string> later;
   for (auto& [name, type] : plain.cell_types) {
     if (type.cbm.stiffness_correction != "auto") continue;
     type.cbm.stiffness_correction = "none";
     later.push_back(name + ": calibrated when the scene runs, if that was not done before");
   }
-  check_memory(plain, machine_memory());
-  const BuiltWorld built =
-      build_world(plain, Ranks::serial());  // throws for geometry that does not fit
-  for (const std::string& warning : built.notes.warned)
+  runs::check_memory(plain, machine_memory());
+  const runs::BuiltWorld built =
+      runs::build_world(plain, Ranks::serial());  // throws for geometry that does not fit
+  for (const std::string& warning : built.notes.warnings)
     fmt::print(stderr, "acinus: warning: {}\n", warning);
   if (arguments.resolved) {
     fmt::print("{}", scene.resolved_json);
@@ -46,9 +47,9 @@ int check_scene(const CheckArguments& arguments) {
       "{}: valid scene \"{}\", {} cell type{}, {} DCM + {} CBM cells from {}, {:.0f} um of "
       "vessels, end {:.4g} h, hash {}\n",
       scene.file, scene.name, scene.cell_types.size(), scene.cell_types.size() == 1 ? "" : "s",
-      dcm::count_cells(state.dcm), state.cbm.n_cell(), name_of_choice(scene.cells.source),
+      dcm::count_cells(state.dcm), state.cbm.n_cell(), runs::name_of_choice(scene.cells.source),
       built.vessel_length, scene.time.end / 3600, scene.hash);
-  for (const std::string& note : built.notes.said) fmt::print("{}\n", note);
+  for (const std::string& note : built.notes.info) fmt::print("{}\n", note);
   for (const std::string& note : later) fmt::print("{}\n", note);
   return 0;
 }
@@ -68,4 +69,4 @@ Command add_check(CLI::App& app) {
   return {command, [arguments] { return check_scene(*arguments); }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -12,7 +12,7 @@
 #include "runs/session/shell_quote.hpp"
 #include "runs/session/together.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 std::string version_text() {
   return fmt::format("acinus {} (git {}, {}, {})", ACINUS_VERSION, ACINUS_GIT, ACINUS_COMPILER,
@@ -21,14 +21,14 @@ std::string version_text() {
 
 namespace {
 
-/// As several. Other launchers may start processes that are meant to be on their own, such as tasks
-/// of a study.
+/// True if mpirun started this program as one of several processes. Other launchers are not
+/// recognised: they also start independent processes, such as tasks of a study.
 bool started_by_mpirun() {
   const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
   return size != nullptr && std::atoi(size) > 1;
 }
 
-/// An empty word comes from a variable of a shell that is not set; it means nothing here.
+/// Refuses empty words, which come from unset shell variables.
 void check_words(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& word : option->results())
@@ -50,7 +50,8 @@ int run_cli(int argc, const char* const* argv) {
       "4 disk or file error, 5 compared runs beyond a tolerance, 75 stopped with a checkpoint "
       "written");
   std::string command_line;
-  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + quote_for_shell(argv[i]);
+  for (int i = 0; i < argc; ++i)
+    command_line += (i > 0 ? " " : "") + runs::quote_for_shell(argv[i]);
   const Command commands[] = {add_run(app, command_line),
                               add_check(app),
                               add_schema(app),
@@ -90,10 +91,11 @@ int run_cli(int argc, const char* const* argv) {
       check_words(*command.app);
       // Benchmarks are another program, which says itself what it is for.
       const std::string name = command.app->get_name();
-      if (name != "run" && name != "bench" && started_by_mpirun()) together(Ranks::world(), refuse);
+      if (name != "run" && name != "bench" && started_by_mpirun())
+        runs::together(Ranks::world(), refuse);
       return command.run();
     }
   return static_cast<int>(Exit::kBadInput);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,16 +1,16 @@
 #pragma once
-/// The command line.
+/// Command line of the program acinus.
 
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::cli {
 
-/// Parses the command line and does what it says.
-/// @return the process exit code; 2 for a command line that makes no sense
-/// @throws Error for everything else that is the user's or the disk's fault
+/// Parses the command line and runs its command.
+/// @return exit code; 2 for an invalid command line
+/// @throws Error for other faults of the user and the disk
 int run_cli(int argc, const char* const* argv);
 
-/// Version, git hash, compiler.
+/// Version, git hash and compiler of this program.
 std::string version_text();
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

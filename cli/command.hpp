@@ -1,5 +1,5 @@
 #pragma once
-/// What the files of this folder share: each adds one command to the command line.
+/// Interface of the commands: each file of this folder adds one to the command line.
 
 #include <fmt/format.h>
 
@@ -12,13 +12,15 @@
 #include "core/error.hpp"
 #include "core/units/units.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
+/// Subcommand with its action.
 struct Command {
-  CLI::App* app;             ///< knows whether it was asked for
-  std::function<int()> run;  ///< does it, once the command line is parsed; returns the exit code
+  CLI::App* app;             ///< subcommand, which knows if it was given
+  std::function<int()> run;  ///< runs the command after parsing; returns the exit code
 };
 
+/// Adds a subcommand with its help text and an example.
 inline CLI::App* add_command(CLI::App& app, const char* name, const char* meaning,
                              const char* example) {
   CLI::App* command = app.add_subcommand(name, meaning);
@@ -26,6 +28,7 @@ inline CLI::App* add_command(CLI::App& app, const char* name, const char* meanin
   return command;
 }
 
+/// Adds the flag --set for changes of the scene, PATH=VALUE.
 inline CLI::Option* add_set(CLI::App& command, std::vector<std::string>& set) {
   return command
       .add_option("--set", set,
@@ -34,14 +37,16 @@ inline CLI::Option* add_set(CLI::App& command, std::vector<std::string>& set) {
       ->allow_extra_args(false);
 }
 
+/// Adds the flag --threads; 0 = all cores.
 inline CLI::Option* add_threads(CLI::App& command, int& threads) {
   return command.add_option("--threads", threads, "threads (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
 }
 
-/// The positive value of a flag.   @param parse  text to value
-/// @throws Error that names the flag
+/// Positive value of a flag.
+/// @param parse  conversion of a text to a value
+/// @throws Error naming the flag
 template <class Parse>
 double flag_value(const char* flag, const std::string& text, Parse parse) {
   try {
@@ -53,11 +58,13 @@ double flag_value(const char* flag, const std::string& text, Parse parse) {
   }
 }
 
+/// Positive quantity of a flag in base units.
+/// @throws Error naming the flag
 inline double quantity_of(const char* flag, const std::string& text, const Dimension& dimension) {
   return flag_value(flag, text, [&](const std::string& t) { return parse_quantity(t, dimension); });
 }
 
-/// A command line without one of its words.
+/// Command line without one of its words.
 inline std::string without_flag(const std::string& command_line, const std::string& flag) {
   const std::string words = command_line + " ", found = " " + flag + " ";
   const std::size_t at = words.find(found);
@@ -67,16 +74,16 @@ inline std::string without_flag(const std::string& command_line, const std::stri
                    command_line.substr(std::min(command_line.size(), at + flag.size() + 1));
 }
 
-/// Says how to go on with a job that was stopped and is taken up where it was by the same command.
-/// @return the exit code of that job
-inline int tell_how_to_go_on(int code, const std::string& command_line, bool quiet) {
+/// Prints how to continue a stopped job that the same command resumes.
+/// @return `code`, the exit code of the job
+inline int print_how_to_continue(int code, const std::string& command_line, bool quiet) {
   if (code == static_cast<int>(Exit::kStopped) && !quiet)
     fmt::print("stopped; continue with: {}\n", command_line);
   return code;
 }
 
-/// @param command_line  as typed but in a shell's quotes, for the provenance of what is written;
-///                      lives as long as the app
+/// Adds a command to the command line.
+/// @param command_line  as typed, quoted for a shell, recorded as provenance; must outlive the app
 Command add_bench(CLI::App& app);
 Command add_calibrate(CLI::App& app, const std::string& command_line);
 Command add_check(CLI::App& app);
@@ -94,4 +101,4 @@ Command add_schema(CLI::App& app);
 Command add_study(CLI::App& app);
 Command add_voxelise(CLI::App& app);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,4 +1,4 @@
-/// acinus compare
+/// Command `acinus compare`.
 
 #include "runs/compare/compare.hpp"
 
@@ -14,16 +14,16 @@
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/guarded.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct CompareArguments {
   std::vector<std::string> folders, tolerances, set;
   std::string scene, out, until;
-  CompareScenes scenes;
+  runs::CompareScenes scenes;
 };
 
-/// "pressure=0.2" and so on.
+/// Parses tolerances such as "pressure=0.2".
 std::map<std::string, double> read_tolerances(const std::vector<std::string>& texts) {
   std::map<std::string, double> out;
   for (const std::string& text : texts) {
@@ -46,16 +46,17 @@ int run(CompareArguments& arguments) {
   if (!arguments.until.empty()) until = quantity_of("--until", arguments.until, kTime);
   if (!arguments.scene.empty()) {
     check(folders.empty(), "compare takes run folders or --scene, not both");
-    CompareScenes& options = arguments.scenes;
-    const Scene scene = read_scene(find_scene_file(arguments.scene), arguments.set);
+    runs::CompareScenes& options = arguments.scenes;
+    const runs::Scene scene =
+        runs::read_scene(runs::find_scene_file(arguments.scene), arguments.set);
     if (options.folder.empty()) options.folder = scene.name + ".compare";
-    if (const int stop = run_models(scene, options, folders))
-      return tell_how_to_go_on(stop, options.command_line, options.quiet);
+    if (const int stop = runs::run_models(scene, options, folders))
+      return print_how_to_continue(stop, options.command_line, options.quiet);
     if (arguments.out.empty()) arguments.out = options.folder + "/compare.json";
   }
-  const Comparison comparison = compare_runs(folders, tolerance, until);
-  fmt::print("{}", comparison_table(comparison));
-  if (!arguments.out.empty()) write_comparison(comparison, arguments.out);
+  const runs::Comparison comparison = runs::compare_runs(folders, tolerance, until);
+  fmt::print("{}", runs::comparison_table(comparison));
+  if (!arguments.out.empty()) runs::write_comparison(comparison, arguments.out);
   return static_cast<int>(comparison.passes() ? Exit::kDone : Exit::kBeyond);
 }
 
@@ -63,7 +64,7 @@ int run(CompareArguments& arguments) {
 
 Command add_compare(CLI::App& app, const std::string& command_line) {
   const auto arguments = std::make_shared<CompareArguments>();
-  CompareScenes& o = arguments->scenes;
+  runs::CompareScenes& o = arguments->scenes;
   CLI::App* command = add_command(
       app, "compare", "how runs of the same scene differ; the first one is the reference",
       "acinus compare lobule_dcm.run lobule_cbm.run --tolerance pressure=0.2");
@@ -71,7 +72,7 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
   command->add_option("--out", arguments->out, "JSON file; plots stand beside it")
       ->type_name("FILE.json");
   std::string known;
-  for (const auto& [name, meaning] : comparable_quantities())
+  for (const auto& [name, meaning] : runs::comparable_quantities())
     known += fmt::format("\n  {:14} {}", name, meaning);
   command
       ->add_option(
@@ -108,9 +109,9 @@ Command add_compare(CLI::App& app, const std::string& command_line) {
   return {command, [arguments, &command_line] {
             arguments->scenes.command_line = command_line;
             if (!arguments->scene.empty()) return run(*arguments);
-            return run_guarded(fmt::format("{}", fmt::join(arguments->folders, ", ")),
-                               [&] { return run(*arguments); });
+            return runs::run_guarded(fmt::format("{}", fmt::join(arguments->folders, ", ")),
+                                     [&] { return run(*arguments); });
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

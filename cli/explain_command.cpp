@@ -1,4 +1,4 @@
-/// acinus explain, acinus schema: the keys of scenes and studies
+/// Commands `acinus explain` and `acinus schema`: keys of scenes and studies.
 
 #include <memory>
 
@@ -8,18 +8,18 @@
 #include "runs/scene/schema.hpp"
 #include "runs/study/study_registry.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 int explain(const std::string& key, bool markdown) {
   if (markdown) {
-    fmt::print("{}", explain_markdown());
+    fmt::print("{}", runs::explain_markdown());
     return 0;
   }
   const bool study = key == "study" || key.starts_with("study.");
-  const std::vector<Entry>& entries = study ? study_entries() : all_entries();
-  fmt::print("{}",
-             key.empty() || key == "study" ? explain_all(entries) : explain_key(key, entries));
+  const std::vector<runs::Entry>& entries = study ? runs::study_entries() : runs::all_entries();
+  fmt::print("{}", key.empty() || key == "study" ? runs::explain_all(entries)
+                                                 : runs::explain_key(key, entries));
   return 0;
 }
 
@@ -43,9 +43,9 @@ Command add_schema(CLI::App& app) {
   const auto study = std::make_shared<bool>(false);
   command->add_flag("--study", *study, "of studies instead");
   return {command, [study] {
-            fmt::print("{}", *study ? study_schema() : scene_schema());
+            fmt::print("{}", *study ? runs::study_schema() : runs::scene_schema());
             return 0;
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

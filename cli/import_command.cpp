@@ -1,4 +1,4 @@
-/// acinus import
+/// Command `acinus import`.
 
 #include <algorithm>
 #include <map>
@@ -9,22 +9,23 @@
 #include "core/parallel/clock.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/units/dimension.hpp"
-#include "runs/images/import_image.hpp"
+#include "runs/images/write_tissue.hpp"
 #include "runs/session/guarded.hpp"
 #include "runs/session/shell_quote.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct ImportArguments {
-  ImportOptions import;
+  imaging::ImportOptions import;
+  int nodes = runs::TissueScene{}.nodes;
   std::string out, voxel, unit, smallest, model = "dcm", border = "drop";
   int threads = 0;
   bool quiet = false;
 };
 
-ImportOptions options_of(const ImportArguments& a) {
-  ImportOptions o = a.import;
+imaging::ImportOptions options_of(const ImportArguments& a) {
+  imaging::ImportOptions o = a.import;
   if (!a.voxel.empty()) o.read.voxel = parse_voxel("--voxel", a.voxel);
   if (!a.unit.empty()) o.read.unit = quantity_of("--unit", a.unit, kLength);
   if (!a.smallest.empty()) {
@@ -32,34 +33,37 @@ ImportOptions options_of(const ImportArguments& a) {
     o.smallest = quantity_of("--smallest", a.smallest, kVolume);
   }
   o.keep_border = a.border == "keep";
-  o.model = a.model == "dcm"   ? CellModel::kDcm
-            : a.model == "cbm" ? CellModel::kCbm
-                               : CellModel::kZoom;
   return o;
 }
 
-void tell_left_out(const ImportedTissue& t, const std::string& folder) {
-  constexpr std::size_t kNamed = 5;
-  std::map<std::string, std::vector<const LeftOut*>> by_reason;
-  for (const LeftOut& l : t.left_out) by_reason[l.why].push_back(&l);
+runs::TissueScene scene_of(const ImportArguments& a) {
+  return {
+      static_cast<runs::CellModel>(runs::choice_index(runs::kChoices<runs::CellModel>, a.model)),
+      a.nodes};
+}
+
+void print_left_out(const imaging::ImportedTissue& t, const std::string& folder) {
+  constexpr std::size_t kMostNamed = 5;
+  std::map<std::string, std::vector<const imaging::LeftOut*>> by_reason;
+  for (const imaging::LeftOut& l : t.left_out) by_reason[l.why].push_back(&l);
   for (const auto& [why, all] : by_reason) {
     std::string names;
-    for (std::size_t k = 0; k < std::min(kNamed, all.size()); ++k)
+    for (std::size_t k = 0; k < std::min(kMostNamed, all.size()); ++k)
       names += fmt::format("{}{} near ({:.4g}, {:.4g}, {:.4g}) um", k == 0 ? "" : "; ",
                            all[k]->label, all[k]->center[0], all[k]->center[1], all[k]->center[2]);
     fmt::print("left out: {} ({}: label {}{})\n", why, all.size(), names,
-               all.size() > kNamed ? "; ..." : "");
+               all.size() > kMostNamed ? "; ..." : "");
   }
   if (!t.left_out.empty()) fmt::print("all that is left out: {}/left_out.csv\n", folder);
 }
 
-void tell(const ImportArguments& a, const ImportedTissue& t,
-          const std::vector<std::string>& written, double seconds) {
-  for (const std::string& w : t.warned) fmt::print(stderr, "acinus: warning: {}\n", w);
+void print_result(const ImportArguments& a, const imaging::ImportedTissue& t,
+                  const std::vector<std::string>& written, double seconds) {
+  for (const std::string& w : t.warnings) fmt::print(stderr, "acinus: warning: {}\n", w);
   if (a.quiet) return;
   double least = t.cell.front().volume, most = least, sum = 0;
   int at_vessel = 0;
-  for (const ImportedCell& c : t.cell) {
+  for (const imaging::ImportedCell& c : t.cell) {
     least = std::min(least, c.volume);
     most = std::max(most, c.volume);
     sum += c.volume;
@@ -72,21 +76,22 @@ void tell(const ImportArguments& a, const ImportedTissue& t,
   if (!t.vessel.empty())
     fmt::print("{} vessel surface{}, touched by {} cells\n", t.vessel.size(),
                t.vessel.size() == 1 ? "" : "s", at_vessel);
-  tell_left_out(t, a.out);
-  fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds, quote_for_shell(written.front()));
+  print_left_out(t, a.out);
+  fmt::print("{:.1f} s; run it with: acinus run {}\n", seconds,
+             runs::quote_for_shell(written.front()));
 }
 
 int run(const ImportArguments& a) {
   set_threads(a.threads > 0 ? a.threads : processor_count());
-  const ImportOptions o = options_of(a);
+  const imaging::ImportOptions o = options_of(a);
   const double before = wall_seconds();
-  const ImportedTissue tissue = import_image(o);
-  const std::vector<std::string> written = write_tissue(tissue, o, a.out);
-  tell(a, tissue, written, wall_seconds() - before);
+  const imaging::ImportedTissue tissue = imaging::import_image(o);
+  const std::vector<std::string> written = runs::write_tissue(tissue, o, scene_of(a), a.out);
+  print_result(a, tissue, written, wall_seconds() - before);
   return 0;
 }
 
-/// An option that changes nothing is a mistake of the user's.
+/// Refuses options without effect in this combination.
 void check_effects(const CLI::App& command, const ImportArguments& a) {
   check(command.count("--nodes") == 0 || a.model != "cbm",
         "--nodes is for deformable cells, and --model cbm makes none. Leave one out.");
@@ -146,7 +151,7 @@ Command add_import(CLI::App& app) {
   command
       ->add_option("--model", a.model, "dcm, cbm or zoom: deformable in the middle (default: dcm)")
       ->check(CLI::IsMember({"dcm", "cbm", "zoom"}));
-  command->add_option("--nodes", a.import.nodes, "nodes of a cell's mesh (default: 162)")
+  command->add_option("--nodes", a.nodes, "nodes of a cell's mesh (default: 162)")
       ->type_name("N")
       ->check(CLI::IsMember({42, 92, 162, 252, 362, 642, 1442, 2562}));
   command
@@ -168,8 +173,8 @@ Command add_import(CLI::App& app) {
   command->add_flag("--quiet", a.quiet, "errors and warnings only");
   return {command, [arguments, command] {
             check_effects(*command, *arguments);
-            return run_guarded(arguments->import.image, [&] { return runs::run(*arguments); });
+            return runs::run_guarded(arguments->import.image, [&] { return cli::run(*arguments); });
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

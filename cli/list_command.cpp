@@ -1,35 +1,38 @@
-/// acinus list, acinus new: the scenes that come with the program
+/// Commands `acinus list` and `acinus new`: scenes that ship with the program.
 
 #include <memory>
 
 #include "cli/command.hpp"
-#include "runs/scene/entries.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/scene/choices.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 #include "runs/session/shell_quote.hpp"
 #include "runs/study/shipped_studies.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 int list() {
-  fmt::print("scenes in {}\n", scene_folder());
-  for (const ShippedScene& scene : shipped_scenes())
+  fmt::print("scenes in {}\n", runs::scene_folder());
+  for (const runs::ShippedScene& scene : runs::shipped_scenes())
     fmt::print("  {:20}  {}\n", scene.name, scene.description);
-  if (const std::vector<ShippedScene> studies = shipped_studies(); !studies.empty()) {
+  if (const std::vector<runs::ShippedScene> studies = runs::shipped_studies(); !studies.empty()) {
     fmt::print("studies (acinus study NAME)\n");
-    for (const ShippedScene& study : studies)
+    for (const runs::ShippedScene& study : studies)
       fmt::print("  {:20}  {}\n", study.name, study.description);
   }
-  for (const Entry& entry : all_entries())
-    if (entry.path == "experiment")
-      fmt::print("experiments (scene key experiment)\n  {}\n", entry.range);
+  fmt::print("experiments (scene key experiment)\n");
+  const std::vector<std::string> names = runs::split_choices(runs::kChoices<runs::Experiment>);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    fmt::print("  {:20}  {}\n", names[k],
+               runs::experiment_row(static_cast<runs::Experiment>(k)).meaning);
   return 0;
 }
 
 int copy(const std::string& name, const std::string& folder) {
-  const std::vector<std::string> written = copy_scene(name, folder);
+  const std::vector<std::string> written = runs::copy_scene(name, folder);
   for (const std::string& file : written) fmt::print("wrote {}\n", file);
-  fmt::print("run it with: acinus run {}\n", quote_for_shell(written.front()));
+  fmt::print("run it with: acinus run {}\n", runs::quote_for_shell(written.front()));
   return 0;
 }
 
@@ -50,4 +53,4 @@ Command add_new(CLI::App& app) {
   return {command, [name, folder] { return copy(*name, *folder); }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

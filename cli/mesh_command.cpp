@@ -1,4 +1,4 @@
-/// acinus mesh
+/// Command `acinus mesh`.
 
 #include <memory>
 
@@ -12,14 +12,13 @@
 #include "geometry/readers/input_file.hpp"
 #include "geometry/readers/read_network.hpp"
 #include "geometry/readers/read_surface.hpp"
-#include "geometry/remesh.hpp"
 #include "geometry/wrap.hpp"
 #include "io/surface_file.hpp"
 #include "runs/assemble/build_boundary.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct MeshArguments {
@@ -53,8 +52,8 @@ geometry::Network find_network(const MeshArguments& a) {
           fmt::format("{}: --unit and --vessel-radius-array are for a network file; a scene says "
                       "vessels.unit and vessels.radius_array itself. Leave them out.",
                       a.what));
-    const Scene scene = read_scene(find_scene_file(a.what), {});
-    geometry::Network n = build_network(scene);
+    const runs::Scene scene = runs::read_scene(runs::find_scene_file(a.what), {});
+    geometry::Network n = runs::build_network(scene);
     check(!n.segment.empty(), fmt::format("{}: the scene has no vessels", a.what));
     return n;
   }
@@ -107,20 +106,22 @@ int mesh_wrap(const MeshArguments& a) {
       all.triangle.push_back({first + i, first + j, first + k});
     for (const Vec3& x : s.node) box.include(x);
   }
-  constexpr double kAlphas = 50, kOffsets = 20, kFinest = 2000;
+  constexpr double kAlphasPerExtent = 50, kOffsetsPerExtent = 20, kMostAlphasPerExtent = 2000;
   const double extent = (box.high - box.low).norm();
   const double alpha =
-      a.alpha.empty() ? extent / kAlphas : quantity_of("--alpha", a.alpha, kLength);
+      a.alpha.empty() ? extent / kAlphasPerExtent : quantity_of("--alpha", a.alpha, kLength);
   const double offset =
-      a.offset.empty() ? alpha / kOffsets : quantity_of("--offset", a.offset, kLength);
-  check(extent > 0 && extent <= kFinest * alpha && extent <= kFinest * kOffsets * offset,
+      a.offset.empty() ? alpha / kOffsetsPerExtent : quantity_of("--offset", a.offset, kLength);
+  check(extent > 0 && extent <= kMostAlphasPerExtent * alpha &&
+            extent <= kMostAlphasPerExtent * kOffsetsPerExtent * offset,
         fmt::format("{}: is {:.4g} um across; --alpha {:.4g} um and --offset {:.4g} um must be at "
                     "least {:.4g} and {:.4g} um for it, or the surface never ends. Check the unit, "
                     "or nodes far away.",
-                    a.what, extent, alpha, offset, extent / kFinest, extent / kFinest / kOffsets));
+                    a.what, extent, alpha, offset, extent / kMostAlphasPerExtent,
+                    extent / kMostAlphasPerExtent / kOffsetsPerExtent));
   const geometry::Surface wrapped = geometry::wrap(all, alpha, offset);
   io::write_surface(a.out, wrapped);
-  tell(a, wrapped, geometry::find_connectivity(wrapped), wall_seconds() - before);
+  tell(a, wrapped, geometry::compute_connectivity(wrapped), wall_seconds() - before);
   return 0;
 }
 
@@ -188,4 +189,4 @@ Command add_mesh(CLI::App& app) {
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

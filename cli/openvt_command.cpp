@@ -1,4 +1,4 @@
-/// acinus openvt
+/// Command `acinus openvt`.
 
 #include "runs/openvt/openvt.hpp"
 
@@ -10,25 +10,25 @@
 #include "cli/wall_time.hpp"
 #include "core/parallel/stop.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct OpenVtArguments {
-  OpenVtOptions openvt;
-  std::string what, max_walltime;
+  runs::OpenVtOptions openvt;
+  std::string what, model = "cbm", max_walltime;
 };
 
-int relax(const OpenVtOptions& o) {
-  RowLength row;
-  const int code = run_relaxation(o, row);
+int relax(const runs::OpenVtOptions& o) {
+  runs::RowLength row;
+  const int code = runs::run_relaxation(o, row);
   if (code == 0 && !o.quiet)
-    fmt::print("90 % of the length after {:.1f} min\n", time_to_90_percent(row) / 60);
+    fmt::print("90 % of the length after {:.1f} min\n", runs::time_to_90_percent(row) / 60);
   return code;
 }
 
-int grow(const OpenVtOptions& o) {
-  Layer layer;
-  const int code = run_monolayer(o, layer);
+int grow(const runs::OpenVtOptions& o) {
+  runs::Layer layer;
+  const int code = runs::run_monolayer(o, layer);
   if (code != 0 || o.quiet) return code;
   double reach = 0, rim = 0, area = 0;
   for (std::size_t k = 0; k < layer.cell.size(); ++k) {
@@ -45,13 +45,15 @@ int grow(const OpenVtOptions& o) {
 }
 
 int run(OpenVtArguments& a) {
+  a.openvt.model =
+      static_cast<runs::CellModel>(runs::choice_index(runs::kChoices<runs::CellModel>, a.model));
   const WallTimeLimit limit(read_wall_time_limit(a.max_walltime));
   check(a.what == "monolayer" || !a.openvt.cells,
         "--cells is for monolayer: a row has eleven cells. Leave it out.");
-  if (a.openvt.out.empty()) a.openvt.out = fmt::format("openvt_{}_{}.run", a.what, a.openvt.model);
+  if (a.openvt.out.empty()) a.openvt.out = fmt::format("openvt_{}_{}.run", a.what, a.model);
   const int code = a.what == "relax11" ? relax(a.openvt) : grow(a.openvt);
   const std::string again = without_flag(a.openvt.command_line, "--overwrite");
-  return tell_how_to_go_on(code, again + (a.openvt.resume ? "" : " --resume"), a.openvt.quiet);
+  return print_how_to_continue(code, again + (a.openvt.resume ? "" : " --resume"), a.openvt.quiet);
 }
 
 }  // namespace
@@ -60,13 +62,13 @@ Command add_openvt(CLI::App& app, const std::string& command_line) {
   CLI::App* command = add_command(app, "openvt", "reference models of OpenVT with their CSV",
                                   "acinus openvt relax11 --model dcm --csv row.csv");
   const auto arguments = std::make_shared<OpenVtArguments>();
-  OpenVtOptions& o = arguments->openvt;
+  runs::OpenVtOptions& o = arguments->openvt;
   command
       ->add_option("WHAT", arguments->what,
                    "relax11: a row of eleven cells; monolayer: a thousand cells from one")
       ->required()
       ->check(CLI::IsMember({"relax11", "monolayer"}));
-  command->add_option("--model", o.model, "dcm: deformable cells; cbm: spheres (default)")
+  command->add_option("--model", arguments->model, "dcm: deformable cells; cbm: spheres (default)")
       ->type_name("MODEL")
       ->check(CLI::IsMember({"dcm", "cbm"}));
   command->add_option("--csv", o.csv, "what participants exchange")->type_name("FILE.csv");
@@ -83,8 +85,8 @@ Command add_openvt(CLI::App& app, const std::string& command_line) {
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
   return {command, [arguments, &command_line] {
             arguments->openvt.command_line = command_line;
-            return runs::run(*arguments);
+            return cli::run(*arguments);
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,4 +1,4 @@
-/// acinus report
+/// Command `acinus report`.
 
 #include "service/report/make_report.hpp"
 
@@ -10,11 +10,11 @@
 #include "cli/sizes.hpp"
 #include "runs/session/guarded.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct ReportArguments {
-  ReportOptions report;
+  service::ReportOptions report;
   std::string limit;
   bool quiet = false;
 };
@@ -23,7 +23,7 @@ int run(ReportArguments& arguments) {
   if (!arguments.limit.empty())
     arguments.report.bytes =
         static_cast<std::size_t>(flag_value("--limit", arguments.limit, parse_size));
-  const std::string file = write_report(arguments.report);
+  const std::string file = service::write_report(arguments.report);
   if (!arguments.quiet) fmt::print("{}\n", file);
   return 0;
 }
@@ -35,7 +35,7 @@ Command add_report(CLI::App& app) {
       add_command(app, "report", "one page to open in a browser: 3D, plots, checks, comparison",
                   "acinus report lobule_hybrid.run --out lobule.html");
   const auto arguments = std::make_shared<ReportArguments>();
-  ReportOptions& o = arguments->report;
+  service::ReportOptions& o = arguments->report;
   command
       ->add_option("WHAT", o.what,
                    "run folders (also of runs that go on), law files, folders of studies")
@@ -56,9 +56,9 @@ Command add_report(CLI::App& app) {
       ->type_name("SIZE");
   command->add_flag("--quiet", arguments->quiet, "errors only");
   return {command, [arguments] {
-            return run_guarded(fmt::format("{}", fmt::join(arguments->report.what, ", ")),
-                               [&] { return runs::run(*arguments); });
+            return runs::run_guarded(fmt::format("{}", fmt::join(arguments->report.what, ", ")),
+                                     [&] { return cli::run(*arguments); });
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,4 +1,4 @@
-/// acinus run
+/// Command `acinus run`.
 
 #include <algorithm>
 #include <cstdlib>
@@ -20,18 +20,18 @@
 #include "runs/session/together.hpp"
 #include "service/report/make_report.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct RunArguments {
-  RunOptions run;
+  runs::RunOptions run;
   bool report = false;
   std::string until, checkpoint_every, max_walltime, max_memory, progress, sharing;
   std::optional<int> max_cells;
 };
 
-/// A launcher that started several processes, and processes that know nothing of each other: each
-/// would run the whole scene into the same folder.
+/// Refuses several processes that a launcher started without connecting them: each would run the
+/// whole scene into the same folder.
 void check_launcher(const Ranks& ranks) {
   if (!ranks.is_alone()) return;
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
@@ -46,9 +46,9 @@ void check_launcher(const Ranks& ranks) {
   }
 }
 
-/// Options that the scene or the launcher leave without effect.
-void check_effect(const RunArguments& arguments, const Scene& scene, const Ranks& ranks) {
-  const RunOptions& run = arguments.run;
+/// Warns of options without effect for this scene or launcher.
+void check_effect(const RunArguments& arguments, const runs::Scene& scene, const Ranks& ranks) {
+  const runs::RunOptions& run = arguments.run;
   check(!run.until_s || *run.until_s <= scene.time.end + kSameTime,
         fmt::format("--until \"{}\": the scene ends before, at time.end = {:.6g} s. Leave the "
                     "option out, or raise the end with --set time.end=\"{}\"",
@@ -67,7 +67,7 @@ void check_effect(const RunArguments& arguments, const Scene& scene, const Ranks
 }
 
 int run(RunArguments& arguments) {
-  RunOptions& run = arguments.run;
+  runs::RunOptions& run = arguments.run;
   if (!arguments.until.empty()) run.until_s = quantity_of("--until", arguments.until, kTime);
   if (!arguments.checkpoint_every.empty())
     run.checkpoint_every_s =
@@ -80,33 +80,34 @@ int run(RunArguments& arguments) {
   std::optional<ExitAtSignal> nothing_to_save(std::in_place);
   const Ranks ranks = Ranks::world();
   check_launcher(ranks);
-  Scene scene = together(ranks, [&] {
-    Scene read = read_scene(find_scene_file(run.scene_file), run.set);
+  runs::Scene scene = runs::together(ranks, [&] {
+    runs::Scene read = runs::read_scene(runs::find_scene_file(run.scene_file), run.set);
     check_effect(arguments, read, ranks);
     if (arguments.max_cells)  // a limit, so no fault where it has no effect
       run.until_cells =
           std::min(run.until_cells.value_or(*arguments.max_cells), *arguments.max_cells);
     if (run.out.empty()) run.out = read.name + ".run";
-    if (ranks.is_root()) check_folder(run.out, run);  // not after hours of calibration
+    if (ranks.is_root()) runs::check_folder(run.out, run);  // not after hours of calibration
     return read;
   });
   // One process calibrates, the others find what it made.
   int stop = 0;
   const auto resolve = [&] {
-    stop = resolve_corrections(scene, run.threads, run.quiet || run.progress_json);
+    stop = runs::resolve_corrections(scene, run.threads, run.quiet || run.progress_json);
   };
   if (ranks.is_root())
-    together(ranks, resolve);
+    runs::together(ranks, resolve);
   else
-    together(ranks, [] {});
+    runs::together(ranks, [] {});
   stop = ranks.agree_worst(stop);
   if (stop != 0)
-    return ranks.is_root() ? tell_how_to_go_on(stop, run.command_line, run.quiet) : stop;
+    return ranks.is_root() ? print_how_to_continue(stop, run.command_line, run.quiet) : stop;
   if (!ranks.is_root()) resolve();
-  const int code = run_scene(scene, run);
+  const int code = runs::run_scene(scene, run);
   nothing_to_save.reset();
   if (arguments.report && ranks.is_root()) {
-    const std::string page = write_report({.what = {run.out}, .out = run.out + "/report.html"});
+    const std::string page =
+        service::write_report({.what = {run.out}, .out = run.out + "/report.html"});
     if (!run.quiet) fmt::print("report: {}\n", page);
   }
   return code;
@@ -118,7 +119,7 @@ Command add_run(CLI::App& app, const std::string& command_line) {
   CLI::App* command =
       add_command(app, "run", "simulate a scene", "acinus run two_cells --set time.end=\"30 min\"");
   const auto arguments = std::make_shared<RunArguments>();
-  RunOptions& run = arguments->run;
+  runs::RunOptions& run = arguments->run;
   command->add_option("SCENE", run.scene_file, "scene file, or the name of a shipped scene")
       ->required();
   command->add_option("--out", run.out, "run folder (default: <scene name>.run in this folder)")
@@ -164,8 +165,8 @@ Command add_run(CLI::App& app, const std::string& command_line) {
       ->excludes(resume);
   return {command, [arguments, &command_line] {
             arguments->run.command_line = command_line;
-            return runs::run(*arguments);
+            return cli::run(*arguments);
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,4 +1,4 @@
-/// acinus serve
+/// Command `acinus serve`.
 
 #include <filesystem>
 #include <memory>
@@ -10,18 +10,18 @@
 #include "service/serve/server.hpp"
 #include "service/serve/submission.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct ServeArguments {
-  ServeOptions serve;
+  service::ServeOptions serve;
   bool no_token = false;
-  std::string prepare;  ///< run folder of a submission; "" = serve
+  std::string prepare;  ///< run folder of a submission to prepare; "" = serve
   std::string checkpoint_every, max_walltime, max_memory, max_run_disk, max_disk, max_body;
 };
 
 int run(ServeArguments& a) {
-  ServeOptions& o = a.serve;
+  service::ServeOptions& o = a.serve;
   const auto read = [](double& value, const char* flag, const std::string& text, auto parse) {
     if (!text.empty()) value = flag_value(flag, text, parse);
   };
@@ -33,14 +33,14 @@ int run(ServeArguments& a) {
   read(o.max_body, "--max-body", a.max_body, parse_size);
   o.token = !a.no_token;
   if (a.prepare.empty()) {
-    serve(o);
+    service::serve(o);
     return 0;
   }
   try {
-    if (std::filesystem::exists(a.prepare + "/" + kEvaluationFile))
-      prepare_evaluation(a.prepare, o);
+    if (std::filesystem::exists(a.prepare + "/" + service::kEvaluationFile))
+      service::prepare_evaluation(a.prepare, o);
     else
-      prepare_submission(a.prepare, o);
+      service::prepare_submission(a.prepare, o);
   } catch (const std::bad_alloc&) {
     throw Error("to check this submission takes more memory than this service allows.");
   }
@@ -54,7 +54,7 @@ Command add_serve(CLI::App& app) {
                                   "acinus serve --data service --jobs 2");
   const auto arguments = std::make_shared<ServeArguments>();
   ServeArguments& a = *arguments;
-  ServeOptions& o = a.serve;
+  service::ServeOptions& o = a.serve;
   command->add_option("--data", o.data, "folder of runs, queue and token (default: acinus_service)")
       ->type_name("DIR");
   command->add_option("--port", o.port, "port; 0: any that is free (default: 8642)")
@@ -100,7 +100,7 @@ Command add_serve(CLI::App& app) {
       ->type_name("SIZE");
   command->add_flag("--quiet", o.quiet, "warnings and errors only");
   command->add_option("--prepare", a.prepare)->group("");  // by the service itself; not for users
-  return {command, [arguments] { return runs::run(*arguments); }};
+  return {command, [arguments] { return cli::run(*arguments); }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 double parse_size(const std::string& text) {
   double value = 0;
@@ -20,4 +19,4 @@ double parse_size(const std::string& text) {
   return scale * value;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

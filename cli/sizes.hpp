@@ -1,11 +1,12 @@
 #pragma once
-/// Sizes on the command line.
+/// Memory and file sizes on the command line.
 
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::cli {
 
-/// Bytes of "16GB", "500 MB".   @throws Error
+/// Bytes of a size such as "16GB" or "500 MB".
+/// @throws Error
 double parse_size(const std::string& text);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,4 +1,4 @@
-/// acinus study
+/// Command `acinus study`.
 
 #include <memory>
 
@@ -6,14 +6,14 @@
 #include "cli/wall_time.hpp"
 #include "runs/study/run_study.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 Command add_study(CLI::App& app) {
   CLI::App* command = add_command(
       app, "study", "run the variants and seeds of a study side by side, and check its claims",
       "acinus study example --jobs 2");
-  const auto options = std::make_shared<StudyOptions>();
-  StudyOptions& o = *options;
+  const auto options = std::make_shared<runs::StudyOptions>();
+  runs::StudyOptions& o = *options;
   command->add_option("FILE", o.file, "study file, or the name of a shipped study")->required();
   command->add_option("--out", o.out, "folder (default: <study name>.study in this folder)")
       ->type_name("DIR");
@@ -58,7 +58,7 @@ Command add_study(CLI::App& app) {
   for (CLI::Option* idle : {dry, jobs, threads, tasks, task, only, checkpoint, overwrite})
     report->excludes(idle);
   for (CLI::Option* idle : {checkpoint, overwrite, quiet}) dry->excludes(idle);
-  return {command, [options] { return run_study(*options); }};
+  return {command, [options] { return runs::run_study(*options); }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -6,7 +6,7 @@
 #include "cli/command.hpp"
 #include "core/units/dimension.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 Vec3 parse_voxel(const char* flag, const std::string& text) {
   std::vector<double> side;
@@ -23,4 +23,4 @@ Vec3 parse_voxel(const char* flag, const std::string& text) {
   return {side[0], side[1], side[2]};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,14 +1,14 @@
 #pragma once
-/// Sides of a voxel as a flag gives them.
+/// Voxel sides on the command line.
 
 #include <string>
 
 #include "core/vec.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
-/// "0.5 um" for all three sides, or "0.5 um, 0.5 um, 1 um" along x, y and z.
-/// @throws Error that names the flag
+/// Sides of a voxel, um: "0.5 um" for all three, or "0.5 um, 0.5 um, 1 um" along x, y and z.
+/// @throws Error naming the flag
 Vec3 parse_voxel(const char* flag, const std::string& text);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,4 +1,4 @@
-/// acinus voxelise
+/// Command `acinus voxelise`.
 
 #include <filesystem>
 #include <memory>
@@ -12,11 +12,11 @@
 #include "runs/images/voxelise_run.hpp"
 #include "runs/session/guarded.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct VoxeliseArguments {
-  VoxeliseRun voxelise;
+  runs::VoxeliseRun voxelise;
   std::string out, voxel = "1 um", blur;
   bool no_vessels = false, quiet = false;
   int threads = 0;
@@ -25,20 +25,21 @@ struct VoxeliseArguments {
 int run(const VoxeliseArguments& a) {
   imaging::check_image_file(a.out);
   set_threads(a.threads > 0 ? a.threads : processor_count());
-  VoxeliseRun o = a.voxelise;
+  runs::VoxeliseRun o = a.voxelise;
   o.vessels = !a.no_vessels;
   o.how.voxel = parse_voxel("--voxel", a.voxel);
   if (!a.blur.empty()) o.how.blur = quantity_of("--blur", a.blur, kLength);
-  const RunImage made = voxelise_run(o);
-  imaging::write_image(a.out, made.image);
+  const runs::RunImage made = runs::voxelise_run(o);
+  imaging::write_image(a.out, made.cells.image);
   const std::string table = std::filesystem::path(a.out).replace_extension(".csv").string();
-  io::write_text_file(table, labels_text(made));
+  io::write_text_file(table, imaging::labels_text(made.cells));
   if (a.quiet) return 0;
-  fmt::print(
-      "{}: frame {}, {} x {} x {} voxels, {} cells{}; which label is which cell: {}\n", a.out,
-      made.frame, made.image.size[0], made.image.size[1], made.image.size[2], made.cell.size(),
-      made.vessels == 0 ? std::string() : fmt::format(", vessels have label {}", made.vessels),
-      table);
+  fmt::print("{}: frame {}, {} x {} x {} voxels, {} cells{}; which label is which cell: {}\n",
+             a.out, made.frame, made.cells.image.size[0], made.cells.image.size[1],
+             made.cells.image.size[2], made.cells.cell.size(),
+             made.cells.vessels == 0 ? std::string()
+                                     : fmt::format(", vessels have label {}", made.cells.vessels),
+             table);
   return 0;
 }
 
@@ -77,8 +78,9 @@ Command add_voxelise(CLI::App& app) {
   return {command, [arguments, command] {
             check(command->count("--seed") == 0 || arguments->voxelise.how.noise > 0,
                   "--seed is that of the noise, and there is none. Give --noise, or leave it out.");
-            return run_guarded(arguments->voxelise.folder, [&] { return runs::run(*arguments); });
+            return runs::run_guarded(arguments->voxelise.folder,
+                                     [&] { return cli::run(*arguments); });
           }};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -10,7 +10,7 @@
 #include "cli/command.hpp"
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 
 double parse_wall_time(const std::string& text) {
   const auto fail = [&text](const char* why) {
@@ -29,7 +29,7 @@ double parse_wall_time(const std::string& text) {
     const auto [end, code] =
         std::from_chars(first, text.data() + text.size(), value, std::chars_format::fixed);
     if (code != std::errc() || !std::isfinite(value) || value < 0) fail("not a positive number");
-    at += static_cast<std::size_t>(end - first);
+    at += end - first;
     skip_space();
     std::string unit;
     while (at < text.size() && std::isalpha(static_cast<unsigned char>(text[at]))) {
@@ -62,4 +62,4 @@ double read_wall_time_limit(const std::string& text) {
   return flag_value("--max-walltime", text, parse_wall_time);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,20 +1,21 @@
 #pragma once
-/// Wall times of the command line.
+/// Wall times on the command line.
 
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::cli {
 
-/// Wall-clock time such as "10min", "23h30m", "600 s", "1d" in s. Here m means minutes.
+/// Wall time such as "10min", "23h30m", "600 s" or "1d", s. Here m means minutes.
 /// @throws Error naming the text
 double parse_wall_time(const std::string& text);
 
-/// The flag --max-walltime.
+/// Adds the flag --max-walltime.
 void add_wall_time_limit(
     CLI::App& command, std::string& text,
     const char* help = "stop after this wall time, e.g. 23h30m, with a checkpoint to go on from");
-/// Its value in s; infinite if it was not given.   @throws Error naming the flag
+/// Value of --max-walltime, s; infinite if it was not given.
+/// @throws Error naming the flag
 double read_wall_time_limit(const std::string& text);
 
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -1,7 +1,6 @@
 #include "contact/maugis_triangles.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "contact/maugis_overlap.hpp"

@@ -1,7 +1,6 @@
 /// find_contacts of candidates.hpp: the closest features of a list.
 
 #include <algorithm>
-#include <cmath>
 
 #include "contact/candidates.hpp"
 #include "contact/closest.hpp"

@@ -1,9 +1,10 @@
 #pragma once
-/// What is known about a contact, whatever meets: one record, written in two goes. The search fills
-/// in where and how near; a law then says how hard, how stiff and how rough.
+/// The contact record: place, normal and gap, written by the search, then force, slope and
+/// friction, written by a law. It is the same for all kinds of cells and obstacles.
 
+#include <algorithm>
 #include <array>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,8 +13,17 @@
 
 namespace acinus::contact {
 
-/// What stands on side b: a kind of obstacle, or of cell.
-enum class Partner : std::uint8_t { kPlane, kCapsule, kVessel, kMesh, kPipette, kSurface, kSphere };
+/// Kind of side b: an obstacle, a cell, or the nucleus of cell a.
+enum class Partner : std::uint8_t {
+  kPlane,
+  kCapsule,
+  kVessel,
+  kMesh,
+  kPipette,
+  kSurface,
+  kSphere,
+  kNucleus
+};
 inline constexpr int kObstacleKinds = static_cast<int>(Partner::kSurface);  ///< they come first
 inline bool is_cell(Partner p) { return p == Partner::kSurface || p == Partner::kSphere; }
 
@@ -25,26 +35,26 @@ inline constexpr int kWhole = -1;
 struct Contact {
   // Written by the search:
   int a = 0;           ///< surface or sphere
-  int point = kWhole;  ///< of surface a: site * points_per_site + local index
-  int b = 0;           ///< surface, sphere, or number of the obstacle within its kind
-  int triangle = -1;   ///< of surface or mesh b
+  int point = kWhole;  ///< of surface a: site * points_per_site + local index; or its triangle
+  int b = 0;           ///< surface, sphere, nucleus, or number of the obstacle within its kind
+  int triangle = -1;   ///< of surface, mesh or nucleus b
   Partner partner = Partner::kPlane;
   bool guard = false;  ///< the point is a node or a face centre that only pushes
-  // Written by the law, here for lack of room below:
+  // Written by the law:
   float friction = 0;  ///< nN s/um
   // Written by the search:
-  union {
-    /// Surface and mesh: barycentric weights of the first two corners of the triangle, as the
-    /// solver keeps them; gap and normal are those of the place they name (of the exact place on a
-    /// mesh, which has no unknowns).
-    std::array<float, 2> place{};
-    double stiffness;  ///< other obstacles of a surface: nN/um^3 under compression
-    double depth;      ///< sphere at a surface: um, the deepest point of this pair of cells
-  };
+  /// Barycentric weights of the first two corners of the triangle of b, as the solver keeps them;
+  /// gap and normal are those of the place they name (of the exact place on a mesh, which has no
+  /// unknowns).
+  std::array<float, 2> place{};
+  /// The same on triangle `point` of a, of contacts between triangles only
+  /// (dcm/contact/triangle_contact.hpp).
+  std::array<float, 2> place_a{};
+  double stiffness = 0;        ///< nN/um^3 under compression: of obstacles of a surface, of nuclei
+  double depth = 0;            ///< um, largest of a sphere's contacts with the same surface
   Vec3 normal = Vec3::Zero();  ///< unit, d gap / d x_a: from b towards a when apart
   double gap = 0;              ///< um, negative: overlap
-  /// um, how deep inside an obstacle it begins to push; of two triangles the place on a (place_a)
-  double onset = 0;
+  double onset = 0;            ///< um, depth in an obstacle at which it begins to push
   // Written by the law:
   double touching = 0;  ///< um^2 in touch
   double force = 0;     ///< nN, positive pushes apart; without friction
@@ -55,35 +65,47 @@ struct Contact {
     const double w0 = static_cast<double>(place[0]), w1 = static_cast<double>(place[1]);
     return {w0, w1, 1 - w0 - w1};
   }
-  /// Two triangles (dcm/contact/triangle_contact.hpp): weights of the first two corners of triangle
-  /// `point` of surface a, as `place` has those of b. They stand in `onset`, for lack of room.
-  std::array<float, 2> place_a() const { return std::bit_cast<std::array<float, 2>>(onset); }
-  void set_place_a(const std::array<float, 2>& weight) { onset = std::bit_cast<double>(weight); }
   bool is_fold() const { return partner == Partner::kSurface && a == b; }
   /// A second contact of a point, to push with what the others do not.
   bool only_pushes() const { return guard || onset > 0; }
 };
-static_assert(sizeof(Contact) == 96);  // a step reads and writes all of them: larger is slower
+static_assert(sizeof(Contact) == 120);  // a step reads and writes all of them: larger is slower
 
-/// All contacts of a moment, in four ranges one after the other. In each of them contacts of one
-/// cell a stand together.
+/// Kinds of contacts by their sides, in the order of the list. Spheres with spheres are listed on
+/// demand: a step evaluates them eight at a time without records.
+enum class ContactKind { kSurface, kObstacle, kInterface, kSphereObstacle, kNucleus, kSphere };
+inline constexpr std::size_t kKinds = 6;
+
+/// All contacts at a time, one kind after the other. Contacts of one cell a stand together.
 struct ContactList {
   std::vector<Contact> all;
-  /// Where ranges end: surfaces with surfaces and static meshes; surfaces with other obstacles;
-  /// surfaces with spheres; spheres with obstacles. What follows are spheres with spheres, listed
-  /// for those that look: a step works them out eight at a time without records.
-  std::size_t surface_end = 0, obstacle_end = 0, interface_end = 0, sphere_obstacle_end = 0;
+  std::array<std::size_t, kKinds> end{};  ///< of each kind in `all`
 
-  std::span<const Contact> surface() const { return range(0, surface_end); }
-  std::span<const Contact> obstacle() const { return range(surface_end, obstacle_end); }
-  std::span<const Contact> interface() const { return range(obstacle_end, interface_end); }
-  std::span<const Contact> sphere_obstacle() const {
-    return range(interface_end, sphere_obstacle_end);
+  /// Ends a kind with what `all` holds; later kinds are empty.
+  void close(ContactKind kind) {
+    for (std::size_t k = static_cast<std::size_t>(kind); k < kKinds; ++k) end[k] = all.size();
   }
-  std::span<const Contact> sphere() const { return range(sphere_obstacle_end, all.size()); }
-  std::span<const Contact> range(std::size_t first, std::size_t last) const {
-    return std::span(all).subspan(first, last - first);
+  std::size_t first(ContactKind kind) const {
+    const auto k = static_cast<std::size_t>(kind);
+    return k == 0 ? 0 : end[k - 1];
   }
+  std::span<const Contact> of(ContactKind kind) const {
+    return std::span(all).subspan(first(kind), end[static_cast<std::size_t>(kind)] - first(kind));
+  }
+  std::span<Contact> of(ContactKind kind) {
+    return std::span(all).subspan(first(kind), end[static_cast<std::size_t>(kind)] - first(kind));
+  }
+  ContactKind kind_of(std::size_t contact) const {
+    return static_cast<ContactKind>(std::ranges::upper_bound(end, contact) - end.begin());
+  }
+  std::span<const Contact> surface() const {
+    return of(ContactKind::kSurface);
+  }  ///< and static meshes
+  std::span<const Contact> obstacle() const { return of(ContactKind::kObstacle); }
+  std::span<const Contact> interface() const { return of(ContactKind::kInterface); }
+  std::span<const Contact> sphere_obstacle() const { return of(ContactKind::kSphereObstacle); }
+  std::span<const Contact> nucleus() const { return of(ContactKind::kNucleus); }
+  std::span<const Contact> sphere() const { return of(ContactKind::kSphere); }
 };
 
 }  // namespace acinus::contact

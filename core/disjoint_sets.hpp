@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers joined into sets.
+/// Union-find over the numbers [0, n).
 
 #include <algorithm>
 #include <atomic>
@@ -9,8 +9,9 @@
 
 namespace acinus {
 
-/// Numbers [0, n), each in a set of its own until it is joined to others. The lowest number of a
-/// set stands for it, so the order of joins does not matter: threads may join at the same time.
+/// Disjoint sets of the numbers [0, n), each at first in a set of its own. The representative of a
+/// set is its lowest number, so the result does not depend on the order of joins: threads may join
+/// at the same time.
 class DisjointSets {
  public:
   DisjointSets() = default;
@@ -22,7 +23,7 @@ class DisjointSets {
   }
   std::size_t size() const { return parent_.size(); }
 
-  /// The number that stands for the set of this one.
+  /// Representative of the set that contains k: the lowest number in it.
   int find(int k) {
     for (int up = parent(k).load(kRelaxed); up != k;) {
       // Whatever others do meanwhile, a parent is only ever replaced by one further up.
@@ -33,7 +34,9 @@ class DisjointSets {
     }
     return k;
   }
-  bool is_joined(int k) const { return parent_[k] != k; }  ///< to a lower one
+  bool is_joined(int k) const {
+    return parent_[k] != k;
+  }  ///< true if k has been joined to a lower number
   void join(int a, int b) {
     for (;;) {
       auto [low, high] = std::minmax({find(a), find(b)});

@@ -21,7 +21,7 @@ enum class Exit : int {
   kStopped = 75
 };
 
-/// An error for the user: where, value found, rule broken, what to do.
+/// Error for the user. Its message says where, the value found, the rule broken and what to do.
 class Error : public std::runtime_error {
  public:
   explicit Error(std::string message, Exit code = Exit::kBadInput)

@@ -8,7 +8,7 @@
 namespace acinus {
 namespace {
 
-/// End of what begins at `at`: a text in quotes, a comment, or one character.
+/// End of the token that begins at `at`: a text in quotes, a comment, or one character.
 std::size_t skip(std::string_view text, std::size_t at) {
   const auto end_of = [&](std::string_view mark, std::size_t from) {
     const std::size_t found = text.find(mark, from);
@@ -33,7 +33,7 @@ std::string fault_of_json_size(std::string_view text, const JsonBounds& bounds) 
     switch (text[at]) {
       case '{':
       case '[':
-        if (names.size() >= static_cast<std::size_t>(bounds.depth))
+        if (std::ssize(names) >= bounds.depth)
           return fmt::format("nested deeper than {} levels", bounds.depth);
         names.push_back(0);
         ++values;

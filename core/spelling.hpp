@@ -11,9 +11,9 @@
 
 namespace acinus {
 
-/// Edits (insert, delete, replace, swap of neighbours) that turn one word into the other, upper and
-/// lower case taken as equal. Words above 64 characters are given up: a hint for them is of no use
-/// and the cost grows with the product of the lengths.
+/// Edit distance of two words (insert, delete, replace, swap of neighbours), upper and lower case
+/// taken as equal. Words above 64 characters are not compared: a hint for them is of no use and the
+/// cost grows with the product of the lengths.
 inline std::size_t edit_distance(std::string_view word_a, std::string_view word_b) {
   constexpr std::size_t kLongest = 64;
   const std::size_t n_a = word_a.size(), n_b = word_b.size();
@@ -39,8 +39,8 @@ inline std::size_t edit_distance(std::string_view word_a, std::string_view word_
   return cost[n_a][n_b];
 }
 
-/// The candidate with the fewest edits, or "" when none is near enough to be what was meant
-/// (more than a third of the word's letters, at least 1, would have to change).
+/// Candidate with the smallest edit distance to a word, or "" if more than a third of the word's
+/// letters, at least 1, would have to change.
 inline std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, (word.size() + 1) / 3) + 1;
@@ -54,13 +54,13 @@ inline std::string nearest_name(std::string_view word, const std::vector<std::st
   return best;
 }
 
-/// `Did you mean "radius"?`, or what else to say where there is no hint.
+/// Spelling hint `Did you mean "radius"?`, or `otherwise` where there is none.
 /// @param hint  of nearest_name
 inline std::string did_you_mean(const std::string& hint, const std::string& otherwise = "") {
   return hint.empty() ? otherwise : "Did you mean \"" + hint + "\"?";
 }
 
-/// The same before what is said with and without a hint.
+/// Spelling hint followed by a text that is given with and without it.
 inline std::string did_you_mean_and(const std::string& hint, const std::string& more) {
   return hint.empty() ? more : did_you_mean(hint) + " " + more;
 }

@@ -10,7 +10,7 @@ namespace acinus {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// Cells are stored in groups of this many lanes that share one mesh topology.
+/// Number of cells in a group: cells that share one mesh topology are stored side by side in lanes.
 inline constexpr int kLanes = 8;
 
 inline constexpr double kPi = 3.14159265358979323846;

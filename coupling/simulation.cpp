@@ -9,7 +9,7 @@
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/partial_step.hpp"
 #include "coupling/start_up.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -18,15 +18,11 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// s, longest step after such a change: what was before says nothing about it.
 constexpr double kFirstStep = 0.1;
 
-/// The next moment after `time` at which what acts on the cells changes at once, s; infinite if
-/// nothing does: a wall or a capsule opens, beams go on or off, the course of temperature,
-/// suction, contraction or a pull bends.
+/// Next time after `time` at which a device changes its action or a wall opens, s; infinite if
+/// there is none.
 double next_change(const Params& p, double time) {
   const double later = time + kSameTime;
-  double next = std::min(next_switch(p.stretcher, later), p.temperature.course.next(later));
-  next = std::min({next, p.suction.pressure.next(later), next_bend(p.pulls, later)});
-  for (const dcm::Params& type : p.dcm)
-    if (type.contraction) next = std::min(next, type.contraction->course.next(later));
+  double next = p.apparatus.next_change(later);
   contact::for_each_wall(p.boundary, [&](auto, auto, const auto& wall) {
     if (wall.opens > later) next = std::min(next, wall.opens);
   });
@@ -71,38 +67,38 @@ bool Simulation::remove_dying(const StepResult& failed, const Observer& observer
   return !removed.events.empty();
 }
 
-/// The events after a step. @return false: the simulation is to end here
-bool Simulation::end_step(const Observer& observer) {
+bool Simulation::run_events(const Observer& observer) {
   const LifeReport report = live(world_, work_);
   if (observer.life) observer.life(report);
   return !report.interrupted && (!observer.events_over || observer.events_over());
 }
 
+StepResult Simulation::take_step(double limit, LastStep& last) {
+  last.was_running = is_running();
+  last.change = next_change(world_.params, time());
+  return advance(world_, work_, awake_, limit);
+}
+
+bool Simulation::end_step(const StepResult& step, const LastStep& last, const Observer& observer) {
+  if (observer.step) observer.step(step);
+  if (!last.was_running) {
+    end_step_of_start_up(observer);
+    return !observer.events_over || observer.events_over();
+  }
+  if (time() > last.change - kSameTime) start_anew(world_.state.clock);
+  return run_events(observer);
+}
+
 LoopResult Simulation::run_until(double end, const Observer& observer) {
-  bool was_running = false;
-  double change = 0;
+  LastStep last;
   const EventsDue& due = world_.state.clock.due;
   LoopResult result;
-  if (due == EventsDue::kNone || end_step(observer))
+  if (due == EventsDue::kNone || run_events(observer))
     result = run_loop(
         {.time_left = [&] { return is_running() ? end - time() : kNever; },
-         .advance =
-             [&](double limit) {
-               was_running = is_running();
-               change = next_change(world_.params, time());
-               return coupling::advance(world_, work_, awake_, limit);
-             },
+         .advance = [&](double limit) { return take_step(limit, last); },
          .time_to_event = [&] { return time_to_event(observer); },
-         .after =
-             [&](const StepResult& step) {
-               if (observer.step) observer.step(step);
-               if (was_running) {
-                 if (time() > change - kSameTime) start_anew(world_.state.clock);
-                 return end_step(observer);
-               }
-               end_step_of_start_up(observer);
-               return !observer.events_over || observer.events_over();
-             },
+         .after = [&](const StepResult& step) { return end_step(step, last, observer); },
          .recover = [&](const StepResult& failed) { return remove_dying(failed, observer); }});
   if (due != EventsDue::kNone) {
     result.ok = false;

@@ -50,9 +50,18 @@ class Simulation {
   LoopResult run_until(double end, const Observer& observer = {});
 
  private:
+  /// State of the run before the last step.
+  struct LastStep {
+    bool was_running = false;
+    double change = 0;  ///< s since t = 0, next discontinuity of what acts on the cells
+  };
+
   double time_to_event(const Observer& observer) const;
+  StepResult take_step(double limit, LastStep& last);
+  /// Observers and events after a step. @return false: the simulation is to end here
+  bool end_step(const StepResult& step, const LastStep& last, const Observer& observer);
   void end_step_of_start_up(const Observer& observer);
-  bool end_step(const Observer& observer);
+  bool run_events(const Observer& observer);
   bool remove_dying(const StepResult& failed, const Observer& observer);
 
   World world_;

@@ -1,8 +1,6 @@
 #include "coupling/start_shapes.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "core/box.hpp"
 #include "core/parallel/threads.hpp"

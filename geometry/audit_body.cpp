@@ -28,8 +28,9 @@ Vec3 to_vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 constexpr int kMaxRays = 64;
 
-/// For a segment that meets the triangle and does not start on it: true if it passes from one side
-/// to the other through the interior. Only then does it count once, and safely, in a parity.
+/// Test for a segment that passes through the interior of the triangle from one side to the other.
+/// Only then does a crossing count exactly once in a parity. @pre the segment meets the triangle
+/// and does not start on it
 bool passes_through(const Point& from, const Point& to, const Triangle& t) {
   const auto turn = [&](int i, int j) {
     return CGAL::orientation(from, to, t.vertex(i), t.vertex(j));
@@ -47,7 +48,7 @@ double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 struct AuditBody::Surface {
   Faces face;
-  std::vector<int> triangle;  ///< [n_face] which triangle a face is
+  std::vector<int> triangle;  ///< [n_face] triangle of each face
   std::vector<Point> node;
   Tree tree;
 };

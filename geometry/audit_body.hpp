@@ -1,6 +1,5 @@
 #pragma once
-/// One closed triangle surface prepared for exact questions. CGAL stays in the
-/// .cpp.
+/// Exact geometric queries on one closed triangle surface. CGAL stays in the .cpp.
 
 #include <array>
 #include <memory>
@@ -13,15 +12,17 @@
 
 namespace acinus::geometry {
 
-/// Index pairs i < j of boxes that meet, ascending.
+/// Index pairs i < j of boxes that overlap, ascending.
 std::vector<std::pair<int, int>> meeting_boxes(std::span<const Box> box);
 
 enum class Location { kInside, kOn, kOutside };
 
-/// The spans must outlive the body. After construction all members may be used from many threads.
+/// Closed surface prepared for exact queries. The spans must outlive it. After construction all
+/// members may be called from many threads.
 class AuditBody {
  public:
-  /// Triangles of zero area stay in volume and quality but are no surface.
+  /// Builds the search tree. Triangles of zero area count in volume and quality but are not part of
+  /// the surface.
   /// @pre all coordinates finite
   AuditBody(std::span<const Vec3> nodes, std::span<const std::array<int, 3>> triangles);
   ~AuditBody();
@@ -31,10 +32,10 @@ class AuditBody {
   Location locate(const Vec3& point) const;     ///< exact
   Vec3 closest_point(const Vec3& point) const;  ///< on the surface
   double distance(const Vec3& point) const { return (point - closest_point(point)).norm(); }
-  /// Where the segment a-b meets the surface: parameters in [0, 1], sorted. Which triangles are met
-  /// is exact; touching along a triangle's plane gives no parameter.
+  /// Intersections of the segment a-b with the surface: parameters in [0, 1], sorted. The set of
+  /// intersected triangles is exact; touching along a triangle's plane gives no parameter.
   std::vector<double> crossings(const Vec3& a, const Vec3& b) const;
-  /// True if two triangles cross that share no edge. Costs far less than all pairs.
+  /// True if two triangles cross that share no edge. Costs far less than a test of all pairs.
   bool self_intersects() const;
   /// True if every directed edge has its opposite exactly once.
   bool closed() const;
@@ -42,7 +43,7 @@ class AuditBody {
   Box box;
   double volume = 0;             ///< signed, um^3
   Vec3 centroid = Vec3::Zero();  ///< of the volume
-  double quality = 1;            ///< worst triangle
+  double quality = 1;            ///< smallest triangle quality
   int n_node = 0;
   std::vector<std::array<int, 2>> edge;
   std::vector<Vec3> sample;  ///< nodes, then edge midpoints, then triangle centroids

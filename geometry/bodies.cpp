@@ -20,15 +20,15 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-/// Pairs of triangles at an edge between which their solid lies; empty where their directions do
-/// not alternate round the edge. @param outward  the normals point out of the solids
+/// Pairs of triangles at an edge that bound the same solid; empty where their directions do not
+/// alternate round the edge. @param outward  the normals point out of the solids
 std::vector<std::array<int, 2>> pair_round_edge(std::span<const HalfEdge> half,
                                                 const std::vector<Vec3>& node, bool outward) {
   constexpr double kSame = 1e-6;  // radians: walls of two bodies that lie upon each other
-  const Vec3 low = node[static_cast<std::size_t>(half[0].low)];
-  const Vec3 axis = (node[static_cast<std::size_t>(half[0].high)] - low).normalized();
+  const Vec3 low = node[half[0].low];
+  const Vec3 axis = (node[half[0].high] - low).normalized();
   const auto across = [&](const HalfEdge& h) {
-    const Vec3 r = node[static_cast<std::size_t>(h.opposite)] - low;
+    const Vec3 r = node[h.opposite] - low;
     return Vec3(r - r.dot(axis) * axis);
   };
   const Vec3 u = across(half[0]).normalized(), v = axis.cross(u);
@@ -66,10 +66,10 @@ struct EdgePart {
   bool closed = true;
 };
 
-/// Pieces of some triangles that hang together at edges, ordered by their first.
+/// Parts of some triangles that are connected by edges, ordered by their first triangle.
 std::vector<EdgePart> split_at_edges(const Surface& surface, const std::vector<int>& some) {
   std::vector<Triangle> triangle;
-  for (const int t : some) triangle.push_back(surface.triangle[static_cast<std::size_t>(t)]);
+  for (const int t : some) triangle.push_back(surface.triangle[t]);
   const std::vector<HalfEdge> half = make_half_edges(triangle);
   const bool outward = compute_volume(surface.node, triangle) >= 0;
   DisjointSets sets(triangle.size());
@@ -98,14 +98,14 @@ std::vector<EdgePart> split_at_edges(const Surface& surface, const std::vector<i
   return pieces;
 }
 
-/// Joins nodes of the given triangles that stand at the same place.
-/// @return whether there were any
+/// Merges nodes of the given triangles that have the same position.
+/// @return true if there were any
 bool join_by_place(const std::vector<int>& some, Surface& surface) {
   std::map<std::array<double, 3>, int> first;
   bool any = false;
   for (const int t : some)
-    for (int& node : surface.triangle[static_cast<std::size_t>(t)]) {
-      const Vec3& x = surface.node[static_cast<std::size_t>(node)];
+    for (int& node : surface.triangle[t]) {
+      const Vec3& x = surface.node[node];
       // + 0.0 turns -0 into 0
       const auto entry =
           first.try_emplace({x[0] + 0.0, x[1] + 0.0, x[2] + 0.0}, node).first->second;
@@ -121,14 +121,11 @@ Box box_of(const Surface& s) {
   return box;
 }
 
-/// True for a point inside a closed surface, by the solid angle of its triangles
-/// [VanOosterom1983].
+/// True for a point inside a closed surface, by the solid angle of its triangles. [VanOosterom1983]
 bool encloses(const Surface& s, const Vec3& x) {
   double sum = 0;
   for (const auto& [i, j, k] : s.triangle) {
-    const Vec3 a = s.node[static_cast<std::size_t>(i)] - x,
-               b = s.node[static_cast<std::size_t>(j)] - x,
-               c = s.node[static_cast<std::size_t>(k)] - x;
+    const Vec3 a = s.node[i] - x, b = s.node[j] - x, c = s.node[k] - x;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     sum += 2 * std::atan2(a.dot(b.cross(c)),
                           la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
@@ -159,7 +156,7 @@ std::vector<Surface> split_bodies(const Soup& soup) {
   std::vector<Surface> bodies;
   for (const EdgePart& p : pieces) {
     std::vector<Triangle> triangle;
-    for (const int t : p.triangle) triangle.push_back(joined.triangle[static_cast<std::size_t>(t)]);
+    for (const int t : p.triangle) triangle.push_back(joined.triangle[t]);
     bodies.push_back(compacted(joined.node, std::move(triangle)));
   }
   return bodies;
@@ -170,12 +167,12 @@ Nested find_nested(const std::vector<Surface>& bodies) {
   for (const Surface& s : bodies) box.push_back(box_of(s));
   std::vector<int> order(bodies.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto low = [&](int b) { return box[static_cast<std::size_t>(b)].low[0]; };
+  const auto low = [&](int b) { return box[b].low[0]; };
   std::ranges::sort(order, {}, low);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto a = static_cast<std::size_t>(order[i]);
+    const std::size_t a = order[i];
     for (std::size_t j = i + 1; j < order.size() && low(order[j]) < box[a].high[0]; ++j) {
-      const auto b = static_cast<std::size_t>(order[j]);
+      const std::size_t b = order[j];
       const bool inside = (box[b].low.array() > box[a].low.array()).all() &&
                           (box[b].high.array() < box[a].high.array()).all();
       if (inside && encloses(bodies[a], bodies[b].node.front())) return {order[j], order[i]};

@@ -10,8 +10,8 @@
 namespace acinus::contact {
 namespace {
 
-/// Boxes that are looked at by all threads.
-constexpr std::size_t kWorthThreads = 500;
+/// Fewest boxes that are searched by all threads.
+constexpr std::size_t kLeastShared = 500;
 
 using Key = std::uint64_t;
 using CellIndex = std::array<std::int64_t, 3>;
@@ -37,7 +37,7 @@ class BoxGrid {
       c[k] = static_cast<std::int64_t>(std::floor(std::clamp(at[k], -1e6, 1e6))) + kBias;
     return c;
   }
-  /// f(box index) for every box in the 27 cells around c.
+  /// Calls f(box index) for every box in the 27 grid cells around c.
   template <class F>
   void for_each_near(const CellIndex& c, F f) const {
     for (std::int64_t dz = -1; dz <= 1; ++dz)
@@ -74,7 +74,7 @@ std::vector<std::pair<int, int>> find_pairs(std::span<const Box> boxes, double m
   std::vector<BoxGrid::Item> item;
   const BoxGrid grid(boxes, widest(boxes) + margin, boxes[0].low, item);
   // In the order of the boxes, whoever finds them.
-  const std::size_t n_part = n < kWorthThreads ? 1 : static_cast<std::size_t>(thread_count());
+  const std::size_t n_part = n < kLeastShared ? 1 : thread_count();
   std::vector<std::vector<std::pair<int, int>>> found(n_part);
   for_each_part(n_part, [&](std::size_t part) {
     std::vector<std::pair<int, int>>& pairs = found[part];

@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of boxes that come near each other.
+/// Neighbour pairs of boxes (broad phase).
 
 #include <span>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces as CGAL knows them. Only for files that are compiled as CGAL wants it.
+/// Conversion of surfaces to CGAL meshes. Only for source files with the compile flags of CGAL.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -18,7 +18,7 @@ inline Vec3 place_of(const CgalMesh& mesh, CgalMesh::Vertex_index v) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// @pre check_manifold
+/// Surface as a CGAL mesh. @pre check_manifold
 inline CgalMesh to_cgal(const Surface& s) {
   CgalMesh mesh;
   mesh.reserve(s.node.size(), 3 * s.triangle.size() / 2, s.triangle.size());

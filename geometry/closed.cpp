@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <tuple>
 
@@ -27,7 +26,7 @@ std::string edge_text(const Surface& surface, const HalfEdge& edge) {
 void check_corners(const Surface& surface, const std::string& where) {
   const int n_node = static_cast<int>(surface.node.size());
   check(!surface.triangle.empty(), where + ": the surface has no triangles.");
-  check(surface.triangle.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3,
+  check(std::ssize(surface.triangle) <= std::numeric_limits<int>::max() / 3,
         where + ": the surface has too many triangles.");
   for (std::size_t t = 0; t < surface.triangle.size(); ++t) {
     const auto& [a, b, c] = surface.triangle[t];

@@ -1,6 +1,6 @@
 #pragma once
-/// The point of a triangle closest to a point. Inline: contact search asks millions of times a
-/// second.
+/// Closest point of a triangle to a point. Inline: the narrow phase of contact calls it millions of
+/// times a second.
 
 #include <algorithm>
 
@@ -15,12 +15,13 @@ struct ClosestPoint {
   double squared_distance = 0;  ///< um^2
 };
 
-/// The closest point of a triangle so flat that only its edges count.
+/// Closest point of a triangle so flat that only its edges count.
 ClosestPoint find_closest_point_of_sliver(const Vec3& p, const Vec3& a, const Vec3& b,
                                           const Vec3& c);
 
-/// Corner, edge and face regions after [Ericson2005, section 5.1.5], all from the five products of
-/// the edges with each other and with p - a; degenerate triangles are edges or points.
+/// Closest point of a triangle by corner, edge and face regions after [Ericson2005, section 5.1.5],
+/// all from the five products of the edges with each other and with p - a; degenerate triangles are
+/// edges or points.
 inline ClosestPoint find_closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);

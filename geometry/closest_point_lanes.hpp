@@ -1,20 +1,21 @@
 #pragma once
-/// The closest points of eight triangles to eight points at once: find_closest_point in lanes,
-/// without branches.
+/// Closest points of eight triangles to eight points: find_closest_point in lanes, without
+/// branches.
 
 #include "core/numbers/lanes.hpp"
 
 namespace acinus::geometry {
 
-/// Answer for eight pairs of point and triangle.
+/// Closest points of eight triangles.
 struct ClosestPointLanes {
-  Lane weight_b, weight_c;  ///< barycentric; the first corner has the rest
+  Lane weight_b, weight_c;  ///< barycentric; the first corner has the rest of 1
   Lane squared_distance;    ///< um^2
-  /// 1 where the triangle is so flat that only find_closest_point_of_sliver knows, else 0.
+  /// 1 where the triangle is so flat that find_closest_point_of_sliver is needed, else 0.
   Lane sliver;
 };
 
-/// The same bits as the scalar find_closest_point, its twin: same regions, same order of sums.
+/// Closest points with the same bits as those of the scalar find_closest_point: same regions, same
+/// order of sums.
 ACINUS_INLINE ClosestPointLanes find_closest_point_lanes(const Lane3& p, const Lane3& a,
                                                          const Lane3& b, const Lane3& c) {
   const auto least = [](Lane u, Lane v) __attribute__((always_inline))->Lane {

@@ -114,7 +114,7 @@ Crossings find_crossings(Triangles triangle, const std::vector<char>& below) {
     std::vector<int> loop;
     for (auto at = first; next[at] >= 0;) {
       loop.push_back(static_cast<int>(at));
-      at = static_cast<std::size_t>(std::exchange(next[at], -1));
+      at = std::exchange(next[at], -1);
     }
     out.loop.push_back(std::move(loop));
   }

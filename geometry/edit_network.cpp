@@ -108,7 +108,7 @@ std::vector<Chain> find_chains(const Network& network) {
 
 // Sums along a chain, so that a span of any number of its segments costs the same.
 struct ChainSums {
-  std::vector<double> length = {0};  ///< up to node k
+  std::vector<double> length = {0};  ///< along the chain up to node k
   std::vector<double> area = {0};    ///< integral of the radius over that length
 };
 

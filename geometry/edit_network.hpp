@@ -1,5 +1,5 @@
 #pragma once
-/// Scaling, cutting and smoothing of vessel networks. All return a new network.
+/// Scaling, cropping and smoothing of vessel networks. All return a new network.
 
 #include <array>
 
@@ -7,8 +7,8 @@
 
 namespace acinus::geometry {
 
-/// Applied in this order: unit * scale on positions and radii, radius_scale on radii, then the
-/// bounding box centre to the origin when `center`, then the shift.
+/// Transformation of a network, applied in this order: unit * scale on positions and radii,
+/// radius_scale on radii, then the bounding box centre to the origin when `center`, then the shift.
 struct NetworkTransform {
   double unit = 1;          ///< um per file unit
   double scale = 1;         ///< factor on positions and radii
@@ -16,12 +16,13 @@ struct NetworkTransform {
   bool center = false;
   Vec3 shift = Vec3::Zero();  ///< um
 };
-/// Throws Error when a factor is not a finite number above 0 or the shift is not finite.
+/// Transformed network. Throws Error when a factor is not a finite number above 0 or the shift is
+/// not finite.
 Network transform_network(const Network& network, const NetworkTransform& transform);
 
-/// Keeps the whole of each segment whose centre line has a point inside the box (low corner, high
-/// corner; the faces belong to it), and the nodes these segments use, in their order.
-/// Throws Error when low exceeds high.
+/// Network of the segments whose centre line has a point inside the box (low corner, high corner;
+/// the faces belong to it), each kept whole, and of the nodes they use, in their order. Throws
+/// Error when low exceeds high.
 Network crop_network(const Network& network, const std::array<Vec3, 2>& box);
 
 /// Removes needless short segments. Nodes with equal coordinates become one; segments of no length
@@ -34,9 +35,9 @@ Network crop_network(const Network& network, const std::array<Vec3, 2>& box);
 /// Networks without short segments keep their segments, in the order of the chains.
 Network resample_network(const Network& network);
 
-/// Cuts segments that are longer than `longest`, um, in equal parts; radii run on linearly. Nodes
-/// and segments there were keep their numbers, but for what is cut: its first part takes the
-/// number. Throws Error when `longest` is not above 0.
+/// Network with segments longer than `longest`, um, cut into equal parts; radii run on linearly.
+/// Nodes and segments keep their numbers; of a cut segment the first part has the number. Throws
+/// Error when `longest` is not above 0.
 Network split_network(const Network& network, double longest);
 
 }  // namespace acinus::geometry

@@ -7,7 +7,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// Joined numbers, a node each; those that were never joined to anything are not counted.
+/// Union-find over node numbers; those that were never joined are not counted.
 class JoinedNodes {
  public:
   explicit JoinedNodes(std::size_t n) : sets_(n), used_(n, 0) {}
@@ -32,7 +32,7 @@ class JoinedNodes {
 
 }  // namespace
 
-Connectivity find_connectivity(const Surface& s) {
+Connectivity compute_connectivity(const Surface& s) {
   JoinedNodes nodes(s.node.size());
   for (const auto& [a, b, c] : s.triangle) {
     nodes.join(a, b);
@@ -43,7 +43,7 @@ Connectivity find_connectivity(const Surface& s) {
   return out;
 }
 
-Connectivity find_connectivity(const Network& n) {
+Connectivity compute_connectivity(const Network& n) {
   JoinedNodes nodes(n.node.size());
   for (const auto& [a, b] : n.segment) nodes.join(a, b);
   Connectivity out = nodes.count();

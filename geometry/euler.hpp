@@ -1,5 +1,5 @@
 #pragma once
-/// What stays of a surface when it is bent: its parts and handles.
+/// Topological invariants of a surface: its parts and handles.
 
 #include "geometry/network.hpp"
 #include "geometry/surface.hpp"
@@ -14,11 +14,11 @@ struct Connectivity {
   bool operator==(const Connectivity&) const = default;
 };
 
-/// Of a closed surface; nodes of no triangle do not count.
-Connectivity find_connectivity(const Surface& surface);
+/// Connectivity of a closed surface; nodes of no triangle do not count.
+Connectivity compute_connectivity(const Surface& surface);
 
-/// Of the wall of a network whose segments meet only where they share a node: a handle for every
-/// loop.
-Connectivity find_connectivity(const Network& network);
+/// Connectivity of the wall of a network whose segments meet only where they share a node: a handle
+/// for every loop.
+Connectivity compute_connectivity(const Network& network);
 
 }  // namespace acinus::geometry

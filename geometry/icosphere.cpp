@@ -15,8 +15,8 @@ namespace acinus::geometry {
 
 namespace {
 
-/// How an icosphere is made: every edge of the icosahedron is cut into `parts` at once, then every
-/// edge of the result in half, `halvings` times.
+/// Subdivision of the icosahedron: every edge is cut into `parts` at once, then every edge of the
+/// result in half, `halvings` times.
 struct Recipe {
   int n_node;
   int parts;
@@ -73,7 +73,7 @@ Surface make_icosahedron() {
   return out;
 }
 
-/// Cuts every edge into n parts and every face into n^2.
+/// Subdivides every edge into n parts and every face into n^2.
 Surface cut_edges(const Surface& coarse, int n) {
   Surface out;
   std::map<std::array<std::pair<int, int>, 3>, int> known;  // (parts, corner), ascending

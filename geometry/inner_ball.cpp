@@ -1,12 +1,10 @@
 #include "geometry/inner_ball.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <queue>
 #include <vector>
 
+#include "core/sphere.hpp"
 #include "geometry/measures.hpp"
 
 namespace acinus::geometry {
@@ -35,7 +33,7 @@ InnerBall find_inner_ball(const Surface& surface) {
   InnerBall best;
   const double volume = compute_volume(surface.node, surface.triangle);
   if (!(volume > 0)) return best;
-  const double precision = 0.05 * std::cbrt(3 * volume / (4 * kPi));
+  const double precision = 0.05 * sphere_radius(volume);
   std::priority_queue<SearchCube, std::vector<SearchCube>, Shallower> queue;
   const auto add = [&](const Vec3& center, double half) {
     const double depth = compute_depth(surface, center);

@@ -1,5 +1,5 @@
 #pragma once
-/// The deepest point of a body, where something may be put that is to grow inside.
+/// Deepest point of a body, for bodies placed inside that are to grow.
 
 #include "core/vec.hpp"
 #include "geometry/surface.hpp"
@@ -11,9 +11,9 @@ struct InnerBall {
   double radius = 0;  ///< um; 0 if the surface encloses no volume
 };
 
-/// The largest ball inside a closed outward surface (its pole of inaccessibility): radius within
-/// 5 % of the body's volume radius. Boxes too far outside to hold a deeper point are dropped, the
-/// others cut in eight, the most promising first. Cost: some hundred passes over the triangles.
+/// Largest ball inside a closed outward surface (its pole of inaccessibility): radius within 5 % of
+/// the body's volume radius. Boxes too far outside to hold a deeper point are dropped, the others
+/// cut in eight, the most promising first. Cost: about a hundred passes over the triangles.
 InnerBall find_inner_ball(const Surface& surface);
 
 }  // namespace acinus::geometry

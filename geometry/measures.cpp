@@ -67,28 +67,6 @@ Vec3 compute_centroid(std::span<const Vec3> node, Triangles triangle) {
   return origin + moment / (4 * six);
 }
 
-PrincipalAxes compute_principal_axes(std::span<const Vec3> node, Triangles triangle) {
-  PrincipalAxes out;
-  out.centroid = compute_centroid(node, triangle);
-  Mat3 moment = Mat3::Zero();
-  for (const auto& t : triangle) {
-    const auto [a, b, c] = corners_of(node, t, out.centroid);
-    const double volume = a.dot(b.cross(c)) / 6;
-    const Vec3 sum = a + b + c;
-    // Second moment of a tetrahedron with one corner at the centroid.
-    moment += volume / 20 *
-              (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
-    out.volume += volume;
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(moment);
-  for (int k = 0; k < 3; ++k) {
-    out.semi_axis[k] = std::sqrt(std::max(0.0, 5 * eigen.eigenvalues()[2 - k] / out.volume));
-    out.axis.col(k) = eigen.eigenvectors().col(2 - k);
-  }
-  if (out.axis.determinant() < 0) out.axis.col(2) *= -1;
-  return out;
-}
-
 MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles triangle) {
   MeanCurvature out;
   out.normal.assign(node.size(), Vec3::Zero());

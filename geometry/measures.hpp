@@ -23,24 +23,14 @@ double compute_area(std::span<const Vec3> node, Triangles triangle);
 /// Centroid of the enclosed volume, um; closed surfaces with volume.
 Vec3 compute_centroid(std::span<const Vec3> node, Triangles triangle);
 
-/// The ellipsoid with the same volume moments: M = integral of (x-c)(x-c)^T over the ENCLOSED
-/// VOLUME (not the surface); its eigenvalues are V a^2 / 5 for semi-axes a.
-struct PrincipalAxes {
-  Vec3 centroid = Vec3::Zero();   ///< um
-  double volume = 0;              ///< um^3
-  Vec3 semi_axis = Vec3::Zero();  ///< um, longest first
-  Mat3 axis =
-      Mat3::Identity();  ///< columns: unit directions in that order, right-handed, signs arbitrary
-};
-PrincipalAxes compute_principal_axes(std::span<const Vec3> node, Triangles triangle);
-
 /// Mean curvature at each node. [Meyer2003, Eq. (8) with the mixed area of Fig. 4]
 struct MeanCurvature {
   std::vector<Vec3> normal;  ///< [n_node] H n, 1/um: half of K = 1/(2 A) sum (cot a + cot b)(x_i -
                              ///< x_j); outward on convex parts, length 1/R on a sphere
   std::vector<double> mixed_area;  ///< [n_node] um^2, sums to the surface area
 };
-/// Closed surfaces; triangles of zero area add nothing. Nodes of no triangle get zeros.
+/// Mean curvature of a closed surface; triangles of zero area add nothing. Nodes of no triangle get
+/// zeros.
 MeanCurvature compute_mean_curvature(std::span<const Vec3> node, Triangles triangle);
 
 /// Shape of one triangle, 4 sqrt(3) area / (sum of squared sides): 1 = equilateral, 0 = degenerate.
@@ -53,11 +43,11 @@ double compute_quality(std::span<const Vec3> node, Triangles triangle);
 double compute_distance(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
 
 /// Winding number of a closed surface about p: 1 inside, 0 outside (round-off about 1e-13), sum of
-/// the solid angles of the triangles / 4 pi [VanOosterom1983, Eq. (8)]. On the surface itself it is
-/// between the two. Cost linear.
+/// the solid angles of the triangles / 4 pi [VanOosterom1983, Eq. (8)]. Between the two for p on
+/// the surface itself. Cost linear.
 double compute_winding_number(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
 
-/// Whether p lies inside a closed outward surface: winding number above 1/2.
+/// True if p lies inside a closed outward surface: winding number above 1/2.
 bool is_inside(const Vec3& p, std::span<const Vec3> node, Triangles triangle);
 
 }  // namespace acinus::geometry

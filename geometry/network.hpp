@@ -1,5 +1,5 @@
 #pragma once
-/// A network of blood vessels as a graph of segments, each a tapered capsule.
+/// Network of blood vessels: a graph of segments, each a tapered capsule.
 
 #include <array>
 #include <vector>
@@ -17,8 +17,8 @@ struct Network {
 /// Sum of segment lengths, um.
 double total_length(const Network& network);
 
-/// How far any place of the walls is from where it was at most, um: nodes and radii. Infinite if
-/// they are not the same segments.
+/// Upper bound of the displacement of any point of the walls between two states of a network, um,
+/// from nodes and radii. Infinite if their segments differ.
 double largest_motion(const Network& now, const Network& then);
 
 }  // namespace acinus::geometry

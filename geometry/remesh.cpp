@@ -20,8 +20,8 @@ namespace {
 
 using Vertex = CgalMesh::Vertex_index;
 
-/// Whether the triangles about v, but for those that `other` shares, stay small and turn little
-/// when v goes to a place.
+/// True if moving v keeps the triangles about it small and nearly parallel to before, except those
+/// that `other` shares.
 bool may_move(const CgalMesh& mesh, Vertex v, Vertex other, const Vec3& to, double longest) {
   constexpr double kLeastCosine = 0.3;  // between the normals before and after
   const Vec3 from = place_of(mesh, v);
@@ -36,9 +36,9 @@ bool may_move(const CgalMesh& mesh, Vertex v, Vertex other, const Vec3& to, doub
   return true;
 }
 
-/// Collapses edges much shorter than `edge` to their middles, the shortest first, where the surface
-/// keeps its topology and shape. Of a surface cut from tetrahedra more than half of the nodes go,
-/// in a twentieth of the time that the remeshing would take for them.
+/// Collapses edges much shorter than `edge` to their midpoints, the shortest first, where the
+/// surface keeps its topology and shape. Of a surface cut from tetrahedra this removes more than
+/// half of the nodes, in a twentieth of the time that remeshing would take for them.
 void collapse_short_edges(double edge, CgalMesh& mesh) {
   constexpr std::array kShort = {0.1, 0.2, 0.35, 0.5, 0.5};  // edges
   constexpr double kLongest = 1.1;

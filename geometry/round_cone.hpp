@@ -1,5 +1,5 @@
 #pragma once
-/// Distance to a round cone: two balls and all balls between them, whose radius runs linearly.
+/// Distance to a round cone: two balls and all balls between them, whose radius is linear.
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,15 @@
 
 namespace acinus::geometry {
 
-/// The ball of the cone whose surface is nearest to a point, or that the point is deepest in.
+/// Ball of the cone whose surface is nearest to a point, or in which the point is deepest.
 struct NearestBall {
   double parameter = 0;       ///< 0..1, from the first end to the second
   double radius = 0;          ///< um
   Vec3 apart = Vec3::Zero();  ///< um, from its centre to the point
 };
 
-/// Exact, also where one end lies within the other: then that is the larger of the two.
+/// Nearest ball of a round cone, exact also where one end lies within the other: the cone is then
+/// the larger of the two.
 inline NearestBall find_nearest_ball(const Vec3& x, const Vec3& a, const Vec3& b, double ra,
                                      double rb) {
   const Vec3 axis = b - a;
@@ -32,7 +33,7 @@ inline NearestBall find_nearest_ball(const Vec3& x, const Vec3& a, const Vec3& b
   return {t, ra + t * (rb - ra), x - (a + t * axis)};
 }
 
-/// The wall of a round cone, prepared for many distances.
+/// Wall of a round cone, prepared for many distances.
 class ConeWall {
  public:
   ConeWall(const Vec3& a, const Vec3& b, double ra, double rb)
@@ -53,7 +54,7 @@ class ConeWall {
     }
   }
 
-  /// um, negative inside.
+  /// Signed distance, um, negative inside.
   double distance(const Vec3& x) const {
     const Vec3 apart = x - start_;
     const double along = apart.dot(axis_), across = (apart - along * axis_).norm();

@@ -16,9 +16,9 @@ inline NearestBall nearest_ball(const Network& n, int segment, const Vec3& x) {
   return find_nearest_ball(x, n.node[a], n.node[b], ra, rb);
 }
 
-/// Of all segments the one whose wall is nearest to a place, or that it is deepest in.
+/// Segment whose wall is nearest to a place, or in which the place is deepest.
 struct NearestSegment {
-  int segment = -1;                                      ///< -1: there is none
+  int segment = -1;                                      ///< -1: none
   double gap = std::numeric_limits<double>::infinity();  ///< um, negative inside
 };
 inline NearestSegment nearest_segment(const Network& n, const Vec3& x) {
@@ -37,7 +37,7 @@ inline bool share_a_node(const Network& n, int s, int t) {
   return a == c || a == d || b == c || b == d;
 }
 
-/// @param wider  factor on the radii
+/// Bounding box of a segment. @param wider  factor on the radii
 inline Box cone_box(const Network& n, std::size_t segment, double wider = 1) {
   Box box;
   for (const std::size_t end : {0, 1}) {

@@ -1,11 +1,11 @@
 #include "geometry/star.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
+#include "core/sphere.hpp"
 #include "geometry/closed.hpp"
 #include "geometry/measures.hpp"
 
@@ -63,7 +63,7 @@ std::optional<Vec3> find_star_center(const Surface& surface) {
   constexpr double kMargin = 0.01;
   const double volume = compute_volume(surface.node, surface.triangle);
   if (!(volume > 0)) return std::nullopt;
-  const double radius = std::cbrt(3 * volume / (4 * kPi));
+  const double radius = sphere_radius(volume);
   const std::vector<FacePlane> planes = make_planes(surface);
   const Vec3 centroid = compute_centroid(surface.node, surface.triangle);
   if (find_nearest(planes, centroid).margin >= kMargin * radius) return centroid;

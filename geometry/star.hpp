@@ -16,24 +16,25 @@ namespace acinus::geometry {
 /// skipped.
 double compute_star_margin(const Surface& surface, const Vec3& point);
 
-/// A point from which the closed surface is star-shaped with a margin of a hundredth of its volume
-/// radius: the volume centroid if it serves, else one found by stepping away from the nearest face
-/// plane again and again. Nothing if there is none or it was not found.
+/// Point from which the closed surface is star-shaped with a margin of a hundredth of its volume
+/// radius: the volume centroid if it has that margin, else one found by repeated steps away from
+/// the nearest face plane. Nothing if there is none or it was not found.
 std::optional<Vec3> find_star_center(const Surface& surface);
 
-/// Where a ray meets the surface.
+/// Intersection of a ray with the surface.
 struct Hit {
   Vec3 point = Vec3::Zero();
   int triangle = 0;
 };
 
-/// A star-shaped surface prepared for rays from its centre.
+/// Star-shaped surface prepared for rays from its centre.
 class StarSurface {
  public:
-  /// @pre compute_star_margin(surface, center) > 0, surface closed and oriented
+  /// Prepares the surface. @pre compute_star_margin(surface, center) > 0, surface closed and
+  /// oriented
   StarSurface(const Surface& surface, const Vec3& center);
 
-  /// Walks over the faces from `start` towards the ray. Never misses: a ray through an edge or a
+  /// Casts a ray by a walk over the faces from `start`. Never misses: a ray through an edge or a
   /// node goes to one of the faces there. @param direction  of any length but zero
   Hit cast(const Vec3& direction, int start = 0) const;
 

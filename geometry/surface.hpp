@@ -1,5 +1,5 @@
 #pragma once
-/// A plain triangle surface, as read from a file or made by a generator.
+/// Plain triangle surface, as read from a file or generated.
 
 #include <array>
 #include <string>

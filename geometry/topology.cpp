@@ -97,7 +97,7 @@ void make_rest_shape(Topology& out, const Surface& surface) {
 
 void make_rest_measures(Topology& out) {
   const auto x = [&](int node) -> const Vec3& { return out.rest[node]; };
-  out.rest_node_area.assign(static_cast<std::size_t>(out.n_node), 0.0);
+  out.rest_node_area.assign(out.n_node, 0.0);
   for (int t = 0; t < out.n_triangle; ++t) {
     const auto& [a, b, c] = out.triangle[t];
     // Below this the triangle's normal, and with it the rest angles, would be round-off.

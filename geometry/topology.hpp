@@ -10,10 +10,10 @@
 
 namespace acinus::geometry {
 
-/// Immutable after make_topology. All rest quantities are for the unit cell: the rest shape is
-/// scaled
-/// ("inflated") so that its volume is exactly 4/3 pi, so a cell of radius R = (3 V0 / 4 pi)^(1/3)
-/// has rest lengths R * rest_length, areas R^2 * rest_area and volume R^3 * 4/3 pi.
+/// Topology of a cell mesh, immutable after make_topology. All rest quantities are for the unit
+/// cell: the rest shape is scaled so that its volume is exactly 4/3 pi, so a cell of radius R = (3
+/// V0 / 4 pi)^(1/3) has rest lengths R * rest_length, areas R^2 * rest_area and volume R^3 * 4/3
+/// pi.
 struct Topology {
   int n_node = 0;
   int n_edge = 0;
@@ -24,7 +24,7 @@ struct Topology {
   /// [n_edge] {x1, x2, x3, x4}: hinge about the edge x3-x4 with opposite corners x1, x2, oriented
   /// so that N1 = (x1-x3)x(x1-x4) and N2 = (x2-x4)x(x2-x3) both point outward on the rest shape.
   std::vector<std::array<int, 4>> hinge;
-  std::vector<std::array<int, 2>> edge_triangle;  ///< [n_edge] the two triangles (x1's, x2's)
+  std::vector<std::array<int, 2>> edge_triangle;  ///< [n_edge] the two triangles (with x1, with x2)
   std::vector<double> rest_length;                ///< [n_edge]
   /// [n_edge] cos and sin of the signed rest angle theta = -atan2((N1 x N2).e, N1.N2), e =
   /// (x4-x3)/|x4-x3|
@@ -43,11 +43,11 @@ struct Topology {
 /// connected.
 Topology make_topology(const Surface& surface);
 
-/// The icosphere with 12, 42, 92, 162, 252, 362, 642, 1442 or 2562 nodes. Throws Error for another
+/// Icosphere with 12, 42, 92, 162, 252, 362, 642, 1442 or 2562 nodes. Throws Error for another
 /// count.
 Topology make_icosphere(int n_node);
 
-/// As make_icosphere, but made once and kept for the life of the program.
+/// Icosphere made once and kept for the life of the program.
 const Topology& shared_icosphere(int n_node);
 
 }  // namespace acinus::geometry

@@ -1,5 +1,5 @@
 #pragma once
-/// Cuts polygons into triangles.
+/// Triangulation of polygons.
 
 #include <array>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace acinus::geometry {
 
-/// Largest polygon that is cut: the search for the best ear costs n^3.
+/// Largest number of corners of a polygon: the search for the best ear costs n^3.
 inline constexpr std::size_t kMaxPolygon = 256;
 
 /// Cuts one polygon, convex or not, slightly bent or not, into n - 2 triangles with its orientation

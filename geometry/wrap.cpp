@@ -16,7 +16,7 @@ Surface wrap(const Surface& surface, double alpha, double offset) {
   for (const Vec3& x : surface.node) point.emplace_back(x[0], x[1], x[2]);
   for (const auto& corner : surface.triangle) {
     std::array<std::size_t, 3> f{};
-    for (std::size_t k = 0; k < 3; ++k) f[k] = static_cast<std::size_t>(corner[k]);
+    for (std::size_t k = 0; k < 3; ++k) f[k] = corner[k];
     face.push_back(f);
   }
   CgalMesh mesh;

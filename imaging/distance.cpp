@@ -8,21 +8,21 @@
 namespace acinus::imaging {
 namespace {
 
-constexpr double kFar = 1e30;  // um^2, before any voxel of the kind was met
+constexpr double kNoneFound = 1e30;  // um^2, before any voxel of the kind was met
 
 /// Calls visit(first, stride, n) for every line of a grid along an axis.
 template <class Visit>
 void for_each_line(const Grid& g, int axis, Visit visit) {
-  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(g.size[0]),
-                                          static_cast<std::size_t>(g.size[0]) * g.size[1]};
+  const std::size_t n_x = g.size[0], n_y = g.size[1];
+  const std::array<std::size_t, 3> stride{1, n_x, n_x * n_y};
   const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
   for (int j = 0; j < g.size[v]; ++j)
     for (int i = 0; i < g.size[u]; ++i)
-      visit(i * stride[u] + j * stride[v], stride[axis], static_cast<std::size_t>(g.size[axis]));
+      visit(i * stride[u] + j * stride[v], stride[axis], g.size[axis]);
 }
 
-/// Squares of distances along one line: the lower envelope of parabolas that stand on the squares
-/// found along the other axes.
+/// Squared distances along one line: the lower envelope of parabolas on the squared distances found
+/// along the previous axes.
 class Envelope {
  public:
   void run(std::vector<double>& f, std::size_t first, std::size_t stride, std::size_t n,
@@ -32,7 +32,7 @@ class Envelope {
     foot_.clear();
     begin_.clear();
     for (std::size_t k = 0; k < n; ++k) {
-      if (height_[k] >= kFar) continue;
+      if (height_[k] >= kNoneFound) continue;
       double meets = -std::numeric_limits<double>::infinity();
       while (!foot_.empty()) {
         meets = crossing(foot_.back(), k, step);
@@ -55,7 +55,7 @@ class Envelope {
   }
 
  private:
-  /// Where the parabola on the later foot q falls below that on p, um.
+  /// Position at which the parabola on the later foot q falls below that on p, um.
   double crossing(std::size_t p, std::size_t q, double step) const {
     const double a = step * static_cast<double>(p), b = step * static_cast<double>(q);
     return ((height_[q] + b * b) - (height_[p] + a * a)) / (2 * (b - a));
@@ -64,11 +64,11 @@ class Envelope {
   std::vector<std::size_t> foot_;
 };
 
-/// um, from the nearest voxel of a kind.
+/// Distances from the nearest voxel of a kind, um.
 std::vector<double> distances_to(const std::vector<std::uint8_t>& inside, bool kind,
                                  const Grid& grid) {
   std::vector<double> f(inside.size());
-  for (std::size_t k = 0; k < f.size(); ++k) f[k] = (inside[k] != 0) == kind ? 0 : kFar;
+  for (std::size_t k = 0; k < f.size(); ++k) f[k] = (inside[k] != 0) == kind ? 0 : kNoneFound;
   Envelope envelope;
   for (int axis = 0; axis < 3; ++axis)
     for_each_line(grid, axis, [&](std::size_t first, std::size_t stride, std::size_t n) {
@@ -102,7 +102,7 @@ double Grid::at(const Vec3& x) const {
   return (1 - part[2]) * along_xy(0) + part[2] * along_xy(1);
 }
 
-void find_signed_distance(const std::vector<std::uint8_t>& inside, Grid& grid) {
+void compute_signed_distance(const std::vector<std::uint8_t>& inside, Grid& grid) {
   const std::vector<double> to_inside = distances_to(inside, true, grid),
                             to_outside = distances_to(inside, false, grid);
   grid.value.resize(inside.size());
@@ -129,13 +129,13 @@ void smooth(const Vec3& voxels, Grid& grid) {
         double mean = 0;
         for (int j = -reach; j <= reach; ++j)
           mean += weight[j + reach] * line[std::clamp(k + j, 0, last)];
-        grid.value[first + static_cast<std::size_t>(k) * stride] = mean;
+        grid.value[first + k * stride] = mean;
       }
     });
   }
 }
 
-double find_steepest(const Grid& grid) {
+double compute_largest_slope(const Grid& grid) {
   Vec3 most = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis)
     for_each_line(grid, axis, [&](std::size_t first, std::size_t stride, std::size_t n) {

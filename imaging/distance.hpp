@@ -1,5 +1,5 @@
 #pragma once
-/// Distances from the wall of a set of voxels.
+/// Signed distance from the wall of a set of voxels.
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace acinus::imaging {
 
-/// Numbers at the centres of voxels.
+/// Scalar field, sampled at the centres of voxels.
 struct Grid {
   Voxel size{};
   Vec3 voxel = Vec3::Zero();   ///< um
@@ -18,19 +18,22 @@ struct Grid {
   std::size_t index(const Voxel& v) const {
     return (static_cast<std::size_t>(v[2]) * size[1] + v[1]) * size[0] + v[0];
   }
-  /// Linear along each axis between centres; beyond the outermost as there.
+  std::size_t n_voxel() const { return index({0, 0, size[2]}); }
+  /// Value at a point, linear along each axis between centres; beyond the outermost centres
+  /// constant.
   double at(const Vec3& x) const;
 };
 
-/// um from the nearest voxel of the other kind, negative inside, at every centre: the wall lies in
-/// the middle between two of different kind. Exact, by one pass an axis [Felzenszwalb2012].
+/// Computes the signed distance of every centre from the nearest voxel of the other kind, um,
+/// negative inside: the wall lies in the middle between two voxels of different kind. Exact, by one
+/// pass an axis [Felzenszwalb2012].
 /// @param inside  [z][y][x], with at least one voxel of each kind
-void find_signed_distance(const std::vector<std::uint8_t>& inside, Grid& grid);
+void compute_signed_distance(const std::vector<std::uint8_t>& inside, Grid& grid);
 
-/// Mean over a Gaussian of so many voxels (standard deviation) along each axis.
+/// Smooths a grid by a Gaussian. @param voxels  standard deviation along each axis, in voxels
 void smooth(const Vec3& voxels, Grid& grid);
 
-/// um per um, an upper bound of the slope of Grid::at.
-double find_steepest(const Grid& grid);
+/// Upper bound of the slope of Grid::at, um per um.
+double compute_largest_slope(const Grid& grid);
 
 }  // namespace acinus::imaging

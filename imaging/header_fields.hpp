@@ -1,5 +1,5 @@
 #pragma once
-/// The fields of a text header, as MetaImage and NRRD have it.
+/// Fields of a text header, as of MetaImage and NRRD.
 
 #include <array>
 #include <cstdint>
@@ -15,24 +15,24 @@ namespace acinus::imaging {
 
 std::string trimmed(std::string_view text);
 
-/// By name in lower case, each with its place in the file for messages.
+/// Header fields by name in lower case, each with its place in the file for messages.
 class HeaderFields {
  public:
-  /// @param advice  how to write such a file, for messages
+  /// Makes an empty header. @param advice  on writing such a file, for messages
   HeaderFields(const geometry::InputFile& file, const char* advice)
       : file_(file), advice_(advice) {}
 
-  /// Throws Error where the field was there before with another value.
+  /// Adds a field. Throws Error if it has another value already.
   void add(std::string_view name, std::string_view value, std::size_t place);
   bool has(const std::string& name) const { return field_.contains(name); }
   std::string text(const std::string& name) const;  ///< "" without such a field
-  /// Numbers among spaces, commas and brackets; "none" is nan. Throws Error at what is none.
+  /// Numbers between spaces, commas and brackets; "none" is nan. Throws Error at other text.
   std::vector<double> numbers(const std::string& name) const;
   /// Numbers of voxels along three axes. Throws Error unless they are three whole numbers from 1.
   std::array<std::int64_t, 3> sizes(const std::string& name) const;
   /// One number; nothing without such a field. Throws Error at anything else.
   std::optional<double> number(const std::string& name) const;
-  /// Throws Error at the field: what, and the advice.
+  /// Throws Error at the field, with `what` and the advice.
   [[noreturn]] void fail(const std::string& name, const std::string& what) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of read_image.cpp, one per file format. Not for use elsewhere.
+/// Parts of read_image.cpp, one per file format. Not for use elsewhere.
 
 #include <cstdint>
 #include <string>
@@ -11,31 +11,32 @@
 
 namespace acinus::imaging {
 
-/// What a file says, before units are looked at.
+/// Content of an image file, before units are resolved.
 struct ImageFile {
   std::array<std::int64_t, 3> size{};
-  Vec3 step = Vec3::Zero();  ///< sides of a voxel in units of the file; 0 where it does not say
-  Vec3 unit = Vec3::Zero();  ///< um in such a unit, by axis; 0: the file does not say
+  Vec3 step = Vec3::Zero();  ///< sides of a voxel in units of the file; 0: not stated
+  Vec3 unit = Vec3::Zero();  ///< um in such a unit, by axis; 0: not stated
   /// Reason why the sides cannot be used: a contradiction, an unknown unit. Empty: none.
   std::string step_fault;
   Scalar type = Scalar::kU8;
   std::vector<Label> label;       ///< [z][y][x]
-  std::vector<std::string> note;  ///< statements of the file that are not followed
+  std::vector<std::string> note;  ///< statements of the file that are ignored
 
   Voxel voxels() const {  ///< @pre count_voxels
     return {static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2])};
   }
 };
 
-/// Which of several channels, from 0; nothing where the file must have one only.
+/// Choice among several channels, from 0; nothing where the file must have one only.
 struct ChannelChoice {
-  std::int64_t channel = -1;    ///< -1: not said
+  std::int64_t channel = -1;    ///< -1: not given
   bool only_if_needed = false;  ///< counts only where there are several
-  /// The channel to read. Throws Error where there are several and none was said, or fewer.
+  /// Channel to read. Throws Error where there are several and none was given, or fewer.
   std::int64_t among(const std::string& path, std::int64_t n) const;
 };
 
-/// um in a unit by one of its names, as files spell it ("um", "micron", "mm"...); 0: unknown.
+/// Size, um, of a unit by one of its names, as files spell it ("um", "micron", "mm"...); 0:
+/// unknown.
 double unit_by_name(std::string_view name);
 
 // All throw Error, with path and place, at what is wrong or not supported.
@@ -46,8 +47,8 @@ ImageFile read_nrrd(const std::string& path);
 ImageFile read_hdf5(const std::string& path, const std::string& dataset,
                     const ChannelChoice& channel);
 
-/// The axes of an image in space: columns of `axes`. Notes in `file` where they are not at right
-/// angles, or make a mirror image: neither is followed.
+/// Adds notes to `file` where the axes of an image in space, the columns of `axes`, are not at
+/// right angles, or make a mirror image: neither is corrected.
 void note_axes(const Eigen::Matrix3d& axes, const std::string& named, ImageFile& file);
 
 /// Throws Error for an image of one slice: cells need a stack. Called before other checks, whose
@@ -56,19 +57,20 @@ void note_axes(const Eigen::Matrix3d& axes, const std::string& named, ImageFile&
 void check_stack(const std::string& path, const std::array<std::int64_t, 3>& size,
                  std::int64_t others = 1);
 
-/// A header may announce anything: throws Error unless so many bytes can come out of those stored.
+/// Throws Error unless the announced bytes can come out of those stored: a header may announce
+/// anything.
 /// @param compressed  LZW makes data at most some thousand times smaller, deflate a thousand
 void check_announced(const std::string& path, double announced, double stored, bool compressed);
 
-/// The data that the header of a file announces: raw bytes, or a zlib or gzip stream.
+/// Image data that a header announces: raw bytes, or a zlib or gzip stream.
 struct ImageBytes {
-  std::string path;  ///< of the file that has them, for messages
+  std::string path;  ///< path of the file with the data, for messages
   std::string_view stored;
   bool compressed = false, swap = false;
-  std::size_t skip = 0;  ///< bytes before those of the voxels, once inflated
+  std::size_t skip = 0;  ///< bytes before those of the voxels, after decompression
 };
 
-/// Fills file.label. @pre file.size and file.type are set
+/// Converts the data to file.label. @pre file.size and file.type are set
 void take_bytes(const ImageBytes& bytes, ImageFile& file);
 
 }  // namespace acinus::imaging

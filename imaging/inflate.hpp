@@ -1,5 +1,5 @@
 #pragma once
-/// Compressed bytes.
+/// Compression and decompression by zlib.
 
 #include <cstddef>
 #include <string>
@@ -8,10 +8,10 @@
 namespace acinus::imaging {
 
 /// Content of a zlib stream, or of a gzip file of one or more members. Throws Error("<path>: ...")
-/// if it is damaged, goes on behind its end, or holds another number of bytes than `size`.
+/// if it is damaged, continues beyond its end, or has another number of bytes than `size`.
 std::string inflate_bytes(const std::string& path, std::string_view stream, std::size_t size);
 
-/// A zlib stream, or with `gzip` one as the program of that name writes it.
+/// Compressed bytes as a zlib stream, or as a gzip file.
 std::string deflate_bytes(std::string_view bytes, bool gzip);
 
 }  // namespace acinus::imaging

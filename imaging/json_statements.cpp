@@ -7,7 +7,7 @@
 namespace acinus::imaging {
 namespace {
 
-/// Nothing but an object; discarded where the text is no JSON.
+/// JSON object of a text; discarded where the text is not JSON, or no object.
 nlohmann::json parse_object(const std::string& text) {
   constexpr std::size_t kMost = 1 << 20;
   const std::size_t first = text.find_first_not_of(" \t\r\n");

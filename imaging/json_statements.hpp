@@ -8,17 +8,17 @@
 
 namespace acinus::imaging {
 
-/// Names of axes, slowest first, from vigra's axistags as ilastik writes them, in lower case.
-/// Nothing where the text is none such.
+/// Names of axes, slowest first, in lower case, from vigra's axistags as ilastik writes them.
+/// Nothing where the text has another form.
 std::optional<std::vector<std::string>> read_axis_tags(const std::string& text);
 
-/// The shape that tifffile writes as description of the first page.
+/// Shape that tifffile writes as the description of the first page.
 struct TiffShape {
   std::vector<std::int64_t> length;  ///< slowest axis first
-  std::string axes;                  ///< a letter an axis, as "CZYX"; empty: not said
+  std::string axes;                  ///< a letter an axis, as "CZYX"; empty: not stated
 };
 
-/// Nothing where the text is none such.
+/// Shape from such a description. Nothing where the text has another form.
 std::optional<TiffShape> read_tiff_shape(const std::string& text);
 
 }  // namespace acinus::imaging

@@ -1,5 +1,5 @@
 #pragma once
-/// An image whose voxels say what they are part of.
+/// Label image: each voxel has the number of the cell that it is part of.
 
 #include <array>
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace acinus::imaging {
 using Label = std::uint32_t;
 using Voxel = std::array<int, 3>;  ///< x, y, z from 0
 
-/// Voxel (i, j, k) is the box from (i, j, k) to (i + 1, j + 1, k + 1), times `voxel`.
+/// Label image. Voxel (i, j, k) is the box from (i, j, k) to (i + 1, j + 1, k + 1), times `voxel`.
 struct LabelImage {
   Voxel size{};                  ///< voxels along x, y, z
   Vec3 voxel = Vec3::Zero();     ///< um, sides of a voxel
-  std::vector<Label> label;      ///< [z][y][x]; 0 is what no cell is in
-  std::uint64_t most_label = 0;  ///< largest number that the type in the file can hold
+  std::vector<Label> label;      ///< [z][y][x]; 0 is the background
+  std::uint64_t most_label = 0;  ///< largest number that the number type of the file can hold
 
   std::size_t index(const Voxel& v) const {
     return (static_cast<std::size_t>(v[2]) * size[1] + v[1]) * size[0] + v[0];

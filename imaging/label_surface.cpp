@@ -27,7 +27,7 @@ double volume_of(const geometry::Surface& s) {
   return geometry::compute_volume(s.node, s.triangle);
 }
 
-/// The smoothed distance in and around the box of a piece.
+/// Smoothed signed distance in and around the box of a piece.
 Grid distance_about(const LabelImage& image, const Piece& piece, double smoothing) {
   const int margin = 2 + static_cast<int>(std::ceil(3 * smoothing));
   Grid grid;
@@ -38,20 +38,19 @@ Grid distance_about(const LabelImage& image, const Piece& piece, double smoothin
     grid.size[k] = piece.high[k] - piece.low[k] + 1 + 2 * margin;
   }
   grid.origin = image.center(low);
-  std::vector<std::uint8_t> inside(static_cast<std::size_t>(grid.size[0]) * grid.size[1] *
-                                   grid.size[2]);
+  std::vector<std::uint8_t> inside(grid.n_voxel());
   for (int z = piece.low[2]; z <= piece.high[2]; ++z)
     for (int y = piece.low[1]; y <= piece.high[1]; ++y)
       for (int x = piece.low[0]; x <= piece.high[0]; ++x)
         if (image.label[image.index({x, y, z})] == piece.label)
           inside[grid.index({x - low[0], y - low[1], z - low[2]})] = 1;
-  find_signed_distance(inside, grid);
+  compute_signed_distance(inside, grid);
   smooth(Vec3::Constant(smoothing), grid);
   return grid;
 }
 
-/// The value at which what lies below has a volume: a voxel counts in part within half its smallest
-/// side of the wall.
+/// Value of the grid below which a given volume lies: voxels within half their smallest side of the
+/// wall count in part.
 double find_level(const Grid& grid, double volume) {
   constexpr int kHalvings = 40;
   const double side = grid.voxel.minCoeff(), voxel = grid.voxel.prod();
@@ -66,7 +65,7 @@ double find_level(const Grid& grid, double volume) {
   return 0.5 * (low + high);
 }
 
-/// The surface at a value of the grid; what is largest of it, if it has parts.
+/// Level surface of the grid; its largest part if it has several.
 geometry::Surface surface_at(const Grid& grid, double level, double steepest, double edge) {
   geometry::Shape shape;
   shape.value = [&](const Vec3& x, std::span<const int>) { return grid.at(x) - level; };
@@ -94,7 +93,7 @@ LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, dou
   constexpr int kRounds = 4;
   constexpr double kNearly = 2e-3;  // of the volume; what is missing then is scaled
   const Grid grid = distance_about(image, piece, smoothing);
-  const double steepest = std::max(1.0, find_steepest(grid));
+  const double steepest = std::max(1.0, compute_largest_slope(grid));
   LabelSurface out;
   out.volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
   // Where the distance rises by 1 um a um, the volume rises by the area.
@@ -115,7 +114,7 @@ LabelSurface make_label_surface(const LabelImage& image, const Piece& piece, dou
   for (std::size_t k = 1; k < parts.size(); ++k) out.left_out += std::max(0.0, volume_of(parts[k]));
   out.surface = std::move(parts.front());
   scale_to(out.volume - out.left_out, out.surface);
-  out.handles = geometry::find_connectivity(out.surface).handles();
+  out.handles = geometry::compute_connectivity(out.surface).handles();
   return out;
 }
 

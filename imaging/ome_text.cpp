@@ -15,7 +15,7 @@
 namespace acinus::imaging {
 namespace {
 
-/// A name without its prefix: "ome:Pixels" is Pixels.
+/// Name without its prefix: "ome:Pixels" is Pixels.
 std::string_view local(const char* name) {
   const std::string_view text = name;
   return text.substr(text.find(':') + 1);
@@ -54,7 +54,7 @@ class OmeReader {
                             path_, what));
   }
 
-  /// An attribute that is a whole number; `otherwise` where it is not there.
+  /// Whole number of an attribute; `otherwise` if it is missing.
   std::int64_t whole(const pugi::xml_node& node, const char* name, std::int64_t least,
                      std::optional<std::int64_t> otherwise) const {
     const pugi::xml_attribute attribute = node.attribute(name);
@@ -135,18 +135,18 @@ class OmeReader {
     }
   }
 
-  /// Names of the files that hold planes; empty where a TiffData names none.
+  /// Name of the file that holds the planes; empty where a TiffData names none.
   static std::string file_of(const pugi::xml_node& data) {
     const std::vector<pugi::xml_node> id = children(data, "UUID");
     return id.empty() ? "" : id[0].attribute("FileName").value();
   }
 
-  /// The order of first use, and the page, of the planes of one TiffData.
+  /// Reads the order of first use, and the pages, of the planes of one TiffData.
   void take_planes(const std::vector<pugi::xml_node>& all) {
     std::set<std::string> files;
     for (const pugi::xml_node& data : all) files.insert(file_of(data));
     const std::string own = std::filesystem::path(path_).filename().string();
-    out_.page_of_plane.assign(static_cast<std::size_t>(out_.planes()), TiffText::kNowhere);
+    out_.page_of_plane.assign(out_.planes(), TiffText::kNowhere);
     std::set<std::int64_t> pages;
     for (const pugi::xml_node& data : all) {
       const std::string file = file_of(data);
@@ -164,7 +164,7 @@ class OmeReader {
       if (first + n > out_.planes())
         fail(fmt::format("gives {} planes from plane {}, of {} in all", n, first, out_.planes()));
       for (std::int64_t k = 0; k < n; ++k) {
-        std::int64_t& page = out_.page_of_plane[static_cast<std::size_t>(first + k)];
+        std::int64_t& page = out_.page_of_plane[first + k];
         const std::int64_t wanted = elsewhere ? TiffText::kElsewhere : ifd + k;
         if (page == wanted) continue;
         if (page != TiffText::kNowhere)

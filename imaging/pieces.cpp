@@ -10,10 +10,10 @@
 namespace acinus::imaging {
 namespace {
 
-/// Rows of voxels of one label along x, without the background, in the order of the image.
+/// Runs of voxels of one label along x, without the background, in the order of the image.
 struct Rows {
   std::vector<PieceRow> row;
-  std::vector<std::size_t> first;  ///< [z * size y + y] the first of that line; one more at the end
+  std::vector<std::size_t> first;  ///< [z * size y + y] first row of that line; one more at the end
 };
 
 Rows find_rows(const LabelImage& image) {
@@ -33,7 +33,7 @@ Rows find_rows(const LabelImage& image) {
   return rows;
 }
 
-/// Joins the rows of two lines that touch and have one label.
+/// Joins the rows of two lines that touch and have the same label.
 void join_lines(const LabelImage& image, const Rows& rows, std::size_t a, std::size_t b,
                 DisjointSets& sets) {
   std::size_t i = rows.first[a], j = rows.first[b];
@@ -56,7 +56,7 @@ void add_row(const LabelImage& image, const PieceRow& row, Piece& piece) {
     piece.high[k] = std::max(piece.high[k], last[k]);
     piece.at_border = piece.at_border || row.first[k] == 0 || last[k] == image.size[k] - 1;
   }
-  piece.n_voxel += static_cast<std::size_t>(row.length);
+  piece.n_voxel += row.length;
   piece.center += 0.5 * row.length * (image.center(row.first) + image.center(last));
 }
 
@@ -65,7 +65,7 @@ void add_row(const LabelImage& image, const PieceRow& row, Piece& piece) {
 Pieces find_pieces(const LabelImage& image) {
   Rows rows = find_rows(image);
   DisjointSets sets(rows.row.size());
-  const auto n_y = static_cast<std::size_t>(image.size[1]);
+  const std::size_t n_y = image.size[1];
   for (std::size_t line = 0; line + 1 < rows.first.size(); ++line) {
     if (line % n_y != 0) join_lines(image, rows, line - 1, line, sets);
     if (line >= n_y) join_lines(image, rows, line - n_y, line, sets);

@@ -7,13 +7,13 @@
 
 namespace acinus::imaging {
 
-/// Voxels of one label that hang together by their faces.
+/// Connected piece: voxels of one label that share faces.
 struct Piece {
   Label label = 0;
   std::size_t n_voxel = 0;
-  Voxel low{}, high{};         ///< corners of its box, both included
+  Voxel low{}, high{};         ///< corners of its bounding box, both included
   Vec3 center = Vec3::Zero();  ///< um, of its voxels
-  bool at_border = false;      ///< of the image: part of it may be outside
+  bool at_border = false;      ///< touches the border of the image, so part of it may be outside
 };
 
 /// A row of voxels of one piece along x.
@@ -27,11 +27,11 @@ struct Pieces {
   std::vector<PieceRow> row;  ///< in the order of the image
 };
 
-/// Cost: linear in voxels.
+/// Finds the connected pieces of all labels. Cost: linear in voxels.
 Pieces find_pieces(const LabelImage& image);
 
-/// Pairs of labels, the lower first and ascending, that have at least `least` faces of voxels
-/// between them. Nothing touches the background.
+/// Pairs of labels, the lower first and ascending, that share at least `least` faces of voxels. The
+/// background has no pairs.
 std::vector<std::array<Label, 2>> find_touching(const LabelImage& image, int least);
 
 }  // namespace acinus::imaging

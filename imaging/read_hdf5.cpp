@@ -1,13 +1,11 @@
-/// HDF5, as ilastik, Fiji's plugin and others write it: a dataset with the axes z, y, x, or with
-/// axes that the file names.
+/// Reader of HDF5 images as ilastik, Fiji's plugin and others write them: a dataset with the axes
+/// z, y, x, or with axes that the file names.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
-#include <span>
 
 #include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"
@@ -28,7 +26,7 @@ bool named(const io::VolumeInfo& v, const std::string& dataset) {
   return dataset.empty() || v.name == (dataset.starts_with("/") ? dataset : "/" + dataset);
 }
 
-/// @param lenient  the name counts only where there are several
+/// Chooses the dataset. @param lenient  the name counts only where there are several
 io::VolumeInfo choose(const std::string& path, const std::string& said, bool lenient) {
   std::vector<io::VolumeInfo> volumes = io::list_volumes(path);
   const std::string dataset = lenient && volumes.size() == 1 ? "" : said;
@@ -85,7 +83,7 @@ std::string text_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Names of axes that the file says, slowest first; empty where it says none.
+/// Axis names that the file states, slowest first; empty: none.
 std::vector<std::string> named_axes(const std::string& path, const io::VolumeInfo& v) {
   std::vector<std::string> label = v.axis_label;
   for (std::string& l : label) l = geometry::lower_case(l);
@@ -112,7 +110,7 @@ Axes find_named(const std::string& path, const io::VolumeInfo& v,
   for (std::size_t k = 0; k < name.size(); ++k) {
     std::optional<std::size_t>* axis = nullptr;
     if (name[k].size() == 1 && name[k][0] >= 'x' && name[k][0] <= 'z')
-      axis = &axes.space[static_cast<std::size_t>(name[k][0] - 'x')];
+      axis = &axes.space[name[k][0] - 'x'];
     if (name[k] == "c" || name[k] == "channel") axis = &axes.channel;
     if (name[k] == "t" || name[k] == "time") axis = &axes.time;
     if (axis == nullptr && v.shape[k] == 1) continue;
@@ -125,7 +123,8 @@ Axes find_named(const std::string& path, const io::VolumeInfo& v,
   return axes;
 }
 
-/// Axes z, y, x; those of length 1 (a channel, a time) may stand anywhere among the three.
+/// Axes z, y, x of a dataset without names; axes of length 1 (a channel, a time) may be anywhere
+/// among the three.
 Axes find_unnamed(const std::string& path, const io::VolumeInfo& v) {
   constexpr std::size_t kAxes = 3;
   std::vector<std::size_t> axis;
@@ -150,7 +149,8 @@ void check_storage(const std::string& path, const io::VolumeInfo& v) {
         fmt::format("{}: {} has a shape but no numbers: none were ever written.", path, v.name));
 }
 
-/// Sides of voxels, um, by axis of the shape or, if there are three, of space in that order.
+/// Reads the sides of voxels, um, by axis of the shape or, if there are three, of space in that
+/// order.
 void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& axes,
                 ImageFile& file) {
   if (v.element_size.empty()) return;
@@ -166,23 +166,21 @@ void take_steps(const std::string& path, const io::VolumeInfo& v, const Axes& ax
   for (std::size_t k = 0; k < 3; ++k) {
     if (!axes.space[k]) continue;
     const std::size_t at = *axes.space[k];
-    const auto rank = static_cast<std::size_t>(std::ranges::find(spatial, at) - spatial.begin());
+    const std::size_t rank = std::ranges::find(spatial, at) - spatial.begin();
     file.step[static_cast<int>(k)] = v.element_size[by_axis ? at : rank];
   }
 }
 
-/// The numbers of one channel of one time as [z][y][x].
+/// Extracts the numbers of one channel of one time as [z][y][x].
 std::vector<std::byte> arrange(const std::vector<std::byte>& all, const io::VolumeInfo& v,
                                const Axes& axes, const ImageFile& file, std::int64_t chosen) {
-  std::vector<std::size_t> stride(v.shape.size(), static_cast<std::size_t>(v.bytes));
-  for (std::size_t k = v.shape.size() - 1; k-- > 0;)
-    stride[k] = stride[k + 1] * static_cast<std::size_t>(v.shape[k + 1]);
+  std::vector<std::size_t> stride(v.shape.size(), v.bytes);
+  for (std::size_t k = v.shape.size() - 1; k-- > 0;) stride[k] = stride[k + 1] * v.shape[k + 1];
   const auto stride_of = [&](const std::optional<std::size_t>& a) { return a ? stride[*a] : 0; };
-  const auto channels = static_cast<std::size_t>(axes.channel ? v.shape[*axes.channel] : 1);
-  const auto c = static_cast<std::size_t>(chosen) % channels,
-             t = static_cast<std::size_t>(chosen) / channels;
+  const std::size_t channels = axes.channel ? v.shape[*axes.channel] : 1;
+  const std::size_t c = chosen % channels, t = chosen / channels;
   const std::size_t first = c * stride_of(axes.channel) + t * stride_of(axes.time);
-  const auto bytes = static_cast<std::size_t>(v.bytes);
+  const std::size_t bytes = v.bytes;
   const Voxel size = file.voxels();
   std::vector<std::byte> out;
   out.reserve(bytes * size[0] * size[1] * size[2]);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -56,7 +55,7 @@ bool alike(const Vec3& a, const Vec3& b) {
   return ((a - b).cwiseAbs().array() <= kSame * b.cwiseAbs().array()).all();
 }
 
-/// The side that the user gives; a note where the file says another.
+/// Voxel size that the user gives; adds a note where the file states another.
 Vec3 given_voxel(ImageFile& file, const Vec3& voxel) {
   const Vec3 said = file.step.cwiseProduct(file.unit);
   if (all_known(said) && !alike(said, voxel))

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads label images: segmentations, one number a cell.
+/// Reader of label images: segmentations, one number a cell.
 
 #include <optional>
 #include <string>
@@ -10,21 +10,21 @@
 namespace acinus::imaging {
 
 struct ReadImage {
-  std::string dataset{};      ///< HDF5: where in the file; "" = the only one
+  std::string dataset{};      ///< HDF5: path in the file; "" = the only one
   std::int64_t channel = -1;  ///< from 0, where there are several
-  /// um, sides of a voxel, whatever the file says.
+  /// Sides of a voxel, um; they override the file.
   std::optional<Vec3> voxel{};
-  double unit = 0;  ///< um in a unit of the file's sizes, whatever the file says; 0 = not said
-  /// A second image read with the choices made for a first: dataset and channel count only where
-  /// the file has several.
+  double unit = 0;  ///< um in a unit of the file's sizes, overrides the file; 0 = not given
+  /// Second image, read with the choices made for a first: dataset and channel count only where the
+  /// file has several.
   bool second = false;
 };
 
 /// Reads TIFF stacks (.tif, .tiff; voxel sizes of OME or ImageJ), NIfTI (.nii, .nii.gz, .hdr),
 /// MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) and HDF5 (.h5, .hdf5; attribute element_size_um).
 /// Each statement of the file (docs/images.md lists them) is followed, or `notes` gets a line.
-/// Throws Error with the path and place: what is wrong, not supported, contradictory, or not said;
-/// and at a choice in `how` that has no effect.
+/// Throws Error with the path and place where something is wrong, not supported, contradictory or
+/// missing; and at a choice in `how` that has no effect.
 LabelImage read_image(const std::string& path, const ReadImage& how,
                       std::vector<std::string>* notes = nullptr);
 

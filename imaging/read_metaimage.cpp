@@ -1,8 +1,7 @@
-/// MetaImage: a text header of "Key = Value", the data behind it or in a file of their own.
+/// Reader of MetaImage: a text header of "Key = Value", the data behind it or in a separate file.
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -35,7 +34,7 @@ constexpr std::array<std::pair<const char*, Scalar>, 12> kMetaTypes{{
 
 constexpr const char* kData = "elementdatafile";
 
-/// Leaves the cursor behind the line that says where the data are.
+/// Reads the header; leaves the cursor behind the line that names the place of the data.
 HeaderFields read_meta_header(geometry::InputFile& file) {
   HeaderFields fields(file, "Write the image again, for instance with ITK or Fiji.");
   while (file.remaining() > 0 && !fields.has(kData)) {
@@ -66,7 +65,7 @@ Scalar meta_type_of(const HeaderFields& header) {
                                          geometry::in_quotes(header.text("elementtype"))));
 }
 
-/// The sides of a voxel. Two fields may say them.
+/// Reads the sides of a voxel, which two fields may state.
 void take_meta_steps(const HeaderFields& h, ImageFile& out) {
   std::array<std::vector<double>, 2> said{h.numbers("elementspacing"), h.numbers("elementsize")};
   for (std::size_t k = 0; k < 2; ++k)
@@ -88,7 +87,7 @@ void take_meta_steps(const HeaderFields& h, ImageFile& out) {
   }
 }
 
-/// Bytes of a file of data that are the voxels', by HeaderSize.
+/// Bytes of the voxels in a data file, after HeaderSize.
 std::string_view take_stored(const HeaderFields& h, const ImageBytes& data, ImageFile& out) {
   const double skip = h.number("headersize").value_or(0);
   std::string_view stored = data.stored;
@@ -107,7 +106,7 @@ std::string_view take_stored(const HeaderFields& h, const ImageBytes& data, Imag
   return stored;
 }
 
-/// CompressedDataSize, where it is said, is what there is.
+/// Throws Error if CompressedDataSize is stated and differs from the size of the data.
 void check_stored(const HeaderFields& h, const ImageBytes& data) {
   const std::optional<double> size = h.number("compresseddatasize");
   if (!size || !data.compressed || *size == static_cast<double>(data.stored.size())) return;

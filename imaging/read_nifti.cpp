@@ -1,4 +1,4 @@
-/// NIfTI, by its own library.
+/// Reader of NIfTI, by its own library.
 
 #include <fmt/format.h>
 #include <nifti2_io.h>
@@ -37,7 +37,7 @@ struct FreeNifti {
 };
 using NiftiImage = std::unique_ptr<nifti_image, FreeNifti>;
 
-/// Refuses places of the data that the library would convert without looking at them.
+/// Throws Error at data offsets that the library would convert unchecked.
 void check_header(const std::string& path) {
   struct Free {
     void operator()(void* p) const { std::free(p); }
@@ -64,8 +64,8 @@ NiftiImage open_nifti(const std::string& path) {
   return n;
 }
 
-/// Bytes in a file once inflated. Throws Error where a gzip stream is damaged: only its end has the
-/// check sum.
+/// Bytes in a file after decompression. Throws Error where a gzip stream is damaged: only its end
+/// has the checksum.
 double inflated_size(const std::string& path) {
   if (nifti_is_gzfile(path.c_str()) == 0)
     return static_cast<double>(std::filesystem::file_size(path));
@@ -86,7 +86,7 @@ double inflated_size(const std::string& path) {
   return size;
 }
 
-/// The file holds what its header announces, and nothing else.
+/// Throws Error unless the file has exactly the bytes that its header announces.
 void check_length(const nifti_image& n, const std::string& data_path) {
   const double announced =
       static_cast<double>(n.iname_offset) + static_cast<double>(n.nvox) * n.nbyper;
@@ -99,7 +99,7 @@ void check_length(const nifti_image& n, const std::string& data_path) {
                   data_path, found, announced, n.nx, n.ny, n.nz, n.nbyper, n.nvox, n.iname_offset));
 }
 
-/// Sides of a voxel by pixdim and by the affine, which may disagree.
+/// Reads the sides of a voxel from pixdim and from the affine, which may disagree.
 void take_steps(const nifti_image& n, ImageFile& file) {
   file.step = Vec3(std::abs(n.dx), std::abs(n.dy), std::abs(n.dz));
   const auto axes_of = [](const nifti_dmat44& m) {
@@ -167,8 +167,8 @@ ImageFile read_nifti(const std::string& path, const ChannelChoice& channel) {
         fmt::format("{}: the data cannot be read: the file is truncated or damaged.", path));
   const auto* data = static_cast<const std::byte*>(n->data);  // in this machine's byte order
   file.label.reserve(voxels);
-  append_labels(path, std::span(data + static_cast<std::size_t>(chosen) * bytes, bytes), file.type,
-                false, file.voxels(), file.label);
+  append_labels(path, std::span(data + chosen * bytes, bytes), file.type, false, file.voxels(),
+                file.label);
   return file;
 }
 

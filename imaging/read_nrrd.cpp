@@ -1,8 +1,8 @@
-/// NRRD: a text header of "field: value", an empty line, the data behind it or in another file.
+/// Reader of NRRD: a text header of "field: value", an empty line, the data behind it or in another
+/// file.
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"
 #include "imaging/header_fields.hpp"
 #include "imaging/image_formats.hpp"
@@ -50,7 +49,7 @@ constexpr std::array<std::pair<const char*, Scalar>, 27> kNrrdTypes{{
     {"double", Scalar::kF64},
 }};
 
-/// Leaves the cursor behind the empty line.
+/// Reads the header; leaves the cursor behind the empty line.
 HeaderFields read_nrrd_header(geometry::InputFile& file) {
   HeaderFields fields(file, "Write the image again, for instance with 3D Slicer or Fiji.");
   file.skip_byte_order_mark();
@@ -77,7 +76,8 @@ Scalar nrrd_type_of(const HeaderFields& h) {
                              geometry::in_quotes(h.text("type"))));
 }
 
-/// Sides of a voxel: "spacings", or the lengths of "space directions". nan: not said of that axis.
+/// Reads the sides of a voxel: "spacings", or the lengths of "space directions". nan: not stated
+/// for that axis.
 void take_nrrd_steps(const HeaderFields& h, ImageFile& out) {
   const std::vector<double> d = h.numbers("space directions"), s = h.numbers("spacings");
   if (!d.empty() && d.size() != 9)
@@ -106,7 +106,7 @@ void take_nrrd_steps(const HeaderFields& h, ImageFile& out) {
                                      geometry::in_quotes(h.text(name))));
 }
 
-/// Texts in quotes, one an axis.
+/// Quoted texts, one an axis.
 std::vector<std::string> quoted(const std::string& text) {
   std::vector<std::string> all;
   for (std::size_t at = 0; (at = text.find('"', at)) != text.npos;) {
@@ -118,7 +118,7 @@ std::vector<std::string> quoted(const std::string& text) {
   return all;
 }
 
-/// um in a unit, by axis: of "units" for spacings, of "space units" for directions.
+/// Reads the size of the unit, um, by axis: "units" for spacings, "space units" for directions.
 void take_units(const HeaderFields& h, ImageFile& out) {
   for (const char* name : {"units", "space units"}) {
     const std::vector<std::string> unit = quoted(h.text(name));
@@ -138,7 +138,7 @@ void take_units(const HeaderFields& h, ImageFile& out) {
   }
 }
 
-/// Axes that are not of space (a list, a time) cannot be read as such.
+/// Throws Error at axes that are not spatial (a list, a time).
 void check_kinds(const HeaderFields& h) {
   std::string text = geometry::lower_case(h.text("kinds"));
   std::istringstream words(text);
@@ -149,9 +149,9 @@ void check_kinds(const HeaderFields& h) {
                                   geometry::in_quotes(kind)));
 }
 
-/// Labels written as text.
+/// Bytes of labels that are written as text.
 std::string take_text(std::string_view text, geometry::InputFile& file, std::size_t n) {
-  file.set_position(static_cast<std::size_t>(text.data() - file.bytes().data()));
+  file.set_position(text.data() - file.bytes().data());
   std::string out;
   for (std::size_t k = 0; k < n; ++k) {
     const double value = file.next_double("a label");
@@ -165,7 +165,7 @@ std::string take_text(std::string_view text, geometry::InputFile& file, std::siz
   return out;
 }
 
-/// The file with the data, if the header is alone.
+/// Path of the data file, if the header is separate.
 std::string data_file_of(const HeaderFields& h) {
   const std::string name = h.has("data file") ? h.text("data file") : h.text("datafile");
   if (name.starts_with("LIST") || name.find('%') != name.npos)
@@ -181,7 +181,7 @@ void skip_lines(const HeaderFields& h, ImageBytes& data) {
   }
 }
 
-/// Bytes are skipped before raw data, and behind the start of what comes out of compressed ones.
+/// Skips bytes: before raw data, and at the start of decompressed data.
 void skip_bytes(const HeaderFields& h, std::size_t length, ImageBytes& data, ImageFile& out) {
   const double skip = h.number("byte skip").value_or(0);
   constexpr double kMost = 1e15;

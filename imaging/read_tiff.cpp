@@ -1,4 +1,4 @@
-/// TIFF stacks, by libtiff: a page a slice.
+/// Reader of TIFF stacks, by libtiff: a page a slice.
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,7 @@ std::string& last_words() {
   return words;
 }
 
-/// libtiff tells errors to a function of the process.
+/// Error handler of libtiff, which has one per process; keeps the message.
 void keep_words(const char* module, const char* format, va_list values) {
   std::array<char, 400> text{};
   std::vsnprintf(text.data(), text.size(), format, values);
@@ -60,7 +59,7 @@ TiffPage page_of(TIFF* t) {
   return p;
 }
 
-/// Labels that came through a lossy compression are no labels any more.
+/// Throws Error at a lossy compression, which does not preserve labels.
 void check_lossless(const std::string& path, const TiffPage& p) {
   constexpr std::array<std::pair<std::uint16_t, const char*>, 9> kLossy{
       {{COMPRESSION_JPEG, "JPEG"},
@@ -111,7 +110,7 @@ Scalar type_of(const std::string& path, const TiffPage& p) {
   throw Error(fmt::format("{}: {} bits a pixel are not read; use 8, 16 or 32.", path, p.bits));
 }
 
-/// The rows of a page, from its strips or tiles.
+/// Reads the rows of a page, from its strips or tiles.
 void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int64_t number,
                std::vector<std::byte>& rows) {
   const std::size_t bytes = page.bits / 8u, row = page.width * bytes;
@@ -120,7 +119,7 @@ void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int6
                              path, number, last_words()));
   };
   if (TIFFIsTiled(t) == 0) {
-    if (static_cast<std::size_t>(TIFFScanlineSize64(t)) != row) throw damaged();
+    if (TIFFScanlineSize64(t) != row) throw damaged();
     for (std::uint32_t y = 0; y < page.height; ++y)
       if (TIFFReadScanline(t, rows.data() + y * row, y, 0) < 0) throw damaged();
     return;
@@ -132,7 +131,7 @@ void read_page(const std::string& path, TIFF* t, const TiffPage& page, std::int6
   if (wide == 0 || high == 0 || wide > kMostTile || high > kMostTile) throw damaged();
   check_announced(path, static_cast<double>(TIFFTileSize64(t)),
                   static_cast<double>(std::filesystem::file_size(path)), true);
-  std::vector<std::byte> tile(static_cast<std::size_t>(TIFFTileSize64(t)));
+  std::vector<std::byte> tile(TIFFTileSize64(t));
   if (tile.size() < wide * high * bytes) throw damaged();
   for (std::uint32_t y = 0; y < page.height; y += high)
     for (std::uint32_t x = 0; x < page.width; x += wide) {
@@ -162,7 +161,7 @@ TiffText describe(const std::string& path, TIFF* t) {
   return text;
 }
 
-/// The pages that the description speaks of are there.
+/// Throws Error unless the pages that the description states are there.
 void check_pages(const std::string& path, const TiffPage& first, const TiffChain& chain,
                  TiffText& text) {
   const auto pages = static_cast<std::int64_t>(chain.page.size());
@@ -198,7 +197,7 @@ void check_pages(const std::string& path, const TiffPage& first, const TiffChain
                     path, first.width, first.height, text.width, text.height));
 }
 
-/// Statements about the meaning of rows and numbers that are not followed.
+/// Adds notes about the meaning of rows and numbers that are ignored.
 void note_page(TIFF* t, ImageFile& file) {
   std::uint16_t orientation = ORIENTATION_TOPLEFT, meaning = PHOTOMETRIC_MINISBLACK;
   TIFFGetFieldDefaulted(t, TIFFTAG_ORIENTATION, &orientation);
@@ -217,7 +216,7 @@ std::int64_t page_number(const std::string& path, const TiffText& text, std::int
                          std::int64_t channel) {
   const std::int64_t plane = text.plane(slice, channel);
   if (text.page_of_plane.empty()) return plane;
-  const std::int64_t page = text.page_of_plane[static_cast<std::size_t>(plane)];
+  const std::int64_t page = text.page_of_plane[plane];
   check(page >= 0 && page < text.planes(),
         fmt::format("{}: slice {} of channel {} is {} by its OME description. Write one file with "
                     "all slices.",
@@ -271,11 +270,10 @@ ImageFile read_tiff(const std::string& path, const ChannelChoice& channel) {
   const std::size_t voxels = count_voxels(path, file.size);
   check_announced(path, static_cast<double>(voxels * bytes_of(file.type)), chain.stored, true);
   file.label.reserve(voxels);
-  std::vector<std::byte> rows(static_cast<std::size_t>(first.width) * first.height *
-                              bytes_of(file.type));
+  std::vector<std::byte> rows(bytes_of(file.type) * first.width * first.height);
   for (std::int64_t slice = 0; slice < text.slices; ++slice) {
     const std::int64_t number = page_number(path, text, slice, chosen);
-    open_page(path, tiff.get(), chain.page[static_cast<std::size_t>(number)], number, first);
+    open_page(path, tiff.get(), chain.page[number], number, first);
     read_page(path, tiff.get(), first, number, rows);
     append_labels(path, rows, file.type, false, file.voxels(), file.label);
   }

@@ -55,7 +55,7 @@ bool is_label(T value) {
     return value <= kMostLabel;
 }
 
-/// The number at a byte.
+/// Number at a byte position.
 template <class T>
 T value_at(std::span<const std::byte> bytes, std::size_t at, bool swap) {
   std::array<std::byte, sizeof(T)> one;
@@ -66,7 +66,7 @@ T value_at(std::span<const std::byte> bytes, std::size_t at, bool swap) {
   return value;
 }
 
-/// Number of values that are no labels, from a place on.
+/// Number of values that are not labels, from a position on.
 template <class T>
 std::size_t count_bad(std::span<const std::byte> bytes, bool swap) {
   std::size_t n = 0;
@@ -75,7 +75,8 @@ std::size_t count_bad(std::span<const std::byte> bytes, bool swap) {
   return n;
 }
 
-/// @param rest  of the voxels that were read together, from the one that is no label on
+/// Throws Error at a voxel that is not a label. @param rest  of the voxels that were read together,
+/// from the first such value on
 template <class T>
 [[noreturn]] void fail_at_voxel(const std::string& path, std::span<const std::byte> rest, bool swap,
                                 std::size_t at, const Voxel& size) {
@@ -132,7 +133,7 @@ std::size_t count_voxels(const std::string& path, const std::array<std::int64_t,
             "{}: an image of {} x {} x {} voxels may take {:.3g} GB; this machine has {:.3g}. "
             "Crop the image, or make its voxels larger.",
             path, size[0], size[1], size[2], 1e-9 * kBytes * voxels, 1e-9 * memory));
-  return static_cast<std::size_t>(size[0] * size[1] * size[2]);
+  return size[0] * size[1] * size[2];
 }
 
 }  // namespace acinus::imaging

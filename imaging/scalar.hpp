@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of image files as labels.
+/// Number types of image files, and their conversion to labels.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,14 +15,14 @@ enum class Scalar { kU8, kI8, kU16, kI16, kU32, kI32, kU64, kI64, kF32, kF64 };
 
 std::size_t bytes_of(Scalar type);
 
-/// Largest whole number that a type holds without a gap below it; 2^64 - 1 at most.
+/// Largest whole number that a type holds without a gap below it; at most 2^64 - 1.
 std::uint64_t most_of(Scalar type);
 
 /// Appends numbers as labels.
 /// @param bytes  a multiple of bytes_of(type)
 /// @param swap   the other byte order than this machine's
 /// @param size   of the image, for messages
-/// Throws Error, with the voxel, at one that is no whole number from 0 to 2^32 - 1.
+/// Throws Error, with the voxel, at a number that is not a whole one from 0 to 2^32 - 1.
 void append_labels(const std::string& path, std::span<const std::byte> bytes, Scalar type,
                    bool swap, const Voxel& size, std::vector<Label>& out);
 

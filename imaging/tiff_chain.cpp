@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint16_t kWidth = 256, kStripOffsets = 273, kStripBytes = 279, kTileOffsets = 324,
                         kTileBytes = 325, kSubPages = 330, kUic2 = 33629;
 
-/// Bytes of a value by its type's number in TIFF 6.0 and BigTIFF; 0: unknown.
+/// Size of a value by the number of its type in TIFF 6.0 and BigTIFF, bytes; 0: unknown.
 std::uint64_t bytes_of_type(std::uint16_t type) {
   constexpr std::array<std::uint8_t, 19> kBytes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4,
                                                 8, 4, 8, 4, 0, 0, 8, 8, 8};
@@ -35,7 +35,7 @@ struct Directory {
   std::uint64_t end = 0, next = 0;
 };
 
-/// Bytes from begin to end.
+/// Range of bytes [begin, end).
 struct Span {
   std::uint64_t begin = 0, end = 0;
 };
@@ -57,13 +57,13 @@ class Walker {
     while (at != 0) {
       const std::string name = fmt::format("page {}", chain.page.size());
       const Directory d = read_new(at, name);
-      if (chain.page.empty()) look_at_first(d, chain);
+      if (chain.page.empty()) read_first(d, chain);
       chain.page.push_back(at);
       chain.stored += use_data(d, name);
       at = d.next;
     }
     check(!chain.page.empty(), fmt::format("{}: has no pages. The file is damaged.", path_));
-    if (!pages_known) find_lost();
+    if (!pages_known) check_lost_pages();
     return chain;
   }
 
@@ -72,7 +72,7 @@ class Walker {
     throw Error(fmt::format("{}: {}. The file is truncated or damaged.", path_, what));
   }
 
-  /// A whole number of so many bytes.
+  /// Unsigned integer of `bytes` bytes.
   std::uint64_t number(std::uint64_t place, std::uint64_t bytes) {
     std::array<unsigned char, 8> raw{};
     file_.clear();
@@ -88,7 +88,7 @@ class Walker {
     return value;
   }
 
-  /// @pre  the bytes are in the file
+  /// Bytes of the file. @pre  they are in the file
   std::string bytes(std::uint64_t place, std::uint64_t n) {
     std::string out(n, '\0');
     file_.clear();
@@ -141,7 +141,7 @@ class Walker {
     return d;
   }
 
-  /// The numbers of an entry; empty where it is not there or not in the file.
+  /// Values of an entry; empty where it is missing or not in the file.
   std::vector<std::uint64_t> values(const Directory& d, std::uint16_t tag) {
     const auto found = d.entry.find(tag);
     if (found == d.entry.end()) return {};
@@ -155,7 +155,7 @@ class Walker {
     return out;
   }
 
-  void look_at_first(const Directory& d, TiffChain& chain) {
+  void read_first(const Directory& d, TiffChain& chain) {
     if (const auto found = d.entry.find(kUic2); found != d.entry.end())
       chain.planes_in_first =
           static_cast<std::int64_t>(std::min<std::uint64_t>(found->second.count, 1u << 30));
@@ -163,7 +163,7 @@ class Walker {
     if (width.size() == 1) width_ = width[0];
   }
 
-  /// Strips or tiles of a page: where they are.
+  /// Byte ranges of the strips or tiles of a page.
   std::vector<Span> data_of(const Directory& d) {
     for (const auto& [offsets, counts] :
          {std::pair{kStripOffsets, kStripBytes}, std::pair{kTileOffsets, kTileBytes}}) {
@@ -178,7 +178,8 @@ class Walker {
     return {};
   }
 
-  /// Takes the data of a page, its further values and pages below it as used.
+  /// Marks the data of a page, its further values and pages below it as used; returns the bytes of
+  /// the data.
   double use_data(const Directory& d, const std::string& name) {
     double stored = 0;
     for (const Span& s : data_of(d)) {
@@ -200,8 +201,9 @@ class Walker {
     return stored;
   }
 
-  /// A directory in bytes that no page uses, whose data are there as well: its page is lost.
-  void find_lost() {
+  /// Throws Error at a lost page: a directory in bytes that no page uses, with its data in such
+  /// bytes too.
+  void check_lost_pages() {
     std::ranges::sort(used_, {}, &Span::begin);
     std::uint64_t end = 0, searched = 0;
     constexpr std::uint64_t kMostSearched = 1u << 28;
@@ -213,11 +215,11 @@ class Walker {
     }
     for (const Span& g : gap) {
       if ((searched += g.end - g.begin) > kMostSearched) return;
-      search(g, gap);
+      check_gap(g, gap);
     }
   }
 
-  void search(const Span& g, const std::vector<Span>& gap) {
+  void check_gap(const Span& g, const std::vector<Span>& gap) {
     const std::string text = bytes(g.begin, g.end - g.begin);
     const auto* raw = reinterpret_cast<const unsigned char*>(text.data());
     const std::uint64_t head = big_ ? 8 : 2, each = big_ ? 20 : 12;

@@ -1,6 +1,6 @@
 #pragma once
-/// The chain of pages of a TIFF file, walked over its bytes: libtiff ends a broken chain quietly,
-/// and walks it from the start for every page.
+/// Chain of pages of a TIFF file, read from its bytes: libtiff ends a broken chain silently, and
+/// follows it from the start for every page.
 
 #include <cstdint>
 #include <string>
@@ -14,10 +14,11 @@ struct TiffChain {
   std::int64_t planes_in_first = 1;  ///< MetaMorph's stacks have all slices in one page
 };
 
-/// @param pages_known  the file says elsewhere how many pages it has; otherwise what no page uses
-/// is searched for lost ones
-/// Throws Error where a directory or its data lie beyond the end of the file, where the chain runs
-/// in a circle, and where a page is in no chain.
+/// Reads the chain of pages.
+/// @param pages_known  the file states elsewhere how many pages it has; otherwise unused bytes are
+///                     searched for lost pages
+/// Throws Error where a directory or its data lie beyond the end of the file, where the chain is
+/// circular, and where a page is in no chain.
 TiffChain read_tiff_chain(const std::string& path, bool pages_known);
 
 }  // namespace acinus::imaging

@@ -1,5 +1,5 @@
 #pragma once
-/// An open TIFF file. Only for files that read or write them.
+/// Open TIFF file. Only for source files that read or write them.
 
 #include <tiffio.h>
 

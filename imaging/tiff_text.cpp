@@ -16,7 +16,7 @@
 namespace acinus::imaging {
 namespace {
 
-/// "key=value" on a line of its own; nothing where there is none. Throws Error at two that differ.
+/// Value of "key=value" on a line of its own; nothing if missing. Throws Error at two that differ.
 std::optional<std::string> find_line(const std::string& path, const std::string& text,
                                      const std::string& key) {
   std::optional<std::string> found;
@@ -33,7 +33,8 @@ std::optional<std::string> find_line(const std::string& path, const std::string&
   return found;
 }
 
-/// Units by axis: "unit" is that of x, and of the others where they have none of their own.
+/// Reads the units by axis: "unit" is that of x, and of the others where they have none of their
+/// own.
 void take_imagej_units(const std::string& path, const std::string& text, TiffText& out) {
   constexpr std::array<const char*, 3> kKeys{"unit", "yunit", "zunit"};
   const std::string first = find_line(path, text, "unit").value_or("");
@@ -70,7 +71,7 @@ void read_imagej(const std::string& path, const std::string& text, TiffText& out
     out.step[2] = std::abs(spacing);  // ImageJ takes it so as well
 }
 
-/// Pages of tifffile: all axes but the last two, whose names may be said.
+/// Pages of tifffile: all axes but the last two, which may have names.
 void read_shape(const std::string& path, const TiffShape& shape, TiffText& out) {
   std::string axes = shape.axes;
   std::vector<std::int64_t> length = shape.length;

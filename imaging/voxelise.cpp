@@ -16,7 +16,7 @@
 namespace acinus::imaging {
 namespace {
 
-/// A part of the image, with the share that one body has in its voxels.
+/// Part of the image, with the share of each voxel that one body fills.
 struct BodyShare {
   Voxel low{};
   Grid grid;
@@ -28,30 +28,30 @@ Box box_of(const geometry::Surface& s) {
   return box;
 }
 
-/// Lines along x through every voxel, in y and in z: where a face lies along a plane of the
-/// lattice, a share is right to half a line.
+/// Lines along x through every voxel, in y and in z: where a face is parallel to a lattice plane, a
+/// share is accurate to half a line.
 constexpr int kLines = 4;
 
-/// Adds the part of a line between two places, in voxels, to the voxels along it.
+/// Adds a segment of a line, from and to in voxels, to the voxels along it.
 void add_interval(double from, double to, Grid& g, std::size_t first) {
   constexpr double kWeight = 1.0 / (kLines * kLines);
   from = std::max(from, 0.0);
   to = std::min(to, static_cast<double>(g.size[0]));
   for (int x = static_cast<int>(from); x < to; ++x)
-    g.value[first + static_cast<std::size_t>(x)] +=
+    g.value[first + x] +=
         kWeight * (std::min(to, x + 1.0) - std::max(from, static_cast<double>(x)));
 }
 
-/// What of every voxel is inside: lines along x are cut with all triangles, upward and downward
-/// crossings counted. Lines lie aside of regular places by a little, so as not to meet nodes.
+/// Fills in the share of every voxel that is inside: lines along x are intersected with all
+/// triangles, upward and downward crossings counted. Lines are slightly displaced from the lattice,
+/// so that they miss nodes.
 void fill_inside(const geometry::Surface& body, const Vec3& corner, BodyShare& share) {
   constexpr double kAside = 1.3e-7, kAsideZ = 0.7e-7;  // lines
   Grid& g = share.grid;
   const int n_y = kLines * g.size[1], n_z = kLines * g.size[2];
-  std::vector<std::vector<std::pair<double, int>>> crossing(static_cast<std::size_t>(n_y) * n_z);
-  const auto line_of = [&](int y, int z) -> auto& {
-    return crossing[static_cast<std::size_t>(z) * n_y + y];
-  };
+  const std::size_t stride = n_y;
+  std::vector<std::vector<std::pair<double, int>>> crossing(n_z * stride);
+  const auto line_of = [&](int y, int z) -> auto& { return crossing[z * stride + y]; };
   const Vec3 low(share.low[0], share.low[1], share.low[2]);
   const auto place = [&](const Vec3& x) -> Vec3 {  // x in voxels, y and z in lines, from the corner
     const Vec3 v = (x - corner).cwiseQuotient(g.voxel) - low;
@@ -92,7 +92,7 @@ void fill_inside(const geometry::Surface& body, const Vec3& corner, BodyShare& s
     }
 }
 
-/// A random number a voxel, grainy over a voxel, of standard deviation 1 in the mean.
+/// Correlated noise at every voxel, with a grain of one voxel and standard deviation 1.
 Grid make_grain(const Grid& like, std::uint64_t seed, std::uint64_t body) {
   constexpr double kGrain = 1;  // voxels
   Grid grain = like;
@@ -113,14 +113,12 @@ BodyShare make_share(const geometry::Surface& body, std::uint64_t number, const 
   BodyShare share;
   share.grid.voxel = how.voxel;
   for (int k = 0; k < 3; ++k) {
-    const auto at = static_cast<std::size_t>(k);
     const int low = static_cast<int>(std::floor((box.low[k] - corner[k]) / how.voxel[k])) - 1,
               high = static_cast<int>(std::ceil((box.high[k] - corner[k]) / how.voxel[k])) + 1;
-    share.low[at] = std::clamp(low, 0, size[at] - 1);
-    share.grid.size[at] = std::clamp(high, 0, size[at] - 1) - share.low[at] + 1;
+    share.low[k] = std::clamp(low, 0, size[k] - 1);
+    share.grid.size[k] = std::clamp(high, 0, size[k] - 1) - share.low[k] + 1;
   }
-  share.grid.value.resize(static_cast<std::size_t>(share.grid.size[0]) * share.grid.size[1] *
-                          share.grid.size[2]);
+  share.grid.value.resize(share.grid.n_voxel());
   fill_inside(body, corner, share);
   if (how.blur > 0) smooth(how.blur * how.voxel.cwiseInverse(), share.grid);
   if (how.noise > 0) {
@@ -149,9 +147,8 @@ VoxelisedBodies voxelise(std::span<const geometry::Surface> bodies, const Voxeli
   for (int k = 0; k < 3; ++k) {
     constexpr double kMost = 1e9;
     const double n = std::ceil((box.high[k] - box.low[k]) / how.voxel[k]);
-    size[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::clamp(n, 1.0, kMost));
-    out.image.size[static_cast<std::size_t>(k)] =
-        static_cast<int>(size[static_cast<std::size_t>(k)]);
+    size[k] = static_cast<std::int64_t>(std::clamp(n, 1.0, kMost));
+    out.image.size[k] = static_cast<int>(size[k]);
   }
   const std::size_t n_voxel = count_voxels(kName, size);
   out.image.voxel = how.voxel;

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"
@@ -22,7 +20,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);  // as the headers below say
 
-/// Bytes that all labels of an image fit into.
+/// Bytes per label that hold all labels of an image.
 std::size_t bytes_needed(const LabelImage& image) {
   Label most = 0;
   for (const Label l : image.label) most = std::max(most, l);
@@ -30,7 +28,7 @@ std::size_t bytes_needed(const LabelImage& image) {
   return most <= std::numeric_limits<std::uint16_t>::max() ? 2 : 4;
 }
 
-/// Labels of a run of voxels in so many bytes each.
+/// Labels of a run of voxels, in `bytes` bytes each.
 std::string narrow(const Label* label, std::size_t n, std::size_t bytes) {
   std::string out(n * bytes, '\0');
   for (std::size_t k = 0; k < n; ++k) std::memcpy(out.data() + k * bytes, label + k, bytes);
@@ -65,12 +63,12 @@ std::string nrrd_text(const LabelImage& i) {
          deflate_bytes(all_bytes(i, bytes), true);
 }
 
-/// Beyond this a TIFF needs addresses of 64 bits, bytes.
+/// Largest classic TIFF, bytes; beyond it addresses need 64 bits.
 constexpr double kMostClassic = 3.9e9;
 
 void write_tiff(const std::string& path, const LabelImage& i) {
   io::RemoveUnlessMoved part{path + ".part"};
-  const std::size_t bytes = bytes_needed(i), row = static_cast<std::size_t>(i.size[0]);
+  const std::size_t bytes = bytes_needed(i), row = i.size[0];
   const bool big = static_cast<double>(bytes * i.label.size()) > kMostClassic;
   const auto failed = [&] { io::fail_on_disk(path, "write the image", errno); };
   TIFFSetErrorHandler(nullptr);

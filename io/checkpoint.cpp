@@ -25,7 +25,8 @@ constexpr char kNewest[] = "/checkpoint.h5";
 constexpr char kPrevious[] = "/checkpoint.prev.h5";
 constexpr char kRoot[] = "/state";
 
-/// The newest file is sound but from a program we cannot replace: no fallback.
+/// Error for a newest file that is sound but of a newer format: the older file must not be used
+/// instead.
 struct TooNew : Error {
   using Error::Error;
 };
@@ -38,7 +39,7 @@ std::uint64_t hash_of(const CheckpointData::Value& value) {
       value);
 }
 
-/// Over all names and hashes: a lost or renamed array shows too.
+/// Digest over all names and hashes, so that a lost or renamed array shows too.
 std::uint64_t digest_of(const std::map<std::string, std::uint64_t>& hash) {
   std::uint64_t digest = 0;
   for (const auto& [name, value] : hash) {
@@ -78,7 +79,7 @@ CheckpointData::Value read_value(const File& file, const std::string& name) {
   return std::string(byte.begin(), byte.end());
 }
 
-/// Arrays are listed by name in one attribute-like dataset, so that reading needs no walk through
+/// Writes all arrays, with a list of their names in one dataset: reading then need not walk through
 /// groups.
 void write_file(const std::string& path, const CheckpointData& data) {
   File file = File::create(path, h5::Format::kChecked);
@@ -152,7 +153,7 @@ CheckpointData read_file(const std::string& path) {
   return data;
 }
 
-/// Gives the file at `from` a second name, replacing what had it.
+/// Gives the file at `from` the second name `to`, replacing the file of that name.
 void link_as(const std::string& from, const std::string& to) {
   const std::string partial = to + ".tmp";
   const RemoveUnlessMoved cleanup{partial};

@@ -9,16 +9,15 @@
 
 namespace acinus::io {
 
-/// Named arrays. Reading never invents a value: what is missing or of another type is an
-/// Error(kFileError).
+/// Named arrays of a checkpoint. Reading never invents a value: a missing array or one of another
+/// type is an Error(kFileError).
 class CheckpointData {
  public:
   using Value = std::variant<std::vector<double>, std::vector<std::int64_t>,
                              std::vector<std::uint64_t>, std::string>;
 
-  /// @param name  letters, digits, '_', '-', '.', grouped by '/': "dcm/position". Setting a name
-  /// twice is an
-  ///              Error(kInternal), and so is a name that is also a group of others.
+  /// Adds an array. @param name  letters, digits, '_', '-', '.', grouped by '/': "dcm/position".
+  /// Setting a name twice is an Error(kInternal), and so is a name that is also a group of others.
   void put(const std::string& name, std::vector<double> value);
   void put(const std::string& name, std::vector<std::int64_t> value);
   void put(const std::string& name, std::vector<std::uint64_t> value);
@@ -30,18 +29,18 @@ class CheckpointData {
   }
 
   bool contains(const std::string& name) const { return value_.count(name) != 0; }
-  /// Why no array can be added under this name; empty if one can.
+  /// Reason why no array can be added under this name; empty if one can.
   std::string fault_of_name(const std::string& name) const;
   const std::vector<double>& numbers(const std::string& name) const;
   const std::vector<std::int64_t>& integers(const std::string& name) const;
   const std::vector<std::uint64_t>& bits(const std::string& name) const;
   const std::string& text(const std::string& name) const;
-  /// Arrays of length one.
+  /// Value of an array of length one.
   double number(const std::string& name) const;
   std::int64_t count(const std::string& name) const;
 
   const std::map<std::string, Value>& all() const { return value_; }
-  /// Where the data came from, for messages.
+  /// Origin of the data, for messages.
   const std::string& source() const { return source_; }
   void set_source(std::string source) { source_ = std::move(source); }
 
@@ -54,28 +53,27 @@ class CheckpointData {
   std::string source_ = "checkpoint";
 };
 
-/// Writes folder/checkpoint.h5 and keeps the one before as checkpoint.prev.h5. At every moment,
-/// whatever kills the program or fills the disk, one of the two is complete. Errors:
+/// Writes folder/checkpoint.h5 and keeps the previous one as checkpoint.prev.h5. At every moment,
+/// even if the program is killed or the disk is full, one of the two is complete. Errors:
 /// Error(kFileError); the older files are untouched.
 void save_checkpoint(const std::string& folder, const CheckpointData& data);
 
 struct LoadedCheckpoint {
   CheckpointData data;
-  std::string file;     ///< the one that was read
-  std::string warning;  ///< not empty when the newest was damaged and the one before was taken
+  std::string file;     ///< path of the file that was read
+  std::string warning;  ///< not empty if the newest was damaged and the previous one was read
 };
 
-/// Reads the newest checkpoint whose hashes are right. Errors (kFileError): none is usable, or the
-/// newest was written by a newer major version of the format (then the older one is not taken
-/// behind the user's back).
+/// Reads the newest checkpoint with correct hashes. Errors (kFileError): none is usable, or the
+/// newest has a newer major version of the format (the older one is then not read silently).
 LoadedCheckpoint load_checkpoint(const std::string& folder);
 
-/// The same data as one file of any name, which appears whole or not at all, without the one
-/// before. Errors: Error(kFileError).
+/// Writes the data as one file of any name, which appears whole or not at all; no previous file is
+/// kept. Errors: Error(kFileError).
 void save_state_file(const std::string& path, const CheckpointData& data);
 CheckpointData load_state_file(const std::string& path);
 
-/// Whether the folder has a checkpoint, usable or not.
+/// True if the folder has a checkpoint, usable or not.
 bool has_checkpoint(const std::string& folder);
 
 }  // namespace acinus::io

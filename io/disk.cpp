@@ -26,7 +26,7 @@ void sync(const std::string& path, int flags) {
   if (error != 0 && error != EINVAL) fail_on_disk(path, "write to disk", error);
 }
 
-/// A device or a pipe takes bytes; a file in its place would put an end to it.
+/// True for a device or a pipe: it must be written to, not replaced by a file.
 bool is_stream(const std::string& path) {
   namespace fs = std::filesystem;
   // Descriptors of this process.
@@ -85,7 +85,7 @@ int write_stream(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = write(descriptor, text.data(), text.size());
     if (n >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(n));
+      text.remove_prefix(n);
     } else if (errno == EAGAIN) {  // another process that has the pipe made it non-blocking
       pollfd room{descriptor, POLLOUT, 0};
       poll(&room, 1, -1);

@@ -1,6 +1,6 @@
 #pragma once
-/// Files that appear whole or not at all. Every failure is an Error(kFileError) with the system's
-/// reason.
+/// Atomic file operations: files appear whole or not at all. Every failure is an Error(kFileError)
+/// with the system's reason.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace acinus::io {
 
-/// Makes an empty folder whose name begins with `prefix` in the system's folder for temporary
-/// files.
+/// Makes an empty folder in the system's folder for temporary files. @param prefix  start of its
+/// name
 std::string make_temporary_folder(const std::string& prefix);
 
 /// Replaces the content of `path` in one step: readers see the old text or the new one. A device or
-/// a pipe gets the text.
+/// a pipe is written to.
 void write_text_file(const std::string& path, std::string_view text);
 std::string read_text_file(const std::string& path);
 
@@ -25,13 +25,13 @@ bool write_all(int descriptor, const std::byte* data, std::uint64_t size, std::u
 /// Writes all of a text to a terminal, pipe or device. Returns 0, or the error number.
 int write_stream(int descriptor, std::string_view text);
 
-/// Renames over an existing file.
+/// Renames a file over an existing one.
 void replace_file(const std::string& from, const std::string& to);
-/// Waits until a file, or the entries of a folder, are on the disk itself.
+/// Waits until a file, or the entries of a folder, are stored on the disk.
 void sync_file(const std::string& path);
 void sync_folder(const std::string& folder);
 
-/// Removes a temporary file at the end of a scope; does nothing once it was renamed.
+/// Removes a temporary file at the end of a scope, unless it was renamed.
 struct RemoveUnlessMoved {
   std::string path;
   ~RemoveUnlessMoved();
@@ -41,7 +41,7 @@ struct RemoveUnlessMoved {
 /// @param error  errno
 [[noreturn]] void fail_on_disk(const std::string& path, const std::string& attempted, int error);
 
-/// What a user can do about a failed file operation, as a sentence without its full stop.
+/// Advice for a failed file operation, as a sentence without its full stop.
 const char* disk_advice(int error);
 
 }  // namespace acinus::io

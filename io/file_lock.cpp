@@ -24,8 +24,8 @@
 namespace acinus::io {
 namespace {
 
-/// Over no link, and no pipe: what holds a lock signs it.
-/// @param mode  of a file that is made
+/// Opens a regular file, not through a link: the holder of a lock writes its name into it.
+/// @param mode  of a new file
 /// @return -1 with errno set
 int open_regular(const std::string& path, int flags, mode_t mode = 0) {
   const int descriptor =
@@ -39,8 +39,8 @@ int open_regular(const std::string& path, int flags, mode_t mode = 0) {
   return descriptor;
 }
 
-/// Rights of a lock: for all accounts with the right to write in its folder. The right to read a
-/// file is enough to lock it and to keep its owner out, so other accounts have none.
+/// Permissions of a lock file: for all accounts that may write in its folder. Read permission is
+/// enough to lock it and so to block its owner, so other accounts have none.
 mode_t mode_of_lock(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   struct stat status {};
@@ -51,7 +51,7 @@ mode_t mode_of_lock(const std::string& path) {
   return mode;
 }
 
-/// The file, made if needed, with the rights of a lock if it is this user's.
+/// Opens the lock file, or makes it; sets its permissions if it is this user's.
 int open_file(const std::string& path) {
   const mode_t mode = mode_of_lock(path);
   const int descriptor = open_regular(path, O_RDWR | O_CREAT, mode);
@@ -63,7 +63,7 @@ int open_file(const std::string& path) {
   return descriptor;
 }
 
-/// @return false if another one holds it
+/// Tries to lock a file. @return false if another process holds it
 bool lock(int descriptor, int how) {
   while (flock(descriptor, how) != 0) {
     if (errno == EINTR) continue;
@@ -72,9 +72,9 @@ bool lock(int descriptor, int how) {
   return true;
 }
 
-constexpr double kWait = 0.02;  // s, between two looks
+constexpr double kRetryInterval = 0.02;  // s, between two looks
 
-void wait_a_moment() { usleep(static_cast<useconds_t>(1e6 * kWait)); }
+void wait_a_moment() { usleep(static_cast<useconds_t>(1e6 * kRetryInterval)); }
 
 std::string this_host() {
   std::array<char, 256> host{};
@@ -93,12 +93,12 @@ std::string first_line(const std::string& path) {
   if (descriptor < 0) return "";
   const ssize_t n = pread(descriptor, text.data(), text.size(), 0);
   close(descriptor);
-  const std::string line(text.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  const std::string line(text.data(), std::max<ssize_t>(n, 0));
   return line.substr(0, line.find('\n'));
 }
 
-/// Whether the line names a process that may hold something: not one of this machine that ended
-/// without letting go, killed for example.
+/// True if the line names a process that may hold the lock: not one of this machine that ended
+/// without removing its name, because it was killed for example.
 bool names_a_process(const std::string& line) {
   pid_t process = 0;
   if (std::sscanf(line.c_str(), "process %d on ", &process) != 1 || process <= 0) return false;
@@ -106,7 +106,7 @@ bool names_a_process(const std::string& line) {
   return kill(process, 0) == 0 || errno != ESRCH;
 }
 
-/// True if the system's list of locks has the file: for those who may not open it.
+/// True if the system's list of locks contains the file: for accounts that may not open it.
 bool is_listed(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return false;
@@ -149,7 +149,7 @@ std::optional<FileLock> FileLock::try_take(const std::string& path, double patie
       close(descriptor);
       return std::nullopt;
     }
-    patience_s -= kWait;
+    patience_s -= kRetryInterval;
     wait_a_moment();
   }
   FileLock held(descriptor);
@@ -177,7 +177,7 @@ std::string name_holder(const std::string& path, double patience_s) {
     const std::string line = first_line(path);
     if (names_a_process(line)) return line;
     if (patience_s <= 0) return "another process";
-    patience_s -= kWait;
+    patience_s -= kRetryInterval;
     wait_a_moment();
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What one written moment of a run holds, as plain arrays that any model can fill.
+/// Content of one written frame of a run, as plain arrays that any model can fill.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Field {
   std::vector<float> value;  ///< [n_row * components]
 };
 
-/// A ragged table: rows of this frame only. All columns have the same number of rows.
+/// Column of a ragged table: rows of this frame only. All columns have the same number of rows.
 struct Column {
   std::string name;
   std::string unit;
@@ -32,8 +32,8 @@ struct Table {
   std::vector<Column> columns;
 };
 
-/// Points: mesh nodes first, then sphere centres. Cells: triangles first, then one vertex per
-/// sphere.
+/// Frame of a run. Points: mesh nodes first, then sphere centres. Cells: triangles first, then one
+/// vertex per sphere.
 struct Frame {
   double time_s = 0;
   std::vector<float> point;  ///< [(n_mesh_node + n_sphere) * 3] um
@@ -45,11 +45,11 @@ struct Frame {
   std::vector<std::uint8_t>
       kind;  ///< [n_triangle + n_sphere] 0 DCM, 1 CBM, 2 vessel or wall, 3 nucleus
   std::vector<Field> cell_data;  ///< rows: triangles, then spheres
-  Table cells;                   ///< /cells: one row per biological cell
-  Table interface;               ///< /interface: one row per DCM-CBM pair in contact
+  Table cells;                   ///< rows of /cells: one per biological cell
+  Table interface;               ///< rows of /interface: one per DCM-CBM pair in contact
 };
 
-/// One named scalar of a time series sample.
+/// Named scalar of a time series sample.
 struct SeriesValue {
   std::string name;
   std::string unit;

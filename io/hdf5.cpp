@@ -338,7 +338,7 @@ std::vector<T> File::read_rows(const std::string& name, std::int64_t first_row,
   const hsize_t per_row = dims.size() == 2 ? dims[1] : 1;
   const Handle dataset = open_dataset(name);
   check_storage(dataset, name, static_cast<double>(n) * static_cast<double>(per_row) * sizeof(T));
-  std::vector<T> value(static_cast<std::size_t>(n) * per_row);
+  std::vector<T> value(n * per_row);
   read_raw(dataset, name, native_type<T>(), first_row, n, value.data());
   return value;
 }
@@ -352,11 +352,11 @@ std::vector<std::string> File::read_text_rows(const std::string& name, std::int6
                        name, describe(form)));
   check_rows(name, shape(name)[0], first_row, n);
   check_storage(dataset, name, static_cast<double>(n) * static_cast<double>(form.width));
-  std::string packed(form.width * static_cast<std::size_t>(n), '\0');
+  std::string packed(form.width * n, '\0');
   const Handle type = text_type(form.width, H5T_CSET_UTF8);
   read_raw(dataset, name, type.id(), first_row, n, packed.data());
   std::vector<std::string> value;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+  for (std::int64_t i = 0; i < n; ++i)
     value.push_back(trim(packed.data() + i * form.width, form.width));
   return value;
 }

@@ -1,7 +1,7 @@
 #pragma once
-/// A small layer over the serial HDF5 C library: typed rows, and errors that name the file, what
-/// was attempted, what the system said and what to do. HDF5 prints nothing by itself. Only io
-/// includes this header; the rest of the program never sees an HDF5 type.
+/// Thin layer over the serial HDF5 C library: typed rows, and errors that name the file, the
+/// operation, the system's reason and a remedy. HDF5 prints nothing by itself. Only io includes
+/// this header; the rest of the program never uses an HDF5 type.
 
 #include <hdf5.h>
 
@@ -17,9 +17,9 @@
 
 namespace acinus::io::h5 {
 
-/// Throws Error(kFileError): "<file>: cannot <attempted>: <system text>. <what to do>".
+/// Throws Error(kFileError): "<file>: cannot <attempted>: <system text>. <advice>".
 /// @param error  errno value; 0 = take it from HDF5's own error stack or, failing that, from HDF5's
-/// words
+///               message
 [[noreturn]] void fail(const std::string& file, const std::string& attempted, int error = 0);
 
 /// Fixed-length text padded with zeros; width 0 becomes 1, HDF5 has no empty text.
@@ -27,24 +27,24 @@ Handle text_type(std::size_t width, H5T_cset_t set);
 
 enum class Access { kRead, kAppend };
 enum class Format {
-  /// Readable by everything; survives a kill (no "open for write" mark). With checksums of its
-  /// pages beside it.
+  /// Readable by every version; survives a kill (no "open for write" mark). Checksums of its pages
+  /// are kept beside it.
   kEarliest,
   kChecked  ///< HDF5 1.10 format with checksums over its own indices
 };
 
-/// How a new dataset is stored. Rows are the first, unlimited dimension.
+/// Storage of a new dataset. Rows are the first, unlimited dimension.
 struct Storage {
   int components = 0;  ///< 0 = one-dimensional [n]; otherwise [n][components]
   std::int64_t chunk_rows = 1024;
   bool filtered = false;  ///< shuffle + deflate(1) + fletcher32
 };
 
-/// One open file. Every method throws Error(kFileError). Writing sessions are all or nothing: only
+/// Open file. Every method throws Error(kFileError). Writing sessions are all or nothing: only
 /// close() keeps them; destruction without it (an exception on the way) restores the file.
 class File {
  public:
-  /// Creates or truncates.
+  /// Creates a file, or truncates an existing one.
   static File create(const std::string& path, Format format);
   static File open(const std::string& path, Access access);
   File(File&&) noexcept = default;
@@ -53,7 +53,7 @@ class File {
 
   const std::string& path() const { return path_; }
   hid_t id() const { return handle_.id(); }
-  /// Makes everything written so far part of the file; what follows is a second session.
+  /// Commits everything written so far; a second session follows.
   void flush();
   void close();
 
@@ -62,13 +62,13 @@ class File {
   /// Names of the members of a group, sorted.
   std::vector<std::string> members(const std::string& group) const;
   std::int64_t n_row(const std::string& dataset) const;
-  /// 0 for one-dimensional datasets.
+  /// Components of a dataset's rows; 0 for one-dimensional datasets.
   int components(const std::string& dataset) const;
 
   /// Creates an empty dataset with its `unit` attribute. T: float, double, int64, uint64, uint8.
   template <class T>
   void create_rows(const std::string& name, const Storage& storage, std::string_view unit);
-  /// The same for fixed-length UTF-8 text of `width` bytes, padded with zeros.
+  /// Creates an empty dataset of fixed-length UTF-8 text of `width` bytes, padded with zeros.
   void create_text_rows(const std::string& name, int width, std::int64_t chunk_rows);
 
   /// Writes rows from `first_row` on, growing the dataset if needed (never shrinking it).
@@ -78,7 +78,7 @@ class File {
   void write_row(const std::string& name, std::int64_t row, const T& value) {
     write_rows<T>(name, row, std::span<const T>(&value, 1));
   }
-  /// Text longer than the dataset's width ends in "...".
+  /// Writes rows of text. Text longer than the dataset's width ends in "...".
   void write_text_rows(const std::string& name, std::int64_t first_row,
                        std::span<const std::string> value);
 
@@ -92,28 +92,28 @@ class File {
   std::vector<std::string> read_text_rows(const std::string& name, std::int64_t first_row,
                                           std::int64_t n) const;
 
-  /// One text of fixed length with unit "text"; replaces an existing one.
+  /// Writes one text of fixed length with unit "text"; replaces an existing one.
   void write_text(const std::string& name, std::string_view text);
   std::string read_text(const std::string& name) const;
 
-  /// Contiguous one-dimensional dataset written once (checkpoints).
+  /// Writes a contiguous one-dimensional dataset once (checkpoints).
   template <class T>
   void write_array(const std::string& name, std::span<const T> value);
 
-  /// Attributes: 64-bit numbers, or fixed-length ASCII text; an existing one is replaced.
+  /// Writes an attribute: 64-bit numbers, or fixed-length ASCII text; an existing one is replaced.
   void write_attribute(const std::string& object, const std::string& name,
                        std::span<const std::int64_t> value);
   void write_attribute(const std::string& object, const std::string& name, std::string_view text);
   void write_hash(const std::string& object, const std::string& name, std::uint64_t value);
   std::vector<std::int64_t> read_attribute(const std::string& object,
                                            const std::string& name) const;
-  /// One number that is not negative.
+  /// Reads one number that is not negative.
   std::int64_t read_count(const std::string& object, const std::string& name) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;
   std::uint64_t read_hash(const std::string& object, const std::string& name) const;
   bool has_attribute(const std::string& object, const std::string& name) const;
 
-  /// Whether a dataset holds exactly the type T.
+  /// True if a dataset has exactly the type T.
   template <class T>
   bool holds(const std::string& dataset) const;
 
@@ -125,18 +125,18 @@ class File {
  private:
   File(std::string path, std::unique_ptr<StagedState> state, Handle handle, bool writing);
   [[noreturn]] void fail_here(const std::string& attempted) const;
-  /// Throws Error(kFileError) for what no file of this program holds.
+  /// Throws Error(kFileError) for content that no file of this program has.
   [[noreturn]] void refuse(const std::string& found) const;
   Handle open_dataset(const std::string& name) const;
   Handle create_dataset(const std::string& name, hid_t type, const Storage& storage,
                         std::string_view unit);
   void write_raw(const std::string& name, hid_t type, std::int64_t first_row, std::int64_t n_value,
                  const void* value);
-  /// Refuses to make room for more than is stored: a damaged file may claim anything.
+  /// Throws Error(kFileError) for more bytes than are stored: a damaged file may claim any size.
   void check_storage(const Handle& dataset, const std::string& name, double bytes) const;
-  /// Refuses rows that are not there.
+  /// Throws Error(kFileError) for rows that are not there.
   void check_rows(const std::string& name, hsize_t n_row, std::int64_t first, std::int64_t n) const;
-  /// @pre check_rows, check_storage
+  /// Reads rows. @pre check_rows, check_storage
   void read_raw(const Handle& dataset, const std::string& name, hid_t type, std::int64_t first_row,
                 std::int64_t n, void* value) const;
   std::vector<hsize_t> shape(const std::string& dataset) const;

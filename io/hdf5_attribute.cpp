@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "io/hdf5.hpp"
 #include "io/hdf5_form.hpp"

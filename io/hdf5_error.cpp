@@ -12,8 +12,8 @@ namespace acinus::io::h5 {
 namespace {
 
 struct Stack {
-  std::string deepest;  ///< HDF5's own description of the first thing that went wrong
-  int error = 0;        ///< errno, when a driver quoted one
+  std::string deepest;  ///< HDF5's own description of the first failure
+  int error = 0;        ///< errno, if a driver quoted one
 };
 
 herr_t visit(unsigned, const H5E_error2_t* entry, void* data) {

@@ -10,9 +10,9 @@
 namespace acinus::io::h5 {
 namespace {
 
-constexpr double kMostPacked = 1100;        ///< deflate makes data at most 1032 times smaller
-constexpr double kWithoutSearch = 1 << 20;  ///< bytes for which chunks are not counted
-constexpr int kMostRank = 32;               ///< of HDF5
+constexpr double kLargestCompression = 1100;  ///< over bytes stored: deflate yields at most 1032
+constexpr double kUncheckedBytes = 1 << 20;   ///< bytes, below which chunks are not counted
+constexpr int kMostRank = 32;                 ///< limit of HDF5
 
 Form describe_form(hid_t type, hid_t space) {
   Form form;
@@ -23,13 +23,13 @@ Form describe_form(hid_t type, hid_t space) {
   form.width = H5Tget_size(type);
   form.variable = form.type == H5T_STRING && H5Tis_variable_str(type) != 0;
   form.nothing = shape == H5S_NULL;
-  form.extent.resize(static_cast<std::size_t>(rank));
+  form.extent.resize(rank);
   if (rank > 0) H5Sget_simple_extent_dims(space, form.extent.data(), nullptr);
   return form;
 }
 
-/// Checks that the filters of a chunked dataset are among those that this program writes.
-/// @param packs  set where one of them makes data smaller
+/// True if the filters of a chunked dataset are among those that this program writes.
+/// @param packs  set if one of them compresses
 bool has_known_filters(hid_t list, bool& packs) {
   const int n = H5Pget_nfilters(list);
   for (int k = 0; k < n; ++k) {
@@ -45,17 +45,17 @@ bool has_known_filters(hid_t list, bool& packs) {
   return n >= 0;
 }
 
-/// Bytes of one chunk.
+/// Size of one chunk, bytes.
 double chunk_size(hid_t list, double width) {
   std::array<hsize_t, kMostRank> chunk{};
   const int rank = H5Pget_chunk(list, kMostRank, chunk.data());
-  for (int k = 0; k < rank; ++k) width *= static_cast<double>(chunk[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < rank; ++k) width *= static_cast<double>(chunk[k]);
   return width;
 }
 
 }  // namespace
 
-double most_from_file(double file_size) { return kMostPacked * file_size; }
+double most_from_file(double file_size) { return kLargestCompression * file_size; }
 
 double Form::n_value() const {
   if (nothing) return 0;
@@ -99,12 +99,12 @@ std::string fault_of_storage(hid_t dataset, double wanted, double file_size) {
   const double one_chunk = layout == H5D_CHUNKED
                                ? chunk_size(list.id(), static_cast<double>(H5Tget_size(type.id())))
                                : 0;
-  const double most = packs ? kMostPacked * file_size : file_size;
+  const double most = packs ? kLargestCompression * file_size : file_size;
   if (wanted > most || (packs && one_chunk > most))
     return "it claims to be larger than the file can hold";
-  if (wanted <= std::min(file_size, kWithoutSearch)) return "";
+  if (wanted <= std::min(file_size, kUncheckedBytes)) return "";
   const double stored = static_cast<double>(H5Dget_storage_size(dataset));
-  if (wanted > (packs ? kMostPacked : 1) * stored)
+  if (wanted > (packs ? kLargestCompression : 1) * stored)
     return "it claims to be larger than what is stored of it";
   return "";
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Shape, type and storage of what a file holds, asked for before anything is read into memory: a
-/// damaged or hostile file may claim anything.
+/// Shape, type and storage of the contents of a file, checked before anything is read into memory:
+/// a damaged or hostile file may claim any size.
 
 #include <hdf5.h>
 
@@ -14,9 +14,9 @@ namespace acinus::io::h5 {
 struct Form {
   H5T_class_t type = H5T_NO_CLASS;  ///< H5T_NO_CLASS: unreadable
   std::size_t width = 0;            ///< bytes of one value
-  bool variable = false;            ///< texts whose length the type does not say
+  bool variable = false;            ///< texts of variable length
   std::vector<hsize_t> extent;      ///< empty: one value
-  bool nothing = false;             ///< a null space: no value at all
+  bool nothing = false;             ///< null space: no value at all
 
   double n_value() const;
   bool is_text() const { return type == H5T_STRING && !variable; }
@@ -25,18 +25,18 @@ struct Form {
 Form form_of_dataset(hid_t dataset);
 Form form_of_attribute(hid_t attribute);
 
-/// "21 texts of 8 bytes", for messages.
+/// Description for messages: "21 texts of 8 bytes".
 std::string describe(const Form& form);
 
-/// Bytes that a dataset may yield, so that no file becomes much more memory than it takes on disk:
+/// Checks the bytes that a dataset may yield, so that no file takes much more memory than disk:
 /// those in its storage, or as many as a compressed chunk can hold.
 /// @param wanted     bytes asked for; those that a file of this size holds anyway cost no search
 /// @param file_size  bytes
-/// @return why it cannot be read: its storage lies elsewhere (other files, virtual), its filters
-///         are not those of this program, it claims more than is there; "" if it can
+/// @return reason why it cannot be read: its storage lies elsewhere (other files, virtual), its
+/// filters are not those of this program, it claims more than is there; "" if it can be read
 std::string fault_of_storage(hid_t dataset, double wanted, double file_size);
 
-/// Bytes that all datasets of a file of this size can hold together.
+/// Upper bound of the bytes that all datasets of a file of this size can hold together.
 double most_from_file(double file_size);
 
 }  // namespace acinus::io::h5

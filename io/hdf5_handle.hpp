@@ -1,5 +1,5 @@
 #pragma once
-/// Handles of the HDF5 library that close themselves.
+/// Owning handles of HDF5 identifiers.
 
 #include <hdf5.h>
 
@@ -7,7 +7,7 @@
 
 namespace acinus::io::h5 {
 
-/// Owns one HDF5 identifier.
+/// Owner of one HDF5 identifier.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -24,7 +24,7 @@ class Handle {
   }
   hid_t id() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  /// Closes now, so that a failure can be seen.
+  /// Closes the identifier now, for callers that check for failure.
   herr_t close() { return id_ >= 0 ? close_(std::exchange(id_, -1)) : 0; }
 
  private:

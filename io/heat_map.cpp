@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "io/disk.hpp"
 #include "io/svg_text.hpp"
@@ -16,7 +15,7 @@ constexpr double kFieldWidth = 120, kFieldHeight = 54, kMapTop = 48, kMapBottom 
 
 using Colour = std::array<double, 3>;
 
-/// White for 0, dark blue for 1.
+/// Colour of a share: white for 0, dark blue for 1.
 Colour colour_of(double share) {
   constexpr Colour kNone{255, 255, 255}, kAll{33, 102, 172};
   Colour c{};
@@ -66,7 +65,7 @@ std::string draw_scale(double x, double top, double bottom, const std::string& l
                         fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", at, middle));
 }
 
-/// Room for the longest row label and the label of the axis.
+/// Width of the left margin: the longest row label and the label of the axis.
 double left_of(const HeatMap& map) {
   std::size_t longest = 0;
   for (const std::string& row : map.row) longest = std::max(longest, row.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// Heat maps as SVG files: fields in rows and columns with a colour and a text each.
+/// Heat maps as SVG files: a grid of fields with a colour and a text each.
 
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 namespace acinus::io {
 
 struct HeatField {
-  std::optional<double> share;    ///< 0 to 1, sets the colour; empty: nothing is known, hatched
+  std::optional<double> share;    ///< 0 to 1, sets the colour; empty: unknown, hatched
   std::vector<std::string> text;  ///< lines in the field
 };
 
@@ -19,7 +19,7 @@ struct HeatMap {
   std::vector<std::vector<HeatField>> field;  ///< [row][column]
 };
 
-/// The map as SVG text, as wide and high as its fields need.
+/// Heat map as SVG text; width and height follow from its fields.
 std::string draw_heat_map(const HeatMap& map);
 
 /// Writes draw_heat_map(map).   @throws Error(kFileError)

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -18,7 +17,7 @@
 namespace acinus::io {
 namespace {
 
-/// openat2 of the kernel: all of the path below the folder, no link anywhere.
+/// Opens a path below a folder by the kernel's openat2, with no link anywhere.
 int open_beneath(int folder, const std::string& path, std::uint64_t flags) {
   open_how how{};
   how.flags = flags;
@@ -26,7 +25,7 @@ int open_beneath(int folder, const std::string& path, std::uint64_t flags) {
   return static_cast<int>(syscall(SYS_openat2, folder, path.c_str(), &how, sizeof how));
 }
 
-/// The same component by component, for kernels and sandboxes that do not know openat2.
+/// Opens a path below a folder component by component, for kernels and sandboxes without openat2.
 int walk_beneath(int folder, const std::string& path, int flags) {
   const std::filesystem::path parts(path);
   Descriptor at(fcntl(folder, F_DUPFD_CLOEXEC, 0));
@@ -80,7 +79,7 @@ std::optional<std::size_t> size_inside(const std::string& folder, const std::str
   struct stat status {};
   if (!file.valid() || fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
     return std::nullopt;
-  return static_cast<std::size_t>(status.st_size);
+  return status.st_size;
 }
 
 std::string read_text_inside(const std::string& folder, const std::string& path, std::size_t most) {
@@ -101,7 +100,7 @@ std::string read_text_inside(const std::string& folder, const std::string& path,
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail_on_disk(name, "read", errno);
     if (n == 0) return text;
-    text.append(buffer.data(), static_cast<std::size_t>(n));
+    text.append(buffer.data(), n);
     check(text.size() <= most,
           fmt::format("{}: is longer than the {} bytes that are read.", name, most),
           Exit::kFileError);

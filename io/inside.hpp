@@ -1,6 +1,6 @@
 #pragma once
-/// Files inside a folder whose content is not trusted: every path is followed from the folder on,
-/// over no link and never out of it, and only regular files are opened.
+/// Files inside an untrusted folder: paths are resolved below the folder, without links and never
+/// out of it, and only regular files are opened.
 
 #include <cstddef>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace acinus::io {
 
-/// Owns a file descriptor.
+/// Owner of a file descriptor.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -29,28 +29,28 @@ class Descriptor {
 };
 
 /// Opens a regular file for reading.
-/// @param folder  may itself be a link: who names it trusts it
+/// @param folder  may itself be a link: the caller trusts its name
 /// @param path    relative to the folder
-/// @return not valid, with errno set, if there is no such regular file or the path meets a link
+/// @return not valid, with errno set, if there is no such regular file or the path contains a link
 Descriptor open_inside(const std::string& folder, const std::string& path);
 
-/// Size of such a file; nothing if there is none.
+/// Size of such a file, bytes; nothing if there is none.
 std::optional<std::size_t> size_inside(const std::string& folder, const std::string& path);
 
-/// True for a regular file reached over no link.
+/// True for a regular file reached without a link.
 inline bool is_file_inside(const std::string& folder, const std::string& path) {
   return size_inside(folder, path).has_value();
 }
 
-/// Text of such a file.
+/// Reads the text of such a file.
 /// @throws Error(kFileError) if there is none, or it has more than `most` bytes
 std::string read_text_inside(const std::string& folder, const std::string& path,
                              std::size_t most = 256'000'000);
 
-/// The same of a file by its whole path: it must be no link itself.
+/// Reads the text of a file by its whole path, which must not be a link.
 std::string read_text_beside(const std::string& path, std::size_t most = 4'000'000'000);
 
-/// True for a folder below another that is reached over no link, or does not exist yet.
+/// True for a folder below another that is reached without a link, or does not exist yet.
 bool is_folder_inside(const std::string& folder, const std::string& path);
 
 }  // namespace acinus::io

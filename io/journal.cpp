@@ -8,14 +8,13 @@
 #include <cstring>
 #include <vector>
 
-#include "core/error.hpp"
 #include "io/disk.hpp"
 #include "io/inside.hpp"
 
 namespace acinus::io::h5 {
 namespace {
 
-/// magic, end, then (index, page) for every page, then a hash of all before it.
+/// Journal format: magic, end, then (index, page) for every page, then a hash of all before it.
 constexpr std::uint64_t kJournalMagic = 0x314a'5355'4e49'4341;  // "ACINUSJ1"
 constexpr std::size_t kJournalHead = 2 * sizeof(std::uint64_t), kTail = sizeof(std::uint64_t);
 constexpr std::size_t kRecord = sizeof(std::uint64_t) + kPage;

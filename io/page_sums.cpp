@@ -15,7 +15,7 @@
 namespace acinus::io::h5 {
 namespace {
 
-/// magic, end, sum of the last page, hash of these, then the entries.
+/// Format of the sums: magic, end, sum of the last page, hash of these, then the entries.
 constexpr std::uint64_t kSumsMagic = 0x3153'4d55'534e'4341;  // "ACNSUMS1"
 constexpr std::size_t kWord = sizeof(std::uint64_t), kSumsHead = 4;
 

@@ -16,14 +16,14 @@ namespace {
 constexpr double kWidth = 720, kHeight = 480;
 constexpr double kPlotLeft = 80, kPlotRight = 190, kPlotTop = 40, kPlotBottom = 60;
 
-/// Colours that differ in print and for the colour blind.
+/// Colours that are distinct in print and for the colour blind.
 constexpr std::array<const char*, 8> kColor{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                             "#e69f00", "#56b4e9", "#000000", "#999999"};
 
-/// One axis: from values to places on the page.
+/// Axis: maps values to positions on the page.
 struct Axis {
   bool log = false;
-  double low = 1e300, high = -1e300;  ///< of the value, or of its decimal logarithm
+  double low = 1e300, high = -1e300;  ///< range of the value, or of its decimal logarithm
 
   std::optional<double> scaled(double value) const {
     if (!std::isfinite(value) || (log && value <= 0)) return std::nullopt;
@@ -60,7 +60,7 @@ struct Axis {
   }
 };
 
-/// The plane the lines are drawn on.
+/// Plotting area with its axes.
 struct Page {
   Axis x, y;
   double right = kWidth - kPlotRight, bottom = kHeight - kPlotBottom;
@@ -72,7 +72,8 @@ struct Page {
   }
 };
 
-/// Runs of neighbouring points that can be drawn, so that a gap is not bridged.
+/// Bands as polygons, one for each run of neighbouring points that can be drawn, so that gaps stay
+/// open.
 std::string draw_band(const Page& page, const PlotLine& line, const char* color) {
   std::string out, there, back;
   const auto close = [&] {
@@ -139,7 +140,7 @@ std::string draw_axes(const Page& page, const Plot& plot) {
                   fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", (kPlotTop + bottom) / 2));
 }
 
-/// Room for the longest name, in whole steps so that most plots are equally wide.
+/// Width of the legend for the longest name, in whole steps so that most plots are equally wide.
 double legend_width(const Plot& plot) {
   std::size_t longest = 0;
   for (const PlotLine& line : plot.line) longest = std::max(longest, line.name.size());
@@ -147,7 +148,7 @@ double legend_width(const Plot& plot) {
   return std::min(std::max(kPlotRight, 60 * std::ceil(needed / 60)), 550.0);
 }
 
-/// Widens the axes of a page to all points and bands of a plot.
+/// Extends the axes of a page to all points and bands of a plot.
 void include_all(const Plot& plot, Page& page) {
   const auto include = [&](double px, double py) {
     const auto sx = page.x.scaled(px), sy = page.y.scaled(py);
@@ -186,7 +187,7 @@ std::string legend_entry(const Page& page, const PlotLine& line, std::size_t k, 
   return out + svg_text(page.right + 38, at, "start", line.name);
 }
 
-/// The plot on a page whose axes include its points.
+/// Draws the plot on a page whose axes include its points.
 std::string draw(const Plot& plot, Page page) {
   const double middle = (kPlotLeft + page.right) / 2;
   std::string out = fmt::format(
@@ -218,14 +219,14 @@ std::string draw(const Plot& plot, Page page) {
 
 namespace {
 
-/// The page of one plot, its axes over all points and bands.
+/// Page of one plot, with axes over all points and bands.
 Page page_of(const Plot& plot) {
   Page page{{plot.log_x}, {plot.log_y}};
   include_all(plot, page);
   return page;
 }
 
-/// The drawing as a part of another one, at a place of its own.
+/// Drawing as a nested element of another one, at a position.
 std::string at_place(std::string drawing, double x, double y) {
   return drawing.insert(std::string("<svg ").size(), fmt::format("x=\"{}\" y=\"{}\" ", x, y));
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The run file: a VTKHDF time series of UnstructuredGrids with the analysis tables beside it, and
-/// the XDMF sidecar run.xmf for older readers. docs/view/README.md tells how to look at them.
+/// Run file: a VTKHDF time series of UnstructuredGrids with the analysis tables beside it, and the
+/// XDMF sidecar run.xmf for older readers. docs/view/README.md describes the viewers.
 ///
 /// - /VTKHDF: triangles (type 5) first, then one vertex (type 1) per sphere; one part per topology
 /// - /cells: one row per biological cell and frame, rows frame_offset[k] .. frame_offset[k + 1]
@@ -46,23 +46,24 @@ class RunFile {
                         const RunFileOptions& options = {});
 
   /// Continues a file cut back to the given counts. The kept part is copied to a new file that then
-  /// takes the old one's place, so a file damaged past its finished frames is mended. Every byte of
-  /// it is looked at first; where bytes are not those that were written, all that can still be read
-  /// is kept, the rest is in lost(), and the damaged file stays under the ending `.damaged`. Cost:
-  /// two readings and a copy of the file.
+  /// replaces the old one, so a file damaged past its finished frames is repaired. Every byte of it
+  /// is checked first; where bytes are not those that were written, everything still readable is
+  /// kept, the rest is listed in lost(), and the damaged file stays under the ending `.damaged`.
+  /// Cost: two readings and a copy of the file.
   static RunFile open_for_append(const std::string& path, const RunFileCounts& keep,
                                  const RunFileOptions& options = {});
 
   RunFile(RunFile&&) = default;
   RunFile& operator=(RunFile&&) = default;
-  /// Flushes what is buffered if that is possible. Call close() to learn about failure.
+  /// Flushes the buffers if possible. Call close() to be notified of failure.
   ~RunFile();
 
-  /// Writes a frame, and what is buffered, and renews the sidecar. Times must increase.
+  /// Writes a frame and the buffers, and renews the sidecar. Times must increase.
   /// @param observables  one row of /observables, with the same names, units and order each time;
   ///                     empty: this frame has none
   void append(const Frame& frame, std::span<const SeriesValue> observables = {});
-  /// One sample of the time series; all samples have the same names and units in the same order.
+  /// Appends one sample of the time series; all samples have the same names and units in the same
+  /// order.
   void append_series(std::span<const SeriesValue> sample);
   void append_event(const Event& event);
   /// Sets or replaces one key of /provenance.
@@ -71,10 +72,10 @@ class RunFile {
   void close();
 
   int n_frame() const { return static_cast<int>(frame_.size()); }
-  /// What open_for_append() could not keep of a damaged file, e.g. "frame 3 at 0.5 h", or "nothing"
-  /// where only unused bytes were damaged. Empty: the file was as written.
+  /// Parts of a damaged file that open_for_append() could not keep, e.g. "frame 3 at 0.5 h", or
+  /// "nothing" where only unused bytes were damaged. Empty: the file was as written.
   const std::vector<std::string>& lost() const { return lost_; }
-  /// Including buffered rows: flush() before a checkpoint stores them.
+  /// Numbers of rows, buffered ones included: flush() before a checkpoint stores them.
   RunFileCounts counts() const;
   const std::string& path() const { return path_; }
 
@@ -82,7 +83,8 @@ class RunFile {
   RunFile(std::string path, const RunFileOptions& options);
   static RunFile recover(const std::string& path, const RunFileCounts& keep,
                          const RunFileOptions& options);
-  /// Returns the rows of /events/cell_id afterwards. Changes nothing in memory.
+  /// Writes the buffered rows; returns the rows of /events/cell_id afterwards. Changes nothing in
+  /// memory.
   std::int64_t write_rows_of_buffers(h5::File& file);
   void keep_buffers_written(const RunFileCounts& after, std::int64_t event_cell);
 
@@ -90,12 +92,12 @@ class RunFile {
   RunFileOptions options_;
   RunLayout layout_;
   std::vector<FrameIndex> frame_;  ///< finished frames
-  StaticHashes last_hash_;         ///< of the last frame, to recognise what did not change
+  StaticHashes last_hash_;         ///< of the last frame, to detect unchanged arrays
   RunFileCounts written_;          ///< rows in the file
   std::int64_t event_cell_written_ = 0;
-  RowNames series_;                    ///< in the order of the first sample
-  bool series_known_ = false;          ///< datasets exist in the file
-  RowNames observable_;                ///< of the first row; datasets exist if there are any
+  RowNames series_;            ///< in the order of the first sample
+  bool series_known_ = false;  ///< true if the datasets exist in the file
+  RowNames observable_;  ///< in the order of the first row; the datasets exist if there are any
   std::vector<double> series_buffer_;  ///< [row][n_series]
   std::vector<Event> event_buffer_;
   std::vector<std::string> lost_;

@@ -36,8 +36,8 @@ TableInfo read_table_info(const File& file, const std::string& group) {
   return info;
 }
 
-/// Whether the counts and offsets of a frame are those that some frame could have. Whether the rows
-/// are there is seen when they are read.
+/// True if the counts and offsets of a frame are consistent. The rows themselves are checked when
+/// they are read.
 bool is_possible(const FrameIndex& f, std::int64_t cells_begin, std::int64_t interface_begin) {
   constexpr std::int64_t kMost = std::int64_t{1} << 48;  // far from where sums overflow
   const auto in = [](std::int64_t x, std::int64_t low, std::int64_t high) {

@@ -1,6 +1,5 @@
 #pragma once
-/// Layout of a run file: which fields there are, how many rows, and where those of each frame
-/// begin.
+/// Layout of a run file: its fields, numbers of rows, and the first rows of each frame.
 
 #include <cstdint>
 #include <map>
@@ -24,7 +23,7 @@ struct TableInfo {
   bool operator==(const TableInfo&) const = default;
 };
 
-/// The same for every frame of a file. Lists are sorted by name.
+/// Fields and tables of a file, the same for every frame. Lists are sorted by name.
 struct RunLayout {
   std::vector<FieldInfo> point_data;
   std::vector<FieldInfo> cell_data;  ///< without cell_id and kind, which every file has
@@ -33,7 +32,7 @@ struct RunLayout {
   bool operator==(const RunLayout&) const = default;
 };
 
-/// Rows of a run file that belong together, e.g. at a checkpoint.
+/// Numbers of rows of a run file that belong together, e.g. at a checkpoint.
 struct RunFileCounts {
   std::int64_t frame = 0;
   std::int64_t series = 0;
@@ -41,7 +40,7 @@ struct RunFileCounts {
   std::int64_t observable = 0;
 };
 
-/// Where one frame's rows begin. Offsets count rows of the datasets they are named after.
+/// First rows of one frame. Offsets count rows of the datasets they are named after.
 struct FrameIndex {
   double time_s = 0;
   std::int64_t part = 0;  ///< row of NumberOfPoints etc.; shared by frames with the same topology
@@ -52,7 +51,7 @@ struct FrameIndex {
   std::int64_t cells_end = 0, interface_end = 0;         ///< end of this frame's table rows
 
   std::int64_t n_sphere() const { return n_cell - n_triangle(); }
-  /// From n_connectivity = 3 n_triangle + n_sphere.
+  /// Number of triangles, from n_connectivity = 3 n_triangle + n_sphere.
   std::int64_t n_triangle() const { return (n_connectivity - n_cell) / 2; }
 };
 
@@ -61,16 +60,15 @@ struct RowNames {
   std::vector<std::string> name, unit;
 };
 
-/// Hashes of the last frame's topology and cell data; equal hashes mean nothing need be written
-/// again.
+/// Hashes of the last frame's topology and cell data; with equal hashes nothing is written again.
 struct StaticHashes {
   bool known = false;
   std::uint64_t topology = 0;
   std::map<std::string, std::uint64_t> cell_data;
 };
 
-/// The layout a frame asks for. Throws Error(kInternal) on an empty or doubled name or one with
-/// characters other than letters, digits, '_', '-' and '.'.
+/// Layout of a frame. Throws Error(kInternal) on an empty or doubled name or one with characters
+/// other than letters, digits, '_', '-' and '.'.
 RunLayout layout_of(const Frame& frame);
 
 /// Throws Error(kInternal) when sizes do not fit together, an index points nowhere, or a value is

@@ -14,7 +14,8 @@ namespace {
 using h5::Access;
 using h5::File;
 
-/// Refuses what no frame holds: the writer takes finite numbers only, and consumers sort them.
+/// Throws Error(kFileError) for numbers that are not finite: the writer never writes any, and
+/// consumers sort them.
 template <class T>
 std::vector<T> finite(const File& file, const std::string& name, std::vector<T> value) {
   check(std::ranges::all_of(value, [](T x) { return std::isfinite(x); }),

@@ -1,6 +1,5 @@
 #pragma once
-/// Reads a run file back: for reports, comparisons and tests. Works while the run is still going
-/// on.
+/// Reader of run files, for reports, comparisons and tests. Works while the run is still going on.
 
 #include <map>
 #include <string>
@@ -11,7 +10,7 @@
 
 namespace acinus::io {
 
-/// Everything finished in a run file at the time of opening. Errors: Error(kFileError).
+/// Finished content of a run file at the time of opening. Errors: Error(kFileError).
 class RunReader {
  public:
   explicit RunReader(const std::string& path);
@@ -21,12 +20,12 @@ class RunReader {
   double time_s(int k) const;
   /// Frame k with its fields and tables sorted by name.
   Frame frame(int k) const;
-  /// Only the rows of /cells of frame k.
+  /// Rows of /cells of frame k alone.
   Table cells(int k) const;
-  /// name -> values; see series_unit().
+  /// Series by name, [n_row] values each; see series_unit().
   std::map<std::string, std::vector<double>> series() const;
   std::map<std::string, std::string> series_unit() const;
-  /// The same of /observables; nothing where a file has none.
+  /// Observables by name; empty where a file has none.
   std::map<std::string, std::vector<double>> observables() const;
   std::map<std::string, std::string> observable_unit() const;
   std::vector<Event> events() const;

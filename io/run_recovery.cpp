@@ -19,7 +19,7 @@ namespace {
 using h5::Access;
 using h5::File;
 
-/// Reads from a damaged file: what fails is noted, and the rest goes on.
+/// Reader of a damaged file: failures are recorded, and reading goes on.
 class DamagedReads {
  public:
   explicit DamagedReads(std::vector<std::string>& lost) : lost_(lost) {}
@@ -35,7 +35,7 @@ class DamagedReads {
     }
   }
 
-  /// read(first, n) for rows that are stored together.
+  /// Calls read(first, n) for blocks of rows that are stored together.
   void in_blocks(const std::string& what, std::int64_t n_row,
                  const std::function<void(std::int64_t, std::int64_t)>& read) {
     for (std::int64_t first = 0; first < n_row; first += kIndexChunkRows) {
@@ -83,7 +83,7 @@ SampleRows read_readable_samples(const File& file, const std::string& group,
   return samples;
 }
 
-/// With what stands beside it: its journal and the checksums of its pages.
+/// Moves a file with its journal and the checksums of its pages.
 void move_aside(const std::string& from, const std::string& to) {
   replace_file(from, to);
   for (const auto& beside : {h5::journal_of, h5::sums_of}) {

@@ -2,8 +2,6 @@
 
 #include <xxhash.h>
 
-#include <algorithm>
-
 namespace acinus::io {
 namespace {
 
@@ -18,7 +16,7 @@ std::int64_t round_up(std::int64_t row, bool filtered) {
   return filtered ? (row + kChunkRows - 1) / kChunkRows * kChunkRows : row;
 }
 
-/// VTKHDF wants scalars one-dimensional.
+/// Components of a dataset in HDF5: VTKHDF wants scalars one-dimensional.
 int stored_components(int components) { return components == 1 ? 0 : components; }
 
 template <class T>
@@ -42,7 +40,7 @@ void create_table_rows(File& file, const std::string& where, const TableInfo& in
   }
 }
 
-/// Returns the end of the rows written.
+/// Writes a table; returns the end of its rows.
 std::int64_t write_table(File& file, const std::string& where, const Table& table,
                          std::int64_t first_row) {
   std::int64_t n_row = 0;
@@ -57,7 +55,8 @@ std::int64_t write_table(File& file, const std::string& where, const Table& tabl
   return first_row + n_row;
 }
 
-/// Triangles and spheres as one part. Repeats the last part when the topology is the same.
+/// Writes triangles and spheres as one part, or repeats the last part when the topology is the
+/// same.
 void write_topology(FrameWrite& w) {
   const Frame& frame = w.frame;
   const FrameIndex* last = w.last;

@@ -1,6 +1,5 @@
 #pragma once
-/// The datasets of a run file: how each is stored, written and read back. Used by RunFile and
-/// RunReader only.
+/// Datasets of a run file: their storage, writing and reading. Used by RunFile and RunReader only.
 
 #include <cstdint>
 #include <map>
@@ -31,16 +30,16 @@ void create_event_rows(h5::File& file);
 /// Groups whose rows are samples of named numbers.
 inline constexpr char kSeries[] = "/series", kObservables[] = "/observables";
 
-/// A group without columns or rows.
+/// Creates a group without columns or rows.
 void create_samples(h5::File& file, const std::string& group);
 void create_sample_rows(h5::File& file, const std::string& group, const RowNames& names);
 
-/// The XDMF file beside a run file.
+/// Path of the XDMF file beside a run file.
 std::string sidecar_of(const std::string& path);
-/// Puts a complete new run file, with the checksums of its pages, in the place of an old one.
+/// Replaces an old run file by a complete new one, with the checksums of its pages.
 void replace_run_file(const std::string& from, const std::string& to);
 
-/// Rows of a dataset with one value each.
+/// Reads rows of a dataset with one value each.
 /// @throws Error(kFileError) where rows are missing, or have several values
 template <class T>
 std::vector<T> read_column(const h5::File& file, const std::string& name, std::int64_t first,
@@ -52,14 +51,14 @@ std::vector<T> read_column(const h5::File& file, const std::string& name, std::i
   return value;
 }
 
-/// One frame on its way into the file.
+/// Frame in the course of being written.
 struct FrameWrite {
   h5::File& file;
   const Frame& frame;
-  const FrameIndex* last;         ///< the frame before; null for the first
+  const FrameIndex* last;         ///< previous frame; null for the first
   const StaticHashes& last_hash;  ///< not known after a restart
   bool filtered;
-  FrameIndex index;   ///< out: where it went
+  FrameIndex index;   ///< out: position of the frame
   StaticHashes hash;  ///< out: of this frame
 };
 
@@ -69,10 +68,10 @@ void write_frame(FrameWrite& w);
 /// Writes row `k` of /VTKHDF/Steps and of the tables' frame_offset.
 void write_index(h5::File& file, std::int64_t k, const FrameIndex& index);
 
-/// @param value  [row][column]
+/// Writes rows of samples. @param value  [row][column]
 void write_samples(h5::File& file, const std::string& group, const RowNames& names,
                    std::int64_t first_row, std::span<const double> value);
-/// Returns the number of rows of /events/cell_id afterwards.
+/// Writes events; returns the number of rows of /events/cell_id afterwards.
 std::int64_t write_events(h5::File& file, std::int64_t first_row, std::int64_t n_cell_written,
                           std::span<const Event> event);
 /// Writes the counts that make rows valid. To be called after a flush.
@@ -84,25 +83,25 @@ RunFileCounts read_counts(const h5::File& file);
 RunLayout read_layout(const h5::File& file);
 std::vector<FrameIndex> read_frame_index(const h5::File& file, const RunLayout& layout,
                                          std::int64_t n_frame);
-/// In the order of the samples; nothing if there are none, or the group itself is missing.
+/// Names and units of samples in their order; none if there are no samples, or no such group.
 RowNames read_sample_names(const h5::File& file, const std::string& group);
-/// name -> the first n_row values.
+/// First n_row values of each sample column, by name.
 std::map<std::string, std::vector<double>> read_samples(const h5::File& file,
                                                         const std::string& group,
                                                         std::int64_t n_row);
 
 std::vector<Event> read_events(const h5::File& file, std::int64_t first, std::int64_t n);
 
-/// Copies into a file without /VTKHDF, /cells, /interface; sets NSteps.
+/// Copies frames into a file without /VTKHDF, /cells, /interface; sets NSteps.
 void copy_frames(const h5::File& from, h5::File& to, const RunLayout& layout,
                  const std::vector<FrameIndex>& frame);
 void copy_samples(const h5::File& from, h5::File& to, const std::string& group, std::int64_t n_row);
-/// Returns the number of rows of /events/cell_id kept.
+/// Copies events; returns the number of rows of /events/cell_id kept.
 std::int64_t copy_events(const h5::File& from, h5::File& to, std::int64_t n_row);
 
-/// The names and units of a first row. Throws Error(kInternal) on one that cannot be.
+/// Names and units of a first row. Throws Error(kInternal) on an invalid one.
 RowNames names_of(std::span<const SeriesValue> sample, const std::string& group);
-/// Throws Error(kInternal) unless every value is finite and names, units and order are these.
+/// Throws Error(kInternal) unless every value is finite and names, units and order match.
 void check_sample(std::span<const SeriesValue> sample, const RowNames& names,
                   const std::string& group);
 

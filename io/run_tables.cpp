@@ -11,7 +11,7 @@ namespace {
 
 using h5::File;
 
-/// Names of the samples' values in order, one a line.
+/// Dataset with the names of the sample columns in order, one a line.
 constexpr char kColumns[] = "columns";
 
 }  // namespace

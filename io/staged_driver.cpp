@@ -23,7 +23,7 @@ constexpr haddr_t kMaxAddress = (haddr_t{1} << 62) - 1;
 
 struct DriverInfo {
   StagedState* state;
-  bool sums;  ///< of a file that is made; one that is opened has them or not
+  bool sums;  ///< checksums for a new file; an opened one has them or not
 };
 
 struct StagedFile : H5FD_t {
@@ -33,12 +33,12 @@ struct StagedFile : H5FD_t {
   ino_t inode = 0;
   std::string path;
   haddr_t end_of_allocation = 0;
-  haddr_t end_of_file = 0;  ///< as HDF5 sees it
-  haddr_t committed = 0;    ///< bytes below are part of the last good state
+  haddr_t end_of_file = 0;  ///< end of the file for HDF5
+  haddr_t committed = 0;    ///< bytes below it are part of the last good state
   Journal staged;           ///< new content of bytes below `committed`
   bool has_sums = false;
   PageSums sums;
-  std::vector<bool> checked;  ///< pages that were found as written
+  std::vector<bool> checked;  ///< [page] found as written
   StagedState* state = nullptr;
 };
 
@@ -51,7 +51,7 @@ herr_t fail(StagedFile* file) {
   return -1;
 }
 
-/// Bytes past the end read as zero, as HDF5 expects.
+/// Reads bytes; those past the end are zero, as HDF5 expects.
 bool read_all(int descriptor, std::byte* data, haddr_t size, haddr_t address) {
   while (size > 0) {
     const ssize_t n = pread(descriptor, data, size, static_cast<off_t>(address));
@@ -68,15 +68,15 @@ bool read_all(int descriptor, std::byte* data, haddr_t size, haddr_t address) {
   return true;
 }
 
-/// Whether a page of the file holds the bytes that were written. A reader beside a writer may see
-/// a new page and an old sum: it looks again before it believes in damage.
+/// True if a page of the file has the bytes that were written. A reader beside a writer may see a
+/// new page and an old sum: a mismatch is checked again before it counts as damage.
 bool is_as_written(StagedFile* file, std::uint64_t page) {
-  constexpr int kLooks = 4;
-  constexpr useconds_t kBetween = 20'000;  // us
+  constexpr int kTries = 4;
+  constexpr useconds_t kRetryInterval = 20'000;  // us
   if (page < file->checked.size() && file->checked[page]) return true;
-  for (int look = 0; !file->sums.is_as_written(file->descriptor, page); ++look) {
-    if (errno != EBADMSG || file->writable || look == kLooks - 1) return false;
-    usleep(kBetween);
+  for (int attempt = 0; !file->sums.is_as_written(file->descriptor, page); ++attempt) {
+    if (errno != EBADMSG || file->writable || attempt == kTries - 1) return false;
+    usleep(kRetryInterval);
     file->sums = PageSums::read(file->path);
   }
   if (file->checked.size() <= page) file->checked.resize(page + 1, false);
@@ -84,7 +84,7 @@ bool is_as_written(StagedFile* file, std::uint64_t page) {
   return true;
 }
 
-/// The same of all pages of a range that are not waiting to be replaced.
+/// True if that holds for all pages of a range that are not waiting to be replaced.
 bool are_as_written(StagedFile* file, haddr_t begin, haddr_t end) {
   if (!file->has_sums) return true;
   end = std::min<haddr_t>(end, file->sums.covered_end(file->staged));
@@ -93,7 +93,7 @@ bool are_as_written(StagedFile* file, haddr_t begin, haddr_t end) {
   return true;
 }
 
-/// Sums of the pages that are new or were replaced. Called when the file is as it is to be.
+/// Updates the sums of new and replaced pages. @pre the file has its final content
 bool renew_sums(StagedFile* file) {
   if (!file->has_sums) return true;
   const std::uint64_t end = file->committed, first_new = file->sums.end() / kPage;
@@ -112,7 +112,7 @@ bool renew_sums(StagedFile* file) {
   return file->sums.write(file->path);
 }
 
-/// Writes the waiting pages, which are in the journal, and drops it.
+/// Writes the staged pages, which are in the journal, and removes the journal.
 bool overwrite(StagedFile* file) {
   if (file->staged.page.empty()) return true;
   for (const auto& [index, page] : file->staged.page) {
@@ -179,7 +179,8 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t list, haddr_t max_addr
   return file.release();
 }
 
-/// From the complete journal on, the new state is the file's state, whatever happens.
+/// Commits the session. Once the journal is complete, the new state is the file's state, whatever
+/// happens.
 bool commit(StagedFile* file) {
   if (file->end_of_file < file->end_of_allocation) {
     if (ftruncate(file->descriptor, static_cast<off_t>(file->end_of_allocation)) != 0) return false;
@@ -256,7 +257,7 @@ herr_t read_bytes(H5FD_t* handle, H5FD_mem_t, hid_t, haddr_t address, std::size_
   return 0;
 }
 
-/// Puts new content of already committed bytes aside.
+/// Stages new content of already committed bytes.
 bool stage(StagedFile* file, const std::byte* data, haddr_t begin, haddr_t end) {
   file->staged.end = file->committed;
   Pages& staged = file->staged.page;
@@ -304,8 +305,8 @@ herr_t flush_file(H5FD_t* handle, hid_t, hbool_t) {
   return commit(file) ? 0 : fail(file);
 }
 
-/// Only ever extends: bytes past the allocation are harmless, bytes below `committed` are not ours
-/// to cut.
+/// Extends the file, never cuts it: bytes past the allocation are harmless, bytes below `committed`
+/// must stay.
 herr_t truncate_file(H5FD_t* handle, hid_t, hbool_t) {
   StagedFile* file = self(handle);
   if (file->state->discard || file->end_of_file >= file->end_of_allocation) return 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// An HDF5 file driver that makes one open-write-close session all or nothing.
+/// HDF5 file driver that makes one open-write-close session all or nothing.
 ///
 /// Stock HDF5 overwrites indices in place while it works. A full disk then leaves a superblock that
 /// points past the end of the file, and a kill in the middle of a B-tree split loses frames that
@@ -9,7 +9,7 @@
 /// that burst costs nothing: the next open takes them from the journal. A session that fails or is
 /// abandoned is cut back to the old length: the file is then what it was before, byte for byte.
 ///
-/// Where a file has checksums of its pages, every page is looked at before HDF5 gets its bytes.
+/// Every page of a file with checksums is checked before HDF5 gets its bytes.
 
 #include <hdf5.h>
 
@@ -20,7 +20,7 @@ namespace acinus::io::h5 {
 /// Outcome of one session, owned by the caller, which keeps it alive until the file is closed.
 struct StagedState {
   int error = 0;         ///< errno of the first failed write, 0 = none
-  int read_error = 0;    ///< of the last failed read; EBADMSG: not the bytes that were written
+  int read_error = 0;    ///< of the last failed read; EBADMSG: other bytes than were written
   bool discard = false;  ///< set by the caller or by a failure: nothing more is written, close
                          ///< restores the file
 };

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "geometry/readers/input_file.hpp"
@@ -24,7 +23,7 @@ void append_bytes(std::string& text, const T& value) {
   text.append(bytes.data(), bytes.size());
 }
 
-/// Numbers of appended data, after their size.
+/// Encoder of appended data: numbers after their size.
 class VtpData {
  public:
   template <class T>
@@ -76,7 +75,7 @@ _)",
          data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-/// Legacy VTK keeps the bytes of numbers the other way round.
+/// Number in the byte order of legacy VTK (big-endian).
 template <class T>
 void append_swapped(std::string& text, const T& value) {
   std::array<char, sizeof(T)> bytes;

@@ -5,10 +5,10 @@
 
 namespace acinus::io {
 
-/// A text with the characters that XML reserves replaced.
+/// Text with the characters that XML reserves replaced.
 std::string escape_xml(const std::string& text);
 
-/// A text element. @param anchor  start, middle or end  @param more  further attributes
+/// Text element. @param anchor  start, middle or end  @param more  further attributes
 std::string svg_text(double x, double y, const std::string& anchor, const std::string& words,
                      const std::string& more = "");
 

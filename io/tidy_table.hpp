@@ -1,5 +1,5 @@
 #pragma once
-/// A long table, one value a row, as an HDF5 file. The same rows make the same bytes.
+/// Long table, one value a row, as an HDF5 file. The same rows give the same bytes.
 
 #include <cstdint>
 #include <string>
@@ -14,8 +14,8 @@ struct TidyColumn {
   std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>> value;
 };
 
-/// One dataset per column, all of the same length; numbers with the attribute `unit`.
-/// The file appears whole or not at all.   @throws Error(kFileError)
+/// Writes one dataset per column, all of the same length; numbers with the attribute `unit`. The
+/// file appears whole or not at all.   @throws Error(kFileError)
 void write_tidy_table(const std::string& path, const std::vector<TidyColumn>& columns);
 
 }  // namespace acinus::io

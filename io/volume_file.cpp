@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/foreign_text.hpp"
+#include "io/attribute_texts.hpp"
 #include "io/hdf5.hpp"
 
 namespace acinus::io {
@@ -30,17 +30,17 @@ std::vector<double> element_size_of(const h5::Handle& dataset) {
   const hssize_t n = H5Sget_simple_extent_npoints(space.id());
   constexpr hssize_t kMostAxes = 8;
   if (n < 1 || n > kMostAxes) return {};
-  std::vector<double> size(static_cast<std::size_t>(n));
+  std::vector<double> size(n);
   if (H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, size.data()) < 0) return {};
   return size;
 }
 
-/// Names of axes that stand in the file without JSON.
+/// Names of axes from attributes that are not JSON.
 std::vector<std::string> labels_of(const std::string& path, const h5::Handle& dataset) {
-  std::vector<std::string> labels = read_foreign_texts(path, dataset, "DIMENSION_LABELS");
+  std::vector<std::string> labels = read_attribute_texts(path, dataset, "DIMENSION_LABELS");
   const bool said = std::ranges::any_of(labels, [](const auto& t) { return !t.empty(); });
   if (said) return labels;
-  labels = read_foreign_texts(path, dataset, "axes");
+  labels = read_attribute_texts(path, dataset, "axes");
   if (labels.size() != 1) return labels;
   std::vector<std::string> letters;  // "zyx" in one text
   for (const char c : labels[0]) letters.emplace_back(1, c);
@@ -62,10 +62,10 @@ std::string name_of_filter(H5Z_filter_t id, const char* stored) {
   return fmt::format("{} (filter {})", stored[0] != 0 ? stored : "an unknown codec", id);
 }
 
-/// Codecs, bytes and chunks of a dataset.
-/// @param file_size  bytes of the file, which no number in it can be trusted beyond
-void look_at_storage(const h5::Handle& dataset, const h5::Handle& space, double file_size,
-                     VolumeInfo& v) {
+/// Reads codecs, bytes and chunks of a dataset, and any contradiction among them.
+/// @param file_size  bytes of the file, an upper bound for every number in it
+void read_storage(const h5::Handle& dataset, const h5::Handle& space, double file_size,
+                  VolumeInfo& v) {
   const h5::Handle list(H5Dget_create_plist(dataset.id()), H5Pclose);
   for (int k = 0; k < H5Pget_nfilters(list.id()); ++k) {
     std::array<char, 64> name{};
@@ -139,7 +139,7 @@ h5::File open(const std::string& path) {
               Exit::kFileError);
 }
 
-void look_at(const h5::File& file, const std::string& name, std::vector<VolumeInfo>& found) {
+void add_volume(const h5::File& file, const std::string& name, std::vector<VolumeInfo>& found) {
   constexpr std::size_t kLeastAxes = 2;
   const h5::Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.valid()) fail(file.path(), "open dataset " + name);
@@ -148,7 +148,7 @@ void look_at(const h5::File& file, const std::string& name, std::vector<VolumeIn
   const int rank = H5Sget_simple_extent_ndims(space.id());
   const H5T_class_t kind = H5Tget_class(type.id());
   if (rank < static_cast<int>(kLeastAxes) || (kind != H5T_INTEGER && kind != H5T_FLOAT)) return;
-  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  std::vector<hsize_t> shape(rank);
   H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr);
   VolumeInfo v;
   v.name = "/" + name;
@@ -158,10 +158,10 @@ void look_at(const h5::File& file, const std::string& name, std::vector<VolumeIn
   v.is_real = kind == H5T_FLOAT;
   v.has_sign = !v.is_real && H5Tget_sign(type.id()) != H5T_SGN_NONE;
   v.element_size = element_size_of(dataset);
-  const std::vector<std::string> tags = read_foreign_texts(file.path(), dataset, "axistags");
+  const std::vector<std::string> tags = read_attribute_texts(file.path(), dataset, "axistags");
   if (tags.size() == 1) v.axis_tags = tags[0];
   v.axis_label = labels_of(file.path(), dataset);
-  look_at_storage(dataset, space, static_cast<double>(std::filesystem::file_size(file.path())), v);
+  read_storage(dataset, space, static_cast<double>(std::filesystem::file_size(file.path())), v);
   found.push_back(std::move(v));
 }
 
@@ -179,7 +179,7 @@ std::vector<VolumeInfo> list_volumes(const std::string& path) {
     auto& v = *static_cast<Visit*>(data);
     if (info->type != H5O_TYPE_DATASET) return 0;
     try {
-      look_at(v.file, name, v.found);
+      add_volume(v.file, name, v.found);
     } catch (...) {
       v.failure = std::current_exception();
       return -1;
@@ -200,8 +200,7 @@ std::vector<std::byte> read_volume(const std::string& path, const VolumeInfo& vo
   const h5::Handle type = native_type_of(dataset);
   const std::int64_t n =
       std::accumulate(volume.shape.begin(), volume.shape.end(), std::int64_t{1}, std::multiplies());
-  std::vector<std::byte> bytes(static_cast<std::size_t>(n) *
-                               static_cast<std::size_t>(volume.bytes));
+  std::vector<std::byte> bytes(n * volume.bytes);
   if (H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
     fail(path, "read dataset " + volume.name);
   return bytes;

@@ -9,7 +9,7 @@
 namespace acinus::io {
 namespace {
 
-/// A contiguous slab of rows of a dataset.
+/// Contiguous rows of a dataset.
 struct Slab {
   std::string dataset;
   const char* number;  ///< XDMF number type and precision
@@ -49,7 +49,7 @@ void add_attribute(std::string* out, const std::string& file, const char* center
   *out += "</Attribute>\n";
 }
 
-/// One grid: cells first_cell .. first_cell + n_cell of the frame, of one kind.
+/// Grid of one kind: cells first_cell .. first_cell + n_cell of the frame.
 struct XdmfGrid {
   const char* name;
   const char* topology;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the programs do around their command line.
+/// Entry points of the programs: exceptions as messages and exit codes.
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 
 namespace acinus::runs {
 
-/// Turns every exception into a message and an exit code.
-/// @param work  a function of nothing that returns the exit code
+/// Runs a function and turns any exception into a message and an exit code.
+/// @param work  callable without arguments that returns an exit code
 template <class Work>
 int exit_code_of(Work work) {
   try {
@@ -33,7 +33,8 @@ int exit_code_of(Work work) {
   return static_cast<int>(Exit::kInternal);
 }
 
-/// Runs a whole program: streams and memory set up, exceptions and lost output as exit codes.
+/// Runs a whole program: sets up streams and memory, and turns exceptions and lost output into exit
+/// codes.
 template <class Work>
 int run_program(Work work) {
   // A file-size limit then shows as a failed write, which is reported, instead of killing the

@@ -11,32 +11,35 @@
 namespace acinus::solve {
 namespace {
 
-/// What one pass in float may gain: beyond this its recurrence no longer follows the truth.
-constexpr double kFloatGain = 1e-4;
-/// Passes aim a little below the goal, so that rounding does not cost another pass.
-constexpr double kAim = 0.9;
+/// Largest reduction of the residual in one pass in float: beyond it the recurrence drifts from the
+/// true residual.
+constexpr double kLargestFloatReduction = 1e-4;
+/// Share of the tolerance that passes aim at, so that rounding does not cost another pass.
+constexpr double kGoalShare = 0.9;
 constexpr int kMaxPasses = 20;
-/// A pass that leaves more than this share of the residual has reached what its numbers can do.
-constexpr double kLeastGain = 0.5;
-/// A solve that took this many iterations is likely to take as many more.
-constexpr int kMergeAfter = 16;
-/// Relative residual at which a solve that rounding stopped counts as solved all the same.
-constexpr double kHarmless = 1e-3;
+/// Largest share of the residual that a useful pass leaves: above it, the pass has reached the
+/// limit of its precision.
+constexpr double kLargestUsefulShare = 0.5;
+/// Iterations after which merging contacts pays: a solve that took so many is likely to take as
+/// many more.
+constexpr int kMergingIterations = 16;
+/// Relative residual at which a solve that rounding stopped still counts as converged.
+constexpr double kRoundingTolerance = 1e-3;
 
-/// A squared norm: a number, and not negative.
+/// True for a valid squared norm: finite and not negative.
 bool is_size(double rho) { return std::isfinite(rho) && rho >= 0; }
 
 enum class PassEnd { kReached, kBrokeDown, kOutOfIterations, kAskedToStop };
 
-/// What a pass starts from and where it ends.
+/// Start and end of one pass.
 struct PassPlan {
-  double size = 1;  ///< of the residual: the scale keeps floats away from underflow
+  double size = 1;  ///< norm of the residual: scaling by it keeps floats away from underflow
   double goal = 0;  ///< on sqrt(r . z), after scaling
   int max_iterations = 0;
   const CoarseSpace* coarse = nullptr;
 };
 
-/// Iterates on A e = residual / size from e = 0 until the goal.
+/// Iterates on A e = residual / size from e = 0 to the goal.
 template <class T>
 PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan& plan,
                  int& iterations, CgVectors<T>& v) {
@@ -58,7 +61,7 @@ PassEnd run_pass(Operator& op, std::span<const double> residual, const PassPlan&
     if (iterations >= plan.max_iterations) return PassEnd::kOutOfIterations;
     if (stop_requested()) return PassEnd::kAskedToStop;
     ++iterations;
-    if (std::is_same_v<T, float> && iterations == kMergeAfter) op.merge_links();
+    if (std::is_same_v<T, float> && iterations == kMergingIterations) op.merge_links();
     const double curvature = op.apply<T>(v.direction, v.product);
     if (!(curvature > 0)) return PassEnd::kBrokeDown;
     size2 = op.descend<T>(rho / curvature, v.direction, v.product, v.correction, v.residual,
@@ -78,14 +81,14 @@ void add_correction(const System& s, double size, const std::vector<T>& correcti
   for_each_own_number(s, [&](std::size_t k) { x[k] += size * static_cast<double>(correction[k]); });
 }
 
-/// r = b - A x; returns its squared norm.
-double find_residual(const Operator& op, std::span<const double> b, std::span<const double> product,
-                     CgWorkspace& work) {
+/// Computes the residual r = b - A x; returns its squared norm r . M^-1 r.
+double compute_residual(const Operator& op, std::span<const double> b,
+                        std::span<const double> product, CgWorkspace& work) {
   for_each_own_number(op.system(), [&](std::size_t k) { work.residual[k] = b[k] - product[k]; });
   return op.precondition(work.residual, {});
 }
 
-/// One pass in the numbers asked for, added to x unless it broke down.
+/// Runs one pass in the given precision and adds its correction to x unless it broke down.
 PassEnd improve(Operator& op, bool in_float, const PassPlan& plan, CgWorkspace& work,
                 std::span<double> x, int& iterations) {
   const auto run = [&](auto& vectors) {
@@ -105,9 +108,10 @@ constexpr const char* kIndefinite = "the matrix is not positive definite";
 
 }  // namespace
 
-CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse,
-                  std::span<const double> product) {
+CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
+                  CgWorkspace& work) {
+  const auto [op, b, coarse, start_product] = problem;
+  std::span<const double> product = start_product;
   copy_numbers(b, work.residual);
   set_size(work.product, b.size());
   const double rhs = std::sqrt(op.precondition(work.residual, {}));
@@ -126,20 +130,21 @@ CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
       op.apply<double>(x, work.product);
       product = work.product;
     }
-    const double rho = find_residual(op, b, product, work), size = std::sqrt(rho);
+    const double rho = compute_residual(op, b, product, work), size = std::sqrt(rho);
     product = {};
     if (!is_size(rho)) return fail(result, kIndefinite);
     result.residual = size / rhs;
     if (result.residual <= options.tolerance) return result;
     if (stopped || pass >= kMaxPasses) return fail(result, "the linear solve did not converge");
-    if (size > kLeastGain * before) {
-      if (!mixed && result.residual <= kHarmless) return result;  // as good as doubles can do
+    if (size > kLargestUsefulShare * before) {
+      if (!mixed && result.residual <= kRoundingTolerance)
+        return result;  // as good as doubles can do
       mixed = false;
     }
     before = size;
-    const double goal = kAim * options.tolerance * rhs / size;
-    const PassPlan plan{size, mixed ? std::max(goal, kFloatGain) : goal, options.max_iterations,
-                        coarse};
+    const double goal = kGoalShare * options.tolerance * rhs / size;
+    const PassPlan plan{size, mixed ? std::max(goal, kLargestFloatReduction) : goal,
+                        options.max_iterations, coarse};
     const PassEnd end = improve(op, mixed, plan, work, x, result.iterations);
     if (end == PassEnd::kAskedToStop) return fail(result, "asked to stop");
     stopped = end == PassEnd::kOutOfIterations;

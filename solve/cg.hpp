@@ -1,6 +1,6 @@
 #pragma once
-/// Conjugate gradients with a block-diagonal and, if wanted, a coarse preconditioner, iterated in
-/// float and judged in double.
+/// Preconditioned conjugate gradients, iterated in float and checked in double. The preconditioner
+/// is block-diagonal, with a coarse space if wanted.
 
 #include <span>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace acinus::solve {
 
-/// Which numbers the iterations run on.
+/// Number type of the iterations.
 enum class Precision {
   kMixed,  ///< float, in passes that each start from the true residual in double
   kDouble
@@ -38,23 +38,28 @@ struct CgVectors {
 /// Scratch, sized on first use.
 struct CgWorkspace {
   std::vector<double> residual;  ///< b - A x of the solution returned
-  std::vector<double> product;   ///< free for others between solves
+  std::vector<double> product;   ///< scratch; free for other use between solves
   CgVectors<float> single;
   CgVectors<double> full;
 };
 
-/// Solves A x = b from the start value in x (warm start). The stop is relative to the right-hand
-/// side, not to the first residual, so that a good start saves iterations. Passes of iterations
-/// solve for a correction of x; each starts from the true residual in double, which also confirms
-/// the stop. A pass in float that breaks down or gains nothing is followed by one in double; when
-/// that gains nothing either, rounding has the last word: the result is ok if the residual is below
-/// 1e-3 and says what it is. Fails when the process is asked to stop.
-/// @param op  its contacts are merged when passes in float turn out long
-/// @param coarse  second part of the preconditioner, prepared for op; null: diagonal blocks alone.
-///                The stop is measured with the diagonal blocks either way.
-/// @param product  A x of the start value if it is known, else empty; not in the workspace
-CgResult solve_cg(Operator& op, std::span<const double> b, std::span<double> x,
-                  const CgOptions& options, CgWorkspace& work, const CoarseSpace* coarse = nullptr,
-                  std::span<const double> product = {});
+/// Linear system A x = b with its preconditioner.
+struct CgProblem {
+  Operator& op;               ///< A; its contacts are merged when passes in float turn out long
+  std::span<const double> b;  ///< [n_row][3][lane] right-hand side
+  /// Second part of the preconditioner, prepared for op; null: diagonal blocks alone. The tolerance
+  /// is in the norm of the diagonal blocks either way.
+  const CoarseSpace* coarse = nullptr;
+  std::span<const double> product = {};  ///< A x of the start value if known, not in the workspace
+};
+
+/// Solves A x = b from the start value in x (warm start). The tolerance is relative to the
+/// right-hand side, not to the first residual, so that a good start saves iterations. Passes of
+/// iterations solve for a correction of x; each starts from the true residual in double, which also
+/// decides convergence. A pass in float that breaks down or gains nothing is followed by one in
+/// double; when that gains nothing either, rounding limits the accuracy: the result is ok if the
+/// residual is below 1e-3, and states it. Fails when the process is asked to stop.
+CgResult solve_cg(const CgProblem& problem, std::span<double> x, const CgOptions& options,
+                  CgWorkspace& work);
 
 }  // namespace acinus::solve

@@ -13,11 +13,11 @@
 namespace acinus::solve {
 namespace {
 
-/// What is added to the diagonal when the incomplete factor meets a block that is not positive, in
-/// parts of that diagonal; doubled until none does.
-constexpr double kShift = 1e-3;
+/// First shift of the diagonal where a block of the incomplete factor is not positive, in parts of
+/// that diagonal; doubled until all are.
+constexpr double kFirstShift = 1e-3;
 
-/// sum of r and of arm x r over the points of a block, [6][lane].
+/// Restriction: sums of r and of arm x r over the points of a block, [6][lane].
 template <class T>
 ACINUS_INLINE void restrict_points(int n, const float* arm, const T* r, double* out) {
   Lane3Of<T> force = {}, torque = {};
@@ -29,7 +29,7 @@ ACINUS_INLINE void restrict_points(int n, const float* arm, const T* r, double* 
   store3(out, force);
   store3(out + 3 * kLanes, torque);
 }
-/// z += motion + turn x arm.
+/// Prolongation: z += motion + turn x arm.
 template <class T>
 ACINUS_INLINE void prolong_points(int n, const float* arm, const double* in, T* z) {
   const Lane3Of<T> motion = load3<T>(in), turn = load3<T>(in + 3 * kLanes);
@@ -50,11 +50,65 @@ ACINUS_KERNEL void prolong_block(int n, const float* arm, const double* in, doub
   prolong_points<double>(n, arm, in, z);
 }
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
 Mat3 cross_matrix(const Vec3& v) {
   Mat3 m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return m;
 }
+
+/// Response of a contact to rigid motions of its two cells.
+class LinkResponse {
+ public:
+  template <class L>
+  LinkResponse(const System& s, const L& l)
+      : normal_(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
+                static_cast<double>(l.normal[2])),
+        stiffness_(s.stiffness_scale * static_cast<double>(l.stiffness)),
+        friction_(s.friction_scale * static_cast<double>(l.friction)) {}
+
+  bool is_zero() const { return stiffness_ == 0 && friction_ == 0; }
+  /// Block J_p^T (k n n^T + g I) J_q with J = [I, -arm x]. @param p, q  arms of the two places
+  Mat6 matrix(const Vec3& p, const Vec3& q) const {
+    Vec6 u, v;
+    u << normal_, p.cross(normal_);
+    v << normal_, q.cross(normal_);
+    Mat6 m = stiffness_ * u * v.transpose();
+    m.topLeftCorner<3, 3>() += friction_ * Mat3::Identity();
+    m.bottomLeftCorner<3, 3>() += friction_ * cross_matrix(p);
+    m.topRightCorner<3, 3>() -= friction_ * cross_matrix(q);
+    m.bottomRightCorner<3, 3>() -= friction_ * cross_matrix(p) * cross_matrix(q);
+    return m;
+  }
+
+ private:
+  Vec3 normal_;
+  double stiffness_, friction_;
+};
+
+/// Places of the two sides of a contact of surfaces, um.
+struct SideEnds {
+  std::span<const double> position;
+  const Link& link;
+  Vec3 a() const { return place(link.a); }
+  Vec3 b() const { return place(link.b); }
+  Vec3 place(const Side& side) const {
+    const Vec3 last = load_point(position.data(), address_of(side.point[2]));
+    const double w0 = static_cast<double>(side.weight[0]), w1 = static_cast<double>(side.weight[1]);
+    return last + w0 * (load_point(position.data(), address_of(side.point[0])) - last) +
+           w1 * (load_point(position.data(), address_of(side.point[1])) - last);
+  }
+};
+
+/// Places of the two points of a contact of spheres, um.
+struct PointEnds {
+  std::span<const double> position;
+  const PointLink& link;
+  Vec3 a() const { return load_point(position.data(), address_of(link.a)); }
+  Vec3 b() const { return load_point(position.data(), address_of(link.b)); }
+};
 
 }  // namespace
 
@@ -96,7 +150,7 @@ int CoarseSpace::cell_of(Point p) const {
   return cell_[system_->block_of(p) * kLanes + p % kLanes];
 }
 
-void CoarseSpace::find_neighbours() {
+void CoarseSpace::make_pattern() {
   using CellPair = std::array<int, 2>;  // row and column
   std::vector<CellPair> pair;
   for (int c = 0; c < static_cast<int>(center_.size()); ++c) pair.push_back({c, c});
@@ -128,7 +182,7 @@ void CoarseSpace::find_neighbours() {
   block_.assign(column_.size(), Mat6::Zero());
 }
 
-/// Gets the rows of the cells of other processes.
+/// Gathers the rows of cells that other processes own.
 void CoarseSpace::gather_rows() {
   const Ownership& ownership = system_->ownership;
   if (ownership.is_whole()) return;
@@ -139,11 +193,11 @@ void CoarseSpace::gather_rows() {
   gather_in_order(
       ownership.ranks, center_.size(),
       [&](std::size_t c) { return ownership.owner[block_of_cell_[c]]; },
-      [&](std::size_t c) { return static_cast<std::size_t>(start_[c + 1] - start_[c]); }, own, all);
+      [&](std::size_t c) -> std::size_t { return start_[c + 1] - start_[c]; }, own, all);
   block_ = std::move(all);
 }
 
-/// Gets what belongs to the cells of other processes.
+/// Gathers the values of cells that other processes own.
 void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
   const Ownership& ownership = system_->ownership;
   if (ownership.is_whole()) return;
@@ -156,7 +210,8 @@ void CoarseSpace::gather_cells(std::vector<Vec6>& v) const {
   v = std::move(all);
 }
 
-/// What a cell alone holds against its six motions: medium, and dashpots or strain against turning.
+/// Adds the resistance of single cells to their six motions: medium, and dashpots or strain against
+/// rotation.
 void CoarseSpace::add_cells(const Operator& op) {
   const System& s = *system_;
   std::vector<double> mode(s.n_dof()), product(s.n_dof());
@@ -191,75 +246,51 @@ void CoarseSpace::add_cells(const Operator& op) {
   }
 }
 
+Vec3 CoarseSpace::arm_of(std::size_t cell, const Vec3& place) const {
+  return size_[cell] > 0 ? Vec3((place - center_[cell]) / size_[cell]) : Vec3::Zero();
+}
+
+std::size_t CoarseSpace::entry_of(int a, int b) const {
+  const int row = std::max(a, b);
+  const auto from = column_.begin() + start_[row], to = column_.begin() + start_[row + 1];
+  return std::lower_bound(from, to, std::min(a, b)) - column_.begin();
+}
+
+template <class L, class Ends>
+void CoarseSpace::add_link(const RowShare& share, int a, int b, const Ends& ends, const L& link) {
+  const bool owns_a = share.owns(a), owns_b = b >= 0 && share.owns(b);
+  if (!owns_a && !owns_b) return;
+  const LinkResponse response(*system_, link);
+  if (response.is_zero()) return;
+  const Vec3 p = arm_of(a, ends.a());
+  if (owns_a) block_[entry_of(a, a)] += response.matrix(p, p);
+  if (b < 0) return;
+  const Vec3 q = arm_of(b, ends.b());
+  if (owns_b) block_[entry_of(b, b)] += response.matrix(q, q);
+  if (a == b)
+    block_[entry_of(a, a)] -= response.matrix(p, q) + response.matrix(q, p);
+  else if (share.owns(std::max(a, b)))
+    block_[entry_of(a, b)] -= a > b ? response.matrix(p, q) : response.matrix(q, p);
+}
+
 void CoarseSpace::add_links(std::span<const double> position) {
   const System& s = *system_;
-  auto place = [&](const Side& side) -> Vec3 {
-    const Vec3 last = load_point(position.data(), address_of(side.point[2]));
-    const double w0 = static_cast<double>(side.weight[0]), w1 = static_cast<double>(side.weight[1]);
-    return last + w0 * (load_point(position.data(), address_of(side.point[0])) - last) +
-           w1 * (load_point(position.data(), address_of(side.point[1])) - last);
-  };
-  // turning by omega moves a place by omega x arm
-  auto arm = [&](int c, const Vec3& x) -> Vec3 {
-    const std::size_t k = c;
-    return size_[k] > 0 ? Vec3((x - center_[k]) / size_[k]) : Vec3::Zero();
-  };
-  auto slot = [&](int a, int b) {
-    const std::size_t row = std::max(a, b);
-    const auto from = column_.begin() + start_[row], to = column_.begin() + start_[row + 1];
-    return static_cast<std::size_t>(std::lower_bound(from, to, std::min(a, b)) - column_.begin());
-  };
-  // Every part looks at all links and adds to the rows of its own cells, in their order.
+  // Every part passes over all links and adds to the rows of its own cells, in their order.
   const std::size_t n_part = std::min(count_threads(s.n_row), center_.size());
-  const auto owner = [&](int c) { return static_cast<std::size_t>(c) % n_part; };
-  auto add = [&](std::size_t part, int a, int b, const auto& place_a, const auto& place_b,
-                 const auto& l) {
-    const bool mine_a = owner(a) == part, mine_b = b >= 0 && owner(b) == part;
-    if (!mine_a && !mine_b) return;
-    const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
-                 static_cast<double>(l.normal[2]));
-    const double k = s.stiffness_scale * static_cast<double>(l.stiffness);
-    const double g = s.friction_scale * static_cast<double>(l.friction);
-    if (k == 0 && g == 0) return;
-    // J^T (k n n^T + g I) J with J = [I, -arm x]
-    auto respond = [&](const Vec3& p, const Vec3& q) {
-      Vec6 u, v;
-      u << n, p.cross(n);
-      v << n, q.cross(n);
-      Mat6 m = k * u * v.transpose();
-      m.topLeftCorner<3, 3>() += g * Mat3::Identity();
-      m.bottomLeftCorner<3, 3>() += g * cross_matrix(p);
-      m.topRightCorner<3, 3>() -= g * cross_matrix(q);
-      m.bottomRightCorner<3, 3>() -= g * cross_matrix(p) * cross_matrix(q);
-      return m;
-    };
-    const Vec3 p = arm(a, place_a());
-    if (mine_a) block_[slot(a, a)] += respond(p, p);
-    if (b < 0) return;
-    const Vec3 q = arm(b, place_b());
-    if (mine_b) block_[slot(b, b)] += respond(q, q);
-    if (a == b)
-      block_[slot(a, a)] -= respond(p, q) + respond(q, p);
-    else if (owner(std::max(a, b)) == part)
-      block_[slot(a, b)] -= a > b ? respond(p, q) : respond(q, p);
-  };
   for_each_part(n_part, [&](std::size_t part) {
+    const RowShare share{part, n_part};
     for (const Link& l : s.links.link)
-      add(
-          part, cell_of(l.a.point[0]), l.b.exists() ? cell_of(l.b.point[0]) : -1,
-          [&] { return place(l.a); }, [&] { return place(l.b); }, l);
-    const auto at = [&](Point k) { return load_point(position.data(), address_of(k)); };
+      add_link(share, cell_of(l.a.point[0]), l.b.exists() ? cell_of(l.b.point[0]) : -1,
+               SideEnds{position, l}, l);
     for (const PointLink& l : s.point_links)
-      add(
-          part, cell_of(l.a), l.b != kNowhere ? cell_of(l.b) : -1, [&] { return at(l.a); },
-          [&] { return at(l.b); }, l);
+      add_link(share, cell_of(l.a), l.b != kNowhere ? cell_of(l.b) : -1, PointEnds{position, l}, l);
   });
 }
 
-/// Incomplete block Cholesky, E ~ L L^T with the pattern of E.
+/// Factors E ~ L L^T by incomplete block Cholesky with the pattern of E.
 void CoarseSpace::factor() {
   const std::vector<Mat6> matrix = block_;
-  for (double shift = 0;; shift = shift > 0 ? 2 * shift : kShift) {
+  for (double shift = 0;; shift = shift > 0 ? 2 * shift : kFirstShift) {
     bool positive = true;
     for (std::size_t i = 0; i < center_.size() && positive; ++i) {
       const std::size_t from = start_[i], diagonal = start_[i + 1] - 1;
@@ -283,7 +314,7 @@ void CoarseSpace::factor() {
           block_[e] = llt.matrixL();
         } else {
           // X L_jj^T = sum
-          const Mat6& l = block_[static_cast<std::size_t>(start_[j + 1]) - 1];
+          const Mat6& l = block_[start_[j + 1] - 1];
           block_[e] = l.triangularView<Eigen::Lower>().solve(sum.transpose()).transpose();
         }
       }
@@ -312,7 +343,7 @@ void CoarseSpace::prepare(const Operator& op, std::span<const double> position,
   system_ = &op.system();
   place_cells(position, active);
   if (center_.empty()) return;
-  find_neighbours();
+  make_pattern();
   add_cells(op);
   add_links(position);
   gather_rows();

@@ -1,5 +1,5 @@
 #pragma once
-/// Sums over the points of groups of cells, whatever process or thread works out which block.
+/// Sums over the points of groups of cells, the same for any partition among processes and threads.
 
 #include <array>
 #include <cstdint>
@@ -12,17 +12,18 @@
 
 namespace acinus::solve {
 
-/// Every own block adds up what its points give to each of its groups; these parts are added
-/// exactly, or, where a group has few of them, in the order of the blocks.
+/// Sums over groups. Every own block sums over its points for each of its groups; these parts are
+/// added exactly, or, where a group has few of them, in the order of the blocks.
 class GroupSums {
  public:
+  /// Indexes the parts of the groups.
   /// @param group    [n_block * kLanes] of each cell, -1: none; of all blocks, not only own ones
   /// @param n_group  groups are numbered from 0
   void prepare(const System& system, std::span<const int> group, std::size_t n_group);
 
-  /// Sums of N numbers. To be called by all processes.
-  /// @param f    f(address, group, numbers): adds what a point gives
-  /// @param put  put(group, numbers): takes the sums, of groups with own cells
+  /// Sums N numbers over the points of each group. Collective.
+  /// @param f    f(address, group, numbers): adds the contribution of a point
+  /// @param put  put(group, numbers): receives the sums, of groups with own cells
   template <std::size_t N, class F, class Put>
   void sum(const F& f, const Put& put);
 
@@ -30,7 +31,7 @@ class GroupSums {
   template <class F>
   void largest(const F& f, std::vector<double>& value) const;
 
-  /// f(address, group) for every point of own blocks; f writes to that point only.
+  /// Calls f(address, group) for every point of own blocks; f writes to that point only.
   template <class F>
   void for_each_point(const F& f) const {
     for_each_index(own_.size(), worth_threads(system_->n_row),
@@ -38,7 +39,7 @@ class GroupSums {
   }
 
  private:
-  /// What one block gives to one group.
+  /// Contribution of one block to one group.
   struct GroupPart {
     int block, group;
   };
@@ -56,8 +57,7 @@ class GroupSums {
     for (std::size_t l = 0; l < kLanes; ++l)
       if (const int g = group_[b * kLanes + l]; g >= 0)
         for (int i = 0; i < block.pattern->n_point; ++i)
-          f(make_address(block.first_row + static_cast<std::size_t>(i), static_cast<int>(l)),
-            static_cast<std::size_t>(g));
+          f(make_address(block.first_row + i, static_cast<int>(l)), g);
   }
   std::span<const std::uint32_t> parts_of(std::size_t group) const {
     return std::span(by_group_).subspan(start_[group], start_[group + 1] - start_[group]);
@@ -68,13 +68,13 @@ class GroupSums {
 
   const System* system_ = nullptr;
   std::span<const int> group_;
-  std::vector<std::size_t> own_;         ///< own blocks
+  std::vector<std::size_t> own_;         ///< numbers of own blocks
   std::vector<std::size_t> first_part_;  ///< [own blocks + 1]
   std::vector<GroupPart> part_;          ///< of own blocks, ascending
   std::vector<std::uint32_t> by_group_;  ///< numbers of parts, group by group
   std::vector<std::size_t> start_;       ///< [n_group + 1] in by_group_
   std::vector<GroupKind> kind_;          ///< [n_group] by the parts of all processes
-  std::vector<std::uint8_t> is_shared_;  ///< [n_group] whether several processes have parts
+  std::vector<std::uint8_t> is_shared_;  ///< [n_group] 1: several processes have parts
   std::vector<std::size_t> few_, many_;  ///< shared groups
   std::vector<double> scratch_;          ///< [part][number] of a sum
   // Of prepare.
@@ -86,9 +86,8 @@ template <std::size_t N>
 void GroupSums::add_exactly(std::span<const std::uint32_t> parts,
                             std::span<const std::array<double, N>> number,
                             std::span<ExactSum, N> sum) const {
-  constexpr std::size_t kWorthThreads = 2000;  // parts
-  const std::size_t n_part =
-      parts.size() * N > kWorthThreads ? static_cast<std::size_t>(thread_count()) : 1;
+  constexpr std::size_t kLeastShared = 2000;  // parts
+  const std::size_t n_part = parts.size() * N > kLeastShared ? thread_count() : 1;
   const auto add = [&](std::size_t part, std::span<ExactSum> to) {
     for (std::size_t k = part * parts.size() / n_part; k < (part + 1) * parts.size() / n_part; ++k)
       for (std::size_t n = 0; n < N; ++n) to[n].add(number[parts[k]][n]);
@@ -153,7 +152,7 @@ void GroupSums::sum(const F& f, const Put& put) {
     std::array<double, N> total{};
     for (; k < all.size() && all[k].part.group == g; ++k)
       for (std::size_t n = 0; n < N; ++n) total[n] += all[k].number[n];
-    put(static_cast<std::size_t>(g), total);
+    put(g, total);
   }
 }
 

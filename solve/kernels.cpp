@@ -17,7 +17,7 @@ ACINUS_INLINE Lane3Of<T> sym_times(const float* d, const Lane3Of<T>& v) {
           xz * v.x + yz * v.y + load<T>(d + 5 * kLanes) * v.z};
 }
 
-/// Springs with the hinge about each, in one sweep: they share two of their points.
+/// Product with springs and the hinge about each, in one sweep: they share two of their points.
 template <class T, bool kHinges, bool kMerged>
 ACINUS_INLINE void add_edges(const BlockView& b, const T* x, T* y) {
   const auto& spring = b.pattern->spring;
@@ -127,7 +127,8 @@ ACINUS_INLINE double multiply(const BlockView& b, const T* x, const Packed<T>* c
   return sum_lanes<T>(product);
 }
 
-/// Takes the rank-one parts off z = D^-1 r, given `along` = u . r; returns what that adds to r . z.
+/// Subtracts the rank-one parts from z = D^-1 r, given `along` = u . r; returns the change of r .
+/// z.
 template <class T>
 ACINUS_INLINE LaneOf<T> take_off(const InverseView& b, const LaneOf<T>* along, T* z) {
   LaneOf<T> s = {};

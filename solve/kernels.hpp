@@ -6,40 +6,40 @@
 
 namespace acinus::solve {
 
-/// Most rank-one families a system may have (volume and area use two).
+/// Largest number of rank-one families in a system (volume and area use two).
 inline constexpr std::size_t kMaxFamilies = 4;
 
-/// What the kernels read of one block.
+/// Arrays and coefficients of one block, as the kernels read them.
 struct BlockView {
   const BlockPattern* pattern;
   const double* medium;  ///< [n_point][lane]
   const float* spring;
-  const float* edge;  ///< springs with merged contacts; null: spring, and no contacts
+  const float* edge;  ///< springs with merged contacts; null: use spring, contacts are apart
   const float* hinge;
   const float* face;
   const float* beam;
   double friction_scale;
   double dashpot;         ///< nN s/um
-  double dashpot_across;  ///< over that along the spring
+  double dashpot_across;  ///< ratio to that along the spring
   std::size_t n_family = 0;
   std::array<const double*, kMaxFamilies> vector{};       ///< [n_point][3][lane]
   std::array<const double*, kMaxFamilies> coefficient{};  ///< [lane]
 };
-/// @param edge  of MergedLinks, or null
+/// View of one block of a system. @param edge  of MergedLinks, or null
 BlockView view_block(const System& system, std::size_t block, const float* edge = nullptr);
 
-/// y = A x of everything within the cells, plus what contacts add; returns x . y.
+/// Product y = A x of all elements within the cells, plus contact forces; returns x . y.
 /// @param contact [n_point][lane] force of the contacts on each point
 double multiply_block(const BlockView& block, const double* x, const Packed<double>* contact,
                       double* y);
 double multiply_block(const BlockView& block, const float* x, const Packed<float>* contact,
                       float* y);
 
-/// The part of that which is friction.
+/// Friction part of the same product.
 void multiply_friction(const BlockView& block, const double* x, const Packed<double>* contact,
                        double* y);
 
-/// Adds the diagonal blocks of everything within the cells but the rank-one terms.
+/// Adds the diagonal blocks of all elements within the cells except the rank-one terms.
 /// @param diagonal [n_point][6][lane]
 void add_diagonal(const BlockView& block, double* diagonal);
 
@@ -52,39 +52,40 @@ struct InverseView {
   std::array<const float*, kMaxFamilies> vector{};  ///< u, [n_point][3][lane]
 };
 
-/// The next family's u after Sherman and Morrison (1950): M + c v v^T has the inverse M^-1 - u u^T,
-/// u = sqrt(c / (1 + c w . v)) w with w = M^-1 v, here kRegularise less, so that the inverse stays
+/// Next family's u after Sherman and Morrison (1950): M + c v v^T has the inverse M^-1 - u u^T, u =
+/// sqrt(c / (1 + c w . v)) w with w = M^-1 v, here kRegularise less, so that the inverse stays
 /// positive definite when u is rounded to float.
 /// @param known  M^-1, with the families so far
 void invert_rank_one(const InverseView& known, const double* vector, const double* coefficient,
                      float* u);
 
-/// Inverts symmetric blocks lane by lane, each made a little stiffer first (kRegularise of its
-/// trace), so that the inverse stays positive definite when it is rounded to float.
+/// Relative stiffening of blocks before their inversion, in parts of the trace: the inverse stays
+/// positive definite when it is rounded to float.
 inline constexpr double kRegularise = 1e-6;
+/// Inverts symmetric blocks lane by lane, each stiffened by kRegularise.
 /// @param inverse [n_point][6][lane]
 void invert_blocks(int n_point, const double* diagonal, float* inverse);
 
-/// z = M^-1 r, unless z is null; returns r . M^-1 r.
+/// Preconditioner z = M^-1 r, unless z is null; returns r . M^-1 r.
 double precondition_block(const InverseView& inverse, const double* r, double* z);
 double precondition_block(const InverseView& inverse, const float* r, float* z);
 
-/// The vectors of a step of conjugate gradients, one block.
+/// Vectors of one iteration of conjugate gradients, one block.
 template <class T>
 struct DescentBlock {
   const T *p, *q;
   T *x, *r, *z;
 };
 
-/// x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
+/// Update x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
 double descend_block(const InverseView& inverse, double alpha, const DescentBlock<double>& v);
 double descend_block(const InverseView& inverse, double alpha, const DescentBlock<float>& v);
 
-/// Sum of products; n is a multiple of kLanes.
+/// Dot product; n is a multiple of kLanes.
 double dot_range(const double* a, const double* b, std::size_t n);
 double dot_range(const float* a, const float* b, std::size_t n);
 
-/// p = z + beta p.
+/// New direction p = z + beta p.
 void redirect_range(const double* z, double beta, double* p, std::size_t n);
 void redirect_range(const float* z, double beta, float* p, std::size_t n);
 

@@ -10,8 +10,8 @@ ACINUS_INLINE void add4(Packed<T>* v, Point p, Four<T> f) {
   store4<T>(v + p, load4(v + p) + f);
 }
 
-/// The normal, and in the fourth place whatever follows it: vectors hold zero there on the way in,
-/// and it is not read on the way out.
+/// Normal of a contact, with the next member of the struct in the fourth place: that number is
+/// multiplied by the zero that vectors hold there, and its product never read.
 template <class T, class L>
 ACINUS_INLINE Four<T> load_normal(const L& l) {
   static_assert(offsetof(L, stiffness) == offsetof(L, normal) + sizeof(l.normal));
@@ -23,7 +23,7 @@ ACINUS_INLINE Four<T> load_normal(const L& l) {
 ACINUS_INLINE bool exists(const Link& l) { return l.b.point[0] != kNowhere; }
 ACINUS_INLINE bool exists(const PointLink& l) { return l.b != kNowhere; }
 
-/// The place of a side.
+/// Position, or other vector, at a side: weighted mean over its points.
 template <class T>
 ACINUS_INLINE Four<T> gather(const Side& s, const Packed<T>* x) {
   const Four<T> last = load4(x + s.point[2]);
@@ -36,7 +36,7 @@ ACINUS_INLINE Four<T> gather(Point p, const Packed<T>* x) {
   return load4(x + p);
 }
 
-/// Spreads a force over the points of a side; what they get adds up to it exactly.
+/// Distributes a force over the points of a side; their shares add up to it exactly.
 template <class T>
 ACINUS_INLINE void scatter(const Side& s, Four<T> f, Packed<T>* y) {
   if (s.is_single()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Contacts at work: products, forces and diagonal blocks, on packed points.
+/// Kernels of contacts on packed points: products, forces and diagonal blocks.
 
 #include <array>
 #include <span>
@@ -11,28 +11,28 @@
 
 namespace acinus::solve {
 
-/// A contact, or a row of pairs, as one thread sees it: which of its sides it owns.
+/// Contact, or row of pairs, of one thread, with the sides that the thread owns.
 struct Share {
   std::uint32_t link : 30;
   std::uint32_t a : 1, b : 1;
 };
 
-/// One thread's shares, as lists that follow each other.
+/// Shares of one thread, as lists that follow each other.
 using ShareLists = std::vector<std::vector<Share>>;
 
-/// One thread's share of the contacts.
+/// Contacts of one thread.
 template <class L>
 struct LinkSet {
   std::span<const L> link;
   const ShareLists& share;
 };
 
-/// What contact coefficients are multiplied by.
+/// Factors of contact coefficients in the matrix.
 struct LinkScales {
   double stiffness = 1, friction = 1;
 };
 
-/// y += (stiffness n n^T + friction I) r, spread over the points of each contact.
+/// Product y += (stiffness n n^T + friction I) r, distributed over the points of each contact.
 void multiply_links(const LinkSet<Link>& set, LinkScales scales, const Packed<double>* x,
                     Packed<double>* y);
 void multiply_links(const LinkSet<Link>& set, LinkScales scales, const Packed<float>* x,
@@ -42,17 +42,17 @@ void multiply_links(const LinkSet<PointLink>& set, LinkScales scales, const Pack
 void multiply_links(const LinkSet<PointLink>& set, LinkScales scales, const Packed<float>* x,
                     Packed<float>* y);
 
-/// y += force of contacts between cells, or of contacts with boundary.
+/// Adds to y the forces of contacts between cells, or of contacts with boundary.
 void add_forces(const LinkSet<Link>& set, std::span<const LinkLoad> load, bool external,
                 Packed<double>* y);
 
-/// Whether a contact adds to the matrix at all.
+/// True if a contact contributes to the matrix.
 template <class L>
 bool has_matrix(const L& l, double stiffness_scale) {
   return stiffness_scale * static_cast<double>(l.stiffness) > 0 || l.friction > 0;
 }
 
-/// xx, xy, xz, yy, yz, zz of a symmetric 3x3 block, and two zeros.
+/// Symmetric 3x3 block: xx, xy, xz, yy, yz, zz and two zeros.
 using SymBlock = std::array<float, 8>;
 
 /// Matrix of a contact: stiffness n n^T + friction I.
@@ -71,13 +71,13 @@ ACINUS_INLINE SymBlock matrix_of(const L& l, LinkScales scales) {
           0};
 }
 
-/// Blocks between pairs of points, by first point: the force on b is block (x_a - x_b), on a minus
-/// that.
+/// Blocks between pairs of points, sorted by first point: the force on b is block (x_a - x_b), that
+/// on a the opposite.
 struct PointPairs {
-  /// The pairs of one point.
+  /// Pairs of one point.
   struct Row {
     Point a = 0;
-    std::uint32_t first = 0, last = 0;  ///< of b and block
+    std::uint32_t first = 0, last = 0;  ///< range in b and block
   };
   std::vector<Row> row;
   std::vector<Point> b;
@@ -110,7 +110,7 @@ void multiply_pairs(const PointPairs& pairs, const ShareLists& share, const Pack
 void add_diagonal(const LinkSet<Link>& set, LinkScales scales, SymBlock* diagonal);
 void add_diagonal(const LinkSet<PointLink>& set, LinkScales scales, SymBlock* diagonal);
 
-/// Lane layout to packed points and back; n_row rows of eight points.
+/// Conversion between the lane layout and packed points; n_row rows of eight points.
 void pack_points(const double* from, std::size_t n_row, Packed<double>* to);
 void pack_points(const float* from, std::size_t n_row, Packed<float>* to);
 void add_packed(const Packed<double>* from, std::size_t n_row, double* to);

@@ -25,7 +25,7 @@ CellPoints points_of(const System& s, std::uint64_t cell) {
           static_cast<std::size_t>(b.pattern->n_point)};
 }
 
-/// The springs between the points of a face, 01 02 12, and which face that is.
+/// Springs between the points of a face, 01 02 12, and the index of that face.
 struct FaceSprings {
   std::array<Point, 3> point{kNowhere, kNowhere, kNowhere};
   std::array<std::size_t, 3> spring{};
@@ -40,7 +40,7 @@ struct FaceSprings {
   }
 };
 
-/// Springs of one block as full symmetric blocks, with what contacts add to them.
+/// Writes the springs of one block as full symmetric blocks, plus the sums of the contacts.
 ACINUS_KERNEL void write_edges(std::size_t n_spring, const float* spring, const SymBlock* sum,
                                float* edge) {
   for (std::size_t k = 0; k < n_spring; ++k, sum += kLanes) {
@@ -67,8 +67,8 @@ bool is_merged(const System& s, const Link& l) {
   return l.b.exists() && !l.a.is_single() && on_mesh(l.a) && (l.b.is_single() || on_mesh(l.b));
 }
 
-/// Finds contacts in a row that join the same cells, and sorts them by pairs of cells.
-void LinkMerger::find_runs(const System& s) {
+/// Collects runs of consecutive contacts that join the same cells, and sorts them by pair of cells.
+void LinkMerger::update_runs(const System& s) {
   const auto add = [](std::vector<LinkRun>& runs, const LinkRun& next) {
     if (!runs.empty() && runs.back().last == next.first && runs.back().cells == next.cells &&
         runs.back().swapped == next.swapped)
@@ -167,7 +167,7 @@ void LinkMerger::add_within(const System& s, std::vector<float>& edge) {
 }
 
 void LinkMerger::merge(const System& s, MergedLinks& out) {
-  find_runs(s);
+  update_runs(s);
   add_across(s, out.pairs);
   add_within(s, out.edge);
 }

@@ -58,7 +58,7 @@ LinkSet<PointLink> Operator::point_links_of(const ThreadRange& range) const {
   return {system_->point_links, range.point_link};
 }
 
-/// Cuts the blocks into one range per thread, with as many own rows each.
+/// Divides the blocks into one range per thread, with about as many own rows each.
 void Operator::divide() {
   const System& s = *system_;
   const std::size_t n_block = s.block.size();
@@ -85,8 +85,8 @@ void Operator::divide() {
     });
 }
 
-/// Gives the ranges what joins points of theirs, in its order: each thread sorts a part of all, and
-/// a range has a list from each.
+/// Distributes the links among the ranges that own one of their points, in the order of the links:
+/// each thread sorts a part of all, and a range has a list from each.
 template <class Ends>
 void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& ends) {
   const std::size_t n_range = range_.size();
@@ -120,7 +120,7 @@ void Operator::share(std::size_t n, ShareLists ThreadRange::*to, const Ends& end
   });
 }
 
-/// Finds the contacts of each range: all of them, or those with a matrix.
+/// Distributes the contacts among the ranges: all of them, or those with a matrix.
 void Operator::share_links(bool with_matrix) {
   const System& s = *system_;
   constexpr std::array kNone{kNowhere, kNowhere};

@@ -15,13 +15,14 @@
 
 namespace acinus::solve {
 
-/// A System made ready for products. T is double or float: iterations may run in float, what is
-/// judged and kept is double. Vectors are [n_row][3][lane].
+/// Operator of a System, prepared for products. T is double or float: iterations may run in float,
+/// all results are double. Vectors are [n_row][3][lane].
 ///
 /// Threads and processes: each owns some blocks and adds to nothing else; a contact that joins
-/// blocks of two is worked out by both. A point's sum runs over its contacts in their order, and
-/// sums over blocks are exact, so the bits do not depend on who owns what. Only products read what
-/// is not own, and get it themselves; of all vectors the rest is neither read nor written.
+/// blocks of two owners is computed by both. A point's sum runs over its contacts in their order,
+/// and sums over blocks are exact, so the bits do not depend on the owners. Only products read
+/// points of other owners (ghost points), and get them themselves; the rest of a vector is neither
+/// read nor written.
 class Operator {
  public:
   template <class T>
@@ -33,28 +34,29 @@ class Operator {
   Operator(const Operator&) = delete;  // it points at a system beside it
   Operator& operator=(const Operator&) = delete;
 
-  /// Reads the system; call again after its loads changed. Cost: linear in elements and links.
+  /// Prepares the products for a system; call again after its loads changed. Cost: linear in
+  /// elements and links.
   void prepare(const System& system);
 
-  /// y = A x; returns x . y. Like all that returns a sum over all cells, to be called by all
-  /// processes.
+  /// Product y = A x; returns x . y. Collective, like all functions that return a sum over all
+  /// cells.
   template <class T = double>
   double apply(In<T> x, Out<T> y) const;
 
   /// Makes further products in float cheaper: contacts are merged into pairs of points (see
-  /// merged_links.hpp). Costs as much as some ten products save. Changes products by rounding only.
-  /// Nothing to do if that was done since prepare.
+  /// merged_links.hpp). Costs as much as about ten products save. Changes products by rounding
+  /// only. Does nothing if that was done since prepare.
   void merge_links();
 
-  /// z = M^-1 r with the preconditioner M; returns r . z. z may be empty.
+  /// Preconditioner z = M^-1 r; returns r . z. z may be empty.
   template <class T = double>
   double precondition(In<T> r, Out<T> z) const;
 
-  /// One update of conjugate gradients: x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
+  /// Update of conjugate gradients: x += alpha p, r -= alpha q, z = M^-1 r; returns r . z.
   template <class T = double>
   double descend(double alpha, In<T> p, In<T> q, Out<T> x, Out<T> r, Out<T> z) const;
 
-  /// p = z + beta p.
+  /// New direction p = z + beta p.
   template <class T = double>
   void redirect(In<T> z, double beta, Out<T> p) const;
 
@@ -62,18 +64,18 @@ class Operator {
   template <class T = double>
   double dot(In<T> a, In<T> b) const;
 
-  /// y = A x without contacts: medium and what is within the cells.
+  /// Product y = A x without contacts: medium and elements within the cells.
   void apply_within(std::span<const double> x, std::span<double> y) const;
 
-  /// y = A_external x: friction with the medium and contacts with boundary only.
+  /// Product y = A_external x: friction with the medium and contacts with boundary only.
   void apply_external(std::span<const double> x, std::span<double> y) const;
 
-  /// y = Gamma/h x, the part of A x that is friction; and what of it is with the boundary.
+  /// Friction part of the product, y = Gamma/h x; then the part of it that is with the boundary.
   void apply_friction(std::span<const double> x, std::span<double> y) const;
   void apply_external_friction(std::span<const double> x, std::span<double> y) const;
 
-  /// f(stencil, link) for every contact of own points with boundary that has a matrix, those of a
-  /// point in their order.
+  /// Calls f(stencil, link) for every contact of own points with boundary that has a matrix; those
+  /// of one point come in their order.
   template <class F>
   void for_each_external(const F& f) const {
     for (const ThreadRange& range : range_)
@@ -86,32 +88,32 @@ class Operator {
       }
   }
 
-  /// Gets the points of other processes that own ones are in contact with.
+  /// Gets the ghost points: points of other processes that own ones are in contact with.
   void fetch(std::span<double> x) const { exchange_.fetch(x); }
 
-  /// Adds the force of every link to the points it joins: to force, or to external_force where one
-  /// side is boundary. Changes what the system asks for, not its matrix: prepare comes after.
+  /// Adds the force of every link to its points: to force, or to external_force where one side is
+  /// boundary. Changes the right-hand side, not the matrix: prepare comes after.
   void add_link_forces(System& system);
 
   const System& system() const { return *system_; }
-  std::size_t n_sent_points() const { return exchange_.n_sent(); }  ///< by a product
+  std::size_t n_sent_points() const { return exchange_.n_sent(); }  ///< sent in one product
 
  private:
-  /// What one thread works on: the own blocks of a range.
+  /// Own blocks of one thread, with their contacts.
   struct ThreadRange {
     std::size_t first_block = 0, last_block = 0;
     ShareLists link, point_link;
     ShareLists single, pair;  ///< in float: links that are not merged, and rows of pairs
     std::vector<std::uint32_t> external, external_point;  ///< links with boundary
   };
-  /// Two vectors on packed points, [n_point] each; scratch of a product.
+  /// Scratch of a product: two vectors on packed points, [n_point] each.
   template <class T>
   struct PackedVectors {
     Packed<T>*x, *y;
   };
   template <class T>
   PackedVectors<T> packed() const;
-  /// With x in it, and zero.
+  /// Scratch with x in the first vector and zero in the second.
   template <class T>
   PackedVectors<T> pack(In<T> x) const;
   SymBlock* diagonal() const;
@@ -127,10 +129,10 @@ class Operator {
   void for_each_range(F f);
   template <class F>
   void for_each_range(F f) const;
-  /// The sum over all processes of what f(range, sum) adds for every range.
+  /// Sum over all processes of the numbers that f(range, sum) adds for every range.
   template <class F>
   double sum_ranges(F f) const;
-  /// f(block, first point row, number of points) for the blocks of a range.
+  /// Calls f(block, first point row, number of points) for the blocks of a range.
   template <class F>
   void for_each_block(const ThreadRange& range, F f) const;
   InverseView inverse_of(std::size_t block) const;
@@ -143,11 +145,11 @@ class Operator {
   LinkMerger merger_;
   MergedLinks merge_;
   std::vector<float> inverse_;  ///< [n_row][6][lane]
-  /// [family][rows of its blocks][3][lane], as InverseView wants them.
+  /// [family][rows of its blocks][3][lane] vectors u of InverseView.
   std::vector<std::vector<float>> rank_one_;
   PointExchange exchange_;
-  /// One cache line per point, for whatever is being worked out: packed vectors in double (two
-  /// halves of a line) or float, or the diagonal blocks. Never two of them at once.
+  /// Scratch, one cache line per point: packed vectors in double (two halves of a line) or float,
+  /// or the diagonal blocks. Never two of them at once.
   struct alignas(64) Line {
     std::byte bytes[64];
   };

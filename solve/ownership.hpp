@@ -1,6 +1,7 @@
 #pragma once
-/// Who works out which blocks of a system. Every process knows all blocks and numbers them alike;
-/// it works out its own, and reads of the others what its contacts need.
+/// Distribution of the blocks of a system among processes. Every process knows all blocks and
+/// numbers them alike; it computes its own, and reads of the others only the points that its
+/// contacts need.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +20,10 @@ struct Ownership {
   bool owns(std::size_t block) const { return owner.empty() || owner[block] == ranks.rank(); }
 };
 
-/// Own blocks that follow each other: [first, last).
+/// Consecutive own blocks: [first, last).
 using BlockRun = std::pair<std::size_t, std::size_t>;
 
-/// The own blocks among n, ascending.
+/// Runs of own blocks among n blocks, ascending.
 inline std::vector<BlockRun> find_own_runs(const Ownership& o, std::size_t n) {
   std::vector<BlockRun> runs;
   for (std::size_t b = 0; b < n; ++b) {
@@ -35,11 +36,11 @@ inline std::vector<BlockRun> find_own_runs(const Ownership& o, std::size_t n) {
   return runs;
 }
 
-/// Values of items that are worked out by one process each, on all of them, in the order of the
-/// items.
-/// @param owner  owner(k) of item k < n
-/// @param count  count(k), how many values it has
-/// @param own    those of own items
+/// Gathers values of items that are computed by one process each, on all of them, in the order of
+/// the items.
+/// @param owner  owner(k): rank of item k < n
+/// @param count  count(k): its number of values
+/// @param own    values of own items
 template <class T, class Owner, class Count>
 void gather_in_order(const Ranks& ranks, std::size_t n, const Owner& owner, const Count& count,
                      const std::vector<T>& own, std::vector<T>& all) {
@@ -49,7 +50,7 @@ void gather_in_order(const Ranks& ranks, std::size_t n, const Owner& owner, cons
   all.clear();
   all.reserve(by_rank.size());
   for (std::size_t k = 0; k < n; ++k) {
-    std::size_t& from = next[static_cast<std::size_t>(owner(k))];
+    std::size_t& from = next[owner(k)];
     const auto first = by_rank.begin() + static_cast<std::ptrdiff_t>(from);
     from += count(k);
     all.insert(all.end(), first, by_rank.begin() + static_cast<std::ptrdiff_t>(from));

@@ -1,6 +1,6 @@
 #pragma once
-/// Points side by side instead of lanes side by side: what contacts read and write, for they join
-/// points of any lanes.
+/// Packed points: the components of a point side by side instead of lanes side by side, for
+/// contacts, which join points of any lanes.
 
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace acinus::solve {
 
-/// The components of a point side by side; the fourth number is unused.
+/// Packed point; the fourth number is unused.
 template <class T>
 using Packed = std::array<T, 4>;
 
@@ -42,8 +42,8 @@ ACINUS_INLINE void store4(Packed<T>* p, Four<T> v) {
   __builtin_memcpy(p, &v, sizeof(v));
 }
 
-/// The eight points of one row, from packed to lanes. Spelled out as shuffles: left to itself, g++
-/// goes through memory and waits for it.
+/// Converts the eight points of one row from packed to lanes. Spelled out as shuffles: otherwise
+/// g++ goes through memory and waits for it.
 template <class T>
 ACINUS_INLINE Lane3Of<T> load_packed(const Packed<T>* from) {
   auto two = [&](int i) {  // points i and i + 4
@@ -59,7 +59,7 @@ ACINUS_INLINE Lane3Of<T> load_packed(const Packed<T>* from) {
           __builtin_shufflevector(z01, z23, 0, 1, 8, 9, 4, 5, 12, 13)};
 }
 
-/// And back; the fourth number becomes zero.
+/// Converts back from lanes to packed points; the fourth number becomes zero.
 template <class T>
 ACINUS_INLINE void store_packed(Packed<T>* to, const Lane3Of<T>& v) {
   const LaneOf<T> zero = {};

@@ -10,7 +10,7 @@
 namespace acinus::solve {
 namespace {
 
-/// A set of points, read in ascending order.
+/// Set of points, read in ascending order.
 class PointSet {
  public:
   explicit PointSet(std::size_t n) : word_((n + kBits - 1) / kBits, 0) {}
@@ -18,8 +18,7 @@ class PointSet {
   void append_to(std::vector<Point>& points) const {
     for (std::size_t w = 0; w < word_.size(); ++w)
       for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
-        points.push_back(
-            static_cast<Point>(w * kBits + static_cast<std::size_t>(std::countr_zero(left))));
+        points.push_back(static_cast<Point>(w * kBits + std::countr_zero(left)));
   }
 
  private:
@@ -27,7 +26,7 @@ class PointSet {
   std::vector<std::uint64_t> word_;
 };
 
-/// What goes to another process, and what comes from it.
+/// Points sent to another process, and points received from it.
 struct PeerPoints {
   PointSet send, receive;
 };
@@ -36,7 +35,7 @@ std::span<const Point> points_of(const Side& side) {
   return std::span(side.point).first(side.is_single() ? 1 : 3);
 }
 
-/// Of this thread, so that its memory stays.
+/// Buffers of the calling thread, kept so that their memory is reused.
 template <class T>
 struct ExchangeBuffers {
   std::vector<std::array<T, 3>> out, in;

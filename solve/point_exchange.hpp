@@ -1,6 +1,6 @@
 #pragma once
-/// Points that contacts join across processes. Both ends of such a contact know it, so both know
-/// which points the other needs, and nobody has to ask.
+/// Exchange of ghost points, which contacts join across processes. Both processes of such a contact
+/// know it, so both know the points that the other needs without asking.
 
 #include <array>
 #include <span>
@@ -13,23 +13,25 @@ namespace acinus::solve {
 
 class PointExchange {
  public:
-  /// Finds the points of the contacts that have a matrix, and of all between surfaces, which a step
-  /// may close.
+  /// Lists the points of the contacts that have a matrix, and of all contacts between surfaces,
+  /// which may close during a step.
   void plan(const System& system);
 
-  /// Gets packed points of other processes. To be called by all, as the next.
+  /// Gets packed points of other processes. Collective, as the next.
   template <class T>
   void fetch_packed(Packed<T>* x) const;
 
-  /// The same of a vector [n_row][3][lane].
+  /// Gets points of other processes in a vector [n_row][3][lane].
   void fetch(std::span<double> x) const;
 
-  std::size_t n_sent() const { return send_.size(); }  ///< points, each to one process
+  std::size_t n_sent() const {
+    return send_.size();
+  }  ///< points sent, counted once per receiving process
 
  private:
   Ranks ranks_ = Ranks::serial();
   ExchangePlan plan_;
-  std::vector<Point> send_, receive_;  ///< own points, and those of others
+  std::vector<Point> send_, receive_;  ///< own points, and ghost points
 };
 
 }  // namespace acinus::solve

@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks between the points of one pair of cells, summed up in a table.
+/// Blocks between the points of one pair of cells, summed in a table.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace acinus::solve {
 
-/// A single point has the third weight, whatever is stored.
+/// Weights of the three points of a side; a single point has the third weight, whatever is stored.
 inline std::array<float, 3> weights_of(const Side& s) {
   if (s.is_single()) return {0, 0, 1};
   return {s.weight[0], s.weight[1], 1 - s.weight[0] - s.weight[1]};
@@ -20,16 +20,16 @@ ACINUS_INLINE void add_scaled(SymBlock& to, float w, const SymBlock& m) {
   for (std::size_t k = 0; k < m.size(); ++k) to[k] += w * m[k];
 }
 
-/// Where the points of a cell are: number k of the cell is point first + k * kLanes.
+/// Points of a cell: number k of the cell is point first + k * kLanes.
 struct CellPoints {
   Point first = 0;
   std::size_t n = 0;
 };
 
-/// Pairs of points of one pair of cells.
+/// Sums of blocks for the pairs of points of one pair of cells.
 class PointPairTable {
  public:
-  /// Starts anew.
+  /// Clears the table for another pair of cells.
   void start(CellPoints a, CellPoints b) {
     for (const auto& p : pair_) slot_[p[0] * b_.n + p[1]] = 0;
     pair_.clear();
@@ -55,7 +55,7 @@ class PointPairTable {
       }
     }
   }
-  /// Appends what was found, row by row.
+  /// Appends the pairs row by row.
   void emit(PointPairs& out) {
     out.make_room(pair_.size(), a_.n);
     next_.assign(a_.n + 1, 0);

@@ -68,7 +68,7 @@ Map3x6 unit_motions(const Vec3& from_center) {
   return m;
 }
 
-/// Where the numbers of a sum over the points of a group stand.
+/// Offsets of the numbers in a sum over the points of a group.
 enum Number : std::size_t {
   kResidual = 0,
   kMass = 6,  ///< of medium friction, and its moments about the centre
@@ -76,7 +76,7 @@ enum Number : std::size_t {
   kSecondMoment = 10,  ///< xx xy xz yy yz zz
   kNumbers = 16
 };
-/// Numbers of the upper triangle of a matrix 6 x 6.
+/// Number of entries in the upper triangle of a 6 x 6 matrix.
 constexpr std::size_t kUpper = 21;
 
 /// Sum of m z^T z over the points of a group.
@@ -106,7 +106,7 @@ Vec6 solve_spd(const Mat6& m, const Vec6& rhs) {
   return scale.asDiagonal() * a.ldlt().solve(Vec6(scale.asDiagonal() * rhs));
 }
 
-/// The groups of one solve, from their centres to their corrections.
+/// Rigid modes of the groups in one solve, from their centres to their corrections.
 class RigidModes {
  public:
   RigidModes(const Operator& op, const RigidCells& cells, RigidWorkspace& work)
@@ -127,10 +127,10 @@ class RigidModes {
         });
   }
 
-  /// What ties a group to the outside: medium and boundary. It is a lower bound of the
-  /// projected matrix, and all of it but for the rotations: no link or element within a group feels
-  /// a translation.
-  void tie_to_outside(std::span<const double> residual) {
+  /// Sums each group's residual and its resistance to rigid motion by medium and boundary. That
+  /// matrix is a lower bound of the projected one, and equal to it except for rotations: links and
+  /// elements within a group do not resist translation.
+  void compute_bounds(std::span<const double> residual) {
     work_.sums.largest(
         [&](Address a, std::size_t g) { return (at(a) - groups_[g].center).squaredNorm(); },
         work_.squared_reach);
@@ -165,7 +165,7 @@ class RigidModes {
     add_ties();
   }
 
-  /// Chooses the groups whose rigid error may be larger, um.
+  /// Selects the groups whose rigid error may exceed the threshold, um; returns their number.
   int choose(double threshold) {
     int chosen = 0;
     for (RigidGroup& g : groups_) {
@@ -176,8 +176,8 @@ class RigidModes {
     return static_cast<int>(s_.ownership.ranks.max(chosen));
   }
 
-  /// Replaces the part of rotations by that of the whole operator. Groups share no link, so one
-  /// product serves the same mode of all of them.
+  /// Replaces the rotation part of the matrices by that of the whole operator. Groups share no
+  /// link, so one product serves the same mode of all of them.
   void project_rotations() {
     work_.mode.resize(position_.size());
     work_.product.resize(position_.size());
@@ -201,7 +201,7 @@ class RigidModes {
     }
   }
 
-  /// Moves the chosen groups. @return the largest move, um
+  /// Adds the rigid correction of the chosen groups to x. @return the largest move, um
   double correct(std::span<double> x) {
     double largest = 0;
     for (RigidGroup& g : groups_) {
@@ -221,23 +221,21 @@ class RigidModes {
   static double size_of(const Vec6& motion, const RigidGroup& g) {
     return motion.head<3>().norm() + motion.tail<3>().norm() * std::sqrt(g.squared_reach);
   }
-  std::size_t cell_of(Address a) const {
-    return static_cast<std::size_t>(s_.block_of_row[a / kPointStride]) * kLanes + a % kPointStride;
-  }
+  std::size_t block_of(Address a) const { return s_.block_of_row[a / kPointStride]; }
+  std::size_t cell_of(Address a) const { return block_of(a) * kLanes + a % kPointStride; }
   bool is_first_point(Address a) const {
-    const auto block = static_cast<std::size_t>(s_.block_of_row[a / kPointStride]);
-    return a / kPointStride == s_.block[block].first_row;
+    return a / kPointStride == s_.block[block_of(a)].first_row;
   }
-  /// Adds what boundary ties the groups to.
+  /// Adds the resistance of the boundary to the matrices of the groups.
   void add_ties() {
-    find_ties();
+    compute_ties();
     if (!s_.ownership.ranks.any(!work_.tie.empty())) return;
     work_.sums.sum<kUpper>(
         [&](Address a, std::size_t, std::array<double, kUpper>& sum) {
           if (!is_first_point(a)) return;
           const int tie = work_.tie_of_cell[cell_of(a)];
           if (tie < 0) return;
-          for_each_upper(std::as_const(work_.tie[static_cast<std::size_t>(tie)]),
+          for_each_upper(std::as_const(work_.tie[tie]),
                          [&](std::size_t n, double v, double) { sum[n] += v; });
         },
         [&](std::size_t g, const std::array<double, kUpper>& sum) {
@@ -247,8 +245,9 @@ class RigidModes {
           groups_[g].matrix += tie;
         });
   }
-  /// What boundary ties each cell to, about the centre of its group, in the order of the contacts.
-  void find_ties() {
+  /// Sums the resistance of the boundary to each cell, about the centre of its group, in the order
+  /// of the contacts.
+  void compute_ties() {
     work_.tie.clear();
     work_.tie_of_cell.assign(work_.group.size(), -1);
     op_.for_each_external([&](const Stencil& stencil, const auto& l) {
@@ -257,7 +256,7 @@ class RigidModes {
       if (g < 0) return;
       Vec3 place = Vec3::Zero();
       for (int k = 0; k < stencil.n; ++k) place += stencil.weight[k] * at(stencil.address[k]);
-      const Map3x6 z = unit_motions(place - groups_[static_cast<std::size_t>(g)].center);
+      const Map3x6 z = unit_motions(place - groups_[g].center);
       const Vec3 n(static_cast<double>(l.normal[0]), static_cast<double>(l.normal[1]),
                    static_cast<double>(l.normal[2]));
       const Mat3 m = s_.stiffness_scale * static_cast<double>(l.stiffness) * n * n.transpose() +
@@ -267,7 +266,7 @@ class RigidModes {
         tie = static_cast<int>(work_.tie.size());
         work_.tie.push_back(Mat6::Zero());
       }
-      work_.tie[static_cast<std::size_t>(tie)] += z.transpose() * m * z;
+      work_.tie[tie] += z.transpose() * m * z;
     });
   }
 
@@ -284,7 +283,7 @@ RigidResult correct_rigid_modes(const Operator& op, std::span<const double> resi
                                 std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work) {
   RigidModes modes(op, cells, work);
-  modes.tie_to_outside(residual);
+  modes.compute_bounds(residual);
   RigidResult result;
   result.corrected_groups = modes.choose(threshold);
   if (result.corrected_groups == 0) return result;

@@ -19,7 +19,7 @@ namespace acinus::solve {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// A group of cells as a rigid body, and how it moves.
+/// Group of cells as a rigid body, and its motion.
 struct RigidGroup {
   Vec3 center = Vec3::Zero();
   double squared_reach = 0;  ///< um^2, farthest point from the centre
@@ -37,17 +37,17 @@ struct RigidWorkspace {
   std::vector<RigidGroup> groups;
   GroupSums sums;
   std::vector<double> squared_reach;  ///< [group] um^2
-  std::vector<int> tie_of_cell;       ///< [n_block * kLanes] -1: none
-  std::vector<Mat6> tie;              ///< what boundary ties a cell to
+  std::vector<int> tie_of_cell;       ///< [n_block * kLanes] index of tie, -1: none
+  std::vector<Mat6> tie;              ///< resistance of the boundary to the motion of a cell
   std::vector<double> mode, product;
 };
 
 struct RigidResult {
-  int corrected_groups = 0;  ///< of several processes: the most that one has
-  double largest_move = 0;   ///< um, the largest rigid displacement put right
+  int corrected_groups = 0;  ///< with several processes: the largest number on one
+  double largest_move = 0;   ///< um, largest rigid displacement corrected
 };
 
-/// Where the cells are.
+/// Positions of the cells.
 struct RigidCells {
   std::span<const double> position;      ///< [n_row][3][lane] um
   std::span<const std::uint8_t> active;  ///< [n_block * kLanes] 1 where the lane holds a cell
@@ -55,7 +55,7 @@ struct RigidCells {
 
 /// Corrects x (the displacement) for A x = b.
 /// @param residual  [n_row][3][lane] b - A x, in double
-/// @param threshold um: groups whose rigid error is provably below it are left alone
+/// @param threshold  um, groups whose rigid error is provably below it are not corrected
 RigidResult correct_rigid_modes(const Operator& op, std::span<const double> residual,
                                 std::span<double> x, const RigidCells& cells, double threshold,
                                 RigidWorkspace& work);

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "core/parallel/arrays.hpp"
-#include "core/parallel/threads.hpp"
 
 namespace acinus::solve {
 
 void index_springs(BlockPattern& p) {
-  p.first_spring_of.assign(static_cast<std::size_t>(p.n_point) + 1, 0);
+  p.first_spring_of.assign(p.n_point + 1, 0);
   for (const auto& s : p.spring)
     for (int i : s) ++p.first_spring_of[i + 1];
   for (std::size_t i = 1; i < p.first_spring_of.size(); ++i)
@@ -31,7 +30,7 @@ void set_blocks(System& system, std::vector<Block> blocks) {
     b.first_hinge = n_hinge;
     b.first_face = n_face;
     b.first_beam = n_beam;
-    system.n_row += static_cast<std::size_t>(b.pattern->n_point);
+    system.n_row += b.pattern->n_point;
     n_spring += b.pattern->spring.size();
     n_hinge += b.pattern->wing.size();
     n_face += b.pattern->face.size();

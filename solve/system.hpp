@@ -1,12 +1,12 @@
 #pragma once
-/// The linear system of one step, (Gamma/h + K) dx = F, as loads that the models add to.
+/// Linear system of one step, (Gamma/h + K) dx = F, as loads that the models add to.
 ///
 /// Unknowns: blocks of eight lanes; a DCM group has one row per mesh node, eight spheres share a
-/// block with a single row. The matrix is never assembled: it is kept as the small elements it is
-/// made of (springs, hinges, faces, one vector per cell, contacts), each blind to translation by
-/// its form, whatever its numbers are rounded to, and positive semi-definite (a spring as long as
-/// its two coefficients keep a + c >= 0, which rounding does not change). That is why elements may
-/// be floats (docs/decisions/0010.md).
+/// block with a single row. The matrix is never assembled: it is kept as its small elements
+/// (springs, hinges, faces, one vector per cell, contacts), each blind to translation by its form,
+/// whatever the rounding of its numbers, and positive semi-definite (a spring as long as its two
+/// coefficients keep a + c >= 0, which rounding does not change). That is why elements may be
+/// floats (docs/decisions/0010.md).
 
 #include <array>
 #include <cstdint>
@@ -21,21 +21,22 @@
 
 namespace acinus::solve {
 
-/// Which points of one cell interact; shared by all cells with the same mesh and terms.
+/// Points of one cell that interact; shared by all cells with the same mesh and terms.
 struct BlockPattern {
   int n_point = 0;
   std::vector<std::array<int, 2>> spring;
   /// [n_spring] the other two points of the hinge about each spring; empty: no hinges
   std::vector<std::array<int, 2>> wing;
   std::vector<std::array<int, 3>> face;
-  /// Bending of a beam: its two ends, and the rotations of these; places may move alike.
+  /// [n_beam] beams in bending as {end, end, rotation, rotation}; blind to a common translation of
+  /// the ends.
   std::vector<std::array<int, 4>> beam{};
-  /// Springs of each point, where all sides of contacts have springs between their points (faces of
-  /// a mesh): {other point, spring}, from first_spring_of[point]; empty: not known. Made by
-  /// index_springs.
+  /// Springs of each point as {other point, spring}, from first_spring_of[point]. Only where all
+  /// sides of contacts have springs between their points (faces of a mesh); empty: not indexed.
+  /// Filled by index_springs.
   std::vector<std::array<int, 2>> spring_of{};
   std::vector<std::size_t> first_spring_of{};
-  /// Points from there on are no places but rotations, in um on a lever of 1 um. -1: none.
+  /// First point that is a rotation instead of a position, in um on a lever of 1 um. -1: none.
   int n_place = -1;
 
   bool has_rotations() const { return n_place >= 0; }
@@ -45,14 +46,14 @@ struct BlockPattern {
 /// Fills spring_of and first_spring_of.
 void index_springs(BlockPattern& pattern);
 
-/// The spring between two points. @pre index_springs, and the spring exists
+/// Index of the spring between two points. @pre index_springs, and the spring exists
 inline std::size_t find_spring(const BlockPattern& p, int i, int j) {
   std::size_t k = p.first_spring_of[i];
   while (p.spring_of[k][0] != j) {
     ++k;
     ACINUS_ASSERT(k < p.first_spring_of[i + 1]);
   }
-  return static_cast<std::size_t>(p.spring_of[k][1]);
+  return p.spring_of[k][1];
 }
 
 /// Floats of one element, all eight lanes.
@@ -71,12 +72,13 @@ struct Block {
   const BlockPattern* pattern = nullptr;
   std::size_t first_row = 0;  ///< first point row
   std::size_t first_spring = 0, first_hinge = 0, first_face = 0, first_beam = 0;
-  bool still = false;         ///< cells that do not move: their rank-one terms are not looked at
-  double dashpot = 0;         ///< nN s/um, friction among what the matrix of each spring holds
-  double dashpot_across = 1;  ///< that across the spring over that along it
+  bool still = false;         ///< cells that do not move: their rank-one terms are left out
+  double dashpot = 0;         ///< nN s/um, friction included in the matrix of each spring
+  double dashpot_across = 1;  ///< ratio of the friction across a spring to that along it
 };
 
-/// One vector per cell with a non-negative coefficient: adds c g g^T. Covers blocks [0, n_block).
+/// Rank-one family: one vector per cell with a non-negative coefficient; adds c g g^T. Covers
+/// blocks [0, n_block).
 struct RankOne {
   std::vector<double> vector;       ///< [rows of the covered blocks][3][lane]
   std::vector<double> coefficient;  ///< [n_block][lane]
@@ -89,7 +91,7 @@ struct System {
   Ownership ownership;            ///< to be set before set_blocks
   std::vector<BlockRun> own;      ///< own blocks
   std::vector<int> block_of_row;  ///< [n_row]
-  double friction_scale = 1;      ///< 1/h, 1/s: what friction is multiplied by in the matrix
+  double friction_scale = 1;      ///< 1/h, 1/s: factor of friction in the matrix
   double stiffness_scale = 1;     ///< 1: linearly implicit; 0: friction only (explicit Euler)
 
   std::vector<double> force;           ///< [n_row][3][lane] nN, forces inside and between cells
@@ -104,13 +106,13 @@ struct System {
   std::vector<PointLink> point_links;  ///< contacts of spheres; friction from node to node
 
   std::size_t n_dof() const { return n_row * kPointStride; }
-  std::size_t block_of(Point p) const { return static_cast<std::size_t>(block_of_row[p / kLanes]); }
+  std::size_t block_of(Point p) const { return block_of_row[p / kLanes]; }
   bool owns(Point p) const { return ownership.is_whole() || ownership.owns(block_of(p)); }
-  /// First row of a block; of the block behind the last one: the number of rows.
+  /// First row of a block; for b = number of blocks, the number of rows.
   std::size_t row_of(std::size_t b) const { return b < block.size() ? block[b].first_row : n_row; }
 };
 
-/// f(k) for the numbers of own blocks in vectors [n_row][3][lane].
+/// Calls f(k) for the indices k of own blocks in vectors [n_row][3][lane].
 template <class F>
 void for_each_own_number(const System& s, const F& f) {
   const auto begin = [&](std::size_t b) { return s.row_of(b) * kPointStride; };
@@ -127,7 +129,7 @@ void for_each_own_number(const System& s, const F& f) {
 /// Sizes all arrays for the given blocks (offsets are filled in) and clears them. @pre ownership
 void set_blocks(System& system, std::vector<Block> blocks);
 
-/// Makes rows of other processes known: x of every row becomes what its owner has.
+/// Gathers the rows of all processes: every row of x becomes that of its owner.
 /// @param x  [n_row][3][lane]
 void gather_rows(const System& system, std::span<double> x);
 
@@ -135,7 +137,7 @@ void gather_rows(const System& system, std::span<double> x);
 /// links are written, not added to, by the one term each belongs to.
 void clear_loads(System& system);
 
-/// Adds to a spring: along u the stiffness a + c, across it c.
+/// Adds stiffness to a spring: a + c along u, c across it.
 ACINUS_INLINE void add_spring(float* element, const Lane3& u, Lane a, Lane c) {
   store3(element, u);
   store(element + 3 * kLanes, load(element + 3 * kLanes) + a);

@@ -1,5 +1,5 @@
-/// Kernels of contact: closest points one by one and in lanes, the search about them, and the law
-/// of adhesive spheres.
+/// Kernel benchmarks of contact: closest points scalar and vectorised, contact search, and the JKR
+/// law.
 
 #include <algorithm>
 #include <array>
@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::size_t kPairs = 1 << 14;
 
-/// A point, then the corners of a triangle it may be closest to.
+/// Point and the corners of a candidate triangle, um.
 using PointAndTriangle = std::array<Vec3, 4>;
 
-/// The first kPairs pairs on the candidate lists of a clump.
+/// First kPairs point-triangle pairs of the candidate lists of a clump.
 std::vector<PointAndTriangle> listed_pairs() {
   const dcm::ContactWorkspace& work = packed_clump(64).work.dcm;
   std::vector<PointAndTriangle> pair;
@@ -54,6 +54,7 @@ void find_closest_point(benchmark::State& state) {
 }
 BENCHMARK(find_closest_point)->Unit(benchmark::kMicrosecond);
 
+/// Sum of squared closest distances, um^2.
 /// @param pair  [n][4][3][lane] um
 ACINUS_KERNEL double sum_closest(const double* pair, std::size_t n) {
   Lane sum = lane_of(0);
@@ -78,7 +79,7 @@ void find_closest_point_lanes(benchmark::State& state) {
 }
 BENCHMARK(find_closest_point_lanes)->Unit(benchmark::kMicrosecond);
 
-/// The constants of the search that the step itself uses.
+/// Search options as used by a step.
 contact::SearchOptions search_options(const AssembledClump& clump) {
   const dcm::ContactParams& c = clump.world.params.dcm_contact;
   const dcm::State& cells = clump.world.state.dcm;
@@ -88,7 +89,7 @@ contact::SearchOptions search_options(const AssembledClump& clump) {
           c.max_depth, c.skin, 2 * dcm::kSelfGap};
 }
 
-/// Closest features of all lists, just made.
+/// Contact search over all candidate lists.
 void find_contacts(benchmark::State& state) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const contact::SearchOptions options = search_options(clump);
@@ -103,7 +104,7 @@ void find_contacts(benchmark::State& state) {
 }
 BENCHMARK(find_contacts)->Apply(clump_sizes);
 
-/// The lists themselves.
+/// Refill of the candidate lists.
 void fill_candidates(benchmark::State& state) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const contact::SearchOptions options = search_options(clump);
@@ -118,7 +119,7 @@ void fill_candidates(benchmark::State& state) {
 }
 BENCHMARK(fill_candidates)->Apply(clump_sizes);
 
-/// Spheres as in a clump: both sides of rest, some far pressed.
+/// Pairs of spheres as in a clump: on both sides of the rest distance, some strongly compressed.
 struct SpherePairs {
   std::vector<double> radius, modulus, adhesion, overlap;
 

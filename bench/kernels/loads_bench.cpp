@@ -1,4 +1,4 @@
-/// Force and stiffness of deformable cells: all terms within them, and their contacts.
+/// Kernel benchmarks of force and stiffness of deformable cells: internal terms and contacts.
 
 #include "bench/kernels/kernel_clump.hpp"
 #include "dcm/contact/contact_loads.hpp"
@@ -12,7 +12,7 @@
 namespace acinus::bench {
 namespace {
 
-/// All terms within the cells, as a step adds them.
+/// All internal terms, as a step adds them.
 void add_loads(benchmark::State& state) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));
   const coupling::Workspace& w = clump.work;
@@ -27,7 +27,8 @@ void add_loads(benchmark::State& state) {
 }
 BENCHMARK(add_loads)->Apply(clump_sizes);
 
-/// One term of all cells. The sums are not cleared in between: only their values grow.
+/// One internal term of all cells. Sums are not cleared between iterations, which only lets values
+/// grow.
 template <class Term>
 void add_term(benchmark::State& state, Term add) {
   const AssembledClump& clump = packed_clump(static_cast<int>(state.range()));

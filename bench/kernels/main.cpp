@@ -1,8 +1,6 @@
-/// Entry point of every kernel benchmark: Google Benchmark on one thread.
+/// Entry point of the kernel benchmarks: Google Benchmark on one thread.
 
 #include <benchmark/benchmark.h>
-
-#include <string>
 
 #include "acinus_version.hpp"
 #include "core/parallel/threads.hpp"

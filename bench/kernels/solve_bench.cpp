@@ -1,4 +1,5 @@
-/// Kernels of the solver: products with the matrix, whole and in parts, and its preconditioner.
+/// Kernel benchmarks of the solver: matrix-vector products, whole and in parts, and the
+/// preconditioner.
 
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@ namespace {
 template <class T>
 using Points = std::vector<solve::Packed<T>>;
 
-/// All that is within the cells.
+/// Product with the blocks of the cells.
 template <class T>
 void multiply_block(benchmark::State& state) {
   const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
@@ -33,7 +34,7 @@ void multiply_block(benchmark::State& state) {
 BENCHMARK_TEMPLATE(multiply_block, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(multiply_block, float)->Apply(clump_sizes);
 
-/// All contacts one by one.
+/// Product with the links of single contacts.
 template <class T>
 void multiply_links(benchmark::State& state) {
   const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
@@ -53,7 +54,7 @@ void multiply_links(benchmark::State& state) {
 BENCHMARK_TEMPLATE(multiply_links, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(multiply_links, float)->Apply(clump_sizes);
 
-/// What an operator makes of one vector.
+/// Linear map of an operator: member function from vector to vector.
 template <class T>
 using Map = double (solve::Operator::*)(std::span<const T>, std::span<T>) const;
 
@@ -69,7 +70,7 @@ void measure(benchmark::State& state, Map<T> map, bool merged = false) {
   count(state, "cells", state.range());
 }
 
-/// A whole product, as an iteration of conjugate gradients makes it.
+/// Whole product of an iteration of conjugate gradients.
 template <class T>
 void apply(benchmark::State& state) {
   measure<T>(state, &solve::Operator::apply<T>);
@@ -77,13 +78,13 @@ void apply(benchmark::State& state) {
 BENCHMARK_TEMPLATE(apply, double)->Apply(clump_sizes);
 BENCHMARK_TEMPLATE(apply, float)->Apply(clump_sizes);
 
-/// The same with contacts merged: multiply_pairs in place of multiply_links.
+/// Whole product with merged contacts: multiply_pairs in place of multiply_links.
 void apply_merged(benchmark::State& state) {
   measure<float>(state, &solve::Operator::apply<float>, true);
 }
 BENCHMARK(apply_merged)->Apply(clump_sizes);
 
-/// What the merged product has to earn back.
+/// Merging of links, the overhead of the merged product.
 void merge_links(benchmark::State& state) {
   const solve::System& s = packed_clump(static_cast<int>(state.range())).work.system;
   solve::LinkMerger merger;

@@ -1,5 +1,5 @@
 #pragma once
-/// Options of benchmarks and the tables of their results, ready to print and to write.
+/// Options and result tables of benchmarks.
 
 #include <string>
 #include <utility>
@@ -7,28 +7,29 @@
 
 namespace acinus::bench {
 
+/// Options of all benchmarks.
 struct BenchOptions {
-  std::string json_file;  ///< rows are also written here; "" = not
-  std::string folder;     ///< for plots and scenes of benchmarks that write them; "" = not
+  std::string json_file;  ///< JSON file for the rows; "" = none
+  std::string folder;     ///< folder for plots and scenes; "" = none
   int threads = 0;        ///< 0 = all cores
-  int seeds = 3;          ///< repetitions with different random numbers, for cases that have any
-  int first = 1;          ///< the first of these seeds
-  bool life = false;      ///< cells of random scenes grow, divide and die
-  double radius = 12;     ///< um, of the cells that laws of stiffness are judged with
+  int seeds = 3;          ///< number of random repetitions
+  int first = 1;          ///< seed of the first repetition
+  bool life = false;      ///< growth, division and death in random scenes
+  double radius = 12;     ///< of the cells in tests of stiffness laws, um
   double stiffness = 1;   ///< factor on the moduli of these cells
 };
 
-/// One line: a case and its figures. Names of figures are the keys of the JSON rows.
+/// Row of a table: a case with its figures. Names of figures are the keys of the JSON rows.
 struct BenchRow {
   std::string name;
   int cells = 0;
   std::vector<std::pair<std::string, double>> value;
-  bool passed = true;  ///< false: a case that checks something found it broken
+  bool passed = true;  ///< false: a checked property is violated
 };
 
 using BenchTable = std::vector<BenchRow>;
 
-/// Prints one row as `name  key value  key value ...`.
+/// Prints a row as `name  key value  key value ...`.
 void print_row(const BenchRow& row);
 
 }  // namespace acinus::bench

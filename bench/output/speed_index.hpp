@@ -1,10 +1,10 @@
 #pragma once
-/// How fast this machine is at this moment, so that figures of different days can be compared.
+/// Momentary speed of the machine, for comparison of figures of different days.
 
 namespace acinus::bench {
 
-/// CPU time of a fixed piece of work, ms: twenty sweeps of a Jacobi iteration over 32,000 doubles,
-/// fitting a second-level cache, as most kernels do; median of nine.
+/// CPU time of a fixed task, ms: twenty Jacobi sweeps over 32,000 doubles, which fit a second-level
+/// cache as in most kernels; median of nine.
 double measure_speed_index();
 
 }  // namespace acinus::bench

@@ -1,5 +1,5 @@
-/// Stands in for core/parallel/partition.cpp, because Zoltan is built for another MPI than the
-/// simulated one.
+/// Replacement of core/parallel/partition.cpp for simulated MPI, with which Zoltan cannot be
+/// linked.
 
 #include "core/parallel/partition.hpp"
 
@@ -11,7 +11,8 @@
 namespace acinus {
 namespace {
 
-/// Halves some places across the longest side of their box, by cost, until each rank has its own.
+/// Recursive bisection of points by cost across the longest side of their box, down to one part per
+/// rank.
 class Bisection {
  public:
   Bisection(std::span<const Vec3> place, std::span<const double> cost)
@@ -25,7 +26,7 @@ class Bisection {
   }
 
  private:
-  /// Among ranks first..last - 1.
+  /// Divides points among the ranks first to last - 1.
   void divide(std::span<int> some, int first, int last) {
     if (last - first == 1) {
       for (const int k : some) owner_[k] = first;

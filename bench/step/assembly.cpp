@@ -50,7 +50,7 @@ double time_merge_us(const solve::System& system) {
   return time_us([&] { merger.merge(system, merged); });
 }
 
-/// Bytes of the matrix of one cell.
+/// Size of the matrix block of one cell, bytes.
 double matrix_bytes(const solve::Block& block) {
   return 4.0 *
          (static_cast<double>(block.pattern->spring.size()) * solve::kSpringStride +

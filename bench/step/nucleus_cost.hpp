@@ -1,11 +1,11 @@
 #pragma once
-/// What a nucleus costs.
+/// Cost of nuclei.
 
 #include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 
-/// CPU time of a step of 27 growing cells with nuclei over that without, timed in turns.
+/// Ratio of the CPU time per step of 27 growing cells with and without nuclei, timed in turns.
 BenchTable bench_nucleus(const BenchOptions& options);
 
 }  // namespace acinus::bench

@@ -4,7 +4,8 @@
 
 #include "core/error.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
+#include "coupling/step/step.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 
@@ -36,7 +37,6 @@ AssembledClump::AssembledClump(const PackedClump& clump) {
               .world;
   coupling::size_workspace(world, work);
   for (int k = 0; k < 5; ++k) coupling::take_step(world, work, 1e9);
-  coupling::find_all_contacts(world, *clump.step, work);
   coupling::assemble(world, *clump.step, work);
 }
 

@@ -13,7 +13,7 @@
 namespace acinus::bench {
 namespace {
 
-/// Mean and largest over the processes.
+/// Mean and maximum over the processes.
 struct RankSpread {
   double mean = 0, most = 0;
 };
@@ -33,9 +33,9 @@ BenchRow measure_case(const StepCase& c, const Ranks& ranks) {
   for (int r = 0; r < c.repeats; ++r) samples.push_back(runner.measure());
   std::vector<int> order(samples.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
-  std::ranges::sort(order, {}, [&](int k) { return samples[static_cast<std::size_t>(k)].wall; });
+  std::ranges::sort(order, {}, [&](int k) { return samples[k].wall; });
   ranks.broadcast(order);
-  const StepSample& s = samples[static_cast<std::size_t>(order[order.size() / 2])];
+  const StepSample& s = samples[order[order.size() / 2]];
   const double steps = c.steps;
   const auto per_step = [&](std::int64_t count) {
     return spread(ranks, static_cast<double>(count) / steps);

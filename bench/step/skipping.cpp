@@ -23,7 +23,7 @@ StepCase clump_case(const std::string& quadrature, double skin, double local_are
           .always_coarse = always_coarse};
 }
 
-/// CPU time of a step without the skip over that with it.
+/// CPU time per step without a skip relative to that with it.
 BenchRow compare(const std::string& what, const StepCase& with, const StepCase& without) {
   constexpr std::size_t kTurns = 7;
   StepRunner fast(with), slow(without);
@@ -45,7 +45,8 @@ BenchRow compare(const std::string& what, const StepCase& with, const StepCase& 
   return row;
 }
 
-/// Listed points that are not searched because nothing near them moved far enough.
+/// Share of listed contact points that are searched; the others are skipped since nothing near them
+/// moved far enough.
 BenchRow count_searches(const StepCase& c) {
   StepRunner runner(c);
   runner.measure();

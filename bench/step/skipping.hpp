@@ -1,5 +1,5 @@
 #pragma once
-/// What it saves to leave out what a scene does not need.
+/// Savings by skipping work that a scene does not need.
 
 #include "bench/output/bench_table.hpp"
 

@@ -10,7 +10,7 @@
 namespace acinus::bench {
 namespace {
 
-/// Cell-cell friction as strong as that with the medium; `ratio` times as strong.
+/// Scene text of a clump of spheres. Cell-cell friction is `ratio` times that with the medium.
 std::string cbm_clump(int count, double ratio) {
   return fmt::format(
       R"({{"name": "cbm", "time": {{"end": "12 h", "step": "60 s", "adaptive": false, "max_move": 0}},

@@ -8,15 +8,15 @@
 #include "core/error.hpp"
 #include "core/parallel/clock.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::bench {
 namespace {
 
-/// Bytes allocated and not freed. Unlike the resident size it does not depend on what earlier cases
-/// of the same process left to be used again.
+/// Allocated heap, bytes. Unlike the resident size it is independent of memory that earlier cases
+/// of the process left for reuse.
 std::uint64_t heap_bytes() {
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;

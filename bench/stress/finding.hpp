@@ -1,10 +1,11 @@
 #pragma once
-/// What the stress suite finds wrong.
+/// Findings of the stress suite.
 
 #include <string>
 
 namespace acinus::bench {
 
+/// Kinds of physically impossible states and of faults in the bookkeeping of cells.
 enum class Defect {
   kNotFinite,
   kInverted,
@@ -12,20 +13,20 @@ enum class Defect {
   kTunnelled,
   kVolume,
   kLost,
-  kUnborn,    ///< a cell without a mother
-  kVanished,  ///< a cell that is gone although nothing ended it
-  kUntimely,  ///< a birth or death that could not be, or did not come
+  kUnborn,    ///< cell without a mother
+  kVanished,  ///< cell missing without an event
+  kUntimely,  ///< impossible or missing birth or death
 };
 const char* name_of(Defect defect);
 
-/// Whether the bookkeeping of cells is wrong, which no run can excuse.
+/// True for faults in the bookkeeping of cells, which no report of the run can excuse.
 inline bool concerns_family(Defect d) { return d >= Defect::kUnborn; }
 
-/// One thing wrong with one moment.
+/// Fault found at one time.
 struct Finding {
   Defect defect = Defect::kNotFinite;
   double time_s = 0;
-  std::string what;  ///< which cells, how much
+  std::string what;  ///< cells concerned and size
 };
 
 }  // namespace acinus::bench

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::uint8_t kShell = 0;
 
-/// Share of a mean edge that a surface may stand deeper between contact points.
-constexpr double kBetweenPoints = 0.25;
+/// Additional overlap of a surface between contact points, as a share of the mean edge length.
+constexpr double kOverlapBetweenPoints = 0.25;
 
 struct Mesh {
   std::int64_t id = 0;
@@ -45,7 +45,7 @@ bool all_finite(const io::Frame& f) {
       f.cells.columns, [&](const io::Column& c) { return std::ranges::all_of(c.value, finite); });
 }
 
-/// The deformable cells of a frame; a cell's nodes follow each other.
+/// Meshes of the deformable cells of a frame, whose nodes are stored contiguously.
 std::vector<Mesh> meshes_of(const io::Frame& f) {
   std::vector<Mesh> meshes;
   std::size_t t = 0;
@@ -71,21 +71,22 @@ std::vector<coupling::AuditSphere> spheres_of(const io::Frame& f) {
   const auto strength = std::ranges::find(f.cell_data, "strength", &io::Field::name);
   std::vector<coupling::AuditSphere> spheres;
   for (std::int64_t k = 0; k < f.n_sphere; ++k) {
-    const auto row = f.triangle.size() + static_cast<std::size_t>(k);
+    const auto row = f.triangle.size() + k;
     spheres.push_back(
         {f.cell_id[row], point_of(f, f.n_mesh_node + k), radius->value[row], strength->value[row]});
   }
   return spheres;
 }
 
-/// Where every cell of the start is, and how easily it moves.
+/// Starting position of a founder cell, and bounds of its mobility.
 struct StartOfCell {
   Vec3 center = Vec3::Zero();
-  double friction = 0;  ///< nN s/um with the medium, at least
+  double friction = 0;  ///< least friction with the medium, nN s/um
   double pull = 0;      ///< nN
 };
 
-/// @param moves  whether cells may change their model
+/// Start of every founder cell by lineage.
+/// @param moves  cells may change their model
 std::map<std::int64_t, StartOfCell> origins(const coupling::World& start, const Pedigree& pedigree,
                                             bool moves) {
   std::map<std::int64_t, StartOfCell> all;
@@ -112,7 +113,7 @@ std::map<std::int64_t, StartOfCell> origins(const coupling::World& start, const 
   return all;
 }
 
-/// Mean edge at rest of meshes on a sphere of radius one, of those that spheres may become, too; 0
+/// Largest mean rest edge of the meshes on a unit sphere, including meshes that spheres may take; 0
 /// without meshes.
 double unit_edge(const coupling::World& start) {
   double edge = 0;
@@ -123,7 +124,7 @@ double unit_edge(const coupling::World& start) {
   return edge;
 }
 
-/// Collects what is wrong with one frame.
+/// Inspection of one frame.
 class Inspection {
  public:
   Inspection(const io::Frame& frame, const runs::Scene& scene, const coupling::World& start,
@@ -168,7 +169,7 @@ class Inspection {
   const coupling::World& start_;
   const contact::Boundary& boundary_;
   const Pedigree& pedigree_;
-  std::map<std::int64_t, double> rest_;  ///< um^3
+  std::map<std::int64_t, double> rest_;  ///< um^3, by lineage
   std::vector<Mesh> meshes_;
   std::vector<coupling::AuditSphere> spheres_;
   std::vector<Finding> findings_;
@@ -185,11 +186,11 @@ void Inspection::inspect_shapes() {
   }
 }
 
-/// As runs themselves have it (runs/session/soundness.hpp), of the cells of this frame.
+/// Largest overlap that contact can resolve, um, as in runs/session/soundness.hpp.
 double Inspection::deepest_overlap() const {
   double radius = 0;
   for (const Mesh& m : meshes_) radius = std::max(radius, sphere_radius(rest_.at(m.id)));
-  return start_.params.dcm_contact.max_depth + kBetweenPoints * unit_edge(start_) * radius;
+  return start_.params.dcm_contact.max_depth + kOverlapBetweenPoints * unit_edge(start_) * radius;
 }
 
 void Inspection::inspect_overlaps() {
@@ -223,7 +224,7 @@ void Inspection::inspect_overlaps() {
          std::max(radius_of(audit.cbm_cbm.ids[0]), radius_of(audit.cbm_cbm.ids[1])));
 }
 
-/// The audit leaves spheres and boundary alone.
+/// Checks the overlap of spheres with the boundary, which the audit does not cover.
 void Inspection::inspect_spheres() {
   for (const coupling::AuditSphere& s : spheres_) {
     double gap = std::numeric_limits<double>::infinity();
@@ -284,8 +285,8 @@ std::map<std::int64_t, VolumeOfCell> loads_of(const io::Frame& f) {
   return all;
 }
 
-/// How the volume over rest volume of the middle one of the cells that are in both frames has
-/// changed: what walls do to everybody. 1 without such cells.
+/// Median change of the relative volume over the cells of both frames, the common effect of walls;
+/// 1 without such cells.
 double typical_change(const std::map<std::int64_t, VolumeOfCell>& before,
                       const std::map<std::int64_t, VolumeOfCell>& now) {
   std::vector<double> change;
@@ -298,7 +299,8 @@ double typical_change(const std::map<std::int64_t, VolumeOfCell>& before,
   return *middle;
 }
 
-/// Daughters against their mother in the frame before, next to how all others have fared.
+/// Compares the relative volume of daughters with that of their mother in the frame before,
+/// relative to typical_change().
 std::vector<Finding> compare_volumes(const std::map<std::int64_t, VolumeOfCell>& before,
                                      const std::map<std::int64_t, VolumeOfCell>& now,
                                      const Pedigree& pedigree, double time) {

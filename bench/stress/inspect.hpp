@@ -1,6 +1,6 @@
 #pragma once
-/// Looks for states no tissue can be in, in the frames of a run file. Knows the scene and the file,
-/// not what the run said about itself.
+/// Detection of physically impossible states in the frames of a run file, from scene and file
+/// alone, independent of the run's own reports.
 
 #include <span>
 #include <vector>
@@ -14,38 +14,37 @@
 
 namespace acinus::bench {
 
-/// A cell's volume may not leave these multiples of its rest volume: cells yield to load and
-/// adhesion by a factor of a few at most.
+/// Bounds of volume over rest volume of a cell; load and adhesion change it by a small factor only.
 inline constexpr double kLeastVolume = 0.1, kMostVolume = 10;
 
-/// A division halves a volume to rounding. Until the next frame neighbours and cortex may compress
-/// or stretch the pair, as they may any cell, but hardly by this factor.
+/// Largest factor between the relative volumes of a mother and of her daughters in the next frame.
+/// Division halves a volume exactly; in between the pair may be compressed or stretched like any
+/// cell.
 inline constexpr double kMostDivisionChange = 1.5;
 
-/// - not finite: a coordinate or a cell's figures; then nothing else is looked at.
-/// - inverted: a cell of non-positive volume. Crossed: a cell whose surface passes through itself.
-/// - tunnelled: a deformable cell, newborn or not, deeper in a cell, wall or vessel than contact
-///   points look: nothing drives such an overlap apart any more. Spheres overlap by their law;
-///   between a sphere and its neighbour the limit is the sphere's centre, beyond which the force no
-///   longer separates them. Sisters start in each other (coupling/measure/audit.hpp).
-/// - volume: of a deformable cell, see kLeastVolume, next to its rest volume of that time; and
-///   rest volumes that growth or lysis cannot have made (pedigree.hpp).
-/// - lost: a centre farther from where its founder started than all active forces together could
-///   have carried one cell.
-/// - unborn, vanished: the cells of the frame are not those of the pedigree.
-/// @param pedigree  the births and deaths up to then
+/// Inspects one frame for these defects:
+/// - not finite: a coordinate or figure of a cell; ends the inspection.
+/// - inverted: cell of non-positive volume. Crossed: cell with a self-intersecting surface.
+/// - tunnelled: deformable cell deeper in a cell, wall or vessel than contact searches, so that
+///   nothing separates them. For spheres the limit is their centre, beyond which forces no longer
+///   separate them. Sisters start in each other (coupling/measure/audit.hpp).
+/// - volume: relative volume of a deformable cell outside kLeastVolume to kMostVolume, or a rest
+///   volume impossible by growth or lysis (pedigree.hpp).
+/// - lost: cell farther from the start of its founder than active forces can carry it.
+/// - unborn, vanished: cells that differ from those of the pedigree.
+/// @param pedigree  births and deaths so far
 std::vector<Finding> inspect_frame(const io::Frame& frame, const runs::Scene& scene,
                                    const coupling::World& start, const Pedigree& pedigree);
 
-/// Frames and the events between them: also finds events that could not be or did not come
-/// (untimely), and daughters that together have another volume than their mother had in the frame
-/// before, relative to rest, by kMostDivisionChange.
-/// @param start  what build_world makes of the scene
+/// Inspects frames and the events between them. Also finds untimely events, and daughters whose
+/// relative volume differs from that of their mother in the frame before by more than
+/// kMostDivisionChange.
+/// @param start  of build_world(scene)
 std::vector<Finding> inspect_frames(std::span<const io::Frame> frames,
                                     std::span<const io::Event> events, const runs::Scene& scene,
                                     const coupling::World& start);
 
-/// All frames of a run file.
+/// Inspects all frames of a run file.
 std::vector<Finding> inspect_run(const io::RunReader& run, const runs::Scene& scene,
                                  const coupling::World& start);
 

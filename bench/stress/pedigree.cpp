@@ -11,15 +11,15 @@
 namespace acinus::bench {
 namespace {
 
-/// Deviation of cycle times in standard deviations, at most.
-constexpr double kCut = 3;
-/// Times and volumes are sums of some thousand steps, and are written to a run file in full.
-constexpr double kRounding = 1e-6;
+/// Largest deviation of cycle times, in standard deviations.
+constexpr double kMostCycleDeviations = 3;
+/// Relative tolerance of times and volumes, which are sums over some thousand steps.
+constexpr double kRelativeTolerance = 1e-6;
 
 const std::vector<std::int64_t>& ids_of(const io::Frame& f, const char* name) {
   return std::ranges::find(f.cells.ids, name, &io::IdColumn::name)->value;
 }
-/// The cells that a frame draws, and whether as surfaces.
+/// Lineages of the cells drawn in a frame, with true for surfaces.
 std::map<std::int64_t, bool> drawn_cells(const io::Frame& f) {
   std::map<std::int64_t, bool> drawn;
   for (std::size_t k = 0; k < f.cell_id.size(); ++k)
@@ -45,7 +45,7 @@ Pedigree::Pedigree(const coupling::World& start) : params_(start.params) {
     const std::int64_t id = coupling::lineage_of(s, c);
     Relative r;
     r.founder = id;
-    r.type = static_cast<std::size_t>(coupling::type_of(s, c));
+    r.type = coupling::type_of(s, c);
     r.first_volume = grown ? volume.at(s.clock.time) : volume.to;
     r.deformable = c.deformable;
     const coupling::CycleParams& life = life_of(r);
@@ -61,7 +61,7 @@ bool Pedigree::is_there(std::int64_t id) const {
 }
 
 double Pedigree::shortest_cycle(const Relative& r) const {
-  return life_of(r).time * (1 - kCut * life_of(r).spread);
+  return life_of(r).time * (1 - kMostCycleDeviations * life_of(r).spread);
 }
 
 Interval Pedigree::rest_volume(const Relative& r, double time) const {
@@ -80,14 +80,14 @@ Interval Pedigree::rest_volume(const Relative& r, double time) const {
 
 bool Pedigree::may_die(std::int64_t id, const Relative& r, double time) const {
   return std::ranges::any_of(params_.life.rule, [&](const coupling::LifeRule& rule) {
-    const double slack = kRounding * (1 + time);
+    const double slack = kRelativeTolerance * (1 + time);
     if (!rule.die || time < rule.from - slack || time > rule.until + slack) return false;
     const std::int64_t named = rule.descendants ? r.founder : id;
     return rule.cells.empty() || std::ranges::binary_search(rule.cells, named);
   });
 }
 
-std::string Pedigree::bear(const io::Event& e) {
+std::string Pedigree::add_daughters(const io::Event& e) {
   if (e.cell_id.size() != 3) return "a division without two daughters";
   const std::int64_t id = e.cell_id[0];
   if (!is_there(id)) return fmt::format("cell {} divides, which is not there", id);
@@ -95,10 +95,10 @@ std::string Pedigree::bear(const io::Event& e) {
   mother.end = e.time_s;
   std::string wrong;
   const double needs = (2 * mother.unit - mother.first_volume) / mother.unit *
-                       shortest_cycle(mother) * (1 - kRounding);
+                       shortest_cycle(mother) * (1 - kRelativeTolerance);
   if (life_of(mother).time <= 0 || std::isfinite(mother.dissolves))
     wrong = fmt::format("cell {} divides, which does not grow", id);
-  else if (e.time_s - mother.birth < needs - kRounding * (1 + e.time_s))
+  else if (e.time_s - mother.birth < needs - kRelativeTolerance * (1 + e.time_s))
     wrong = fmt::format("cell {} divides {:.4g} s old; it cannot before {:.4g} s", id,
                         e.time_s - mother.birth, needs);
   for (const std::int64_t daughter : {e.cell_id[1], e.cell_id[2]}) {
@@ -120,7 +120,7 @@ std::string Pedigree::end_life(const io::Event& e) {
   if (!is_there(id)) return fmt::format("{} of cell {}, which is not there", e.code, id);
   Relative& r = all_.at(id);
   const coupling::DeathParams& death = life_of(r).death;
-  const double slack = kRounding * (1 + e.time_s);
+  const double slack = kRelativeTolerance * (1 + e.time_s);
   if (e.code == "death") r.end = e.time_s;
   if (e.code == "death" && death.lysis) {
     if (e.time_s >= r.dissolves + death.duration - slack) return {};
@@ -147,7 +147,7 @@ std::string Pedigree::change_model(const io::Event& e) {
 
 std::vector<Finding> Pedigree::add(const io::Event& e) {
   std::string wrong;
-  if (e.code == "division") wrong = bear(e);
+  if (e.code == "division") wrong = add_daughters(e);
   if (e.code == "death_early" && !e.cell_id.empty() && is_there(e.cell_id[0]))
     all_.at(e.cell_id[0]).early = true;
   if (e.code == "death" || e.code == "lysis") wrong = end_life(e);
@@ -166,13 +166,13 @@ std::vector<Finding> Pedigree::find_overdue(double time) const {
     if (std::isfinite(r.end)) continue;
     const coupling::CycleParams& life = life_of(r);
     // Both happen at the end of the step in which they are due.
-    const double slack = params_.numerics.max_step + kRounding * (1 + time);
+    const double slack = params_.numerics.max_step + kRelativeTolerance * (1 + time);
     if (time > r.dissolves + life.death.duration + slack)
       late.push_back({Defect::kUntimely, time, fmt::format("cell {} is dissolved and there", id)});
     if (life.time <= 0 || may_rest || r.waits || std::isfinite(r.dissolves) ||
         life.inhibition.by != coupling::InhibitedBy::kNothing)
       continue;
-    const double longest = life.time * (1 + kCut * life.spread);
+    const double longest = life.time * (1 + kMostCycleDeviations * life.spread);
     if (time > r.birth + (2 * r.unit - r.first_volume) / r.unit * longest + slack)
       late.push_back({Defect::kUntimely, time, fmt::format("cell {} does not divide", id)});
   }
@@ -202,7 +202,7 @@ std::vector<Finding> Pedigree::compare(const io::Frame& f) const {
     if (f.time_s < 0) continue;  // cells of a start-up are still small
     const Interval range = rest_volume(r, f.time_s);
     const double v = rest.at(id[k]);
-    if (v < (1 - kRounding) * range.low || v > (1 + kRounding) * range.high)
+    if (v < (1 - kRelativeTolerance) * range.low || v > (1 + kRelativeTolerance) * range.high)
       add(Defect::kVolume, fmt::format("cell {} has a rest volume of {:.6g} um^3, not {:.6g} to "
                                        "{:.6g}",
                                        id[k], v, range.low, range.high));

@@ -1,7 +1,6 @@
 #pragma once
-/// Which cells may be there: those of a start and what events say became of them. Births, deaths
-/// and sizes are checked against what the parameters of life allow, not against the program's own
-/// state.
+/// Pedigree of the cells of a run, from its start and its events. Births, deaths and sizes are
+/// checked against the life parameters, independent of the program's state.
 
 #include <cstdint>
 #include <limits>
@@ -14,44 +13,47 @@
 
 namespace acinus::bench {
 
-/// One cell, be it still there or not. Times s since t = 0, never < 0.
+/// Cell of the pedigree, alive or ended. Times in s since t = 0, never negative.
 struct Relative {
   std::int64_t parent = -1, founder = -1;
   std::size_t type = 0;  ///< index into the params
   double birth = 0;
-  double first_volume = 0;  ///< um^3, reference volume when it was born, or at t = 0
-  double unit = 0;          ///< um^3, the reference volume with which its kind is born
-  double end = std::numeric_limits<double>::infinity();        ///< it divided or died
-  double dissolves = std::numeric_limits<double>::infinity();  ///< lysis began
-  bool waits = false;                                          ///< a division of it failed
-  bool early = false;       ///< taken away while dissolving, as the run says
-  bool deformable = false;  ///< its model, as events say
+  double first_volume = 0;  ///< reference volume at birth or t = 0, um^3
+  double unit = 0;          ///< birth volume of its type, um^3
+  double end = std::numeric_limits<double>::infinity();        ///< division or death
+  double dissolves = std::numeric_limits<double>::infinity();  ///< start of lysis
+  bool waits = false;                                          ///< a division was postponed
+  bool early = false;       ///< removed during lysis, by its event
+  bool deformable = false;  ///< model, by its events
 };
 
+/// Closed interval.
 struct Interval {
   double low = 0, high = 0;
 };
 
+/// Family tree of all cells of a run, built from its events.
 class Pedigree {
  public:
-  /// @param start  what build_world makes of a scene
+  /// Pedigree of the founder cells.
+  /// @param start  of build_world(scene)
   explicit Pedigree(const coupling::World& start);
 
-  /// Takes note of an event. @return unborn, untimely: partners that are not there, a division
-  /// before the shortest cycle is over, a death outside its rule's time
+  /// Enters an event.
+  /// @return unborn or untimely: missing partners, division before the shortest cycle is over,
+  /// death outside the time of its rule
   std::vector<Finding> add(const io::Event& event);
-  /// Cells that must have divided or died by then, had the rules been kept.
+  /// Cells that should have divided or died before a time (s).
   std::vector<Finding> find_overdue(double time) const;
-  /// Compares with the table of cells of a frame: unborn, vanished, untimely where a cell has
-  /// changed its model without an event, and volume where a reference volume is outside
-  /// rest_volume().
+  /// Compares with the cell table of a frame: unborn, vanished, untimely (change of model without
+  /// an event), volume (reference volume outside rest_volume()).
   std::vector<Finding> compare(const io::Frame& frame) const;
 
-  /// Every cell there ever was.
+  /// All cells so far, by lineage.
   const std::map<std::int64_t, Relative>& all() const { return all_; }
   bool is_there(std::int64_t id) const;
-  /// Reference volumes that a cell may have: it doubles within its cycle, and shrinks in lysis,
-  /// um^3.
+  /// Range of the reference volume of a cell, um^3: it doubles within the cycle and shrinks in
+  /// lysis.
   Interval rest_volume(const Relative& cell, double time) const;
 
  private:
@@ -60,7 +62,7 @@ class Pedigree {
   }
   double shortest_cycle(const Relative& cell) const;
   bool may_die(std::int64_t id, const Relative& cell, double time) const;
-  std::string bear(const io::Event& event);
+  std::string add_daughters(const io::Event& event);
   std::string end_life(const io::Event& event);
   std::string change_model(const io::Event& event);
 
@@ -68,7 +70,7 @@ class Pedigree {
   std::map<std::int64_t, Relative> all_;
 };
 
-/// Reference volume of every cell as the frame tells, um^3.
+/// Reference volume of every cell of a frame, um^3, by lineage.
 std::map<std::int64_t, double> rest_volumes(const io::Frame& frame);
 
 }  // namespace acinus::bench

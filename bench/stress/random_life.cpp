@@ -13,11 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kLifeStream = 1;  ///< the rest of the scene is drawn from stream 0
-/// Shortest cycle of a nominal scene, s: fifty times as fast as the day of a real cell.
+constexpr std::uint64_t kLifeStream = 1;  ///< the rest of the scene uses stream 0
+/// Shortest cycle of a nominal scene, s: a fiftieth of a real cell's day.
 constexpr double kShortestCycle = 1800;
 
-/// The life of one scene in the making, drawn in a fixed order.
+/// Generator of the life blocks of one scene, drawn in a fixed order.
 class LifeDrawing {
  public:
   explicit LifeDrawing(const LifeSetting& setting)
@@ -158,7 +158,7 @@ std::string LifeDrawing::draw() {
   scene["time"]["until_cells"] =
       std::max(setting_.cells + 2, static_cast<int>(std::lround(most * setting_.cells)));
   // The other integrators cannot follow cells that come and go. (null takes a key away)
-  scene["time"]["integrator"] = scene["time"]["with_contacts"] = nullptr;
+  scene["time"]["integrator"] = nullptr;
   scene["cell_types"]["cell"] = type;
   scene["life"] = life;
   return scene.dump();

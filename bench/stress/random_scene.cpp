@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "bench/stress/random_life.hpp"
 #include "bench/stress/random_zoom.hpp"
@@ -17,18 +16,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Steps of a deformable 162-node cell that a scene may cost if the controller leaves the step
-/// alone: about two seconds.
-constexpr double kCellSteps = 2500;
+/// Budget of a scene in steps of a deformable 162-node cell, if step-size control does not
+/// interfere: about two seconds.
+constexpr double kMostCellSteps = 2500;
 constexpr double kFewestSteps = 15, kMostSteps = 150;
-/// Closest packing that a compression aims at before cells are compressed: coarse meshes do not
-/// fill the corners of a box, and would be pressed far harder than asked.
+/// Target packing fractions of a compression before cells are compressed. Coarse meshes leave the
+/// corners of a box empty and would be compressed far more than asked.
 constexpr double kFullPacking = 0.75, kTightPacking = 0.92;
-/// Smallest volume, relative to the start, that a compression may ask of a cell.
-constexpr double kSmallestVolume = 0.6;
-constexpr double kGap = 0.2;       ///< um between cells and walls at the start
-constexpr double kSlowWall = 20;   ///< um/h, fastest wall of a nominal scene
-constexpr double kSinusoid = 4.7;  ///< um
+/// Least volume of a compressed cell, relative to its start.
+constexpr double kLeastCompressedVolume = 0.6;
+constexpr double kStartGap = 0.2;           ///< between cells and walls at the start, um
+constexpr double kFastestNominalWall = 20;  ///< fastest wall of a nominal scene, um/h
+constexpr double kSinusoidRadius = 4.7;     ///< vessel radius, um
 
 std::string quantity(double value, const char* unit) {
   return fmt::format("{:.5g} {}", value, unit);
@@ -37,7 +36,8 @@ Json place(const Vec3& x) {
   return {quantity(x.x(), "um"), quantity(x.y(), "um"), quantity(x.z(), "um")};
 }
 
-/// One scene in the making. Members are drawn in a fixed order: the text depends on the seed alone.
+/// Generator of one scene. Members are drawn in a fixed order, so that the text depends on the seed
+/// alone.
 class Drawing {
  public:
   explicit Drawing(std::uint64_t seed)
@@ -49,7 +49,7 @@ class Drawing {
  private:
   bool chance(double p) { return random_.uniform() < p; }
   double decades(double low, double high) { return low * std::pow(high / low, random_.uniform()); }
-  /// A value of Table 1, or up to ten times less or more.
+  /// Value of Table 1, in wide scenes up to ten times smaller or larger.
   double near(double value) { return wide_ ? value * std::pow(10, random_.uniform(-1, 1)) : value; }
   double range(double low, double high) { return near(decades(low, high)); }
 
@@ -66,10 +66,10 @@ class Drawing {
   void draw_time();
   void add_life();
   void add_moving_zoom();
-  /// Volume into which the cells are compressed, as a share of theirs at rest.
+  /// Volume of the cells after compression relative to their rest volume.
   double compressed_volume();
   double rest_volume() const { return count_ * 4.0 / 3 * kPi * std::pow(radius_, 3); }
-  /// Speed, um/h, and travel, um, of a wall that is to move so far.
+  /// Limits speed (um/h) and travel (um) of a moving wall to the scene's duration.
   void limit_motion(double& travel, double& speed) const;
 
   std::uint64_t seed_;
@@ -147,7 +147,7 @@ void Drawing::draw_time() {
   Json time;
   const double cell = 0.0004 * std::pow(nodes_, 1.5);  // contacts of fine meshes cost more
   const double weight = count_ * (share_ * cell + (1 - share_) * 0.03);
-  const double steps = std::clamp(kCellSteps / weight, kFewestSteps, kMostSteps);
+  const double steps = std::clamp(kMostCellSteps / weight, kFewestSteps, kMostSteps);
   // A controlled step rarely becomes longer than some minutes.
   end_ = steps * (adaptive ? std::min(adaptive_step, 120.0) : adaptive_step);
   time["end"] = quantity(end_, "s");
@@ -156,22 +156,20 @@ void Drawing::draw_time() {
   const double tolerance = random_.uniform();
   if (tolerance > 0.5) time["tolerance"] = tolerance > 0.75 ? "0.3 um" : "0.1 um";
   const double method = random_.uniform();
-  if (wide_ && method < 0.06)
-    time["integrator"] = method < 0.02 ? "explicit-euler" : method < 0.04 ? "ros2" : "newton";
-  if (wide_ && method >= 0.02 && method < 0.04) time["with_contacts"] = true;
+  if (wide_ && method < 0.06) time["integrator"] = method < 0.03 ? "explicit-euler" : "newton";
   scene_["time"] = time;
   scene_["output"]["every"] = quantity(end_ / 4, "s");
 }
 
 double Drawing::compressed_volume() {
   const double pressure = wide_ ? decades(50, 1000) : decades(50, 300);  // Pa
-  return std::max(std::exp(-pressure / bulk_), kSmallestVolume) /
+  return std::max(std::exp(-pressure / bulk_), kLeastCompressedVolume) /
          (wide_ ? kTightPacking : kFullPacking);
 }
 
 void Drawing::limit_motion(double& travel, double& speed) const {
   const double duration = 0.6 * end_ / 3600;  // the rest of the time shows what comes after
-  if (!wide_) travel = std::min(travel, kSlowWall * duration);
+  if (!wide_) travel = std::min(travel, kFastestNominalWall * duration);
   speed = travel / duration;
 }
 
@@ -187,7 +185,7 @@ void Drawing::add_zoom(double half_width) {
 }
 
 void Drawing::add_capsule(double reach) {
-  const double radius = reach + radius_ + kGap;
+  const double radius = reach + radius_ + kStartGap;
   double travel = radius - std::cbrt(3 / (4 * kPi) * rest_volume() * compressed_volume());
   if (travel <= 0) return;
   double speed = 0;
@@ -219,7 +217,7 @@ void Drawing::draw_clump() {
   }
 }
 
-/// Cells one by one: meshes in one orientation, models mixed at random, some cells pulled.
+/// Draws a list of cells: fixed mesh orientation, random models, some cells pulled.
 void Drawing::draw_list() {
   const bool pulled = chance(0.5) && !scene_["friction"].contains("medium");
   const coupling::Uniform uniform = [this] { return random_.uniform(); };
@@ -243,7 +241,7 @@ void Drawing::draw_list() {
   scene_["cells"] = {{"source", "list"}, {"list", list}};
 }
 
-/// A box of walls, one of which moves in.
+/// Draws a box of walls, one of them moving inwards.
 void Drawing::draw_box() {
   std::array<int, 3> grid{};
   int left = count_;
@@ -255,7 +253,7 @@ void Drawing::draw_box() {
   scene_["cells"] = {{"source", "box"}, {"grid", grid}, {"spacing", spacing_}, {"jitter", jitter_}};
   Vec3 half;
   for (int k = 0; k < 3; ++k)
-    half[k] = radius_ * ((grid[k] - 1) * spacing_ + 1 + 2 * jitter_) + kGap;
+    half[k] = radius_ * ((grid[k] - 1) * spacing_ + 1 + 2 * jitter_) + kStartGap;
   add_zoom(half.x());
   double travel = 2 * half.x() - rest_volume() * compressed_volume() / (4 * half.y() * half.z());
   double speed = 0;
@@ -277,7 +275,7 @@ void Drawing::draw_box() {
   scene_["walls"] = walls;
 }
 
-/// Darts around a forked vessel of a network file.
+/// Draws cells placed at random about a branching vessel of a network file.
 void Drawing::draw_fill() {
   // Darts at 0.15 of their balls' volume find room; more than 0.38 they never do.
   const double distance =
@@ -295,8 +293,8 @@ void Drawing::draw_fill() {
                                    radius, parent);
   };
   const double out = half + 2 * radius_;
-  const double thick = wide_ ? decades(2, 20) : kSinusoid;
-  const double thin = wide_ ? thick * random_.uniform(0.3, 1) : kSinusoid;
+  const double thick = wide_ ? decades(2, 20) : kSinusoidRadius;
+  const double thin = wide_ ? thick * random_.uniform(0.3, 1) : kSinusoidRadius;
   const double bend = random_.uniform(-0.3, 0.3) * half, lift = random_.uniform(-0.3, 0.3) * half;
   line(1, {-out, 0, 0}, thick, -1);
   line(2, {0, bend, lift}, thick, 1);

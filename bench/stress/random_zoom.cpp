@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kZoomStream = 2;  ///< life is drawn from stream 1
+constexpr std::uint64_t kZoomStream = 2;  ///< life uses stream 1
 
 std::string length(double value) { return fmt::format("{:.5g} um", value); }
 std::string time(double value) { return fmt::format("{:.5g} s", value); }
 std::string stress(double value) { return fmt::format("{:.5g} Pa", value); }
 
-/// The zoom of one scene in the making, drawn in a fixed order.
+/// Generator of the zoom of one scene, drawn in a fixed order.
 class ZoomDrawing {
  public:
   explicit ZoomDrawing(const ZoomSetting& setting)
@@ -34,14 +34,14 @@ class ZoomDrawing {
   Json draw_cells();
   Json draw_region();
   Json draw_moving();
-  /// Radius of a ball of all cells, um.
+  /// Radius of a ball with the volume of all cells, um.
   double reach() const { return setting_.radius * std::cbrt(static_cast<double>(setting_.cells)); }
 
   ZoomSetting setting_;
   UniformStream random_;
 };
 
-/// A region that stays where it is, so that cells change because they move, grow or divide.
+/// Draws a fixed region; cells change their model as they move, grow or divide.
 Json ZoomDrawing::draw_place(const char* kind) {
   const double size = (0.2 + 0.8 * random_.uniform()) * reach();
   const Vec3 n = random_.unit_vector(), at = 0.3 * reach() * random_.unit_vector();

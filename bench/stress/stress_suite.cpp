@@ -26,16 +26,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Wall time a run is given, s, and the time after which it hangs: it did not obey the first.
-constexpr double kRunTime = 60, kHangTime = 300;
-constexpr std::size_t kAtATime = 2;
+/// Wall-time limit given to a run, and time after which it counts as hung for ignoring that limit,
+/// s.
+constexpr double kRunTimeLimit = 60, kHangTimeLimit = 300;
+constexpr std::size_t kMostConcurrentRuns = 2;
 
 std::string hash_of_file(const std::string& path) {
   const std::string bytes = io::read_text_file(path);
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
-/// True if the run itself reported the finding, at the frame that shows it.
+/// True if the run itself reported the finding at the frame that shows it.
 bool names(const std::vector<io::Event>& events, const Finding& f) {
   const char* code = f.defect == Defect::kCrossed     ? "self_intersection"
                      : f.defect == Defect::kTunnelled ? "deep_overlap"
@@ -45,7 +46,7 @@ bool names(const std::vector<io::Event>& events, const Finding& f) {
   });
 }
 
-/// A folder for everything; a temporary one goes away at the end.
+/// Folder of all scenes; a temporary one is removed at the end.
 class Workplace {
  public:
   explicit Workplace(const std::string& folder) : keep_(!folder.empty()), path_(folder) {
@@ -70,7 +71,7 @@ class Workplace {
   fs::path path_;
 };
 
-/// One scene on its way: written, running, inspected.
+/// Trial of one scene: written, run and inspected.
 class RandomRun {
  public:
   RandomRun(std::uint64_t seed, bool life, const fs::path& root);
@@ -90,7 +91,7 @@ class RandomRun {
   runs::ChildOptions child_options() const {
     return {.program = runs::program_beside("acinus"),
             .output = file("output.txt"),
-            .limit_s = kHangTime};
+            .limit_s = kHangTimeLimit};
   }
   Json summary() const;
   bool resumes() const;
@@ -111,7 +112,7 @@ RandomRun::RandomRun(std::uint64_t seed, bool life, const fs::path& root)
   result_.cells = scene.cells;
   io::write_text_file(file("scene.json"), scene.text);
   if (!scene.network.empty()) io::write_text_file(file(kNetworkFile), scene.network);
-  child_.emplace(words("--overwrite", fmt::format("{} s", kRunTime)), child_options());
+  child_.emplace(words("--overwrite", fmt::format("{} s", kRunTimeLimit)), child_options());
 }
 
 Json RandomRun::summary() const {
@@ -147,7 +148,7 @@ RunVerdict RandomRun::inspect() {
     return j;
   };
   if (end.timed_out)
-    return settle(TrialOutcome::kHung, fmt::format("killed after {} s", kHangTime));
+    return settle(TrialOutcome::kHung, fmt::format("killed after {} s", kHangTimeLimit));
   if (end.signal != 0) return settle(TrialOutcome::kCrashed, fmt::format("signal {}", end.signal));
   if (end.code == static_cast<int>(Exit::kBadInput))
     return settle(TrialOutcome::kRefused, last_line());
@@ -205,7 +206,7 @@ BenchTable bench_stress(const BenchOptions& options) {
   const std::string program = hash_of_file(runs::program_beside("acinus"));
   VerdictFile file(options.folder.empty() ? "" : (place.path() / "verdicts.jsonl").string(),
                    program, options.life);
-  const std::size_t most = options.threads == 1 ? 1 : kAtATime;
+  const std::size_t most = options.threads == 1 ? 1 : kMostConcurrentRuns;
   const auto first = static_cast<std::uint64_t>(options.first);
   const std::uint64_t end = first + static_cast<std::uint64_t>(options.seeds);
   std::vector<RunVerdict> all;

@@ -18,12 +18,12 @@ constexpr std::array kOutcomes{
     TrialOutcome::kHung,      TrialOutcome::kNotFinite, TrialOutcome::kUnnoticed};
 bool is_failure(TrialOutcome o) { return o >= TrialOutcome::kRefused; }
 
-/// What happened in scenes with life, as counted in the table.
+/// Events of scenes with life that the table counts.
 constexpr std::array kLifeEvents{"division", "division_waits", "settling_failed", "death",
                                  "lysis",    "remeshed",       "mesh_degenerate", "promotion",
                                  "demotion", "promotion_waits"};
 
-/// Nothing: the line is torn, or of another program or kind of scenes.
+/// Parses a line; empty if it is incomplete, or of another program or kind of scenes.
 std::optional<RunVerdict> read_line(const std::string& line, const std::string& program,
                                     bool life) {
   const Json j = Json::parse(line, nullptr, false);

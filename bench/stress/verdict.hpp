@@ -1,5 +1,5 @@
 #pragma once
-/// How the random scenes of the stress suite ended.
+/// Outcomes of the random scenes of the stress suite.
 
 #include <cstdint>
 #include <fstream>
@@ -12,37 +12,39 @@
 
 namespace acinus::bench {
 
+/// Outcome of a random scene by exit code, events and inspection.
 enum class TrialOutcome {
-  kClean,      ///< completed, nothing found
-  kNamed,      ///< completed; what was found, the run told as an event
-  kStopped,    ///< exit 3 with a cause and a checkpoint that opens
-  kTimeLimit,  ///< stopped by its own wall-time limit, nothing found
-  kRefused,    ///< exit 2: the generator's fault
+  kClean,      ///< completed without findings
+  kNamed,      ///< completed; all findings were reported as events
+  kStopped,    ///< exit 3 with a cause and a readable checkpoint
+  kTimeLimit,  ///< stopped at its wall-time limit without findings
+  kRefused,    ///< exit 2: a fault of the generator
   kCrashed,
   kHung,
   kNotFinite,
-  kUnnoticed,  ///< the run found nothing wrong, the inspection did
+  kUnnoticed,  ///< findings that the run did not report
 };
 const char* name_of(TrialOutcome outcome);
 
-/// What came of one scene.
+/// Outcome of one scene.
 struct RunVerdict {
   std::uint64_t seed = 0;
   TrialOutcome outcome = TrialOutcome::kClean;
   std::string cause;
   int cells = 0;
   double cpu_s = 0;
-  std::map<std::string, int> events;  ///< how often each was told
+  std::map<std::string, int> events;  ///< number of each event
 };
 
-/// The verdicts of one program on scenes of one kind, in a file that grows by a line per scene, so
-/// that many scenes can be judged in several sittings.
+/// File of the verdicts of one program on scenes of one kind, a line per scene, so that many scenes
+/// can be judged in several sessions.
 class VerdictFile {
  public:
-  /// @param path     "": none
-  /// @param program  whose verdicts these are; lines of others are passed over
+  /// Opens the file and reads its verdicts.
+  /// @param path     "" = none
+  /// @param program  hash of the program; lines of other programs are ignored
   VerdictFile(const std::string& path, const std::string& program, bool life);
-  /// Those that stood there.
+  /// Verdicts that the file held when it was opened, by seed.
   const std::map<std::uint64_t, RunVerdict>& before() const { return before_; }
   void add(const RunVerdict& verdict);
 
@@ -53,7 +55,7 @@ class VerdictFile {
   std::ofstream file_;
 };
 
-/// The counts of one family.
+/// Table row with the counts of one family.
 BenchRow row_of(Family family, bool life, const std::vector<RunVerdict>& all);
 
 }  // namespace acinus::bench

@@ -24,14 +24,14 @@ namespace {
 
 using dcm::ContactLaw;
 
-constexpr double kSpacing = 0.99;  ///< of the clump, in diameters: the reach of h0 is 20 nm
+constexpr double kClumpSpacing = 0.99;  ///< of the clump, diameters; h0 acts over 20 nm
 
-/// Short steps, in which contacts of 20 nm come to rest; with 2 s they chatter. Nothing changes
-/// much after 200 s.
-constexpr double kStep = 0.5, kHold = 400;  ///< s
+/// Step and hold time of the pair, s. Contacts with a range of 20 nm come to rest with it and
+/// oscillate with 2 s; little changes after 200 s.
+constexpr double kPairStep = 0.5, kPairHoldTime = 400;
 
-/// Of the clump, without step-size control: the same for both laws.
-constexpr double kClumpStep = 60, kClumpEnd = 7200;  ///< s
+/// Step and end of the clump, s, without step-size control: the same for both laws.
+constexpr double kClumpStep = 60, kClumpEnd = 7200;
 
 struct LawCase {
   std::string name;
@@ -47,8 +47,8 @@ std::vector<LawCase> make_pair_cases() {
     };
     PairCase c;
     c.nodes = nodes;
-    c.step = kStep;
-    c.hold = kHold;
+    c.step = kPairStep;
+    c.hold = kPairHoldTime;
     cases.push_back({name("cohesive"), c});
     c.law = ContactLaw::kMaugisDugdale;
     for (const double h0 : {0.02, 0.1, 0.4}) {
@@ -96,15 +96,15 @@ BenchRow measure_pair(const LawCase& l, const BenchOptions& options) {
   return row;
 }
 
-/// Forces of the pair at rest shape, R = 12 um.
+/// Forces of the pair with rigid cells of R = 12 um.
 BenchRow measure_rigid(const LawCase& l, const BenchOptions& options) {
   double pull = 0, near = 0, nearer = 0;
   for (int k = 0; k < options.seeds; ++k) {
     PairCase c = l.pair;
     c.seed = options.first + k;
-    pull += find_rigid_pull_off(c) / (2 * vesicle_force(c));
-    near += find_rigid_push(c, 23.8);
-    nearer += find_rigid_push(c, 23.4);
+    pull += compute_rigid_pull_off(c) / (2 * vesicle_force(c));
+    near += compute_rigid_push(c, 23.8);
+    nearer += compute_rigid_push(c, 23.4);
   }
   const double n = options.seeds;
   BenchRow row{"rigid " + l.name, 2, {}};
@@ -115,10 +115,12 @@ BenchRow measure_rigid(const LawCase& l, const BenchOptions& options) {
   return row;
 }
 
-/// Work per area of drawing two triangles straight apart, from where nothing pushes, over W: of a
-/// flat triangle what it costs to lift, of a curved one of the middle of its contact.
+/// Work per area of adhesion to separate two triangles along their normal, relative to W. Starts
+/// where no force repels; the area is the largest contact area.
+/// @param radius  of curvature, um
+/// @param h0      range of adhesion, um
 double lifting_work(double radius, double h0) {
-  constexpr double kEdge = 3.6, kAdhesion = 0.02, kDraw = 1e-4;  // um, nN/um, um
+  constexpr double kEdge = 3.6, kAdhesion = 0.02, kSeparationStep = 1e-4;  // um, nN/um, um
   const dcm::ContactParams c;
   const contact::MaugisLaw law{c.modulus, kAdhesion, kAdhesion / h0, c.max_radius};
   const double corner = std::min(kEdge, 0.5 * radius) / std::sqrt(3.0);
@@ -131,10 +133,10 @@ double lifting_work(double radius, double h0) {
     return contact::make_curved_triangle(x, 0.5 / radius);
   };
   double work = 0, area = 0;
-  for (double z = 0.5; z > -2; z -= kDraw) {  // half of it from either side
+  for (double z = 0.5; z > -2; z -= kSeparationStep) {  // half of it from either side
     const auto f = contact::compute_triangle_forces(law, triangle(z, 1), triangle(-z, -1));
     area = std::max(area, f.contact_area);
-    work -= 2 * kDraw * std::min(0.0, f.normal_force);
+    work -= 2 * kSeparationStep * std::min(0.0, f.normal_force);
   }
   return work / (area * kAdhesion);
 }
@@ -151,8 +153,8 @@ BenchTable measure_lifting() {
   return table;
 }
 
-BenchRow measure_pull_off(const LawCase& l) {
-  const PullOff p = find_pull_off(l.pair);
+BenchRow pull_off_row(const LawCase& l) {
+  const PullOff p = measure_pull_off(l.pair);
   BenchRow row{
       fmt::format("{}, W {:g} J/m^2, seed {}", l.name, 1e-3 * l.pair.adhesion, l.pair.seed), 2, {}};
   row.value = {{"ratio_to_piWR", p.force() / vesicle_force(l.pair)},
@@ -164,11 +166,11 @@ BenchRow measure_pull_off(const LawCase& l) {
   return row;
 }
 
-/// The clump under a law, after two hours.
+/// Clump under a contact law after two hours.
 BenchRow measure_clump(const std::string& name, ContactLaw law, const BenchOptions& options) {
   runs::Scene scene = runs::read_scene(runs::scene_folder() + "/clump13.json");
   scene.seed = options.first;
-  scene.cells.spacing = kSpacing;
+  scene.cells.spacing = kClumpSpacing;
   scene.contact.law = law;
   scene.numerics.adaptive = false;
   scene.numerics.max_step = kClumpStep;
@@ -227,7 +229,7 @@ BenchTable bench_contact_laws_pull_off(const BenchOptions& options) {
       for (int k = 0; k < options.seeds; ++k) {
         l.pair.adhesion = adhesion;
         l.pair.seed = options.first + k;
-        table.push_back(measure_pull_off(l));
+        table.push_back(pull_off_row(l));
       }
   }
   return table;

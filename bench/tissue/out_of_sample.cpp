@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,40 +55,42 @@ std::vector<JudgedFrame> read_frames(const std::string& folder) {
   return frames;
 }
 
-/// Leaves out frames in which cells were just born: they overlap by more than this share of their
-/// radii. Spheres of that age push each other with a part of their force, which frames do not hold.
-constexpr double kNewborn = 0.3;
+/// Overlap relative to the sum of radii above which cells count as newborn. Frames with newborn
+/// cells are excluded: spheres of that age repel with a reduced force, which frames do not hold.
+constexpr double kNewbornOverlap = 0.3;
 
 void leave_out_births(std::vector<JudgedFrame>& frames) {
   std::erase_if(frames, [](const JudgedFrame& f) {
     for (const auto& [id, own] : f.cells)
       for (const auto& [other, c] : f.cells)
-        if (id < other && (own.center - c.center).norm() < (1 - kNewborn) * (own.radius + c.radius))
+        if (id < other &&
+            (own.center - c.center).norm() < (1 - kNewbornOverlap) * (own.radius + c.radius))
           return true;
     return false;
   });
 }
 
-/// How dense cells are, up to a factor: from the distances of the six nearest of each.
+/// Mean relative density from the distances of the six nearest neighbours of each cell, up to a
+/// factor.
 double mean_density(const JudgedCells& cells) {
-  constexpr std::size_t kNear = 6;
+  constexpr std::size_t kNeighbours = 6;
   double sum = 0;
   int n = 0;
   for (const auto& [id, c] : cells) {
     std::vector<double> distance;
     for (const auto& [other, o] : cells)
       if (other != id) distance.push_back((o.center - c.center).norm());
-    if (distance.size() < kNear) continue;
-    std::ranges::nth_element(distance, distance.begin() + (kNear - 1));
+    if (distance.size() < kNeighbours) continue;
+    std::ranges::nth_element(distance, distance.begin() + (kNeighbours - 1));
     double near = 0;
-    for (std::size_t k = 0; k < kNear; ++k) near += distance[k] / kNear;
+    for (std::size_t k = 0; k < kNeighbours; ++k) near += distance[k] / kNeighbours;
     sum += std::pow(c.radius / near, 3);
     ++n;
   }
   return n > 0 ? sum / n : 0;
 }
 
-/// A sum of squared differences beside that of the reference.
+/// Sum of squared differences and of squared reference values.
 struct Misfit {
   double squares = 0, reference = 0;
   int count = 0;
@@ -109,6 +110,7 @@ double mean_of(const JudgedCells& cells, Get get) {
   return sum / static_cast<double>(std::max<std::size_t>(1, cells.size()));
 }
 
+/// Compares two series of frames at the same times; single cells are compared if both have them.
 /// @param spheres  frames at the same times; single cells are compared where both have them
 BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deformable,
                  const std::vector<JudgedFrame>& spheres) {
@@ -145,7 +147,7 @@ BenchRow compare(const std::string& name, const std::vector<JudgedFrame>& deform
            {"density_error", density.relative()}}};
 }
 
-/// What one scene is judged with.
+/// Scene to judge laws in, with its run of deformable cells.
 struct Judged {
   std::string name;
   runs::Scene scene;       ///< with spheres
@@ -170,7 +172,7 @@ void judge_in_place(const Judged& j, BenchTable& table) {
   for (const SphereLaw& law : j.laws) {
     std::vector<JudgedFrame> spheres;
     for (const JudgedFrame& f : frames)
-      spheres.push_back({f.time, bear_in_place(f.cells, f.time, law, world)});
+      spheres.push_back({f.time, compute_in_place(f.cells, f.time, law, world)});
     table.push_back(compare(fmt::format("{}, {}, in place", j.name, law.name), frames, spheres));
     print_row(table.back());
   }
@@ -197,8 +199,8 @@ void judge_by_themselves(const Judged& j, const std::string& law_file, int threa
   }
 }
 
-/// The law for cells of 12 um, from its file if it was found before.
-calibration::Law find_law(const std::string& file, int threads) {
+/// Law for cells of 12 um, from its file, or calibrated if that is missing.
+calibration::Law provide_law(const std::string& file, int threads) {
   if (!std::filesystem::exists(file)) {
     runs::CalibrateOptions options;
     options.out = file;
@@ -212,7 +214,7 @@ calibration::Law find_law(const std::string& file, int threads) {
   return calibration::read_law(file);
 }
 
-/// The clump in which the law was found.
+/// Clump of the calibration itself.
 Judged in_sample(const std::string& root) {
   const runs::Scene scene =
       runs::compression_scene(runs::read_scene(runs::scene_folder() + "/calibration.json"), {});
@@ -228,13 +230,12 @@ BenchTable bench_out_of_sample(const BenchOptions& options) {
   const std::string root =
       options.folder.empty() ? "out-of-sample" : options.folder + "/out-of-sample";
   std::filesystem::create_directories(root);
-  const calibration::Law law = find_law(root + "/law.json", options.threads);
+  const calibration::Law law = provide_law(root + "/law.json", options.threads);
   const OutOfSampleCells cells{options.radius, options.stiffness};
   BenchTable table;
   Judged clump = in_sample(root);
   const runs::CellType& type = clump.scene.cell_types.begin()->second;
-  clump.laws =
-      sphere_laws(law, runs::make_cbm_params(clump.scene, type).young, type.dcm.bulk_modulus);
+  clump.laws = sphere_laws(law, runs::make_cbm_params(clump.scene, type).young);
   judge_in_place(clump, table);
   for (const OutOfSampleScene& s : out_of_sample_scenes(cells)) {
     const std::string folder =

@@ -7,7 +7,7 @@
 namespace acinus::bench {
 namespace {
 
-/// Lengths are those of cells with a radius of 12 um.
+/// Scenes for cells with a radius of 12 um.
 constexpr const char* kPlates = R"({
   "experiment": "free", "model": "dcm",
   "time": { "end": "1.4 h", "step": "60 s", "tolerance": "0.05 um", "extrapolate": true },
@@ -63,8 +63,9 @@ runs::Scene read(const std::string& name, const char* text) {
   return runs::parse_scene(text, "out_of_sample_" + name + ".json", runs::scene_folder());
 }
 
-/// Three layers of nine. Stiff springs hold the lower and take along the upper one, each by half a
-/// diameter: no key gives cells a velocity, and walls move along their normals only.
+/// Adds springs that shear three layers of nine cells: they hold the lower layer and drag the upper
+/// one, each by half a diameter. Springs are used since no key prescribes cell velocities, and
+/// walls move along their normals only.
 void shear(runs::Scene& s) {
   constexpr double kSpacing = 21.5, kLayer = 17.2, kMove = 12;  // um
   s.cells.list.clear();

@@ -1,5 +1,5 @@
 #pragma once
-/// Situations in which a law of stiffness is judged: tissue that it was not found in.
+/// Tissue scenes outside the calibration of a stiffness law.
 
 #include <string>
 #include <vector>
@@ -8,24 +8,25 @@
 
 namespace acinus::bench {
 
+/// Scene in which a stiffness law is judged.
 struct OutOfSampleScene {
   std::string name;
-  runs::Scene scene;        ///< deformable cells
-  bool spheres_too = true;  ///< whether spheres can be run in it by themselves
+  runs::Scene scene;        ///< with deformable cells
+  bool spheres_too = true;  ///< can be run with spheres
 };
 
-/// The cells of the scene calibration.json, of another size and stiffness where asked for: all
-/// lengths of the scenes go with the radius.
+/// Size and stiffness of the cells, relative to those of calibration.json. Lengths of the scenes
+/// scale with the radius.
 struct OutOfSampleCells {
   double radius = 12;    ///< um
   double stiffness = 1;  ///< factor on cortex, bulk modulus and modulus of spheres
 };
 
-/// That cell type.
+/// Cell type of these scenes.
 runs::CellType out_of_sample_type(const OutOfSampleCells& cells);
 
-/// Cells between plates that close in, in a box with one wall that comes nearer, in a slab that is
-/// sheared, in a growing spheroid, in a monolayer on an adhesive plane and in a lobule.
+/// Scenes: cells between approaching plates, in a box with a moving wall, in a sheared slab, in a
+/// growing spheroid, in a monolayer on an adhesive plane and in a lobule.
 std::vector<OutOfSampleScene> out_of_sample_scenes(const OutOfSampleCells& cells);
 
 }  // namespace acinus::bench

@@ -21,25 +21,25 @@
 namespace acinus::bench {
 namespace {
 
-/// Pressures of the deformable ball at which the models are compared, Pa.
-constexpr double kLowest = 5, kHighest = 250;
-/// Cells this near the middle count, over the radius of the capsule: others touch it.
-constexpr double kInner = 0.65;
-/// Neighbours whose distance stands for the density about a cell.
-constexpr std::size_t kNear = 12;
+/// Range of the pressure of the deformable ball in which the models are compared, Pa.
+constexpr double kLowestPressure = 5, kHighestPressure = 250;
+/// Radius of the inner cells relative to that of the capsule, which the outer ones touch.
+constexpr double kInnerRadius = 0.65;
+/// Number of nearest neighbours that define the density about a cell.
+constexpr std::size_t kDensityNeighbours = 12;
 
-/// A frame: its cells, and how dense they are about each, 1/um^3 up to a factor.
+/// Cells of a frame with the density about each, up to a factor.
 struct PatchFrame {
   runs::CellRecords cells;
   std::map<std::int64_t, double> density;
 };
 
-/// From the distances of the nearest neighbours.
+/// Number density about a cell from the distances of its nearest neighbours, 1/um^3 up to a factor.
 double density_about(const runs::CellRecords& cells, std::int64_t id) {
   std::vector<double> distance;
   for (const auto& [other, c] : cells)
     if (other != id) distance.push_back((c.center - cells.at(id).center).norm());
-  const std::size_t n = std::min(kNear, distance.size());
+  const std::size_t n = std::min(kDensityNeighbours, distance.size());
   std::ranges::partial_sort(distance, distance.begin() + static_cast<std::ptrdiff_t>(n));
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += distance[k];
@@ -57,14 +57,16 @@ std::vector<PatchFrame> read_patch_frames(const std::string& folder) {
   return frames;
 }
 
-/// Means over the inner cells of one kind.
+/// Means over the inner cells of one model.
 struct HalfMean {
   double pressure = 0, force = 0, density = 0;
   int cells = 0;
 };
 
-/// @param like        where the cells stand that count, and which of them are deformable
-/// @param deformable  which of both kinds counts
+/// Means over the inner cells of one model in a reference frame.
+/// @param like        frame that defines position and model of the cells
+/// @param deformable  which model to average
+/// @param reach       radius of the inner region, um
 HalfMean measure(const PatchFrame& frame, const PatchFrame& like, bool deformable, double reach) {
   HalfMean b;
   for (const auto& [id, c] : frame.cells) {
@@ -86,7 +88,7 @@ HalfMean measure(const PatchFrame& frame, const PatchFrame& like, bool deformabl
 
 double jump(double a, double b) { return 2 * std::abs(a - b) / (a + b); }
 
-/// A variant of the scene.
+/// Variant of the scene with its run folder.
 struct PatchVariant {
   std::string name, folder;
   runs::Scene scene;
@@ -126,17 +128,18 @@ BenchRow compare(const PatchVariant& v, const std::string& folder, const runs::S
   int n = 0, cells = 0;
   std::vector<double> alone;  // pressure of the deformable ball at every frame
   for (const PatchFrame& m : reference.frame)
-    alone.push_back(measure(m, m, true, kInner * shipped.capsule.min_radius).pressure);
+    alone.push_back(measure(m, m, true, kInnerRadius * shipped.capsule.min_radius).pressure);
   for (std::size_t k = 0; k < std::min(frames.size(), reference.frame.size()); ++k) {
     const double time = static_cast<double>(k) * shipped.output.every;
-    const double reach = kInner * std::max(shipped.capsule.min_radius,
-                                           shipped.capsule.radius - shipped.capsule.speed * time);
+    const double reach =
+        kInnerRadius *
+        std::max(shipped.capsule.min_radius, shipped.capsule.radius - shipped.capsule.speed * time);
     const HalfMean shells = measure(frames[k], frames[k], true, reach),
                    spheres = measure(frames[k], frames[k], false, reach),
                    same = measure(reference.frame[k], frames[k], true, reach);
     cells = static_cast<int>(frames[k].cells.size());
     if (shells.cells == 0 || spheres.cells == 0) continue;
-    if (!(same.pressure > kLowest && same.pressure < kHighest)) continue;
+    if (!(same.pressure > kLowestPressure && same.pressure < kHighestPressure)) continue;
     reached = same.pressure;
     const double p = jump(shells.pressure, spheres.pressure);
     pressure += p;
@@ -164,7 +167,7 @@ BenchRow compare(const PatchVariant& v, const std::string& folder, const runs::S
            {"cost", summary.cpu_s / reference.cpu}}};
 }
 
-/// A compression may end early where surfaces crumple: what was reached is compared.
+/// Runs a variant. Compressions may end early when surfaces crumple; what they reached is compared.
 void run(const PatchVariant& v, const std::string& folder, int threads) {
   const int code = runs::run_stage(v.scene, {folder, threads, true, false, "acinus bench patch"});
   check(code == static_cast<int>(Exit::kDone) || code == static_cast<int>(Exit::kCannotContinue),

@@ -1,14 +1,14 @@
 #pragma once
-/// How well the two models meet: a compressed ball, part of it deformable cells and the rest
-/// spheres, against the same ball of deformable cells only.
+/// Patch test of the model interface: a compressed ball of deformable cells and spheres against one
+/// of deformable cells alone.
 
 #include "bench/output/bench_table.hpp"
 
 namespace acinus::bench {
 
-/// The shipped patch_capsule with the zoom region moved and with plain spheres. Pressures are
-/// looked at whenever the deformable ball bears between 5 Pa and 250 Pa; figures are means over
-/// those moments. Runs stand in the folder "patch" of options.folder and are not made again.
+/// The shipped patch_capsule with shifted zoom regions and with plain spheres. Figures are means
+/// over all frames with a mean pressure of the deformable ball from 5 Pa to 250 Pa. Runs are kept
+/// in the folder "patch" of options.folder and not repeated.
 BenchTable bench_patch(const BenchOptions& options);
 
 }  // namespace acinus::bench

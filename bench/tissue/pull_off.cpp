@@ -30,16 +30,16 @@ struct PullOffPoint {
 
 double contact_radius(double area) { return std::sqrt(area / kPi); }
 
-/// A case with several orientations of the meshes.
+/// Pull-off force of a case over several mesh orientations.
 BenchRow measure(const std::string& name, PairCase c, const BenchOptions& options,
                  std::vector<PullOffPoint>& points) {
   OrientationSpread ratio, rigid, radius, distance, last_radius, last_distance, outside, lowest;
   for (int k = 0; k < options.seeds; ++k) {
     c.seed = options.first + k;
-    const PullOff p = find_pull_off(c);
+    const PullOff p = measure_pull_off(c);
     points.push_back({c.adhesion, p.force()});
     ratio.add(p.force() / vesicle_force(c));
-    rigid.add(find_rigid_pull_off(c) / (2 * vesicle_force(c)));
+    rigid.add(compute_rigid_pull_off(c) / (2 * vesicle_force(c)));
     radius.add(contact_radius(p.start.area));
     distance.add(p.start.distance);
     last_radius.add(contact_radius(p.last.area));
@@ -63,7 +63,7 @@ BenchRow measure(const std::string& name, PairCase c, const BenchOptions& option
   return row;
 }
 
-/// Straight line of force over adhesion energy by least squares.
+/// Least-squares line of force over adhesion energy.
 BenchRow fit(const std::string& name, const std::vector<PullOffPoint>& points, double radius) {
   OrientationSpread x, y;
   double product = 0;

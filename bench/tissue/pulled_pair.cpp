@@ -10,17 +10,17 @@
 #include "coupling/simulation.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/experiments/single_cell.hpp"
+#include "runs/experiments/pull_off_experiment.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
 
 namespace acinus::bench {
 namespace {
 
-constexpr double kStill = 2e-4;  ///< um/s
-constexpr double kRise = 0.2;    ///< first step of the force, in pi W R^
-constexpr int kHalvings = 5;     ///< of that step
-constexpr double kMost = 40;     ///< in pi W R^: no pair bears that
+constexpr double kRestSpeed = 2e-4;      ///< speed of a node at rest, um/s
+constexpr double kFirstIncrement = 0.2;  ///< first force increment, in pi W R^
+constexpr int kMostHalvings = 5;         ///< of the increment after separation
+constexpr double kMostForce = 40;        ///< force beyond any pull-off, in pi W R^
 
 runs::Scene make_scene(const PairCase& c) {
   runs::Scene scene = runs::read_scene(runs::scene_folder() + "/adhering_pair.json");
@@ -55,7 +55,8 @@ class PulledPair {
  public:
   explicit PulledPair(const PairCase& c) : hold_(c.hold), simulation_(make_world(c)) {}
 
-  /// Holds a force until the pair is at rest, or as long as it may. @return whether it is borne
+  /// Holds a force (nN) until the pair is at rest, or for the longest hold time.
+  /// @return true if the pair still adheres
   bool hold(double force) {
     dcm::State& cells = state().dcm;
     const Vec3 along = (center(1) - center(0)).normalized();
@@ -70,7 +71,7 @@ class PulledPair {
     return adheres();
   }
 
-  PairRest look() {
+  PairRest measure() {
     coupling::observe(simulation_.world(), simulation_.work());
     const auto adhesion = coupling::find_adhesion(simulation_.world(), simulation_.work());
     const auto nodes = coupling::measure_nodes(simulation_.world(), simulation_.work());
@@ -84,7 +85,7 @@ class PulledPair {
             tension.least};
   }
 
-  /// Attraction of the two with their centres at +-x, nN.
+  /// Attraction of the cells with their centres at +-x (um), nN.
   double attraction_at(double x) {
     for (const int k : {0, 1}) {
       const Vec3 shift = Vec3((k == 0 ? -1 : 1) * x, 0, 0) - center(k);
@@ -102,7 +103,7 @@ class PulledPair {
   bool is_still() {
     double largest = 0;
     for (const double x : state().last_move) largest = std::max(largest, std::abs(x));
-    return largest < kStill * state().clock.last_step;
+    return largest < kRestSpeed * state().clock.last_step;
   }
 
   coupling::World& world() { return simulation_.world(); }
@@ -113,7 +114,7 @@ class PulledPair {
   }
 
  private:
-  /// Both cells are of one type and mesh, in the order of the list.
+  /// Lanes of the two cells, which share type and mesh, in the order of the list.
   static constexpr std::array<std::size_t, 2> kLane{0, 1};
 
   Vec3 center(int cell) { return dcm::cell_center(state().dcm, kLane[cell]); }
@@ -129,22 +130,23 @@ double vesicle_force(const PairCase& c) {
   return runs::vesicle_pull_off(runs::pair_of(make_scene(c)));
 }
 
-PullOff find_pull_off(const PairCase& c) {
+PullOff measure_pull_off(const PairCase& c) {
   PulledPair pair(c);
   check(pair.hold(0), "bench pull-off: the cells do not adhere", Exit::kCannotContinue);
   PullOff result;
-  result.start = result.last = pair.look();
+  result.start = result.last = pair.measure();
   const double unit = vesicle_force(c);
   coupling::State borne = pair.state();
-  double rise = kRise * unit;
-  for (int halvings = 0; halvings <= kHalvings;) {
+  double rise = kFirstIncrement * unit;
+  for (int halvings = 0; halvings <= kMostHalvings;) {
     const double force = result.kept + rise;
-    check(force < kMost * unit, "bench pull-off: the cells do not let go", Exit::kCannotContinue);
+    check(force < kMostForce * unit, "bench pull-off: the cells do not let go",
+          Exit::kCannotContinue);
     const bool is_borne = pair.hold(force);
     if (is_borne) {
       borne = pair.state();
       result.kept = force;
-      result.last = pair.look();
+      result.last = pair.measure();
     } else {
       result.lost = force;
       pair.restore(borne);
@@ -167,15 +169,15 @@ HeldPair hold_pair(const PairCase& c, double force, bool after_cohesive) {
   const coupling::Clock before = pair.state().clock;
   check(pair.hold(0), "bench contact-laws: the cells let go", Exit::kCannotContinue);
   result.is_still = pair.is_still();
-  result.free = pair.look();
+  result.free = pair.measure();
   result.steps = pair.state().clock.accepted - before.accepted;
   result.rejected = pair.state().clock.rejected - before.rejected;
   result.is_borne = pair.hold(force);
-  result.held = pair.look();
+  result.held = pair.measure();
   return result;
 }
 
-double find_rigid_pull_off(const PairCase& c) {
+double compute_rigid_pull_off(const PairCase& c) {
   PulledPair pair(c);
   const double radius = make_scene(c).cell_types.begin()->second.radius;
   double largest = 0, place = radius;
@@ -189,7 +191,7 @@ double find_rigid_pull_off(const PairCase& c) {
   return largest;
 }
 
-double find_rigid_push(const PairCase& c, double distance) {
+double compute_rigid_push(const PairCase& c, double distance) {
   return -PulledPair(c).attraction_at(0.5 * distance);
 }
 

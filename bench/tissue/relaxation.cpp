@@ -22,18 +22,18 @@ namespace acinus::bench {
 namespace {
 
 constexpr double kHour = 3600;
-constexpr double kHolds[] = {1 * kHour, 10 * kHour};
-/// When it is looked at what of the compression is left, s after the release.
-constexpr std::pair<const char*, double> kLooks[] = {
+constexpr double kHoldTimes[] = {1 * kHour, 10 * kHour};
+/// Sampling times of the remaining compression, s after the release.
+constexpr std::pair<const char*, double> kSampleTimes[] = {
     {"10s", 10}, {"10min", 600}, {"1h", kHour}, {"5h", 5 * kHour}, {"24h", 24 * kHour}};
 
-/// What stands in one row.
+/// Variant of a relaxation scene with its row and run folder.
 struct RelaxationVariant {
   std::string name, folder;
   runs::Scene scene;
 };
 
-/// Time at which the compression stops.
+/// Time at which the compression ends, s.
 double end_of_compression(const runs::Scene& scene) {
   double t = scene.capsule.enabled
                  ? (scene.capsule.radius - scene.capsule.min_radius) / scene.capsule.speed
@@ -43,7 +43,7 @@ double end_of_compression(const runs::Scene& scene) {
   return t;
 }
 
-/// The same compression, held for another time; what follows lasts as long as in the shipped scene.
+/// Sets the hold time of a compression (s); the recovery lasts as long as in the shipped scene.
 void hold(double time, runs::Scene& scene) {
   const double after = scene.time.end - runs::next_opening(scene, -1),
                opens = end_of_compression(scene) + time;
@@ -52,7 +52,9 @@ void hold(double time, runs::Scene& scene) {
   scene.time.end = opens + after;
 }
 
-/// Deformable cells, or spheres if there are no nodes.
+/// Variant with deformable cells, or with spheres for nodes = 0.
+/// @param held  hold time, s
+/// @param form  friction form or law of the variant
 RelaxationVariant make_variant(const runs::Scene& shipped, double held, int nodes,
                                const std::string& form) {
   RelaxationVariant v{"", "", shipped};
@@ -80,7 +82,7 @@ RelaxationVariant make_variant(const runs::Scene& shipped, double held, int node
 
 std::vector<RelaxationVariant> make_variants(const runs::Scene& shipped) {
   std::vector<RelaxationVariant> all;
-  for (const double held : kHolds) {
+  for (const double held : kHoldTimes) {
     for (const int nodes : {162, 642})
       for (const char* form : {"surface", "nodes"})
         all.push_back(make_variant(shipped, held, nodes, form));
@@ -90,7 +92,7 @@ std::vector<RelaxationVariant> make_variants(const runs::Scene& shipped) {
   return all;
 }
 
-/// Figures of a run: the overlap from a capsule, the height from between plates.
+/// Row of a run: overlap after a capsule, height after plates.
 BenchRow make_row(const RelaxationVariant& v, const std::string& folder) {
   const runs::RunSummary summary = runs::read_summary(folder);
   const std::string name = v.scene.capsule.enabled ? "overlap" : "height";
@@ -110,7 +112,7 @@ BenchRow make_row(const RelaxationVariant& v, const std::string& folder) {
   for (std::size_t k = from; k < time.size(); ++k) since.push_back(time[k] - release);
   row.value.emplace_back(name + "_compressed", after.front());
   const double compression = y.front() - after.front();
-  for (const auto& [label, t] : kLooks)
+  for (const auto& [label, t] : kSampleTimes)
     row.value.emplace_back(fmt::format("left_after_{}", label),
                            (y.front() - calibration::value_at(t, since, after)) / compression);
   for (const char* what : {"back_10s", "efold_h", "return_h"})

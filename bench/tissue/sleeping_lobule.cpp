@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "coupling/measure/difference.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/shipped_scenes.hpp"
@@ -19,23 +17,23 @@
 namespace acinus::bench {
 namespace {
 
-/// The scene's cells rest for so long, s, before some of them begin to grow.
-constexpr double kSettle = 3600;
-/// Compared window and interval between samples of pressures, s.
-constexpr double kWindow = 3 * 3600, kEvery = 1800;
+/// Rest of the cells before some begin to grow, s.
+constexpr double kRestTime = 3600;
+/// Length of the comparison and interval of pressure samples, s.
+constexpr double kWindow = 3 * 3600, kSampleInterval = 1800;
 
-/// By lineage, kPa: contact pressure and that of the cytosol.
+/// Contact pressure and cytosol pressure by lineage, kPa.
 using Pressures = std::map<std::int64_t, std::pair<double, double>>;
 
 struct Record {
   double cpu = 0;    ///< s
-  double awake = 0;  ///< mean share of the cells
-  double grows = 0;  ///< the same of those that grow
+  double awake = 0;  ///< mean share of awake cells
+  double grows = 0;  ///< mean share of growing cells
   std::int64_t divisions = 0;
   std::vector<Pressures> pressure;
 };
 
-/// Steps until `end`, s since t = 0.
+/// Runs a simulation until `end`, s since t = 0.
 void run_until(coupling::Simulation& simulation, double end,
                const coupling::Observer& observer = {}) {
   const coupling::LoopResult result = simulation.run_until(end, observer);
@@ -50,7 +48,7 @@ Pressures measure(const coupling::World& world, coupling::Workspace& work) {
   return p;
 }
 
-/// One of the two runs.
+/// One of the two compared runs.
 struct Twin {
   coupling::Simulation simulation;
   Record record{};
@@ -60,10 +58,10 @@ struct Twin {
     simulation.resize();
   }
 
-  /// Steps for a while.
+  /// Runs for a duration, s.
   void run(double duration) { run_until(simulation, simulation.time() + duration); }
 
-  /// The same, recorded.
+  /// Runs for a duration (s) and records cost, shares and pressures.
   void run_recorded(double duration) {
     const coupling::State& s = simulation.world().state;
     const double cpu = cpu_seconds();
@@ -102,10 +100,10 @@ BenchTable bench_sleep(const BenchOptions&) {
   coupling::Simulation start(runs::build_world(scene, Ranks::serial()).world);
   run_until(start, 0);
   Twin awake(start.world(), false), asleep(start.world(), true);
-  for (Twin* twin : {&awake, &asleep}) twin->run(kSettle);
+  for (Twin* twin : {&awake, &asleep}) twin->run(kRestTime);
   // In turns: the machine has slow and fast minutes.
-  for (double t = 0; t < kWindow - 1; t += kEvery)
-    for (Twin* twin : {&awake, &asleep}) twin->run_recorded(kEvery);
+  for (double t = 0; t < kWindow - 1; t += kSampleInterval)
+    for (Twin* twin : {&awake, &asleep}) twin->run_recorded(kSampleInterval);
   const Record &reference = awake.record, &record = asleep.record;
   using Both = std::pair<double, double>;
   BenchRow row{"lobule with resting cells, 3 h",

@@ -17,15 +17,15 @@
 namespace acinus::bench {
 namespace {
 
-/// What a case has come to.
+/// Results of a case.
 struct CaseReport {
-  std::string text;  ///< markdown
+  std::string text;  ///< Markdown
   BenchTable rows;
   std::vector<PrecisionOutcome> time, space;
-  std::vector<std::vector<PrecisionOutcome>> study;  ///< of time, one by one
+  std::vector<std::vector<PrecisionOutcome>> study;  ///< time-stepping studies, one by one
 };
 
-/// Adds to the text and prints.
+/// Appends to the text and prints it.
 void say(CaseReport& report, const std::string& text) {
   report.text += text;
   fmt::print("{}", text);
@@ -85,7 +85,7 @@ BenchTable bench_case(const WorkCase& c, const BenchOptions& options) {
   return report.rows;
 }
 
-/// Outcomes of one method with fixed steps.
+/// Outcomes of one integrator with fixed steps.
 std::vector<PrecisionOutcome> of_method(const std::vector<PrecisionOutcome>& outcomes,
                                         coupling::Integrator method) {
   std::vector<PrecisionOutcome> own;
@@ -95,8 +95,8 @@ std::vector<PrecisionOutcome> of_method(const std::vector<PrecisionOutcome>& out
   return own;
 }
 
-/// That of the longest step up to `most`, s; null: none. A short window has no room for very long
-/// steps.
+/// Successful outcome with the longest step up to `most` (s), since a short window excludes longer
+/// ones; null if there is none.
 const PrecisionOutcome* find_longest_step(const std::vector<PrecisionOutcome>& outcomes,
                                           double most) {
   const PrecisionOutcome* longest = nullptr;
@@ -109,8 +109,8 @@ const PrecisionOutcome* find_longest_step(const std::vector<PrecisionOutcome>& o
 
 constexpr int kTurns = 3;
 
-/// CPU rates of explicit Euler over those of the linearly implicit step that is as good, and of its
-/// usual step, timed in turns; sorted.
+/// Sorted ratios of the CPU rate of explicit Euler to that of the linearly implicit integrator,
+/// with a step of equal error and with its usual step, timed in turns.
 std::pair<std::vector<double>, std::vector<double>> time_in_turns(WarmScene& scene,
                                                                   const PrecisionOutcome& slow,
                                                                   const PrecisionOutcome& fast,
@@ -129,22 +129,22 @@ std::pair<std::vector<double>, std::vector<double>> time_in_turns(WarmScene& sce
   return {ratio, usual_ratio};
 }
 
-/// What the linearly implicit method saves against explicit Euler at the same error. Explicit Euler
-/// takes too long for the long window, so CPU times per simulated time are compared, each method
-/// with its cheapest setting over the window it was measured on; the two are timed in turns.
+/// Speed-up of the linearly implicit integrator over explicit Euler at equal error. Explicit Euler
+/// is too slow for the long window, so CPU times per simulated time are compared, each with its
+/// cheapest setting over the window it was measured on.
 BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                                  const std::vector<PrecisionOutcome>& long_window,
                                  const std::vector<PrecisionOutcome>& short_window,
                                  CaseReport& report) {
-  constexpr double kError = 0.02;
+  constexpr double kComparedError = 0.02;
   const auto explicits = of_method(short_window, coupling::Integrator::kExplicitEuler);
   const auto implicits = of_method(long_window, coupling::Integrator::kLinearlyImplicit);
   const auto brief = of_method(short_window, coupling::Integrator::kLinearlyImplicit);
-  const PrecisionOutcome *slow = find_cheapest(explicits, kError),
-                         *fast = find_cheapest(implicits, kError);
+  const PrecisionOutcome *slow = find_cheapest(explicits, kComparedError),
+                         *fast = find_cheapest(implicits, kComparedError);
   if (!slow || !fast) {
-    say(report,
-        fmt::format("\nNo ratio to explicit Euler: no setting within {:g} %.\n", 100 * kError));
+    say(report, fmt::format("\nNo ratio to explicit Euler: no setting within {:g} %.\n",
+                            100 * kComparedError));
     return {};
   }
   // The usual step is more careful than the error asks for; its ratio is what users see.
@@ -159,9 +159,9 @@ BenchTable compare_with_explicit(const WorkCase& c, WarmScene& scene,
                   "within {:g} %: **{:.0f}** (from {:.0f} to {:.0f} in {} turns).\nExplicit Euler: "
                   "dt {:g} s, {:.2g} % over {:g} s, the cheapest of its settings within the limit. "
                   "Linearly implicit: dt {:g} s, {:.2g} % over {:g} s",
-                  100 * kError, middle, ratio.front(), ratio.back(), kTurns, slow->setting.step,
-                  100 * slow->main_error, slow->window, fast->setting.step, 100 * fast->main_error,
-                  fast->window));
+                  100 * kComparedError, middle, ratio.front(), ratio.back(), kTurns,
+                  slow->setting.step, 100 * slow->main_error, slow->window, fast->setting.step,
+                  100 * fast->main_error, fast->window));
   BenchRow row{c.scene.title + ": explicit Euler over linearly implicit",
                slow->cells,
                {{"cpu_ratio", middle},

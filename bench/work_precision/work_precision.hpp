@@ -1,6 +1,6 @@
 #pragma once
-/// Error against CPU time for every choice of numerics (docs/work_precision.md): tables in
-/// markdown, plots as SVG, and the cheapest setting for a wanted error.
+/// Work-precision benchmarks of all numerical settings (docs/work_precision.md): Markdown tables,
+/// SVG plots, and the cheapest setting for a given error.
 
 #include "bench/output/bench_table.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <set>
 
-#include "coupling/step/integrator.hpp"
+#include "coupling/step/step.hpp"
 
 namespace acinus::bench {
 namespace {
@@ -19,19 +19,17 @@ std::string name_space(const Discretisation& d) {
   return fmt::format("{} nodes, {}", d.nodes, d.quadrature);
 }
 
-/// "60 s", "up to 60 s for 0.01 um"
+/// Name of a step setting: "60 s", "up to 60 s for 0.01 um".
 std::string name_step(const PrecisionSetting& s) {
   return s.adaptive ? fmt::format("up to {:g} s for {:g} um", s.step, s.tolerance)
                     : fmt::format("{:g} s", s.step);
 }
 
-/// Short enough for the legend of a plot.
+/// Short name of an integrator for the legend of a plot.
 const char* short_name(coupling::Integrator integrator) {
   switch (integrator) {
     case coupling::Integrator::kExplicitEuler:
       return "explicit";
-    case coupling::Integrator::kRos2:
-      return "ROS2";
     case coupling::Integrator::kNewton:
       return "Newton";
     case coupling::Integrator::kLinearlyImplicit:
@@ -40,7 +38,7 @@ const char* short_name(coupling::Integrator integrator) {
   return "implicit";
 }
 
-/// Which line of a plot an outcome belongs to.
+/// Name of the plot line that an outcome belongs to.
 std::string series_of(const PrecisionOutcome& e, bool deformable, bool spatial,
                       double usual_window) {
   const PrecisionSetting& s = e.setting;

@@ -11,16 +11,15 @@
 #include "coupling/measure/difference.hpp"
 #include "coupling/measure/measure.hpp"
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 
 namespace acinus::bench {
 namespace {
 
-/// Runs that are shorter are timed again, up to kRepeats times, CPU s.
-constexpr double kLongEnough = 1;
-constexpr int kRepeats = 3;
+/// CPU time below which a run is repeated, up to kMostRepeats times, s.
+constexpr double kLeastTimedCpu = 1;
+constexpr int kMostRepeats = 3;
 
 void set_numerics(const PrecisionSetting& setting, coupling::Numerics& n) {
   const coupling::Numerics usual;
@@ -34,7 +33,7 @@ void set_numerics(const PrecisionSetting& setting, coupling::Numerics& n) {
   n.extrapolate = setting.extrapolate;
 }
 
-/// Steps until there are so many cells.
+/// Runs until the simulation has at least so many cells.
 coupling::LoopResult grow_to(coupling::Simulation& simulation, int cells) {
   const auto enough = [&] { return coupling::count_cells(simulation.world().state) >= cells; };
   if (enough()) return {};
@@ -52,8 +51,8 @@ double extent(const std::vector<Vec3>& point, const Vec3& axis) {
   return high - low;
 }
 
-/// Relative growth of the first deformable cell's extent beyond that of its mesh at rest.
-/// @pre  the cell's mesh has not been turned
+/// Strain of the first deformable cell along an axis, relative to its rest mesh.
+/// @pre the mesh is not rotated
 double strain_of_first(const coupling::State& state, const Vec3& axis) {
   std::vector<Vec3> node;
   dcm::copy_nodes(state.dcm, 0, node);
@@ -126,8 +125,8 @@ Trajectory WarmScene::run(const PrecisionSetting& setting, double window, int sa
   return t;
 }
 
-/// The cells that are there in another sample too. A division that falls a step later leaves the
-/// mother in one and her daughters in the other.
+/// Restricts a sample to the cells of another one. A division one step later leaves the mother in
+/// one sample and her daughters in the other.
 Sample select_common(const Sample& from, const Sample& other) {
   Sample s;
   s.strain = from.strain;
@@ -184,7 +183,7 @@ std::vector<PrecisionOutcome> run_study(WarmScene& scene, const PrecisionStudy& 
   for (const PrecisionSetting& setting : study.setting) {
     Trajectory t = scene.run(setting, study.window, study.samples);
     std::vector<double> cpu{t.cpu};
-    while (t.failure.empty() && t.cpu < kLongEnough && cpu.size() < kRepeats)
+    while (t.failure.empty() && t.cpu < kLeastTimedCpu && cpu.size() < kMostRepeats)
       cpu.push_back(scene.run(setting, study.window, study.samples).cpu);
     std::ranges::sort(cpu);
     PrecisionOutcome e{setting, t.failure, cpu[cpu.size() / 2], study.window,

@@ -8,19 +8,19 @@ namespace acinus {
 namespace {
 
 constexpr int kWordBits = 32;
-constexpr int kFraction = 52;               ///< bits of a double behind its leading one
-constexpr std::uint64_t kExponents = 2047;  ///< the largest exponent field: not finite
-constexpr int kUnit = -1075;                ///< power of two of the lowest bit of word 0
-/// A term adds less than 2^52 to a word, which has room for 2^63.
+constexpr int kMantissaBits = 52;                   ///< stored mantissa bits of a double
+constexpr std::uint64_t kNotFiniteExponent = 2047;  ///< exponent field of infinity and NaN
+constexpr int kLowestPower = -1075;                 ///< power of two of the lowest bit of word 0
+/// Terms between two carries: each adds less than 2^52 to a word, which overflows at 2^63.
 constexpr int kMostTerms = 2047;
 
 __extension__ using Wide = unsigned __int128;
 
-/// An integer of 96 bits or less times 2^power, rounded to even.
+/// Double nearest to v * 2^power, ties to even. @param v  96 bits or less
 double round_to_double(Wide v, int power) {
   int top = 127;
   while (top > 0 && ((v >> top) & 1) == 0) --top;
-  if (const int shift = top - kFraction; shift > 0) {
+  if (const int shift = top - kMantissaBits; shift > 0) {
     const Wide half = static_cast<Wide>(1) << (shift - 1);
     const Wide rest = v & ((half << 1) - 1);
     v >>= shift;
@@ -34,16 +34,16 @@ double round_to_double(Wide v, int power) {
 
 void ExactSum::add(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
-  std::uint64_t exponent = (bits >> kFraction) & kExponents;
-  if (exponent == kExponents) {
+  std::uint64_t exponent = (bits >> kMantissaBits) & kNotFiniteExponent;
+  if (exponent == kNotFiniteExponent) {
     ++word_[std::isnan(value) ? kNan : value > 0 ? kPlusInfinity : kMinusInfinity];
     return;
   }
-  std::uint64_t digits = bits & ((std::uint64_t{1} << kFraction) - 1);
+  std::uint64_t digits = bits & ((std::uint64_t{1} << kMantissaBits) - 1);
   if (exponent == 0)
     exponent = 1;
   else
-    digits |= std::uint64_t{1} << kFraction;
+    digits |= std::uint64_t{1} << kMantissaBits;
   const std::uint64_t word = exponent / kWordBits, shift = exponent % kWordBits;
   const auto low = static_cast<std::int64_t>((digits << shift) & 0xffffffffU);
   const auto high = static_cast<std::int64_t>(digits >> (kWordBits - shift));
@@ -61,7 +61,7 @@ void ExactSum::add(const ExactSum& other) {
   carry();
 }
 
-/// Leaves 32 bits in each word but the last, which has the sign.
+/// Propagates carries: each word but the last, which has the sign, keeps 32 bits.
 void ExactSum::carry() {
   for (int k = 0; k + 1 < kDigitWords; ++k) {
     const std::int64_t over = word_[k] >> kWordBits;  // towards minus infinity
@@ -98,7 +98,7 @@ double ExactSum::value() const {
     leading = (leading << kWordBits) | static_cast<std::uint64_t>(sum.word_[k]);
   for (int k = 0; k < last; ++k)
     if (sum.word_[k] != 0) leading |= 1;
-  const double size = leading == 0 ? 0 : round_to_double(leading, kUnit + kWordBits * last);
+  const double size = leading == 0 ? 0 : round_to_double(leading, kLowestPower + kWordBits * last);
   return negative ? -size : size;
 }
 

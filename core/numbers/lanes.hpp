@@ -1,5 +1,5 @@
 #pragma once
-/// Eight cells side by side: a Lane holds one number of each of the eight cells of a group.
+/// Lanes: the vectors of eight numbers, one for each of the eight cells of a group.
 ///
 /// Layout of every per-point array: [point][component][lane]. A point's address is the index of its
 /// x component; y and z follow at +kLanes and +2 kLanes. Kernels marked ACINUS_KERNEL are compiled
@@ -24,8 +24,8 @@
 
 namespace acinus {
 
-/// Eight numbers side by side: double where forces and positions are meant, float inside the
-/// iterations of the solver.
+/// Vector of eight numbers: double for forces and positions, float inside the iterations of the
+/// solver.
 template <class T>
 struct LaneType;
 template <>
@@ -63,14 +63,14 @@ inline void add_point(double* array, Address address, const Vec3& value) {
   array[address + 2 * kLanes] += value.z();
 }
 
-/// Reads eight numbers; T names the lanes wanted, the array may hold the other type.
+/// Loads eight numbers. T is the number type of the result; the array may hold the other type.
 template <class T = double, class From>
 ACINUS_INLINE LaneOf<T> load(const From* p) {
   LaneOf<From> v;
   __builtin_memcpy(&v, p, sizeof(v));
   return __builtin_convertvector(v, LaneOf<T>);
 }
-/// Writes eight numbers, rounded if the array holds floats.
+/// Stores eight numbers, rounded if the array holds floats.
 template <class To, class V>
 ACINUS_INLINE void store(To* p, V v) {
   const LaneOf<To> out = __builtin_convertvector(v, LaneOf<To>);
@@ -95,7 +95,7 @@ ACINUS_INLINE double sum_lanes(LaneOf<T> v) {
   return sum;
 }
 
-/// Three lanes: the same vector quantity of eight cells.
+/// Vector quantity of eight cells, as three lanes.
 template <class T>
 struct Lane3Of {
   LaneOf<T> x, y, z;

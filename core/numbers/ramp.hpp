@@ -1,10 +1,10 @@
 #pragma once
-/// A value that runs linearly from one number to another between two times.
+/// Linear ramp of a value between two times.
 
 namespace acinus {
 
 struct Ramp {
-  double from = 0, to = 0;    ///< values
+  double from = 0, to = 0;    ///< values at start and end
   double start = 0, end = 0;  ///< s
 
   static Ramp constant(double value) { return {value, value, 0, 0}; }

@@ -1,7 +1,7 @@
 #pragma once
 /// Random numbers without state: every number is a pure function of its address (cell, purpose,
-/// time, which), so a rejected step, a restart or another number of threads and ranks meets the
-/// same numbers again.
+/// time interval, draw), so a rejected step, a restart or another number of threads and ranks draws
+/// the same numbers again.
 ///
 /// Generator: Philox4x64-10 [Salmon2011], a bijection of a 256 bit counter for each 128 bit key.
 /// The address is packed, never hashed: different addresses are different inputs, and under one key
@@ -22,8 +22,8 @@
 
 namespace acinus {
 
-/// What a number is for. Stored values: append only, never renumber, or saved runs change their
-/// course.
+/// Purpose of a random number, part of its address. Stored values: append only, never renumber, or
+/// saved runs change their course.
 enum class Purpose : std::uint32_t {
   kTest = 0,
   kMotility = 1,
@@ -45,12 +45,13 @@ enum class Purpose : std::uint32_t {
 struct RandomKey {
   std::uint64_t seed = 0;
   Purpose purpose = Purpose::kTest;
-  std::uint64_t id = 0;        ///< lineage id of the cell, or index of the thing placed
-  std::uint64_t interval = 0;  ///< index on the fixed time grid, never of a step: steps are retried
-  std::uint32_t draw = 0;      ///< which number of this id and interval
+  std::uint64_t id = 0;        ///< lineage id of the cell, or index of the placed object
+  std::uint64_t interval = 0;  ///< index on the fixed time grid, not of a step: steps are retried
+  std::uint32_t draw = 0;      ///< number of the draw within this id and interval
 };
 
-/// The 4 words of an address. All functions below read the same block: one address, one use.
+/// Block of 4 random words at an address. All functions below read the same block: one address, one
+/// use.
 std::array<std::uint64_t, 4> random_words(const RandomKey& key, std::uint32_t retry = 0);
 
 /// Uniform on the open interval (0, 1): (k + 1/2) 2^-52, k = 0 .. 2^52 - 1; 0 and 1 never occur.

@@ -1,9 +1,9 @@
 #pragma once
-/// Rounding that the compiler must not undo.
+/// Rounding to float that the compiler must not remove.
 
 namespace acinus {
 
-/// v rounded to float. g++ 12 drops the rounding of a vectorised narrowing that is widened again at
+/// Float nearest to v. g++ 12 drops the rounding of a vectorised narrowing that is widened again at
 /// once; the empty statement keeps it.
 inline float round_to_float(double v) {
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -1,5 +1,5 @@
 #pragma once
-/// A value that is known at some times and runs straight between them.
+/// Piecewise linear function of time.
 
 #include <algorithm>
 #include <limits>
@@ -7,16 +7,16 @@
 
 namespace acinus {
 
-/// Two entries of one time are a jump: the later one holds from then on. Before the first entry and
-/// after the last the value is theirs.
+/// Piecewise linear values over time, constant before the first entry and after the last. Two
+/// entries of one time are a jump: the later one holds from then on.
 struct Schedule {
   struct Point {
     double time = 0;  ///< s
     double value = 0;
   };
-  std::vector<Point> entry;  ///< times never fall
+  std::vector<Point> entry;  ///< times never decrease
 
-  /// @pre there is an entry
+  /// Value at a time, s. @pre there is an entry
   double at(double time) const {
     const auto after = std::ranges::upper_bound(entry, time, {}, &Point::time);
     if (after == entry.begin()) return after->value;
@@ -25,7 +25,7 @@ struct Schedule {
     return a.value + (after->value - a.value) * (time - a.time) / (after->time - a.time);
   }
 
-  /// The time of the first entry later than `time`; infinite if there is none.
+  /// Time of the first entry later than `time`, s; infinite if there is none.
   double next(double time) const {
     const auto after = std::ranges::upper_bound(entry, time, {}, &Point::time);
     return after == entry.end() ? std::numeric_limits<double>::infinity() : after->time;

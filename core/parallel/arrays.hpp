@@ -1,5 +1,5 @@
 #pragma once
-/// Long arrays of numbers, some for every point, written by all threads.
+/// Filling and copying of long arrays over all points by all threads.
 
 #include <cstddef>
 
@@ -8,20 +8,20 @@
 
 namespace acinus {
 
-/// Sets all to zero.
+/// Sets all numbers to zero.
 template <class V>
 void clear_numbers(V& v) {
   for_each_number(v.size(), [&](std::size_t k) { v[k] = 0; });
 }
 
-/// n zeros.
+/// Resizes to n zeros.
 template <class V>
 void assign_zeros(V& v, std::size_t n) {
   set_size(v, n);
   clear_numbers(v);
 }
 
-/// `to` becomes like `from`.
+/// Copies `from` to `to`, which gets the same length.
 template <class From, class To>
 void copy_numbers(const From& from, To& to) {
   set_size(to, from.size());

@@ -1,20 +1,20 @@
 #pragma once
-/// Clocks of the system.
+/// System clocks.
 
 #include <ctime>
 
 namespace acinus {
 
-/// Seconds of a clock of the system.
+/// Time of a system clock, s.
 double read_clock(clockid_t clock);
 
-/// Seconds of a clock that never jumps; only differences mean something.
+/// Monotonic wall time, s; only differences have a meaning.
 double wall_seconds();
 
-/// CPU seconds of all threads of this process since its start.
+/// CPU time of all threads of this process since its start, s.
 double cpu_seconds();
 
-/// CPU seconds of the calling thread.
+/// CPU time of the calling thread, s.
 double thread_cpu_seconds();
 
 }  // namespace acinus

@@ -1,21 +1,21 @@
 #pragma once
-/// Memory for arrays that are kept and change their length little from step to step.
+/// Capacity of arrays that are kept and change their length little from step to step.
 
 #include <cstddef>
 
 namespace acinus {
 
-/// Room for n more elements, and for a sixteenth of all if there was not enough. An array that is
-/// a little longer every step must not move every step: that costs as much as what is written to
-/// it. What push_back would double: a step's arrays are most of a program's memory, and half of it
-/// would stand empty.
+/// Ensures capacity for n more elements; where it must grow, by a sixteenth of the length more. An
+/// array that is a little longer every step is then seldom moved, which costs as much as writing
+/// it. Doubling, as push_back does, would leave half of a step's arrays unused, and these are most
+/// of the program's memory.
 template <class V>
 void make_room(V& v, std::size_t n) {
   const std::size_t all = v.size() + n;
   if (all > v.capacity()) v.reserve(all + all / 16);
 }
 
-/// v.resize(n) that makes room in this way.
+/// Resizes v to n elements with this growth of the capacity.
 template <class V>
 void set_size(V& v, std::size_t n) {
   if (n > v.size()) make_room(v, n - v.size());

@@ -10,7 +10,7 @@
 namespace acinus {
 namespace {
 
-/// Memory that a control group allows, bytes; infinite: any.
+/// Memory limit of the control group, bytes; infinite if there is none.
 double group_limit() {
   std::ifstream file("/sys/fs/cgroup/memory.max");
   double bytes = 0;

@@ -10,7 +10,7 @@
 namespace acinus {
 namespace {
 
-/// What Zoltan asks about: each process tells of a run of the places.
+/// Points to partition, for Zoltan's queries. Each process contributes the run [first, last).
 struct SharedPlaces {
   std::span<const Vec3> place;
   std::span<const double> cost;
@@ -18,31 +18,51 @@ struct SharedPlaces {
 };
 const SharedPlaces& of(void* data) { return *static_cast<const SharedPlaces*>(data); }
 
-int count(void* data, int* error) {
+int count_points(void* data, int* error) {
   *error = ZOLTAN_OK;
   return static_cast<int>(of(data).last - of(data).first);
 }
 
-void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR, int, float* weight,
-          int* error) {
-  const SharedPlaces& p = of(data);
+/// Arguments of Zoltan's query for the list of objects.
+struct ListQuery {
+  void* data;
+  int n_global, n_local;
+  ZOLTAN_ID_PTR global, local;
+  int n_weight;
+  float* weight;
+  int* error;
+};
+
+/// Writes the numbers and costs of the points that this process contributes.
+void list_points(const ListQuery& q) {
+  const SharedPlaces& p = of(q.data);
   for (std::size_t k = p.first; k < p.last; ++k) {
-    *global++ = static_cast<ZOLTAN_ID_TYPE>(k);
-    *weight++ = static_cast<float>(p.cost[k]);
+    q.global[k - p.first] = static_cast<ZOLTAN_ID_TYPE>(k);
+    q.weight[k - p.first] = static_cast<float>(p.cost[k]);
   }
-  *error = ZOLTAN_OK;
+  *q.error = ZOLTAN_OK;
 }
 
-int dimensions(void*, int* error) {
+int count_dimensions(void*, int* error) {
   *error = ZOLTAN_OK;
   return 3;
 }
 
-void locate(void* data, int, int, int n, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR, int, double* at,
-            int* error) {
-  for (int k = 0; k < n; ++k)
-    for (int c = 0; c < 3; ++c) *at++ = of(data).place[global[k]][c];
-  *error = ZOLTAN_OK;
+/// Arguments of Zoltan's query for the coordinates of objects.
+struct PlaceQuery {
+  void* data;
+  int n_global, n_local, n_object;
+  ZOLTAN_ID_PTR global, local;
+  int n_dimension;
+  double* coordinate;
+  int* error;
+};
+
+/// Writes the coordinates of points, um.
+void locate_points(const PlaceQuery& q) {
+  for (int k = 0; k < q.n_object; ++k)
+    for (int c = 0; c < 3; ++c) q.coordinate[3 * k + c] = of(q.data).place[q.global[k]][c];
+  *q.error = ZOLTAN_OK;
 }
 
 void require(int status, const char* what) {
@@ -51,7 +71,7 @@ void require(int status, const char* what) {
         Exit::kInternal);
 }
 
-/// Zoltan with its settings.
+/// Zoltan instance with its parameters.
 class Partitioner {
  public:
   Partitioner(const Ranks& ranks, SharedPlaces& places) {
@@ -65,16 +85,18 @@ class Partitioner {
                                             {"IMBALANCE_TOL", "1.02"}};
     for (const auto& [name, value] : kSettings)
       require(Zoltan_Set_Param(zoltan_, name, value), name);
-    Zoltan_Set_Num_Obj_Fn(zoltan_, count, &places);
+    const ZOLTAN_OBJ_LIST_FN* list = [](auto... argument) { list_points({argument...}); };
+    const ZOLTAN_GEOM_MULTI_FN* locate = [](auto... argument) { locate_points({argument...}); };
+    Zoltan_Set_Num_Obj_Fn(zoltan_, count_points, &places);
     Zoltan_Set_Obj_List_Fn(zoltan_, list, &places);
-    Zoltan_Set_Num_Geom_Fn(zoltan_, dimensions, &places);
+    Zoltan_Set_Num_Geom_Fn(zoltan_, count_dimensions, &places);
     Zoltan_Set_Geom_Multi_Fn(zoltan_, locate, &places);
   }
   ~Partitioner() { Zoltan_Destroy(&zoltan_); }
   Partitioner(const Partitioner&) = delete;
   Partitioner& operator=(const Partitioner&) = delete;
 
-  /// f(place, rank) for the places of this process.
+  /// Partitions the points; calls f(point, rank) for those that this process contributed.
   template <class F>
   void run(F f) {
     int changes = 0, n_global = 0, n_local = 0, n_import = 0, n_export = 0;
@@ -100,8 +122,7 @@ std::vector<int> partition(const Ranks& ranks, std::span<const Vec3> place,
   ACINUS_ASSERT(place.size() == cost.size());
   std::vector<int> owner(place.size(), 0);
   if (ranks.is_alone()) return owner;
-  const auto n_rank = static_cast<std::size_t>(ranks.size()),
-             rank = static_cast<std::size_t>(ranks.rank());
+  const std::size_t n_rank = ranks.size(), rank = ranks.rank();
   if (place.size() <= n_rank) {  // which Zoltan does not take
     for (std::size_t k = 0; k < place.size(); ++k) owner[k] = static_cast<int>(k);
     return owner;

@@ -1,6 +1,5 @@
 #pragma once
-/// Shares places in space among processes, so that each has about the same cost and they have few
-/// neighbours.
+/// Partition of points in space among processes: about equal cost for each, and few neighbours.
 
 #include <span>
 #include <vector>
@@ -10,10 +9,11 @@
 
 namespace acinus {
 
-/// Recursive coordinate bisection, by Zoltan. To be called by all processes with the same numbers.
-/// @param place  um, of what is shared
-/// @param cost   [the same] > 0
-/// @return the rank of each, the same on all processes
+/// Partitions points by recursive coordinate bisection (Zoltan). Collective; all processes pass the
+/// same arrays.
+/// @param place  [n] um
+/// @param cost   [n] above 0
+/// @return [n] rank of each point, the same on all processes
 std::vector<int> partition(const Ranks& ranks, std::span<const Vec3> place,
                            std::span<const double> cost);
 

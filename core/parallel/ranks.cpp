@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -48,11 +47,11 @@ bool started_by_launcher() {
   return std::getenv("PMIX_RANK") != nullptr;  // tells no size: let MPI say
 }
 
-constexpr std::size_t kLargestCount = std::size_t{1} << 30;  ///< bytes of one call of MPI
+constexpr std::size_t kLargestCount = std::size_t{1} << 30;  ///< bytes in one MPI call
 
 Traffic g_traffic;
 
-/// Adds the time of a call to what is waited.
+/// Adds the duration of a call to the time spent waiting.
 class Waiting {
  public:
   Waiting() : started_(MPI_Wtime()) {}
@@ -156,7 +155,7 @@ int Ranks::agree_worst(int exit_code) const {
 
 std::vector<std::size_t> Ranks::gather_sizes(std::size_t own_bytes) const {
   const Waiting waiting;
-  std::vector<std::size_t> bytes(static_cast<std::size_t>(size_));
+  std::vector<std::size_t> bytes(size_);
   MPI_Allgather(&own_bytes, sizeof own_bytes, MPI_BYTE, bytes.data(), sizeof own_bytes, MPI_BYTE,
                 handle(communicator_));
   std::vector<std::size_t> start{0};
@@ -168,7 +167,7 @@ void Ranks::gather_bytes(const void* own, std::size_t own_bytes,
                          const std::vector<std::size_t>& start, void* all) const {
   const Waiting waiting;
   // MPI counts in int. What is longer goes in rounds, each with a part of what every rank has.
-  const std::size_t most = kLargestCount / static_cast<std::size_t>(size_);
+  const std::size_t most = kLargestCount / size_;
   std::size_t longest = 0;
   for (int r = 0; r < size_; ++r) longest = std::max(longest, start[r + 1] - start[r]);
   std::vector<int> count(size_), place(size_);
@@ -182,7 +181,7 @@ void Ranks::gather_bytes(const void* own, std::size_t own_bytes,
       n += count[r];
     }
     const bool whole = longest <= most;
-    if (!whole) buffer.resize(static_cast<std::size_t>(n));
+    if (!whole) buffer.resize(n);
     auto* to = static_cast<std::byte*>(all);
     MPI_Allgatherv(static_cast<const std::byte*>(own) + done, count[rank_], MPI_BYTE,
                    whole ? to : buffer.data(), count.data(), place.data(), MPI_BYTE,

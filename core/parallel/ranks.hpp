@@ -1,6 +1,6 @@
 #pragma once
-/// The processes that share one run. Passed by value; nothing else in the program knows MPI, and a
-/// plain start (no mpirun) never touches it.
+/// Processes (MPI ranks) that share one run. Passed by value. Only this folder uses MPI, and a
+/// plain start (no mpirun) never initialises it.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -13,17 +13,16 @@
 
 namespace acinus {
 
-/// Whether the bytes of a T are all there is to it. Matrices of Eigen of a fixed size are plain
-/// numbers, though the language does not call them trivial; types with such members say so
-/// themselves.
+/// True for types that can be sent as their bytes. Eigen matrices of fixed size are plain numbers
+/// although the language does not call them trivial; types with such members declare it themselves.
 template <class T>
 inline constexpr bool kIsPlain = std::is_trivially_copyable_v<T>;
 template <class S, int Rows, int Columns, int Options>
 inline constexpr bool kIsPlain<Eigen::Matrix<S, Rows, Columns, Options, Rows, Columns>> =
     Rows > 0 && Columns > 0;
 
-/// What one process sends to which others, and what it gets from them: runs of two buffers. Both
-/// ends know the length of every run.
+/// Exchange with peers: the runs of a send buffer by destination and of a receive buffer by source.
+/// Both ends know the length of every run.
 struct ExchangePlan {
   struct Peer {
     int rank = 0;
@@ -33,25 +32,24 @@ struct ExchangePlan {
   bool empty() const { return peer.empty(); }
 };
 
-/// What went between this process and others since the start. Bytes are those that it hands over;
-/// of a reduction or a gathering, which pass through the network in ways that the MPI library
-/// chooses, its own share.
+/// Communication of this process since the start. Bytes are those that it hands over; for a
+/// reduction or a gathering, whose routes the MPI library chooses, its own share.
 struct Traffic {
   std::int64_t messages = 0, message_bytes = 0;  ///< of exchanges, sent
   std::int64_t reductions = 0, reduction_bytes = 0;
   std::int64_t gatherings = 0, gathered_bytes = 0;
-  double wait_s = 0;  ///< wall time within all these
+  double wait_s = 0;  ///< wall time within all these, s
 };
 
-/// A group of processes. Every collective call must be made by all of them, in the same order, and
-/// by the thread that made the group.
+/// Group of processes. Collective calls must be made by all of them, in the same order, and by the
+/// thread that made the group.
 class Ranks {
  public:
-  /// This process alone; every collective is the identity. Used by subworlds, tests and plain
-  /// starts.
+  /// Group of this process alone; every collective is the identity. Used by subworlds, tests and
+  /// plain starts.
   static Ranks serial() { return Ranks(0, 1, 0); }
 
-  /// All processes of this start. Initialises MPI on the first call if, and only if, the
+  /// Group of all processes of this start. Initialises MPI on the first call if, and only if, the
   /// environment shows a launcher with more than one process (OMPI_COMM_WORLD_SIZE, PMI_SIZE,
   /// PMIX_RANK); MPI is finalised when the process ends normally. Throws Error(kCannotContinue) if
   /// MPI refuses calls from a threaded process.
@@ -61,24 +59,27 @@ class Ranks {
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
   bool is_alone() const { return size_ == 1; }
-  int communicator() const { return communicator_; }  ///< for libraries that know MPI
+  int communicator() const {
+    return communicator_;
+  }  ///< Fortran handle, for libraries that use MPI
 
-  /// In place sum over ranks, elementwise and exact: the same bits on every rank, and for any
-  /// number of ranks. Requests to stop become known to all at the same time
+  /// Sums over ranks in place, elementwise and exact: the same bits on every rank, and for any
+  /// number of ranks. Also makes requests to stop known to all ranks at the same time
   /// (core/parallel/stop.hpp).
   void sum(std::span<ExactSum> sums) const;
 
-  /// Largest value; NaN on any rank gives NaN everywhere, so a lost rank cannot pass unnoticed.
+  /// Largest value over ranks; NaN on any rank gives NaN everywhere, so that a failed rank is
+  /// noticed.
   double max(double value) const;
-  /// Elementwise. @param values  without NaN
+  /// Elementwise maximum over ranks, in place. @param values  without NaN
   void max(std::span<double> values) const;
   std::int64_t min(std::int64_t value) const;
 
-  /// True on all ranks if it is on one.
+  /// True on all ranks if the value is true on one.
   bool any(bool value) const;
 
-  /// What all ranks have, in their order, on every rank.
-  /// @param start  [size + 1] where that of each rank begins; null: not wanted
+  /// Gathers the values of all ranks, in rank order, on every rank.
+  /// @param start  [size + 1] first value of each rank; null: not wanted
   template <class T>
   void gather(std::span<const T> own, std::vector<T>& all,
               std::vector<std::size_t>* start = nullptr) const {
@@ -96,14 +97,14 @@ class Ranks {
     for (const std::size_t b : bytes) start->push_back(b / sizeof(T));
   }
 
-  /// Sends and receives with the peers of a plan; what it receives is there when it returns.
+  /// Sends to and receives from the peers of a plan; returns when the received values are complete.
   template <class T>
   void exchange(const ExchangePlan& plan, std::span<const T> out, std::span<T> in) const {
     static_assert(kIsPlain<T>);
     if (!plan.empty()) exchange_bytes(plan, sizeof(T), out.data(), in.data());
   }
 
-  /// What the root has, on every rank.
+  /// Broadcasts the values of the root to every rank.
   template <class T>
   void broadcast(std::vector<T>& values) const {
     static_assert(kIsPlain<T>);
@@ -116,14 +117,14 @@ class Ranks {
 
   void barrier() const;
 
-  /// The exit code all ranks return. From mild to grave: 0 done, 75 stopped, 2 input, 3 cannot
-  /// continue, 4 file error, 1 internal, anything else.
+  /// Worst exit code over ranks, for all of them to return. From mild to grave: 0 done, 75 stopped,
+  /// 2 input, 3 cannot continue, 4 file error, 1 internal, anything else.
   int agree_worst(int exit_code) const;
 
-  /// Ends all processes at once: this one failed where the others cannot know of it.
+  /// Aborts all processes: this one failed where the others cannot know of it.
   [[noreturn]] void abort(int exit_code) const;
 
-  /// Of this process since its start.
+  /// Communication of this process since its start.
   static Traffic traffic();
 
  private:

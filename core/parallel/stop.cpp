@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <string_view>
@@ -23,8 +22,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 // The only things a signal handler may touch.
 volatile std::sig_atomic_t g_last = 0, g_count = 0;
 int g_depth = 0;
-double g_limit = kNever;  ///< on the clock of wall_seconds()
-/// What processes that share a run agreed on.
+double g_limit = kNever;  ///< s, wall-time limit on the clock of wall_seconds()
+/// Last agreement among the processes that share a run.
 enum class Agreement { kNone, kGoOn, kStop } g_agreement = Agreement::kNone;
 
 bool has_signal() { return g_depth > 0 && g_last != 0; }
@@ -42,7 +41,7 @@ struct sigaction action_of(void (*handler)(int)) {
   return action;
 }
 
-/// For handlers: async-signal-safe.
+/// Writes to standard error; async-signal-safe, for handlers.
 void write_error(std::string_view text) {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
 }
@@ -65,7 +64,7 @@ bool is_any_of(int signal, std::initializer_list<int> list) {
   return std::ranges::find(list, signal) != list.end();
 }
 
-/// Test for a signal that keeps what was set for it.
+/// Test for a signal whose present disposition must be kept.
 bool keeps(int signal, const struct sigaction& set) {
   for (const auto ours : {static_cast<void (*)(int)>(SIG_DFL), &remember, &end_at_signal})
     if (set.sa_handler == ours) return false;
@@ -73,7 +72,7 @@ bool keeps(int signal, const struct sigaction& set) {
   return !is_any_of(signal, {SIGINT, SIGQUIT, SIGTERM});
 }
 
-/// @param seconds  0: no alarm
+/// Sets the alarm. @param seconds  0: no alarm
 void set_alarm(double seconds) {
   constexpr double kLongest = 1e8;  // s
   itimerval timer{};

@@ -1,6 +1,6 @@
 #pragma once
-/// What asks a process to stop: signals and a limit on its wall time. Both reach the process as a
-/// whole, so this is the one state that is not passed around; long computations look at it.
+/// Requests to stop a process: signals and a limit on its wall time. Both reach the process as a
+/// whole, so this is the one state that is global; long computations poll it.
 
 #include <csignal>
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace acinus {
 
-/// The signals that ask a process to stop: all whose default ends it, but for crashes (SIGSEGV,
-/// SIGABRT and so on), SIGKILL, SIGPIPE and SIGXFSZ. The last two show as failed writes.
+/// Signals that ask a process to stop: all whose default ends it, except crashes (SIGSEGV, SIGABRT
+/// and so on), SIGKILL, SIGPIPE and SIGXFSZ. The last two show as failed writes.
 std::vector<int> stop_signals();
 
-/// Gives stop signals a handler while it lives. A signal that was ignored stays so (nohup), but for
-/// SIGINT and SIGQUIT, which shells ignore for every job in the background; a handler of somebody
-/// else stays too, but for those of SIGINT, SIGQUIT and SIGTERM.
+/// Handler of stop signals while it lives. An ignored signal stays ignored (nohup), except SIGINT
+/// and SIGQUIT, which shells ignore for every job in the background; handlers of other code stay
+/// too, except those of SIGINT, SIGQUIT and SIGTERM.
 class SignalHandlers {
  public:
   explicit SignalHandlers(void (*handler)(int));
@@ -28,8 +28,8 @@ class SignalHandlers {
   std::vector<std::pair<int, struct sigaction>> before_;
 };
 
-/// Counter of stop signals, which do nothing else while it lives. Counters nest: a signal to a run
-/// within a study counts for the study too.
+/// Counter of stop signals, which have no other effect while it lives. Counters nest: a signal to a
+/// run within a study counts for the study too.
 class StopSignals {
  public:
   StopSignals();
@@ -41,14 +41,14 @@ class StopSignals {
   std::optional<SignalHandlers> handlers_;  ///< of the outermost
 };
 
-/// How many came since the outermost StopSignals was made.
+/// Number of stop signals since the outermost StopSignals was made.
 int count_stop_signals();
 
-/// A limit on the wall time, from its making on, in force while it lives. They nest: the earliest
-/// counts.
+/// Limit on the wall time, counted from its construction, in force while it lives. Limits nest: the
+/// earliest applies.
 class WallTimeLimit {
  public:
-  /// @param limit_s  infinite: none
+  /// Starts the limit. @param limit_s  infinite: none
   explicit WallTimeLimit(double limit_s);
   ~WallTimeLimit();
   WallTimeLimit(const WallTimeLimit&) = delete;
@@ -58,20 +58,20 @@ class WallTimeLimit {
   double before_;
 };
 
-/// Whether a signal was counted or the limit has passed: what goes on must come to an end, and what
-/// is there be saved. Of processes that share a run: whether one of them was, as they agreed.
+/// True if a stop signal was counted or the limit has passed: the computation must end and save its
+/// state. Among processes that share a run: true if one of them was asked, as last agreed.
 bool stop_requested();
-/// "signal 15 (SIGTERM)", "the wall-time limit"; empty: none.
+/// Reason of the request: "signal 15 (SIGTERM)", "the wall-time limit"; empty: none.
 std::string describe_stop();
 
-/// Whether this process was, whatever others know. For what makes them agree.
+/// True if this process itself was asked; input of the agreement among processes.
 bool is_asked_to_stop();
-/// From the first call on stop_requested() says what was agreed last, so that all processes see it
-/// change at the same place.
+/// Sets the agreed answer of stop_requested(), which holds from the first call on: all processes
+/// see it change at the same place.
 void agree_to_stop(bool stop);
 
-/// While one of these lives, and there is nothing to save yet, the program ends at the limit with
-/// exit code 75, whatever it is busy with.
+/// Ends the program with exit code 75 at the wall-time limit, while it lives and there is nothing
+/// to save yet.
 class ExitAtLimit {
  public:
   ExitAtLimit();
@@ -83,7 +83,8 @@ class ExitAtLimit {
   struct sigaction before_ {};
 };
 
-/// Exit with code 75 at a stop signal while it lives and there is nothing to save yet.
+/// Ends the program with exit code 75 at a stop signal, while it lives and there is nothing to save
+/// yet.
 class ExitAtSignal {
  public:
   ExitAtSignal();

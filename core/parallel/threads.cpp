@@ -23,7 +23,7 @@ namespace {
 
 thread_local bool t_within_part = false;
 
-/// Work that is shared already is not shared again.
+/// Marks the calling thread as within a part while it lives: nested work is not shared again.
 struct WithinPart {
   WithinPart() { t_within_part = true; }
   ~WithinPart() { t_within_part = false; }
@@ -39,8 +39,9 @@ void pause() {
 #endif
 }
 
-/// Waits awake for a moment: most gaps in a solve are short, and waking a thread takes as long.
-/// @return whether the number became another one
+/// Spins for a moment until the number changes: most gaps in a solve are short, and waking a thread
+/// takes as long.
+/// @return true if it changed
 bool changes_soon(const std::atomic<std::uint32_t>& number, std::uint32_t old) {
   constexpr int kPauses = 10000;  // some 150 us
   for (int k = 0; k < kPauses; ++k) {
@@ -50,8 +51,8 @@ bool changes_soon(const std::atomic<std::uint32_t>& number, std::uint32_t old) {
   return false;
 }
 
-/// The parts that one thread begins with. Others take of them when theirs are done, so that each
-/// finds in its cache what it had the time before.
+/// Parts assigned to one thread, the same each time so that their data are still in its cache. Idle
+/// threads take over some of them.
 struct alignas(64) Run {
   std::atomic<std::size_t> next = 0;
   std::size_t end = 0;
@@ -63,8 +64,8 @@ struct Job {
   std::size_t n_thread = 1;
 };
 
-/// Threads that help the one that has work. They are never joined: they hold nothing, and end with
-/// the process. A process that was forked has none and does all work alone.
+/// Pool of helper threads for the thread that shares work. Helpers are never joined: they hold
+/// nothing, and end with the process. A forked process has none and does all work alone.
 class Team {
  public:
   void resize(int n) { size_ = std::max(n, 1); }
@@ -80,12 +81,12 @@ class Team {
 
   std::atomic<int> size_ = 1;
   std::mutex in_use_;
-  std::vector<Run> run_;                   ///< of each thread
-  std::vector<clockid_t> helper_clock_;    ///< processor time of each helper
-  double alone_until_ = 0;                 ///< s; helpers got no processor
-  std::atomic<const Job*> job_ = nullptr;  ///< null: nothing may be begun
-  std::atomic<std::uint32_t> posted_ = 0;  ///< jobs so far; helpers wait for the next one
-  std::atomic<std::uint32_t> inside_ = 0;  ///< helpers that may be at the job
+  std::vector<Run> run_;                 ///< [thread] assigned parts
+  std::vector<clockid_t> helper_clock_;  ///< [helper] CPU clocks
+  double alone_until_ = 0;  ///< s; the caller works alone until then, as helpers got no processor
+  std::atomic<const Job*> job_ = nullptr;  ///< null: no part may be begun
+  std::atomic<std::uint32_t> posted_ = 0;  ///< number of jobs so far; helpers wait for the next one
+  std::atomic<std::uint32_t> inside_ = 0;  ///< helpers that may still use the job
   std::mutex failed_;
   std::exception_ptr failure_;
 };
@@ -140,8 +141,9 @@ double Team::helper_seconds() const {
   return sum;
 }
 
-/// On a busy machine a helper may lose its processor in the middle of a part. The team then rests
-/// for so long that such losses cost a twentieth of the time at most.
+/// Waits until no helper uses the job. On a busy machine a helper may lose its processor in the
+/// middle of a part. The pool then pauses for so long that such losses cost a twentieth of the time
+/// at most.
 void Team::wait_for_helpers() {
   constexpr double kRest = 20;
   const auto at_work = [&] { return inside_.load(); };
@@ -156,7 +158,7 @@ void Team::wait_for_helpers() {
 }
 
 void Team::share(std::size_t n_part, Job job) {
-  const std::size_t n = std::min(static_cast<std::size_t>(size()), n_part);
+  const std::size_t n = std::min<std::size_t>(size(), n_part);
   if (n < 2) return work_alone(n_part, job);
   const std::unique_lock lock(in_use_, std::try_to_lock);
   if (!lock.owns_lock() || (alone_until_ > 0 && wall_seconds() < alone_until_)) {
@@ -193,7 +195,7 @@ int processor_count() {
 }
 
 std::size_t count_threads(std::size_t n_row) {
-  return worth_threads(n_row) && !t_within_part ? static_cast<std::size_t>(thread_count()) : 1;
+  return worth_threads(n_row) && !t_within_part ? thread_count() : 1;
 }
 
 void threads::share(std::size_t n_part, const void* work, Part part) {

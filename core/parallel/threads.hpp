@@ -1,6 +1,6 @@
 #pragma once
-/// Work shared among threads. Who does what never enters a result: every part writes its own
-/// numbers, and sums are added in the order of the parts.
+/// Work shared among threads. The assignment of parts to threads never affects a result: every part
+/// writes its own numbers, and sums are added in the order of the parts.
 
 #include <cstddef>
 
@@ -8,30 +8,30 @@
 
 namespace acinus {
 
-/// How many threads share work from now on, at least 1. At the start there is one.
+/// Sets the number of threads that share work, at least 1. At the start there is one.
 void set_threads(int n);
 int thread_count();
 
-/// Processors that this process may use.
+/// Number of processors that this process may use.
 int processor_count();
 
-/// Below this many point rows (a deformable cell's group has one per node) sharing costs more than
-/// it saves.
+/// True if so many point rows are worth sharing (a deformable cell's group has one row per node):
+/// below, sharing costs more than it saves.
 inline bool worth_threads(std::size_t n_row) { return n_row > 400; }
 
-/// Threads that work on so many point rows; 1 within work that is shared already.
+/// Number of threads for work on n_row point rows; 1 within work that is shared already.
 std::size_t count_threads(std::size_t n_row);
 
 namespace threads {
 using Part = void (*)(const void* work, std::size_t part);
-/// work(part) for all parts; see for_each_part.
+/// Calls work(part) for all parts; see for_each_part.
 void share(std::size_t n_part, const void* work, Part part);
 }  // namespace threads
 
-/// f(part) for every part < n_part, each once. The calling thread works too, and at the end waits
-/// only for parts that others have begun: threads that get no processor hold nothing up. Within
+/// Calls f(part) once for every part < n_part. The calling thread works too, and at the end waits
+/// only for parts that others have begun: threads that get no processor delay nothing. Within
 /// shared work, and while another thread shares some, the calling thread does all of it.
-/// @throws what f throws; which one of several is left open
+/// @throws an exception of f; unspecified which one if several parts throw
 template <class F>
 void for_each_part(std::size_t n_part, const F& f) {
   if (n_part == 1) return f(0);
@@ -39,13 +39,13 @@ void for_each_part(std::size_t n_part, const F& f) {
                  [](const void* work, std::size_t part) { (*static_cast<const F*>(work))(part); });
 }
 
-/// f(k) for every k < n, in runs of neighbours.
+/// Calls f(k) for every k < n, in runs of neighbours.
 /// @param shared  false: on the calling thread, because the work is little
 template <class F>
 void for_each_index(std::size_t n, bool shared, const F& f) {
   // Several parts a thread: one that comes late gets fewer.
   constexpr std::size_t kPartsPerThread = 8;
-  std::size_t n_part = shared ? kPartsPerThread * static_cast<std::size_t>(thread_count()) : 1;
+  std::size_t n_part = shared ? kPartsPerThread * thread_count() : 1;
   if (thread_count() == 1) n_part = 1;
   if (n_part > n) n_part = n;
   if (n_part == 0) return;
@@ -55,7 +55,7 @@ void for_each_index(std::size_t n, bool shared, const F& f) {
   });
 }
 
-/// f(k) for all k < n: numbers of vectors over all points, three lanes of them to a row.
+/// Calls f(k) for every k < n, the numbers of vectors over all points, three lanes to a row.
 template <class F>
 void for_each_number(std::size_t n, const F& f) {
   for_each_index(n, worth_threads(n / kPointStride), f);

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the time went, how much memory was used, and on which machine.
+/// Wall and CPU time of stages, memory use, and the machine of the measurement.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace acinus {
 
-/// Resident memory of this process.
+/// Resident memory of this process, bytes.
 std::uint64_t rss_bytes();
 
-/// Largest resident memory of this process so far.
+/// Largest resident memory of this process so far, bytes.
 std::uint64_t peak_rss_bytes();
 
-/// One named stage. Times include those of stages nested in it.
+/// Times of one named stage, including those of stages nested in it.
 struct StageTime {
   std::string name;
   double wall = 0.0;        ///< s
@@ -25,10 +25,10 @@ struct StageTime {
 };
 
 /// Accumulated stage times in order of first use. Not thread safe: scopes are opened outside
-/// parallel regions. A scope costs about a microsecond and allocates only when it meets a new name.
+/// parallel regions. A scope costs about a microsecond and allocates only for a new name.
 class Timings {
  public:
-  /// Measures from construction to destruction. The Timings must outlive it.
+  /// Measurement of one stage from construction to destruction. The Timings must outlive it.
   class Scope {
    public:
     Scope(Timings& timings, std::string_view stage);
@@ -46,7 +46,7 @@ class Timings {
 
   const std::vector<StageTime>& stages() const { return stages_; }
 
-  /// The stage of this name; all zero if it never ran.
+  /// Times of the stage of this name; all zero if it never ran.
   StageTime stage(std::string_view name) const;
 
   void clear() { stages_.clear(); }
@@ -56,11 +56,11 @@ class Timings {
   std::vector<StageTime> stages_;
 };
 
-/// The widest of "avx512f", "avx2", "sse2" this processor runs; "generic" off x86.
+/// Widest of "avx512f", "avx2", "sse2" that this processor supports; "generic" off x86.
 std::string_view best_instruction_set();
 
 struct Machine {
-  std::string cpu_model;        ///< "unknown" if the system does not tell
+  std::string cpu_model;        ///< "unknown" if the system does not report it
   int cores = 1;                ///< logical cores this process may use
   std::string instruction_set;  ///< best_instruction_set()
 };

@@ -30,14 +30,14 @@ inline constexpr Dimension kPower{1, -1, 1};
 inline constexpr Dimension kTemperature{0, 0, 0, 1, 0};
 inline constexpr Dimension kMolarEnergy{1, 0, 1, 0, -1};
 
-/// "force/length^2", "1/time", "a plain number".
+/// Formula of a dimension: "force/length^2", "1/time", "a plain number".
 std::string dimension_formula(Dimension dimension);
 
-/// Name of such a quantity, with its article: "a stress"; "" when it has none here.
+/// Name of a quantity of this dimension, with its article: "a stress"; "" if it has none here.
 std::string dimension_name(Dimension dimension);
 
-/// A quantity of this dimension as a user would write it: "12 um"; built from base units if
-/// unnamed.
+/// Example of a quantity of this dimension as a user would write it: "12 um"; built from base units
+/// if the dimension has no name.
 std::string dimension_example(Dimension dimension);
 
 /// Base units of a dimension: "nN s/um^3".

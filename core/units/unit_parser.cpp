@@ -39,7 +39,8 @@ constexpr std::array kUnits{
     Unit{"uW", kPower, 9},        Unit{"K", kTemperature, 0},    Unit{"mol", kAmount, 0},
     Unit{"%", kDimensionless, -2}};
 
-/// Words people write for a symbol; used for hints only, so that every scene is spelled alike.
+/// Unit words that people write for a symbol; used for hints only, so that every scene is spelled
+/// alike.
 constexpr std::array<std::pair<const char*, const char*>, 20> kWords{
     {{"sec", "s"},       {"second", "s"},  {"seconds", "s"},  {"minute", "min"},
      {"minutes", "min"}, {"hr", "h"},      {"hrs", "h"},      {"hour", "h"},
@@ -47,7 +48,7 @@ constexpr std::array<std::pair<const char*, const char*>, 20> kWords{
      {"metre", "m"},     {"newton", "N"},  {"pascal", "Pa"},  {"joule", "J"},
      {"watt", "W"},      {"kelvin", "K"},  {"percent", "%"},  {"micrometer", "um"}}};
 
-constexpr int kLargestPower = 9;  ///< keeps every product of factors far inside a double
+constexpr int kLargestPower = 9;  ///< of an exponent: products of factors stay far inside a double
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
 
@@ -65,14 +66,14 @@ void multiply(Scale& scale, const Scale& factor, int power) {
   }
 }
 
-/// Every unit symbol of the table.
+/// Symbols of all units of the table.
 std::vector<std::string> unit_symbols() {
   std::vector<std::string> symbols;
   for (const Unit& unit : kUnits) symbols.emplace_back(unit.symbol);
   return symbols;
 }
 
-/// Recursive descent over the unit part of a quantity.
+/// Recursive descent parser of the unit part of a quantity.
 class UnitParser {
  public:
   UnitParser(std::string_view text, std::string_view whole) : text_(text), whole_(whole) {}
@@ -154,7 +155,7 @@ class UnitParser {
       fail(fmt::format("the power after ^ must be a whole number from -{0} to {0}, not 0",
                        kLargestPower));
     }
-    at_ += static_cast<std::size_t>(end - first);
+    at_ += end - first;
     return value;
   }
 

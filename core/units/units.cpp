@@ -6,8 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/units/dimension.hpp"
@@ -17,7 +15,7 @@
 namespace acinus {
 namespace {
 
-/// Both micro signs (U+00B5 and U+03BC) as "u", the middle dot as "*".
+/// Text with both micro signs (U+00B5 and U+03BC) as "u" and the middle dot as "*".
 std::string plain_letters(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -35,11 +33,11 @@ std::string plain_letters(std::string_view text) {
   return plain;
 }
 
-/// The number a quantity starts with, cut into digits and decimal exponent.
+/// Leading number of a quantity, cut into digits and decimal exponent.
 struct Number {
   std::string_view digits;  ///< sign, digits, point
   long exponent = 0;
-  std::size_t length = 0;  ///< characters read; 0 = no number there
+  std::size_t length = 0;  ///< characters read; 0 = no number
 };
 
 Number scan_number(std::string_view text) {
@@ -76,7 +74,7 @@ Number scan_number(std::string_view text) {
   return number;
 }
 
-/// digits * 10^exponent, rounded once.
+/// Double nearest to digits * 10^exponent.
 double to_double(std::string_view digits, long exponent, std::string_view whole) {
   if (digits.front() == '+') digits.remove_prefix(1);
   const std::string text = fmt::format("{}e{}", digits, exponent);
@@ -95,7 +93,7 @@ double scaled(const Number& number, const Scale& scale, std::string_view whole) 
   return value;
 }
 
-/// "2.50e+03" -> "2500", "1.0e-05" -> "1e-5": the same decimal number as people write it.
+/// Decimal number in plain spelling: "2.50e+03" -> "2500", "1.0e-05" -> "1e-5".
 std::string tidy(const std::string& scientific) {
   const std::size_t e = scientific.find('e');
   std::string digits = scientific.substr(0, e);
@@ -110,7 +108,7 @@ std::string tidy(const std::string& scientific) {
     return fmt::format("{}{}e{}", sign, digits, exponent);
   }
   if (exponent < 0) {
-    digits.insert(0, "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0'));
+    digits.insert(0, "0." + std::string(-exponent - 1, '0'));
   } else if (exponent + 1 >= n_digit) {
     digits.append(exponent + 1 - n_digit, '0');
   } else {
@@ -181,8 +179,7 @@ std::string format_quantity(double value, Dimension dimension, std::string_view 
     const auto [end, code] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                            std::chars_format::scientific);
     ACINUS_ASSERT(code == std::errc());
-    const Number shortest =
-        scan_number({buffer.data(), static_cast<std::size_t>(end - buffer.data())});
+    const Number shortest = scan_number({buffer.data(), end});
     return tidy(fmt::format("{}e{}", shortest.digits, shortest.exponent - scale.ten)) + gap +
            std::string(unit);
   }

@@ -1,7 +1,5 @@
 #include "coupling/generate/lobule.hpp"
 
-#include <algorithm>
-
 #include "coupling/generate/buckets.hpp"
 #include "coupling/generate/sinusoids.hpp"
 

@@ -1,6 +1,5 @@
 #include "coupling/generate/pipette_surface.hpp"
 
-#include <array>
 #include <cmath>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "coupling/generate/vessel_surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/vec.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/cohesive.hpp"
 #include "core/parallel/threads.hpp"
@@ -117,6 +116,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
                     cbm::ContactWorkspace& cbm_work, InterfaceWorkspace& work,
                     contact::ContactList& contacts) {
   work.area.clear();
+  contacts.close(contact::ContactKind::kInterface);
   if (dcm_work.body.empty() || in.cbm.state.n_cell() == 0) return;
   const dcm::ContactParams& c = in.dcm.options;
   const std::span<const double> radius = in.dcm.lanes.radius, sphere_radius = in.cbm.cells.radius;
@@ -154,7 +154,7 @@ void find_interface(const InterfaceInput& in, dcm::ContactWorkspace& dcm_work,
     }
     contacts.all.insert(contacts.all.end(), found[p].begin(), found[p].end());
   }
-  contacts.interface_end = contacts.sphere_obstacle_end = contacts.all.size();
+  contacts.close(contact::ContactKind::kInterface);
 }
 
 void add_interface_areas(const InterfaceWorkspace& work, cbm::ContactWorkspace& cbm_work) {
@@ -170,8 +170,8 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
                          solve::Links& links) {
   std::size_t at = links.size();
   links.resize(at + contacts.interface().size());
-  for (std::size_t n = contacts.obstacle_end; n < contacts.interface_end; ++n, ++at) {
-    Contact& k = contacts.all[n];
+  std::size_t number = contacts.first(contact::ContactKind::kInterface);
+  for (Contact& k : contacts.of(contact::ContactKind::kInterface)) {
     const contact::SurfaceBody& body = dcm_work.body[k.a];
     const double radius = in.dcm.lanes.radius[dcm_work.lane_of_body[k.a]];
     const contact::Quadrature quadrature = in.dcm.options.quadrature;
@@ -193,7 +193,10 @@ void add_interface_loads(const InterfaceInput& in, const dcm::ContactWorkspace& 
     link.a = dcm::side_a(in.dcm, dcm_work, k);
     link.b = sphere_side(in, k);
     solve::set_law(k.slope, friction, k.gap, k.normal, link);
-    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap};
+    links.load[at] = {k.normal, k.force, area * law.cohesive.repulsion, k.gap,
+                      static_cast<std::uint32_t>(number)};
+    ++number;
+    ++at;
   }
 }
 

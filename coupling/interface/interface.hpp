@@ -19,8 +19,15 @@
 
 namespace acinus::coupling {
 
+/// Friction between bodies of both models: the harmonic mean of those within the models.
+inline double mean_friction(double dcm, double cbm) {
+  return dcm + cbm > 0 ? 2 * dcm * cbm / (dcm + cbm) : 0;
+}
+
 struct InterfaceParams {
-  double friction = 0;         ///< nN s/um^3, DCM-CBM
+  /// nN s/um^3, DCM-CBM; by default the harmonic mean of those within the models.
+  double friction =
+      mean_friction(dcm::ContactParams{}.cell_friction, cbm::ContactParams{}.cell_friction);
   double friction_factor = 1;  ///< 0 while cells grow to size
 };
 

@@ -6,7 +6,7 @@
 
 #include "core/sphere.hpp"
 #include "coupling/step/loop.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "geometry/measures.hpp"
 
 namespace acinus::coupling {
@@ -38,6 +38,7 @@ Filling fill(const World& world, int type, const geometry::Topology& topology,
   small.params.dcm_contact = world.params.dcm_contact;
   small.params.dcm_contact.quadrature = contact::Quadrature::kThreePoint;
   small.params.dcm_contact.cell_friction = 0;
+  small.params.motility.random = false;
   small.params.numerics.min_step = 1e-7;
   small.params.numerics.cg = world.params.numerics.cg;
   small.params.boundary.meshes.push_back(contact::make_static_mesh("mother", envelope, true));

@@ -14,7 +14,7 @@
 #include "coupling/life/mesh_health.hpp"
 #include "coupling/life/rules.hpp"
 #include "coupling/sleep/sleep.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/population.hpp"
@@ -75,7 +75,7 @@ void bear_spheres(World& world, const Cell& mother, Newborn& born, LifeReport& r
                            s.cbm.pull[mother.at], daughters.strength});
   }
   report.events.push_back(
-      {"division", {parent, s.next_lineage - 2, s.next_lineage - 1}, describe(axis)});
+      {EventKind::kDivision, {parent, s.next_lineage - 2, s.next_lineage - 1}, describe(axis)});
 }
 
 void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughters, Newborn& born,
@@ -96,7 +96,7 @@ void bear_shells(World& world, const Cell& mother, const DaughterMeshes& daughte
   }
   const DivisionFigures& f = daughters.figures;
   report.events.push_back(
-      {"division",
+      {EventKind::kDivision,
        {parent, s.next_lineage - 2, s.next_lineage - 1},
        describe(daughters.axis) + fmt::format(", {} planes, {} steps, volume {:.1e}, outside "
                                               "{:.2f} um",
@@ -160,7 +160,7 @@ void divide_shells(World& world, const std::vector<Cell>& mothers, Newborn& born
       continue;
     }
     s.cycle[mothers[k].index].wait_until = s.clock.time + kWait;
-    report.events.push_back({"division_waits",
+    report.events.push_back({EventKind::kDivisionWaits,
                              {lineage_of(s, mothers[k])},
                              fmt::format("no plane divides it cleanly: {}", why[k])});
   }
@@ -173,7 +173,7 @@ void begin_lysis(World& world, const Cell& c, LifeReport& report) {
   const double t = s.clock.time, volume = volume_of(s, c).at(t);
   volume_of(s, c) = {volume, p.final_volume * volume, t, t + p.duration};
   s.cycle[c.index].fate = Fate::kLyse;
-  report.events.push_back({"lysis", {lineage_of(s, c)}, "shrinks"});
+  report.events.push_back({EventKind::kLysis, {lineage_of(s, c)}, "shrinks"});
 }
 
 LifeReport undo(State& before, State& s) {
@@ -199,7 +199,7 @@ LifeReport turn_over(World& world, Workspace& work) {
   for (const Cell& c : plan.remove) {
     gone[c.index] = 1;
     ++s.deaths;
-    report.events.push_back({"death", {lineage_of(s, c)}, "removed"});
+    report.events.push_back({EventKind::kDeath, {lineage_of(s, c)}, "removed"});
   }
   for (const Cell& c : plan.lyse) {
     type[c.index] = cycle_of(world.params, s, c).death.type;
@@ -232,7 +232,8 @@ LifeReport turn_over(World& world, Workspace& work) {
     if (!settled.ok && stop_requested()) return undo(before, s);
     for (std::size_t k = 0; k < report.divisions.size(); ++k)
       add_settling(settled, {daughters[2 * k], daughters[2 * k + 1]}, report.divisions[k]);
-    if (!settled.ok) report.events.push_back({"settling_failed", daughters, settled.cause});
+    if (!settled.ok)
+      report.events.push_back({EventKind::kSettlingFailed, daughters, settled.cause});
   }
   size_workspace(world, work);
   return report;
@@ -262,7 +263,7 @@ LifeReport live(World& world, Workspace& work) {
       return report;
     }
     for (const ModelChange& c : zoom.changes)
-      report.events.push_back({c.code, {c.cell}, c.message});
+      report.events.push_back({c.kind, {c.cell}, c.message});
   }
   mend_meshes(world, work, report);
   clock.due = report.interrupted ? EventsDue::kMeshes : EventsDue::kNone;
@@ -280,8 +281,8 @@ LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int6
     if (s.cycle[c.index].fate != Fate::kLyse || std::ranges::find(cells, id) == cells.end()) return;
     gone[c.index] = 1;
     ++s.deaths;
-    report.events.push_back({"death_early", {id}, "removed before it had shrunk: " + why});
-    report.events.push_back({"death", {id}, "removed"});
+    report.events.push_back({EventKind::kDeathEarly, {id}, "removed before it had shrunk: " + why});
+    report.events.push_back({EventKind::kDeath, {id}, "removed"});
   });
   if (report.events.empty()) return report;
   exchange_cells(gone, {}, {}, s);

@@ -11,7 +11,7 @@
 
 namespace acinus::coupling {
 
-/// Stage 5 of a step: applies rules and inhibition on their time grid, then divides what has
+/// Stage 8 of a step: applies rules and inhibition on their time grid, then divides what has
 /// doubled its reference volume and removes what is dead. Time stands still. The workspace is sized
 /// anew when the set of cells changed. Then puts cells to sleep or wakes them (sleep.hpp), lets the
 /// zoom follow (zoom/update.hpp), and mends meshes that degenerate (mesh_health.hpp).
@@ -24,7 +24,8 @@ LifeReport live(World& world, Workspace& work);
 LifeReport remove_dying(World& world, Workspace& work, std::span<const std::int64_t> cells,
                         const std::string& why);
 
-/// Time until live() has to be called next, s; infinite if nothing is due on a time grid.
+/// Time to the next point on the grids of rules, sleep and zoom, at which a step has to end, s;
+/// infinite without any. Division, removal and mesh repair are looked for after every step.
 double time_to_event(const World& world);
 
 }  // namespace acinus::coupling

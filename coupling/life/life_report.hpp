@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "coupling/life/division.hpp"
+#include "coupling/world/event_kind.hpp"
 
 namespace acinus::coupling {
 
 /// One event of life or of the zoom, for the run file.
 struct LifeEvent {
-  /// division | division_waits | settling_failed | death | lysis | remeshed | mesh_degenerate |
-  /// promotion | demotion | promotion_waits
-  std::string code;
+  EventKind kind{};
   std::vector<std::int64_t> cells;  ///< of a division: mother, daughter, daughter
   std::string message;
 };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <span>
@@ -13,7 +12,7 @@
 #include "core/parallel/stop.hpp"
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "dcm/shape/mesh_remedy.hpp"
@@ -156,8 +155,9 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
   for (std::size_t k = 0; k < lanes.size(); ++k) {
     const std::int64_t lineage = s.dcm.lineage[lanes[k]];
     if (!mended[k].ok && due == Due::kYoung) continue;  // named once a grid interval
-    mending.events.push_back(
-        {mended[k].ok ? "remeshed" : "mesh_degenerate", {lineage}, describe(mended[k])});
+    mending.events.push_back({mended[k].ok ? EventKind::kRemeshed : EventKind::kMeshDegenerate,
+                              {lineage},
+                              describe(mended[k])});
     if (!mended[k].ok) continue;
     replace_mesh(world.params.dcm[s.dcm.group[lanes[k] / kLanes].type], s, lanes[k],
                  mended[k].node);
@@ -170,7 +170,7 @@ void mend_meshes(World& world, Workspace& work, LifeReport& report) {
       report.interrupted = true;
       return;
     }
-    if (!settled.ok) mending.events.push_back({"settling_failed", changed, settled.cause});
+    if (!settled.ok) mending.events.push_back({EventKind::kSettlingFailed, changed, settled.cause});
     size_workspace(world, work);
   }
   std::ranges::move(mending.events, std::back_inserter(report.events));

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <set>
 #include <unordered_map>
 
+#include "core/disjoint_sets.hpp"
 #include "core/numbers/exact_sum.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/world/fading.hpp"
 #include "dcm/contact/contact_points.hpp"
 
@@ -88,6 +88,7 @@ void visit_contacts(const World& world, const Workspace& w,
   const Places places(world, w);
   const std::size_t n_body = w.dcm.body.size();
   for (const contact::Contact& k : w.contacts.all) {
+    if (k.partner == contact::Partner::kNucleus) continue;  // within a cell
     const bool sphere = k.point == contact::kWhole;
     ContactForce f;
     f.a = static_cast<std::size_t>(k.a) + (sphere ? n_body : 0);
@@ -165,16 +166,11 @@ std::vector<std::pair<std::size_t, std::size_t>> find_touching(const World& worl
 
 std::vector<int> cluster_sizes(std::size_t n_cell,
                                const std::vector<std::pair<std::size_t, std::size_t>>& touching) {
-  std::vector<std::size_t> root(n_cell);
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const auto& [a, b] : touching) root[find(b)] = find(a);
-  std::vector<int> members(n_cell, 0), size(n_cell, 0);
-  for (std::size_t i = 0; i < n_cell; ++i) ++members[find(i)];
-  for (std::size_t i = 0; i < n_cell; ++i) size[i] = members[find(i)];
+  DisjointSets clusters(n_cell);
+  for (const auto& [a, b] : touching) clusters.join(static_cast<int>(a), static_cast<int>(b));
+  std::vector<int> members(n_cell, 0), size;
+  for (int i = 0; i < static_cast<int>(n_cell); ++i) ++members[clusters.find(i)];
+  for (int i = 0; i < static_cast<int>(n_cell); ++i) size.push_back(members[clusters.find(i)]);
   return size;
 }
 

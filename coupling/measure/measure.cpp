@@ -1,15 +1,15 @@
 #include "coupling/measure/measure.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "core/sphere.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "coupling/measure/pair_contacts.hpp"
 #include "coupling/step/foreign.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/lane_data.hpp"
 #include "dcm/loads/stress.hpp"
@@ -141,7 +141,6 @@ void add_contacts(const World& world, const Workspace& w, std::vector<CellMeasur
 }  // namespace
 
 void observe(const World& world, Workspace& w) {
-  find_all_contacts(world, kNow, w);
   assemble(world, kNow, w);
   list_sphere_pairs(world, w);
 }
@@ -172,7 +171,8 @@ NodeMeasure measure_nodes(const World& world, const Workspace& w) {
   NodeMeasure n;
   std::vector<double> contact(s.dcm.position.size(), 0.0);
   const solve::Links& links = w.system.links;
-  for (std::size_t l = 0; l < w.first_nucleus_link; ++l) {
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    if (w.contacts.all[links.load[l].contact].partner == contact::Partner::kNucleus) continue;
     const solve::Stencil stencil = solve::stencil_of(links.link[l]);
     const Vec3 f = links.load[l].force * links.load[l].normal;
     for (int k = 0; k < stencil.n; ++k)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "core/numbers/time_grid.hpp"
@@ -158,11 +157,10 @@ std::vector<std::uint8_t> find_leaders(const Motility& m, std::span<const PolarC
   return leader;
 }
 
-bool choose_leaders(const World& world, std::span<const double> dcm_radius,
+bool choose_leaders(const Params& params, const State& s, std::span<const double> dcm_radius,
                     std::span<const double> cbm_radius, std::vector<std::uint8_t>& leader,
                     std::int64_t& interval) {
-  const State& s = world.state;
-  const Motility& m = world.params.motility;
+  const Motility& m = params.motility;
   const std::int64_t now = grid_interval(s.clock.time - s.clock.origin, m.leader_grid);
   const std::size_t n_lane = s.dcm.n_lane(), n = n_lane + s.cbm.n_cell();
   if (now == interval && leader.size() == n) return false;
@@ -174,7 +172,7 @@ bool choose_leaders(const World& world, std::span<const double> dcm_radius,
   for (std::size_t c = 0; c < s.cbm.n_cell(); ++c)
     cells[n_lane + c] = make_polar(m, cbm::center_of(s.cbm, c), cbm_radius[c]);
   for (std::size_t i = 0; i < n; ++i) cells[i].led = leader[i] != 0;
-  leader = find_leaders(m, cells, world.params.boundary.planes);
+  leader = find_leaders(m, cells, params.boundary.planes);
   return true;
 }
 

@@ -28,7 +28,7 @@ std::vector<std::uint8_t> find_leaders(const Motility& motility, std::span<const
 /// the same.
 /// @param leader  [dcm lanes, then cbm cells]
 /// @return whether the choice was renewed
-bool choose_leaders(const World& world, std::span<const double> dcm_radius,
+bool choose_leaders(const Params& params, const State& at, std::span<const double> dcm_radius,
                     std::span<const double> cbm_radius, std::vector<std::uint8_t>& leader,
                     std::int64_t& interval);
 

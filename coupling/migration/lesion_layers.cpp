@@ -1,6 +1,5 @@
 #include "coupling/migration/lesion_layers.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace acinus::coupling {

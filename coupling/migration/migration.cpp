@@ -5,7 +5,11 @@
 
 #include "core/numbers/random.hpp"
 #include "core/parallel/threads.hpp"
+#include "coupling/migration/leaders.hpp"
+#include "coupling/world/contact_input.hpp"
 #include "coupling/world/fading.hpp"
+#include "dcm/contact/contact.hpp"
+#include "dcm/terms/medium.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -20,17 +24,37 @@ Vec3 toward_axis(const Motility& m, const Vec3& center) {
   return r > 0 ? Vec3(d / r) : Vec3::Zero();
 }
 
-/// Prescribed forces over time, by their mean in the step if nothing bends within it.
-void add_pulls(const World& world, double middle, CellForces& forces) {
-  const State& s = world.state;
-  for (const Pull& p : world.params.pulls) {
-    if (p.force.entry.empty()) continue;
-    const Vec3 force = p.force.at(middle) * p.direction;
-    if (const auto at = std::ranges::find(s.dcm.lineage, p.cell); at != s.dcm.lineage.end())
-      forces.dcm[at - s.dcm.lineage.begin()] += force;
-    if (const auto at = std::ranges::find(s.cbm.lineage, p.cell); at != s.cbm.lineage.end())
-      forces.cbm[at - s.cbm.lineage.begin()] += force;
+void choose_step_leaders(const World& world, const State& at, Workspace& w) {
+  w.leader = at.leader;
+  w.leader_interval = at.leader_interval;
+  if (world.params.motility.leader_force > 0 && world.state.clock.phase == Phase::kRun)
+    choose_leaders(world.params, at, w.lanes.radius, w.cbm_radius, w.leader, w.leader_interval);
+}
+
+/// Friction of every cell with the medium as a whole, nN s/um.
+void sum_medium_friction(const World& world, const InterfaceInput& in, Workspace& w) {
+  constexpr double kOfOtherProcess = -1;
+  const dcm::State& shells = in.dcm.state;
+  const cbm::State& spheres = in.cbm.state;
+  dcm::compute_medium_areas(in.dcm, w.dcm, w.medium_area);
+  w.medium_friction.dcm.assign(shells.n_lane(), 0.0);
+  for (std::size_t l = 0; l < shells.n_lane(); ++l) {
+    if (w.dcm.is_foreign(l)) w.medium_friction.dcm[l] = kOfOtherProcess;
+    if (!shells.active(l) || w.dcm.is_foreign(l)) continue;
+    const dcm::Group& g = shells.group[l / kLanes];
+    double area = 0;
+    for (int i = 0; i < g.topology->n_node; ++i)
+      area += w.medium_area[(g.first_row + i) * kLanes + l % kLanes];
+    w.medium_friction.dcm[l] =
+        area * dcm::medium_friction_per_area(world.params.dcm[g.type], w.lanes.radius[l],
+                                             g.topology->rest_area);
   }
+  w.medium_friction.cbm.resize(spheres.n_cell());
+  for (std::size_t c = 0; c < spheres.n_cell(); ++c)
+    w.medium_friction.cbm[c] = w.cbm.is_foreign(c)
+                                   ? kOfOtherProcess
+                                   : cbm::medium_friction(world.params.cbm[spheres.type[c]],
+                                                          w.cbm_radius[c], w.cbm.contact_area[c]);
 }
 
 }  // namespace
@@ -49,14 +73,13 @@ Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double t
   return sum / step;
 }
 
-void compute_cell_forces(const World& world, const Controls& controls, double step,
+void compute_cell_forces(const World& world, const State& s, double step,
                          const MediumFriction& medium, std::span<const std::uint8_t> leader,
                          CellForces& forces) {
-  const State& s = world.state;
   const Motility& m = world.params.motility;
   forces.dcm.assign(s.dcm.n_lane(), Vec3::Zero());
   forces.cbm.assign(s.cbm.n_cell(), Vec3::Zero());
-  if (!controls.motility) return;
+  if (!controls_at(s.clock, world.params.start_up).motility) return;
   const double time = s.clock.time - s.clock.origin;
   auto active = [&](std::int64_t lineage, double diffusion, double friction) {
     if (!m.random || diffusion <= 0) return Vec3(Vec3::Zero());
@@ -79,8 +102,16 @@ void compute_cell_forces(const World& world, const Controls& controls, double st
     if (m.leader_force > 0 && leader[s.dcm.n_lane() + c])
       forces.cbm[c] += m.leader_force * toward_axis(m, cbm::center_of(s.cbm, c));
   });
-  add_pulls(world, time + 0.5 * step, forces);
+  world.params.apparatus.add_cell_forces(time + 0.5 * step, {s.dcm, s.cbm, forces.dcm, forces.cbm});
   add_fading_forces(s, s.clock.time + 0.5 * step, forces);
+}
+
+void refresh_migration(const World& world, const State& at, double step, Workspace& w) {
+  const auto scope = w.timings.scope("assembly");
+  choose_step_leaders(world, at, w);
+  const PhaseParams phase = phase_params(world);
+  sum_medium_friction(world, contact_input(world, at, phase, 0, w), w);
+  compute_cell_forces(world, at, step, w.medium_friction, w.leader, w.forces);
 }
 
 }  // namespace acinus::coupling

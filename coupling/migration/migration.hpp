@@ -1,10 +1,11 @@
 #pragma once
-/// Active forces on whole cells: random motility, the pull of leaders toward the vein, pulls that
-/// are constant or prescribed over time.
+/// Forces on whole cells: random motility, the pull of leaders toward the vein, constant pulls,
+/// those of devices and those that fade.
 
 #include <cstdint>
 
 #include "coupling/world/cell_forces.hpp"
+#include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
@@ -14,11 +15,17 @@ namespace acinus::coupling {
 /// rejected steps leave no trace.
 Vec3 mean_random(std::uint64_t seed, std::int64_t lineage, double grid, double time, double step);
 
-/// Adds everything active. Random force of a component: Gamma_med sqrt(2 D / grid) xi, with
-/// Gamma_med the cell's present friction with the medium alone. [VanLiedekerke2020, Eq. (1) term 9
-/// and Eq. (19), with the noise of docs/decisions/0004.md]
-void compute_cell_forces(const World& world, const Controls& controls, double step,
+/// Active forces on all cells at a state. Random force of a component: Gamma_med sqrt(2 D / grid)
+/// xi, with Gamma_med the cell's present friction with the medium alone.
+/// [VanLiedekerke2020, Eq. (1) term 9 and Eq. (19), with the noise of docs/decisions/0004.md]
+void compute_cell_forces(const World& world, const State& at, double step,
                          const MediumFriction& medium, std::span<const std::uint8_t> leader,
                          CellForces& forces);
+
+/// Stage 4 of a step: chooses the leaders, then refreshes the friction of every cell with the
+/// medium and its active force.
+/// @param at  positions of all cells
+/// @pre references and contacts are those of `at`
+void refresh_migration(const World& world, const State& at, double step, Workspace& work);
 
 }  // namespace acinus::coupling

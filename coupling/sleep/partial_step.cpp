@@ -58,7 +58,7 @@ CellSet subtract(const CellSet& a, const CellSet& b) {
 void choose_leaders_of_all(World& world) {
   State& s = world.state;
   if (!(world.params.motility.leader_force > 0) || s.clock.phase != Phase::kRun) return;
-  choose_leaders(world, dcm::reference_radii(s.dcm, s.clock.time),
+  choose_leaders(world.params, s, dcm::reference_radii(s.dcm, s.clock.time),
                  cbm::radii_at(s.cbm, s.clock.time), s.leader, s.leader_interval);
 }
 

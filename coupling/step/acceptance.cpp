@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/parallel/threads.hpp"
+#include "coupling/step/active_set.hpp"
 #include "coupling/step/cell_sums.hpp"
 #include "coupling/step/clearance.hpp"
-#include "coupling/step/closing.hpp"
 #include "coupling/step/error_estimate.hpp"
 
 namespace acinus::coupling {
@@ -207,24 +207,18 @@ struct DeepContact {
 
 DeepContact describe_contact(const World& world, const Workspace& w, std::size_t l) {
   const solve::Link& link = w.system.links.link[l];
+  const std::size_t number = w.system.links.load[l].contact;
+  const contact::Contact& k = w.contacts.all[number];
+  const contact::ContactKind kind = w.contacts.kind_of(number);
   DeepContact deep;
-  deep.inner = l >= w.first_nucleus_link;
+  deep.inner = kind == contact::ContactKind::kNucleus;
   deep.pair = link.b.exists();
   deep.a = lane_of(w, solve::address_of(link.a.point[0]));
   deep.b = deep.pair ? lane_of(w, solve::address_of(link.b.point[0])) : deep.a;
   deep.depth = depth_after(world, w, l);
-  constexpr int kObstacle = 1, kInterface = 2, kNucleus = 3;
-  if (deep.inner) {
-    deep.place = {kNucleus, static_cast<int>(deep.a), 0};
-    return deep;
-  }
-  const contact::Contact& k = w.contacts.all[l];
-  if (l < w.contacts.surface_end)
-    deep.place = {0, k.a, k.b};
-  else if (l < w.contacts.obstacle_end)
-    deep.place = {kObstacle, k.a, 0};
-  else
-    deep.place = {kInterface, k.a, k.b};
+  const bool of_cells =
+      kind == contact::ContactKind::kSurface || kind == contact::ContactKind::kInterface;
+  deep.place = {static_cast<int>(kind), k.a, of_cells ? k.b : 0};
   return deep;
 }
 
@@ -288,13 +282,28 @@ double move_limit(double max_move, double mean_edge) {
   return max_move > 0 ? max_move * mean_edge : std::numeric_limits<double>::infinity();
 }
 
-Assessment assess_step(const World& world, double step, Workspace& w) {
+Assessment assess_step(const World& world, double step, const Status& solved, Workspace& w) {
+  if (!solved.ok) {
+    ++w.failed_solves;
+    Assessment failed;
+    failed.accepted = false;
+    failed.cause = solved.cause;
+    return failed;
+  }
+  const auto scope = w.timings.scope("acceptance");
   Assessment a = assess_moves(world, step, w);
   if (!a.accepted) return a;
-  Assessment contacts = assess_contacts(world, w);
-  contacts.max_move = a.max_move;
-  if (contacts.accepted) contacts.error = estimate_error(world, step, w);
-  return contacts;
+  const double max_move = a.max_move;
+  a = assess_contacts(world, w);
+  a.max_move = max_move;
+  if (!a.accepted) return a;
+  a.error = estimate_error(world, step, w);
+  const Numerics& n = world.params.numerics;
+  if (n.adaptive && a.error > kMostError * n.tolerance && step > n.min_step) {
+    a.accepted = false;
+    a.cause = "the estimated error is too large";
+  }
+  return a;
 }
 
 }  // namespace acinus::coupling

@@ -1,11 +1,12 @@
 #pragma once
-/// Stage 7: whether a computed displacement may become State: finite, small enough, no face turned
-/// over, no contact driven deep.
+/// Stage 7 of a step: the verdict on a computed displacement. It may become State if it is finite
+/// and small enough, turns no face over and drives no contact deep.
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
@@ -24,6 +25,11 @@ struct Assessment {
 double move_limit(double max_move, double mean_edge);
 inline constexpr double kSphereEdge = 0.3;  ///< mean edge of a 162-node mesh, in radii
 
-Assessment assess_step(const World& world, double step, Workspace& work);
+/// Largest estimated error of an accepted step, in tolerances, where its length is controlled.
+inline constexpr double kMostError = 4;
+
+/// Judges the displacement in work.move. Counts failed solves.
+/// @param solved  outcome of the solver
+Assessment assess_step(const World& world, double step, const Status& solved, Workspace& work);
 
 }  // namespace acinus::coupling

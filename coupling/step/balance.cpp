@@ -13,14 +13,13 @@ namespace {
 /// Brings w.cg.residual to that of the step, and w.cg.product to what boundary and medium
 /// exert in it.
 void find_products(const World& world, Workspace& w) {
-  // Of A dx = b the residual is known; displacements made up of stages need the product.
-  const Integrator method = world.params.numerics.integrator;
-  if (method == Integrator::kRos2 || method == Integrator::kNewton) {
+  // Of A dx = b the residual is known; a displacement that iterations corrected needs the product.
+  if (world.params.numerics.integrator == Integrator::kNewton) {
     w.op.apply(w.move, w.cg.product);
     for_each_own_number(w.system,
                         [&](std::size_t k) { w.cg.residual[k] = w.rhs[k] - w.cg.product[k]; });
   }
-  if (!w.linearisation.is_ahead()) {
+  if (!w.linearisation.is_elsewhere()) {
     w.op.apply_external(w.move, w.cg.product);
     return;
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/parallel/clock.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 
 namespace acinus::coupling {
 namespace {

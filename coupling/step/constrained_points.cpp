@@ -22,7 +22,7 @@ void for_each_constrained_point(const Workspace& w, F f) {
 
 }  // namespace
 
-void apply_constraint(Workspace& w) {
+void apply_constraints(Workspace& w) {
   w.dcm.constrained.clear();
   for (std::size_t lane = 0; lane < w.dcm.foreign.size(); ++lane)
     if (w.dcm.foreign[lane] != 0) w.lanes.active[lane] = 0;

@@ -8,7 +8,7 @@
 namespace acinus::coupling {
 
 /// Tells contacts and forces within cells which deformable cells are constrained.
-void apply_constraint(Workspace& work);
+void apply_constraints(Workspace& work);
 
 /// Ties every constrained point to its place: a diagonal entry so large that it does not move.
 void add_constraint(double step, Workspace& work);

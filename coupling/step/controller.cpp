@@ -8,11 +8,10 @@
 
 #include "core/parallel/arrays.hpp"
 #include "core/parallel/stop.hpp"
-#include "coupling/step/acceptance.hpp"
 #include "coupling/step/balance.hpp"
 #include "coupling/step/balance_shares.hpp"
 #include "coupling/step/constrained_points.hpp"
-#include "coupling/step/integrator.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/tensions.hpp"
 
 namespace acinus::coupling {
@@ -46,11 +45,6 @@ bool want_coarse(const State& s, int iterations_per_solve) {
   return iterations_per_solve > (s.clock.coarse ? kCoarseOff : kCoarseOn);
 }
 
-/// Attempts at one step so far.
-struct Effort {
-  int cg_iterations = 0, solves = 0;
-};
-
 /// Length of the next step from the error of this one. A quarter more or less is not worth a
 /// change.
 double next_step(const Numerics& n, double step, double error) {
@@ -58,29 +52,6 @@ double next_step(const Numerics& n, double step, double error) {
   const double factor =
       error > 0 ? std::clamp(0.9 * std::sqrt(n.tolerance / error), 0.5, 1.5) : 1.5;
   return std::clamp(step * factor, n.min_step, n.max_step);
-}
-
-Assessment attempt_and_assess(World& world, double step, bool first_try, Workspace& w,
-                              Effort& effort) {
-  const Numerics& n = world.params.numerics;
-  const Attempt attempt = attempt_step(world, step, first_try, w);  // stages 1 to 6
-  effort.cg_iterations += attempt.cg_iterations;
-  effort.solves += attempt.solves;
-  Assessment a;
-  if (!attempt.status.ok) {
-    ++w.failed_solves;
-    a.accepted = false;
-    a.cause = attempt.status.cause;
-    return a;
-  }
-  const auto scope = w.timings.scope("acceptance");
-  a = assess_step(world, step, w);  // stage 7
-  if (attempt.error >= 0) a.error = attempt.error;
-  if (a.accepted && n.adaptive && a.error > 4 * n.tolerance && step > n.min_step) {
-    a.accepted = false;
-    a.cause = "the estimated error is too large";
-  }
-  return a;
 }
 
 void record_balance(const World& world, Workspace& w, Balance& largest) {
@@ -122,7 +93,7 @@ StepResult take_step(World& world, Workspace& w, double limit) {
   double wanted = s.clock.step > 0 ? std::min(s.clock.step, n.max_step) : n.max_step;
   for (;;) {
     const double step = std::min(wanted, limit);
-    const Assessment a = attempt_and_assess(world, step, result.rejections == 0, w, effort);
+    const Assessment a = attempt_step(world, step, result.rejections == 0, w, effort);
     if (a.accepted) {
       const auto scope = w.timings.scope("commit");
       record_balance(world, w, s.balance);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
-#include "coupling/step/linearly_implicit.hpp"
+#include "coupling/step/sizing.hpp"
 #include "coupling/step/solve.hpp"
-#include "coupling/step/stages.hpp"
-#include "coupling/step/trial.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -19,18 +19,28 @@ constexpr double kNewtonShare = 0.1;
 /// one.
 constexpr double kKink = 2e-3;
 
+/// State on the way of the iteration and what is assembled there.
+struct Trial {
+  State state;
+  Workspace friction;  ///< Gamma at the start of the step
+  Workspace work;      ///< at the trial state
+  std::vector<double> product;
+};
+
 /// Residual of backward Euler at the trial positions, F(x + d) - Gamma/h d, into work.rhs of the
 /// trial; returns its size in the norm of the preconditioner.
-double newton_residual(const World& world, double step, std::span<const double> d, Trial& s) {
-  move_trial(world, d, s);
-  find_all_contacts(s.world, step, s.work);
-  assemble(s.world, step, s.work);
-  s.product.resize(d.size());
-  s.friction.op.apply(d, s.product);
-  for_each_own_number(s.work.system, [&](std::size_t k) {
-    s.work.rhs[k] = s.work.system.force[k] + s.work.system.external_force[k] - s.product[k];
+double newton_residual(const World& world, double step, std::span<const double> d,
+                       const Assembler& assemble, Trial& trial) {
+  trial.state = world.state;
+  move_points(trial.state, d);
+  assemble(world, trial.state, step, trial.work, {});
+  trial.product.resize(d.size());
+  trial.friction.op.apply(d, trial.product);
+  for_each_own_number(trial.work.system, [&](std::size_t k) {
+    const solve::System& s = trial.work.system;
+    trial.work.rhs[k] = s.force[k] + s.external_force[k] - trial.product[k];
   });
-  return std::sqrt(s.work.op.precondition(s.work.rhs, {}));
+  return std::sqrt(trial.work.op.precondition(trial.work.rhs, {}));
 }
 
 double largest_move(const Workspace& w, std::span<const double> field) {
@@ -45,44 +55,50 @@ double largest_move(const Workspace& w, std::span<const double> field) {
   return largest;
 }
 
+/// Halves a correction of the displacement until the residual falls.
+/// @param[in,out] move  takes the corrected displacement
+/// @param[in,out] size  of the residual
+/// @return false if no share of the correction makes it fall
+bool search_line(const World& world, double step, const Assembler& assemble,
+                 std::span<const double> correction, std::vector<double>& move, double& size,
+                 Trial& trial) {
+  std::vector<double> tried(move.size());
+  double share = 1;
+  for (int halving = 0; halving <= kMaxHalvings; ++halving, share /= 2) {
+    for (std::size_t k = 0; k < tried.size(); ++k) tried[k] = move[k] + share * correction[k];
+    const double next = newton_residual(world, step, tried, assemble, trial);
+    if (!(next < size)) continue;
+    move = tried;
+    size = next;
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-Attempt try_newton(World& world, double step, Workspace& w) {
-  // The first iteration is a linearly implicit step; it also leaves what acceptance looks at.
-  Attempt a = try_linearly_implicit(world, step, false, w);
-  if (!a.status.ok) return a;
+Status iterate_newton(const World& world, double step, const Assembler& assemble, Workspace& w,
+                      Effort& effort) {
   solve::gather_rows(w.system, w.move);
-  Trial s;
-  begin_trial(world, s);
-  find_all_contacts(world, step, s.friction);
-  assemble(world, step, s.friction, {.stiffness_scale = 0});
+  Trial trial;
+  size_workspace(world, trial.friction);
+  size_workspace(world, trial.work);
+  assemble(world, world.state, step, trial.friction, {.stiffness = false});
   const double done = kNewtonShare * world.params.numerics.tolerance;
-  double size = newton_residual(world, step, w.move, s);
+  double size = newton_residual(world, step, w.move, assemble, trial);
   for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
-    std::ranges::fill(s.work.move, 0.0);
-    a.status = solve_system(s.world, s.work, a.cg_iterations);
-    ++a.solves;
-    if (!a.status.ok) return a;
-    solve::gather_rows(s.work.system, s.work.move);
-    s.first = s.work.move;
-    const double largest = largest_move(w, s.first);
-    if (largest <= done) return a;
-    double share = 1, next = 0;
-    std::vector<double> tried(w.move.size());
-    for (int halving = 0; halving <= kMaxHalvings; ++halving, share /= 2) {
-      for (std::size_t k = 0; k < tried.size(); ++k) tried[k] = w.move[k] + share * s.first[k];
-      next = newton_residual(world, step, tried, s);
-      if (next < size) break;
-    }
-    if (!(next < size)) {
-      if (largest > kKink) a.status = Status::failed("Newton's method found no way down");
-      return a;
-    }
-    w.move = tried;
-    size = next;
+    std::ranges::fill(trial.work.move, 0.0);
+    Status status = solve_system(world, trial.work, effort);
+    if (!status.ok) return status;
+    solve::gather_rows(trial.work.system, trial.work.move);
+    const std::vector<double> correction = trial.work.move;
+    const double largest = largest_move(w, correction);
+    if (largest <= done) return Status::fine();
+    if (search_line(world, step, assemble, correction, w.move, size, trial)) continue;
+    if (largest > kKink) return Status::failed("Newton's method found no way down");
+    return Status::fine();
   }
-  a.status = Status::failed("Newton's method did not converge");
-  return a;
+  return Status::failed("Newton's method did not converge");
 }
 
 }  // namespace acinus::coupling

@@ -1,13 +1,22 @@
 #pragma once
-/// Backward Euler, Gamma/h dx = F(x + dx; t + h), by Newton's method with line search, order 1.
+/// Newton's method for a step of backward Euler, Gamma/h dx = F(x + dx; t + h), of order 1.
 
-#include "coupling/step/attempt.hpp"
+#include <functional>
+
+#include "core/error.hpp"
+#include "coupling/step/effort.hpp"
+#include "coupling/step/system_loads.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 
-/// The first iteration is a linearly implicit step.
-Attempt try_newton(World& world, double step, Workspace& work);
+/// Assembles the system at a state, as assemble in step.hpp does.
+using Assembler = std::function<void(const World& world, const State& at, double step,
+                                     Workspace& work, const SystemTerms& terms)>;
+
+/// Iterates with line search from the displacement of a linearly implicit step in work.move.
+[[nodiscard]] Status iterate_newton(const World& world, double step, const Assembler& assemble,
+                                    Workspace& work, Effort& effort);
 
 }  // namespace acinus::coupling

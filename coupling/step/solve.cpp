@@ -6,6 +6,7 @@
 
 #include "core/parallel/make_room.hpp"
 #include "coupling/step/constrained_points.hpp"
+#include "coupling/step/linearisation.hpp"
 
 namespace acinus::coupling {
 namespace {
@@ -15,12 +16,12 @@ constexpr int kMostDoublings = 5;
 constexpr int kMostIterations = std::numeric_limits<int>::max();
 
 /// Solves for the whole displacement from the guess in w.move.
-/// @param from_point  the guess is where the step was linearised, if that was ahead
-Status solve_from_guess(const World& world, Workspace& w, bool from_point, int& cg_iterations) {
+/// @param from_point  the guess is the displacement to the point of linearisation
+Status solve_from_guess(const World& world, Workspace& w, bool from_point, Effort& effort) {
   for_each_own_number(
       w.system, [&](std::size_t k) { w.rhs[k] = w.system.force[k] + w.system.external_force[k]; });
   LinearisationPoint& point = w.linearisation;
-  if (!point.is_ahead()) return solve_system(world, w, cg_iterations);
+  if (!point.is_elsewhere()) return solve_system(world, w, effort);
   // A (d - point) = F - Gamma/h point, solved for d: the tolerance refers to the whole way. The way
   // of constrained cells is known: what ties them would drown all other forces.
   set_size(w.rest_of_move, w.move.size());
@@ -34,7 +35,7 @@ Status solve_from_guess(const World& world, Workspace& w, bool from_point, int& 
                       [&](std::size_t k) { w.rhs[k] += point.product[k] - point.friction[k]; });
   const bool is_known = from_point && !w.constraint.applies() && w.constraint.anchored_row.empty();
   const Status status =
-      solve_system(world, w, cg_iterations,
+      solve_system(world, w, effort,
                    is_known ? std::span<const double>(point.product) : std::span<const double>());
   for_each_own_number(w.system, [&](std::size_t k) { w.rhs[k] -= point.product[k]; });
   place_constrained(point.move, w);
@@ -43,9 +44,10 @@ Status solve_from_guess(const World& world, Workspace& w, bool from_point, int& 
 
 }  // namespace
 
-Status solve_step(const World& world, double step, Workspace& w, int& cg_iterations) {
+Status solve_step(const World& world, double step, Workspace& w, Effort& effort) {
   const State& s = world.state;
-  if (w.linearisation.is_ahead()) {
+  if (w.linearisation.is_elsewhere()) {
+    compute_point_products(w);
     for_each_own_number(w.system, [&](std::size_t k) { w.move[k] = w.linearisation.move[k]; });
   } else if (has_last_move(s)) {  // the last step's velocity is a good first guess
     const double ratio = step / s.clock.last_step;
@@ -54,15 +56,15 @@ Status solve_step(const World& world, double step, Workspace& w, int& cg_iterati
     std::ranges::fill(w.move, 0.0);
   }
   place_constrained({}, w);  // of a guess their ties would make a huge force
-  return solve_from_guess(world, w, true, cg_iterations);
+  return solve_from_guess(world, w, true, effort);
 }
 
-Status solve_again(const World& world, Workspace& w, int& cg_iterations) {
+Status solve_again(const World& world, Workspace& w, Effort& effort) {
   place_constrained({}, w);
-  return solve_from_guess(world, w, false, cg_iterations);
+  return solve_from_guess(world, w, false, effort);
 }
 
-Status solve_system(const World& world, Workspace& w, int& cg_iterations,
+Status solve_system(const World& world, Workspace& w, Effort& effort,
                     std::span<const double> product) {
   const auto scope = w.timings.scope("solve");
   solve::CgOptions options = world.params.numerics.cg;
@@ -74,8 +76,9 @@ Status solve_system(const World& world, Workspace& w, int& cg_iterations,
   const bool coarse = world.state.clock.coarse;
   if (coarse) w.coarse.prepare(w.op, w.position, w.active);
   const solve::CgResult result =
-      solve::solve_cg(w.op, w.rhs, w.move, options, w.cg, coarse ? &w.coarse : nullptr, product);
-  cg_iterations += result.iterations;
+      solve::solve_cg({w.op, w.rhs, coarse ? &w.coarse : nullptr, product}, w.move, options, w.cg);
+  effort.cg_iterations += result.iterations;
+  ++effort.solves;
   if (!result.status.ok) return result.status;
   // A rigid error this small next to the edge of a mesh is below the solver's own tolerance.
   const solve::RigidResult rigid = solve::correct_rigid_modes(

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "coupling/step/loop.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/population.hpp"
 #include "geometry/box_pairs.hpp"
@@ -134,7 +134,7 @@ void extract_at_rest(const World& world, CellSet moving, CellSet constrained, Su
   });
   params.motility.random = false;
   params.motility.leader_force = 0;
-  params.pulls.clear();
+  params.apparatus.remove_drives();
   params.numerics.adaptive = true;
   take_cells(world.state, std::move(moving), std::move(constrained), sub);
   State& s = sub.world.state;

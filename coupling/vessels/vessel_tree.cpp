@@ -145,13 +145,6 @@ double largest_displacement(const VesselTree& tree, const TreeState& s) {
   return std::sqrt(largest2);
 }
 
-double tree_energy(const VesselTree& tree, const TreeState& s) {
-  double energy = 0;
-  for (std::size_t k = 0; k < tree.beam.size(); ++k)
-    energy += find_load(tree.beam[k], ends_of(tree, s, k)).energy;
-  return energy;
-}
-
 void add_tree_loads(const VesselTree& tree, const TreeState& s, const solve::Block& block,
                     solve::System& system) {
   const double scale = system.stiffness_scale;

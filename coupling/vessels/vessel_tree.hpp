@@ -72,9 +72,6 @@ void place_vessels(const VesselTree& tree, const TreeState& state, contact::Vess
 /// Largest distance of a node from its place at rest, um.
 double largest_displacement(const VesselTree& tree, const TreeState& state);
 
-/// Elastic energy of all beams, fJ; that of a pressure inside counts from the length at rest.
-double tree_energy(const VesselTree& tree, const TreeState& state);
-
 /// Adds forces, stiffness and friction of the tree to its block.
 void add_tree_loads(const VesselTree& tree, const TreeState& state, const solve::Block& block,
                     solve::System& system);

@@ -19,20 +19,22 @@
 
 namespace acinus::coupling {
 
-/// Where a step was linearised, as displacements from the present positions; empty: there.
+/// Point of linearisation of a step, as displacements from the present positions; none: there.
 struct LinearisationPoint {
-  std::vector<double> move;                        ///< [n_row][3][lane] um
-  std::vector<double> friction;                    ///< Gamma/h times it, nN
-  std::vector<double> product;                     ///< Gamma/h + K times it, nN
-  std::vector<double> pair_friction;               ///< of that what cells exert on each other
-  std::vector<double> dcm_position, cbm_position;  ///< um, where all were before
-  bool is_ahead() const { return !move.empty(); }
+  std::vector<double> move;           ///< [n_row][3][lane] um
+  bool moves_all = false;             ///< else only constrained cells are displaced
+  State state;                        ///< of the displaced cells, if all are
+  std::vector<double> friction;       ///< nN, Gamma/h times `move`; with K if not all are displaced
+  std::vector<double> product;        ///< nN, Gamma/h + K times it
+  std::vector<double> pair_friction;  ///< nN, the part of `friction` that cells exert on each other
+  bool is_elsewhere() const { return !move.empty(); }
 };
 
 struct Workspace {
   solve::System system;
-  /// The boundary of the step, where vessels move; written by: find_all_contacts
+  /// Boundary of the step if vessels move; written by: refresh_references
   std::optional<contact::Boundary> boundary;
+  std::size_t tree_block = 0;   ///< of the vessels that move; written by: size_workspace
   std::size_t dcm_lanes = 0;    ///< written by: find_foreign_cells
   MeasuredCost cost;            ///< written by: balance_shares
   std::size_t bodies_sent = 0;  ///< whose shares others need; written by: exchange_shares
@@ -43,27 +45,25 @@ struct Workspace {
   dcm::ContactWorkspace dcm;
   dcm::NucleusWorkspace nuclei;
   cbm::ContactWorkspace cbm;
-  InterfaceWorkspace interface;          ///< written by: find_all_contacts
-  contact::ContactList contacts;         ///< written by: find_all_contacts, completed by: assemble
-  dcm::LaneData lanes;                   ///< written by: find_references
-  std::vector<double> cbm_radius;        ///< written by: find_references
-  std::vector<double> cbm_strength;      ///< empty: all 1; written by: find_references
+  InterfaceWorkspace interface;          ///< written by: refresh_contacts
+  contact::ContactList contacts;         ///< written by: refresh_contacts, completed by: add_loads
+  dcm::LaneData lanes;                   ///< written by: refresh_references
+  std::vector<double> cbm_radius;        ///< written by: refresh_references
+  std::vector<double> cbm_strength;      ///< empty: all 1; written by: refresh_references
   std::vector<std::int64_t> cbm_mother;  ///< lineage; empty with cbm_strength; by the same
-  std::vector<dcm::Params> dcm_params;   ///< of the step; written by: assemble
-  std::size_t first_nucleus_link = 0;    ///< links from there on are of nuclei; by the same
-  std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: assemble
-  MediumFriction medium_friction;        ///< written by: assemble
-  CellForces forces;                     ///< written by: assemble
-  std::vector<dcm::PullSpring> pull_spring;  ///< [dcm lanes] written by: assemble
-  std::vector<double> position;              ///< [n_row][3][lane]; written by: assemble
-  std::vector<std::uint8_t> active;          ///< written by: size_workspace
-  Constraint constraint;                     ///< set by the owner
-  std::vector<double> rhs;                   ///< written by: solve_step
-  std::vector<double> move;                  ///< displacement of the step; written by: solve_step
-  std::vector<double> rest_of_move;          ///< scratch of solve_step
-  LinearisationPoint linearisation;          ///< written by: attempt_step
-  int failed_solves = 0;                     ///< attempts at this step; written by: take_step
-  std::vector<std::uint8_t> leader;          ///< written by: choose_leaders_of_step
+  std::vector<dcm::Params> dcm_params;   ///< of the step; written by: add_loads
+  std::vector<double> medium_area;       ///< [dcm rows][lane]; written by: refresh_migration
+  MediumFriction medium_friction;        ///< written by: refresh_migration
+  CellForces forces;                     ///< written by: refresh_migration
+  std::vector<double> position;          ///< [n_row][3][lane]; written by: add_loads
+  std::vector<std::uint8_t> active;      ///< written by: size_workspace
+  Constraint constraint;                 ///< set by the owner
+  std::vector<double> rhs;               ///< written by: solve_step
+  std::vector<double> move;              ///< displacement of the step; written by: solve_step
+  std::vector<double> rest_of_move;      ///< scratch of solve_step
+  LinearisationPoint linearisation;      ///< written by: choose_linearisation_point
+  int failed_solves = 0;                 ///< attempts at this step; written by: take_step
+  std::vector<std::uint8_t> leader;      ///< written by: refresh_migration
   std::int64_t leader_interval = -1;
   Timings timings;
   std::uint64_t sized = 0;  ///< number of calls of size_workspace: what depends on the set of cells

@@ -4,7 +4,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"

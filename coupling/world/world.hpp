@@ -11,14 +11,11 @@
 #include "cbm/state.hpp"
 #include "contact/boundary.hpp"
 #include "core/parallel/ranks.hpp"
-#include "coupling/apparatus/pull.hpp"
-#include "coupling/apparatus/stretcher.hpp"
-#include "coupling/apparatus/temperature.hpp"
+#include "coupling/apparatus/apparatus.hpp"
 #include "coupling/interface/interface.hpp"
 #include "coupling/vessels/vessel_tree.hpp"
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/fading_force.hpp"
-#include "coupling/world/suction.hpp"
 #include "coupling/world/zoom.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "dcm/params.hpp"
@@ -50,7 +47,7 @@ enum class Leaders {
 
 struct Motility {
   std::uint64_t seed = 1;
-  bool random = false;
+  bool random = true;
   bool in_plane = false;     ///< the random force is horizontal: cells crawl on a substrate
   double grid = 60;          ///< s, time grid of the random force
   double leader_force = 0;   ///< nN toward the vein axis
@@ -69,7 +66,7 @@ struct Sleep {
   double traction = 1e-3;  ///< kPa, force out of balance per area below which a cell falls asleep
 };
 
-enum class Integrator { kLinearlyImplicit, kExplicitEuler, kRos2, kNewton };
+enum class Integrator { kLinearlyImplicit, kExplicitEuler, kNewton };
 
 struct Numerics {
   double max_step = 60, min_step = 1e-5;  ///< s
@@ -97,10 +94,7 @@ struct Params {
   Numerics numerics;
   contact::Boundary boundary;  ///< of these vessels with a tree go where it is
   VesselTree tree;
-  Temperature temperature;
-  Stretcher stretcher;
-  Suction suction;
-  std::vector<Pull> pulls;
+  Apparatus apparatus;
 };
 
 /// Events after the last step that are still to come. A step and its events are one unless the

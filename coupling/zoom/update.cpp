@@ -13,7 +13,7 @@
 #include "core/parallel/threads.hpp"
 #include "core/sphere.hpp"
 #include "coupling/measure/measure.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "coupling/subworld/settle.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/fading.hpp"
@@ -170,12 +170,12 @@ void change_models(World& world, const Switches& all, const std::vector<double>&
   for (std::size_t k = 0; k < shells.size(); ++k) {
     const Candidate& c = all.promote[k];
     if (!shells[k].ok) {
-      report.changes.push_back({"promotion_waits", c.lineage, shells[k].why});
+      report.changes.push_back({EventKind::kPromotionWaits, c.lineage, shells[k].why});
       continue;
     }
     gone[c.cell.index] = 1;
     fresh.push_back(make_shell(world, c.cell.at, shells[k]));
-    report.changes.push_back({"promotion", c.lineage,
+    report.changes.push_back({EventKind::kPromotion, c.lineage,
                               fmt::format("becomes deformable at a pressure of {:.3g} Pa",
                                           1e3 * pressure[c.cell.index])});
   }
@@ -183,7 +183,7 @@ void change_models(World& world, const Switches& all, const std::vector<double>&
     gone[c.cell.index] = 1;
     fresh.push_back(make_sphere(world, c.cell.at));
     report.changes.push_back(
-        {"demotion", c.lineage,
+        {EventKind::kDemotion, c.lineage,
          fmt::format("becomes a sphere at a pressure of {:.3g} Pa", 1e3 * pressure[c.cell.index])});
   }
   if (!fresh.empty()) exchange(gone, fresh, s);
@@ -223,7 +223,7 @@ ZoomReport update_zoom(World& world, Workspace& work) {
     }
     if (!settled.ok)
       for (const std::int64_t cell : meshes)
-        report.changes.push_back({"settling_failed", cell, settled.cause});
+        report.changes.push_back({EventKind::kSettlingFailed, cell, settled.cause});
   }
   size_workspace(world, work);
   s.clock.step = std::min(s.clock.step, kStepAfterChange);

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "coupling/world/event_kind.hpp"
 #include "coupling/world/workspace.hpp"
 #include "coupling/world/world.hpp"
 
 namespace acinus::coupling {
 
 struct ModelChange {
-  std::string code;  ///< promotion | demotion | promotion_waits
+  EventKind kind{};  ///< kPromotion, kPromotionWaits, kDemotion or kSettlingFailed
   std::int64_t cell = 0;
   std::string message;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <utility>
 
 #include "contact/cohesive.hpp"
 #include "core/parallel/make_room.hpp"
@@ -123,7 +121,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
   else
     find_point_contacts(in, options, work, all);
   take_wall_contacts(in, work, all);
-  contacts.surface_end = all.size();
+  contacts.close(contact::ContactKind::kSurface);
 
   work.obstacle.resize(work.body.size());
   for_each_index(work.body.size(), worth_threads(in.state.n_row()), [&](std::size_t k) {
@@ -133,7 +131,7 @@ void find_contacts(const ContactInput& in, ContactWorkspace& work, contact::Cont
       find_obstacle_contacts(in, work, static_cast<int>(k), options.range, work.obstacle[k]);
   });
   for (const auto& o : work.obstacle) append(o, all);
-  contacts.obstacle_end = contacts.interface_end = contacts.sphere_obstacle_end = all.size();
+  contacts.close(contact::ContactKind::kObstacle);
   find_shares(in, contacts, work);
 }
 

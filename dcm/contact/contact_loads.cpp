@@ -100,21 +100,17 @@ double cell_friction_at(const ContactParams& c, const ContactWorkspace& work, co
 void add_contact_loads(const ContactInput& in, const ContactWorkspace& work,
                        contact::ContactList& contacts, solve::Links& links) {
   const Completion completion{in, work};
-  const std::size_t first = links.size(), n = contacts.obstacle_end;
+  const std::size_t first = links.size(), n = contacts.first(contact::ContactKind::kInterface);
   links.resize(first + n);
-  const bool shared = worth_threads(in.state.n_row());
-  if (in.options.law == ContactLaw::kMaugisDugdale) {
-    for_each_index(n, shared, [&](std::size_t k) {
-      Contact& c = contacts.all[k];
-      if (is_between_triangles(in.options, c))
-        complete_triangle_contact(in, work, c, links.link[first + k], links.load[first + k]);
-      else
-        completion.complete(c, links.link[first + k], links.load[first + k]);
-    });
-    return;
-  }
-  for_each_index(n, shared, [&](std::size_t k) {
-    completion.complete(contacts.all[k], links.link[first + k], links.load[first + k]);
+  const bool triangles = in.options.law == ContactLaw::kMaugisDugdale;
+  for_each_index(n, worth_threads(in.state.n_row()), [&](std::size_t k) {
+    Contact& c = contacts.all[k];
+    solve::LinkLoad& load = links.load[first + k];
+    if (triangles && is_between_triangles(in.options, c))
+      complete_triangle_contact(in, work, c, links.link[first + k], load);
+    else
+      completion.complete(c, links.link[first + k], load);
+    load.contact = static_cast<std::uint32_t>(k);
   });
 }
 

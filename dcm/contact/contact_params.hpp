@@ -26,7 +26,7 @@ struct ContactParams {
   double friction_range = 0.3;  ///< um, independent of the mesh
   double max_depth = 1.5;       ///< um
   double skin = 0.3;            ///< um
-  double cell_friction = 0;     ///< nN s/um^3, cell-cell
+  double cell_friction = 50;    ///< nN s/um^3, cell-cell
   FrictionForm friction_form = FrictionForm::kSurface;
   double adhesion_factor = 1;  ///< ramps up after start-up
   double friction_factor = 1;  ///< 0 while cells grow to size

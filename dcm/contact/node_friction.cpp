@@ -103,7 +103,8 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
                        const contact::ContactList& contacts, std::vector<solve::PointLink>& links) {
   const ContactParams& c = in.options;
   if (c.friction_factor * c.cell_friction == 0) return;
-  const std::vector<ContactRun> runs = find_runs(contacts.surface());
+  const std::span<const Contact> surface = contacts.surface();
+  const std::vector<ContactRun> runs = find_runs(surface);
   std::vector<std::size_t> group;  // where each pair of bodies starts
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (k == 0 || runs[k].body != runs[k - 1].body) group.push_back(k);
@@ -118,7 +119,7 @@ void add_node_friction(const ContactInput& in, const ContactWorkspace& work,
       const auto& body_b = work.body[b];
       table.start(body_a.node.size(), body_b.node.size());
       for (std::size_t k = group[g]; k < group[g + 1]; ++k)
-        add_run(in, work, contacts.range(runs[k].first, runs[k].last), table);
+        add_run(in, work, surface.subspan(runs[k].first, runs[k].last - runs[k].first), table);
       auto point = [&](int body, int node) {
         return side_at(in.state, work.lane_of_body[body], {1, {node, 0, 0}, {1, 0, 0}}).point[0];
       };

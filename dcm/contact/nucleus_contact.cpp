@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/closest.hpp"
+#include "core/parallel/make_room.hpp"
 #include "core/parallel/threads.hpp"
 #include "dcm/contact/contact_points.hpp"
 #include "dcm/contact/contact_sides.hpp"
@@ -121,10 +122,11 @@ void find_near(const contact::SurfaceBody& b, const Vec3& point, double distance
     if ((b.center[t] - point).norm() - b.reach[t] < distance) near.push_back(static_cast<int>(t));
 }
 
-/// Finds the contacts of one cell.
-void find_in_cell(const ContactInput& in, const contact::SurfaceBody& cortex,
-                  const contact::SurfaceBody& nucleus, std::size_t lane,
-                  std::vector<NucleusContact>& out) {
+/// Finds the contacts of nucleus `number` of `work`.
+void find_in_cell(const ContactInput& in, const ContactWorkspace& cortices, std::size_t number,
+                  NucleusWorkspace& work) {
+  const std::size_t body = work.cortex[number], lane = cortices.lane_of_body[body];
+  const contact::SurfaceBody &cortex = cortices.body[body], &nucleus = work.body[number];
   const Nucleus& n = *in.params[in.state.group[lane / kLanes].type].nucleus;
   const double range = n.gap + kNucleusAhead, horizon = std::max(range, in.options.max_depth);
   const Vec3 middle = 0.5 * (nucleus.box.low + nucleus.box.high);
@@ -135,17 +137,25 @@ void find_in_cell(const ContactInput& in, const contact::SurfaceBody& cortex,
   find_near(cortex, middle, reach + range, near);
   if (near.empty()) return;  // most nuclei at most times
   PointSearch(cortex, nucleus, horizon, scratch)
-      .look(near, [&](int point, int triangle, auto weight, const Vec3& normal, double distance) {
-        if (distance > range) return;
-        out.push_back({lane, point, triangle, weight, normal, distance - n.gap,
-                       point_area(*cortex.topology, kProbes, point, in.lanes.radius[lane])});
+      .look(near, [&](int point, int triangle, const auto& weight, const Vec3& normal, double gap) {
+        if (gap > range) return;
+        work.found[number].push_back({.a = static_cast<int>(body),
+                                      .point = point,
+                                      .b = static_cast<int>(number),
+                                      .triangle = triangle,
+                                      .partner = contact::Partner::kNucleus,
+                                      .place = weight,
+                                      .stiffness = n.repulsion,
+                                      .normal = normal,
+                                      .gap = gap - n.gap});
       });
 }
 
 }  // namespace
 
 void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortices,
-                           NucleusWorkspace& work) {
+                           NucleusWorkspace& work, contact::ContactList& contacts) {
+  contacts.close(contact::ContactKind::kNucleus);
   work.cortex.clear();
   if (!has_nuclei(in.state)) return;
   for (std::size_t b = 0; b < cortices.lane_of_body.size(); ++b) {
@@ -163,39 +173,50 @@ void find_nucleus_contacts(const ContactInput& in, const ContactWorkspace& corti
     copy_nucleus(in.state, lane, nucleus.node);
     contact::refresh_body(nucleus);
     work.found[k].clear();
-    find_in_cell(in, cortices.body[work.cortex[k]], nucleus, lane, work.found[k]);
+    find_in_cell(in, cortices, k, work);
   });
+  for (const auto& found : work.found) {
+    make_room(contacts.all, found.size());
+    contacts.all.insert(contacts.all.end(), found.begin(), found.end());
+  }
+  contacts.close(contact::ContactKind::kNucleus);
 }
 
 void add_nucleus_contacts(const ContactInput& in, const ContactWorkspace& cortices,
-                          const NucleusWorkspace& work, solve::Links& links) {
-  std::size_t at = links.size(), n = at;
-  for (std::size_t k = 0; k < work.cortex.size(); ++k) n += work.found[k].size();
-  if (n == at) return;
-  links.resize(n);
-  for (std::size_t k = 0; k < work.cortex.size(); ++k)
-    for (const NucleusContact& c : work.found[k]) {
-      const Group& g = in.state.group[c.lane / kLanes];
-      const int first = g.topology->n_node;
-      const auto& corner = g.nucleus.topology->triangle[c.triangle];
-      const double w0 = static_cast<double>(c.weight[0]), w1 = static_cast<double>(c.weight[1]);
-      solve::Link& link = links.link[at];
-      link.a = side_at(in.state, c.lane,
-                       contact::point_stencil(cortices.body[work.cortex[k]], kProbes, c.point));
-      link.b = side_at(
-          in.state, c.lane,
-          {3, {first + corner[0], first + corner[1], first + corner[2]}, {w0, w1, 1 - w0 - w1}});
-      const double k_closed = in.params[g.type].nucleus->repulsion * c.area;
-      const double stiffness = c.gap < 0 ? k_closed : 0;
-      solve::set_law(stiffness, 0, c.gap, c.normal, link);
-      links.load[at] = {c.normal, -stiffness * c.gap, k_closed, c.gap};
-      ++at;
-    }
+                          contact::ContactList& contacts, solve::Links& links) {
+  std::size_t at = links.size(), number = contacts.first(contact::ContactKind::kNucleus);
+  const std::span<contact::Contact> nuclei = contacts.of(contact::ContactKind::kNucleus);
+  if (nuclei.empty()) return;
+  links.resize(at + nuclei.size());
+  for (contact::Contact& c : nuclei) {
+    const std::size_t lane = cortices.lane_of_body[c.a];
+    const Group& g = in.state.group[lane / kLanes];
+    const int first = g.topology->n_node;
+    const auto& corner = g.nucleus.topology->triangle[c.triangle];
+    const double closed_stiffness = c.stiffness * nucleus_contact_area(in, cortices, c);
+    c.slope = c.gap < 0 ? closed_stiffness : 0;
+    c.force = -c.slope * c.gap;
+    solve::Link& link = links.link[at];
+    link.a = side_at(in.state, lane, contact::point_stencil(cortices.body[c.a], kProbes, c.point));
+    link.b = side_at(in.state, lane,
+                     {3, {first + corner[0], first + corner[1], first + corner[2]}, c.weights()});
+    solve::set_law(c.slope, 0, c.gap, c.normal, link);
+    links.load[at] = {c.normal, c.force, closed_stiffness, c.gap,
+                      static_cast<std::uint32_t>(number)};
+    ++at;
+    ++number;
+  }
 }
 
-double nucleus_contact_energy(const Nucleus& n, const NucleusContact& c) {
+double nucleus_contact_area(const ContactInput& in, const ContactWorkspace& cortices,
+                            const contact::Contact& c) {
+  return point_area(*cortices.body[c.a].topology, kProbes, c.point,
+                    in.lanes.radius[cortices.lane_of_body[c.a]]);
+}
+
+double nucleus_contact_energy(const contact::Contact& c, double area) {
   const double depth = std::min(c.gap, 0.0);
-  return 0.5 * n.repulsion * c.area * depth * depth;
+  return 0.5 * c.stiffness * area * depth * depth;
 }
 
 }  // namespace acinus::dcm

@@ -102,9 +102,9 @@ struct BodyPair {
     k.triangle = t;
     k.partner = contact::Partner::kSurface;
     k.normal = -normal_a_to_b;
-    k.set_place_a(rounded(part.place_a));
+    k.place_a = rounded(part.place_a);
     const Corners at_b = corners_of(work.body[b], t);
-    const Vec3 x = place_at(corners_of(work.body[a], s), Contact::weights_at(k.place_a()));
+    const Vec3 x = place_at(corners_of(work.body[a], s), Contact::weights_at(k.place_a));
     const std::array<double, 3> w = weights_along(k.normal, at_b, x);
     k.place = rounded(w);
     k.gap = k.normal.dot(x - place_at(at_b, w));
@@ -194,7 +194,7 @@ void add_place_remainders(const ContactInput& in, const ContactWorkspace& work,
                           const contact::ContactList& contacts, std::vector<double>& force) {
   for (const Contact& k : contacts.surface()) {
     if (k.is_fold()) continue;
-    const Vec3 x = place_at(corners_of(work.body[k.a], k.point), Contact::weights_at(k.place_a()));
+    const Vec3 x = place_at(corners_of(work.body[k.a], k.point), Contact::weights_at(k.place_a));
     const std::array<double, 3> exact =
         weights_along(k.normal, corners_of(work.body[k.b], k.triangle), x);
     const std::array<double, 3> kept = k.weights();

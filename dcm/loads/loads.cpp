@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/parallel/make_room.hpp"
-#include "core/parallel/threads.hpp"
 #include "dcm/group_view.hpp"
 #include "dcm/terms/area.hpp"
 #include "dcm/terms/bending.hpp"
@@ -49,10 +48,10 @@ Families find_families(std::span<const Params> params, solve::System& s) {
 }  // namespace
 
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& s,
-                   bool pull_springs) {
-  s.rank_one.resize((any_volume(params) ? 1 : 0) + (any_area(params) ? 1 : 0) +
+                   std::size_t n_further) {
+  s.rank_one.resize(n_further + (any_volume(params) ? 1 : 0) + (any_area(params) ? 1 : 0) +
                     (any_nucleus(params, &Nucleus::bulk_modulus) ? 1 : 0) +
-                    (any_nucleus(params, &Nucleus::area_modulus) ? 1 : 0) + (pull_springs ? 1 : 0));
+                    (any_nucleus(params, &Nucleus::area_modulus) ? 1 : 0));
   for (solve::RankOne& family : s.rank_one) {
     set_size(family.vector, state.position.size());
     set_size(family.coefficient, state.n_lane());
@@ -63,9 +62,8 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
                std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& s) {
   const Families families = find_families(params, s);
-  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    if (s.block[k].still || !s.ownership.owns(k)) return;
-    const GroupView g = view_group(state, lanes, s, k);
+  for_each_loaded_group(state, lanes, s, [&](const GroupView& g) {
+    const std::size_t k = g.index;
     const Params& p = params[state.group[k].type];
     if (p.series_friction > 0)
       add_series_springs(p, g, s);
@@ -82,30 +80,6 @@ void add_loads(const State& state, std::span<const Params> params, const LaneDat
       add_nucleus_shell(nucleus_shell(p), view_nuclei(state, lanes, s, k), families.nucleus_volume,
                         families.nucleus_area, s);
   });
-}
-
-void add_stretch_loads(const State& state, const LaneData& lanes, const StretchLoad& load,
-                       solve::System& s) {
-  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    if (!s.block[k].still && s.ownership.owns(k))
-      add_stretch_load(view_group(state, lanes, s, k), load, s);
-  });
-}
-
-void add_suction_loads(const State& state, const LaneData& lanes, const SuctionLoad& load,
-                       solve::System& s) {
-  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
-    if (!s.block[k].still && s.ownership.owns(k))
-      add_suction_load(view_group(state, lanes, s, k), load, s);
-  });
-}
-
-void add_pull_spring_loads(const State& state, const LaneData& lanes,
-                           std::span<const PullSpring> spring, solve::System& s) {
-  for (std::size_t k = 0; k < state.group.size(); ++k)
-    if (!s.block[k].still && s.ownership.owns(k))
-      add_pull_springs(view_group(state, lanes, s, k), spring.subspan(k * kLanes, kLanes), s,
-                       s.rank_one.back());
 }
 
 std::vector<std::string> skipped_terms(std::span<const Params> params) {

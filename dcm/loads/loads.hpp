@@ -5,21 +5,30 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel/threads.hpp"
 #include "core/vec.hpp"
 #include "dcm/lane_data.hpp"
 #include "dcm/params.hpp"
 #include "dcm/state.hpp"
-#include "dcm/terms/pull_spring.hpp"
-#include "dcm/terms/stretch_load.hpp"
-#include "dcm/terms/suction_load.hpp"
 #include "solve/system.hpp"
 
 namespace acinus::dcm {
 
-/// Sizes the rank-one families that are needed (volume, area, the same of nuclei, springs that hold
-/// cells; in this order); empty when none.
+/// Sizes the rank-one families that are needed (volume, area, the same of nuclei, further ones; in
+/// this order); empty when none.
+/// @param n_further  families of loads from outside the cells
 void size_rank_one(const State& state, std::span<const Params> params, solve::System& system,
-                   bool pull_springs = false);
+                   std::size_t n_further = 0);
+
+/// Calls add(view) for every group with loads on this process, groups in parallel where that pays.
+template <class Add>
+void for_each_loaded_group(const State& state, const LaneData& lanes, const solve::System& system,
+                           Add add) {
+  for_each_index(state.group.size(), worth_threads(state.n_row()), [&](std::size_t k) {
+    if (!system.block[k].still && system.ownership.owns(k))
+      add(view_group(state, lanes, system, k));
+  });
+}
 
 /// Adds all terms within cells: cortex, bending, volume, area, medium, body load, shells of nuclei.
 /// @param medium_area  [n_row][lane] um^2, area of each node that touches the medium
@@ -27,20 +36,6 @@ void size_rank_one(const State& state, std::span<const Params> params, solve::Sy
 void add_loads(const State& state, std::span<const Params> params, const LaneData& lanes,
                std::span<const double> medium_area, std::span<const Vec3> cell_force,
                solve::System& system);
-
-/// Adds what an optical stretcher does to every cell.
-void add_stretch_loads(const State& state, const LaneData& lanes, const StretchLoad& load,
-                       solve::System& system);
-
-/// Adds the suction of a pipette on every cell.
-void add_suction_loads(const State& state, const LaneData& lanes, const SuctionLoad& load,
-                       solve::System& system);
-
-/// Adds springs that hold cells.
-/// @param spring  [n_lane]
-/// @pre the rank-one families were sized for them
-void add_pull_spring_loads(const State& state, const LaneData& lanes,
-                           std::span<const PullSpring> spring, solve::System& system);
 
 /// Names of the terms that no type of cell uses.
 std::vector<std::string> skipped_terms(std::span<const Params> params);

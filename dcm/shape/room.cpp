@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "dcm/shape/cast.hpp"
-#include "geometry/cut_ball.hpp"
 #include "geometry/measures.hpp"
 #include "geometry/star.hpp"
 
@@ -30,8 +29,9 @@ const std::vector<Vec3>& showing_directions() {
 }  // namespace
 
 double share_of_distance(double radius, double other_radius, double distance) {
-  return std::clamp(geometry::share_to_power_plane(radius, other_radius, distance), kLeastShare,
-                    1 - kLeastShare);
+  const double share =
+      0.5 * (1 + (radius * radius - other_radius * other_radius) / (distance * distance));
+  return std::clamp(share, kLeastShare, 1 - kLeastShare);
 }
 
 double reach_to_faces(const Vec3& direction, double farthest, std::span<const RoomFace> face) {

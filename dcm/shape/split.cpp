@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/sphere.hpp"
 #include "dcm/shape/cast_half.hpp"
 #include "dcm/shape/round_folds.hpp"
 #include "geometry/measures.hpp"
@@ -54,7 +55,7 @@ double compute_length(std::span<const Vec3> loop) {
 std::optional<double> match_volume_along(const geometry::Topology& topology, double target_volume,
                                          std::span<const Vec3> direction, std::span<Vec3> node) {
   if (!(target_volume > 0)) return std::nullopt;
-  const double limit = 0.1 * std::cbrt(3 * target_volume / (4 * kPi));
+  const double limit = 0.1 * sphere_radius(target_volume);
   std::vector<Vec3> moved(node.begin(), node.end());
   double step = 0;
   for (int iteration = 0; iteration < 30; ++iteration) {

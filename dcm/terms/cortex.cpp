@@ -1,7 +1,5 @@
 #include "dcm/terms/cortex.hpp"
 
-#include <cmath>
-
 namespace acinus::dcm {
 namespace {
 

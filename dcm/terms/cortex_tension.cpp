@@ -8,7 +8,7 @@
 namespace acinus::dcm {
 namespace {
 
-bool has_ring(const Params& p) { return p.contraction && p.contraction->ring > 0; }
+bool has_ring(const Params& p) { return p.ring && p.ring->excess > 0; }
 
 /// Middle of the nodes of a lane, weighted by their share of the rest surface.
 Vec3 center_of_lane(const GroupView& g, int lane) {
@@ -18,8 +18,9 @@ Vec3 center_of_lane(const GroupView& g, int lane) {
   return sum / g.topology->rest_area;
 }
 
-/// What the tension is multiplied by in each triangle, [n_triangle][lane].
-void find_ring_factors(const Contraction& c, const GroupView& g, std::vector<double>& factor) {
+/// Computes the tension of each triangle over that at the poles, [n_triangle][lane].
+void compute_ring_factors(const ContractileRing& c, const GroupView& g,
+                          std::vector<double>& factor) {
   const geometry::Topology& t = *g.topology;
   const Vec3 axis = c.axis.normalized();
   factor.resize(t.triangle.size() * kLanes);
@@ -74,13 +75,13 @@ ACINUS_KERNEL void tension_springs(double across, const GroupView& g, const doub
 
 }  // namespace
 
-double ring_factor(const Contraction& c, double cosine) {
-  return 1 + c.ring * std::exp(-cosine * cosine / (2 * c.width * c.width));
+double ring_factor(const ContractileRing& c, double cosine) {
+  return 1 + c.excess * std::exp(-cosine * cosine / (2 * c.width * c.width));
 }
 
 void add_cortex_tension(const Params& p, const GroupView& g, solve::System& s) {
   thread_local std::vector<double> ring;  // a warmed-up step allocates nothing
-  if (has_ring(p)) find_ring_factors(*p.contraction, g, ring);
+  if (has_ring(p)) compute_ring_factors(*p.ring, g, ring);
   const double* factor = has_ring(p) ? ring.data() : nullptr;
   tension_forces(p.cortex_tension, g, factor, s.force.data() + g.first_row * kPointStride);
   tension_springs(s.stiffness_scale * p.cortex_tension / std::sqrt(3.0), g, factor,
@@ -90,7 +91,7 @@ void add_cortex_tension(const Params& p, const GroupView& g, solve::System& s) {
 double cortex_tension_energy(const Params& p, const GroupView& g, int lane) {
   if (!has_ring(p)) return g.active[lane] * p.cortex_tension * compute_areas(g)[lane];
   std::vector<double> factor;
-  find_ring_factors(*p.contraction, g, factor);
+  compute_ring_factors(*p.ring, g, factor);
   double energy = 0;
   for (std::size_t f = 0; f < g.topology->triangle.size(); ++f)
     energy += p.cortex_tension * factor[f * kLanes + lane] * triangle_area(g, f, lane);
@@ -102,10 +103,10 @@ void add_active_tension(const Params& p, const GroupView& g, int lane, std::span
     for (double& t : tension) t += p.cortex_tension;
     return;
   }
-  const Vec3 center = center_of_lane(g, lane), axis = p.contraction->axis.normalized();
+  const Vec3 center = center_of_lane(g, lane), axis = p.ring->axis.normalized();
   for (std::size_t i = 0; i < tension.size(); ++i) {
     const Vec3 arm = load_point(g.position, make_address(static_cast<int>(i), lane)) - center;
-    tension[i] += p.cortex_tension * ring_factor(*p.contraction, axis.dot(arm) / arm.norm());
+    tension[i] += p.cortex_tension * ring_factor(*p.ring, axis.dot(arm) / arm.norm());
   }
 }
 

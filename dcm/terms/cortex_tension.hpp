@@ -20,8 +20,8 @@ void add_cortex_tension(const Params& p, const GroupView& g, solve::System& syst
 /// Energy of one lane, fJ; with a ring sum T_f A_f, whose gradient at constant T_f is the force.
 double cortex_tension_energy(const Params& p, const GroupView& g, int lane);
 
-/// What the tension is multiplied by where the angle to the axis has this cosine.
-double ring_factor(const Contraction& c, double cosine);
+/// Tension where the angle to the axis has this cosine, over that at the poles.
+double ring_factor(const ContractileRing& c, double cosine);
 
 /// Adds the active tension at the nodes of one lane, nN/um.
 /// @param tension  [n_node]

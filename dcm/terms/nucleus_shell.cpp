@@ -9,7 +9,7 @@ namespace acinus::dcm {
 
 Params nucleus_shell(const Params& p) {
   const Nucleus& n = *p.nucleus;
-  Params shell;
+  Params shell = params_without_terms();
   shell.spring_stiffness = cortex_spring_stiffness(n.young, n.thickness);
   shell.bending_stiffness = cortex_bending_stiffness(n.young, n.thickness, n.poisson);
   shell.fold_repulsion = p.fold_repulsion;

@@ -7,7 +7,7 @@
 
 namespace acinus::geometry {
 
-void leave_out_cavities(ZeroSurface& z) {
+void remove_cavities(ZeroSurface& z) {
   geometry::Surface& s = z.surface;
   const std::vector<int> part = geometry::find_parts(s);
   std::vector<double> volume(s.node.size(), 0);  // [part] six times that

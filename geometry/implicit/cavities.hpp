@@ -1,12 +1,12 @@
 #pragma once
-/// Cavities of a surface, which nothing outside can touch.
+/// Cavities of a surface, which nothing outside can reach.
 
 #include "geometry/implicit/zero_surface.hpp"
 
 namespace acinus::geometry {
 
-/// Leaves out the walls of cavities: closed parts that face inward. Where vessels bend or meet,
-/// round cones leave pockets between them that no network knows of.
-void leave_out_cavities(ZeroSurface& z);
+/// Removes the walls of cavities: closed parts that face inward. Where vessels bend or meet, round
+/// cones enclose pockets that are not part of the network.
+void remove_cavities(ZeroSurface& z);
 
 }  // namespace acinus::geometry

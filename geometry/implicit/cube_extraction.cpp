@@ -15,7 +15,7 @@ Place middle(const Place& p, const Place& q) {
   return {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
 }
 
-/// The middle of two neighbouring places, doubled, names their edge: no two edges share it.
+/// Unique key of the edge between two neighbouring places: its midpoint, doubled.
 std::uint64_t edge_key(const Place& p, const Place& q) {
   std::uint64_t key = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -23,7 +23,7 @@ std::uint64_t edge_key(const Place& p, const Place& q) {
   return key;
 }
 
-/// A place and the function there.
+/// Lattice place with the value of the function.
 struct Corner {
   Place place{};
   double value = 0;
@@ -57,23 +57,23 @@ class CubeExtraction {
   }
 
  private:
-  /// Of one array of near_.
+  /// Range of one array of near_.
   struct NearRange {
     std::size_t first = 0, last = 0;
   };
-  /// What becomes of a tetrahedron, and what is near it.
+  /// Decision about a tetrahedron, with the parts and fine balls near it.
   struct Decision {
     enum class Next { kNothing, kCut, kBisect } next = Next::kNothing;
-    double value = 0;  ///< in the middle of the longest edge, if bisected there
+    double value = 0;  ///< at the midpoint of the longest edge, if bisected there
     NearRange parts, fine;
   };
   std::span<const int> span_of(const NearRange& parts) const {
     return std::span(near_.part).subspan(parts.first, parts.last - parts.first);
   }
 
-  /// Bisects a tetrahedron as far as necessary and cuts what comes of it.
+  /// Bisects a tetrahedron as far as necessary and cuts the resulting ones.
   void visit(const Tetrahedron& t, int level, const NearRange& parts, const NearRange& fine) {
-    const std::size_t end = 3 - static_cast<std::size_t>(level) % 3;
+    const std::size_t end = 3 - level % 3;
     // One decision for all, six to eight, that have this edge.
     const auto [at, fresh] = decision_.try_emplace(edge_key(t[0].place, t[end].place));
     if (fresh) at->second = decide(t[0], t[end], level, parts, fine);
@@ -84,7 +84,7 @@ class CubeExtraction {
       cut(t, d.parts);
   }
 
-  /// @param a,b  the ends of the longest edge
+  /// Decides for all tetrahedra with this longest edge. @param a,b  its ends
   Decision decide(const Corner& a, const Corner& b, int level, const NearRange& parts,
                   const NearRange& fine) {
     const Vec3 x = lattice_.position(middle(a.place, b.place));
@@ -109,7 +109,7 @@ class CubeExtraction {
     }
     out.fine.last = near_.fine.size();
     // What matters to this tetrahedron, or to the middles of all that come of it.
-    const double farthest = bisect ? lattice_.ahead[level] : extent;
+    const double farthest = bisect ? lattice_.remaining[level] : extent;
     out.parts.first = near_.part.size();
     for (std::size_t k = 0; k < distance_.size(); ++k) {
       const int part = near_.part[parts.first + k];
@@ -124,12 +124,12 @@ class CubeExtraction {
     part_.coarsest = std::min(part_.coarsest, level);
     if (find_missed_ && a.is_inside() == b.is_inside() && changes_between(a, b, span_of(out.parts)))
       part_.missed.push_back(
-          {{x, 0, kShorter * kLongest[level % 3] * lattice_.side[level]}, a.is_inside()});
+          {{x, 0, kMissedSize * kLongest[level % 3] * lattice_.side[level]}, a.is_inside()});
     return out;
   }
 
-  /// Whether the function, which changes no faster than the place, has another sign somewhere
-  /// between two corners of one sign: looked for in steps as long as its value.
+  /// True if the function, whose slope is at most 1, has another sign somewhere between two corners
+  /// of one sign. Searched in steps as long as its value.
   bool changes_between(const Corner& a, const Corner& b, std::span<const int> parts) const {
     constexpr double kShortest = 0.05;  // of the edge
     const Vec3 from = lattice_.position(a.place), along = lattice_.position(b.place) - from;
@@ -153,7 +153,7 @@ class CubeExtraction {
     visit(b, level + 1, d.parts, d.fine);
   }
 
-  /// The piece of the surface within one tetrahedron.
+  /// Adds the piece of the surface within one tetrahedron.
   void cut(const Tetrahedron& t, const NearRange& parts) {
     std::array<const Corner*, 4> in{}, out{};
     std::size_t n_in = 0, n_out = 0;
@@ -175,7 +175,7 @@ class CubeExtraction {
     }
   }
 
-  /// From an inner to an outer corner any piece is crossed outward: that decides which way round.
+  /// Adds a triangle, oriented by `outward`, a vector from an inner to an outer corner.
   void add(const Vec3& outward, int a, int b, int c) {
     const std::vector<Vec3>& x = part_.node;
     const Vec3 normal = (x[b] - x[a]).cross(x[c] - x[a]);
@@ -194,8 +194,8 @@ class CubeExtraction {
     return at->second;
   }
 
-  /// Regula falsi between the two, halving the value of an end that stays (Illinois), as creases
-  /// want it; never at an end, where triangles would have no area.
+  /// Zero between two corners by regula falsi, halving the value of an end that stays (Illinois)
+  /// because of creases; never at an end, where triangles would have no area.
   Vec3 find_zero(const Corner& in, const Corner& out, std::span<const int> parts) const {
     constexpr double kExact = 0.003;  // of the edge
     constexpr int kRounds = 8;
@@ -222,12 +222,12 @@ class CubeExtraction {
     return a + std::clamp(t, kEdgeEnd, 1 - kEdgeEnd) * (b - a);
   }
 
-  static constexpr double kShorter = 0.45;  ///< halved
+  static constexpr double kMissedSize = 0.45;  ///< size at a missed edge over its length: bisected
   const Shape& shape_;
   std::span<const FineBall> fine_;
   const CubeLattice& lattice_;
   bool find_missed_;
-  std::vector<double> distance_;  ///< of the parts that a decision looks at
+  std::vector<double> distance_;  ///< of the parts that a decision considers
   Nearby near_;                   ///< of all decisions, one after the other
   std::pmr::monotonic_buffer_resource memory_;
   std::pmr::unordered_map<std::uint64_t, Decision> decision_{&memory_};  ///< [longest edge]

@@ -50,7 +50,7 @@ CubeLattice make_lattice(const Shape& shape) {
   l.spacing = std::ldexp(l.root, -l.halvings);
   for (int k = 0; k <= 3 * l.halvings; ++k) {
     l.side.push_back(std::ldexp(l.root, -(k / 3)));
-    l.ahead.push_back(kToGo[static_cast<std::size_t>(k) % 3] * l.side.back());
+    l.remaining.push_back(kRemaining[k % 3] * l.side.back());
   }
   return l;
 }

@@ -19,16 +19,16 @@
 namespace acinus::geometry {
 namespace {
 
-/// One root cube, and what came of it.
+/// Root cube with its surface.
 struct RootCube {
   Nearby nearby;
   CubePart part;
   bool is_done = false;
 };
-/// In an order that no hash decides.
+/// Root cubes, in an order that does not depend on a hash.
 using Cubes = std::map<Place, RootCube>;
 
-/// Calls back for every root cube that a box meets, with the middle of the cube.
+/// Calls back for every root cube that a box overlaps, with the centre of the cube.
 template <class Call>
 void for_each_cube(const CubeLattice& l, const Box& box, const Call& call) {
   const auto cube = [&](const Vec3& x, std::size_t k) {
@@ -42,11 +42,11 @@ void for_each_cube(const CubeLattice& l, const Box& box, const Call& call) {
         call(Place{x, y, z}, Vec3(l.origin + l.root * Vec3(x + 0.5, y + 0.5, z + 0.5)));
 }
 
-/// All that parts are near.
+/// Root cubes near any part.
 Cubes find_cubes(const Shape& shape, const CubeLattice& l) {
   Cubes cubes;
   for (int part = 0; part < static_cast<int>(shape.box.size()); ++part) {
-    const double reach = l.ahead[0] + 2 * shape.reach[part];
+    const double reach = l.remaining[0] + 2 * shape.reach[part];
     for_each_cube(l, shape.box[part].grown(reach), [&](const Place& cube, const Vec3& center) {
       if (shape.distance(center, part) <= reach) cubes[cube].nearby.part.push_back(part);
     });
@@ -54,8 +54,8 @@ Cubes find_cubes(const Shape& shape, const CubeLattice& l) {
   return cubes;
 }
 
-/// Of fine balls, those from the given one on; cubes in which they may bisect what has not been are
-/// to be done again.
+/// Adds the fine balls from index `first` on to the cubes near them; cubes in which these may cause
+/// further bisections are marked to be done again.
 void add_fine(std::span<const FineBall> fine, std::size_t first, const CubeLattice& l,
               Cubes& cubes) {
   for (std::size_t k = first; k < fine.size(); ++k) {
@@ -96,11 +96,11 @@ void extract(const Shape& shape, std::span<const FineBall> fine, const CubeLatti
                     most));
 }
 
-/// Nodes that several cubes have become one.
+/// Joined surface of all cubes; nodes that several cubes share become one.
 ZeroSurface join(const Cubes& cubes, const CubeLattice& lattice) {
   ZeroSurface out;
   std::pmr::monotonic_buffer_resource memory;
-  std::pmr::unordered_map<std::uint64_t, int> number(&memory);  ///< of those on faces
+  std::pmr::unordered_map<std::uint64_t, int> number(&memory);  ///< of nodes on cube faces
   std::vector<int> global;
   for (const auto& [place, cube] : cubes) {
     const CubePart& p = cube.part;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "core/parallel/threads.hpp"
@@ -10,7 +9,7 @@
 namespace acinus::geometry {
 namespace {
 
-constexpr int kRounds = 2, kSmooth = 3;
+constexpr int kFitRounds = 2, kSmooth = 3;
 
 /// Means of a function over the triangles, exact for quadratic ones: from corners and centre.
 std::vector<double> means_over(const Distance& distance, const geometry::Surface& s) {
@@ -24,10 +23,10 @@ std::vector<double> means_over(const Distance& distance, const geometry::Surface
   return mean;
 }
 
-/// What is summed up over the triangles about a node: normals, the function's means and areas.
+/// Sums over the triangles about a node: normals, the function's means and areas.
 using NodeSums = Eigen::Matrix<double, 5, 1>;
 
-/// Replaces sums of nodes by their mean over the triangles about each, as often as said.
+/// Replaces the sums at nodes by their means over the triangles about each, `times` times.
 void smooth(const geometry::Surface& s, int times, std::vector<NodeSums>& value) {
   std::vector<int> about(value.size(), 0);
   for (const auto& corner : s.triangle)
@@ -44,9 +43,9 @@ void smooth(const geometry::Surface& s, int times, std::vector<NodeSums>& value)
   }
 }
 
-/// How far the function wants a node to go, along the normal there.
+/// Displacement of a node along its normal that brings the function nearer to zero.
 struct FitMove {
-  Vec3 normal = Vec3::Zero();  ///< unit; zero: of no triangle
+  Vec3 normal = Vec3::Zero();  ///< unit; zero: node of no triangle
   double distance = 0;         ///< um
   double edge = 0;             ///< um, mean about it
 };
@@ -75,7 +74,7 @@ std::vector<FitMove> find_moves(const Distance& distance, const geometry::Surfac
 
 void fit(const Distance& distance, double most, geometry::Surface& s) {
   if (s.node.empty()) return;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const std::vector<FitMove> move = find_moves(distance, s);
     for (std::size_t k = 0; k < s.node.size(); ++k) {
       const double farthest = most * move[k].edge;
@@ -87,7 +86,7 @@ void fit(const Distance& distance, double most, geometry::Surface& s) {
 void fit(const Distance& distance, ZeroSurface& z) {
   constexpr double kMostSlanting = 0.2;  // cosine: nodes would go far along such an edge
   if (z.surface.node.empty()) return;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const std::vector<FitMove> move = find_moves(distance, z.surface);
     for (std::size_t k = 0; k < z.surface.node.size(); ++k) {
       const auto& [a, b] = z.edge[k];

@@ -11,8 +11,8 @@
 
 namespace acinus::geometry {
 
-/// Radius of the ball that rolls along the crease between two walls, um, and never comes where the
-/// gap between them is narrower: so a gap begins with a width that triangles can show.
+/// Radius of the ball that rolls along the crease between two walls, um. It never enters where the
+/// gap between them is narrower: so a gap begins with a width that triangles can resolve.
 double crease_radius(double rounding, const geometry::NearestBall& a,
                      const geometry::NearestBall& b);
 
@@ -25,13 +25,13 @@ class VesselField {
   /// @param rounding  radius of creases over the smaller radius of the two vessels there
   VesselField(const geometry::Network& vessels, const VesselPieces& pieces, double rounding);
 
-  /// um, where only some pieces matter.
+  /// Value at a place where only some pieces matter, um.
   double value(const Vec3& x, std::span<const int> pieces) const;
 
-  /// um, of one piece.
+  /// Distance to one piece, um.
   double distance(const Vec3& x, int piece) const;
 
-  /// um, how near both walls of a crease are that a piece has part in.
+  /// Largest distance to both walls of a crease of this piece, um, at which its rounding acts.
   double crease_reach(int piece) const;
 
  private:

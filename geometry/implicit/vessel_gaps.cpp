@@ -14,15 +14,15 @@
 namespace acinus::geometry {
 namespace {
 
-/// A place on the wall of one of the balls of a segment.
+/// Point on the wall of a segment, with the ball that touches it there.
 struct WallPlace {
   Vec3 center;
   double radius;
   Vec3 normal;
 };
 
-/// The wall of a segment by the angle about its axis and the way along it, um: 0 where the cone
-/// begins, less on the cap before, more than its length on the cap behind.
+/// Wall of a segment, parametrised by the angle about its axis and the length along it, um: 0 where
+/// the cone begins, less on the cap before, more than its length on the cap behind.
 class SegmentWall {
  public:
   SegmentWall(const geometry::Network& n, int segment) {
@@ -52,7 +52,7 @@ class SegmentWall {
     return {start_ + on_axis * axis_, radius(on_axis),
             std::cos(tilt) * out + std::sin(tilt) * axis_};
   }
-  /// Least and largest, um.
+  /// Smallest and largest radius, um.
   std::pair<double, double> radii(double from, double to) const {
     return std::minmax(radius(std::clamp(from, 0.0, length_)),
                        radius(std::clamp(to, 0.0, length_)));
@@ -67,7 +67,7 @@ class SegmentWall {
   std::array<double, 2> radius_{};
 };
 
-/// Whether a segment other than two fills a ball.
+/// True if a segment other than the two given contains the ball.
 bool is_filled(const geometry::Network& n, const Vec3& x, double radius, int s, int t,
                std::span<const int> nearby) {
   return std::ranges::any_of(nearby, [&](int k) {
@@ -77,12 +77,13 @@ bool is_filled(const geometry::Network& n, const Vec3& x, double radius, int s, 
   });
 }
 
-/// Looks from the wall of one vessel at another.
+/// Search for gaps from the wall of one vessel to another.
 class GapSearch {
  public:
   GapSearch(const geometry::Network& network, double rounding, double of_radius)
       : n_(network), rounding_(rounding), of_radius_(of_radius) {}
 
+  /// Adds fine balls in the gap between two segments.
   /// @param joined  there is a crease between them
   /// @param beside  segments near the first
   void search(int segment, int other, bool joined, std::span<const int> beside) {
@@ -100,7 +101,7 @@ class GapSearch {
   std::vector<FineBall> take() { return std::move(ball_); }
 
  private:
-  /// Part of the wall, and how far it goes to both sides of its middle.
+  /// Part of the wall: its centre, and its extent to both sides.
   struct Patch {
     double along, angle, half_along, half_angle;
   };
@@ -119,7 +120,7 @@ class GapSearch {
     const double cosine = distance > 0 ? -here.normal.dot(across.apart) / distance : 1;
     const double turn = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double bend = reach * (1 / thinnest + 1 / across.radius);
-    if (turn - (bend > kMostBend ? bend : 0) > kPi / 2) return;
+    if (turn - (bend > kLargestTurn ? bend : 0) > kPi / 2) return;
     const double least = gap - reach * std::sin(std::min(turn + bend, kPi / 2));
     const double usual = of_radius_ * thinnest;
     double finest = kFinest * usual;
@@ -127,9 +128,9 @@ class GapSearch {
       finest = std::max(kOfCrease * crease_radius(rounding_, own, across),
                         kOfOpen * usual * (1 - std::cos(turn)));
     const double size = std::max(kOfGap * least, finest);
-    if (bend <= kMostBend && size >= usual) return;
+    if (bend <= kLargestTurn && size >= usual) return;
     const Vec3 x = here.center + own.apart;
-    if (bend > kMostBend || reach > kPatch * size) {
+    if (bend > kLargestTurn || reach > kLargestPatch * size) {
       split(p, half_across);
     } else if (!is_filled(n_, x, reach, segment_, other_, beside_)) {
       ball_.push_back({x, reach, size});
@@ -151,8 +152,8 @@ class GapSearch {
     visit(b);
   }
 
-  /// A patch that has one size: extent over that, and how far its normals turn.
-  static constexpr double kPatch = 2, kMostBend = 0.5;
+  /// Bounds of a patch that has one size: extent over that size, and turn of its normals.
+  static constexpr double kLargestPatch = 2, kLargestTurn = 0.5;
   static constexpr double kOfGap = 0.9, kOfCrease = 1.5, kOfOpen = 0.35, kFinest = 0.015;
   const geometry::Network& n_;
   double rounding_, of_radius_;
@@ -168,7 +169,8 @@ struct NearestPlaces {
   Vec3 middle = Vec3::Zero();  ///< between the two walls
 };
 
-/// Along the axis of one, the distance to the other less the radius is convex: both bodies are.
+/// Places of two segments where their walls are nearest. Along the axis of one, the distance to the
+/// other less the radius is convex: both bodies are.
 NearestPlaces find_nearest_places(const geometry::Network& n, int segment, int other) {
   constexpr int kRounds = 50;
   constexpr double kGolden = 0.6180339887498949;

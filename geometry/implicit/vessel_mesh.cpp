@@ -27,7 +27,7 @@
 namespace acinus::geometry {
 namespace {
 
-/// Far more triangles than are allowed would take for ever to be counted.
+/// Throws Error for far more triangles than are allowed, which would take too long to count.
 void check_extent(const geometry::Network& network, const VesselMeshOptions& o) {
   constexpr double kMargin = 10;  // the estimate is rough
   double all = 0, most = 0;
@@ -76,10 +76,10 @@ Shape make_shape(const VesselPieces& pieces, const VesselField& field) {
   return shape;
 }
 
-/// Which pieces matter at a place near the surface, looked up in cubes.
+/// Search structure for the pieces that matter at a place near the surface: a grid of cubes.
 class NearbyPieces {
  public:
-  /// @param farthest  um, that a place asked for is from the surface
+  /// Sorts pieces into cubes. @param farthest  um, largest distance of a query from the surface
   NearbyPieces(const geometry::Network& pieces, const Shape& shape, double farthest) {
     std::vector<double> sizes = shape.size;
     std::ranges::nth_element(sizes, sizes.begin() + sizes.size() / 2);
@@ -131,8 +131,8 @@ class NearbyPieces {
   std::unordered_map<Place, std::vector<int>, Hash> cube_;
 };
 
-/// Lays the triangles about the vessels' wall; where they cross each other then, nodes go back.
-/// @return whether they do not cross each other in the end
+/// Fits the triangles to the vessels' wall; where they cross each other then, nodes go back.
+/// @return true if no triangles cross in the end
 bool fit_without_crossing(const Distance& distance, geometry::Surface& surface) {
   constexpr double kMost = 0.3;
   constexpr int kRounds = 6;
@@ -166,7 +166,7 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
   check_network(network);
   check_extent(network, o);
   VesselMesh out;
-  out.expected = geometry::find_connectivity(network);
+  out.expected = geometry::compute_connectivity(network);
   out.fineness = o.fineness;
   VesselPieces pieces;
   std::optional<VesselField> field;
@@ -182,14 +182,14 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
     out.overlapping = gaps.overlapping;
     // Loops may be narrower than the triangles. For walls that cross no triangle is small enough.
     const auto count_faults = [&](ZeroSurface& z) {
-      leave_out_cavities(z);
-      out.found = geometry::find_connectivity(z.surface);
+      remove_cavities(z);
+      out.found = geometry::compute_connectivity(z.surface);
       if (out.overlapping > 0) return 0L;
       return std::abs(out.found.parts - out.expected.parts) +
              std::abs(out.found.handles() - out.expected.handles());
     };
     raw = extract_zero(shape, o.most_triangles, count_faults);
-    out.found = geometry::find_connectivity(raw.surface);
+    out.found = geometry::compute_connectivity(raw.surface);
     if (out.is_as_expected() || out.overlapping > 0) break;
     if (attempt + 1 < o.attempts) out.fineness *= kFiner;
   }
@@ -200,7 +200,7 @@ VesselMesh make_vessel_mesh(const geometry::Network& network, const VesselMeshOp
   if (o.edge > 0) {
     geometry::Surface even = geometry::remesh(out.surface, o.edge);
     out.remeshed =
-        geometry::find_connectivity(even) == out.found && fit_without_crossing(distance, even);
+        geometry::compute_connectivity(even) == out.found && fit_without_crossing(distance, even);
     if (out.remeshed) out.surface = std::move(even);
   }
   return out;

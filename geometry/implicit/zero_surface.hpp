@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles where a function is zero, with the edges that their nodes stand on.
+/// Zero surface of a function: triangles with the edges that their nodes lie on.
 
 #include <array>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace acinus::geometry {
 
-/// Share of an edge at its ends where no node stands: triangles would have no area.
+/// Share of an edge at its ends without nodes: triangles there would have no area.
 inline constexpr double kEdgeEnd = 0.02;
 
-/// Surface where a function is zero.
+/// Zero surface of a function.
 struct ZeroSurface {
   Surface surface;
-  /// [node] um, the edge of a tetrahedron that it stands on. Wherever all of them stand between the
-  /// ends of theirs, the surface is a manifold that does not cross itself.
+  /// [node] um, edge of a tetrahedron that the node lies on. As long as all nodes are between the
+  /// ends of their edges, the surface is a manifold that does not cross itself.
   std::vector<std::array<Vec3, 2>> edge;
 };
 

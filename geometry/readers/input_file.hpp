@@ -1,5 +1,5 @@
 #pragma once
-/// A user's file held in memory with a cursor, so that every complaint can say where it is.
+/// User's file held in memory with a cursor, for error messages that name the place.
 
 #include <cstdint>
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace acinus::geometry {
 
-/// Reads the whole file at construction; the cursor then walks over its bytes. Tokens are separated
-/// by white space. All failures throw Error (Exit::kBadInput) that begins "file:line:" for text and
-/// "file: byte N:" once set_binary(true) was called.
+/// Input file, read whole at construction; the cursor then moves over its bytes. Tokens are
+/// separated by white space. All failures throw Error (Exit::kBadInput) that begins "file:line:"
+/// for text and "file: byte N:" once set_binary(true) was called.
 class InputFile {
  public:
-  /// Throws Error when the path does not exist, is not a regular file or cannot be read.
+  /// Reads a file. Throws Error when the path does not exist, is not a regular file or cannot be
+  /// read.
   explicit InputFile(std::string path);
 
   const std::string& path() const { return path_; }
@@ -25,17 +26,17 @@ class InputFile {
   bool binary() const { return binary_; }
   void set_binary(bool binary) { binary_ = binary; }
 
-  /// Moves the cursor behind a byte order mark, as Windows editors put it in front of UTF-8 text.
-  /// Throws where the mark says UTF-16. For files of text only, before anything is read.
+  /// Skips a byte order mark, as Windows editors put it in front of UTF-8 text. Throws where the
+  /// mark says UTF-16. For text files only, before anything is read.
   void skip_byte_order_mark();
 
-  /// The next token, empty at the end of the file.
+  /// Next token, empty at the end of the file.
   std::string_view next_token();
-  /// As next_token but the cursor stays.
+  /// Next token, without moving the cursor.
   std::string_view peek_token() const;
-  /// The rest of the current line without its end mark; the cursor goes to the next line.
+  /// Rest of the current line without its end mark; the cursor goes to the next line.
   std::string_view next_line();
-  /// The next token as a number; `what` names it in the error. "nan" and "inf" are numbers here.
+  /// Next token as a number; `what` names it in the error. "nan" and "inf" are numbers here.
   double next_double(std::string_view what);
   std::int64_t next_integer(std::string_view what);
 
@@ -47,7 +48,7 @@ class InputFile {
   std::string where(std::size_t position) const;
   /// Position of the n-th token counted from `start`, for errors found after reading.
   std::size_t token_position(std::size_t start, std::size_t n) const;
-  /// Throws at the last token read, or at a position.
+  /// Throws Error at the last token read, or at a position.
   [[noreturn]] void fail(const std::string& message) const;
   [[noreturn]] void fail_at(std::size_t position, const std::string& message) const;
 
@@ -55,25 +56,26 @@ class InputFile {
   std::string path_;
   std::string bytes_;
   std::size_t position_ = 0;
-  std::size_t last_ = 0;  ///< where the last token began
+  std::size_t last_ = 0;  ///< position of the last token
   bool binary_ = false;
 };
 
-/// True for finite coordinates that are small enough for products of three to be finite too.
+/// True for coordinates that are finite and small enough for products of three to be finite too.
 bool is_coordinate(const Vec3& x);
 inline constexpr const char* kCoordinateRule = "coordinates must be finite and below 1e15";
 
-/// The whole token as a number; false when it is not one. Too small becomes 0, too large infinite.
+/// Parses a whole token as a number; false when it is not one. Underflow becomes 0, overflow
+/// infinite.
 bool parse_double(std::string_view token, double& value);
 bool parse_integer(std::string_view token, std::int64_t& value);
 
-/// A token in quotes, shortened and with unprintable bytes as '?', fit for a message.
+/// Token in quotes, shortened and with unprintable bytes as '?', for a message.
 std::string in_quotes(std::string_view token);
 
-/// The ending of a path from its last dot on, in lower case: ".vtk"; empty when it has none.
+/// Extension of a path from its last dot on, in lower case: ".vtk"; empty when it has none.
 std::string extension_of(const std::string& path);
 
-/// ASCII lower case.
+/// Text with ASCII letters in lower case.
 std::string lower_case(std::string_view text);
 
 }  // namespace acinus::geometry

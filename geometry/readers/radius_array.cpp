@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "core/error.hpp"
 
@@ -16,7 +15,8 @@ struct RadiusName {
   const char* name;
   double factor;
 };
-/// In this order; the last three are MicrovesselChaste's and VMTK's.
+/// Usual names of radius arrays, in order of preference; the last three are MicrovesselChaste's and
+/// VMTK's.
 constexpr std::array<RadiusName, 8> kNames{{{"radius", 1},
                                             {"radii", 1},
                                             {"r", 1},
@@ -53,7 +53,7 @@ std::vector<RadiusArray> all_arrays(const VtkLegacy& vtk) {
   return all;
 }
 
-/// Two arrays of one owner must say the same.
+/// Throws Error if two arrays of radii disagree.
 void check_alike(const VtkLegacy& vtk, const RadiusArray& a, const RadiusArray& b) {
   constexpr double kSame = 1e-3;
   for (std::size_t i = 0; i < std::min(a.array->value.size(), b.array->value.size()); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The array of a legacy VTK file that holds the radii of its vessels.
+/// Array of vessel radii in a legacy VTK file.
 
 #include <string>
 #include <vector>
@@ -9,31 +9,32 @@
 
 namespace acinus::geometry {
 
-/// One value a point or one a line.
+/// Radii of vessels, one value a point or one a line.
 struct RadiusArray {
   const VtkArray* array = nullptr;
   bool per_point = false;
-  double factor = 1;  ///< 0.5 for diameters
+  double factor = 1;  ///< to a radius: 0.5 for diameters
 
   double at(std::size_t i) const { return factor * array->value[i]; }
 };
 
+/// Finds the array of radii.
 /// @param name  of the array; empty: one of the usual names, or the only one whose name has
-/// "radius" in it
+///              "radius" in it
 /// Throws Error where there is none, or several that disagree.
 RadiusArray find_radius(const VtkLegacy& vtk, const std::string& name);
 
-/// Entries of an array that are no radii of vessels.
+/// Collector of entries that are invalid as radii of vessels.
 class BadRadii {
  public:
-  /// @param owner  "node" or "segment"
+  /// Starts without entries. @param owner  "node" or "segment"
   explicit BadRadii(std::string owner) : owner_(std::move(owner)) {}
   static bool is_good(double radius);
-  /// @param name  of the node or segment, for the message
+  /// Adds an entry. @param name  of the node or segment, for the message
   void add(std::size_t place, const std::string& name, double value);
   bool any() const { return n_ > 0; }
-  std::size_t place() const { return place_; }  ///< of the first, as it was given
-  /// All of them in one sentence. @param what  as "the radius"
+  std::size_t place() const { return place_; }  ///< index of the first entry
+  /// Message about all of them in one sentence. @param what  as "the radius"
   std::string message(const std::string& what) const;
 
  private:

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <unordered_map>
@@ -16,7 +15,7 @@ namespace acinus::geometry {
 
 namespace {
 
-/// Throws where radii that segments use are none.
+/// Throws Error at invalid radii that segments use.
 void check_radii(const VtkLegacy& vtk, const RadiusArray& radius) {
   BadRadii bad(radius.per_point ? "node" : "segment");
   for (std::size_t i = 0; radius.per_point && i < vtk.point.size(); ++i)
@@ -78,7 +77,8 @@ struct SwcNode {
   std::size_t place = 0;
 };
 
-/// Comments between nodes that hold the numbers of a node: a damaged digit makes one of "3 ...".
+/// Throws Error at a comment between nodes that has the numbers of a node: a damaged digit makes
+/// one of "3 ...".
 void check_hidden_node(const InputFile& file, std::size_t place, std::string_view line) {
   std::istringstream words{std::string(line.substr(1))};
   std::size_t n = 0;
@@ -91,7 +91,8 @@ void check_hidden_node(const InputFile& file, std::size_t place, std::string_vie
     file.fail_at(place, "a comment holds the numbers of a node. Remove the line, or the \"#\".");
 }
 
-/// "# SCALE 1 1 1" is the one statement of a header that changes lengths.
+/// Throws Error at "# SCALE 1 1 1" with other factors: the only statement of a header that changes
+/// lengths.
 void check_swc_comment(const InputFile& file, std::size_t place, std::string_view line) {
   std::istringstream words{std::string(line.substr(1))};
   std::string key;
@@ -154,7 +155,8 @@ std::optional<SwcNode> read_swc_line(InputFile& file, bool is_first, Vec3& x) {
   return node;
 }
 
-/// SWC says no number of nodes: a line without an end is the only sign of a file that was cut.
+/// Throws Error at a last line without an end mark: SWC states no number of nodes, so that is the
+/// only sign of a truncated file.
 void check_swc_end(const InputFile& file) {
   if (file.bytes().back() == '\n' || file.bytes().back() == '\r') return;
   file.fail_at(file.bytes().size(),

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads vessel networks from files.
+/// Readers of vessel networks.
 
 #include <string>
 

@@ -72,7 +72,7 @@ ObjFace parse_face(const InputFile& file, std::size_t place, const std::vector<s
   return face;
 }
 
-/// A letter that was damaged must not hide a face.
+/// True for a keyword of OBJ. Other words are errors: a damaged letter must not hide a face.
 bool is_keyword(const std::string& word) {
   constexpr std::array<std::string_view, 40> kKnown{
       "vn",     "vt",     "vp",     "fo",       "l",        "p",     "s",          "mg",
@@ -84,15 +84,15 @@ bool is_keyword(const std::string& word) {
 }
 
 /// Throws Error at faces with nodes that are not in the file, and where its last nodes are in no
-/// face: OBJ states no counts, and a file that was cut short shows itself by these alone.
+/// face: OBJ states no counts, so these alone reveal a truncated file.
 void check_corners(const InputFile& file, const std::vector<ObjFace>& faces, std::size_t last_used,
                    std::size_t n_node) {
   std::size_t n_bad = 0, first_bad = 0;
   int bad_node = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (const int node : faces[f].corner) {
-      last_used = std::max(last_used, static_cast<std::size_t>(node) + 1);
-      if (static_cast<std::size_t>(node) < n_node) continue;
+    for (const std::size_t node : faces[f].corner) {
+      last_used = std::max(last_used, node + 1);
+      if (node < n_node) continue;
       if (n_bad++ > 0) continue;
       first_bad = f;
       bad_node = node;
@@ -120,7 +120,7 @@ Soup read_obj(const std::string& path) {
   std::vector<ObjFace> faces;  // cut after all nodes are known: OBJ allows nodes behind faces
   std::map<std::array<std::string, 2>, int> number;  // by the last names after o and g
   std::array<std::string, 2> name;
-  std::size_t last_used = 0;  ///< by what is no face
+  std::size_t last_used = 0;  ///< 1 + last node used by elements other than faces
   while (file.remaining() > 0) {
     const std::size_t place = file.position();
     const std::vector<std::string> word = next_words(file);
@@ -131,8 +131,8 @@ Soup read_obj(const std::string& path) {
       faces.push_back(parse_face(file, place, word, surface.node.size()));
       faces.back().group = number.try_emplace(name, static_cast<int>(number.size())).first->second;
     } else if (word[0] == "l" || word[0] == "p") {  // lines and points use nodes as well
-      for (const int node : parse_face(file, place, word, surface.node.size()).corner)
-        last_used = std::max(last_used, static_cast<std::size_t>(node) + 1);
+      for (const std::size_t node : parse_face(file, place, word, surface.node.size()).corner)
+        last_used = std::max(last_used, node + 1);
     } else if (word[0] == "g" || word[0] == "o") {
       name[word[0] == "g" ? 1 : 0] = fmt::format("{}", fmt::join(word, " "));
     } else if (!is_keyword(word[0])) {

@@ -43,7 +43,7 @@ std::optional<PlyType> type_by_name(std::string_view name) {
 struct Property {
   std::string name;
   PlyType type = PlyType::kF32;
-  std::optional<PlyType> count;  ///< of a list
+  std::optional<PlyType> count;  ///< type of a list's count
 };
 
 struct Element {
@@ -54,7 +54,7 @@ struct Element {
 
 enum class Encoding { kText, kLittle, kBig };
 
-/// Numbers of the body, one after another.
+/// Sequential reader of the numbers of the body.
 class PlyValues {
  public:
   PlyValues(InputFile& file, Encoding encoding) : file_(file), encoding_(encoding) {}
@@ -107,7 +107,7 @@ PlyType next_type(InputFile& file) {
   return *type;
 }
 
-/// Leaves the cursor behind the header.
+/// Reads the header; leaves the cursor behind it.
 std::pair<Encoding, std::vector<Element>> read_header(InputFile& file) {
   if (lower_case(file.next_token()) != "ply")
     file.fail("the file does not begin with \"ply\". Is it a PLY file?");
@@ -152,7 +152,7 @@ std::pair<Encoding, std::vector<Element>> read_header(InputFile& file) {
   return {encoding, std::move(elements)};
 }
 
-/// Values of a property: one, or as many as stand before a list.
+/// Number of values of a property: one, or the count that precedes a list.
 std::int64_t length_of(InputFile& file, const Property& p, PlyValues& values) {
   if (!p.count) return 1;
   const std::size_t place = file.position();

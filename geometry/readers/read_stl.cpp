@@ -13,7 +13,7 @@ namespace acinus::geometry {
 
 namespace {
 
-/// STL repeats every corner: those of a solid with the same coordinates become one node.
+/// Merges corners of one solid with equal coordinates into one node: STL repeats every corner.
 class CornerMerger {
  public:
   void start_solid() {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFarthest = 1e9;  // um: a kilometre
 
-/// The attribute by which programs number the bodies of a file; nullptr: there is none.
+/// Attribute that numbers the bodies of a file; nullptr: none.
 const VtkArray* find_numbers(const VtkLegacy& vtk) {
   for (const char* name : {"label", "regionid", "cell_id", "body"})
     for (const VtkArray& a : vtk.cell_data)
@@ -29,7 +29,7 @@ const VtkArray* find_numbers(const VtkLegacy& vtk) {
   return nullptr;
 }
 
-/// A group for every value of the attribute, face by face.
+/// Groups of faces, one for every value of the attribute.
 class FaceGroups {
  public:
   FaceGroups(const VtkLegacy& vtk, std::size_t before)
@@ -43,7 +43,7 @@ class FaceGroups {
 
  private:
   const VtkArray* array_;
-  std::size_t before_;  ///< cells that come before the faces in the data of cells
+  std::size_t before_;  ///< cells that precede the faces in the cell data
   std::map<double, int> number_;
 };
 
@@ -198,9 +198,7 @@ std::vector<Surface> read_closed_surfaces(const std::string& path, double um_per
     check_closed(bodies[b], fmt::format("{}: body {}", path, b));
   }
   // Turned the other way than what is about it, a surface bounds a cavity; bodies are solid here.
-  if (const Nested n = find_nested(bodies);
-      n.inner >= 0 &&
-      inward[static_cast<std::size_t>(n.inner)] != inward[static_cast<std::size_t>(n.outer)])
+  if (const Nested n = find_nested(bodies); n.inner >= 0 && inward[n.inner] != inward[n.outer])
     throw Error(
         fmt::format("{}: body {} lies inside body {} and is turned the other way: a cavity "
                     "(lumen) in it. Bodies are solid here: leave the inner surface out.",

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads cell and wall meshes from files.
+/// Readers of cell and wall meshes.
 
 #include <string>
 #include <vector>
@@ -16,11 +16,11 @@ namespace acinus::geometry {
 /// triangles; nodes a body does not use are left out and the others keep their order. Orientation
 /// is the file's; walls may be open.
 /// @param um_per_unit  um per file unit, 1e6 for metres
-/// Throws Error (Exit::kBadInput) with file, line or byte, what was found and what to do.
+/// Throws Error (Exit::kBadInput) with file, line or byte, the value found and advice.
 std::vector<Surface> read_surfaces(const std::string& path, double um_per_unit);
 
-/// As read_surfaces, then check_closed on each as "path: body N" (from 0): every body is a closed
-/// outward surface, or Error.
+/// Reads closed surfaces: read_surfaces, then check_closed on each as "path: body N" (from 0).
+/// Every body is a closed outward surface, or Error.
 std::vector<Surface> read_closed_surfaces(const std::string& path, double um_per_unit);
 
 }  // namespace acinus::geometry

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -57,7 +56,7 @@ class VmvParser {
                       file_.path(), key, said, found));
   }
 
-  /// The tokens of the next line that has any.
+  /// Tokens of the next line that has any.
   std::vector<std::string_view> next_words(std::size_t& place) {
     std::vector<std::string_view> words;
     while (words.empty() && file_.remaining() > 0) {
@@ -137,9 +136,9 @@ class VmvParser {
   InputFile& file_;
   Network out_;
   BadRadii bad_{"node"};
-  std::int64_t said_nodes_ = -1, said_strands_ = -1, n_strand_ = 0;  ///< -1: not said
+  std::int64_t said_nodes_ = -1, said_strands_ = -1, n_strand_ = 0;  ///< -1: not stated
   std::vector<double> radius_;                                       ///< [node]
-  std::unordered_map<std::int64_t, int> number_;  ///< of the node with a number of the file
+  std::unordered_map<std::int64_t, int> number_;  ///< node of a number of the file
 };
 
 }  // namespace

@@ -4,11 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
-#include <type_traits>
 #include <utility>
 
-#include "core/error.hpp"
 #include "geometry/readers/vtk_types.hpp"
 
 namespace acinus::geometry {

@@ -4,11 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
-#include <type_traits>
-#include <utility>
 
-#include "core/error.hpp"
 #include "geometry/readers/vtk_types.hpp"
 
 namespace acinus::geometry {
@@ -43,7 +39,7 @@ void VtkParser::packed_cells(VtkCells& list, std::uint64_t n_cell, std::uint64_t
     list.token.push_back(at);
     list.index.insert(list.index.end(), begin, begin + packed[at]);
     list.start.push_back(static_cast<std::int64_t>(list.index.size()));
-    at += static_cast<std::size_t>(packed[at]) + 1;
+    at += packed[at] + 1;
   }
   if (at != size) {
     file_.fail_at(

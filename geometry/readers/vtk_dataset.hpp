@@ -14,7 +14,7 @@ namespace acinus::geometry {
 /// Test for a file that starts as legacy VTK ("# vtk DataFile").
 bool is_vtk_legacy(const InputFile& file);
 
-/// Place of an array in the file, to turn an index into a place for an error.
+/// Position of an array in the file, from which that of a value follows, for error messages.
 struct VtkPlace {
   std::size_t begin = 0;        ///< byte of the first value
   std::size_t value_bytes = 0;  ///< 0 for text
@@ -28,13 +28,12 @@ struct VtkArray {
   VtkPlace place;
 };
 
-/// A list of cells: cell c is index[start[c]] .. index[start[c+1] - 1]. Not yet checked against the
+/// List of cells: cell c is index[start[c]] .. index[start[c+1] - 1]. Not yet checked against the
 /// number of points, because a polyhedron's list also holds counts.
 struct VtkCells {
   std::vector<std::int64_t> start = {0};
   std::vector<std::int64_t> index;
-  std::vector<std::size_t>
-      token;  ///< [n_cell] number of the value in the file where the cell begins
+  std::vector<std::size_t> token;  ///< [n_cell] index of the cell's first value in the file
   VtkPlace place;
   std::size_t size() const { return start.size() - 1; }
 };
@@ -48,10 +47,10 @@ struct VtkLegacy {
   std::vector<std::int64_t> cell_type;                ///< [cells.size()]
   std::vector<VtkArray> point_data, cell_data;
 
-  /// Byte where cell c, or the i-th value of an array, stands.
+  /// Byte position of cell c, or of the i-th value of an array.
   std::size_t position(const VtkCells& list, std::size_t c) const;
   std::size_t position(const VtkPlace& place, std::size_t i) const;
-  /// The entries of one cell, each checked to be a point of this file; `what` names the cell.
+  /// Entries of one cell, each checked to be a point of this file; `what` names the cell.
   std::vector<int> nodes_of(const VtkCells& list, std::size_t c, const std::string& what) const;
 };
 

@@ -9,9 +9,9 @@
 
 namespace acinus::geometry {
 
-/// Reads a file whose DATASET is one of `allowed`; `remedy` ends the error when it is not.
-/// Throws Error (Exit::kBadInput) with the line, or the byte in a binary file, for anything that
-/// is not legacy VTK, is truncated, or holds a coordinate that is not finite.
+/// Reads a file whose DATASET is one of `allowed`; `remedy` ends the error when it is not. Throws
+/// Error (Exit::kBadInput) with the line, or the byte in a binary file, for a file that is not
+/// legacy VTK, is truncated, or holds a coordinate that is not finite.
 VtkLegacy read_vtk_legacy(const std::string& path, const std::vector<std::string>& allowed,
                           const std::string& remedy);
 

@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/vec.hpp"
 #include "geometry/readers/vtk_types.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The parser behind read_vtk_legacy, for its own files: vtk_parser.cpp reads the header and the
-/// order of sections, vtk_cells.cpp lists of cells, vtk_attributes.cpp data of points and cells.
+/// Parser of read_vtk_legacy, in three files: vtk_parser.cpp reads the header and the order of
+/// sections, vtk_cells.cpp lists of cells, vtk_attributes.cpp data of points and cells.
 
 #include <algorithm>
 #include <cstdint>

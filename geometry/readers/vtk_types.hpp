@@ -10,14 +10,14 @@ namespace acinus::geometry {
 
 struct VtkType {
   const char* name;
-  std::size_t bytes;  ///< in a binary file
+  std::size_t bytes;  ///< of one value in a binary file
   enum Kind { kSigned, kUnsigned, kReal } kind;
 };
 
-/// The type called `token`, upper or lower case; nullptr when it is none that is read.
+/// Type called `token`, upper or lower case; nullptr when it is not supported.
 const VtkType* find_vtk_type(std::string_view token);
 
-/// One big-endian value.
+/// Value stored big-endian.
 template <class Value>
 Value decode_vtk(const char* bytes, const VtkType& type) {
   std::uint64_t raw = 0;
@@ -33,7 +33,7 @@ Value decode_vtk(const char* bytes, const VtkType& type) {
   return static_cast<Value>(static_cast<std::int64_t>(raw << shift) >> shift);
 }
 
-/// An array name with its %20-like codes resolved.
+/// Array name with its %20-like codes decoded.
 std::string decode_vtk_name(std::string_view token);
 
 }  // namespace acinus::geometry

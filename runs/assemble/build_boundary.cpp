@@ -51,16 +51,16 @@ void add_static_meshes(const Scene& scene, contact::Boundary& boundary) {
   }
 }
 
-/// Lays the surface about the vessels that cells touch, if they do.
-/// Facets stand beside the cones by a share of the radius that falls with the square of their edge:
-/// shorter than for files, pressures differ by 1 % from those at the cones, not 2 %
-/// (docs/images.md).
+/// Adds the triangulated vessel surface as an obstacle if vessels.contact is "mesh".
+/// Facets deviate from the cones of the network by a share of the radius proportional to the
+/// squared edge length. They are finer than in files, so that contact pressures differ by 1 % from
+/// those at the cones, not by 2 % (docs/images.md).
 void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
   if (scene.vessels.contact != VesselWalls::kMesh || vessels.network.segment.empty()) return;
   constexpr double kFineness = 0.15;
   geometry::VesselMesh mesh =
       geometry::make_vessel_mesh(vessels.network, {.fineness = kFineness, .attempts = 1});
-  if (!mesh.is_as_expected()) notes.warned.push_back(geometry::describe_connectivity(mesh));
+  if (!mesh.is_as_expected()) notes.warnings.push_back(geometry::describe_connectivity(mesh));
   vessels.wall = std::make_shared<const contact::WallMesh>(
       contact::make_wall_mesh(vessels.network, std::move(mesh.surface)));
 }
@@ -68,19 +68,9 @@ void add_wall(const Scene& scene, contact::Vessels& vessels, Notes& notes) {
 }  // namespace
 
 coupling::LobuleParameters lobule_parameters(const Scene& scene) {
-  const LobuleBlock& b = *scene.lobule;
-  return {b.shape,
-          b.radius,
-          b.height,
-          b.lesion_radius,
-          b.central_vein_radius,
-          b.portal_vein_radius,
-          b.sinusoid_radius,
-          b.vessel_fraction,
-          b.branch_density,
-          b.min_distance,
-          b.cells,
-          scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene)};
+  coupling::LobuleParameters p = *scene.lobule;
+  p.initial_radius = scene.start_up.enabled ? scene.start_up.initial_radius : largest_radius(scene);
+  return p;
 }
 
 coupling::Lobule draw_lobule(const Scene& scene) {

@@ -12,27 +12,34 @@
 
 namespace acinus::runs {
 
+/// Parameters of the lobule generator from the scene.
 /// @pre the scene has a lobule
 coupling::LobuleParameters lobule_parameters(const Scene& scene);
 
-/// The lobule of a scene, drawn with its seed.   @pre the scene has one
+/// Lobule of the scene, generated with its seed.
+/// @pre the scene has a lobule
 coupling::Lobule draw_lobule(const Scene& scene);
 
-/// The vessels of a scene at rest, without the rest of it; none: no segments.
-/// @throws Error for a file that cannot be used
+/// Vessel network of the scene at rest; no segments if the scene has no vessels.
+/// @param lobule  generated lobule of the scene, null if it has none
+/// @throws Error for an unusable network file
 geometry::Network build_network(const Scene& scene, const coupling::Lobule* lobule);
 geometry::Network build_network(const Scene& scene);
 
-/// @param lobule  null: none
-/// @throws Error for files that cannot be used
+/// Adds vessels, walls, capsule, pipette and static meshes of the scene to the boundary.
+/// @param lobule  generated lobule of the scene, null if it has none
+/// @param notes   receives warnings about the vessel surface
+/// @throws Error for unusable files
 void add_boundary(const Scene& scene, const coupling::Lobule* lobule, contact::Boundary& boundary,
                   Notes& notes);
 
-/// The tree of flexible vessels; none if they are rigid or there are none.
-/// @param rest  the vessels of the boundary
+/// Beam tree of flexible vessels; empty if the vessels are rigid or absent.
+/// @param rest  vessel network of the boundary at rest
+/// @throws Error if vessels.anchors is "ends" and the network has no end
 coupling::VesselTree build_tree(const Scene& scene, const geometry::Network& rest);
 
-/// Names of the walls, capsule and closed meshes that a scene's cells meet, without building it.
+/// Names of all obstacles of the scene (lobule planes, walls, capsule, pipette, static meshes),
+/// without building them.
 std::vector<std::string> boundary_names(const Scene& scene);
 
 }  // namespace acinus::runs

@@ -6,7 +6,8 @@
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
 #include "runs/assemble/build_params.hpp"
-#include "runs/assemble/cell_constants.hpp"
+#include "runs/scene/key_values.hpp"
+#include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -23,17 +24,19 @@ std::string describe(const calibration::Law& law) {
 }  // namespace
 
 LawParameters law_parameters(const Scene& scene, const CellType& type) {
-  const cbm::Params sphere = make_cbm_params(scene, type);
-  calibration::Parameters cell = term_constants(type.dcm);
-  cell.insert({{"nodes", type.dcm.nodes},
-               {"radius_um", type.radius},
-               {"adhesion_nN_per_um", type.adhesion},
-               {"contact_repulsion_kPa_per_um", scene.contact.repulsion}});
-  return {cell,
-          {{"young_kPa", sphere.young},
-           {"poisson", sphere.poisson},
-           {"radius_um", type.radius},
-           {"adhesion_nN_per_um", type.adhesion}}};
+  LawParameters out;
+  const auto add = [&out](const Key& key, const KeyField& field) {
+    if (key.in_law == InLaw::kDcm || key.in_law == InLaw::kBoth)
+      out.dcm[key.law_name] = number_in(field);
+    if (key.in_law == InLaw::kCbm || key.in_law == InLaw::kBoth)
+      out.cbm[key.law_name] = number_in(field);
+  };
+  CellType cell = type;
+  cell.cbm.young = make_cbm_params(scene, type).young;  // where it is "auto"
+  ContactBlock contact = scene.contact;
+  for_each_value([&cell](Visitor& visitor) { describe_cell_type(visitor, cell); }, add);
+  for_each_value([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, add);
+  return out;
 }
 
 void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes) {
@@ -44,7 +47,7 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
     if (file == "none") continue;
     if (file == "paper") {
       p.correction = cbm::paper_law();
-      notes.said.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
+      notes.info.push_back(name + ": E = E + 4e6 Pa d^4, d the mean overlap of the contacts");
       continue;
     }
     check(file != "auto",
@@ -52,14 +55,14 @@ void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Not
                       "Calibrate first and name the law file.",
                       name));
     const calibration::Law law = calibration::read_law(file);
-    notes.said.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
+    notes.info.push_back(fmt::format("{}: {} ({})", name, describe(law), file));
     for (const std::string& warning : law.warnings)
-      notes.warned.push_back(fmt::format("{}: {}", file, warning));
+      notes.warnings.push_back(fmt::format("{}: {}", file, warning));
     const LawParameters here = law_parameters(scene, type);
     const std::vector<std::string> differences =
         calibration::list_differences(law, here.dcm, here.cbm);
     if (!differences.empty())
-      notes.warned.push_back(
+      notes.warnings.push_back(
           fmt::format("{} is the law of other cells than {}: {}. Calibrate for "
                       "these cells, or set stiffness_correction to \"auto\"",
                       file, name, fmt::join(differences, "; ")));

@@ -1,5 +1,5 @@
 #pragma once
-/// Laws that correct the stiffness of spheres: from the scene's key to the constants of a run.
+/// Stiffness corrections of spheres: from the law named in the scene to the constants of the run.
 
 #include <string>
 #include <vector>
@@ -11,16 +11,18 @@
 
 namespace acinus::runs {
 
-/// Every constant of a cell type that a calibrated law depends on.
+/// Every constant of a cell type that a calibrated law depends on (Key::in_law).
 struct LawParameters {
   calibration::Parameters dcm, cbm;
 };
 LawParameters law_parameters(const Scene& scene, const CellType& type);
 
-/// Reads the law of every cell type that names one. A law's a0 is the type's modulus from then on.
-/// Notes say which law, and warn where it was found for other cells.
-/// @throws Error for a law file that cannot be used, and for "auto" (calibrated before, see
-/// calibrate_scene.hpp)
+/// Reads the stiffness law of every cell type that names one and enters it into its sphere
+/// constants. The modulus of the spheres becomes a0 of the law.
+/// @param params  [n_type], in the order of scene.cell_types
+/// @param notes   receives the name of each law, and a warning if it was calibrated for other cells
+/// @throws Error for an unusable law file, and for "auto", which resolve_corrections() replaces by
+/// a file first
 void build_corrections(const Scene& scene, std::vector<cbm::Params>& params, Notes& notes);
 
 }  // namespace acinus::runs

@@ -1,5 +1,5 @@
 #pragma once
-/// The life blocks of a scene as the world wants them.
+/// Parameters of growth, division, death and sleep from the life blocks of a scene.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace acinus::runs {
 
-/// Fills params.life. Types that dissolve get a softened twin each, added to the types' constants
-/// and names.
+/// Fills params.life and params.sleep. Every cell type with lysis gets a softened twin for its
+/// dissolving cells, appended to the constants and names of the types.
 /// @pre the constants of all types are there, in the order of scene.cell_types
 void build_life(const Scene& scene, coupling::Params& params, std::vector<std::string>& type_names);
 

@@ -1,9 +1,11 @@
 #include "runs/assemble/build_params.hpp"
 
+#include "runs/scene/apparatus/apparatus.hpp"
+
 namespace acinus::runs {
 namespace {
 
-/// In mean edges: the farther points are apart, the more they need.
+/// Default contact range, in mean edge lengths. It grows with the spacing of the contact points.
 double default_range(contact::Quadrature quadrature) {
   switch (quadrature) {
     case contact::Quadrature::kThreePoint:
@@ -22,8 +24,8 @@ void set_contact(const Scene& scene, coupling::Params& p) {
     p.dcm_contact.range_factor = default_range(scene.contact.quadrature);
   p.cbm_contact.skin = scene.contact.skin;
   p.cbm_contact.cell_friction = scene.friction.cbm_cbm;
-  const double a = scene.contact.cell_friction, b = scene.friction.cbm_cbm;
-  p.interface.friction = scene.friction.dcm_cbm.value_or(a + b > 0 ? 2 * a * b / (a + b) : 0);
+  p.interface.friction = scene.friction.dcm_cbm.value_or(
+      coupling::mean_friction(scene.contact.cell_friction, scene.friction.cbm_cbm));
 }
 
 void set_motility(const Scene& scene, coupling::Motility& m) {
@@ -34,7 +36,7 @@ void set_motility(const Scene& scene, coupling::Motility& m) {
   if (scene.lobule) m.axis_radius = scene.lobule->central_vein_radius;
 }
 
-/// With --set model=dcm or cbm the zoom has nothing to say.
+/// Sets the moving zoom. No effect with a uniform model ("--set model=dcm" or "cbm").
 void set_zoom(const Scene& scene, coupling::ZoomParams& p) {
   const CellModel model = scene.model.value_or(scene.cells.model);
   if (!scene.moving_zoom || model != CellModel::kZoom) return;
@@ -61,6 +63,7 @@ dcm::Params make_dcm_params(const Scene& scene, const CellType& type) {
   p.bending_stiffness =
       dcm::cortex_bending_stiffness(d.cortex_young, d.cortex_thickness, d.cortex_poisson);
   p.fold_repulsion = scene.contact.repulsion;
+  if (d.contraction) p.ring = *d.contraction;
   if (p.nucleus && !p.nucleus->resists()) p.nucleus.reset();
   p.viscosity = scene.friction.liquid ? scene.friction.viscosity : 0;
   p.diffusion = type.diffusion;
@@ -86,16 +89,7 @@ void set_params(const Scene& scene, coupling::Params& p) {
   set_motility(scene, p.motility);
   set_zoom(scene, p.zoom);
   set_numerics(scene, p.numerics);
-  if (scene.stretcher) p.stretcher = *scene.stretcher;
-  if (const auto& t = scene.pipette)
-    p.suction = {t->mouth, t->axis.normalized(), t->radius + 0.5 * t->thickness, t->suction};
-  if (scene.temperature) p.temperature = *scene.temperature;
-  for (const PullEntry& entry : scene.pulls) {
-    coupling::Pull pull = entry;
-    pull.direction.normalize();
-    pull.anchor = scene.cells.list[pull.cell].position.dot(pull.direction);
-    p.pulls.push_back(std::move(pull));
-  }
+  add_apparatus(scene, p);
 }
 
 }  // namespace acinus::runs

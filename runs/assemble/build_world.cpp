@@ -31,7 +31,8 @@
 namespace acinus::runs {
 namespace {
 
-/// A uniformly distributed rotation of a cell's mesh.
+/// Creates the state of deformable cells and spheres along a space-filling curve. Meshes get a
+/// uniformly distributed random orientation unless the cell fixes it.
 void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
                const std::vector<std::string>& types, const coupling::Params& params,
                coupling::State& state) {
@@ -59,22 +60,24 @@ void add_cells(const Scene& scene, const std::vector<PlacedCell>& cells,
   state.next_lineage = static_cast<std::int64_t>(cells.size());
 }
 
-/// The lobule of a scene that has one, with what is to be said about it.
+/// Generates the lobule of the scene. Notes give its packing, and warn if it has fewer cells than
+/// asked for.
+/// @pre the scene has a lobule
 coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   const LobuleBlock& b = *scene.lobule;
   coupling::Lobule lobule = draw_lobule(scene);
   if (static_cast<int>(lobule.seeds.size()) < b.cells)
-    notes.warned.push_back(
+    notes.warnings.push_back(
         fmt::format("room for {} of the {} cells asked for", lobule.seeds.size(), b.cells));
   double cells = 0;
   for (std::size_t k = 0; k < lobule.seeds.size(); ++k)
     cells += sphere_volume(
-        scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(k), lobule.seeds[k]))
+        scene.cell_types.at(draw_cell_type(scene, static_cast<std::int64_t>(k), lobule.seeds[k]))
             .radius);
   const double lesion = b.shape == coupling::LobuleShape::kPie
                             ? kPi * b.lesion_radius * b.lesion_radius / 6
                             : kPi * b.lesion_radius * b.lesion_radius;
-  notes.said.push_back(
+  notes.info.push_back(
       fmt::format("lobule {}: height {} um, {} cells at least {} um apart fill {:.2f} of the "
                   "volume outside the lesion",
                   name_of_choice(b.shape), b.height, lobule.seeds.size(), b.min_distance,
@@ -82,11 +85,11 @@ coupling::Lobule build_lobule(const Scene& scene, Notes& notes) {
   return lobule;
 }
 
-/// Adhesion that the cortex cannot hold: cells wet each other until their faces fold and cross. Of
-/// 382 random scenes with W from 0.005 to 26 E h, 13 of the 14 in which cells crossed themselves
-/// had more than 0.7 (docs/verification.md).
+/// Warns of adhesion too strong for the cortex: cells spread over each other until faces fold and
+/// cross. Of 382 random scenes with W from 0.005 to 26 E h, 13 of the 14 with self-intersecting
+/// cells had W above 0.7 E h (docs/verification.md).
 void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes) {
-  constexpr double kMostAdhesion = 0.5;  // E h
+  constexpr double kMostAdhesionOverStretch = 0.5;  // E h
   const auto empty = std::ranges::count(cells.lineage, dcm::kEmptyLane);
   if (std::ssize(cells.lineage) - empty < 2) return;
   int index = 0;
@@ -95,33 +98,34 @@ void note_weak_cortex(const Scene& scene, const dcm::State& cells, Notes& notes)
     const bool has_cells = std::ranges::any_of(
         cells.group, [index](const dcm::Group& group) { return group.type == index; });
     ++index;
-    if (!has_cells || type.adhesion <= kMostAdhesion * stretch) continue;
-    notes.warned.push_back(fmt::format(
+    if (!has_cells || type.adhesion <= kMostAdhesionOverStretch * stretch) continue;
+    notes.warnings.push_back(fmt::format(
         "cell_types.{}.adhesion is {:.2g} J/m^2, {:.2g} times cortex_young x cortex_thickness, "
         "what "
         "holds the cortex together: deformable cells will spread over each other until they fold, "
         "and may cross themselves. Below {} times ({:.2g} J/m^2) they do not.",
-        name, 1e-3 * type.adhesion, type.adhesion / stretch, kMostAdhesion,
-        1e-3 * kMostAdhesion * stretch));
+        name, 1e-3 * type.adhesion, type.adhesion / stretch, kMostAdhesionOverStretch,
+        1e-3 * kMostAdhesionOverStretch * stretch));
   }
 }
 
 void note_cut_cells(const Scene& scene, const coupling::CutCells& cut, double depth, Notes& notes) {
   if (cut.cells.empty()) return;
-  constexpr std::size_t kNamed = 5;
-  const bool more = cut.cells.size() > kNamed;
-  std::vector<std::string> ways = ways_to_start_smaller(scene);
-  ways.push_back(way_to_part(scene));
-  notes.warned.push_back(fmt::format(
+  constexpr std::size_t kMostNamed = 5;
+  const bool more = cut.cells.size() > kMostNamed;
+  std::vector<std::string> ways = list_smaller_starts(scene);
+  ways.push_back(advise_spacing(scene));
+  notes.warnings.push_back(fmt::format(
       "the scene starts with overlaps: {} deformable cells (number {}{}) stand more than {:.3g} um "
       "deep in others. Each was cut where it meets them, down to {:.2g} of its volume, and starts "
       "under the pressure of that. {}.",
       cut.cells.size(),
-      fmt::join(std::span(cut.cells).first(more ? kNamed : cut.cells.size()), ", "),
+      fmt::join(std::span(cut.cells).first(more ? kMostNamed : cut.cells.size()), ", "),
       more ? ", ..." : "", depth, cut.smallest_volume, fmt::join(ways, ", or ")));
 }
 
-/// Cells take the shape of their surfaces, cell k that of surface k.
+/// Deforms cell k to the shape of surface k; cells whose mesh cannot follow stay spherical, with a
+/// warning.
 void give_shapes(const std::vector<geometry::Surface>& surfaces, coupling::World& world,
                  Notes& notes) {
   std::vector<coupling::CellSurface> shape;
@@ -129,14 +133,14 @@ void give_shapes(const std::vector<geometry::Surface>& surfaces, coupling::World
     shape.push_back({static_cast<std::int64_t>(k), &surfaces[k]});
   const coupling::TakenShapes taken = coupling::take_shapes(shape, world);
   if (taken.laid + taken.inflated > 0)
-    notes.said.push_back(fmt::format(
+    notes.info.push_back(fmt::format(
         "{} cells have the shape of their surface{}; worst triangle {:.2f} of 1",
         taken.laid + taken.inflated,
         taken.inflated > 0 ? fmt::format(", {} of them blown up inside it", taken.inflated)
                            : std::string(),
         taken.worst_quality));
   for (const auto& [lineage, cause] : taken.round)
-    notes.warned.push_back(fmt::format(
+    notes.warnings.push_back(fmt::format(
         "cell {} starts as a ball of its volume, not in its shape: {}. A finer mesh may follow it "
         "(dcm.nodes of its type).",
         lineage, cause));
@@ -171,7 +175,7 @@ BuiltWorld build_world(const Scene& scene, const Ranks& ranks) {
   world.state.tree = coupling::at_rest(p.tree);
   coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
   if (!scene.start_up.from.empty()) {
-    built.notes.said.push_back(take_start(scene, types_of(p), world.state));
+    built.notes.info.push_back(take_start(scene, types_of(p), world.state));
     coupling::place_vessels(p.tree, world.state.tree, p.boundary.vessels);
     coupling::begin_life(world);
     return built;

@@ -1,5 +1,5 @@
 #pragma once
-/// From a scene to a world: vessels, walls, cells and constants.
+/// World of a scene: vessels, walls, cells and constants.
 
 #include <string>
 #include <vector>
@@ -11,16 +11,16 @@
 
 namespace acinus::runs {
 
-/// A world ready for its first step, and what is worth telling about how it was made.
+/// World ready for its first step, with notes about its construction.
 struct BuiltWorld {
   coupling::World world;
-  std::vector<std::string> type_names;  ///< of the type index
+  std::vector<std::string> type_names;  ///< [type index]
   Notes notes;
-  double vessel_length = 0;  ///< um
+  double vessel_length = 0;  ///< total length of the network, um
 };
 
-/// Generates or reads the geometry, places the cells and checks that they fit.
-/// @throws Error for files that cannot be used and cells that start in the wrong place
+/// Generates or reads the geometry, places the cells and checks their starting positions.
+/// @throws Error for unusable files and for cells that start inside obstacles or each other
 BuiltWorld build_world(const Scene& scene, const Ranks& ranks);
 
 }  // namespace acinus::runs

@@ -1,38 +1,19 @@
 #include "runs/assemble/cell_constants.hpp"
 
+#include <variant>
+
+#include "runs/scene/key_values.hpp"
+#include "runs/scene/registry_blocks.hpp"
+
 namespace acinus::runs {
-namespace {
-
-struct TermConstant {
-  const char* name;  ///< in law files
-  double DcmBlock::*value;
-  bool softens;
-};
-
-/// A new term's constants are entered here.
-constexpr TermConstant kTermConstants[] = {
-    {"cortex_young_kPa", &DcmBlock::cortex_young, true},
-    {"cortex_thickness_um", &DcmBlock::cortex_thickness, false},
-    {"cortex_poisson", &DcmBlock::cortex_poisson, false},
-    {"area_modulus_nN_per_um", &DcmBlock::area_modulus, false},
-    {"local_area_modulus_nN_per_um", &DcmBlock::local_area_modulus, false},
-    {"cortex_tension_nN_per_um", &DcmBlock::cortex_tension, true},
-    {"bulk_modulus_kPa", &DcmBlock::bulk_modulus, true}};
-
-}  // namespace
 
 CellType softened(const CellType& type) {
   CellType soft = type;
-  for (const TermConstant& c : kTermConstants)
-    if (c.softens) soft.dcm.*c.value *= type.softening;
-  soft.adhesion *= type.softening;
+  for_each_value([&soft](Visitor& visitor) { describe_cell_type(visitor, soft); },
+                 [&type](const Key& key, const KeyField& field) {
+                   if (key.softens) *std::get<double*>(field) *= type.softening;
+                 });
   return soft;
-}
-
-calibration::Parameters term_constants(const DcmBlock& cell) {
-  calibration::Parameters constants;
-  for (const TermConstant& c : kTermConstants) constants[c.name] = cell.*c.value;
-  return constants;
 }
 
 }  // namespace acinus::runs

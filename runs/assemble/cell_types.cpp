@@ -9,7 +9,7 @@
 
 namespace acinus::runs {
 
-const std::string& type_of_generated(const Scene& scene, std::int64_t number, const Vec3& center) {
+const std::string& draw_cell_type(const Scene& scene, std::int64_t number, const Vec3& center) {
   const std::vector<TypeShare>& types = scene.cells.types;
   if (types.empty()) return scene.cell_types.begin()->first;
   const auto is_here = [&](const TypeShare& t) {

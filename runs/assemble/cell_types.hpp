@@ -1,5 +1,5 @@
 #pragma once
-/// Of which type the cells are that a scene does not list one by one.
+/// Cell types of generated cells, drawn by region and share.
 
 #include <cstdint>
 #include <string>
@@ -9,12 +9,14 @@
 
 namespace acinus::runs {
 
-/// Type of a generated cell with this number and place: one of those that cells.types has for the
-/// regions it is in, or for anywhere if it is in none, drawn by their shares. A cell's draw depends
-/// on the seed and its number alone.
-const std::string& type_of_generated(const Scene& scene, std::int64_t number, const Vec3& center);
+/// Type of a generated cell, drawn by share from the entries of cells.types whose region contains
+/// its centre, or from those without a region if none does. The draw depends on seed and number
+/// alone.
+/// @param number  index in the order of generation
+/// @param center  um
+const std::string& draw_cell_type(const Scene& scene, std::int64_t number, const Vec3& center);
 
-/// Radius of the largest type that a generated cell may be of, um.
+/// Radius of the largest type among generated cells, um.
 double largest_radius(const Scene& scene);
 
 }  // namespace acinus::runs

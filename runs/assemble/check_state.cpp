@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 
 namespace acinus::runs {
 namespace {
 
-/// Lengths in um and times in s beyond these are those of no tissue; sums of them would overflow.
-constexpr double kFarthestPlace = 1e9, kLongest = 1e12;
+/// Bounds of coordinates (um) and times (s) in a valid checkpoint; sums of larger ones could
+/// overflow.
+constexpr double kLargestCoordinate = 1e9, kLargestTime = 1e12;
 
 class Checks {
  public:
@@ -36,7 +38,7 @@ class Checks {
           Exit::kFileError);
   }
   static bool is_number(double x) { return !std::isnan(x); }
-  static bool is_near(double x) { return std::abs(x) <= kFarthestPlace; }
+  static bool is_near(double x) { return std::abs(x) <= kLargestCoordinate; }
   static bool is_vector(const Vec3& x) { return x.allFinite(); }
   static bool is_ramp(const Ramp& r) {
     return std::isfinite(r.from) && std::isfinite(r.to) && is_number(r.start) && is_number(r.end);
@@ -45,7 +47,7 @@ class Checks {
   void check_shells() const {
     const dcm::State& d = s_.dcm;
     for (const dcm::Group& g : d.group) {
-      need(g.type >= 0 && static_cast<std::size_t>(g.type) < types_.dcm,
+      need(g.type >= 0 && std::cmp_less(g.type, types_.dcm),
            "the type of a group of deformable cells");
       need(std::isfinite(g.nucleus.size), "the size of a nucleus");
     }
@@ -64,8 +66,7 @@ class Checks {
   void check_spheres() const {
     const cbm::State& c = s_.cbm;
     const auto n = static_cast<int>(c.n_cell());
-    need(std::ranges::all_of(
-             c.type, [&](int t) { return t >= 0 && static_cast<std::size_t>(t) < types_.cbm; }),
+    need(std::ranges::all_of(c.type, [&](int t) { return t >= 0 && std::cmp_less(t, types_.cbm); }),
          "the type of a sphere");
     need(std::ranges::all_of(c.position, is_near), "a position of spheres");
     need(std::ranges::all_of(c.volume, is_ramp), "a volume of spheres");
@@ -110,14 +111,14 @@ class Checks {
          "the phase of the run");
     need(c.due <= coupling::EventsDue::kZoom, "the events that are due");
     for (const double t : {c.time, c.origin, c.phase_start, s_.settle_time})
-      need(std::abs(t) <= kLongest, "a time of the clock");
+      need(std::abs(t) <= kLargestTime, "a time of the clock");
     for (const double t : {c.step, c.last_step})
-      need(t >= 0 && t <= kLongest, "the length of a step");
+      need(t >= 0 && t <= kLargestTime, "the length of a step");
     need(c.accepted >= 0 && c.rejected >= 0 && c.cg_iterations >= 0 && c.solves >= 0,
          "a count of steps");
   }
 
-  /// Cells are found by their lineage.
+  /// Checks that lineages are unique and not negative; cells are looked up by them.
   void check_lineages() const {
     std::set<std::int64_t> seen;
     for (const std::int64_t id : s_.dcm.lineage)

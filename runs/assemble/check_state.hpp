@@ -1,6 +1,5 @@
 #pragma once
-/// Refuses states of checkpoints that no run could have written: numbers that are none, places that
-/// are not there.
+/// Validity check of states read from checkpoints: finite numbers in range, indices that exist.
 
 #include <cstddef>
 #include <string>
@@ -9,13 +8,14 @@
 
 namespace acinus::runs {
 
-/// Cell types of a world, which a state of it may name.
+/// Numbers of cell types of a world, which bound the type indices of its state.
 struct StateTypes {
   std::size_t dcm = 0, cbm = 0;
 };
 inline StateTypes types_of(const coupling::Params& p) { return {p.dcm.size(), p.cbm.size()}; }
 
-/// @param source  the file, for messages
+/// Refuses a state that no run could have written.
+/// @param source  checkpoint file, for messages
 /// @throws Error(kFileError)
 void check_state(const coupling::State& state, const StateTypes& types, const std::string& source);
 

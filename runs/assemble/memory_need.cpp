@@ -16,10 +16,11 @@ namespace {
 // Measured where cells touch all around (docs/benchmarks.md: bytes_per_cell); with few contacts a
 // third of it.
 constexpr double kBytesPerNode = 450, kBytesPerSphere = 900;
-/// Of a branch point: its nodes, segments, wall and the grids that find them.
+/// Memory of a branch point, bytes: its nodes, segments, wall and search grids.
 constexpr double kBytesPerBranch = 2000;
 
-/// Of the smallest mesh among the cell types: which cells are of which is not known yet.
+/// Least memory of a cell, bytes: with the smallest mesh among the cell types, since types are not
+/// drawn yet.
 double bytes_per_cell(const Scene& scene) {
   if (scene.cells.model != CellModel::kDcm) return kBytesPerSphere;
   int nodes = std::numeric_limits<int>::max();

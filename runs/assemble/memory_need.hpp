@@ -1,16 +1,17 @@
 #pragma once
-/// Whether a scene fits into memory, told before anything is placed.
+/// Memory estimate of a scene, before anything is placed.
 
 #include "runs/scene/scene.hpp"
 
 namespace acinus::runs {
 
-/// Memory that cells and vessels of a scene take at least, at its start, bytes: cells by number,
-/// model and mesh, branches of a generated lobule. What zoom decides counts as spheres.
+/// Lower bound of the memory of cells and vessels at the start, bytes: cells by number, model and
+/// mesh, branches of a generated lobule. Zoomed cells count as spheres.
 double estimate_memory(const Scene& scene);
 
+/// Refuses a scene that needs more memory than allowed.
 /// @param limit  bytes
-/// @throws Error(kBadInput) if the scene takes more, naming what takes most
+/// @throws Error(kBadInput) naming the largest contribution
 void check_memory(const Scene& scene, double limit);
 
 }  // namespace acinus::runs

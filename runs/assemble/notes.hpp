@@ -1,15 +1,16 @@
 #pragma once
-/// What is worth telling about a run beside its figures.
+/// Messages about a run for its log and summary.
 
 #include <string>
 #include <vector>
 
 namespace acinus::runs {
 
+/// Information and warnings about a run.
 struct Notes {
-  std::vector<std::string> said;
-  /// What a user must not miss: always on stderr, also with --quiet, and in summary.json.
-  std::vector<std::string> warned;
+  std::vector<std::string> info;
+  /// Warnings: always on stderr, also with --quiet, and in summary.json.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace acinus::runs

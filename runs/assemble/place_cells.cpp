@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "contact/nearest_gap.hpp"
@@ -22,36 +21,42 @@
 namespace acinus::runs {
 namespace {
 
-/// How deep a cell may start in an obstacle, um: contact forces push it out in the first steps.
-constexpr double kStartDepth = 0.3;
+/// Largest overlap of a starting cell with an obstacle, um; contact forces resolve it in the first
+/// steps.
+constexpr double kMostStartOverlap = 0.3;
 
 double start_radius(const Scene& scene, double radius) {
   return scene.start_up.enabled ? scene.start_up.initial_radius : radius;
 }
 
-/// Sizes beyond these are slips of the unit; the run file stores single precision.
-constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4, kFarthestCell = 1e6;  // um
+/// Bounds of radius and coordinates, um. Values beyond them are mistaken units; the run file stores
+/// single precision.
+constexpr double kSmallestRadius = 0.01, kLargestRadius = 1e4,
+                 kLargestCoordinateOfCell = 1e6;  // um
 
-/// Cells that start anywhere in their cycle have up to twice the volume.
+/// Largest start radius of a cell type, um: cells at a random point of their cycle have up to twice
+/// the volume.
 double largest_start(const CellType& t) {
   return t.radius * (t.cycle.time > 0 && t.cycle.random_start ? std::cbrt(2.0) : 1);
 }
 
-/// Darts thrown into a box, at least min_distance apart and clear of the boundary.
+/// Random sequential addition of centres in a box, at least cells.min_distance apart and clear of
+/// the boundary.
+/// @return [cells.count] um
+/// @throws Error if the box cannot hold them
 std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
   UniformStream random(scene.seed, Purpose::kPlacement, 0);
   std::vector<Vec3> seeds;
-  constexpr int kTries = 200000;
-  for (int tries = 0; tries < kTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
+  constexpr int kMostTries = 200000;
+  for (int tries = 0; tries < kMostTries && static_cast<int>(seeds.size()) < c.count; ++tries) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = random.uniform(c.low[k], c.high[k]);
     const bool free =
         std::ranges::all_of(seeds, [&](const Vec3& y) { return (x - y).norm() >= c.min_distance; });
     if (!free) continue;
     // The next cell's type hangs on its number: large cells are not rarer for the room they need.
-    const CellType& type =
-        scene.cell_types.at(type_of_generated(scene, static_cast<std::int64_t>(seeds.size()), x));
+    const CellType& type = scene.cell_types.at(draw_cell_type(scene, std::ssize(seeds), x));
     if (contact::nearest_gap(boundary, x, 0) < start_radius(scene, largest_start(type))) continue;
     seeds.push_back(x);
     tries = 0;
@@ -66,14 +71,15 @@ std::vector<Vec3> fill_box(const Scene& scene, const contact::Boundary& boundary
   return seeds;
 }
 
-/// Where a cell comes from, for messages.
+/// Name of a placed cell in messages: its entry of cells.list or its number.
 std::string name_of(const Scene& scene, const PlacedCell& cell) {
   return fmt::format("{}{}",
                      scene.cells.source == CellSource::kList ? "/cells/list/" : "generated cell ",
                      cell.lineage);
 }
 
-/// Pairs of cells closer than half the larger radius, in the order of the list.
+/// Pairs of cells whose centres are closer than half the larger radius, as ascending indices into
+/// the list.
 std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
                                               const std::vector<PlacedCell>& cells) {
   std::vector<Box> boxes;
@@ -88,27 +94,83 @@ std::vector<std::pair<int, int>> find_crowded(const Scene& scene,
   return pairs;
 }
 
-/// A wrong unit often shows as an absurd size or place; the numbers then overflow far from here.
+/// Checks radius and position of every cell against the bounds above, before they overflow
+/// elsewhere.
 void check_sizes(const Scene& scene, const std::vector<PlacedCell>& cells) {
   for (const PlacedCell& c : cells) {
     if (!(c.radius >= kSmallestRadius && c.radius <= kLargestRadius))
       throw Error(fmt::format(
           "{}: {} has the radius {:.4g} um; from {} to {} um is allowed. Check its unit.",
           scene.file, name_of(scene, c), c.radius, kSmallestRadius, kLargestRadius));
-    if (!(c.center.cwiseAbs().maxCoeff() <= kFarthestCell))
-      throw Error(fmt::format(
-          "{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
-          "along each axis "
-          "is allowed. Check its unit.",
-          scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), kFarthestCell));
+    if (!(c.center.cwiseAbs().maxCoeff() <= kLargestCoordinateOfCell))
+      throw Error(
+          fmt::format("{}: {} is at ({:.4g}, {:.4g}, {:.4g}) um; at most {:g} um from the origin "
+                      "along each axis "
+                      "is allowed. Check its unit.",
+                      scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(),
+                      kLargestCoordinateOfCell));
   }
 }
 
-}  // namespace
+PlacedCell make_cell(const Scene& scene, const CellEntry& e) {
+  PlacedCell p;
+  p.center = e.position;
+  p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
+  p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
+  p.pull = e.pull;
+  p.oriented = !e.random_orientation;
+  return p;
+}
 
-namespace {
+/// Centres of generated cells in the order of their numbers, um.
+std::vector<Vec3> generate_centers(const Scene& scene, const coupling::Lobule* lobule,
+                                   std::span<const geometry::Surface> surface,
+                                   const contact::Boundary& boundary) {
+  const CellsBlock& c = scene.cells;
+  const double diameter = 2 * largest_radius(scene);
+  UniformStream stream(scene.seed, Purpose::kJitter, 0);
+  const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
+  std::vector<Vec3> centers;
+  switch (c.source) {
+    case CellSource::kClump:
+      return coupling::make_clump({c.lattice, c.count, c.spacing * diameter, c.jitter * diameter},
+                                  uniform);
+    case CellSource::kBox:
+      return coupling::make_box(
+          {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
+          uniform);
+    case CellSource::kFill:
+      return fill_box(scene, boundary);
+    case CellSource::kMeshes:
+      for (const geometry::Surface& s : surface)
+        centers.push_back(geometry::compute_centroid(s.node, s.triangle));
+      break;
+    case CellSource::kLobule:
+      if (lobule) centers = lobule->seeds;
+      break;
+    case CellSource::kList:
+      break;
+  }
+  return centers;
+}
 
-/// Which of the cells that the zoom decides about start deformable.
+/// Generated cell at a centre.
+/// @param number  index in the order of generation
+/// @param shape   surface of the cell, null if it has none
+PlacedCell generate_cell(const Scene& scene, std::int64_t number, const Vec3& center,
+                         const geometry::Surface* shape) {
+  PlacedCell p;
+  p.center = center;
+  p.type = draw_cell_type(scene, number, center);
+  p.radius = shape ? sphere_radius(geometry::compute_volume(shape->node, shape->triangle))
+                   : scene.cell_types.at(p.type).radius;
+  p.oriented = false;
+  p.shaped = shape != nullptr;
+  return p;
+}
+
+/// Chooses the model of zoomed cells: deformable within a region, else a sphere.
+/// @param zoomed  indices into cells
 void choose_models(const Scene& scene, const geometry::Network& vessels,
                    const std::vector<std::size_t>& zoomed, std::vector<PlacedCell>& cells) {
   if (zoomed.empty()) return;
@@ -146,60 +208,23 @@ std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* 
                                     std::span<const geometry::Surface> surface,
                                     const contact::Boundary& boundary) {
   const CellsBlock& c = scene.cells;
-  const double diameter = 2 * largest_radius(scene);
-  UniformStream stream(scene.seed, Purpose::kJitter, 0);
-  const coupling::Uniform uniform = [&stream] { return stream.uniform(); };
-
   std::vector<PlacedCell> cells;
   std::vector<std::size_t> zoomed;
-  const auto choose = [&](CellModel model, PlacedCell& p) {
+  const auto add = [&](PlacedCell p, CellModel model) {
+    p.lineage = std::ssize(cells);
     p.deformable = model == CellModel::kDcm;
     if (model == CellModel::kZoom) zoomed.push_back(cells.size());
+    cells.push_back(std::move(p));
   };
   if (c.source == CellSource::kList) {
-    for (const CellEntry& e : c.list) {
-      PlacedCell p;
-      p.center = e.position;
-      p.type = e.type.empty() ? scene.cell_types.begin()->first : e.type;
-      p.radius = e.radius.value_or(scene.cell_types.at(p.type).radius);
-      p.pull = e.pull;
-      p.oriented = !e.random_orientation;
-      choose(e.model.value_or(c.model), p);
-      cells.push_back(p);
-    }
+    for (const CellEntry& e : c.list) add(make_cell(scene, e), e.model.value_or(c.model));
   } else {
-    std::vector<Vec3> centers;
-    if (c.source == CellSource::kClump)
-      centers = coupling::make_clump(
-          {c.lattice, c.count, c.spacing * diameter, c.jitter * diameter}, uniform);
-    else if (c.source == CellSource::kBox)
-      centers = coupling::make_box(
-          {coupling::BoxPacking::kCubic, c.grid, c.spacing * diameter, c.jitter * diameter},
-          uniform);
-    else if (c.source == CellSource::kFill)
-      centers = fill_box(scene, boundary);
-    else if (c.source == CellSource::kMeshes)
-      for (const geometry::Surface& s : surface)
-        centers.push_back(geometry::compute_centroid(s.node, s.triangle));
-    else if (lobule)
-      centers = lobule->seeds;
-    cells.reserve(centers.size());
-    for (const Vec3& x : centers) {
-      PlacedCell p;
-      p.center = x;
-      p.type = type_of_generated(scene, static_cast<std::int64_t>(cells.size()), x);
-      p.radius = scene.cell_types.at(p.type).radius;
-      p.oriented = false;
-      if (c.source == CellSource::kMeshes) {
-        const geometry::Surface& s = surface[cells.size()];
-        p.radius = sphere_radius(geometry::compute_volume(s.node, s.triangle));
-        p.shaped = true;
-      }
-      choose(c.model, p);
-      cells.push_back(p);
+    for (const Vec3& x : generate_centers(scene, lobule, surface, boundary)) {
+      const geometry::Surface* shape =
+          c.source == CellSource::kMeshes ? &surface[cells.size()] : nullptr;
+      add(generate_cell(scene, std::ssize(cells), x, shape), c.model);
     }
   }
-  for (std::size_t k = 0; k < cells.size(); ++k) cells[k].lineage = static_cast<std::int64_t>(k);
   choose_models(scene, boundary.vessels.network, zoomed, cells);
   return cells;
 }
@@ -212,15 +237,15 @@ void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
   for (const PlacedCell& c : cells) {
     std::string name;
     // Of a shape of its own only the middle is looked at.
-    const double r = c.shaped ? kStartDepth : start_radius(scene, c.radius);
+    const double r = c.shaped ? kMostStartOverlap : start_radius(scene, c.radius);
     const double gap = contact::nearest_gap(boundary, c.center, 0, &name);
-    if (gap >= r - kStartDepth) continue;
+    if (gap >= r - kMostStartOverlap) continue;
     if (++bad <= 10)
       message += fmt::format(
           "{}: {} at ({:.4g}, {:.4g}, {:.4g}) um starts {:.3g} um inside {}; at most {} um is "
           "allowed.\n",
           scene.file, name_of(scene, c), c.center.x(), c.center.y(), c.center.z(), r - gap, name,
-          kStartDepth);
+          kMostStartOverlap);
   }
   for (const auto& [i, j] : find_crowded(scene, cells)) {
     if (++bad > 10) continue;

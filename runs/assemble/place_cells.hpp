@@ -1,5 +1,5 @@
 #pragma once
-/// Where the cells of a scene start, and which model each of them is.
+/// Starting positions, sizes and models of the cells of a scene.
 
 #include <cstdint>
 #include <span>
@@ -14,36 +14,38 @@
 
 namespace acinus::runs {
 
+/// Cell at its starting position.
 struct PlacedCell {
-  std::int64_t lineage = 0;  ///< number in the order of generation: the same whatever the model
+  std::int64_t lineage = 0;  ///< index in the order of generation, independent of the models
   Vec3 center = Vec3::Zero();
   std::string type;
-  double radius = 0;  ///< um at rest
+  double radius = 0;  ///< rest radius, um
   bool deformable = false;
-  bool oriented = true;  ///< keep the mesh as it is; generated cells get a random orientation
-  bool shaped = false;   ///< has the shape of a surface, see cells.file
+  bool oriented = true;  ///< mesh keeps its orientation; generated cells get a random one
+  bool shaped = false;   ///< takes the shape of a surface of cells.file
   Vec3 pull = Vec3::Zero();
 };
 
-/// The closed surfaces of cells.file, in um; none unless the scene has one.
-/// @throws Error for a file that cannot be used, with the body
+/// Closed surfaces of cells.file, um; empty for any other source of cells.
+/// @throws Error for an unusable file, naming the body
 std::vector<geometry::Surface> read_cell_surfaces(const Scene& scene);
 
-/// All cells of the scene. Depends on the seed and the geometry, not on the models.
-/// @param lobule   empty unless the scene has one
-/// @param surface  of read_cell_surfaces: cell k has the volume and the middle of surface k
-/// @throws Error when a source cannot place what is asked
+/// Places all cells of the scene. Positions depend on seed and geometry, not on the models.
+/// @param lobule   generated lobule of the scene, null if it has none
+/// @param surface  [n_cell] from read_cell_surfaces(): cell k gets the volume and centroid of
+///                 surface k
+/// @throws Error if a source cannot place the cells asked for
 std::vector<PlacedCell> place_cells(const Scene& scene, const coupling::Lobule* lobule,
                                     std::span<const geometry::Surface> surface,
                                     const contact::Boundary& boundary);
 
-/// Every cell that starts inside a vessel or another obstacle, outside a wall or in another cell,
-/// in one message; before that, the first of an absurd size or place.
-/// @throws Error if there is any
+/// Refuses cells of absurd size or position, and cells that start inside an obstacle, outside a
+/// wall or in another cell. One message lists them.
+/// @throws Error
 void check_starts(const Scene& scene, const std::vector<PlacedCell>& cells,
                   const contact::Boundary& boundary);
 
-/// How many cells a scene asks for at its start; there may be room for fewer.
+/// Number of cells that a scene asks for at its start; an upper bound, since not all may fit.
 double count_wanted_cells(const Scene& scene);
 
 }  // namespace acinus::runs

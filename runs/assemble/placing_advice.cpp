@@ -4,7 +4,7 @@
 
 namespace acinus::runs {
 
-std::vector<std::string> ways_to_start_smaller(const Scene& scene) {
+std::vector<std::string> list_smaller_starts(const Scene& scene) {
   std::vector<std::string> ways{"Let the cells grow from small ones first (start_up.enabled)"};
   const auto has_any_age = [](const auto& type) {
     return type.second.cycle.time > 0 && type.second.cycle.random_start;
@@ -18,7 +18,7 @@ std::vector<std::string> ways_to_start_smaller(const Scene& scene) {
 
 // Clumps and boxes are laid out in diameters of their cells, so neither fewer nor smaller cells do
 // it there.
-std::string way_to_part(const Scene& scene) {
+std::string advise_spacing(const Scene& scene) {
   switch (scene.cells.source) {
     case CellSource::kList:
       return "move them apart or give them a smaller radius (cells.list)";

@@ -1,5 +1,5 @@
 #pragma once
-/// What to change in a scene whose cells start too near to each other.
+/// Advice for scenes whose cells start too close to each other.
 
 #include <string>
 #include <vector>
@@ -8,10 +8,11 @@
 
 namespace acinus::runs {
 
-/// Ways to start the cells of a scene small or just born, as it may be.   @pre no start-up
-std::vector<std::string> ways_to_start_smaller(const Scene& scene);
+/// Changes of the scene that let cells start small or newborn, as far as they apply.
+/// @pre no start-up phase
+std::vector<std::string> list_smaller_starts(const Scene& scene);
 
-/// How the cells of a scene come to stand farther apart.
-std::string way_to_part(const Scene& scene);
+/// Change of the scene that places its cells farther apart.
+std::string advise_spacing(const Scene& scene);
 
 }  // namespace acinus::runs

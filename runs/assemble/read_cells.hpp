@@ -1,5 +1,5 @@
 #pragma once
-/// The cells of one frame of a run, read back from its file.
+/// Cells of one frame of a run, read from its run file.
 
 #include <cstdint>
 #include <map>
@@ -11,24 +11,26 @@
 
 namespace acinus::runs {
 
+/// Figures of one cell in a frame.
 struct CellRecord {
-  Vec3 center = Vec3::Zero();  ///< um
-  double pressure = 0;         ///< Pa, contact pressure
-  double force = 0;            ///< nN, sum of the sizes of its contact forces
-  double contacts = 0;         ///< cells it touches
+  Vec3 center = Vec3::Zero();  ///< centroid, um
+  double pressure = 0;         ///< contact pressure, Pa
+  double force = 0;            ///< sum of the magnitudes of its contact forces, nN
+  double contacts = 0;         ///< number of touching cells
   bool deformable = false;
-  double radius = 0;  ///< um, of its reference volume
+  double radius = 0;  ///< radius of its reference volume, um
 };
 
-/// A column of a frame's cells by its name.
-/// @throws Error where an older version of the program, that had none, wrote the file
+/// Column of a frame's cell table by name.
+/// @throws Error if the column is missing, as in files of older versions
 const std::vector<double>& cell_column(const io::Table& cells, const std::string& name,
                                        const std::string& folder);
 
-using CellRecords = std::map<std::int64_t, CellRecord>;  ///< by lineage
+using CellRecords = std::map<std::int64_t, CellRecord>;  ///< keyed by lineage
 
-/// @param folder  of the run, for messages
-/// @throws Error where an older version of the program wrote the file
+/// Reads the cells of a frame.
+/// @param folder  run folder, for messages
+/// @throws Error if a column is missing, as in files of older versions
 CellRecords read_cells(const io::RunReader& reader, int frame, const std::string& folder);
 
 }  // namespace acinus::runs

@@ -2,68 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "acinus_version.hpp"
 #include "core/error.hpp"
 #include "io/checkpoint.hpp"
 #include "runs/assemble/state_file.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {
 
-/// Blocks and keys that act only after t = 0, or only on the way to rest. "model" has gone into
-/// cells.model; of start_up only what places the cells counts. What cells touch of vessels shapes a
-/// start as well, but both ways may be compared from one.
-constexpr std::array kFree{"/name",
-                           "/description",
-                           "/experiment",
-                           "/model",
-                           "/time",
-                           "/solver",
-                           "/output",
-                           "/motility",
-                           "/life",
-                           "/friction",
-                           "/start_up/growth_time",
-                           "/start_up/adhesion_ramp",
-                           "/start_up/max_duration",
-                           "/start_up/speed_tolerance",
-                           "/start_up/pressure_tolerance",
-                           "/start_up/from",
-                           "/vessels/contact"};
-
-/// The same for keys of a cell type.
-constexpr std::array kFreeOfType{"/cycle",
-                                 "/inhibition",
-                                 "/death",
-                                 "/diffusion",
-                                 "/dcm/nodal_friction",
-                                 "/dcm/nodal_friction_across",
-                                 "/dcm/ecm_friction",
-                                 "/cbm/ecm_friction"};
-
-bool is_or_is_below(const std::string& pointer, const std::string& block) {
-  return pointer == block || pointer.starts_with(block + "/");
+/// True if cells of the type of a key, "/cell_types/NAME/...", start at any age.
+bool starts_at_any_age(const Scene& scene, const std::string& pointer) {
+  const std::string name = pointer.substr(std::string("/cell_types/").size());
+  const auto type = scene.cell_types.find(name.substr(0, name.find('/')));
+  return type != scene.cell_types.end() && type->second.cycle.random_start;
 }
 
 }  // namespace
 
 bool may_differ_at_start(const Scene& scene, const std::string& pointer) {
-  constexpr const char* kTypes = "/cell_types/";
-  if (!pointer.starts_with(kTypes))
-    return std::ranges::any_of(kFree,
-                               [&](const char* key) { return is_or_is_below(pointer, key); });
-  const std::size_t end = pointer.find('/', std::string(kTypes).size());
-  if (end == std::string::npos) return false;
-  const std::string rest = pointer.substr(end), first = std::string(kTypes);
-  const auto type = scene.cell_types.find(pointer.substr(first.size(), end - first.size()));
-  const bool any_age = type != scene.cell_types.end() && type->second.cycle.random_start;
-  if (rest == "/cycle/start" || (any_age && is_or_is_below(rest, "/cycle"))) return false;
-  return std::ranges::any_of(kFreeOfType,
-                             [&](const char* key) { return is_or_is_below(rest, key); });
+  const Entry* key = find_innermost_entry(pointer);
+  if (key == nullptr) return false;
+  if (key->affects == Affects::kAges) return !starts_at_any_age(scene, pointer);
+  return key->affects >= Affects::kStep;
 }
 
 void save_start(const std::string& folder, const Scene& scene, const coupling::State& state) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The state at t = 0 as a file, for other runs to start from: start-up is paid once.
+/// State at t = 0 as a file for other runs, which share one start-up phase.
 
 #include <string>
 
@@ -9,19 +9,20 @@
 
 namespace acinus::runs {
 
-/// Writes <folder>/start.h5. To be called at t = 0, after start-up and before life begins.
+/// Writes <folder>/start.h5. Called at t = 0, after start-up and before the life events begin.
 /// @throws Error(kFileError)
 void save_start(const std::string& folder, const Scene& scene, const coupling::State& state);
 
-/// Replaces the cells and the clock of a world by those that the run in scene.start_up.from had at
-/// its t = 0. Growth, motility, friction and what is written may differ from that run; what shapes
-/// the start must not.
-/// @return what was done, for the log
+/// Replaces cells and clock of a world by the state at t = 0 of the run in scene.start_up.from.
+/// Growth, motility, friction and output may differ from that run; keys that shape the start must
+/// not.
+/// @return note for the log
 /// @throws Error(kBadInput) naming the keys that differ, Error(kFileError) for a damaged file
 std::string take_start(const Scene& scene, const StateTypes& types, coupling::State& state);
 
-/// Whether a key of a canonical scene (its pointer) may differ between this scene and that of the
-/// run it starts from. Cells that start at any age have its size, so their cycle must be the same.
+/// True if a key may differ between this scene and that of the run it starts from. Cells with a
+/// random age have its size at the start, so their cycle must be the same.
+/// @param pointer  JSON pointer of the key in a canonical scene
 bool may_differ_at_start(const Scene& scene, const std::string& pointer);
 
 }  // namespace acinus::runs

@@ -12,7 +12,8 @@
 namespace acinus::runs {
 namespace {
 
-/// A number of a file as one that an int can hold.
+/// Converts a count of a file to int.
+/// @throws Error(kFileError) if it is out of range
 int as_int(const io::CheckpointData& d, const char* what, std::int64_t value) {
   check(value >= 0 && value <= std::numeric_limits<int>::max(),
         fmt::format("{}: {} holds {}, which cannot be. The file is damaged; resume from the "
@@ -22,7 +23,7 @@ int as_int(const io::CheckpointData& d, const char* what, std::int64_t value) {
   return static_cast<int>(value);
 }
 
-/// Only shapes that are still remembered are kept: lane, then weight, area, edges and triangles.
+/// Writes the birth shapes that are still remembered: lane, then weight, area, edges and triangles.
 void put_birth_shapes(const dcm::State& s, io::CheckpointData& d) {
   std::vector<std::int64_t> lane;
   std::vector<double> numbers;
@@ -60,7 +61,8 @@ void get_birth_shapes(const io::CheckpointData& d, dcm::State& s) {
   }
 }
 
-/// Cells that have tensions: lane, then forces and lengths of their edges.
+/// Writes the cortex tensions of the cells that have any: lane, then forces and lengths of their
+/// edges.
 void put_tensions(const dcm::State& s, io::CheckpointData& d) {
   std::vector<std::int64_t> lane;
   std::vector<double> numbers;
@@ -91,7 +93,7 @@ void get_tensions(const io::CheckpointData& d, dcm::State& s) {
   }
 }
 
-/// Nuclei by group: nodes, 0 for none, and their size over that of the cell.
+/// Writes the nuclei by group: number of nodes (0: no nucleus) and size relative to the cell.
 void put_nuclei(const dcm::State& s, io::CheckpointData& d) {
   if (!dcm::has_nuclei(s)) return;
   std::vector<std::int64_t> nodes;
@@ -116,7 +118,8 @@ dcm::NucleusMesh nucleus_of(const io::CheckpointData& d, std::size_t group) {
   return {&geometry::shared_icosphere(as_int(d, "dcm/nucleus_nodes", nodes[group])), size[group]};
 }
 
-/// Lengths of links at birth, of the cells that remember their shape. @pre get_birth_shapes
+/// Reads the link lengths at birth of the cells that remember their shape.
+/// @pre get_birth_shapes() of the same state
 void get_birth_links(const io::CheckpointData& d, dcm::State& s) {
   if (!d.contains("dcm/birth_link")) return;
   const std::vector<double>& numbers = d.numbers("dcm/birth_link");
@@ -138,7 +141,7 @@ void get_shells(const io::CheckpointData& d, dcm::State& s) {
     const geometry::Topology& topology =
         geometry::shared_icosphere(as_int(d, "dcm/group", group[k + 1]));
     s.group.push_back({&topology, rows, as_int(d, "dcm/group", group[k]), nucleus_of(d, k / 2)});
-    rows += static_cast<std::size_t>(s.group.back().n_point());
+    rows += s.group.back().n_point();
   }
   const std::size_t n = s.group.size() * kLanes;
   s.position = d.numbers("dcm/position");
@@ -284,7 +287,7 @@ void get_zoom(const io::CheckpointData& d, coupling::State& s) {
         {cell[2 * k], cell[2 * k + 1], force[k], virial[k], share[k], apart[k], reach[k]});
 }
 
-/// Calls f(name, value) for every number of the clock and the balance.
+/// Calls f(name, value) for every floating-point member of the clock and the force balance.
 template <class Clock, class Balance, class F>
 void visit_numbers(Clock& c, Balance& b, F f) {
   f("clock/time", c.time);
@@ -297,7 +300,7 @@ void visit_numbers(Clock& c, Balance& b, F f) {
   f("balance/friction_torque", b.friction_torque);
 }
 
-/// The same for every count.
+/// Calls f(name, value) for every integer member of the clock.
 template <class Clock, class F>
 void visit_counts(Clock& c, F f) {
   f("clock/accepted", c.accepted);

@@ -1,5 +1,5 @@
 #pragma once
-/// World state to and from a checkpoint: every number, bit for bit, in memory order.
+/// World state to and from a checkpoint: every number bit for bit, in memory order.
 
 #include "coupling/world/world.hpp"
 #include "io/checkpoint.hpp"
@@ -7,12 +7,12 @@
 
 namespace acinus::runs {
 
+/// Writes the state as named arrays.
 void put_state(const coupling::State& state, io::CheckpointData& data);
 
 /// Replaces the state of a world built from the same scene.
 /// @param types  cell types of that world
-/// @throws Error(kFileError) when the data does not fit the world (another set of cells), or holds
-///         what no run could have written
+/// @throws Error(kFileError) for data of another set of cells, or that no run could have written
 void get_state(const io::CheckpointData& data, const StateTypes& types, coupling::State& state);
 
 }  // namespace acinus::runs

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of a state as the plain lists of numbers that a checkpoint holds.
+/// Conversion of parts of a state to the flat arrays of a checkpoint, and back.
 
 #include <fmt/format.h>
 
@@ -41,6 +41,8 @@ inline std::vector<Vec3> unflatten_points(const std::vector<double>& v) {
   return points;
 }
 
+/// Checks the number of entries of an array.
+/// @throws Error(kFileError)
 inline void check_same(const io::CheckpointData& data, const std::string& what, std::size_t found,
                        std::size_t expected) {
   check(found == expected,

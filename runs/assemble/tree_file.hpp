@@ -1,16 +1,17 @@
 #pragma once
-/// Flexible vessels in a checkpoint.
+/// State of flexible vessels in a checkpoint.
 
 #include "coupling/vessels/vessel_tree.hpp"
 #include "io/checkpoint.hpp"
 
 namespace acinus::runs {
 
-/// Places and rotations (w, x, y, z) of the nodes; nothing where there are none.
+/// Writes positions (um) and rotations (quaternion w, x, y, z) of the nodes; nothing for a tree
+/// without nodes.
 void put_tree(const coupling::TreeState& tree, io::CheckpointData& data);
 
-/// Of a tree with as many nodes; nothing where it has none.
-/// @throws Error where the file has others
+/// Reads positions and rotations into a tree of the same size; nothing for a tree without nodes.
+/// @throws Error if the file holds another number of nodes
 void get_tree(const io::CheckpointData& data, coupling::TreeState& tree);
 
 }  // namespace acinus::runs

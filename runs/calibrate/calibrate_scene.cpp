@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using calibration::ClumpModel;
 using calibration::CompressionRun;
 
-/// The cells of every frame of a compression.
+/// Reads all cells of every frame of a compression run.
 std::vector<calibration::ClumpSnapshot> read_snapshots(const RunSummary& run) {
   const io::RunReader reader(run.folder + "/run.vtkhdf");
   const std::vector<double>& capsule = series(run, "capsule_radius_um");
@@ -48,7 +48,7 @@ std::vector<calibration::ClumpSnapshot> read_snapshots(const RunSummary& run) {
   return out;
 }
 
-/// The central cell in every frame, as far as a law asks for it.
+/// Reads the central cell of every frame, with the quantities a stiffness law is fitted to.
 std::vector<calibration::ClumpSample> read_central(const RunSummary& run) {
   const std::vector<double>&overlap = series(run, "overlap"), &contacts = series(run, "contacts"),
         &pressure = series(run, "pressure_Pa");
@@ -61,7 +61,7 @@ std::vector<calibration::ClumpSample> read_central(const RunSummary& run) {
   return out;
 }
 
-/// The run folders of one calibration.
+/// Run folders of one calibration.
 class Folders {
  public:
   Folders(const Scene& compression, const CalibrateOptions& options)
@@ -85,7 +85,7 @@ class Folders {
  private:
   struct How {
     bool quiet = false, fresh = false;
-    bool whole = false;  ///< a run that could not go on is of no use
+    bool whole = false;  ///< run anew instead of resuming, for runs that cannot be continued
   };
 
   CompressionRun compress(ClumpModel model, const calibration::Law& law) const {

@@ -1,6 +1,5 @@
 #pragma once
-/// `acinus calibrate`: from a scene to the law that corrects its spheres, with the runs it takes in
-/// run folders.
+/// Calibration of a scene's stiffness law, with its runs in run folders (`acinus calibrate`).
 
 #include <string>
 
@@ -9,20 +8,21 @@
 
 namespace acinus::runs {
 
+/// Options of a calibration.
 struct CalibrateOptions {
   ClumpOptions clump;
   calibration::Options calibration;
-  std::string out;     ///< law file
-  bool fresh = false;  ///< do not use what an earlier run left
+  std::string out;     ///< law file to write
+  bool fresh = false;  ///< ignore the results of an earlier calibration
   int threads = 0;     ///< 0 = all cores
   bool quiet = false;
   std::string command_line;
 };
 
-/// Runs stand in a folder beside the law file and are taken up again where they were left, those of
-/// corrected spheres made anew; the law file appears at the end, with curves.json and plots in that
-/// folder.
-/// @return exit code of a run that was stopped or failed, else 0
+/// Calibrates the stiffness law of a scene. Its runs stand in a folder beside the law file and are
+/// resumed there; runs of corrected spheres are always repeated. The law file appears at the end,
+/// curves.json and plots in that folder.
+/// @return exit code: 0, or that of the run that stopped or failed
 int calibrate(const Scene& scene, const CalibrateOptions& options);
 
 }  // namespace acinus::runs

@@ -8,22 +8,23 @@
 
 #include "core/error.hpp"
 #include "runs/assemble/place_cells.hpp"
+#include "runs/experiments/capsule_experiment.hpp"
 #include "runs/scene/writer.hpp"
 
 namespace acinus::runs {
 namespace {
 
-/// Volume of a capsule in which neighbours overlap by d = 0.2, over that of the free cells:
+/// Ratio of the capsule volume at an overlap d = 0.2 of neighbours to the volume of the free cells,
 /// measured with 15 cells.
 constexpr double kCompressedVolume = 0.70;
-/// Shrink rate over the smallest radius, 1/s: 0.3 um/h at 26 um. Half of it changes the force by
-/// 1 % (docs/calibration.md).
-constexpr double kRate = 0.0115 / 3600;
-/// Least modulus of each triangle over the bulk modulus, um: surfaces under this pressure would
-/// fold.
-constexpr double kLeastLocalArea = 0.04;
+/// Shrink rate relative to the smallest radius, 1/s: 0.3 um/h at 26 um. Halving it changes the
+/// force by 1 % (docs/calibration.md).
+constexpr double kShrinkRate = 0.0115 / 3600;
+/// Least ratio of the local area modulus to the bulk modulus, um; softer surfaces fold under this
+/// pressure.
+constexpr double kLeastLocalAreaModulus = 0.04;
 
-/// Largest distance of a cell's centre from the middle, um.
+/// Largest distance of a cell's centre from the origin, um.
 double reach_of(const Scene& scene) {
   double reach = 0;
   for (const PlacedCell& c : place_cells(scene, nullptr, {}, {}))
@@ -46,7 +47,7 @@ std::string choose_type(const Scene& scene, const std::string& type) {
 }
 
 Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
-  const bool itself = scene.experiment == Experiment::kCapsule && scene.capsule.enabled;
+  const bool itself = is_capsule_compression(scene);
   Scene s = scene;
   if (!itself) {
     s = Scene{};
@@ -71,7 +72,7 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
   type.cycle.time = 0;
   type.diffusion = 0;
   type.dcm.local_area_modulus =
-      std::max(type.dcm.local_area_modulus, kLeastLocalArea * type.dcm.bulk_modulus);
+      std::max(type.dcm.local_area_modulus, kLeastLocalAreaModulus * type.dcm.bulk_modulus);
   type.dcm.nucleus.reset();  // spheres have neither
   type.dcm.contraction.reset();
   type.cbm.young_spread = 0;
@@ -87,7 +88,7 @@ Scene compression_scene(const Scene& scene, const ClumpOptions& options) {
     s.capsule.enabled = true;
     s.capsule.radius = reach_of(s) + 1.1 * type.radius;
     s.capsule.min_radius = type.radius * std::cbrt(s.cells.count * kCompressedVolume);
-    s.capsule.speed = kRate * s.capsule.min_radius;
+    s.capsule.speed = kShrinkRate * s.capsule.min_radius;
     s.time.end = (s.capsule.radius - s.capsule.min_radius) / s.capsule.speed;
   }
   if (options.rate != 1) {

@@ -1,11 +1,16 @@
 #include "runs/calibrate/law_cache.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "calibration/law_file.hpp"
 #include "core/error.hpp"
@@ -13,6 +18,8 @@
 #include "io/file_lock.hpp"
 #include "runs/assemble/build_correction.hpp"
 #include "runs/calibrate/calibrate_scene.hpp"
+#include "runs/scene/key_values.hpp"
+#include "runs/scene/registry_blocks.hpp"
 #include "runs/session/read_summary.hpp"
 
 namespace acinus::runs {
@@ -30,8 +37,9 @@ std::string cache_folder() {
   return std::string(home) + "/.cache/acinus/laws";
 }
 
-/// Two processes must not calibrate the same law: they would write in the same run folders.
-/// Nothing if it was asked to stop meanwhile.
+/// Takes the lock of a law in the cache. Concurrent calibrations of one law would write to the same
+/// run folders.
+/// @return empty if a stop signal came while waiting
 std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   std::error_code code;
   fs::create_directories(fs::path(file).parent_path(), code);
@@ -39,44 +47,62 @@ std::optional<io::FileLock> lock_law(const std::string& file, bool quiet) {
   if (auto held = io::FileLock::try_take(lock)) return held;
   if (!quiet) fmt::print("calibrate: waiting for another process that calibrates this law\n");
   std::fflush(stdout);
-  constexpr double kLook = 0.2;  // s between looks at signals
+  constexpr double kLockPollInterval = 0.2;  // s between checks for signals
   const StopSignals signals;
   while (!stop_requested())
-    if (auto held = io::FileLock::try_take(lock, kLook)) return held;
+    if (auto held = io::FileLock::try_take(lock, kLockPollInterval)) return held;
   return {};
 }
 
-/// The scene by which "auto" calibrates: what a law stands for, and nothing that only says how a
-/// scene is computed, so that it does not matter which scene asks first.
+/// Values of the keys of the contact that `chosen` accepts.
+std::vector<KeyValue> take_contact(ContactBlock contact,
+                                   const std::function<bool(const Key&)>& chosen) {
+  return take_values([&contact](Visitor& visitor) { describe_contact(visitor, contact); }, chosen);
+}
+
+/// Scene by which "auto" calibrates: the keys of its cells and contact that the law depends on, all
+/// else as by default, so that any scene that asks first gets the same law.
 Scene made_for_law(const Scene& scene) {
+  const auto in_law = [](const Key& key) { return key.in_law != InLaw::kNo; };
   Scene s;
   s.file = scene.file;
   s.cell_types = scene.cell_types;
-  s.contact.quadrature = scene.contact.quadrature;
-  s.contact.repulsion = scene.contact.repulsion;
-  s.contact.range_factor = scene.contact.range_factor;
-  s.contact.max_depth = scene.contact.max_depth;
+  put_values(
+      take_contact(scene.contact, in_law),
+      [&s](Visitor& visitor) { describe_contact(visitor, s.contact); }, in_law);
   return s;
 }
 
-/// Name of a law in the cache: all it depends on, to the last digit.
+/// A value to its last digit; -1 for "auto".
+std::string exact_text(const KeyValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:a}", *number);
+  if (const auto* number = std::get_if<std::optional<double>>(&value))
+    return fmt::format("{:a}", number->value_or(-1));
+  if (const auto* number = std::get_if<int>(&value)) return std::to_string(*number);
+  return std::get<bool>(value) ? "true" : "false";
+}
+
+/// Name of a law in the cache: a hash of all it depends on, to the last digit.
 std::string key_of(const Scene& scene, const LawParameters& p) {
-  std::string text = fmt::format(
-      "{}\n{} {:a} {:a}\n", calibration::kLawSchema, name_of_choice(scene.contact.quadrature),
-      scene.contact.range_factor == 0 ? -1 : scene.contact.range_factor, scene.contact.max_depth);
+  std::vector<std::string> settings;
+  for (const KeyValue& value :
+       take_contact(scene.contact, [](const Key& key) { return key.in_law == InLaw::kSetting; }))
+    settings.push_back(exact_text(value));
+  std::string text = fmt::format("{}\n{}\n", calibration::kLawSchema, fmt::join(settings, " "));
   for (const auto* model : {&p.dcm, &p.cbm})
     for (const auto& [name, value] : *model) text += fmt::format("{} {:a}\n", name, value);
   return fmt::format("{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
-/// Cause of the failure of a calibration's run.
+/// Cause of failure of a calibration, from the summaries of its runs.
 std::string find_failure(const std::string& law_file) {
   const fs::path folder = fs::path(law_file).replace_extension(".calibration");
   std::error_code code;
   for (const fs::directory_entry& run : fs::directory_iterator(folder, code)) {
     if (!fs::exists(run.path() / "summary.json", code)) continue;
     const RunSummary summary = read_summary(run.path().string());
-    if (summary.status == "failed") return summary.cause;
+    if (summary.status == RunOutcome::kFailed) return summary.cause;
   }
   return "see the runs in " + folder.string();
 }

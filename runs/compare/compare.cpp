@@ -9,23 +9,23 @@
 
 #include "core/error.hpp"
 #include "core/spelling.hpp"
+#include "core/sphere.hpp"
 #include "core/vec.hpp"
 #include "runs/assemble/read_cells.hpp"
 #include "runs/compare/compared_runs.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/scene/writer.hpp"
 #include "runs/session/stage.hpp"
 
 namespace acinus::runs {
 namespace {
 
-/// Keys that may differ between runs of the same scene: which cells are which model, the constants
-/// of spheres, and how the run was made.
-bool may_differ(const std::string& path) {
-  for (const char* start : {"/name", "/description", "/model", "/cells/model", "/zoom", "/time",
-                            "/solver", "/output", "/friction/cbm", "/friction/dcm_cbm", "/contact"})
-    if (path.starts_with(start)) return true;
-  return path.starts_with("/cell_types/") && path.find("/cbm/") != std::string::npos;
+/// True for keys that may differ between runs of the same scene: the models of cells, the constants
+/// of spheres, and settings of the computation.
+bool may_differ(const std::string& pointer) {
+  const Entry* key = find_innermost_entry(pointer);
+  return key != nullptr && !key->compared;
 }
 
 double mean(const CellRecords& cells, double CellRecord::*what) {
@@ -34,11 +34,11 @@ double mean(const CellRecords& cells, double CellRecord::*what) {
   return cells.empty() ? 0 : sum / static_cast<double>(cells.size());
 }
 
-/// The ball round the middle of the reference's cells that holds half of them.
+/// Ball about the mean position of the reference's cells that contains half of them.
 struct TissueCenter {
   Vec3 center = Vec3::Zero();
   double radius = 0;
-  double border = 0;  ///< um, a cell's radius
+  double border = 0;  ///< mean radius of the cells, um
 };
 TissueCenter middle_of(const CellRecords& cells) {
   TissueCenter m;
@@ -53,17 +53,19 @@ TissueCenter middle_of(const CellRecords& cells) {
   return m;
 }
 
-/// Cells per mm^3 in the ball. Cells count with a border as wide as their radius, so that their
-/// number does not jump when one crosses it.
+/// Number density in the ball, 1/mm^3. Cells are weighted across a border as wide as their radius,
+/// so that the density is continuous in their positions. NaN for a ball of radius 0.
 double density_in(const CellRecords& cells, const TissueCenter& m) {
   if (m.radius == 0) return std::numeric_limits<double>::quiet_NaN();  // of one cell
   double count = 0;
   for (const auto& [id, c] : cells)
     count += std::clamp(0.5 + (m.radius - (c.center - m.center).norm()) / m.border, 0.0, 1.0);
-  return 1e9 * count / (4.0 / 3 * kPi * std::pow(m.radius, 3));
+  return 1e9 * count / sphere_volume(m.radius);
 }
 
-/// rms over the cells both have, by lineage, of what the squared difference of two cells is.
+/// Root mean square over the cells in both runs.
+/// @param squared  squared difference of two records of the same lineage
+/// @return NaN if no cell is in both
 template <class Squared>
 double rms_by_lineage(const CellRecords& a, const CellRecords& b, Squared squared) {
   double sum = 0, n = 0;
@@ -75,10 +77,11 @@ double rms_by_lineage(const CellRecords& a, const CellRecords& b, Squared square
   return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A difference over the size of the reference; of nothing that differs by nothing 0.
+/// Relative difference; 0 if both are 0.
 double ratio(double difference, double size) { return difference == 0 ? 0 : difference / size; }
 
-/// "3 of 12 cells of A and 0 of 9 of B are not in the other at the end"; empty: both have the same.
+/// Note on cells that only one of two runs has at the end: "3 of 12 cells of A and 0 of 9 of B are
+/// not in the other at the end". Empty if both have the same cells.
 std::string describe_unshared_cells(const std::string& folder_a, const CellRecords& a,
                                     const std::string& folder_b, const CellRecords& b) {
   const auto missing = [](const CellRecords& in, const CellRecords& from) {
@@ -90,7 +93,13 @@ std::string describe_unshared_cells(const std::string& folder_a, const CellRecor
                      only_a, a.size(), folder_a, only_b, b.size(), folder_b);
 }
 
-/// Adds rows to the table of differences.
+/// Quantity of one run, with its value in the reference.
+struct Quantity {
+  std::string name, unit;
+  double reference = 0, value = 0;
+};
+
+/// Writer of the table of differences.
 struct DifferenceTable {
   const std::map<std::string, double>& tolerance;
   Comparison& out;
@@ -101,7 +110,7 @@ struct DifferenceTable {
     if (row.not_measured.empty()) row.not_measured = out.gap[run - 1];
     out.difference[run - 1].push_back(std::move(row));
   }
-  /// Adds rows of quantities with a tolerance that were not measured in all runs.
+  /// Adds rows for quantities with a tolerance that were not measured in all runs.
   void add_missing(std::size_t run) const {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, value] : tolerance)
@@ -116,16 +125,16 @@ struct DifferenceTable {
                   {},
                   fmt::format("{} was not measured in every frame of all runs", name)});
   }
-  /// @param difference    over the reference
-  /// @param not_measured  why there is no verdict, if there is none
-  void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
-                double value, double difference, const std::string& not_measured = {}) const {
-    add(run, {name, unit, reference, value, difference, false, {}, not_measured});
+  /// Adds a relative difference.
+  /// @param difference    relative to the reference
+  /// @param not_measured  reason for a missing verdict, empty if there is a verdict
+  void relative(std::size_t run, const Quantity& q, double difference,
+                const std::string& not_measured = {}) const {
+    add(run, {q.name, q.unit, q.reference, q.value, difference, false, {}, not_measured});
   }
-  void relative(std::size_t run, const std::string& name, const std::string& unit, double reference,
-                double value) const {
-    relative(run, name, unit, reference, value,
-             ratio(std::abs(value - reference), std::abs(reference)));
+  /// Adds the relative difference of two values.
+  void relative(std::size_t run, const Quantity& q) const {
+    relative(run, q, ratio(std::abs(q.value - q.reference), std::abs(q.reference)));
   }
   void absolute(std::size_t run, const std::string& name, const std::string& unit,
                 double difference, const std::string& not_measured = {}) const {
@@ -139,7 +148,7 @@ double average(const std::vector<double>& v) {
   return sum;
 }
 
-/// rms over time of a difference, over the rms of the reference.
+/// Root mean square over time of the difference, relative to that of the reference.
 double rms_over_time(const std::vector<double>& reference, const std::vector<double>& value) {
   double difference = 0, size = 0;
   for (std::size_t k = 0; k < reference.size(); ++k) {
@@ -150,11 +159,12 @@ double rms_over_time(const std::vector<double>& reference, const std::vector<dou
 }
 
 void record_trace(const DifferenceTable& record, std::size_t run, const Trace& t) {
-  record.relative(run, t.name, t.unit, average(t.value[0]), average(t.value[run]),
+  record.relative(run, {t.name, t.unit, average(t.value[0]), average(t.value[run])},
                   rms_over_time(t.value[0], t.value[run]));
 }
 
-/// A series of the summary at the frames compared; empty if a run has it not or not everywhere.
+/// Series of the summary at the compared frames; empty if the run lacks it or any value is not
+/// finite.
 std::vector<double> measured(const ComparedRun& run, const std::string& name) {
   const auto found = run.summary.measures.find(name);
   std::vector<double> out;
@@ -197,7 +207,7 @@ void check_names(const std::map<std::string, double>& tolerance) {
   }
 }
 
-/// What is followed over time, and the cells of every run at its end.
+/// Quantities followed over time, and the cells of every run at the end.
 struct Traces {
   Trace count{"cells", "1", {}, {}}, pressure{"pressure", "Pa", {}, {}},
       force{"contact_force", "nN", {}, {}}, contacts{"contacts", "1", {}, {}};
@@ -231,7 +241,8 @@ double rms_of(const CellRecords& cells, double CellRecord::*what) {
   return std::sqrt(sum / static_cast<double>(cells.size()));
 }
 
-/// All rows of one run that come from its cells.
+/// Adds the rows of one run that come from its cells.
+/// @param r  index of the run
 void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t) {
   const CellRecords &reference = t.end[0], &end = t.end[r];
   const std::string apart =
@@ -242,18 +253,18 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
     const double rms = rms_by_lineage(
         reference, end,
         [&](const CellRecord& a, const CellRecord& b) { return std::pow(a.*what - b.*what, 2); });
-    record.relative(r, name, unit, size, rms_of(end, what), ratio(rms, size), apart);
+    record.relative(r, {name, unit, size, rms_of(end, what)}, ratio(rms, size), apart);
   };
   const TissueCenter middle = middle_of(reference);
   const double density = density_in(reference, middle), here = density_in(end, middle);
-  record.relative(r, "cells", "1", t.count.value[0].back(), t.count.value[r].back());
+  record.relative(r, {"cells", "1", t.count.value[0].back(), t.count.value[r].back()});
   record.absolute(r, "positions", "um",
                   rms_by_lineage(reference, end,
                                  [](const CellRecord& a, const CellRecord& b) {
                                    return (a.center - b.center).squaredNorm();
                                  }),
                   apart);
-  record.relative(r, "density", "1/mm^3", density, here, ratio(std::abs(here - density), density),
+  record.relative(r, {"density", "1/mm^3", density, here}, ratio(std::abs(here - density), density),
                   std::isfinite(density) ? "" : "the density of a single cell is not defined");
   record_trace(record, r, t.pressure);
   by_cell("cell_pressure", "Pa", &CellRecord::pressure);
@@ -262,7 +273,7 @@ void record_cells(const DifferenceTable& record, std::size_t r, const Traces& t)
   record_trace(record, r, t.contacts);
 }
 
-/// Drag of every run, and where it is not the same scene or has frames that others have not.
+/// Adds the drag of every run, and notes on different scenes and unshared frames.
 void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellRecords>& end,
                    std::optional<double> until, Comparison& c) {
   const std::string reference = runs[0].reader.provenance().at("scene");
@@ -283,10 +294,10 @@ void describe_runs(const std::vector<ComparedRun>& runs, const std::vector<CellR
   }
 }
 
-/// Finds the runs without a verdict: they, or the reference, did not get to the judged moment. A
-/// run that falls short itself is the cause where others have no frame in common with it.
-void find_shortfalls(const std::vector<ComparedRun>& runs, std::optional<double> until,
-                     Comparison& c) {
+/// Records the runs without a verdict: they or the reference did not reach the judged time. A run
+/// that ended early is named as the cause if others have no frame in common with it.
+void record_shortfalls(const std::vector<ComparedRun>& runs, std::optional<double> until,
+                       Comparison& c) {
   std::vector<Shortfall> gap;
   for (const ComparedRun& run : runs) gap.push_back(find_shortfall(run, until));
   std::string first;
@@ -338,7 +349,7 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   Comparison c;
   c.runs = folders;
   c.difference.resize(folders.size() - 1);
-  find_shortfalls(runs, until, c);
+  record_shortfalls(runs, until, c);
   c.frames = static_cast<int>(runs[0].frame.size());
   c.from = runs[0].reader.time_s(runs[0].frame.front());
   c.to = runs[0].reader.time_s(runs[0].frame.back());
@@ -349,7 +360,7 @@ Comparison compare_runs(const std::vector<std::string>& folders,
   c.trace = {traces.count, traces.pressure, traces.force, traces.contacts};
   compare_measures(runs, record, c);
   for (std::size_t r = 1; r < runs.size(); ++r)
-    record.relative(r, "cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s);
+    record.relative(r, {"cpu", "s", runs[0].summary.cpu_s, runs[r].summary.cpu_s});
   for (std::size_t r = 1; r < runs.size(); ++r) record.add_missing(r);
   describe_runs(runs, traces.end, until, c);
   return c;

@@ -1,5 +1,5 @@
 #pragma once
-/// `acinus compare`: how runs of the same scene differ, quantity by quantity.
+/// Quantitative comparison of runs of one scene (`acinus compare`).
 
 #include <map>
 #include <optional>
@@ -10,79 +10,82 @@
 
 namespace acinus::runs {
 
-/// A quantity of one run beside that of the reference, the first run.
+/// Quantity of one run compared with the reference, the first run.
 struct Difference {
   std::string name;  ///< as in --tolerance
   std::string unit;
   double reference = 0, value = 0;
-  double difference = 0;            ///< |value - reference| over |reference| unless absolute
-  bool absolute = false;            ///< difference is in the unit: distances
-  std::optional<double> tolerance;  ///< of difference
-  std::string not_measured;  ///< why there is no verdict, which is never a pass; empty: there is
+  double difference = 0;            ///< |value - reference| / |reference|, or absolute
+  bool absolute = false;            ///< difference is in `unit`, as for distances
+  std::optional<double> tolerance;  ///< of the difference
+  std::string not_measured;  ///< reason for a missing verdict, which never passes; empty = measured
   bool passes() const { return !tolerance || (not_measured.empty() && difference <= *tolerance); }
 };
 
-/// What one cell costs to move through the medium, and what cells cost to slide.
+/// Friction coefficients of one model: of a cell with the medium and between cells.
 struct Drag {
-  std::string model;         ///< dcm | cbm
-  double medium = 0;         ///< nN s/um, a free cell: 4 pi R^2 gamma
-  double cell_friction = 0;  ///< nN s/um^3
+  CellModel model = CellModel::kDcm;
+  double medium = 0;         ///< of a free cell with the medium, 4 pi R^2 gamma, nN s/um
+  double cell_friction = 0;  ///< between cells, nN s/um^3
 };
 
-/// A quantity over time, one line per run.
+/// Time series of a quantity in every run.
 struct Trace {
   std::string name, unit;
   std::vector<double> time;                ///< s
   std::vector<std::vector<double>> value;  ///< [run][time]
 };
 
+/// Result of a comparison of runs.
 struct Comparison {
-  std::vector<std::string> runs;  ///< folders, the reference first
-  double from = 0, to = 0;        ///< s, of the frames compared
+  std::vector<std::string> runs;  ///< run folders, the reference first
+  double from = 0, to = 0;        ///< of the compared frames, s
   int frames = 0;
   std::vector<std::vector<Difference>> difference;  ///< [run - 1]
-  std::vector<std::string>
-      gap;  ///< [run - 1], how it or the reference falls short of what is judged
+  /// [run - 1], reason why the run or the reference misses the judged time
+  std::vector<std::string> gap;
   std::vector<Trace> trace;
-  std::vector<std::vector<Drag>> drag;  ///< [run], of the models it has
-  std::vector<std::string> notes;       ///< where the scenes are not the same, and so on
+  std::vector<std::vector<Drag>> drag;  ///< [run], of its models
+  std::vector<std::string> notes;       ///< differences of scenes and frames
   bool passes() const;
 };
 
-/// Names that --tolerance knows, with their meaning.
+/// Names of the quantities for --tolerance, with their meaning.
 const std::map<std::string, std::string>& comparable_quantities();
 
-/// Compares the frames that all runs have. A verdict needs all of them completed, with the same
-/// end; quantities of single cells need the same cells there.
-/// @param tolerance  by name; what is not named has no verdict
-/// @param until      s, judge this moment in place of the end; runs must have a frame there
-/// @throws Error: a folder without a finished run, fewer than two runs, no frame in common, an
-///         unknown name
+/// Compares the frames that all runs have. A verdict needs completed runs with the same end;
+/// quantities of single cells need the same cells at that time.
+/// @param tolerance  by name; other quantities get no verdict
+/// @param until      time to judge in place of the end, s; all runs need a frame there
+/// @throws Error for a folder without a finished run, fewer than two runs, no common frame, an
+/// unknown name
 Comparison compare_runs(const std::vector<std::string>& folders,
                         const std::map<std::string, double>& tolerance,
                         std::optional<double> until = {});
 
-/// Drag of a scene's models, from its canonical JSON.
+/// Friction coefficients of a scene, per model.
+/// @param resolved_scene  canonical JSON
 std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool has_cbm);
 
-/// What to run before comparing.
+/// Runs of one scene to be made for a comparison.
 struct CompareScenes {
-  std::string law;          ///< law file for a third run, calibrated spheres; empty = none
-  bool equal_drag = false;  ///< spheres get the medium and cell friction of deformable cells
-  std::string folder;       ///< run folders dcm, cbm and cbm_calibrated go here
+  std::string law;          ///< law file for a third run, of calibrated spheres; empty = none
+  bool equal_drag = false;  ///< use medium and cell friction of deformable cells for spheres
+  std::string folder;       ///< parent of the run folders dcm, cbm and cbm_calibrated
   int threads = 0;
   bool quiet = false;
   std::string command_line;
 };
 
-/// Runs a scene with deformable cells, with spheres, and with calibrated spheres; what is done
-/// already is not done again.
-/// @param folders  out: those to compare
-/// @return exit code of a run that was stopped or failed, else 0
+/// Runs a scene with deformable cells, spheres and calibrated spheres; complete runs are not
+/// repeated.
+/// @param folders  receives the run folders to compare
+/// @return exit code: 0, or that of the run that stopped or failed
 int run_models(const Scene& scene, const CompareScenes& options, std::vector<std::string>& folders);
 
+/// Comparison as a text table for the terminal.
 std::string comparison_table(const Comparison& c);
-/// JSON to `file` and plots (SVG) beside it, named after it.   @throws Error(kFileError)
+/// Writes the comparison as JSON to `file`, and its plots (SVG) beside it under the same name.
 void write_comparison(const Comparison& c, const std::string& file);
 
 }  // namespace acinus::runs

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/numbers/time_grid.hpp"
@@ -19,13 +17,15 @@ namespace {
 double end_of(const io::RunReader& reader) { return reader.time_s(reader.n_frame() - 1); }
 
 double same_frame(const io::RunReader& reader) {
-  constexpr double kMost = 1, kShare = 1e-3;  // s; of the duration
-  return std::clamp(kShare * (end_of(reader) - reader.time_s(0)), kSameTime, kMost);
+  constexpr double kMostTolerance = 1, kToleranceShare = 1e-3;  // s; of the duration
+  return std::clamp(kToleranceShare * (end_of(reader) - reader.time_s(0)), kSameTime,
+                    kMostTolerance);
 }
 
 std::string hours_text(double s) { return fmt::format("{:.4g} h", s / 3600); }
 
-/// A run that is written on has a summary of its past only, if any.
+/// Opens a run and checks that its summary is of its last frames; that of a run in progress is
+/// outdated.
 ComparedRun open_run(const std::string& folder) {
   check(!is_being_written(folder),
         fmt::format("{}: the run goes on: a process writes in this folder. Wait until it ends, or "
@@ -34,7 +34,7 @@ ComparedRun open_run(const std::string& folder) {
   ComparedRun run{read_summary(folder), io::RunReader(folder + "/run.vtkhdf"), {}};
   check(run.reader.n_frame() > 0,
         fmt::format("{}: holds no frame: the run is {} at {}. There is nothing to compare.", folder,
-                    run.summary.status, hours_text(run.summary.simulated_s)));
+                    name_of_choice(run.summary.status), hours_text(run.summary.simulated_s)));
   check(end_of(run.reader) <= run.summary.simulated_s + same_frame(run.reader),
         fmt::format("{}: has frames until {}, but its summary is of an earlier end, {}: it was "
                     "resumed and killed. Go on with it: acinus run SCENE --resume --out {}",
@@ -43,7 +43,7 @@ ComparedRun open_run(const std::string& folder) {
   return run;
 }
 
-/// The frame nearest to a time, -1 if none is within `reach`.
+/// Frame nearest to a time, within `reach` (s); -1 if there is none.
 int find_frame(const io::RunReader& reader, double time, double reach) {
   int nearest = -1;
   for (int k = 0; k < reader.n_frame(); ++k) {
@@ -84,13 +84,14 @@ Shortfall find_shortfall(const ComparedRun& run, std::optional<double> until) {
   const double last = run.time_of_last(), end = end_of(run.reader), same = same_frame(run.reader);
   if (until && end < *until - same)
     return {fmt::format("{} has frames until {} only, not until {} ({})", s.folder, hours_text(end),
-                        hours_text(*until), s.status),
+                        hours_text(*until), name_of_choice(s.status)),
             true};
   if (until && std::abs(last - *until) > same)
     return {fmt::format("{} has no frame at {} that all runs have", s.folder, hours_text(*until))};
   if (until) return {};
-  if (s.status != "completed")
-    return {fmt::format("{} {} at {}{}", s.folder, s.status == "stopped" ? "was stopped" : s.status,
+  if (s.status != RunOutcome::kCompleted)
+    return {fmt::format("{} {} at {}{}", s.folder,
+                        s.status == RunOutcome::kStopped ? "was stopped" : "failed",
                         hours_text(s.simulated_s), s.cause.empty() ? "" : ": " + s.cause),
             true};
   if (end > last + same)

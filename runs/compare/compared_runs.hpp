@@ -1,5 +1,5 @@
 #pragma once
-/// Runs that are compared, the frames that all of them have, and how far each got.
+/// Runs to compare, their common frames and their end.
 
 #include <optional>
 #include <string>
@@ -10,30 +10,33 @@
 
 namespace acinus::runs {
 
+/// Run with its summary and the frames to compare.
 struct ComparedRun {
   RunSummary summary;
   io::RunReader reader;
-  std::vector<int> frame;  ///< those that all runs have
+  std::vector<int> frame;  ///< frames that all runs have
 
-  double time_of_last() const { return reader.time_s(frame.back()); }  ///< s, of those
+  double time_of_last() const {
+    return reader.time_s(frame.back());
+  }  ///< time of the last common frame, s
 };
 
-/// Opens runs and finds the frames at the same time in all of them: to a second, of short runs to a
-/// thousandth of the first one's duration.
-/// @param until  later frames are left out
-/// @throws Error: a folder without a finished run, no frame in common
+/// Opens runs and matches their frames by time, with a tolerance of 1e-3 of the first run's
+/// duration, at most 1 s.
+/// @param until  ignores later frames, s
+/// @throws Error for a folder without a finished run, or no common frame
 std::vector<ComparedRun> open_compared_runs(const std::vector<std::string>& folders,
                                             std::optional<double> until);
 
-/// Reason why the last of the common frames is not the judged moment: the end of the run, or
-/// `until`.
+/// Reason why the last common frame is not at the judged time, the end of the run or `until`.
 struct Shortfall {
   std::string why;   ///< empty: none
-  bool own = false;  ///< the run itself did not get there; else others have no frame there
+  bool own = false;  ///< the run itself ended early; else others have no frame there
 };
 Shortfall find_shortfall(const ComparedRun& run, std::optional<double> until);
 
-/// "2 of 9 frames of X are at times that all runs have"; empty: all of them are.
+/// Note on frames without a counterpart: "2 of 9 frames of X are at times that all runs have".
+/// Empty if all frames are shared.
 std::string describe_unshared_frames(const ComparedRun& run, std::optional<double> until);
 
 }  // namespace acinus::runs

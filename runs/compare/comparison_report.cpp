@@ -36,7 +36,7 @@ std::string verdict(const Difference& d) {
                                 : fmt::format("{:g} %", 100 * *d.tolerance));
 }
 
-/// Reasons for missing verdicts, each once.
+/// Distinct reasons for missing verdicts.
 std::set<std::string> reasons_of(const Comparison& c) {
   std::set<std::string> reasons;
   for (const auto& run : c.difference)
@@ -54,7 +54,7 @@ std::string comparison_table(const Comparison& c) {
     for (const Drag& d : c.drag[r])
       t +=
           fmt::format("drag in {}: {} {:.4g} nN s/um per free cell, {:.4g} N s/m^3 between cells\n",
-                      c.runs[r], d.model, d.medium, 1e9 * d.cell_friction);
+                      c.runs[r], name_of_choice(d.model), d.medium, 1e9 * d.cell_friction);
   for (std::size_t r = 0; r < c.difference.size(); ++r) {
     t += fmt::format("\n{}\n  {:14} {:>12} {:>12} {:7} {:>12}  {}\n", c.runs[r + 1], "quantity",
                      "reference", "here", "unit", "difference", "verdict");
@@ -82,7 +82,7 @@ void write_comparison(const Comparison& c, const std::string& file) {
   for (std::size_t r = 0; r < c.runs.size(); ++r)
     for (const Drag& d : c.drag[r])
       j["drag"].push_back({{"run", c.runs[r]},
-                           {"model", d.model},
+                           {"model", name_of_choice(d.model)},
                            {"medium_nN_s_per_um", d.medium},
                            {"cell_cell_N_s_per_m3", 1e9 * d.cell_friction}});
   j["differences"] = OrderedJson::array();

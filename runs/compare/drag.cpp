@@ -24,10 +24,10 @@ std::vector<Drag> drag_of(const std::string& resolved_scene, bool has_dcm, bool 
   const Json j = parse_bounded<Json>(resolved_scene, "the scene of a run");
   const Json& type = j.at("cell_types").begin().value();
   const double radius = quantity(type.at("radius"), kLength), surface = 4 * kPi * radius * radius;
-  for (const char* model : {"dcm", "cbm"}) {
-    if (!(model == std::string("dcm") ? has_dcm : has_cbm)) continue;
-    const std::string pair = fmt::format("{0}_{0}", model);
-    out.push_back({model, surface * quantity(type.at(model).at("ecm_friction"), kFrictionPerArea),
+  for (const CellModel model : {CellModel::kDcm, CellModel::kCbm}) {
+    if (!(model == CellModel::kDcm ? has_dcm : has_cbm)) continue;
+    const std::string name = name_of_choice(model), pair = fmt::format("{0}_{0}", name);
+    out.push_back({model, surface * quantity(type.at(name).at("ecm_friction"), kFrictionPerArea),
                    quantity(j.at("friction").at(pair), kFrictionPerArea)});
   }
   return out;

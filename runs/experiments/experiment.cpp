@@ -1,19 +1,30 @@
 #include "runs/experiments/experiment.hpp"
 
-namespace acinus::runs {
+#include <array>
 
-void sample_experiment(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
-                       Measures& measures) {
-  measures["time_s"].push_back(snapshot.time);
-  measures["cells"].push_back(static_cast<double>(snapshot.cells.size()));
-  if (scene.experiment == Experiment::kPatch) sample_patch(scene, world, snapshot, measures);
-  if (scene.experiment == Experiment::kCapsule) sample_capsule(scene, world, snapshot, measures);
-  if (scene.experiment == Experiment::kRelaxation)
-    sample_relaxation(scene, world, snapshot, measures);
-  if (scene.experiment == Experiment::kSpheroid || scene.experiment == Experiment::kMonolayer)
-    sample_growth(scene, world, snapshot, measures);
-  if (scene.experiment == Experiment::kOpticalStretcher)
-    sample_stretcher(scene, world, snapshot, measures);
+#include "runs/scene/scene_rules.hpp"
+
+namespace acinus::runs {
+namespace {
+
+#define ACINUS_ROW(constant, name) &name##_experiment,
+constexpr std::array kRows{ACINUS_EXPERIMENTS(ACINUS_ROW)};
+#undef ACINUS_ROW
+
+}  // namespace
+
+const ExperimentRow& experiment_row(Experiment experiment) {
+  return *kRows.at(static_cast<std::size_t>(experiment));
+}
+
+void check_experiment(const Scene& scene, Report& report) {
+  if (const auto check = experiment_row(scene.experiment).check) check(scene, report);
+}
+
+void sample_experiment(const ObservedFrame& frame, ObservedRun& observed) {
+  observed.measures["time_s"].push_back(frame.snapshot.time);
+  observed.measures["cells"].push_back(static_cast<double>(frame.snapshot.cells.size()));
+  if (const auto sample = experiment_row(frame.scene.experiment).sample) sample(frame, observed);
 }
 
 }  // namespace acinus::runs

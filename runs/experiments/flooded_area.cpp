@@ -16,10 +16,10 @@ Vec2 point_of(const FloodLattice& f, int x, int y) {
 }
 
 /// Membership of a point in the initial lesion: in the sector of the lobule, between vein and edge.
-bool in_lesion(const LesionGrid& grid, const LobuleRoom& room, const Vec2& from_axis) {
+bool in_lesion(const LesionGrid& grid, const LobuleDomain& lobule, const Vec2& from_axis) {
   const double r = from_axis.norm(), angle = std::atan2(from_axis.y(), from_axis.x());
-  return r >= grid.from_radius && r <= grid.to_radius && angle >= room.from_angle &&
-         angle <= room.to_angle;
+  return r >= grid.from_radius && r <= grid.to_radius && angle >= lobule.from_angle &&
+         angle <= lobule.to_angle;
 }
 
 /// Points of every cube that are free, and those of them that cells cover.
@@ -78,17 +78,17 @@ std::vector<std::uint8_t> flood(const FloodLattice& f, const CubeCounts& counts)
 
 }  // namespace
 
-FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
+FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleDomain& lobule,
                                 const geometry::Network& vessels) {
   FloodLattice f;
-  const double edge = room.frame.cell_radius;
+  const double edge = lobule.frame.cell_radius;
   f.spacing = edge / f.points;
   const int across = std::max(1, static_cast<int>(std::ceil(2 * grid.to_radius / edge)));
   f.n[0] = f.n[1] = across;
-  f.n[2] = std::max(1, static_cast<int>(std::lround(room.frame.height / edge)));
+  f.n[2] = std::max(1, static_cast<int>(std::lround(lobule.frame.height / edge)));
   for (int k = 0; k < 2; ++k) f.low[k] = grid.axis[k] - 0.5 * across * edge;
   for (const double z : grid.height)
-    f.layer.push_back(std::min(f.n[2] - 1, static_cast<int>(z / room.frame.height * f.n[2])));
+    f.layer.push_back(std::min(f.n[2] - 1, static_cast<int>(z / lobule.frame.height * f.n[2])));
 
   const double beside_vein = grid.from_radius + edge;
   const std::vector<Box> boxes = segment_boxes(vessels);
@@ -97,7 +97,7 @@ FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
     for (int y = 0; y < across * f.points; ++y)
       for (int x = 0; x < across * f.points; ++x) {
         const Vec2 p = point_of(f, x, y), from_axis = p - grid.axis.head<2>();
-        bool free = in_lesion(grid, room, from_axis);
+        bool free = in_lesion(grid, lobule, from_axis);
         const Vec3 place(p.x(), p.y(), grid.height[k]);
         for (std::size_t s = 0; free && s < vessels.segment.size(); ++s)
           free = !boxes[s].contains(place) ||

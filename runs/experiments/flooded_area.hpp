@@ -13,7 +13,7 @@
 
 namespace acinus::runs {
 
-/// Cubes of the flood and the points that decide which of them are open.
+/// Cubes of the flood and their sample points.
 struct FloodLattice {
   int points = 3;                  ///< along the edge of a cube
   double spacing = 4;              ///< um, between points of a slice
@@ -24,8 +24,9 @@ struct FloodLattice {
   std::vector<std::uint8_t> seed;  ///< [cube] 1: beside the vein
 };
 
+/// Lattice of a lobule before the first frame is measured.
 /// @param grid  slices and extent of the lesion
-FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleRoom& room,
+FloodLattice make_flood_lattice(const LesionGrid& grid, const LobuleDomain& lobule,
                                 const geometry::Network& vessels);
 
 /// Area of the flooded cubes outside vessels, mean over height, um^2.

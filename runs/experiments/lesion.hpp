@@ -1,9 +1,9 @@
 #pragma once
-/// The lesion round the central vein, by the radius of its edge.
+/// Lesion round the central vein by the radius of its edge.
 ///
 /// Lesion radius: "the average distance from the central vein to the closest cell in every layer
-/// whereby we consider the 3 closest layers to the lesion" [VanLiedekerke2020, footnote 11]. What a
-/// layer is can be read in two ways, and so can the distance to a cell; all four are measured.
+/// whereby we consider the 3 closest layers to the lesion" [VanLiedekerke2020, footnote 11]. Layers
+/// can be slices of height or rings, distances those of centres or surfaces; all four are measured.
 
 #include <array>
 #include <span>
@@ -15,10 +15,10 @@
 
 namespace acinus::runs {
 
-/// Layers told apart; what lies deeper is counted together.
+/// Layers that are counted one by one; deeper ones are counted together.
 inline constexpr int kLayers = 6;
 
-/// One way to read the radius of the lesion.
+/// Definition of the radius of the lesion.
 struct LesionReading {
   std::string name;     ///< slices_centre, slices_surface, rings_centre, rings_surface
   std::string meaning;  ///< of its layers and distances
@@ -26,7 +26,7 @@ struct LesionReading {
 };
 const std::array<LesionReading, 4>& lesion_readings();
 
-/// A cell as the lesion sees it.
+/// Place of a cell relative to the lesion.
 struct LesionCell {
   double height = 0;   ///< um, of the centre above the foot of the lobule
   double center = 0;   ///< um, horizontal distance of the centre from the vein axis
@@ -47,11 +47,12 @@ struct LesionFrame {
 double lesion_radius(std::span<const LesionCell> cells, const LesionFrame& frame,
                      const LesionReading& reading);
 
-/// What the radius comes to when cells have reached the vein: its radius, by centres that of a cell
+/// Radius when cells have reached the vein: that of the vein, by centres that of a cell
 /// beside it, by rings one cell diameter more, since the second and third lie so much farther out.
 double lesion_floor(const LesionFrame& frame, const LesionReading& reading);
 
-/// ((r - floor) / (r0 - floor))^2, differences below 0 taken as 0; 0 if r0 is not above the floor.
+/// Relative area ((r - floor) / (r0 - floor))^2, differences below 0 taken as 0; 0 if r0 is not
+/// above the floor.
 double relative_area(double radius, double first, double floor);
 
 /// Horizontal distance from a vertical axis to the nearest point of a surface, um. Exact where the

@@ -1,31 +1,22 @@
 #pragma once
-/// What runs measure at every written frame, by name: the columns of /observables in the run file.
+/// Measured series of every written frame by name: the columns of /observables in the run file.
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "runs/scene/choices.hpp"
+#include "runs/experiments/observable.hpp"
+#include "runs/scene/experiment_list.hpp"
 
 namespace acinus::runs {
 
-struct Observable {
-  std::string name;     ///< ends in its unit where there is one
-  std::string unit;     ///< of the values, "1" if there is none
-  std::string meaning;  ///< one line
-};
-
-/// Everything a scene with this `experiment` measures besides the walls it has, in the order of the
+/// Observables of a scene with this experiment besides those of its walls, in the order of the
 /// columns. `time` (s since t = 0), which every run file has, is not among them.
 std::vector<Observable> known_observables(Experiment experiment);
 
-/// A name of a scene as columns bear it: letters, digits, '-', '.' and '_'.
+/// Name of a scene as part of a column's name: letters, digits, '-', '.' and '_'.
 std::string name_in_columns(std::string name);
 
-/// What is measured of a wall, capsule or closed mesh of this name.
+/// Observables of a wall, capsule or closed mesh of this name.
 std::vector<Observable> wall_observables(const std::string& wall);
-
-/// The observable of this name, also of a wall of any name; nothing if there is none.
-std::optional<Observable> find_observable(Experiment experiment, const std::string& name);
 
 }  // namespace acinus::runs

@@ -1,5 +1,5 @@
 #pragma once
-/// The measurements of a run, frame by frame and birth by birth.
+/// Measurements of a run, frame by frame and birth by birth.
 
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 #include "coupling/life/life.hpp"
 #include "coupling/world/world.hpp"
 #include "io/frame.hpp"
-#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/measures.hpp"
 #include "runs/experiments/observed_frame.hpp"
 #include "runs/experiments/observed_run.hpp"
 #include "runs/scene/scene.hpp"
@@ -15,15 +15,15 @@
 namespace acinus::runs {
 
 /// Measures a frame of the run phase: adds to all series and returns the row of /observables, time
-/// first. What has no value at this frame is 0 there.
+/// first. A series without a value at this frame is 0 there.
 std::vector<io::SeriesValue> observe_frame(const ObservedFrame& frame, ObservedRun& observed);
 
-/// Reason why the run may end, as the series show all that the experiment is about: cells that are
-/// pulled apart have come apart. Empty: they do not.
+/// Reason why the run may end: the series show all that the experiment is about, as when cells that
+/// are pulled apart have come apart. Empty: none.
 std::string why_over(Experiment experiment, const Measures& measures);
 
-/// Counts divisions by the layer they happened in. To be called while the daughters are where they
-/// were born; does nothing unless the experiment is a lobule.
+/// Counts divisions if the experiment does. To be called while the daughters are where they were
+/// born.
 void observe_births(const Scene& scene, const coupling::World& world,
                     const coupling::LifeReport& report, ObservedRun& observed);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A frame of a run as the experiments see it.
+/// Input of the experiments: a frame of a run.
 
 #include "coupling/measure/audit.hpp"
 #include "coupling/world/workspace.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/box_pairs.hpp"
-
 namespace acinus::runs {
 namespace {
 
@@ -42,22 +40,23 @@ std::vector<Box> segment_boxes(const geometry::Network& n) {
   return boxes;
 }
 
-LesionGrid make_lesion_grid(const LobuleRoom& room, double lesion_radius,
+LesionGrid make_lesion_grid(const LobuleDomain& lobule, double lesion_radius,
                             const geometry::Network& vessels) {
   LesionGrid g;
-  g.axis = room.axis;
-  g.from_radius = room.frame.vein_radius;
+  g.axis = lobule.axis;
+  g.from_radius = lobule.frame.vein_radius;
   g.to_radius = std::max(lesion_radius, g.from_radius);
-  g.cap = g.to_radius + 2 * room.frame.cell_radius;
-  const double turn = room.to_angle - room.from_angle;
+  g.cap = g.to_radius + 2 * lobule.frame.cell_radius;
+  const double turn = lobule.to_angle - lobule.from_angle;
   const int n_ray = std::max(1, static_cast<int>(std::lround(turn / kAngle)));
   g.angle_step = turn / n_ray;
   for (int k = 0; k < n_ray; ++k) {
-    const double angle = room.from_angle + (k + 0.5) * g.angle_step;
+    const double angle = lobule.from_angle + (k + 0.5) * g.angle_step;
     g.ray.emplace_back(std::cos(angle), std::sin(angle));
   }
-  g.height = slice_heights(room.frame.height,
-                           std::max(1, static_cast<int>(std::lround(room.frame.height / kSlice))));
+  g.height =
+      slice_heights(lobule.frame.height,
+                    std::max(1, static_cast<int>(std::lround(lobule.frame.height / kSlice))));
   g.n_radius = static_cast<int>(std::ceil((g.to_radius - g.from_radius) / kStep));
   g.radius_step = g.n_radius > 0 ? (g.to_radius - g.from_radius) / g.n_radius : kStep;
   g.free.assign(g.height.size() * g.ray.size() * static_cast<std::size_t>(g.n_radius), 1);

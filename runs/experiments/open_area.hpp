@@ -1,12 +1,12 @@
 #pragma once
-/// The lesion as rays from the vein axis see it: what of it no cell covers, and where its front is.
+/// Uncovered area and front of the lesion by rays from the vein axis.
 
 #include <cstdint>
 #include <vector>
 
 #include "core/box.hpp"
 #include "geometry/network.hpp"
-#include "runs/experiments/lobule_room.hpp"
+#include "runs/experiments/lobule_domain.hpp"
 #include "runs/experiments/sections.hpp"
 
 namespace acinus::runs {
@@ -23,14 +23,15 @@ struct LesionGrid {
   std::vector<std::uint8_t> free;  ///< [slice][ray][point] 1: not in a vessel
 };
 
-/// One ray a degree, one slice every 4 um, one point every 2 um.
+/// Grid of the initial lesion: one ray a degree, one slice every 4 um, one point every 2 um.
 /// @param lesion_radius  um, of the initial lesion
-LesionGrid make_lesion_grid(const LobuleRoom& room, double lesion_radius,
+LesionGrid make_lesion_grid(const LobuleDomain& lobule, double lesion_radius,
                             const geometry::Network& vessels);
 
 /// Boxes that hold the segments of vessels, um.
 std::vector<Box> segment_boxes(const geometry::Network& vessels);
 
+/// Open area and front of a frame.
 struct Opening {
   double area = 0;       ///< um^2, outside vessels, covered by no cell; mean over height
   double seen = 0;       ///< um^2, up to the first cell surface; mean over height
@@ -38,6 +39,7 @@ struct Opening {
   double roughness = 0;  ///< um, its standard deviation over angle and height
 };
 
+/// Open area and front.
 /// @param sections  at the heights of the grid
 Opening measure_opening(const LesionGrid& grid, const std::vector<Section>& sections);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kJoin = 1, kSpacing = 6;  // um
 constexpr int kDirections = 4;
 
-/// Offsets of the lines that can meet anything: first and last multiple of the spacing.
+/// Offsets of the lines that can cross a cell: first and last multiple of the spacing.
 std::array<int, 2> offsets(const Section& section, const Vec2& across) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Outline& o : section.outline) {

@@ -10,6 +10,7 @@
 
 namespace acinus::runs {
 
+/// Mean length and number of chords.
 struct Chords {
   double mean = 0;  ///< um; 0 if there are none
   double count = 0;

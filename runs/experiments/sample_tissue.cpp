@@ -1,7 +1,6 @@
 #include "runs/experiments/sample_tissue.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "coupling/measure/contact_forces.hpp"
@@ -19,7 +18,7 @@ void add_reaction(const std::string& name, const Reaction& r, Measures& m) {
     m[name + "_net_" + std::string("xyz").substr(k, 1) + "_nN"].push_back(r.net[k]);
 }
 
-/// Reactions of everything with a name, those of one name together.
+/// Reactions of walls and meshes by name, summed over those with the same name, and of vessels.
 void sample_reactions(const ObservedFrame& frame, Measures& m) {
   const contact::Boundary& boundary = frame.world.params.boundary;
   const coupling::Reactions r = coupling::find_reactions(frame.world, frame.work);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/boundary.hpp"
-#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/measures.hpp"
 #include "runs/experiments/observed_frame.hpp"
 
 namespace acinus::runs {

@@ -6,9 +6,9 @@
 namespace acinus::runs {
 namespace {
 
-/// Where the edge i-j meets the plane. Both triangles at an edge ask with the lower node first, so
+/// Point of the edge i-j in the plane. Both triangles at an edge ask with the lower node first, so
 /// that their answers are the same to the bit and outlines close.
-Vec2 meet(const std::vector<Vec3>& node, int i, int j, double z) {
+Vec2 intersect_edge(const std::vector<Vec3>& node, int i, int j, double z) {
   const Vec3 &a = node[std::min(i, j)], &b = node[std::max(i, j)];
   const double t = (z - a.z()) / (b.z() - a.z());
   return (a + t * (b - a)).head<2>();
@@ -22,7 +22,7 @@ Outline cut_body(const contact::SurfaceBody& body, double z) {
     std::size_t n = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = t[k], j = t[(k + 1) % 3];
-      if (above(i) != above(j)) side[n++] = meet(body.node, i, j, z);
+      if (above(i) != above(j)) side[n++] = intersect_edge(body.node, i, j, z);
     }
     if (n == 2) out.side.push_back(side);
   }
@@ -58,7 +58,7 @@ std::vector<Section> make_sections(std::span<const contact::SurfaceBody> bodies,
   return sections;
 }
 
-std::vector<Chord> find_chords(const Outline& o, const Vec2& from, const Vec2& along) {
+std::vector<Chord> compute_chords(const Outline& o, const Vec2& from, const Vec2& along) {
   const Vec2 to_center = o.center - from;
   const double off = cross(along, to_center);
   if (std::abs(off) > o.reach) return {};
@@ -81,7 +81,7 @@ std::vector<Chord> covered_pieces(const Section& section, const Vec2& from, cons
                                   double join) {
   std::vector<Chord> all;
   for (const Outline& o : section.outline) {
-    const std::vector<Chord> chords = find_chords(o, from, along);
+    const std::vector<Chord> chords = compute_chords(o, from, along);
     all.insert(all.end(), chords.begin(), chords.end());
   }
   std::ranges::sort(all);

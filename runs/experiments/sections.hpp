@@ -1,5 +1,5 @@
 #pragma once
-/// Horizontal sections through the cells, and where lines in them run inside cells.
+/// Horizontal sections through the cells, and chords of lines in them.
 
 #include <array>
 #include <span>
@@ -12,7 +12,7 @@ namespace acinus::runs {
 
 using Vec2 = Eigen::Vector2d;
 
-/// A cell's cut with a plane z = const: a circle, or the sides of a polygon in no order.
+/// Section of a cell by a plane z = const: a circle, or the sides of a polygon in no order.
 struct Outline {
   Vec2 center = Vec2::Zero();             ///< um, of a circle that holds it
   double reach = 0;                       ///< um, radius of that circle
@@ -33,18 +33,18 @@ struct Ball {
 std::vector<Section> make_sections(std::span<const contact::SurfaceBody> bodies,
                                    std::span<const Ball> balls, std::span<const double> height);
 
-/// From where to where a line runs inside something, as distances along it, um.
+/// Piece of a line inside a body: distances along the line, um.
 using Chord = std::array<double, 2>;
 
-/// The pieces of the line from + t along that lie in an outline, ascending.
+/// Pieces of the line from + t along that lie in an outline, ascending.
 /// @param along  unit
-std::vector<Chord> find_chords(const Outline& outline, const Vec2& from, const Vec2& along);
+std::vector<Chord> compute_chords(const Outline& outline, const Vec2& from, const Vec2& along);
 
-/// The pieces that lie in any cell, those less than `join` apart as one, ascending.
+/// Pieces that lie in any cell, those less than `join` apart as one, ascending.
 std::vector<Chord> covered_pieces(const Section& section, const Vec2& from, const Vec2& along,
                                   double join);
 
-/// `count` heights at the middles of equal slices of [0, height].
+/// Heights at the middles of `count` equal slices of [0, height].
 std::vector<double> slice_heights(double height, int count);
 
 }  // namespace acinus::runs

@@ -1,6 +1,6 @@
 #include "runs/experiments/snapshot.hpp"
 
-#include "coupling/step/stages.hpp"
+#include "coupling/measure/pair_contacts.hpp"
 
 namespace acinus::runs {
 

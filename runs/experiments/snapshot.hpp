@@ -1,5 +1,5 @@
 #pragma once
-/// Everything about one frame: made once, used by the run file, the audit and the experiments.
+/// Measures of one frame: made once, used by the run file, the audit and the experiments.
 
 #include <vector>
 
@@ -9,12 +9,14 @@
 
 namespace acinus::runs {
 
+/// Cells, nodes and interface forces at a time.
 struct Snapshot {
   double time = 0;  ///< s since t = 0
   std::vector<coupling::CellMeasure> cells;
   coupling::NodeMeasure nodes;
   std::vector<coupling::InterfaceForce> interface;
 };
+/// Measures of the world as it is; assembles its loads in `work`.
 Snapshot take_snapshot(const coupling::World& world, coupling::Workspace& work);
 
 }  // namespace acinus::runs

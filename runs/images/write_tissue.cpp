@@ -1,4 +1,4 @@
-/// The folder of a scene from an image.
+#include "runs/images/write_tissue.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,13 +7,11 @@
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "core/error.hpp"
 #include "core/sphere.hpp"
 #include "io/disk.hpp"
 #include "io/surface_file.hpp"
-#include "runs/images/import_image.hpp"
 #include "runs/scene/json_text.hpp"
 #include "runs/scene/key_reader.hpp"
 #include "runs/scene/reader.hpp"
@@ -21,15 +19,17 @@
 namespace acinus::runs {
 namespace {
 
+using imaging::ImportedCell, imaging::ImportedTissue, imaging::ImportOptions, imaging::LeftOut;
+
 constexpr const char *kScene = "scene.json", *kCells = "cells.vtk", *kVessels = "vessels.vtk",
                      *kTable = "cells.csv", *kLeftOut = "left_out.csv";
 
-/// um, with the digits that a voxel deserves.
+/// Quoted length with unit for a scene file, six significant digits.
 std::string length(double um) { return fmt::format("\"{:.6g} um\"", um); }
 
 std::string quoted(const std::string& text) { return nlohmann::json(as_utf8(text)).dump(); }
 
-/// Takes a folder away again unless it was finished.
+/// Guard that removes a folder unless it was finished.
 struct UnfinishedFolder {
   std::string folder;
   bool finished = false;
@@ -45,38 +45,36 @@ double mean_radius(const ImportedTissue& t) {
   return sphere_radius(volume / static_cast<double>(t.cell.size()));
 }
 
-/// Mirror walls where the border cuts cells off: the tissue goes on there.
+/// Scene text of mirror walls at the image borders that cut cells: the tissue continues there.
 std::string walls_text(const ImportedTissue& t) {
   constexpr std::array<const char*, 3> kAxis{"x", "y", "z"};
   std::array<std::array<bool, 2>, 3> cut{};
   Vec3 extent;
-  for (int k = 0; k < 3; ++k) extent[k] = t.size[static_cast<std::size_t>(k)] * t.voxel[k];
+  for (std::size_t k = 0; k < 3; ++k) extent[k] = t.size[k] * t.voxel[k];
   for (const ImportedCell& c : t.cell) {
     if (!c.at_border) continue;
     for (const Vec3& x : c.surface.node)
-      for (int k = 0; k < 3; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        cut[at][0] = cut[at][0] || x[k] < t.voxel[k];
-        cut[at][1] = cut[at][1] || x[k] > extent[k] - t.voxel[k];
+      for (std::size_t k = 0; k < 3; ++k) {
+        cut[k][0] = cut[k][0] || x[k] < t.voxel[k];
+        cut[k][1] = cut[k][1] || x[k] > extent[k] - t.voxel[k];
       }
   }
   std::vector<std::string> walls;
-  for (int k = 0; k < 3; ++k)
-    for (const int end : {0, 1}) {
-      if (!cut[static_cast<std::size_t>(k)][static_cast<std::size_t>(end)]) continue;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const bool high : {false, true}) {
+      if (!cut[k][high ? 1 : 0]) continue;
       std::array<std::string, 3> point{length(0), length(0), length(0)};
       std::array<int, 3> normal{};
-      point[static_cast<std::size_t>(k)] = length(end == 0 ? 0 : extent[k]);
-      normal[static_cast<std::size_t>(k)] = end == 0 ? 1 : -1;
-      walls.push_back(
-          fmt::format("    {{ \"name\": \"{}_{}\", \"point\": [{}], \"normal\": [{}] }}",
-                      end == 0 ? "low" : "high", kAxis[static_cast<std::size_t>(k)],
-                      fmt::join(point, ", "), fmt::join(normal, ", ")));
+      point[k] = length(high ? extent[k] : 0);
+      normal[k] = high ? -1 : 1;
+      walls.push_back(fmt::format(
+          "    {{ \"name\": \"{}_{}\", \"point\": [{}], \"normal\": [{}] }}", high ? "high" : "low",
+          kAxis[k], fmt::join(point, ", "), fmt::join(normal, ", ")));
     }
   return walls.empty() ? "" : fmt::format("  \"walls\": [\n{}\n  ],\n", fmt::join(walls, ",\n"));
 }
 
-/// Deformable cells in the middle third.
+/// Scene text of a zoom: deformable cells within a ball of a third of the tissue's extent.
 std::string zoom_text(const ImportedTissue& t) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const ImportedCell& c : t.cell) {
@@ -90,8 +88,9 @@ std::string zoom_text(const ImportedTissue& t) {
       length(middle[0]), length(middle[1]), length(middle[2]), length(radius));
 }
 
-std::string scene_text(const ImportedTissue& t, const ImportOptions& o, const std::string& name) {
-  const std::string image = std::filesystem::path(o.image).filename().string();
+std::string scene_text(const ImportedTissue& t, const std::string& image_file,
+                       const TissueScene& tissue, const std::string& name) {
+  const std::string image = std::filesystem::path(image_file).filename().string();
   const std::string vessels =
       t.vessel.empty()
           ? ""
@@ -113,8 +112,8 @@ std::string scene_text(const ImportedTissue& t, const ImportOptions& o, const st
 )",
       t.cell.size(), t.size[0], t.size[1], t.size[2], t.voxel[0], t.voxel[1], t.voxel[2], kTable,
       quoted(name), quoted(fmt::format("{} cells from the image {}", t.cell.size(), image)),
-      name_of_choice(o.model), length(mean_radius(t)), o.nodes, kCells,
-      o.model == CellModel::kZoom ? zoom_text(t) : "", vessels, walls_text(t));
+      name_of_choice(tissue.model), length(mean_radius(t)), tissue.nodes, kCells,
+      tissue.model == CellModel::kZoom ? zoom_text(t) : "", vessels, walls_text(t));
 }
 
 std::string cells_text(const ImportedTissue& t) {
@@ -139,7 +138,7 @@ std::string left_out_text(const ImportedTissue& t) {
 }  // namespace
 
 std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptions& o,
-                                      const std::string& folder) {
+                                      const TissueScene& tissue, const std::string& folder) {
   namespace fs = std::filesystem;
   check(!fs::exists(folder),
         fmt::format("{}: exists already. Choose another --out, or remove it.", folder));
@@ -168,7 +167,7 @@ std::vector<std::string> write_tissue(const ImportedTissue& t, const ImportOptio
     io::write_surfaces(path_of(kVessels), t.vessel, number);
   }
   if (!t.left_out.empty()) io::write_text_file(path_of(kLeftOut), left_out_text(t));
-  io::write_text_file(scene, scene_text(t, o, name));
+  io::write_text_file(scene, scene_text(t, o.image, tissue, name));
   read_scene(scene);  // throws where it could not be run
   made.finished = true;
   return written;

@@ -14,8 +14,9 @@
 namespace acinus::runs {
 namespace {
 
-constexpr int kTimesPerCycle = 5;  ///< of the relaxation of eleven cells, as agreed there
-constexpr int kAngles = 720, kMonolayerRings = 40;
+/// Relaxation times of the row per cell cycle, as specified by OpenVT.
+constexpr int kRelaxationsPerCycle = 5;
+constexpr int kMonolayerAngles = 720, kMonolayerRings = 40;
 
 bool is_covered(const std::vector<const Disc*>& neighbours, double x, double y) {
   return std::ranges::any_of(
@@ -24,8 +25,8 @@ bool is_covered(const std::vector<const Disc*>& neighbours, double x, double y) 
 
 FreeShares free_share(const Disc& disc, const std::vector<const Disc*>& neighbours) {
   int rim = 0, area = 0;
-  for (int a = 0; a < kAngles; ++a) {
-    const double angle = 2 * std::numbers::pi * (a + 0.5) / kAngles;
+  for (int a = 0; a < kMonolayerAngles; ++a) {
+    const double angle = 2 * std::numbers::pi * (a + 0.5) / kMonolayerAngles;
     const double x = std::cos(angle), y = std::sin(angle);
     rim += is_covered(neighbours, disc.x + disc.radius * x, disc.y + disc.radius * y) ? 0 : 1;
     for (int ring = 0; ring < kMonolayerRings; ++ring) {
@@ -34,8 +35,8 @@ FreeShares free_share(const Disc& disc, const std::vector<const Disc*>& neighbou
       area += is_covered(neighbours, disc.x + r * x, disc.y + r * y) ? 0 : 1;
     }
   }
-  return {static_cast<double>(rim) / kAngles,
-          static_cast<double>(area) / (kAngles * kMonolayerRings)};
+  return {static_cast<double>(rim) / kMonolayerAngles,
+          static_cast<double>(area) / (kMonolayerAngles * kMonolayerRings)};
 }
 
 Layer read_layer(const std::string& folder, bool deformable) {
@@ -80,12 +81,12 @@ int run_monolayer(const OpenVtOptions& options, Layer& found) {
   row_options.set.clear();
   RowLength row;
   if (const int code = run_relaxation(row_options, row)) return code;
-  const double cycle = kTimesPerCycle * time_to_90_percent(row);
+  const double cycle = kRelaxationsPerCycle * time_to_90_percent(row);
   std::vector<std::string> set{fmt::format("cell_types.cell.cycle.time=\"{} s\"", cycle)};
   set.insert(set.end(), options.set.begin(), options.set.end());
   const std::string folder = options.out + "/monolayer";
   if (const int code = run_reference("openvt_monolayer", options, set, folder)) return code;
-  found = read_layer(folder, options.model == "dcm");
+  found = read_layer(folder, options.model == CellModel::kDcm);
   found.cycle = cycle;
   if (options.csv.empty()) return 0;
   std::string text = "x_pos,y_pos,radius_i,f_i,a_i\n";

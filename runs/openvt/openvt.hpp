@@ -1,56 +1,65 @@
 #pragma once
-/// The first reference models of OpenVT, run with cells of this program and written as its
-/// participants exchange them. [OpenVT: https://www.openvt.org]
+/// First reference models of OpenVT, with results in its exchange format. [OpenVT:
+/// https://www.openvt.org]
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "runs/scene/choices.hpp"
+
 namespace acinus::runs {
 
+/// Options of a reference model.
 struct OpenVtOptions {
-  std::string model = "cbm";     ///< "cbm" or "dcm"
-  std::vector<std::string> set;  ///< PATH=VALUE
-  std::string out;               ///< run folder; of monolayer: folder of its two runs
-  std::string csv;               ///< "" = none
+  CellModel model = CellModel::kCbm;
+  std::vector<std::string> set;  ///< changes of the scene, PATH=VALUE
+  std::string out;               ///< run folder; of monolayer: parent of its two runs
+  std::string csv;               ///< result file; "" = none
   int threads = 0;               ///< 0 = all cores
   bool overwrite = false, resume = false, quiet = false;
-  std::optional<int> cells;  ///< monolayer: until there are so many; empty = those of the scene
+  std::optional<int> cells;  ///< monolayer: number of cells at the end; empty = as in the scene
   std::string command_line;
 };
 
-/// Length of the row from centre to centre over time.
+/// Length of the row of cells over time, between the outermost centres.
 struct RowLength {
   std::vector<double> time;   ///< s
-  std::vector<double> width;  ///< in diameters
+  std::vector<double> width;  ///< cell diameters
 };
 
-/// Runs openvt_relax11.
-/// @return exit code of the run; `found` and the file are there when it is 0
-/// @throws Error as `acinus run` does; where the row does not get to 90 % of its length
+/// Runs the scene openvt_relax11.
+/// @param found  filled, and the result file written, if the run completes
+/// @return exit code of the run
+/// @throws Error as `acinus run` does, or if the row does not reach 90 % of its length
 int run_relaxation(const OpenVtOptions& options, RowLength& found);
-/// s, when the row has nine of ten diameters, between frames on a straight line.   @throws Error
+/// Time at which the row reaches nine of its ten diameters, interpolated linearly between frames,
+/// s.
+/// @throws Error if it never does
 double time_to_90_percent(const RowLength& row);
 
-/// Of one cell of the layer, seen from above as a disc.
+/// Disc of one cell of the layer in top view.
 struct Disc {
   double x = 0, y = 0, radius = 0;  ///< um
 };
-/// Share of its rim, and of its area, that no other disc covers.
+/// Shares of a disc's rim and area that no other disc covers.
 struct FreeShares {
   double rim = 1, area = 1;
 };
-/// To 1e-3, by sampling.
+/// Free shares of every disc, by sampling to 1e-3.
 std::vector<FreeShares> free_shares(const std::vector<Disc>& discs);
 
+/// Cells of the monolayer at its end.
 struct Layer {
-  double cycle = 0;              ///< s, five times that to 90 %
-  std::vector<Disc> cell;        ///< at the end
-  std::vector<FreeShares> free;  ///< of deformable cells the rim is that of their surface
+  double cycle = 0;        ///< cell cycle, five relaxation times of the row, s
+  std::vector<Disc> cell;  ///< at the end of the run
+  /// [cell]; of deformable cells the share of the surface without contact
+  std::vector<FreeShares> free;
 };
 
-/// Runs openvt_relax11, then openvt_monolayer with five times its time as cycle.
-/// @return exit code of the last run; `found` and the file are there when it is 0
+/// Runs openvt_relax11, then openvt_monolayer with five of its relaxation times as cell cycle.
+/// @param found  filled, and the result file written, if both runs complete
+/// @return exit code of the last run
 int run_monolayer(const OpenVtOptions& options, Layer& found);
 
 }  // namespace acinus::runs

@@ -12,7 +12,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kRelaxed = 9;  ///< diameters, of the ten that eleven cells have between centres
+/// Nine of the ten diameters between the outer centres of eleven cells.
+constexpr double kRelaxedLength = 9;
 
 RowLength read_row(const std::string& folder) {
   RowLength row;
@@ -37,8 +38,8 @@ RowLength read_row(const std::string& folder) {
 
 double time_to_90_percent(const RowLength& row) {
   for (std::size_t k = 1; k < row.width.size(); ++k)
-    if (row.width[k] >= kRelaxed) {
-      const double part = (kRelaxed - row.width[k - 1]) / (row.width[k] - row.width[k - 1]);
+    if (row.width[k] >= kRelaxedLength) {
+      const double part = (kRelaxedLength - row.width[k - 1]) / (row.width[k] - row.width[k - 1]);
       return row.time[k - 1] + part * (row.time[k] - row.time[k - 1]);
     }
   throw Error(

@@ -14,7 +14,7 @@ namespace acinus::runs {
 
 int run_reference(const std::string& scene, const OpenVtOptions& options,
                   std::vector<std::string> set, const std::string& folder) {
-  set.insert(set.begin(), "model=" + options.model);
+  set.insert(set.begin(), "model=" + name_of_choice(options.model));
   RunOptions run;
   run.scene_file = scene;
   run.set = set;
@@ -26,7 +26,7 @@ int run_reference(const std::string& scene, const OpenVtOptions& options,
   run.is_part = true;
   run.command_line = options.command_line;
   if (options.resume && std::filesystem::exists(folder + "/summary.json") &&
-      read_summary(folder).status == "completed")
+      read_summary(folder).status == RunOutcome::kCompleted)
     return 0;
   run.resume = options.resume && io::has_checkpoint(folder);
   const Scene read = read_scene(find_scene_file(scene), run.set);

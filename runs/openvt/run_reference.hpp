@@ -1,5 +1,5 @@
 #pragma once
-/// One run of a reference model.
+/// Run of one reference model.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace acinus::runs {
 
-/// Runs a shipped scene with a model's cells into a folder, or takes what a finished run left there
-/// when `options.resume` is set.
-/// @param set  PATH=VALUE
+/// Runs a shipped scene with the model of the options in a folder. With options.resume a complete
+/// run is not repeated.
+/// @param set  changes of the scene, PATH=VALUE
 /// @return exit code
 int run_reference(const std::string& scene, const OpenVtOptions& options,
                   std::vector<std::string> set, const std::string& folder);

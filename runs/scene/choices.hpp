@@ -1,6 +1,5 @@
 #pragma once
-/// Values of keys that are one of a few names: their types, and the names in the order of the
-/// values.
+/// Keys whose value is one of a few names: their types, and the names in the order of the values.
 
 #include <cstddef>
 #include <string>
@@ -12,39 +11,23 @@
 #include "coupling/world/cycle.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_params.hpp"
+#include "runs/scene/experiment_list.hpp"
 
 namespace acinus::runs {
 
-/// What is measured.
-enum class Experiment {
-  kFree,
-  kLobule,
-  kPatch,
-  kCapsule,
-  kRelaxation,
-  kSpheroid,
-  kMonolayer,
-  kOpticalStretcher,
-  kPlates,
-  kAspiration,
-  kNarrowGap,
-  kPullOff
-};
-/// kZoom: deformable inside the zoom regions.
+/// Model of cells. kZoom: deformable inside the zoom regions.
 enum class CellModel { kDcm, kCbm, kZoom };
 enum class CellSource { kList, kClump, kBox, kFill, kLobule, kMeshes };
-/// By a prescribed force, or by a spring whose far end is moved.
+/// Cause of a pull: a prescribed force, or a spring whose far end is moved.
 enum class PullBy { kForce, kSpring };
 
-/// What cells touch of vessels: a round cone a segment, or one closed surface about them.
+/// Surface of vessels that cells touch: a round cone a segment, or one closed surface about them.
 enum class VesselWalls { kCones, kMesh };
 
 template <class E>
 inline constexpr const char* kChoices = nullptr;
 template <>
-inline constexpr const char* kChoices<Experiment> =
-    "free|lobule|patch|capsule|relaxation|spheroid|monolayer|optical_stretcher|plates|aspiration|"
-    "narrow_gap|pull_off";
+inline constexpr const char* kChoices<Experiment> = kExperimentNames;
 template <>
 inline constexpr const char* kChoices<CellModel> = "dcm|cbm|zoom";
 template <>
@@ -68,7 +51,7 @@ template <>
 inline constexpr const char* kChoices<dcm::FrictionForm> = "surface|nodes";
 template <>
 inline constexpr const char* kChoices<coupling::Integrator> =
-    "linearly-implicit|explicit-euler|ros2|newton";
+    "linearly-implicit|explicit-euler|newton";
 template <>
 inline constexpr const char* kChoices<coupling::Leaders> = "foremost|front|border|sector|nearest";
 template <>
@@ -84,7 +67,7 @@ std::vector<std::string> split_choices(const char* choices);
 /// Part `index` of "dcm|cbm|zoom"; "" beyond its end.
 std::string choice_name(const char* choices, int index);
 
-/// Which part of "dcm|cbm|zoom" a name is; -1: none.
+/// Index of a name among the parts of "dcm|cbm|zoom"; -1: it is none of them.
 int choice_index(const char* choices, const std::string& name);
 
 /// The name of a value, as scenes write it.

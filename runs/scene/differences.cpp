@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <ranges>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "runs/scene/bounded_json.hpp"
@@ -16,38 +14,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> split(std::string_view text, char by) {
-  std::vector<std::string> parts;
-  for (const auto part : std::views::split(text, by)) parts.emplace_back(part.begin(), part.end());
-  return parts;
-}
-
-bool is_number(const std::string& token) {
-  return !token.empty() && std::ranges::all_of(token, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// The registry's default of the key at a JSON pointer, as JSON text; "" if it has none.
-std::string default_of(const std::string& pointer) {
-  std::vector<std::string> tokens = split(std::string_view(pointer).substr(1), '/');
-  std::erase_if(tokens, is_number);
-  for (const Entry& entry : all_entries()) {
-    const std::vector<std::string> names = split(entry.path, '.');
-    if (std::ranges::equal(names, tokens, [](const std::string& name, const std::string& token) {
-          return name == token || name.starts_with('<');
-        }))
-      return entry.initial;
-  }
-  return {};
-}
-
 /// True for the default of a key, and for a block all of whose keys have theirs.
 bool is_default(const std::string& pointer, const Json& value) {
   if (value.is_object())
     return std::ranges::all_of(value.items(), [&](const auto& member) {
       return is_default(pointer + "/" + member.key(), member.value());
     });
-  const std::string text = default_of(pointer);
-  return !text.empty() && Json::parse(text, nullptr, false) == value;
+  const Entry* key = find_entry(pointer);
+  return key != nullptr && !key->initial.empty() &&
+         Json::parse(key->initial, nullptr, false) == value;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ std::string read_file(const std::string& path, std::size_t limit) {
 
 namespace {
 
-/// `over` wins; objects are merged, everything else is replaced.
+/// Merges two values: objects are merged, everything else is replaced by that of `over`.
 void merge(Node& base, Node&& over) {
   if (base.kind != Node::Kind::kObject || over.kind != Node::Kind::kObject) {
     base = std::move(over);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <ranges>
 #include <utility>
 
 #include "core/units/units.hpp"
@@ -65,20 +68,20 @@ class EntryCollector final : public Visitor {
   }
   void object(const Key& key, const Members& members) override {
     add_block(key, "block", "");
-    inside(key.name, "", [&] { members(*this); });
+    inside(key, key.name, [&] { members(*this); });
   }
   void optional_object(const Key& key, bool, const std::function<void(bool)>&,
                        const Members& members) override {
     add_block(key, "block or null", "null");
-    inside(key.name, "", [&] { members(*this); });
+    inside(key, key.name, [&] { members(*this); });
   }
   void list(const Key& key, const Elements& elements) override {
     add_block(key, "list of blocks", "[]");
-    inside(std::string(key.name) + ".<number>", key.item, [&] { elements.visit_sample(*this); });
+    inside(key, std::string(key.name) + ".<number>", [&] { elements.visit_sample(*this); });
   }
   void map(const Key& key, const Elements& elements) override {
     add_block(key, "blocks by name", "");
-    inside(std::string(key.name) + ".<name>", key.item, [&] { elements.visit_sample(*this); });
+    inside(key, std::string(key.name) + ".<name>", [&] { elements.visit_sample(*this); });
   }
   void when(bool, const char* condition, const Members& members) override {
     condition_ = condition;
@@ -106,8 +109,8 @@ class EntryCollector final : public Visitor {
 
   void add(const Key& key, const char* type, std::string initial, std::string range) {
     Entry entry;
-    entry.path = path_ + key.name;
-    entry.short_path = short_path_ + key.name;
+    entry.path = at_.path + key.name;
+    entry.short_path = at_.short_path + key.name;
     entry.type = type;
     entry.dimension = key.dimension;
     entry.unit = key.unit;
@@ -116,6 +119,13 @@ class EntryCollector final : public Visitor {
     entry.meaning = key.meaning;
     entry.symbol = key.symbol;
     entry.condition = condition_;
+    entry.is_file = key.is_file;
+    entry.choices = choices_of(key);
+    entry.affects = key.affects.value_or(at_.affects);
+    entry.compared = key.compared.value_or(at_.compared);
+    entry.softens = key.softens;
+    entry.in_law = key.in_law;
+    entry.law_name = key.law_name;
     entries.push_back(std::move(entry));
   }
 
@@ -124,42 +134,105 @@ class EntryCollector final : public Visitor {
     entries.back().is_block = true;
   }
 
-  /// @param item  short path of the elements of a list or map; "" = the path goes on
-  void inside(const std::string& name, const std::string& item,
-              const std::function<void()>& members) {
-    const std::string path = path_, short_path = short_path_;
-    path_ += name + ".";
-    short_path_ = item.empty() ? short_path_ + name + "." : item + ".";
+  /// Visits the members of a block or of an element of a list or map.
+  /// @param name  of the block within the one around: "life", "walls.<number>"
+  void inside(const Key& block, const std::string& name, const std::function<void()>& members) {
+    const EnclosingBlock around = at_;
+    const std::string item = block.item;
+    at_.path += name + ".";
+    at_.short_path = item.empty() ? at_.short_path + name + "." : item + ".";
+    at_.affects = block.affects.value_or(around.affects);
+    at_.compared = block.compared.value_or(around.compared);
     members();
-    path_ = path;
-    short_path_ = short_path;
+    at_ = around;
   }
 
-  std::string path_, short_path_, condition_;
+  /// Block whose members are visited.
+  struct EnclosingBlock {
+    std::string path, short_path;
+    Affects affects = Affects::kStart;
+    bool compared = true;
+  };
+  EnclosingBlock at_;
+  std::string condition_;
 };
+
+using Names = std::vector<std::string>;
+
+bool is_index(const std::string& name) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// True if a pattern, such as "walls", "<number>", fits the first names of a path.
+bool leads_to(const Names& path, const Names& pattern) {
+  return pattern.size() <= path.size() &&
+         std::ranges::equal(pattern, path | std::views::take(pattern.size()),
+                            [](const std::string& part, const std::string& name) {
+                              return part == name || part == "<name>" ||
+                                     (part == "<number>" && (is_index(name) || name == part));
+                            });
+}
 
 }  // namespace
 
-std::vector<Entry> collect_entries(const std::function<void(Visitor&)>& describe) {
+std::vector<Entry> collect_entries(const char* extends,
+                                   const std::function<void(Visitor&)>& describe) {
   EntryCollector collector;
+  Entry& first = collector.entries.emplace_back();
+  first.path = first.short_path = "extends";
+  first.type = "path";
+  first.initial = "none";
+  first.affects = Affects::kNothing;
+  first.compared = false;
+  first.meaning = extends;
   describe(collector);
   return std::move(collector.entries);
 }
 
 const std::vector<Entry>& all_entries() {
   static const std::vector<Entry> entries = [] {
-    Entry extends;
-    extends.path = extends.short_path = "extends";
-    extends.type = "path";
-    extends.initial = "none";
-    extends.meaning = "scene file this one changes, relative to this file: blocks are merged";
-    std::vector<Entry> all{extends};
     Scene scene;
-    for (Entry& entry : collect_entries([&](Visitor& visitor) { describe(visitor, scene); }))
-      all.push_back(std::move(entry));
-    return all;
+    return collect_entries("scene file this one changes, relative to this file: blocks are merged",
+                           [&](Visitor& visitor) { describe(visitor, scene); });
   }();
   return entries;
+}
+
+std::vector<std::string> names_in_path(std::string_view path) {
+  Names names(1);
+  for (const char c : path) {
+    if (c != '.' && c != '/')
+      names.back() += c;
+    else if (!names.back().empty())
+      names.emplace_back();
+  }
+  if (names.back().empty()) names.pop_back();
+  return names;
+}
+
+const Entry* find_innermost_entry(std::string_view path) {
+  // Patterns are split once: lists of thousands of cells ask for a key of each.
+  static const std::vector<Names> patterns = [] {
+    std::vector<Names> all;
+    for (const Entry& entry : all_entries()) all.push_back(names_in_path(entry.path));
+    return all;
+  }();
+  const Names names = names_in_path(path);
+  std::size_t length = 0;
+  const Entry* found = nullptr;
+  for (std::size_t k = 0; k < patterns.size(); ++k)
+    if (patterns[k].size() > length && leads_to(names, patterns[k])) {
+      length = patterns[k].size();
+      found = &all_entries()[k];
+    }
+  return found;
+}
+
+const Entry* find_entry(std::string_view path) {
+  const Entry* entry = find_innermost_entry(path);
+  return entry != nullptr && names_in_path(entry->path).size() == names_in_path(path).size()
+             ? entry
+             : nullptr;
 }
 
 }  // namespace acinus::runs

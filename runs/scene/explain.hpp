@@ -1,5 +1,5 @@
 #pragma once
-/// What the registry says about keys, for people.
+/// Descriptions of keys, as text made from the registry.
 
 #include <string>
 #include <vector>

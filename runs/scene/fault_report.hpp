@@ -26,7 +26,7 @@ class Report {
   void add_relation(std::initializer_list<std::string> pointers, const std::string& value,
                     const std::string& message);
 
-  /// Whether this value, a component of it or a block around it is bad.
+  /// True if this value, a component of it or a block around it is bad.
   bool is_bad(const std::string& pointer) const;
 
   /// The value at a pointer, nullptr if the text has none.

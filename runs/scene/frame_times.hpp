@@ -1,5 +1,5 @@
 #pragma once
-/// When frames are written besides the first and the last.
+/// Times of frames besides the first and the last.
 
 #include "runs/scene/scene.hpp"
 

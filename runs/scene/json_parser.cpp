@@ -1,4 +1,4 @@
-/// parse_json of json_text.hpp.
+/// Parser behind parse_json: nlohmann-json for the syntax, a cursor beside it for the places.
 
 #include "runs/scene/json_text.hpp"
 
@@ -10,7 +10,6 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
@@ -139,7 +138,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override {
     return add_integer(false, value, static_cast<double>(value));
   }
-  /// A whole number is one however it is written: programs write 1.0 or 1e3.
+  /// Adds a number; 1.0 and 1e3 are whole numbers too, since programs write them so.
   bool number_float(number_float_t value, const string_t&) override {
     constexpr double kExact = 1ULL << 53;  // beyond, a double is one of several whole numbers
     if (std::floor(value) == value && std::abs(value) <= kExact)

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>

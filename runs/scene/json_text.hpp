@@ -13,7 +13,7 @@ inline constexpr std::size_t kMaxBytes = 64u << 20;  ///< of one scene file
 inline constexpr std::size_t kMaxValues = 4u << 20;  ///< of one scene file
 inline constexpr std::size_t kMaxNames = 10000;      ///< of one object
 
-/// Where a value was written. Flags have line 0.
+/// Place in the text at which a value was written. Flags have line 0.
 struct TextPlace {
   int source = 0;            ///< index into the sources of the document
   int line = 0, column = 0;  ///< from 1; columns count characters, not bytes
@@ -76,7 +76,7 @@ std::string shown(const Node& node);
 /// long.
 std::string pointer_part(std::string_view name);
 
-/// Whether the bytes are UTF-8; if not, the offset of the first wrong byte.
+/// True if the bytes are UTF-8; else gives the offset of the first wrong byte.
 bool is_utf8(std::string_view text, std::size_t* wrong_byte = nullptr);
 
 /// The text with a question mark for every byte that is not UTF-8: names of files need not be.

@@ -1,6 +1,6 @@
 #pragma once
-/// Copies the values of a document into fields, key by key of a registry; what is wrong goes into
-/// the report.
+/// Copies the values of a document into fields, key by key of a registry; faults go into the
+/// report.
 
 #include <functional>
 #include <string>

@@ -7,12 +7,16 @@
 
 namespace acinus::runs {
 
-/// @param value  in the unit of this program
+/// A quantity in quotes, in its preferred unit: "5 um".
+/// @param value  in base units
 inline std::string quoted_quantity(double value, Dimension dimension, const char* unit) {
   return "\"" + format_quantity(value, dimension, unit) + "\"";
 }
 
-/// "\"5 um\""
+/// A time in quotes, such as "5 s".
+inline std::string quoted_time(double value) { return quoted_quantity(value, kTime, "s"); }
+
+/// A length in quotes.
 inline std::string quoted_length(double value) { return quoted_quantity(value, kLength, "um"); }
 
 }  // namespace acinus::runs

@@ -1,5 +1,6 @@
 #include "runs/scene/registry.hpp"
 
+#include "runs/scene/apparatus/apparatus.hpp"
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
@@ -13,7 +14,8 @@ void describe_time(Visitor& v, Scene& s) {
           .dimension = kTime,
           .unit = "h",
           .range = kPositive,
-          .required = true},
+          .required = true,
+          .affects = Affects::kOutput},
          b.end);
   v.real({.name = "step",
           .meaning = "longest time step",
@@ -43,17 +45,13 @@ void describe_time(Visitor& v, Scene& s) {
   choice(v,
          {.name = "integrator",
           .meaning = "how a step is taken; linearly-implicit is meant for tissue, the others for "
-                     "comparison (explicit-euler), smooth single cells (ros2) and equilibrium "
-                     "(newton)"},
+                     "comparison (explicit-euler) and equilibrium (newton)"},
          n.integrator);
   v.flag({.name = "extrapolate",
           .meaning =
               "linearly implicit steps look ahead along the last step's velocity: steady motion "
               "has a third of the error"},
          n.extrapolate);
-  v.flag({.name = "with_contacts",
-          .meaning = "allow ros2 although cells may touch something: contacts make it chatter"},
-         b.with_contacts);
   v.integer({.name = "until_cells",
              .meaning = "the run ends when there are so many cells; 0 = only at time.end",
              .range = {.low = 0, .high = 1e9}},
@@ -86,25 +84,29 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
           .meaning = "time of the growth to full radius",
           .dimension = kTime,
           .unit = "h",
-          .range = kPositive},
+          .range = kPositive,
+          .affects = Affects::kStep},
          b.growth_time);
   v.real({.name = "adhesion_ramp",
           .meaning = "time over which adhesion is raised after growth",
           .dimension = kTime,
           .unit = "min",
-          .range = kNotNegative},
+          .range = kNotNegative,
+          .affects = Affects::kStep},
          b.adhesion_ramp);
   v.real({.name = "max_duration",
           .meaning = "longest settling after growth",
           .dimension = kTime,
           .unit = "h",
-          .range = kNotNegative},
+          .range = kNotNegative,
+          .affects = Affects::kStep},
          b.max_settle);
   v.real({.name = "speed_tolerance",
           .meaning = "settled when no node is faster",
           .dimension = kSpeed,
           .unit = "um/min",
-          .range = kPositive},
+          .range = kPositive,
+          .affects = Affects::kStep},
          b.speed_tolerance);
   v.real({.name = "pressure_tolerance",
           .meaning =
@@ -112,141 +114,15 @@ void describe_start_up(Visitor& v, StartUpBlock& b) {
               "mean pressure",
           .dimension = kRate,
           .unit = "1/h",
-          .range = kPositive},
+          .range = kPositive,
+          .affects = Affects::kStep},
          b.pressure_tolerance);
   v.text({.name = "from",
           .meaning = "folder of a run whose cells at t = 0 this run takes instead of placing and "
                      "settling its own; what shapes the start must be the same",
-          .is_run = true},
+          .is_run = true,
+          .affects = Affects::kNothing},
          b.from);
-}
-
-void describe_friction_of_contacts(Visitor& v, Scene& s) {
-  FrictionBlock& b = s.friction;
-  v.real({.name = "dcm_dcm",
-          .meaning = "friction between two DCM cells, per contact area",
-          .dimension = kFrictionPerArea,
-          .unit = "N s/m^3",
-          .range = kNotNegative,
-          .symbol = "gamma_ext+"},
-         s.contact.cell_friction);
-  v.real({.name = "cbm_cbm",
-          .meaning = "friction between two CBM cells, per contact area",
-          .dimension = kFrictionPerArea,
-          .unit = "N s/m^3",
-          .range = kNotNegative,
-          .symbol = "gamma_ext+"},
-         b.cbm_cbm);
-  v.optional_real({.name = "dcm_cbm",
-                   .meaning = "friction between a DCM and a CBM cell",
-                   .dimension = kFrictionPerArea,
-                   .unit = "N s/m^3",
-                   .range = kNotNegative,
-                   .automatic = "harmonic mean of dcm_dcm and cbm_cbm"},
-                  b.dcm_cbm);
-  v.optional_real({.name = "dcm_vessel",
-                   .meaning = "friction of a DCM cell with a vessel, or a wall that is no mirror",
-                   .dimension = kFrictionPerArea,
-                   .unit = "N s/m^3",
-                   .range = kNotNegative,
-                   .automatic = "the type's dcm.ecm_friction"},
-                  b.dcm_vessel);
-  v.optional_real({.name = "cbm_vessel",
-                   .meaning = "friction of a CBM cell with a vessel, or a wall that is no mirror",
-                   .dimension = kFrictionPerArea,
-                   .unit = "N s/m^3",
-                   .range = kNotNegative,
-                   .automatic = "the type's cbm.ecm_friction"},
-                  b.cbm_vessel);
-}
-
-void describe_friction(Visitor& v, Scene& s) {
-  describe_friction_of_contacts(v, s);
-  choice(v,
-         {.name = "form",
-          .meaning = "between what dcm_dcm acts: facing points of two surfaces, or each node of a "
-                     "triangle with each node of the one it touches, which also holds back "
-                     "surfaces that stretch together, the more the coarser the mesh"},
-         s.contact.friction_form);
-  v.real({.name = "range",
-          .meaning = "gap over which friction between DCM surfaces fades out",
-          .dimension = kLength,
-          .unit = "um",
-          .range = kPositive},
-         s.contact.friction_range);
-  choice(v,
-         {.name = "medium",
-          .meaning = "what surrounds the cells: matrix, or liquid (Stokes drag)",
-          .choices = "ecm|liquid"},
-         s.friction.liquid);
-  v.real({.name = "viscosity",
-          .meaning = "viscosity of the liquid",
-          .dimension = kViscosity,
-          .unit = "Pa s",
-          .range = kPositive,
-          .symbol = "eta"},
-         s.friction.viscosity);
-  choice(v,
-         {.name = "medium_area",
-          .meaning = "part of a cell's surface that feels the medium. free: what touches no other "
-                     "cell or surface, so that areas add up to the surface; whole: all of it, as "
-                     "in the paper, for a matrix that pervades the tissue",
-          .choices = "free|whole"},
-         s.contact.whole_medium_area);
-}
-
-void describe_motility(Visitor& v, MotilityBlock& b) {
-  v.flag({.name = "random", .meaning = "random motion of the cells"}, b.random);
-  choice(v,
-         {.name = "directions",
-          .meaning = "random motion in space, or in the horizontal plane as on a substrate",
-          .choices = "space|plane"},
-         b.in_plane);
-  v.real({.name = "grid",
-          .meaning = "time over which a random force stays constant",
-          .dimension = kTime,
-          .unit = "s",
-          .range = kPositive},
-         b.grid);
-  v.real({.name = "leader_force",
-          .meaning = "force of the leading cells toward the vein axis",
-          .dimension = kForce,
-          .unit = "nN",
-          .range = kNotNegative,
-          .symbol = "F_mor"},
-         b.leader_force);
-  v.real({.name = "leader_grid",
-          .meaning = "time between two choices of the leading cells",
-          .dimension = kTime,
-          .unit = "min",
-          .range = kPositive},
-         b.leader_grid);
-  choice(v,
-         {.name = "leaders",
-          .meaning = "which cells lead. foremost: those with no other cell nearer the vein within "
-                     "one diameter in arc and height; front: all with a clear straight way to the "
-                     "vein; border: all with a clear way into the lesion, two cell diameters long, "
-                     "within 45 degrees of that to the vein; sector: the nearest of every sector "
-                     "of the circle and slice of height; "
-                     "nearest: the leader_count nearest"},
-         b.leaders);
-  v.when(b.leaders == coupling::Leaders::kSector || b.leaders == coupling::Leaders::kNearest,
-         "leaders = sector, nearest", [&b](Visitor& w) {
-           w.integer({.name = "leader_count",
-                      .meaning = "nearest: number of leaders; sector: sectors of the whole circle",
-                      .range = {.low = 1, .high = 1e6}},
-                     b.leader_count);
-         });
-  v.when(b.leaders == coupling::Leaders::kSector, "leaders = sector", [&b](Visitor& w) {
-    real_or_auto(w,
-                 {.name = "leader_slice",
-                  .meaning = "height of a slice",
-                  .dimension = kLength,
-                  .unit = "um",
-                  .range = kPositive,
-                  .automatic = "the cell diameter"},
-                 b.leader_slice);
-  });
 }
 
 void describe_output(Visitor& v, OutputBlock& b) {
@@ -271,78 +147,30 @@ void describe_scene(Visitor& v, Scene& s) {
   v.text({.name = "name",
           .meaning = "name of the scene and of its run folder",
           .automatic = "the scene file's name",
-          .is_name = true},
+          .is_name = true,
+          .affects = Affects::kNothing,
+          .compared = false},
          s.name);
-  v.text({.name = "description", .meaning = "what the scene shows, in a sentence"}, s.description);
+  v.text({.name = "description",
+          .meaning = "what the scene shows, in a sentence",
+          .affects = Affects::kNothing,
+          .compared = false},
+         s.description);
   v.seed({.name = "seed", .meaning = "seed of all random numbers"}, s.seed);
-  choice(v, {.name = "experiment", .meaning = "what is measured"}, s.experiment);
+  choice(v, {.name = "experiment", .meaning = "what is measured", .affects = Affects::kStep},
+         s.experiment);
   choice(v,
          {.name = "model",
           .meaning = "replaces cells.model, whatever the scene says there; cells of cells.list "
                      "with a model of their own keep it, zoom regions count only with zoom",
-          .automatic = "cells.model stays"},
+          .automatic = "cells.model stays",
+          .affects = Affects::kStep,  // of the start cells.model says it
+          .compared = false},
          s.model);
 }
 
-/// What holds, pulls, lights or warms cells from outside.
-void describe_apparatus(Visitor& v, Scene& s) {
-  optional_block(
-      v,
-      {.name = "pipette",
-       .meaning = "rigid tube that may suck at deformable cells, or a hole that cells go "
-                  "through; null = none"},
-      s.pipette, describe_pipette);
-  blocks(v,
-         {.name = "pulls",
-          .meaning = "forces on single cells over time, or springs that hold them",
-          .item = "pull"},
-         s.pulls, describe_pull);
-  optional_block(v,
-                 {.name = "stretcher",
-                  .meaning = "two laser beams that pull at deformable cells; null = none"},
-                 s.stretcher, describe_stretcher);
-  optional_block(v,
-                 {.name = "temperature",
-                  .meaning = "temperature over time, on which the friction within the cortex of "
-                             "deformable cells depends; null = none"},
-                 s.temperature, describe_temperature);
-}
-
-}  // namespace
-
-void describe(Visitor& v, Scene& s) {
-  describe_scene(v, s);
-  block(v, {.name = "time", .meaning = "duration and steps"}, s, describe_time);
-  block(v, {.name = "solver", .meaning = "linear solver"}, s.numerics.cg, describe_solver);
-  block(v, {.name = "start_up", .meaning = "growth and settling before t = 0"}, s.start_up,
-        describe_start_up);
-  named_blocks(v,
-               {.name = "cell_types",
-                .meaning = "kinds of cells by name; at least one",
-                .required = true,
-                .item = "cell"},
-               s.cell_types, describe_cell_type);
-  block(v, {.name = "cells", .meaning = "which cells there are at the start"}, s.cells,
-        describe_cells);
-  block(v, {.name = "life", .meaning = "which cells rest or die, and when"}, s.life, describe_life);
-  blocks(v,
-         {.name = "zoom",
-          .meaning = "regions whose cells are DCM at t = 0 (their union)",
-          .item = "zoom"},
-         s.zoom, describe_region);
-  optional_block(v,
-                 {.name = "moving_zoom",
-                  .meaning = "cells change their model when they enter or leave the zoom regions; "
-                             "null = cells keep the model they start with"},
-                 s.moving_zoom, describe_moving_zoom);
-  v.vector({.name = "axis_point",
-            .meaning = "the vein axis is vertical (z) through this point",
-            .dimension = kLength,
-            .unit = "um"},
-           s.axis_point);
-  block(v, {.name = "contact", .meaning = "contact of surfaces"}, s.contact, describe_contact);
-  block(v, {.name = "friction", .meaning = "friction per area"}, s, describe_friction);
-  block(v, {.name = "motility", .meaning = "active forces"}, s.motility, describe_motility);
+/// Keys of the boundary: vessels, walls, capsule and meshes.
+void describe_boundary(Visitor& v, Scene& s) {
   optional_block(v, {.name = "lobule", .meaning = "generated liver lobule; null = none"}, s.lobule,
                  describe_lobule);
   block(v, {.name = "vessels", .meaning = "blood vessels: network file and mechanics"}, s.vessels,
@@ -359,8 +187,65 @@ void describe(Visitor& v, Scene& s) {
   blocks(v,
          {.name = "static_meshes", .meaning = "rigid surfaces from files", .item = "static_mesh"},
          s.static_meshes, describe_static_mesh);
+}
+
+}  // namespace
+
+void describe(Visitor& v, Scene& s) {
+  describe_scene(v, s);
+  block(v,
+        {.name = "time",
+         .meaning = "duration and steps",
+         .affects = Affects::kStep,
+         .compared = false},
+        s, describe_time);
+  block(
+      v,
+      {.name = "solver", .meaning = "linear solver", .affects = Affects::kStep, .compared = false},
+      s.numerics.cg, describe_solver);
+  block(v, {.name = "start_up", .meaning = "growth and settling before t = 0"}, s.start_up,
+        describe_start_up);
+  named_blocks(v,
+               {.name = "cell_types",
+                .meaning = "kinds of cells by name; at least one",
+                .required = true,
+                .item = "cell"},
+               s.cell_types, describe_cell_type);
+  block(v, {.name = "cells", .meaning = "which cells there are at the start"}, s.cells,
+        describe_cells);
+  block(v,
+        {.name = "life", .meaning = "which cells rest or die, and when", .affects = Affects::kStep},
+        s.life, describe_life);
+  blocks(v,
+         {.name = "zoom",
+          .meaning = "regions whose cells are DCM at t = 0 (their union)",
+          .item = "zoom",
+          .compared = false},
+         s.zoom, describe_region);
+  optional_block(v,
+                 {.name = "moving_zoom",
+                  .meaning = "cells change their model when they enter or leave the zoom regions; "
+                             "null = cells keep the model they start with"},
+                 s.moving_zoom, describe_moving_zoom);
+  v.vector({.name = "axis_point",
+            .meaning = "the vein axis is vertical (z) through this point",
+            .dimension = kLength,
+            .unit = "um"},
+           s.axis_point);
+  block(v, {.name = "contact", .meaning = "contact of surfaces", .compared = false}, s.contact,
+        describe_contact);
+  block(v, {.name = "friction", .meaning = "friction per area", .affects = Affects::kStep}, s,
+        describe_friction);
+  block(v, {.name = "motility", .meaning = "active forces", .affects = Affects::kStep}, s.motility,
+        describe_motility);
+  describe_boundary(v, s);
   describe_apparatus(v, s);
-  block(v, {.name = "output", .meaning = "what is written"}, s.output, describe_output);
+  block(v,
+        {.name = "output",
+         .meaning = "what is written",
+         .affects = Affects::kOutput,
+         .compared = false},
+        s.output, describe_output);
 }
 
 }  // namespace acinus::runs

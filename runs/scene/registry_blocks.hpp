@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of the registry: one function per scene block, spread over the registry_*.cpp files.
+/// Parts of the registry: one function per scene block, defined in the registry_*.cpp files.
 
 #include <cstddef>
 #include <iterator>
@@ -43,7 +43,7 @@ void blocks(Visitor& visitor, const Key& key, std::vector<Block>& list, Describe
   visitor.list(key, elements);
 }
 
-/// An entry of a course over time: `kValue` says what has a value then.
+/// Keys of an entry of a course over time; kValue is the key of the value.
 template <const Key& kValue>
 void describe_course_point(Visitor& visitor, Schedule::Point& point) {
   visitor.real({.name = "time",
@@ -88,7 +88,7 @@ void optional_block(Visitor& visitor, const Key& key, std::optional<Block>& valu
       });
 }
 
-/// One of a few names: an enum of choices.hpp, or false and true with the two names in the key.
+/// Shows a choice among names: an enum of choices.hpp, or false and true with two names in the key.
 template <class E>
 void choice(Visitor& visitor, Key key, E& value) {
   if constexpr (!std::is_same_v<E, bool>)
@@ -98,7 +98,7 @@ void choice(Visitor& visitor, Key key, E& value) {
   if (const int index = choice_index(key.choices, name); index >= 0) value = static_cast<E>(index);
 }
 
-/// The same, with "auto" for no value.
+/// Shows a choice, with "auto" for no value.
 template <class E>
 void choice(Visitor& visitor, Key key, std::optional<E>& value) {
   if (key.choices[0] == '\0') key.choices = kChoices<E>;
@@ -108,7 +108,7 @@ void choice(Visitor& visitor, Key key, std::optional<E>& value) {
   value = index >= 0 ? std::optional(static_cast<E>(index)) : std::nullopt;
 }
 
-/// A number for which `automatic` stands where nothing is given.
+/// Shows a number that is `automatic` where none is given.
 inline void real_or_auto(Visitor& visitor, const Key& key, double& value, double automatic = 0) {
   std::optional<double> given;
   if (value != automatic) given = value;
@@ -124,18 +124,16 @@ void describe_cycle(Visitor& v, coupling::CycleParams& b);
 void describe_inhibition(Visitor& v, coupling::Inhibition& b);
 void describe_death(Visitor& v, CellType& b);
 void describe_life(Visitor& v, LifeBlock& b);
-void describe_contraction(Visitor& v, dcm::Contraction& b);
+void describe_contraction(Visitor& v, ContractionBlock& b);
 void describe_nucleus(Visitor& v, dcm::Nucleus& b);
 void describe_cells(Visitor& v, CellsBlock& b);
 void describe_region(Visitor& v, Region& b);
 void describe_moving_zoom(Visitor& v, MovingZoomBlock& b);
+void describe_friction(Visitor& v, Scene& s);
+void describe_motility(Visitor& v, MotilityBlock& b);
 void describe_lobule(Visitor& v, LobuleBlock& b);
 void describe_vessels(Visitor& v, VesselBlock& b);
 void describe_wall(Visitor& v, WallEntry& b);
-void describe_pipette(Visitor& v, PipetteBlock& b);
-void describe_pull(Visitor& v, PullEntry& b);
-void describe_stretcher(Visitor& v, coupling::Stretcher& b);
-void describe_temperature(Visitor& v, coupling::Temperature& b);
 void describe_capsule(Visitor& v, CapsuleEntry& b);
 void describe_static_mesh(Visitor& v, StaticMeshEntry& b);
 

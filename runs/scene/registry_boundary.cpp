@@ -28,6 +28,55 @@ void describe_lobule_shape(Visitor& v, LobuleBlock& b) {
          b.lesion_radius);
 }
 
+void describe_network_transform(Visitor& v, VesselBlock& b) {
+  v.real({.name = "unit",
+          .meaning = "length of one unit of the file",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         b.unit);
+  v.real({.name = "scale", .meaning = "factor on positions and radii", .range = kPositive},
+         b.scale);
+  v.real({.name = "radius_scale", .meaning = "further factor on radii", .range = kPositive},
+         b.radius_scale);
+  v.vector({.name = "shift",
+            .meaning = "displacement after scaling",
+            .dimension = kLength,
+            .unit = "um"},
+           b.shift);
+  v.flag({.name = "center",
+          .meaning = "first move the middle of the network's bounding box to the origin"},
+         b.center);
+  v.box({.name = "crop",
+         .meaning = "keep only segments with a part inside this box, given by its lowest and its "
+                    "highest corner; null = all",
+         .dimension = kLength,
+         .unit = "um"},
+        b.crop);
+}
+
+void describe_vessel_material(Visitor& v, VesselBlock& b) {
+  v.real({.name = "young",
+          .meaning = "Young's modulus of the vessels",
+          .dimension = kStress,
+          .unit = "Pa",
+          .range = kPositive,
+          .symbol = "E_sin"},
+         b.young);
+  v.real({.name = "poisson",
+          .meaning = "Poisson ratio of the vessels",
+          .range = {.low = 0, .high = 0.5},
+          .symbol = "nu_sin"},
+         b.poisson);
+  v.real({.name = "adhesion",
+          .meaning = "adhesion energy between cell and vessel, per area",
+          .dimension = kTension,
+          .unit = "J/m^2",
+          .range = kNotNegative,
+          .symbol = "W"},
+         b.adhesion);
+}
+
 void describe_flexible_vessels(Visitor& v, VesselBlock& b) {
   v.real({.name = "wall_thickness",
           .meaning = "thickness of the wall; a vessel whose radius is no larger is solid",
@@ -117,53 +166,14 @@ void describe_vessels(Visitor& v, VesselBlock& b) {
   v.text({.name = "radius_array",
           .meaning = "name of the array of radii in a VTK file; \"\" = one of the usual names"},
          b.radius_array);
-  v.real({.name = "unit",
-          .meaning = "length of one unit of the file",
-          .dimension = kLength,
-          .unit = "um",
-          .range = kPositive},
-         b.unit);
-  v.real({.name = "scale", .meaning = "factor on positions and radii", .range = kPositive},
-         b.scale);
-  v.real({.name = "radius_scale", .meaning = "further factor on radii", .range = kPositive},
-         b.radius_scale);
-  v.vector({.name = "shift",
-            .meaning = "displacement after scaling",
-            .dimension = kLength,
-            .unit = "um"},
-           b.shift);
-  v.flag({.name = "center",
-          .meaning = "first move the middle of the network's bounding box to the origin"},
-         b.center);
-  v.box({.name = "crop",
-         .meaning = "keep only segments with a part inside this box, given by its lowest and its "
-                    "highest corner; null = all",
-         .dimension = kLength,
-         .unit = "um"},
-        b.crop);
-  v.real({.name = "young",
-          .meaning = "Young's modulus of the vessels",
-          .dimension = kStress,
-          .unit = "Pa",
-          .range = kPositive,
-          .symbol = "E_sin"},
-         b.young);
-  v.real({.name = "poisson",
-          .meaning = "Poisson ratio of the vessels",
-          .range = {.low = 0, .high = 0.5},
-          .symbol = "nu_sin"},
-         b.poisson);
-  v.real({.name = "adhesion",
-          .meaning = "adhesion energy between cell and vessel, per area",
-          .dimension = kTension,
-          .unit = "J/m^2",
-          .range = kNotNegative,
-          .symbol = "W"},
-         b.adhesion);
+  describe_network_transform(v, b);
+  describe_vessel_material(v, b);
   choice(v,
          {.name = "contact",
           .meaning = "what cells touch: a round cone a segment, or one closed surface about all of "
-                     "them, without the creases where cones meet"},
+                     "them, without the creases where cones meet",
+          // It shapes a start as well, but both ways may be compared from one.
+          .affects = Affects::kStep},
          b.contact);
   v.flag({.name = "flexible",
           .meaning = "true: vessels are elastic tubes that cells bend; false: they stand still"},

@@ -7,26 +7,35 @@ void describe_cortex(Visitor& v, DcmBlock& b) {
   v.integer({.name = "nodes",
              .meaning = "nodes of the cell's surface mesh",
              .choices = "42|92|162|252|362|642|1442|2562",
-             .symbol = "N"},
+             .symbol = "N",
+             .in_law = InLaw::kDcm,
+             .law_name = "nodes"},
             b.nodes);
   v.real({.name = "cortex_young",
           .meaning = "Young's modulus of the cortex",
           .dimension = kStress,
           .unit = "kPa",
           .range = kNotNegative,
-          .symbol = "E_cor"},
+          .symbol = "E_cor",
+          .softens = true,
+          .in_law = InLaw::kDcm,
+          .law_name = "cortex_young_kPa"},
          b.cortex_young);
   v.real({.name = "cortex_thickness",
           .meaning = "thickness of the cortex",
           .dimension = kLength,
           .unit = "um",
           .range = kPositive,
-          .symbol = "h_cor"},
+          .symbol = "h_cor",
+          .in_law = InLaw::kDcm,
+          .law_name = "cortex_thickness_um"},
          b.cortex_thickness);
   v.real({.name = "cortex_poisson",
           .meaning = "Poisson ratio of the cortex",
           .range = {.low = 0, .high = 0.5},
-          .symbol = "nu_cor"},
+          .symbol = "nu_cor",
+          .in_law = InLaw::kDcm,
+          .law_name = "cortex_poisson"},
          b.cortex_poisson);
 }
 
@@ -36,12 +45,14 @@ void describe_dcm_friction(Visitor& v, DcmBlock& b) {
           .dimension = kFriction,
           .unit = "N s/m",
           .range = kNotNegative,
-          .symbol = "gamma_int"},
+          .symbol = "gamma_int",
+          .affects = Affects::kStep},
          b.nodal_friction);
   v.real({.name = "nodal_friction_across",
           .meaning = "that friction across the edge of two nodes over that along it; 1 = the same "
                      "in all directions, 0 = only along, which lets a cell turn freely",
-          .range = kNotNegative},
+          .range = kNotNegative,
+          .affects = Affects::kStep},
          b.friction_across);
   v.real(
       {.name = "series_friction",
@@ -57,7 +68,8 @@ void describe_dcm_friction(Visitor& v, DcmBlock& b) {
           .dimension = kFrictionPerArea,
           .unit = "N s/m^3",
           .range = kPositive,
-          .symbol = "gamma_ECM+"},
+          .symbol = "gamma_ECM+",
+          .affects = Affects::kStep},
          b.medium_friction);
 }
 
@@ -68,20 +80,27 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .dimension = kTension,
           .unit = "N/m",
           .range = kNotNegative,
-          .symbol = "K_A"},
+          .symbol = "K_A",
+          .in_law = InLaw::kDcm,
+          .law_name = "area_modulus_nN_per_um"},
          b.area_modulus);
   v.real({.name = "local_area_modulus",
           .meaning = "resistance of each triangle to area change; keeps the mesh regular",
           .dimension = kTension,
           .unit = "N/m",
-          .range = kNotNegative},
+          .range = kNotNegative,
+          .in_law = InLaw::kDcm,
+          .law_name = "local_area_modulus_nN_per_um"},
          b.local_area_modulus);
   v.real({.name = "cortex_tension",
           .meaning = "active tension of the whole surface, which does not depend on its area; 0 = "
                      "none",
           .dimension = kTension,
           .unit = "N/m",
-          .range = kNotNegative},
+          .range = kNotNegative,
+          .softens = true,
+          .in_law = InLaw::kDcm,
+          .law_name = "cortex_tension_nN_per_um"},
          b.cortex_tension);
   optional_block(v,
                  {.name = "contraction",
@@ -93,7 +112,10 @@ void describe_dcm(Visitor& v, DcmBlock& b) {
           .dimension = kStress,
           .unit = "Pa",
           .range = kNotNegative,
-          .symbol = "K_V"},
+          .symbol = "K_V",
+          .softens = true,
+          .in_law = InLaw::kDcm,
+          .law_name = "bulk_modulus_kPa"},
          b.bulk_modulus);
   describe_dcm_friction(v, b);
   optional_block(v,
@@ -110,7 +132,9 @@ void describe_cbm(Visitor& v, CbmBlock& b) {
                 .unit = "Pa",
                 .range = kPositive,
                 .symbol = "E",
-                .automatic = "3 K_V (1 - 2 nu)"},
+                .automatic = "3 K_V (1 - 2 nu)",
+                .in_law = InLaw::kCbm,
+                .law_name = "young_kPa"},
                b.young);
   v.real({.name = "young_spread",
           .meaning = "relative standard deviation of the modulus from cell to cell, cut at 3 sigma",
@@ -119,14 +143,17 @@ void describe_cbm(Visitor& v, CbmBlock& b) {
   v.real({.name = "poisson",
           .meaning = "Poisson ratio of the sphere",
           .range = {.low = 0, .high = 0.5, .high_open = true},
-          .symbol = "nu"},
+          .symbol = "nu",
+          .in_law = InLaw::kCbm,
+          .law_name = "poisson"},
          b.poisson);
   v.real({.name = "ecm_friction",
           .meaning = "friction of a CBM cell with the matrix, per area",
           .dimension = kFrictionPerArea,
           .unit = "N s/m^3",
           .range = kPositive,
-          .symbol = "gamma_ECM+"},
+          .symbol = "gamma_ECM+",
+          .affects = Affects::kStep},
          b.medium_friction);
   v.text(
       {.name = "stiffness_correction",
@@ -189,53 +216,7 @@ void describe_type_share(Visitor& v, TypeShare& b) {
                  b.region, describe_region);
 }
 
-}  // namespace
-
-void describe_cell_type(Visitor& v, CellType& b) {
-  v.real({.name = "radius",
-          .meaning = "radius at rest, (3 V0 / 4 pi)^(1/3)",
-          .dimension = kLength,
-          .unit = "um",
-          .range = kPositive,
-          .symbol = "R_c"},
-         b.radius);
-  v.real({.name = "adhesion",
-          .meaning = "adhesion energy per area; a pair of types has the geometric mean",
-          .dimension = kTension,
-          .unit = "J/m^2",
-          .range = kNotNegative,
-          .symbol = "W"},
-         b.adhesion);
-  v.real({.name = "diffusion",
-          .meaning = "diffusion coefficient of the random motion",
-          .dimension = kDiffusion,
-          .unit = "m^2/s",
-          .range = kNotNegative,
-          .symbol = "D"},
-         b.diffusion);
-  block(v, {.name = "cycle", .meaning = "growth to twice the volume and division"}, b.cycle,
-        describe_cycle);
-  block(v, {.name = "inhibition", .meaning = "what slows growth down"}, b.cycle.inhibition,
-        describe_inhibition);
-  block(v, {.name = "death", .meaning = "how a cell dies that a rule of life lets die"}, b,
-        describe_death);
-  block(v, {.name = "dcm", .meaning = "the cell as a deformable triangulated surface"}, b.dcm,
-        describe_dcm);
-  block(v, {.name = "cbm", .meaning = "the cell as an elastic sphere"}, b.cbm, describe_cbm);
-}
-
-void describe_cells(Visitor& v, CellsBlock& b) {
-  choice(v, {.name = "source", .meaning = "where the cells come from"}, b.source);
-  choice(v, {.name = "model", .meaning = "model of the cells; zoom: DCM inside the zoom regions"},
-         b.model);
-  blocks(v, {.name = "list", .meaning = "cells one by one (source = list)", .item = "cells.list"},
-         b.list, describe_cell);
-  blocks(v,
-         {.name = "types",
-          .meaning = "which cells are of which type, drawn by shares and by region, where they are "
-                     "not listed one by one; [] = all of the only type",
-          .item = "cells.types"},
-         b.types, describe_type_share);
+void describe_packing(Visitor& v, CellsBlock& b) {
   v.integer({.name = "count",
              .meaning = "cells of a clump (nearest to its centre first) or of a filled box",
              .range = {.low = 1, .high = 1e6}},
@@ -253,6 +234,9 @@ void describe_cells(Visitor& v, CellsBlock& b) {
             .meaning = "cells of a box along x, y and z",
             .range = {.low = 1, .high = 1000}},
            b.grid);
+}
+
+void describe_fill(Visitor& v, CellsBlock& b) {
   v.when(b.source == CellSource::kFill, "source = fill", [&b](Visitor& w) {
     w.vector({.name = "low",
               .meaning = "low corner of the box that random cells fill",
@@ -273,6 +257,9 @@ void describe_cells(Visitor& v, CellsBlock& b) {
             .range = kPositive},
            b.min_distance);
   });
+}
+
+void describe_cell_meshes(Visitor& v, CellsBlock& b) {
   v.when(b.source == CellSource::kMeshes, "source = meshes", [&b](Visitor& w) {
     w.text(
         {.name = "file",
@@ -288,6 +275,74 @@ void describe_cells(Visitor& v, CellsBlock& b) {
             .range = kPositive},
            b.unit);
   });
+}
+
+}  // namespace
+
+void describe_cell_type(Visitor& v, CellType& b) {
+  v.real({.name = "radius",
+          .meaning = "radius at rest, (3 V0 / 4 pi)^(1/3)",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive,
+          .symbol = "R_c",
+          .in_law = InLaw::kBoth,
+          .law_name = "radius_um"},
+         b.radius);
+  v.real({.name = "adhesion",
+          .meaning = "adhesion energy per area; a pair of types has the geometric mean",
+          .dimension = kTension,
+          .unit = "J/m^2",
+          .range = kNotNegative,
+          .symbol = "W",
+          .softens = true,
+          .in_law = InLaw::kBoth,
+          .law_name = "adhesion_nN_per_um"},
+         b.adhesion);
+  v.real({.name = "diffusion",
+          .meaning = "diffusion coefficient of the random motion",
+          .dimension = kDiffusion,
+          .unit = "m^2/s",
+          .range = kNotNegative,
+          .symbol = "D",
+          .affects = Affects::kStep},
+         b.diffusion);
+  block(v,
+        {.name = "cycle",
+         .meaning = "growth to twice the volume and division",
+         .affects = Affects::kAges},
+        b.cycle, describe_cycle);
+  block(v, {.name = "inhibition", .meaning = "what slows growth down", .affects = Affects::kStep},
+        b.cycle.inhibition, describe_inhibition);
+  block(v,
+        {.name = "death",
+         .meaning = "how a cell dies that a rule of life lets die",
+         .affects = Affects::kStep},
+        b, describe_death);
+  block(v, {.name = "dcm", .meaning = "the cell as a deformable triangulated surface"}, b.dcm,
+        describe_dcm);
+  block(v, {.name = "cbm", .meaning = "the cell as an elastic sphere", .compared = false}, b.cbm,
+        describe_cbm);
+}
+
+void describe_cells(Visitor& v, CellsBlock& b) {
+  choice(v, {.name = "source", .meaning = "where the cells come from"}, b.source);
+  choice(v,
+         {.name = "model",
+          .meaning = "model of the cells; zoom: DCM inside the zoom regions",
+          .compared = false},
+         b.model);
+  blocks(v, {.name = "list", .meaning = "cells one by one (source = list)", .item = "cells.list"},
+         b.list, describe_cell);
+  blocks(v,
+         {.name = "types",
+          .meaning = "which cells are of which type, drawn by shares and by region, where they are "
+                     "not listed one by one; [] = all of the only type",
+          .item = "cells.types"},
+         b.types, describe_type_share);
+  describe_packing(v, b);
+  describe_fill(v, b);
+  describe_cell_meshes(v, b);
 }
 
 }  // namespace acinus::runs

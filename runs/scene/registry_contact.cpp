@@ -41,25 +41,32 @@ void describe_law(Visitor& v, ContactBlock& b) {
 
 void describe_contact(Visitor& v, ContactBlock& b) {
   describe_law(v, b);
-  choice(v, {.name = "quadrature", .meaning = "contact points of a triangle"}, b.quadrature);
+  choice(
+      v,
+      {.name = "quadrature", .meaning = "contact points of a triangle", .in_law = InLaw::kSetting},
+      b.quadrature);
   v.real({.name = "repulsion",
           .meaning = "stiffness against overlap, pressure per depth",
           .dimension = kStiffnessPerArea,
           .unit = "kPa/um",
-          .range = kPositive},
+          .range = kPositive,
+          .in_law = InLaw::kDcm,
+          .law_name = "contact_repulsion_kPa_per_um"},
          b.repulsion);
   real_or_auto(v,
                {.name = "range",
                 .meaning = "range of adhesion in mean reference edge lengths",
                 .range = {.low = 0, .high = 2, .low_open = true},
                 .symbol = "h_0",
-                .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges"},
+                .automatic = "0.3 for 3-point, 0.5 for nodes, 0.35 for nodes-and-edges",
+                .in_law = InLaw::kSetting},
                b.range_factor);
   v.real({.name = "max_depth",
           .meaning = "deepest overlap a contact point looks for",
           .dimension = kLength,
           .unit = "um",
-          .range = kPositive},
+          .range = kPositive,
+          .in_law = InLaw::kSetting},
          b.max_depth);
   v.real({.name = "skin",
           .meaning = "margin of the neighbour lists",

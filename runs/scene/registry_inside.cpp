@@ -1,12 +1,9 @@
-/// Keys of what acts within a deformable cell beside its cortex at rest.
+/// Registry: nucleus and contraction of a deformable cell.
 
 #include "runs/scene/registry_blocks.hpp"
 
 namespace acinus::runs {
 namespace {
-
-constexpr Key kFactorThen{
-    .name = "factor", .meaning = "factor then", .range = kNotNegative, .required = true};
 
 void describe_nucleus_shell(Visitor& v, dcm::Nucleus& b) {
   v.real({.name = "young",
@@ -83,28 +80,6 @@ void describe_nucleus(Visitor& v, dcm::Nucleus& b) {
           .unit = "Pa s",
           .range = kNotNegative},
          b.link_friction);
-}
-
-void describe_contraction(Visitor& v, dcm::Contraction& b) {
-  blocks(v,
-         {.name = "course",
-          .meaning = "factor on cortex_tension over time; none = 1",
-          .item = "contraction"},
-         b.course.entry, describe_course_point<kFactorThen>);
-  v.real({.name = "ring",
-          .meaning = "tension of a band about the equator beyond that of the poles, over the "
-                     "latter; 0 = no band",
-          .range = kNotNegative},
-         b.ring);
-  v.real({.name = "width",
-          .meaning = "width of the band along the axis in cell radii: the standard deviation of a "
-                     "Gaussian",
-          .range = kPositive},
-         b.width);
-  v.vector({.name = "axis",
-            .meaning = "direction from pole to pole, fixed in space: it does not turn with the "
-                       "cell"},
-           b.axis);
 }
 
 }  // namespace acinus::runs

@@ -143,7 +143,8 @@ void describe_cycle(Visitor& v, coupling::CycleParams& b) {
   choice(v,
          {.name = "start",
           .meaning = "where in their cycle the first cells stand: just born, or uniformly spread",
-          .choices = "birth|random"},
+          .choices = "birth|random",
+          .affects = Affects::kStart},
          b.random_start);
 }
 

@@ -10,42 +10,8 @@ bool reaches(RegionKind kind) {
          kind == RegionKind::kCells || kind == RegionKind::kVessel;
 }
 
-/// Regions that move with the tissue.
-void describe_following(Visitor& v, Region& b) {
-  v.when(b.kind == RegionKind::kCells, "kind = cells", [&b](Visitor& w) {
-    w.integers({.name = "cells",
-                .meaning = "lineage numbers of the cells that are followed, from 0 in the order of "
-                           "the start",
-                .range = kNotNegative,
-                .required = true},
-               b.cells);
-    w.flag({.name = "offspring", .meaning = "their descendants are followed, too"}, b.offspring);
-  });
-  v.when(b.kind == RegionKind::kPressure, "kind = pressure", [&b](Visitor& w) {
-    w.real({.name = "above",
-            .meaning = "contact pressure at which a cell becomes deformable",
-            .dimension = kStress,
-            .unit = "Pa",
-            .range = kPositive,
-            .required = true},
-           b.above);
-    w.real({.name = "below",
-            .meaning = "contact pressure at which it becomes a sphere again",
-            .dimension = kStress,
-            .unit = "Pa",
-            .required = true},
-           b.below);
-  });
-}
-
-}  // namespace
-
-void describe_region(Visitor& v, Region& b) {
-  choice(v,
-         {.name = "kind",
-          .meaning = "shape of the region; a cell is in it with its centre",
-          .required = true},
-         b.kind);
+/// Keys of regions with a shape of their own.
+void describe_shape(Visitor& v, Region& b) {
   v.when(b.kind == RegionKind::kSphere, "kind = sphere", [&b](Visitor& w) {
     w.vector(
         {.name = "center", .meaning = "centre of the sphere", .dimension = kLength, .unit = "um"},
@@ -82,6 +48,10 @@ void describe_region(Visitor& v, Region& b) {
     w.vector({.name = "normal", .meaning = "direction out of the region", .required = true},
              b.normal);
   });
+}
+
+/// Keys of regions by the distance from the vein axis, cells or vessels.
+void describe_distances(Visitor& v, Region& b) {
   v.when(b.kind == RegionKind::kAxisDistance, "kind = axis_distance", [&b](Visitor& w) {
     w.real({.name = "min_distance",
             .meaning = "smallest distance from the vein axis",
@@ -101,6 +71,46 @@ void describe_region(Visitor& v, Region& b) {
             .required = true},
            b.max_distance);
   });
+}
+
+/// Keys of regions that move with the tissue.
+void describe_following(Visitor& v, Region& b) {
+  v.when(b.kind == RegionKind::kCells, "kind = cells", [&b](Visitor& w) {
+    w.integers({.name = "cells",
+                .meaning = "lineage numbers of the cells that are followed, from 0 in the order of "
+                           "the start",
+                .range = kNotNegative,
+                .required = true},
+               b.cells);
+    w.flag({.name = "offspring", .meaning = "their descendants are followed, too"}, b.offspring);
+  });
+  v.when(b.kind == RegionKind::kPressure, "kind = pressure", [&b](Visitor& w) {
+    w.real({.name = "above",
+            .meaning = "contact pressure at which a cell becomes deformable",
+            .dimension = kStress,
+            .unit = "Pa",
+            .range = kPositive,
+            .required = true},
+           b.above);
+    w.real({.name = "below",
+            .meaning = "contact pressure at which it becomes a sphere again",
+            .dimension = kStress,
+            .unit = "Pa",
+            .required = true},
+           b.below);
+  });
+}
+
+}  // namespace
+
+void describe_region(Visitor& v, Region& b) {
+  choice(v,
+         {.name = "kind",
+          .meaning = "shape of the region; a cell is in it with its centre",
+          .required = true},
+         b.kind);
+  describe_shape(v, b);
+  describe_distances(v, b);
   describe_following(v, b);
 }
 

@@ -9,7 +9,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Whether there may be spheres.
+/// True if the scene may have spheres.
 bool has_spheres(const Scene& scene) {
   if (scene.model.value_or(scene.cells.model) != CellModel::kDcm) return true;
   return scene.cells.source == CellSource::kList &&
@@ -18,7 +18,8 @@ bool has_spheres(const Scene& scene) {
          });
 }
 
-/// What stands around cells meets them by another law: a scene with both would compare nothing.
+/// Checks that nothing stands around the cells: obstacles act by another law, so that such a scene
+/// would compare nothing.
 void check_alone(const Scene& scene, const std::string& law, Report& report) {
   const std::pair<const char*, bool> around[] = {{"/lobule", scene.lobule.has_value()},
                                                  {"/vessels/file", !scene.vessels.file.empty()},

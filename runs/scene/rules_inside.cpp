@@ -7,27 +7,11 @@
 namespace acinus::runs {
 namespace {
 
-void check_contraction(const Scene& scene, const std::string& dcm, const DcmBlock& b,
-                       Report& report) {
-  if (!b.contraction) return;
-  const std::string pointer = dcm + "/contraction";
-  if (!(b.cortex_tension > 0))
-    report.add_relation({dcm + "/cortex_tension", pointer},
-                        "\"" + format_quantity(b.cortex_tension, kTension, "N/m") + "\"",
-                        "leaves " + pointer + " nothing to vary. Give a tension above 0 N/m");
-  if (b.contraction->axis.norm() == 0)
-    report.add_relation({pointer + "/axis"}, "[0, 0, 0]", "has no direction");
-  check_course(b.contraction->course, pointer + "/course", report);
-  if (scene.life.sleep && !b.contraction->course.entry.empty())
-    report.add_relation({pointer + "/course", "/life/sleep"}, "",
-                        "is not for cells that may sleep: a tension that changes would not wake "
-                        "them. Set /life/sleep to false");
-}
-
-/// Faces of the coarsest mesh stand this far inside the sphere of its volume.
+/// Smallest distance of a face of the coarsest mesh from its centre, over the radius of the sphere
+/// of its volume.
 constexpr double kInnerRadius = 0.9;
 
-/// The smallest radius that a cell of this type has at the start, um, and the key that says so.
+/// Smallest radius that a cell of a type has at the start, um, and the key that gives it.
 struct Smallest {
   double radius;
   std::string pointer;
@@ -60,19 +44,12 @@ void check_nucleus(const Scene& scene, const std::string& name, const CellType& 
                     "{:g} of that radius. Make the nucleus smaller or the cell larger",
                     cell.pointer, quoted_length(cell.radius), pointer, quoted_length(n.gap),
                     kInnerRadius));
-  if (scene.numerics.integrator == coupling::Integrator::kRos2)
-    report.add_relation({pointer, "/time/integrator"}, "",
-                        "is not for \"ros2\": a nucleus meets its cortex. Choose "
-                        "\"linearly-implicit\"");
 }
 
 }  // namespace
 
 void check_inside(const Scene& scene, Report& report) {
-  for (const auto& [name, type] : scene.cell_types) {
-    check_contraction(scene, "/cell_types/" + name + "/dcm", type.dcm, report);
-    check_nucleus(scene, name, type, report);
-  }
+  for (const auto& [name, type] : scene.cell_types) check_nucleus(scene, name, type, report);
 }
 
 }  // namespace acinus::runs

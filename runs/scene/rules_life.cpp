@@ -30,7 +30,7 @@ void check_cycle(const Scene& scene, const coupling::CycleParams& cycle, const s
   }
 }
 
-/// The other integrators have no way to put cells in or take them out.
+/// Checks the integrator: only the linearly implicit one can add and remove cells.
 void check_integrator(const Scene& scene, const std::string& pointer, Report& report) {
   if (scene.numerics.integrator == coupling::Integrator::kLinearlyImplicit) return;
   report.add_relation({"/time/integrator", pointer},

@@ -5,7 +5,6 @@
 
 #include "core/numbers/time_grid.hpp"
 #include "core/units/units.hpp"
-#include "runs/scene/frame_times.hpp"
 #include "runs/scene/scene_rules.hpp"
 
 namespace acinus::runs {
@@ -62,22 +61,11 @@ void check_periods(const Scene& scene, Report& report) {
   }
 }
 
-/// Relaxation needs a wall or a capsule that opens.
-void check_relaxation(const Scene& scene, Report& report) {
-  if (scene.experiment != Experiment::kRelaxation) return;
-  const double opens = next_opening(scene, -1);
-  if (opens < scene.time.end) return;
-  report.add_relation({"/experiment", "/walls", "/capsule", "/time/end"}, "",
-                      "needs a wall or a capsule that opens before /time/end (acinus explain "
-                      "wall.opens)");
-}
-
 }  // namespace
 
 void check_times(const Scene& scene, Report& report) {
   check_steps(scene, report);
   check_periods(scene, report);
-  check_relaxation(scene, report);
 }
 
 }  // namespace acinus::runs

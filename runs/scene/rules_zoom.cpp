@@ -1,4 +1,4 @@
-/// Rules of the zoom: its regions, and what they follow.
+/// Rules of the zoom, its regions and the cells, vessels and lesions that they follow.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 std::string pressure(double value) { return "\"" + format_quantity(value, kStress, "Pa") + "\""; }
 
-/// How many cells a scene has at most; lists and boxes say it, meshes stand in a file.
+/// Largest number of cells at the start; unbounded for meshes, whose number stands in a file.
 std::int64_t count_cells(const Scene& scene) {
   const CellsBlock& c = scene.cells;
   if (c.source == CellSource::kList) return std::ssize(c.list);
@@ -36,7 +36,7 @@ void check_followed_cells(const Scene& scene, const Region& r, const std::string
           fmt::format("is no cell of the start: their numbers go from 0 to {}", n - 1));
 }
 
-/// What a region follows must be there.
+/// Checks that the scene has the cells, vessels or lesion that a region follows.
 void check_following(const Scene& scene, const Region& r, const std::string& pointer,
                      Report& report) {
   const std::string kind = "\"" + name_of_choice(r.kind) + "\"";

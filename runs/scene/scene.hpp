@@ -1,9 +1,9 @@
 #pragma once
-/// A scene after reading: every default filled in, every quantity in base units (um, s, nN).
+/// Scene after reading: every default filled in, every quantity in base units (um, s, nN).
 /// Plain data. Blocks are the types that the models use, with what else their keys say. A key's
-/// default is its initialiser here or in the model's type; the registry (registry.hpp) reads it
-/// from there and adds path, unit, range and meaning. What build/ works out from other keys is 0
-/// where it is left to it ("auto").
+/// default is its initialiser in the model's type or, where no model has it, here; the registry
+/// (registry.hpp) reads it from there and adds path, unit, range, meaning and effects. Constants
+/// that assemble/ derives from other keys are 0 where that is left to it ("auto").
 
 #include <array>
 #include <cstdint>
@@ -15,6 +15,11 @@
 #include "cbm/params.hpp"
 #include "core/numbers/schedule.hpp"
 #include "core/vec.hpp"
+#include "coupling/apparatus/pull/pull.hpp"
+#include "coupling/apparatus/stretcher/stretcher.hpp"
+#include "coupling/apparatus/temperature/temperature.hpp"
+#include "coupling/generate/domain.hpp"
+#include "coupling/generate/packing.hpp"
 #include "coupling/world/world.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/choices.hpp"
@@ -22,86 +27,75 @@
 namespace acinus::runs {
 
 struct TimeBlock {
-  double end = 0;              ///< s after t = 0
-  bool with_contacts = false;  ///< ros2 although cells may touch
-  int until_cells = 0;         ///< the run ends when there are so many cells; 0 = no such end
+  double end = 0;       ///< s after t = 0
+  int until_cells = 0;  ///< the run ends when there are so many cells; 0 = no such end
 };
 
 struct StartUpBlock : coupling::StartUp {
-  double initial_radius = 3;  ///< um
-  std::string from;           ///< run folder whose state at t = 0 is taken; empty = none
+  double initial_radius = coupling::LobuleParameters{}.initial_radius;  ///< um
+  std::string from;  ///< run folder whose state at t = 0 is taken; empty = none
 };
 
-/// Deformable cell parameters of a cell type (Table 1). Left to build/: the stiffness of springs
-/// and hinges, what the cell type says for both models, and friction with vessels.
+/// Active tension over time and over the surface.
+struct ContractionBlock : dcm::ContractileRing {
+  Schedule course;  ///< factor over s since t = 0; empty: 1
+};
+
+/// Deformable cell parameters of a cell type (Table 1). Left to assemble/: the stiffness of springs
+/// and hinges, the constants of both models in CellType, and friction with vessels.
 struct DcmBlock : dcm::Params {
   int nodes = 162;
-  double cortex_young = 1.0;  ///< kPa
-  double cortex_poisson = 0.5;
-  DcmBlock() {
-    cortex_thickness = 0.5;
-    area_modulus = 0.8;
-    bulk_modulus = 2.5;
-    nodal_friction = 0.1;
-    medium_friction = 0.1;
-  }
+  double cortex_young = dcm::kCortexYoung;  ///< kPa
+  double cortex_poisson = dcm::kCortexPoisson;
+  std::optional<ContractionBlock> contraction;  ///< of cortex_tension; empty: constant and uniform
 };
 
 /// Centre-based parameters of a cell type (Table 1). young = 0: 3 K_V (1 - 2 nu).
 struct CbmBlock : cbm::Params {
   std::string stiffness_correction = "none";  ///< law file | none | auto (calibrate here) | paper
-  bool single_overlaps = true;  ///< what the law does with a neighbour pressed in deep
-  CbmBlock() {
-    young = 0;
-    young_spread = 0.1;
-    medium_friction = 0.5;
-  }
+  bool single_overlaps =
+      cbm::StiffnessLaw{}.single_overlaps;  ///< a single deep neighbour stiffens the sphere
+  CbmBlock() { young = 0; }
 };
 
 struct CellType {
-  double radius = 12;       ///< um at rest
-  double adhesion = 0.01;   ///< nN/um (mJ/m^2... 1e-5 J/m^2), pair value = sqrt(Wa Wb)
-  double diffusion = 1e-4;  ///< um^2/s, motility D (1e-16 m^2/s)
+  double radius = 12;                          ///< um at rest
+  double adhesion = dcm::Params{}.adhesion;    ///< nN/um (mJ/m^2), pair value = sqrt(Wa Wb)
+  double diffusion = dcm::Params{}.diffusion;  ///< um^2/s, motility D
   coupling::CycleParams cycle;
   double softening = 1;  ///< lysis: factor on cortex_young, bulk_modulus and adhesion meanwhile
   DcmBlock dcm;
   CbmBlock cbm;
 };
 
-/// range_factor = 0: 0.3 (3-point), 0.5 (nodes), 0.35 (both).
+/// Contact of surfaces. range_factor = 0: 0.3 (3-point), 0.5 (nodes), 0.35 (both).
 struct ContactBlock : dcm::ContactParams {
-  ContactBlock() {
-    range_factor = 0;
-    cell_friction = 50;
-  }
+  ContactBlock() { range_factor = 0; }
 };
 
-struct FrictionBlock {  ///< that of deformable cells with each other stands in ContactBlock
-  double cbm_cbm = 10;  ///< nN s/um^3
-  std::optional<double> dcm_cbm;     ///< empty = harmonic mean of the two
-  std::optional<double> dcm_vessel;  ///< empty = the type's dcm ecm_friction
-  std::optional<double> cbm_vessel;  ///< empty = the type's cbm ecm_friction
-  bool liquid = false;               ///< Stokes drag instead of friction per area
-  double viscosity = 1e-6;           ///< nN s/um^2 (1e-3 Pa s)
+struct FrictionBlock {  ///< friction but that between deformable cells, see ContactBlock
+  double cbm_cbm = cbm::ContactParams{}.cell_friction;  ///< nN s/um^3
+  std::optional<double> dcm_cbm;                        ///< empty = harmonic mean of the two
+  std::optional<double> dcm_vessel;                     ///< empty = the type's dcm ecm_friction
+  std::optional<double> cbm_vessel;                     ///< empty = the type's cbm ecm_friction
+  bool liquid = false;      ///< Stokes drag instead of friction per area
+  double viscosity = 1e-6;  ///< nN s/um^2 (1e-3 Pa s)
 };
 
-/// leader_slice = 0: the cell diameter.
+/// Active forces. leader_slice = 0: the cell diameter.
 struct MotilityBlock : coupling::Motility {
-  MotilityBlock() {
-    random = true;
-    leader_slice = 0;
-  }
+  MotilityBlock() { leader_slice = 0; }
 };
 
 using coupling::Region;
 using coupling::RegionKind;
 
-/// Which cells rest or die, and when. A cell is meant if `region` and `cells` both are.
+/// Rule by which cells rest or die, for cells that `region` and `cells` both accept.
 struct LifeRuleBlock : coupling::LifeRule {
   std::optional<Region> region;  ///< cells with their centre in it; empty = anywhere
 };
 
-/// Cells rest until they enter the cycle, by their layer from the edge of the lesion.
+/// Rates at which resting cells enter the cycle, by their layer from the edge of the lesion.
 /// thickness = 0: the cell diameter.
 struct ProliferationBlock : coupling::Proliferation {
   ProliferationBlock() { thickness = 0; }
@@ -110,13 +104,16 @@ struct ProliferationBlock : coupling::Proliferation {
 struct LifeBlock {
   std::vector<LifeRuleBlock> rules;
   std::optional<ProliferationBlock> proliferation;
-  double grid = 600;             ///< s between two looks at rules, inhibition, sleep and meshes
-  bool sleep = false;            ///< cells in balance are left out of the step until pushed
-  double sleep_traction = 1e-3;  ///< kPa out of balance, below which a cell falls asleep
-  bool remesh = true;            ///< cell meshes that degenerate are mended
+  double grid =
+      coupling::LifeParams{}.grid;  ///< s between checks of rules, inhibition, sleep, mesh
+  bool sleep =
+      coupling::Sleep{}.enabled;  ///< cells in balance are left out of the step until pushed
+  double sleep_traction =
+      coupling::Sleep{}.traction;  ///< kPa out of balance, below which a cell falls asleep
+  bool remesh = coupling::LifeParams{}.remesh;  ///< degenerate meshes of cells are mended
 };
 
-/// A zoom that follows the tissue.
+/// Zoom that follows the tissue.
 struct MovingZoomBlock : coupling::ZoomParams {
   MovingZoomBlock() { grid = 1800; }
 };
@@ -130,7 +127,7 @@ struct CellEntry {
   Vec3 pull = Vec3::Zero();         ///< nN, constant force spread over the cell
 };
 
-/// A type that generated cells may be of.
+/// Cell type of generated cells, with its share.
 struct TypeShare {
   std::string type;
   double share = 1;              ///< weight against the other types for the same place
@@ -141,27 +138,20 @@ struct CellsBlock {
   CellSource source = CellSource::kList;
   CellModel model = CellModel::kZoom;
   std::vector<CellEntry> list;
-  std::vector<TypeShare> types;  ///< of generated cells; empty = the only type
-  int count = 13;                ///< clump: cells kept, nearest the centre first
-  coupling::Lattice lattice = coupling::Lattice::kFcc;  ///< clump
-  double spacing = 1.0;              ///< clump, box: centre distance in cell diameters
-  double jitter = 0.0;               ///< clump, box: random displacement in cell diameters
-  std::array<int, 3> grid{3, 3, 3};  ///< box: cells along x, y, z
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< fill: corners of the box, um
-  double min_distance = 20;                      ///< fill: smallest centre distance, um
-  std::string file;                              ///< meshes: closed surfaces, one a cell
-  double unit = 1;                               ///< meshes: um per unit of the file
+  std::vector<TypeShare> types;                   ///< of generated cells; empty = the only type
+  int count = coupling::ClumpParameters{}.count;  ///< clump: cells kept, nearest the centre first
+  coupling::Lattice lattice = coupling::ClumpParameters{}.lattice;  ///< clump
+  double spacing = 1.0;  ///< clump, box: centre distance in cell diameters
+  double jitter = 0.0;   ///< clump, box: random displacement in cell diameters
+  std::array<int, 3> grid = coupling::BoxParameters{}.count;  ///< box: cells along x, y, z
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();               ///< fill: corners of the box, um
+  double min_distance = 20;  ///< fill: smallest centre distance, um
+  std::string file;          ///< meshes: closed surfaces, one a cell
+  double unit = 1;           ///< meshes: um per unit of the file
 };
 
-struct LobuleBlock {
-  coupling::LobuleShape shape = coupling::LobuleShape::kPie;
-  double radius = 280, height = 48, lesion_radius = 150;                            ///< um
-  double central_vein_radius = 10, portal_vein_radius = 15, sinusoid_radius = 4.7;  ///< um
-  double vessel_fraction = 0.12;   ///< target volume fraction of sinusoids
-  double branch_density = 4.8e-5;  ///< branch points per um^3
-  double min_distance = 20;        ///< um, smallest centre distance of seeds
-  int cells = 90;                  ///< wanted survivors
-};
+/// Generated lobule. Left to assemble/: initial_radius.
+struct LobuleBlock : coupling::LobuleParameters {};
 
 struct VesselBlock {
   std::string
@@ -185,7 +175,7 @@ struct VesselBlock {
   std::optional<double> spacing;  ///< um, longest segment of flexible vessels; empty = as they are
 };
 
-struct WallEntry {  ///< cells stay where (x - point).normal >= 0
+struct WallEntry {  ///< plane; cells stay where (x - point).normal >= 0
   std::string name;
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
   double speed = 0;     ///< um/s along the normal (a moving wall), from t = 0
@@ -224,15 +214,15 @@ struct PipetteBlock {  ///< a rigid tube; see contact::Pipette
   Schedule suction;           ///< kPa
 };
 
-/// A force on a single cell over time, or a spring that holds it.
-/// The direction may have any length > 0; build/ finds the anchor.
+/// Force on a single cell over time, or spring that holds it. The direction may have any length
+/// > 0; assemble/ computes the anchor.
 struct PullEntry : coupling::Pull {
   PullBy by = PullBy::kForce;
 };
 
 struct OutputBlock {
   double every = 1800;  ///< s
-  /// Further frames when a wall or the capsule opens, so many for every factor ten of the time
+  /// Number of further frames after a wall or the capsule opens, for every factor ten of the time
   /// since, from 1 s on; 0 = none.
   int after_opening = 0;
   bool compress = true;   ///< the run file
@@ -243,7 +233,7 @@ struct Scene {
   std::string file;  ///< path it was read from
   std::string name;
   std::string description;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = coupling::LifeParams{}.seed;
   Experiment experiment = Experiment::kFree;
   std::optional<CellModel> model;  ///< replaces cells.model; empty = cells.model stays
   TimeBlock time;

@@ -7,6 +7,7 @@
 
 #include "core/spelling.hpp"
 #include "core/units/units.hpp"
+#include "runs/scene/apparatus/apparatus.hpp"
 #include "runs/scene/quoted_quantity.hpp"
 
 namespace acinus::runs {
@@ -22,7 +23,7 @@ std::vector<std::string> type_names(const Scene& scene) {
   return names;
 }
 
-/// low < high in every coordinate.
+/// Checks low < high in every coordinate.
 void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer,
                const std::string& high_pointer, Report& report) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,15 +34,7 @@ void check_box(const Vec3& low, const Vec3& high, const std::string& low_pointer
   }
 }
 
-/// Whether anything in the scene may touch anything else.
-bool may_touch(const Scene& scene) {
-  const bool single = (scene.cells.source == CellSource::kList && scene.cells.list.size() == 1) ||
-                      (scene.cells.source == CellSource::kClump && scene.cells.count == 1);
-  return !single || scene.pipette || !scene.walls.empty() || !scene.static_meshes.empty() ||
-         scene.capsule.enabled || !scene.vessels.file.empty() || scene.lobule;
-}
-
-/// What says how a network is read needs one to read.
+/// Checks that keys for reading a network stand beside a network to read.
 void check_vessels(const Scene& scene, Report& report) {
   if (!scene.vessels.file.empty() || scene.lobule) return;
   const VesselBlock given = scene.vessels, plain;
@@ -60,7 +53,7 @@ void check_vessels(const Scene& scene, Report& report) {
                           "command line --set vessels.file=my_network.vtk");
 }
 
-/// Cells asleep are stepped without the vessels they lie on.
+/// Checks flexible vessels. They exclude sleep, which steps cells without the vessels they lie on.
 void check_flexible_vessels(const Scene& scene, Report& report) {
   const VesselBlock& v = scene.vessels;
   if (v.file.empty() && !scene.lobule && v.flexible)
@@ -73,15 +66,6 @@ void check_flexible_vessels(const Scene& scene, Report& report) {
   if (v.flexible && scene.life.sleep)
     report.add_relation({"/vessels/flexible", "/life/sleep"}, "true",
                         "goes only where all cells are awake: set /life/sleep to false");
-}
-
-void check_integrator(const Scene& scene, Report& report) {
-  if (scene.numerics.integrator != coupling::Integrator::kRos2 || scene.time.with_contacts ||
-      !may_touch(scene))
-    return;
-  report.add_relation({"/time/integrator", "/time/with_contacts"}, "\"ros2\"",
-                      "is for one cell that touches nothing: contacts make it chatter. Choose "
-                      "\"linearly-implicit\", or set /time/with_contacts to true");
 }
 
 void check_start_up(const Scene& scene, Report& report) {
@@ -143,7 +127,7 @@ void check_list(const Scene& scene, Report& report) {
   }
 }
 
-/// Types of cells that are not listed.
+/// Checks the types of generated cells.
 void check_types(const Scene& scene, Report& report) {
   const CellsBlock& cells = scene.cells;
   if (cells.types.empty() && cells.source != CellSource::kList && scene.cell_types.size() > 1) {
@@ -180,10 +164,6 @@ void check_cells(const Scene& scene, Report& report) {
   check_types(scene, report);
   if (cells.source == CellSource::kLobule && !scene.lobule) {
     report.add_relation({"/cells/source", "/lobule"}, "\"lobule\"",
-                        "needs a lobule block (acinus explain lobule)");
-  }
-  if (scene.experiment == Experiment::kLobule && !scene.lobule) {
-    report.add_relation({"/experiment", "/lobule"}, "\"lobule\"",
                         "needs a lobule block (acinus explain lobule)");
   }
   if (!scene.zoom.empty() && cells.model != CellModel::kZoom && !scene.model) {
@@ -298,14 +278,13 @@ void check_region(const Region& region, const std::string& pointer, Report& repo
 
 void check_rules(const Scene& scene, Report& report) {
   check_times(scene, report);
+  check_experiment(scene, report);
   check_vessels(scene, report);
   check_flexible_vessels(scene, report);
-  check_integrator(scene, report);
   check_contact_law(scene, report);
   check_single_cell(scene, report);
   check_inside(scene, report);
-  check_pipette(scene, report);
-  check_pulls(scene, report);
+  check_apparatus(scene, report);
   check_start_up(scene, report);
   check_cells(scene, report);
   check_zoom(scene, report);

@@ -14,7 +14,7 @@ namespace acinus::runs {
 std::string scene_schema();
 
 /// The same for any registry.
-/// @param extends  what the key of that name means
+/// @param extends  meaning of the key of that name
 std::string make_schema(const char* title, const char* extends,
                         const std::function<void(Visitor&)>& describe);
 

@@ -10,27 +10,33 @@
 #include "core/error.hpp"
 #include "core/spelling.hpp"
 #include "runs/scene/document.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {
 namespace fs = std::filesystem;
 
-/// File names a scene text mentions, as written: the scene it extends (first, "" = none), networks,
-/// meshes.
+/// Adds the file names at and below a value, by the keys that the registry says are files.
+void add_files(const Node& node, const std::string& pointer, std::vector<std::string>& files) {
+  if (node.kind == Node::Kind::kText && !node.text.empty()) {
+    const Entry* key = find_entry(pointer);
+    if (key != nullptr && key->is_file && std::ranges::count(key->choices, node.text) == 0)
+      files.push_back(node.text);
+  }
+  for (const JsonMember& member : node.members)
+    add_files(member.value, pointer + "/" + pointer_part(member.name), files);
+  for (std::size_t k = 0; k < node.items.size(); ++k)
+    add_files(node.items[k], fmt::format("{}/{}", pointer, k), files);
+}
+
+/// File names that a scene text mentions, as written: the scene it extends (first, "" = none), then
+/// networks, meshes, laws.
 std::vector<std::string> mentioned_files(const std::string& path) {
   const std::vector<Source> sources{{path, fs::path(path).parent_path().string(), false}};
   const Node root = parse_json(sources, 0, read_file(path, kMaxBytes));
-  std::vector<std::string> files;
-  const auto take = [&files](const Node* block, const char* key) {
-    const Node* node = block != nullptr ? block->find(key) : nullptr;
-    if (node != nullptr && !node->text.empty()) files.push_back(node->text);
-  };
-  take(&root, "extends");
-  if (files.empty()) files.emplace_back();
-  take(root.find("vessels"), "file");
-  if (const Node* meshes = root.find("static_meshes")) {
-    for (const Node& mesh : meshes->items) take(&mesh, "file");
-  }
+  const Node* extends = root.find("extends");
+  std::vector<std::string> files{extends != nullptr ? extends->text : ""};
+  add_files(root, "", files);
   return files;
 }
 

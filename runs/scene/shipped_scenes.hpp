@@ -17,14 +17,14 @@ struct ShippedScene {
 /// @throws Error (kFileError) if there is none.
 std::string scene_folder();
 
-/// All JSON files of a folder by name, with what their key "description" says. One that cannot be
+/// All JSON files of a folder by name, with the text of their key "description". One that cannot be
 /// parsed has its error as description.
 std::vector<ShippedScene> list_documents(const std::string& folder);
 
 /// All shipped scenes by name. A scene that cannot be parsed has its error as description.
 std::vector<ShippedScene> shipped_scenes();
 
-/// A file, or that of the shipped document of this name.
+/// Path of a file, or of the shipped document of this name.
 /// @param kind  "scene" or "study", for the message
 /// @throws Error (kFileError) with a hint if there is neither
 std::string find_document(const std::string& name, const std::string& kind,

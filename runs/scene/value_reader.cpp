@@ -25,7 +25,7 @@ std::string pointer_path(const std::string& path) {
   return text;
 }
 
-/// The message of parse_quantity starts with the text, which stands before it already.
+/// Message of parse_quantity without the text it starts with, which the report prints already.
 std::string without_prefix(const std::string& message, const std::string& text) {
   const std::string prefix = "\"" + text + "\": ";
   return pointer_path(message.starts_with(prefix) ? message.substr(prefix.size()) : message);
@@ -39,6 +39,7 @@ Range possible_sizes(Dimension dimension) {
   return {.low = 1e-15, .high = dimension == kLength ? 1e6 : large ? 1e24 : 1e12};
 }
 
+/// Rule that a number breaks which is not whole or too large.
 /// @param largest  that fits into the program's number
 std::string whole_number_rule(const Node& node, const char* largest) {
   const bool is_number = node.kind == Kind::kInteger || node.kind == Kind::kNumber;

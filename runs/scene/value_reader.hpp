@@ -1,5 +1,5 @@
 #pragma once
-/// One value of a document into a field, checked; what is wrong goes into the report.
+/// Reads and checks one value of a document; faults go into the report.
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace acinus::runs {
 
-/// Functions that return a bool return false, and leave the field as it is, where they complain.
+/// Reader of single values. Functions that return a bool return false, and leave the field as it
+/// is, where they report a fault.
 class ValueReader {
  public:
   ValueReader(const Document& document, Report& report) : document_(document), report_(report) {}

@@ -1,6 +1,6 @@
 #pragma once
-/// Keys as a registry shows them: name, dimension, unit, range, choices and meaning of each, one
-/// call of a visitor per key.
+/// Keys as a registry shows them: name, dimension, unit, range, choices, meaning and effects of
+/// each, one call of a visitor per key.
 
 #include <array>
 #include <cstddef>
@@ -28,7 +28,26 @@ struct Range {
 /// Bounds as text, in the preferred unit: "> 0 um", "0 to 0.5", "" when unbounded.
 std::string range_text(const Range& range, Dimension dimension, const char* unit);
 
-/// What the registry knows about one key. All texts are literals.
+/// Earliest part of a run that a key acts on. A change of the key makes that part and the later
+/// ones void.
+enum class Affects : std::uint8_t {
+  kStart,    ///< the cells at t = 0
+  kAges,     ///< those of types whose cells start at any age; the steps of other types
+  kStep,     ///< the steps: those after t = 0, and the way to rest before
+  kOutput,   ///< the end of the run and its files
+  kNothing,  ///< no result
+};
+
+/// Part of a key in the calibration of spheres.
+enum class InLaw : std::uint8_t {
+  kNo,
+  kDcm,     ///< constant of the deformable cells that a law is found for
+  kCbm,     ///< constant of the spheres that it corrects
+  kBoth,    ///< constant of both
+  kSetting  ///< numerical setting of the contact that it is found with
+};
+
+/// Entry of the registry for one key. All texts are literals.
 struct Key {
   const char* name = "";
   const char* meaning = "";
@@ -38,12 +57,19 @@ struct Key {
   const char* choices = "";  ///< "dcm|cbm|zoom"; "" = any
   const char* symbol = "";   ///< in the paper
   bool required = false;
-  const char* automatic = "";  ///< what "auto" stands for; "" = "auto" is not allowed
-  bool is_file = false;        ///< a text that is a path, or one of the choices
-  bool is_run = false;         ///< a text that is the path of a run folder
-  bool is_name = false;        ///< a text that is a name: letters, digits, _ and -
-  bool is_label = false;       ///< the same with spaces inside
-  const char* item = "";       ///< lists and maps: what `explain` calls one element
+  const char* automatic = "";        ///< what "auto" stands for; "" = "auto" is not allowed
+  bool is_file = false;              ///< a text that is a path, or one of the choices
+  bool is_run = false;               ///< a text that is the path of a run folder
+  bool is_name = false;              ///< a text that is a name: letters, digits, _ and -
+  bool is_label = false;             ///< the same with spaces inside
+  const char* item = "";             ///< lists and maps: name of one element in `explain`
+  std::optional<Affects> affects{};  ///< empty: as the block around, kStart outside all blocks
+  /// false: may differ between runs of one scene that `compare` sets side by side. Empty: as the
+  /// block around, true outside all blocks.
+  std::optional<bool> compared{};
+  bool softens = false;  ///< scaled by death.softening while a cell dissolves
+  InLaw in_law = InLaw::kNo;
+  const char* law_name = "";  ///< of a constant in law files, with its unit
 };
 
 /// The parts of Key::choices.

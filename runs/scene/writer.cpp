@@ -20,7 +20,8 @@ std::string in_quotes(const std::string& text) { return nlohmann::json(as_utf8(t
 
 class JsonWriter final : public Visitor {
  public:
-  /// @param start_state  stands for the run a scene starts from when folders are left out
+  /// @param start_state  replaces the folder of the run a scene starts from when folders are left
+  /// out
   JsonWriter(bool with_folders, std::string start_state)
       : with_folders_(with_folders), start_state_(std::move(start_state)) {}
 

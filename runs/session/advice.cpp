@@ -13,7 +13,7 @@
 namespace acinus::runs {
 namespace {
 
-/// What helps where there are more cells than room. Empty where cells still fit.
+/// Advice for overcrowded tissue; empty if the cells fit.
 std::string advise_if_full(const coupling::World& world, std::span<const std::int64_t> cells) {
   const std::optional<Crowd> crowd = find_crowd(world, cells);
   if (!crowd) return {};
@@ -73,9 +73,9 @@ std::string advise(const coupling::World& world, const Excess& excess) {
 
 std::string advise_start(const Scene& scene, const coupling::World& world, const Excess& excess) {
   if (scene.start_up.enabled) return advise(world, excess);
-  std::vector<std::string> ways = ways_to_start_smaller(scene);
+  std::vector<std::string> ways = list_smaller_starts(scene);
   constexpr std::size_t kPair = 2;
-  ways.push_back(excess.cells.size() == kPair ? way_to_part(scene)
+  ways.push_back(excess.cells.size() == kPair ? advise_spacing(scene)
                                               : "place them elsewhere or take smaller ones");
   return fmt::format("{}.", fmt::join(ways, ", or "));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What to change when a simulation cannot continue: advice that can work for the models there are.
+/// Advice for simulations that cannot continue, limited to changes that apply to their models.
 
 #include <cstdint>
 #include <optional>
@@ -13,23 +13,25 @@
 
 namespace acinus::runs {
 
-/// A place where cells have more volume at rest than there is room.
+/// Overcrowded neighbourhood: the cells have more rest volume than space.
 struct Crowd {
-  std::int64_t cell = -1;  ///< lineage, in the middle of it
-  double share = 0;        ///< volume at rest of the cells around it over the volume of that space
+  std::int64_t cell = -1;  ///< lineage of the cell at its centre
+  /// Rest volume of the cells around it relative to the volume of the neighbourhood.
+  double share = 0;
 };
 
-/// The most crowded place among the cells named, or among all if none is; nothing where cells still
-/// fit. Room taken by vessels is not taken off, so tissue called full is full.
+/// Most crowded neighbourhood among those of the named cells, or of all cells if none is named;
+/// empty if the cells fit. Vessel volume is not subtracted, so tissue reported as full is full.
 std::optional<Crowd> find_crowd(const coupling::World& world, std::span<const std::int64_t> cells);
 
-/// Why a step failed at any length and what may help; ends with a full stop.
+/// Advice for a step that fails at any step size: cause and changes that may help. Ends with a full
+/// stop.
 std::string advise(const coupling::World& world, const coupling::StepResult& step);
 
-/// The same for overlaps that contact cannot mend.
+/// Advice for overlaps that contact cannot resolve.
 std::string advise(const coupling::World& world, const Excess& excess);
 
-/// What to change in the scene when its first frame already has such overlaps.
+/// Advice for a scene whose first frame has such overlaps.
 std::string advise_start(const Scene& scene, const coupling::World& world, const Excess& excess);
 
 }  // namespace acinus::runs

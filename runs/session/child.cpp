@@ -29,10 +29,11 @@ namespace {
 
 constexpr const char* kThreads = "OMP_NUM_THREADS";
 
-/// How launchers tell the processes that they start together of each other.
+/// Prefixes of the environment variables by which MPI launchers connect their processes; a child
+/// must not inherit them.
 constexpr std::array kLaunchers = {"OMPI_", "PMI_", "PMIX_", "SLURM_STEP_NUM_TASKS="};
 
-/// This process's environment with one thread for the child, which is on its own.
+/// Environment of a child: that of this process, with one thread and without MPI.
 std::vector<std::string> environment() {
   std::vector<std::string> all{std::string(kThreads) + "=1"};
   for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -52,8 +53,8 @@ int open_output(const std::string& path) {
   return descriptor;
 }
 
-/// Keeps signals from this thread while it lives. Until a new process has forgotten the handlers of
-/// this one, a signal meant for it would reach what they share.
+/// Blocks all signals in this thread while it lives. Until the new process has reset its handlers,
+/// a signal sent to it would reach handlers it shares with this one.
 class SignalsHeld {
  public:
   SignalsHeld() {
@@ -69,8 +70,8 @@ class SignalsHeld {
   sigset_t before_{};
 };
 
-/// In the new process: signals that have handlers do what they do by default, and none is held
-/// back. Those that are ignored stay so, as nohup wants it.
+/// Resets handled signals to their defaults and unblocks all, in the new process. Ignored signals
+/// stay ignored, as nohup needs.
 void forget_signals() {
   struct sigaction by_default {};
   by_default.sa_handler = SIG_DFL;
@@ -89,7 +90,7 @@ struct Bound {
   double most;
 };
 
-/// Sets the limits of a process, which ends if one cannot be set.
+/// Sets the resource limits of this process; exits if one cannot be set.
 void set_bounds(std::span<const Bound> bounds) {
   for (const Bound& bound : bounds) {
     if (!std::isfinite(bound.most)) continue;
@@ -209,8 +210,8 @@ std::optional<std::size_t> wait_for_any(const std::vector<const Child*>& childre
     deadline = std::min(deadline, child->deadline());
   }
   for (;;) {
-    constexpr double kLongest = 1e6;  // s: poll counts milliseconds in an int
-    const double left = std::clamp(deadline - wall_seconds(), 0.0, kLongest);
+    constexpr double kLongestWait = 1e6;  // s: poll counts milliseconds in an int
+    const double left = std::clamp(deadline - wall_seconds(), 0.0, kLongestWait);
     const int n = poll(ends.data(), ends.size(), static_cast<int>(std::ceil(1000 * left)));
     for (std::size_t k = 0; k < ends.size(); ++k)
       if ((n > 0 && ends[k].revents != 0) || wall_seconds() > children[k]->deadline()) return k;

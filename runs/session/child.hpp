@@ -1,5 +1,5 @@
 #pragma once
-/// This program, or one that stands beside it, started as a child process.
+/// Child processes: this program, or one in its folder.
 
 #include <sys/types.h>
 
@@ -11,35 +11,38 @@
 
 namespace acinus::runs {
 
+/// End of a child process.
 struct ChildEnd {
-  int code = -1;           ///< exit code; -1 when a signal ended it
-  int signal = 0;          ///< the signal that did; 0 = none
-  bool timed_out = false;  ///< it ran beyond its limit and was killed
-  double cpu_s = 0;        ///< s, user and system
+  int code = -1;           ///< exit code; -1 if a signal ended it
+  int signal = 0;          ///< signal that ended it; 0 = none
+  bool timed_out = false;  ///< killed after its wall-time limit
+  double cpu_s = 0;        ///< CPU time, user and system, s
 };
 
+/// Program, output and limits of a child process.
 struct ChildOptions {
-  /// The file to start. This very program unless told otherwise, also when a build has replaced its
-  /// file meanwhile.
+  /// Executable file. By default this very program, even if its file was replaced meanwhile.
   std::string program = "/proc/self/exe";
-  std::string output;         ///< file that gets stderr and, without `progress`, stdout
-  std::string progress = "";  ///< file that gets stdout
-  double limit_s = std::numeric_limits<double>::infinity();  ///< wall time, then it is killed
-  /// Asked to stop by SIGTERM when this process ends, however it ends.
+  std::string output;         ///< file for stderr and, without `progress`, stdout
+  std::string progress = "";  ///< file for stdout
+  /// Wall-time limit, s; the child is killed after it.
+  double limit_s = std::numeric_limits<double>::infinity();
+  /// Send SIGTERM to the child when this process ends in any way.
   bool follows_parent = false;
-  /// Bounds of what it may take: address space and processor time, and the largest file it may
-  /// write. Infinite: those of this process.
-  double most_memory = std::numeric_limits<double>::infinity();   ///< bytes
-  double most_cpu_s = std::numeric_limits<double>::infinity();    ///< s
-  double largest_file = std::numeric_limits<double>::infinity();  ///< bytes
+  /// Resource limits; infinite: those of this process.
+  double most_memory = std::numeric_limits<double>::infinity();  ///< address space, bytes
+  double most_cpu_s = std::numeric_limits<double>::infinity();   ///< processor time, s
+  /// Largest file it may write, bytes.
+  double largest_file = std::numeric_limits<double>::infinity();
 };
 
-/// The path of a program in the folder of this one.
+/// Path of a program in the folder of this one.
 std::string program_beside(const std::string& name);
 
-/// One running child. The destructor kills what still runs.
+/// A child process. The destructor kills it if it still runs.
 class Child {
  public:
+  /// Starts the child.
   /// @param words  command line after the program's name
   /// @throws Error(kFileError) if it cannot be started
   Child(const std::vector<std::string>& words, const ChildOptions& options);
@@ -48,9 +51,9 @@ class Child {
   ~Child();
 
   void send(int signal) const;
-  double deadline() const { return deadline_; }   ///< wall_seconds()
-  int descriptor() const { return descriptor_; }  ///< readable when the child has ended
-  /// Kills the child if it still runs, then collects it.
+  double deadline() const { return deadline_; }   ///< on the clock of wall_seconds()
+  int descriptor() const { return descriptor_; }  ///< readable once the child has ended
+  /// Kills the child if it still runs and reaps it.
   ChildEnd collect();
 
  private:
@@ -59,8 +62,8 @@ class Child {
   double deadline_ = 0;
 };
 
-/// Waits until a child has ended or is beyond its limit, at most `patience_s`.
-/// @return its index; nothing when patience ends, or a signal came while it is not endless
+/// Waits until a child has ended or exceeded its time limit, at most patience_s (s).
+/// @return its index; empty on timeout, or after a signal unless patience_s is infinite
 std::optional<std::size_t> wait_for_any(
     const std::vector<const Child*>& children,
     double patience_s = std::numeric_limits<double>::infinity());

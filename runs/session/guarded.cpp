@@ -18,17 +18,17 @@
 namespace acinus::runs {
 namespace {
 
-/// Signals of processes that read or write out of bounds.
-constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
-constexpr std::array kPassedOn{SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGQUIT};
+/// Signals of crashes: out-of-bounds access, failed assertions, arithmetic faults.
+constexpr std::array kCrashSignals{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+constexpr std::array kForwardedSignals{SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGQUIT};
 
-/// Signals that are waited for in place of what they do otherwise.
+/// Blocks signals so that they can be waited for instead of taking effect.
 class SignalsTaken {
  public:
   SignalsTaken() {
     sigemptyset(&taken_);
     sigaddset(&taken_, SIGCHLD);
-    for (const int signal : kPassedOn) sigaddset(&taken_, signal);
+    for (const int signal : kForwardedSignals) sigaddset(&taken_, signal);
     sigprocmask(SIG_BLOCK, &taken_, &before_);
   }
   ~SignalsTaken() { give_back(); }
@@ -41,7 +41,8 @@ class SignalsTaken {
   sigset_t taken_{}, before_{};
 };
 
-/// Does the work in the child, which prints its errors: exceptions do not cross processes.
+/// Does the work in the child and prints its errors there: exceptions do not cross processes.
+/// @return exit code
 int do_work(const std::function<int()>& work) {
   try {
     return work();
@@ -54,7 +55,8 @@ int do_work(const std::function<int()>& work) {
   return static_cast<int>(Exit::kInternal);
 }
 
-/// Passes signals on until the child has ended.   @return its wait status
+/// Forwards signals to the child until it has ended.
+/// @return its wait status
 int wait_for(pid_t child, const SignalsTaken& signals) {
   for (;;) {
     int status = 0;
@@ -87,7 +89,7 @@ int run_guarded(const std::string& files, const std::function<int()>& work) {
   const int status = wait_for(child, signals);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const int signal = WTERMSIG(status);
-  check(std::ranges::find(kCrashes, signal) == kCrashes.end(),
+  check(std::ranges::find(kCrashSignals, signal) == kCrashSignals.end(),
         fmt::format("{}: reading ended with signal {} ({}). A file there is damaged in a way that "
                     "the reader of its format does not bear. Use an intact copy.",
                     files, signal, strsignal(signal)),

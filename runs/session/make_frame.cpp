@@ -9,7 +9,6 @@
 #include "contact/wall_mesh.hpp"
 #include "coupling/generate/pipette_surface.hpp"
 #include "coupling/generate/vessel_surface.hpp"
-#include "coupling/step/stages.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -18,7 +17,7 @@ using coupling::CellMeasure, coupling::NodeMeasure;
 
 constexpr std::uint8_t kShell = 0, kSphere = 1, kBoundary = 2, kNucleus = 3;
 
-/// Appends one number per component.
+/// Appends one component to a field, in single precision.
 void push(io::Field& field, double value) { field.value.push_back(static_cast<float>(value)); }
 
 io::Table cell_table(const std::vector<CellMeasure>& cells) {
@@ -69,7 +68,7 @@ io::Table interface_table(const std::vector<coupling::InterfaceForce>& forces) {
   return {{dcm, cbm}, {force, area, gap}};
 }
 
-/// Writes points and triangles with their data into a frame.
+/// Builder of a frame: appends points, triangles, spheres and their data.
 class FrameBuilder {
  public:
   explicit FrameBuilder(const Snapshot& snapshot) : snapshot_(snapshot) {
@@ -96,7 +95,8 @@ class FrameBuilder {
     add_triangles(triangle, node.size(), nullptr, kBoundary);
   }
 
-  /// Spheres come after all surfaces.
+  /// Appends a sphere.
+  /// @pre all surfaces are appended
   void add_sphere(const CellMeasure& cell) {
     push_point(cell.center, Vec3::Zero(), 0, 0);
     push_cell(&cell, kSphere, cell.radius);
@@ -149,8 +149,8 @@ class FrameBuilder {
       pressure_{"pressure", "kPa", 1, {}}, cytosol_{"cytosol_pressure", "kPa", 1, {}},
       radius_{"radius", "um", 1, {}}, leader_{"leader", "1", 1, {}},
       strength_{"strength", "1", 1, {}};
-  std::int64_t base_ = 0;  ///< nodes so far
-  std::size_t node_ = 0;   ///< of those of cells
+  std::int64_t base_ = 0;  ///< number of nodes so far
+  std::size_t node_ = 0;   ///< number of cell nodes so far
 };
 
 void add_nuclei(const dcm::State& s, const coupling::Workspace& w, const Snapshot& snapshot,
@@ -193,8 +193,8 @@ io::Frame make_frame(const coupling::World& world, const coupling::Workspace& w,
 
 namespace {
 
-/// Half the JKR overlap of two such spheres under the pair's force: how far the sphere's own side
-/// yields.
+/// Indentation of each deformable cell by a sphere that the contact force explains, um: half the
+/// JKR overlap of two such spheres under that force, the share of the sphere's own side.
 std::vector<coupling::KnownIndentation> explained_indentations(const coupling::World& world,
                                                                const Snapshot& snapshot) {
   const cbm::State& s = world.state.cbm;

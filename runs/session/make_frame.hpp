@@ -1,5 +1,5 @@
 #pragma once
-/// A frame of the run file from a world, and the audit of its overlaps.
+/// Frames of the run file, and the independent audit of their overlaps.
 
 #include <array>
 #include <optional>
@@ -13,24 +13,26 @@
 
 namespace acinus::runs {
 
-/// Vessels and pipettes as triangles.
+/// Triangulates vessels and pipettes for display.
 geometry::Surface draw_boundary(const contact::Boundary& boundary);
 
-/// Fills the arrays of a frame. @pre take_snapshot of the same moment
-/// @param boundary  of draw_boundary
+/// Fills the arrays of a frame.
+/// @param boundary  of draw_boundary()
+/// @pre take_snapshot() of the same moment
 io::Frame make_frame(const coupling::World& world, const coupling::Workspace& work,
                      const Snapshot& snapshot, const geometry::Surface& boundary);
 
-/// The closed meshes of a boundary as the audit sees them, as long as the boundary lives.
+/// Closed meshes of a boundary prepared for the audit; refers to the boundary.
 struct StaticBodies {
   std::optional<geometry::AuditBody> vessel_surface;  ///< none: cells touch cones
   std::vector<coupling::AuditStatic> mesh;
-  std::vector<std::vector<std::array<int, 3>>> outward;  ///< [mesh] its triangles
+  std::vector<std::vector<std::array<int, 3>>> outward;  ///< [mesh][triangle], oriented outwards
 };
 StaticBodies prepare_static_bodies(const contact::Boundary& boundary);
 
-/// Independent check of overlaps at this moment. @pre take_snapshot of the same moment
-/// @param bodies  of the world's boundary
+/// Audits overlaps at the present positions with code independent of the contact search.
+/// @param bodies  static bodies of the world's boundary
+/// @pre take_snapshot() of the same moment
 coupling::AuditResult audit_world(const coupling::World& world, const coupling::Workspace& work,
                                   const Snapshot& snapshot, const StaticBodies& bodies);
 

@@ -34,8 +34,8 @@ const char* phase_name(coupling::Phase p) {
   return "running";
 }
 
-/// Simulated time at which the present phase ends, on the clock of the state; infinite where that
-/// depends on how the tissue settles.
+/// End of the present phase on the clock of the state, s; infinite if it depends on the settling of
+/// the tissue.
 double end_of_phase(const coupling::World& world, double end) {
   const coupling::Clock& clock = world.state.clock;
   const coupling::StartUp& start_up = world.params.start_up;

@@ -1,5 +1,5 @@
 #pragma once
-/// Progress of a run: one line on a terminal, one line a minute otherwise and from several
+/// Progress of a run: one line on a terminal, one line a minute otherwise and with several
 /// processes, or JSON lines.
 
 #include <string>
@@ -10,19 +10,21 @@
 
 namespace acinus::runs {
 
+/// Printer of the progress of a run, and its logger.
 class Progress {
  public:
-  /// Of several processes only the first one speaks.
+  /// Progress of a run until `end` (s since t = 0). Only the first of several processes prints.
   Progress(const RunOptions& options, double end, const Ranks& ranks);
-  /// Rate and time left count from here: a resumed run has not simulated its past in this process.
+  /// Starts the estimate of rate and time left here: a resumed run did not simulate its past in
+  /// this process.
   void begin(const coupling::World& world);
-  /// Called after every step; prints when it is time to.
+  /// Prints if a line is due. Called after every step.
   void step(const coupling::World& world);
-  /// Ends the terminal line.
+  /// Ends the line on the terminal.
   void finish();
-  /// A message of its own line, also to the log.
+  /// Prints a message on a line of its own and logs it.
   void note(const std::string& text);
-  /// A warning: to stderr, also of a quiet run, and to the log.
+  /// Prints a warning to stderr, also of a quiet run, and logs it.
   void warn(const std::string& text);
 
  private:
@@ -32,7 +34,7 @@ class Progress {
   Ranks ranks_;
   double end_, started_, last_ = -1e300;
   coupling::Phase phase_ = coupling::Phase::kRun;
-  TimeLeft left_;  ///< of the phase
+  TimeLeft left_;  ///< for the present phase
   bool terminal_, line_open_ = false;
 };
 

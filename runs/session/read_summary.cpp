@@ -10,6 +10,7 @@
 #include "io/checkpoint.hpp"
 #include "io/disk.hpp"
 #include "runs/scene/bounded_json.hpp"
+#include "runs/scene/json_text.hpp"
 #include "runs/session/run_folder.hpp"
 #include "runs/session/shell_quote.hpp"
 
@@ -17,7 +18,7 @@ namespace acinus::runs {
 
 namespace {
 
-/// Error for a folder without a summary, which is written when a run ends.
+/// Error for a folder without summary.json, which is written when a run ends.
 Error missing_summary(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code code;
@@ -44,6 +45,15 @@ Error missing_summary(const std::string& folder) {
                Exit::kFileError);
 }
 
+RunOutcome outcome_of(const std::string& status, const std::string& file) {
+  const int index = choice_index(kChoices<RunOutcome>, status);
+  check(index >= 0,
+        fmt::format("{}: status is \"{}\"; completed, stopped and failed are possible. Name a run "
+                    "folder that `acinus run` wrote.",
+                    file, as_utf8(status.substr(0, 80))));
+  return static_cast<RunOutcome>(index);
+}
+
 }  // namespace
 
 RunSummary read_summary(const std::string& folder) {
@@ -58,7 +68,7 @@ RunSummary read_summary(const std::string& folder) {
     s.hash = j.at("scene_hash");
     s.version = j.at("version");
     s.git = j.at("git");
-    s.status = j.at("status");
+    s.status = outcome_of(j.at("status"), file);
     s.cause = j.value("cause", "");
     s.state_hash = j.value("state_hash", "");
     if (j.contains("start")) s.start_hash = j.at("start").at("state_hash");

@@ -25,7 +25,7 @@ std::string now_text() {
   return text;
 }
 
-/// Calls f(name, count) for what is in a run file.
+/// Calls f(name, count) for every kind of record in a run file.
 template <class Counts, class F>
 void visit(Counts& c, F f) {
   f("file/frames", c.frame);
@@ -81,11 +81,11 @@ Notes Recorder::resume() {
   io::RunFileCounts counts;
   visit(counts, [&](const char* name, std::int64_t& n) { n = data.count(name); });
   file_ = io::RunFile::open_for_append(run_file(), counts, file_options());
-  notes.said.push_back(
+  notes.info.push_back(
       fmt::format("resumed at {:.4g} h from {}", simulation_.time() / 3600, loaded.file));
-  if (!loaded.warning.empty()) notes.warned.push_back(loaded.warning);
+  if (!loaded.warning.empty()) notes.warnings.push_back(loaded.warning);
   if (!file_->lost().empty())
-    notes.warned.push_back(fmt::format(
+    notes.warnings.push_back(fmt::format(
         "{}: some of its bytes are not those that were written. Lost: {}. The rest is kept and the "
         "run goes on; the damaged file is {}.damaged",
         run_file(), fmt::join(file_->lost(), ", "), run_file()));
@@ -145,7 +145,7 @@ void Recorder::add_life(const coupling::LifeReport& report) {
   const coupling::World& world = simulation_.world();
   runs::add_life(life_, report, coupling::count_cells(world.state), wall_s());
   observe_births(scene_, world, report, observed_);
-  for (const coupling::LifeEvent& e : report.events) add_event(e.code, e.message, e.cells);
+  for (const coupling::LifeEvent& e : report.events) add_event(name_of(e.kind), e.message, e.cells);
 }
 
 io::CheckpointData Recorder::make_checkpoint() {
@@ -171,11 +171,11 @@ void Recorder::save() {
   io::save_checkpoint(options_.out, make_checkpoint());
 }
 
-void Recorder::close(const std::string& status, const std::string& cause) {
+void Recorder::close(RunOutcome status, const std::string& cause) {
   if (!file_) return;
   save();
   file_->set_provenance("end", now_text());
-  file_->set_provenance("status", status);
+  file_->set_provenance("status", name_of_choice(status));
   file_->close();
   const coupling::World& world = simulation_.world();
   const coupling::Workspace& work = simulation_.work();

@@ -1,7 +1,7 @@
 #pragma once
-/// What a run leaves in its folder: frames, series and events in the run file, checkpoints, the
-/// summary. Its counters go on where a resumed run left them. Of several processes one writes, the
-/// others only work out with it what there is to write.
+/// Output of a run to its folder: frames, series and events in the run file, checkpoints, summary.
+/// Counters continue those of a resumed run. With several processes the first one writes; the
+/// others take part in computing.
 
 #include <cstdint>
 #include <limits>
@@ -23,42 +23,45 @@
 
 namespace acinus::runs {
 
+/// Writer of the files of a run.
 class Recorder {
  public:
-  /// @param simulation  is only read; lives as long as the recorder
+  /// Recorder of a simulation, which it only reads.
+  /// @param simulation  must outlive the recorder
   Recorder(const Scene& scene, const RunOptions& options, coupling::Simulation& simulation);
 
-  void create();  ///< A new run file. @throws Error(kFileError)
-  /// Goes on with an older one: the world gets the state of the checkpoint.
-  /// @return what was done   @throws Error(kBadInput, kFileError)
+  void create();  ///< Creates the run file. @throws Error(kFileError)
+  /// Continues an existing run file and sets the world to the state of the checkpoint.
+  /// @return notes on the resumption
+  /// @throws Error(kBadInput, kFileError)
   Notes resume();
 
-  /// @param last  no frame is to come in which an overlap could be gone
-  /// @return why the run must not go on from this frame, with depth_um = 0 if it may: overlaps of
-  ///         the start must shrink from frame to frame
+  /// Writes a frame and audits its overlaps.
+  /// @param last  no later frame can resolve an overlap
+  /// @return overlaps that end the run; depth_um = 0 if it may go on, since overlaps of the start
+  /// may shrink from frame to frame
   Excess write_frame(bool last);
   void write_series(const coupling::StepResult& step);
   void add_event(const std::string& code, const std::string& message,
                  const std::vector<std::int64_t>& cells = {});
   void add_life(const coupling::LifeReport& report);
-  /// For the summary.
-  void add_note(const std::string& note) { notes_.said.push_back(note); }
-  void add_warning(const std::string& warning) { notes_.warned.push_back(warning); }
+  /// Adds a note to the summary.
+  void add_note(const std::string& note) { notes_.info.push_back(note); }
+  void add_warning(const std::string& warning) { notes_.warnings.push_back(warning); }
 
   void save();  ///< Writes a checkpoint. @throws Error(kFileError)
-  /// Checkpoint, run file and summary in their last form.
-  /// @param status  completed | stopped | failed
-  void close(const std::string& status, const std::string& cause);
+  /// Writes checkpoint, run file and summary in their final form.
+  void close(RunOutcome status, const std::string& cause);
 
-  double last_frame() const { return last_frame_; }  ///< s since t = 0
-  /// Why the frames so far show all that the experiment is about; empty: they do not.
-  std::string why_experiment_is_over() const {
-    return why_over(scene_.experiment, observed_.measures);
-  }
+  double last_frame() const { return last_frame_; }  ///< time of the last frame, s since t = 0
+  /// Reason why the frames so far complete the experiment; empty if they do not.
+  std::string completion_reason() const { return why_over(scene_.experiment, observed_.measures); }
   bool has_frame() const { return last_frame_ > kNoFrame; }
-  /// What was wrong with the last frame.
+  /// Unresolvable overlaps of the last frame.
   const Excess& excess() const { return excess_; }
-  double wall_s() const { return wall_before_ + wall_seconds() - started_; }  ///< with resumes
+  double wall_s() const {
+    return wall_before_ + wall_seconds() - started_;
+  }  ///< wall time including the runs it continues
 
  private:
   const Ranks& ranks() const { return simulation_.world().ranks; }
@@ -71,16 +74,16 @@ class Recorder {
   coupling::Simulation& simulation_;
   std::optional<StaticBodies> static_bodies_;  ///< prepared with the first frame
   geometry::Surface drawn_boundary_;
-  std::optional<io::RunFile> file_;  ///< none: another process writes
+  std::optional<io::RunFile> file_;  ///< none on processes that do not write
   RunTotals totals_;
   LifeTotals life_;
   ObservedRun observed_;
   Notes notes_;
   double started_ = wall_seconds(), started_cpu_ = cpu_seconds();
-  double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues
+  double wall_before_ = 0, cpu_before_ = 0;  ///< of the runs this one continues, s
   static constexpr double kNoFrame = -1e300;
   double last_frame_ = kNoFrame;
-  /// The first frame may overlap: contact is given a chance.
+  /// Infinite before the first frame, whose overlaps contact may resolve.
   Excess excess_{std::numeric_limits<double>::infinity(), {}, {}};
 };
 

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 
 namespace acinus::runs {
 namespace {
@@ -29,20 +30,19 @@ constexpr std::array kResultFiles{"run.vtkhdf",
                                   "start.h5",
                                   "run.log"};
 
-/// Held while a run writes in the folder. It is never removed, else two processes could hold two
-/// files of that name.
+/// Lock file held while a run writes in the folder. It is never removed: two processes could
+/// otherwise hold two files of that name.
 constexpr const char* kLockedFile = "run.lock";
 
 std::string lock_file(const std::string& folder) { return folder + "/" + kLockedFile; }
 
-/// Keys that a resumed run may change.
+/// True if a resumed run may change the key.
 bool may_change(const std::string& pointer) {
-  return pointer == "/name" || pointer == "/description" || pointer == "/time/end" ||
-         pointer == "/start_up/from" || pointer.starts_with("/output");
+  const Entry* key = find_innermost_entry(pointer);
+  return key != nullptr && key->affects >= Affects::kOutput;
 }
 
-/// Whether the folder may be used: it holds what the run needs, and nothing that it may not
-/// replace.
+/// Checks that the folder holds the checkpoint the run needs, and no results it may not replace.
 void check_use(const std::string& folder, const RunOptions& options) {
   std::error_code failed;
   check(!fs::exists(folder, failed) || fs::is_directory(folder),
@@ -65,10 +65,10 @@ void check_use(const std::string& folder, const RunOptions& options) {
 }
 
 Error being_written(const std::string& folder) {
-  constexpr double kPatience = 2;  // s
+  constexpr double kLockTimeout = 2;  // s
   return Error(fmt::format(
       "--out {}: {} is writing in this folder. Wait until it ends, or choose another --out.",
-      folder, io::name_holder(lock_file(folder), kPatience)));
+      folder, io::name_holder(lock_file(folder), kLockTimeout)));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The folder of one run: whether it may be used, and whether its checkpoint fits the scene.
+/// Folder of a run: permission to use it, and consistency of its checkpoint with the scene.
 
 #include <string>
 
@@ -10,23 +10,22 @@
 
 namespace acinus::runs {
 
-/// Looks at a folder without changing anything.
-/// @throws Error(kBadInput) when it is a file, another process writes in it, it holds results and
-///         neither resume nor overwrite was asked, or has no checkpoint to resume from
+/// Checks that a run may use the folder, without changing it.
+/// @throws Error(kBadInput) if it is a file, another process writes in it, it holds results and
+/// neither resume nor overwrite was asked for, or it has no checkpoint to resume from
 void check_folder(const std::string& folder, const RunOptions& options);
 
-/// Makes the folder, or checks that an existing one may be used, and empties it if asked.
-/// @return to be kept while the run writes: no other process can prepare the folder meanwhile
-/// @throws Error(kBadInput) when it holds results and neither resume nor overwrite was asked, or
-///         another process, which is named, writes in it; Error(kFileError) when it cannot be made
-///         or written
+/// Creates the folder, or checks an existing one and empties it if asked.
+/// @return lock to be kept while the run writes; it excludes other processes
+/// @throws Error(kBadInput) if it holds results and neither resume nor overwrite was asked for, or
+/// another process, which is named, writes in it; Error(kFileError) if it cannot be created or
+/// written
 io::FileLock prepare_folder(const std::string& folder, const RunOptions& options);
 
-/// Whether a process writes in the folder of a run.
+/// True if a process writes in the run folder.
 bool is_being_written(const std::string& folder);
 
-/// Refuses a checkpoint made from another scene: only the end time, the output and the name may
-/// differ.
+/// Refuses a checkpoint of another scene; only end time, output and name may differ.
 /// @throws Error(kBadInput) listing the differing keys
 void check_same_scene(const io::CheckpointData& checkpoint, const Scene& scene);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Options of one run: its folder, when it stops, what it prints.
+/// Options of one run: folder, stopping criteria, output.
 
 #include <optional>
 #include <string>
@@ -9,24 +9,25 @@
 
 namespace acinus::runs {
 
+/// Options of one run.
 struct RunOptions {
   std::string scene_file;
-  std::vector<std::string> set;  ///< PATH=VALUE, already applied to the scene
+  std::vector<std::string> set;  ///< changes of the scene, PATH=VALUE, already applied
   std::string out;               ///< run folder
-  bool resume = false;           ///< go on from the checkpoint in `out`
+  bool resume = false;           ///< continue from the checkpoint in `out`
   bool overwrite = false;        ///< results in `out` may be replaced
   coupling::Sharing sharing = coupling::Sharing::kBalanced;
   int threads = 0;                  ///< 0 = all cores
-  std::optional<double> until_s;    ///< stop at this simulated time, s; empty = time.end
-  std::optional<int> until_cells;   ///< stop at so many cells; empty = time.until_cells
-  double checkpoint_every_s = 600;  ///< wall time, s
-  /// Stop with a checkpoint when more is in use, bytes; empty = 95 % of the machine's.
+  std::optional<double> until_s;    ///< simulated time to stop at, s; empty = time.end
+  std::optional<int> until_cells;   ///< number of cells to stop at; empty = time.until_cells
+  double checkpoint_every_s = 600;  ///< wall time between checkpoints, s
+  /// Memory in use at which the run stops with a checkpoint, bytes; empty = 95 % of the machine's.
   std::optional<double> max_memory;
   bool timings = false;        ///< print the time of each stage at the end
-  bool quiet = false;          ///< no progress, warnings and errors only
-  bool progress_json = false;  ///< progress as one JSON object a line
-  bool is_part = false;      ///< of a larger job, which says itself how to go on when it is stopped
-  std::string command_line;  ///< for the provenance
+  bool quiet = false;          ///< warnings and errors only, no progress
+  bool progress_json = false;  ///< print progress as one JSON object a line
+  bool is_part = false;        ///< part of a larger job, which itself explains how to resume it
+  std::string command_line;    ///< recorded as provenance
 };
 
 }  // namespace acinus::runs

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -39,7 +38,7 @@
 namespace acinus::runs {
 namespace {
 
-/// The logger of a run goes with it: a process may run several scenes.
+/// Guard that restores the default logger after a run, since a process may run several scenes.
 struct LoggerKept {
   std::shared_ptr<spdlog::logger> before = spdlog::default_logger();
   LoggerKept() = default;
@@ -51,7 +50,7 @@ struct LoggerKept {
   LoggerKept& operator=(const LoggerKept&) = delete;
 };
 
-/// What to type to go on: the same scene, changes and folder.
+/// Command line that resumes the run with the same scene, changes and folder.
 std::string resume_command(const RunOptions& options) {
   std::string command = "acinus run " + quote_for_shell(options.scene_file) + " --resume --out " +
                         quote_for_shell(options.out);
@@ -62,8 +61,8 @@ std::string resume_command(const RunOptions& options) {
 }
 
 double memory_limit(const RunOptions& options) {
-  constexpr double kShare = 0.95;
-  return options.max_memory.value_or(kShare * machine_memory());
+  constexpr double kMostMemoryShare = 0.95;
+  return options.max_memory.value_or(kMostMemoryShare * machine_memory());
 }
 
 /// One run from its first to its last step.
@@ -78,12 +77,12 @@ class SceneRun {
   void end_phase(const std::string& what);
   void note(const std::string& text);
   void warn(const std::string& text);
-  void tell(const Notes& notes);
+  void report(const Notes& notes);
   bool frame_is_due() const;
   void write_frame(bool last);
   bool is_last() const;
   int loop();
-  void close(const std::string& status, const std::string& cause);
+  void close(RunOutcome status, const std::string& cause);
   void stop(const std::string& why);
   int finish(const coupling::LoopResult& steps);
   int give_up(const std::string& cause, const std::vector<std::int64_t>& cells);
@@ -95,19 +94,19 @@ class SceneRun {
 
   const Scene& scene_;
   const RunOptions& options_;
-  Notes notes_;           ///< of the geometry
-  double vessel_length_;  ///< um
+  Notes notes_;           ///< on the construction of the world
+  double vessel_length_;  ///< total length, um
   coupling::Simulation simulation_;
   Recorder recorder_;
-  double end_;  ///< s
+  double end_;  ///< simulated time at which the run ends, s
   Progress progress_;
   double started_ = wall_seconds(), last_save_ = started_;
   std::int64_t accepted_before_ = 0;  ///< steps of the runs this one continues
   double memory_limit_;               ///< bytes
-  double next_look_ = 0;              ///< at the memory in use, on the clock of wall_seconds()
+  double next_memory_poll_ = 0;       ///< of memory use, on the clock of wall_seconds()
   bool was_running_ = false;          ///< before this step
-  std::string stopped_by_;            ///< empty: it was not
-  Excess excess_;                     ///< why a frame ended the run, if its depth is > 0
+  std::string stopped_by_;            ///< empty: not stopped
+  Excess excess_;                     ///< overlaps that end the run if depth_um > 0
 };
 
 SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld built)
@@ -122,10 +121,11 @@ SceneRun::SceneRun(const Scene& scene, const RunOptions& options, BuiltWorld bui
       memory_limit_(memory_limit(options)) {}
 
 bool SceneRun::uses_too_much_memory() {
-  constexpr double kLook = 0.5;  // s between looks: steps of small scenes are shorter than one
+  constexpr double kMemoryPollInterval =
+      0.5;  // s between looks: steps of small scenes are shorter than one
   const double now = wall_seconds();
-  if (now < next_look_) return false;
-  next_look_ = now + kLook;
+  if (now < next_memory_poll_) return false;
+  next_memory_poll_ = now + kMemoryPollInterval;
   return static_cast<double>(rss_bytes()) > memory_limit_;
 }
 
@@ -170,7 +170,8 @@ void SceneRun::end_phase(const std::string& what) {
   recorder_.add_event("start_up", what);
 }
 
-/// Overlaps of the first frame are told at once: hours later the run may stop because of them.
+/// Writes a frame. Overlaps of the first frame are reported at once, since the run may stop because
+/// of them hours later.
 void SceneRun::write_frame(bool last) {
   const bool first = !recorder_.has_frame();
   excess_ = recorder_.write_frame(last);
@@ -183,12 +184,13 @@ void SceneRun::write_frame(bool last) {
   warn(warning);
 }
 
-/// Frames, checkpoints and reasons to stop, once the events after a step are over.
+/// Writes frames and checkpoints that are due, after the life events of a step.
+/// @return true if the run continues
 bool SceneRun::events_over() {
   if (frame_is_due()) write_frame(time() >= end_ - kSameTime);
   if (excess_.depth_um > 0) return false;
   if (is_last() && simulation_.is_running()) return false;
-  if (const std::string why = recorder_.why_experiment_is_over(); !why.empty()) {
+  if (const std::string why = recorder_.completion_reason(); !why.empty()) {
     note("the experiment is over: " + why);
     return false;
   }
@@ -217,7 +219,7 @@ coupling::Observer SceneRun::observer() {
           .events_over = [this] { return events_over(); }};
 }
 
-void SceneRun::close(const std::string& status, const std::string& cause) {
+void SceneRun::close(RunOutcome status, const std::string& cause) {
   if (const auto& spheres = simulation_.work().cbm; spheres.beyond > 0) {
     note(fmt::format(
         "the stiffness of spheres was asked beyond the range of its law in {:.2g} % of cases",
@@ -233,7 +235,7 @@ int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>&
   spdlog::error(cause);
   recorder_.add_event("cannot_continue", cause, cells);
   if (time() > recorder_.last_frame() + kSameTime) recorder_.write_frame(true);
-  close("failed", cause);
+  close(RunOutcome::kFailed, cause);
   if (world().ranks.is_root())
     fmt::print(stderr, "acinus: simulation cannot continue: {}\n", cause);
   return static_cast<int>(Exit::kCannotContinue);
@@ -241,7 +243,7 @@ int SceneRun::give_up(const std::string& cause, const std::vector<std::int64_t>&
 
 void SceneRun::stop(const std::string& why) {
   recorder_.add_event("stopped", "stopped by " + why);
-  close("stopped", "stopped by " + why);
+  close(RunOutcome::kStopped, "stopped by " + why);
   progress_.note(fmt::format("stopped by {}", why) +
                  (options_.is_part ? "" : "; continue with: " + resume_command(options_)));
   // Obeyed; left there it would stop the resumed run too.
@@ -279,18 +281,18 @@ int SceneRun::finish(const coupling::LoopResult& steps) {
         fmt::format("at t = {:.4g} h {}. The last frame in {} shows it. {}", time() / 3600,
                     excess_.cause, options_.out, advise(world(), excess_)),
         excess_.cells);
-  close("completed", "");
+  close(RunOutcome::kCompleted, "");
   return static_cast<int>(Exit::kDone);
 }
 
-void SceneRun::tell(const Notes& notes) {
-  for (const std::string& text : notes.warned) warn(text);
-  for (const std::string& text : notes.said) note(text);
+void SceneRun::report(const Notes& notes) {
+  for (const std::string& text : notes.warnings) warn(text);
+  for (const std::string& text : notes.info) note(text);
 }
 
 int SceneRun::go() {
   if (options_.resume) {
-    tell(recorder_.resume());
+    report(recorder_.resume());
     accepted_before_ = world().state.clock.accepted;
   } else {
     recorder_.create();
@@ -305,7 +307,7 @@ int SceneRun::go() {
   if (simulation_.work().system.ownership.is_whole() && !ranks.is_alone())
     progress_.note(
         "there are too few cells to share: until there are more, every process does all the work");
-  tell(notes_);
+  report(notes_);
   if (const auto skipped = list_skipped(world()); !skipped.empty())
     progress_.note(fmt::format("skipped: {}", fmt::join(skipped, ", ")));
   progress_.begin(world());
@@ -343,12 +345,12 @@ std::shared_ptr<spdlog::logger> open_log(const RunOptions& options, const Ranks&
   return log;
 }
 
-/// Ends all processes because of what happened to this one. What happened to all alike the first
-/// one says, and the others wait for it.
+/// Ends all processes because this one failed. A failure common to all is reported by the first
+/// process only; the others wait for it.
 [[noreturn]] void end_all(const Ranks& ranks, const std::exception& failed) {
-  constexpr unsigned kPatience = 3;  // s
+  constexpr unsigned kWaitForRoot = 3;  // s
   const auto* error = dynamic_cast<const Error*>(&failed);
-  if (!ranks.is_root()) sleep(kPatience);
+  if (!ranks.is_root()) sleep(kWaitForRoot);
   fmt::print(stderr, "{}{}\n", failed.what(),
              ranks.is_root() ? "" : fmt::format(" (process {})", ranks.rank()));
   ranks.abort(static_cast<int>(error != nullptr ? error->code() : Exit::kInternal));
@@ -371,7 +373,7 @@ int run_scene(const Scene& scene, const RunOptions& asked) {
     world.world.sharing = options.sharing;
     return world;
   });
-  if (!threads.warning.empty()) built.notes.warned.push_back(threads.warning);
+  if (!threads.warning.empty()) built.notes.warnings.push_back(threads.warning);
   std::optional<io::FileLock> writing;
   together(ranks, [&] {
     if (ranks.is_root()) writing.emplace(prepare_folder(options.out, options));

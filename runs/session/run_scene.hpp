@@ -1,13 +1,13 @@
 #pragma once
-/// One simulation from the command line's point of view.
+/// One simulation in its run folder, as the command line starts it.
 
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_options.hpp"
 
 namespace acinus::runs {
 
-/// Runs a scene until its end, a signal, a WallTimeLimit or a failure.
-/// @return the process exit code: 0 done, 3 cannot continue, 75 stopped with a checkpoint
+/// Runs a scene to its end, a stopping criterion, a signal, a WallTimeLimit or a failure.
+/// @return exit code: 0 done, 3 cannot continue, 75 stopped with a checkpoint
 /// @throws Error for user and disk errors
 int run_scene(const Scene& scene, const RunOptions& options);
 

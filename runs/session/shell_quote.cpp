@@ -11,7 +11,7 @@ namespace {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
-/// Quotes as $'...' of bash, zsh and ksh.
+/// Quotes a word as $'...' of bash, zsh and ksh.
 std::string quote_bytes(const std::string& word) {
   std::string inside;
   for (const char c : word) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run leaves out because its scene does not need it.
+/// Work that a run omits because its scene does not need it.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace acinus::runs {
 
-/// What the scene does not ask for.
+/// Names of the terms and stages that the scene does not use.
 std::vector<std::string> list_skipped(const coupling::World& world);
 
-/// Work that turned out not to be needed, with shares, so far.
+/// Work found unnecessary at run time so far, with its share.
 std::vector<std::string> list_skipped_work(const coupling::World& world,
                                            const coupling::Workspace& work);
 

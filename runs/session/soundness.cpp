@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,15 +13,15 @@
 namespace acinus::runs {
 namespace {
 
-/// Share of a mean edge that a surface may stand deeper between contact points.
-constexpr double kBetweenPoints = 0.25;
+/// Additional overlap of a surface between contact points, as a share of the mean edge length.
+constexpr double kOverlapBetweenPoints = 0.25;
 
 double radius_of(const coupling::State& s, std::int64_t id) {
   const std::size_t k = std::ranges::find(s.cbm.lineage, id) - s.cbm.lineage.begin();
   return sphere_radius(s.cbm.volume[k].at(s.clock.time));
 }
 
-/// The sphere whose centre is deepest inside its boundary.
+/// Sphere whose centre lies deepest inside an obstacle; depth_um = 0 if there is none.
 Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::World& world,
                         const coupling::Workspace& work) {
   const cbm::State& s = world.state.cbm;
@@ -50,7 +49,7 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
   // Contact sees meshes from near only, and not which side is which from far inside: the audit
   // does.
   if (const coupling::WorstPair& lost = audit.center_in_static; lost.depth_um > worst.depth_um) {
-    const contact::StaticMesh& mesh = boundary.meshes[static_cast<std::size_t>(lost.ids[1])];
+    const contact::StaticMesh& mesh = boundary.meshes[lost.ids[1]];
     worst = {lost.depth_um,
              fmt::format("CBM cell {} has its centre {:.3g} um {} static mesh {}", lost.ids[0],
                          lost.depth_um, mesh.inside ? "outside" : "inside", mesh.name),
@@ -59,8 +58,8 @@ Excess find_lost_sphere(const coupling::AuditResult& audit, const coupling::Worl
   return worst;
 }
 
-/// The nucleus that stands farthest outside its cortex. Contact looks max_depth far for the way
-/// back, so that a half of it is still safe.
+/// Nucleus that protrudes farthest from its cortex. Contact searches max_depth deep for it, so that
+/// half of that is still safe.
 Excess find_leak(const coupling::World& world) {
   const coupling::NucleusLeak leak = coupling::find_nucleus_leak(world.state);
   const double limit = 0.5 * world.params.dcm_contact.max_depth;
@@ -81,7 +80,7 @@ double deepest_overlap(const coupling::World& world) {
     if (s.active(l))
       edge = std::max(edge, s.group[l / kLanes].topology->mean_rest_length *
                                 sphere_radius(s.volume[l].at(world.state.clock.time)));
-  return world.params.dcm_contact.max_depth + kBetweenPoints * edge;
+  return world.params.dcm_contact.max_depth + kOverlapBetweenPoints * edge;
 }
 
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,

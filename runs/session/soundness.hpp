@@ -1,5 +1,5 @@
 #pragma once
-/// Which overlaps contact can still mend, and which mean that a run has lost its way.
+/// Detection of overlaps that contact cannot resolve.
 
 #include <cstdint>
 #include <string>
@@ -11,21 +11,23 @@
 
 namespace acinus::runs {
 
-/// How deep a deformable cell may stand in another, in a wall or in a vessel, um. Contact points
-/// look max_depth deep; between points a surface may stand deeper by a part of a mesh edge.
+/// Largest overlap of a deformable cell with a cell, wall or vessel that contact can resolve, um:
+/// max_depth of the contact search plus a share of a mesh edge, since a surface may lie deeper
+/// between contact points.
 double deepest_overlap(const coupling::World& world);
 
-/// What is wrong with a frame, if anything.
+/// Unresolvable overlap of a frame, with its cells.
 struct Excess {
-  double depth_um = 0;  ///< beyond the limit; 0: nothing is wrong, infinite: no overlap at all
+  double depth_um = 0;  ///< overlap beyond the limit; 0: none, infinite: inverted cells
   std::string cause;
   std::vector<std::int64_t> cells;
 };
 
-/// The worst of: a cell turned inside out; deformable cells deeper in something than
-/// deepest_overlap; a nucleus outside its cortex by half of what contact looks for; a sphere whose
-/// centre lies in a cell, another sphere, behind a wall, in a vessel or on the wrong side of a
-/// static mesh, where forces no longer separate them.   @pre observe() of the same moment
+/// Worst of: an inverted cell; an overlap of deformable cells beyond deepest_overlap(); a nucleus
+/// outside its cortex by more than half of max_depth; a sphere whose centre lies in a cell, another
+/// sphere, a vessel, behind a wall or on the wrong side of a static mesh, where forces no longer
+/// separate them.
+/// @pre observe() of the same moment
 Excess find_excess(const coupling::AuditResult& audit, const coupling::World& world,
                    const coupling::Workspace& work);
 

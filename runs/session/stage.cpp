@@ -30,15 +30,15 @@ int run_stage(const Scene& scene, const StageOptions& options) {
   run.is_part = true;
   if (const std::optional<RunSummary> before = find_run(scene, options.folder);
       before && !options.fresh) {
-    if (before->status == "completed") return static_cast<int>(Exit::kDone);
-    if (before->status == "failed") {
+    if (before->status == RunOutcome::kCompleted) return static_cast<int>(Exit::kDone);
+    if (before->status == RunOutcome::kFailed) {
       fmt::print(stderr,
                  "{}: an earlier run of this scene could not go on: {} Remove the folder to run it "
                  "again.\n",
                  options.folder, before->cause);
       return static_cast<int>(Exit::kCannotContinue);
     }
-    run.resume = before->status == "stopped";
+    run.resume = before->status == RunOutcome::kStopped;
   }
   run.overwrite = !run.resume;
   return run_scene(scene, run);

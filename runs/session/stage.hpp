@@ -1,5 +1,5 @@
 #pragma once
-/// A run that is one part of a larger job: started, taken up again, or found done.
+/// One run as a stage of a larger job: started, resumed, or found complete.
 
 #include <optional>
 #include <string>
@@ -9,20 +9,21 @@
 
 namespace acinus::runs {
 
+/// Options of a run as a stage.
 struct StageOptions {
   std::string folder;
   int threads = 0;  ///< 0 = all cores
   bool quiet = false;
-  bool fresh = false;  ///< run it anew whatever stands in the folder
+  bool fresh = false;  ///< run it anew whatever the folder holds
   std::string command_line;
 };
 
-/// What stands in the folder, if it is a run of this scene by this version.
+/// Summary of the run in a folder if it is of this scene and this version of the program.
 std::optional<RunSummary> find_run(const Scene& scene, const std::string& folder);
 
-/// Runs a scene to its end. Does nothing if that was done before; goes on from a checkpoint if the
-/// run was stopped.
-/// @return its exit code, that of the earlier run if nothing was to do
+/// Runs a scene to its end. A complete run is not repeated; a stopped one is resumed from its
+/// checkpoint.
+/// @return exit code, that of the earlier run if it was complete
 int run_stage(const Scene& scene, const StageOptions& options);
 
 }  // namespace acinus::runs

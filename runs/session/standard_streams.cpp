@@ -17,12 +17,12 @@
 namespace acinus::runs {
 namespace {
 
-/// One descriptor and what became of it.
+/// State of one output descriptor.
 struct Sink {
   int descriptor;
   bool closed = false;   ///< when the program started
   bool dropped = false;  ///< nothing more can be printed
-  int error = 0;         ///< why, but for a reader that has gone
+  int error = 0;         ///< errno of the failed write, 0 for a closed pipe
 };
 
 // Streams of C belong to the process, so what became of them does too.
@@ -46,7 +46,7 @@ ssize_t print(void* cookie, const char* text, std::size_t size) {
   return static_cast<ssize_t>(size);
 }
 
-/// A stream of C that leads to the sink.
+/// Opens a C stream that writes to the sink.
 std::FILE* open_stream(Sink& sink, int buffering) {
   std::FILE* file =
       fopencookie(&sink, "w", {.read = nullptr, .write = print, .seek = nullptr, .close = nullptr});

@@ -3,27 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "acinus_version.hpp"
 #include "core/parallel/timing.hpp"
 #include "io/disk.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/experiments/sample_lobule.hpp"
-#include "runs/experiments/single_cell.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/figures.hpp"
 
 namespace acinus::runs {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// Every number in a file is finite; what is not is an error of ours and is shown as null.
-OrderedJson finite_number(double v) {
-  return std::isfinite(v) ? OrderedJson(v) : OrderedJson(nullptr);
-}
-
-/// The worst of all divisions of deformable cells.
+/// Worst figures of all divisions of deformable cells.
 OrderedJson division_figures(const LifeTotals& t) {
   return {{"max_volume_error", finite_number(t.volume_error)},
           {"max_outside_um", finite_number(t.outside_um)},
@@ -41,51 +35,7 @@ OrderedJson mesh_figures(const LifeTotals& t) {
           {"left_degenerate", static_cast<int>(t.degenerate)}};
 }
 
-/// Cells and births of every layer at the end, the last: deeper; and when the lesion closed, by
-/// every measure of its area; null if it did not.
-void add_lobule_figures(const Measures& m, OrderedJson& measures) {
-  for (const char* what : {"cells", "births"})
-    for (const std::string& layer : layer_names())
-      if (const auto n = m.find(std::string(what) + "_layer_" + layer); n != m.end())
-        measures["layers"][what].push_back(finite_number(n->second.back()));
-  const auto time = m.find("time_d");
-  OrderedJson by_area = OrderedJson::object();
-  for (const std::string& name : closing_areas()) {
-    const auto area = m.find(name);
-    if (area == m.end() || time == m.end()) continue;
-    const std::optional<double> closed = closing_time(time->second, area->second);
-    by_area[name] = closed ? finite_number(*closed) : OrderedJson(nullptr);
-  }
-  measures["closed_d"] = by_area.value(closing_areas().front(), OrderedJson(nullptr));
-  measures["closed_d_by_area"] = by_area;
-}
-
-/// Pressure at which the cell is drawn in, beside that of a surface with the tension of its type.
-void add_aspiration_figures(const Scene& scene, const Measures& m, OrderedJson& measures) {
-  const CellType& type = scene.cell_types.begin()->second;
-  const std::optional<double> found = critical_suction(*scene.pipette, m);
-  measures["critical_pressure_Pa"] = found ? finite_number(1e3 * *found) : OrderedJson(nullptr);
-  measures["closed_form_critical_pressure_Pa"] = finite_number(
-      1e3 * closed_form_suction(type.dcm.cortex_tension, scene.pipette->radius, type.radius));
-}
-
-void add_passage_figures(const Measures& m, OrderedJson& measures) {
-  const std::optional<double> hours = passage_time(m);
-  measures["passage_h"] = hours ? finite_number(*hours) : OrderedJson(nullptr);
-}
-
-/// The force that took the cells apart, beside that of vesicles.
-void add_pull_off_figures(const Scene& scene, const Measures& m, OrderedJson& measures) {
-  const PairOfCells pair = pair_of(scene);
-  const std::optional<double> force = pull_off_force(m);
-  measures["adhesion_energy_J_m2"] = finite_number(1e-3 * pair.adhesion);
-  measures["radius_um"] = finite_number(pair.reduced_radius);
-  measures["pull_off_nN"] = force ? finite_number(*force) : OrderedJson(nullptr);
-  measures["ratio_to_piWR"] =
-      force ? finite_number(*force / vesicle_pull_off(pair)) : OrderedJson(nullptr);
-}
-
-/// What was run and how it ended.
+/// Adds identity and outcome of the run.
 void add_run(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   j["scene"] = in.scene.name;
@@ -93,7 +43,7 @@ void add_run(const SummaryInput& in, OrderedJson& j) {
   j["version"] = ACINUS_VERSION;
   j["git"] = ACINUS_GIT;
   j["seed"] = in.scene.seed;
-  j["status"] = in.status;
+  j["status"] = name_of_choice(in.status);
   if (!in.cause.empty()) j["cause"] = in.cause;
   j["simulated_s"] = finite_number(std::max(0.0, coupling::time_since_start(in.world)));
   j["start_up_s"] =
@@ -129,7 +79,7 @@ void add_cells(const SummaryInput& in, OrderedJson& j) {
   if (in.life.remeshed + in.life.degenerate > 0) j["meshes"] = mesh_figures(in.life);
 }
 
-/// How far the state is from what it should be.
+/// Adds the error measures of the run.
 void add_errors(const SummaryInput& in, OrderedJson& j) {
   const coupling::State& s = in.world.state;
   const RunTotals& t = in.totals;
@@ -166,12 +116,8 @@ OrderedJson list_measures(const SummaryInput& in) {
   if (in.world.params.tree.exists())
     measures["largest_vessel_displacement_um"] =
         finite_number(coupling::largest_displacement(in.world.params.tree, in.world.state.tree));
-  if (in.scene.experiment == Experiment::kAspiration)
-    add_aspiration_figures(in.scene, in.measures, measures);
-  if (in.scene.experiment == Experiment::kPullOff)
-    add_pull_off_figures(in.scene, in.measures, measures);
-  if (in.scene.experiment == Experiment::kNarrowGap) add_passage_figures(in.measures, measures);
-  if (in.scene.experiment == Experiment::kLobule) add_lobule_figures(in.measures, measures);
+  if (const auto add_figures = experiment_row(in.scene.experiment).add_figures)
+    add_figures(in.scene, in.measures, measures);
   return measures;
 }
 
@@ -186,8 +132,8 @@ void write_summary(const std::string& folder, const SummaryInput& in) {
       finite_number(geometry::total_length(in.world.params.boundary.vessels.network));
   add_errors(in, j);
   j["skipped"] = in.skipped;
-  j["notes"] = in.notes.said;
-  j["warnings"] = in.notes.warned;
+  j["notes"] = in.notes.info;
+  j["warnings"] = in.notes.warnings;
   OrderedJson timings = OrderedJson::object();
   for (const StageTime& stage : in.timings.stages())
     timings[stage.name] = finite_number(stage.wall);

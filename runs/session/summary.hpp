@@ -1,5 +1,5 @@
 #pragma once
-/// summary.json: the numbers of a run that scripts rely on.
+/// summary.json: the figures of a run that scripts rely on.
 
 #include <string>
 #include <vector>
@@ -7,13 +7,14 @@
 #include "core/parallel/timing.hpp"
 #include "coupling/world/world.hpp"
 #include "runs/assemble/notes.hpp"
-#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/measures.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/run_options.hpp"
 #include "runs/session/totals.hpp"
 
 namespace acinus::runs {
 
+/// Sources of the figures of a summary.
 struct SummaryInput {
   const Scene& scene;
   const RunOptions& options;
@@ -24,12 +25,12 @@ struct SummaryInput {
   const Timings& timings;
   const std::vector<std::string>& skipped;
   const Notes& notes;
-  std::string status;  ///< completed | stopped | failed
-  std::string cause;   ///< why it stopped or failed
+  RunOutcome status;
+  std::string cause;  ///< cause of a stop or failure
   int threads = 1;
 };
 
-/// Writes folder/summary.json in place of an older one, whole or not at all.
+/// Writes folder/summary.json, atomically replacing an older one.
 /// @throws Error(kFileError)
 void write_summary(const std::string& folder, const SummaryInput& input);
 

@@ -6,8 +6,8 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kBasis = 30;    ///< s of wall time
-constexpr double kMemory = 0.3;  ///< of the wall time so far
+constexpr double kLeastWallTime = 30;  ///< least wall time, s
+constexpr double kMemoryShare = 0.3;   ///< share of the wall time so far
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void TimeLeft::restart() {
 }
 
 void TimeLeft::add(double wall_s, double time_s) {
-  const double memory = std::max(kBasis, kMemory * (wall_s - started_));
+  const double memory = std::max(kLeastWallTime, kMemoryShare * (wall_s - started_));
   const double fade = std::exp(-(wall_s - wall_) / memory);
   weighted_wall_ = fade * weighted_wall_ + wall_s - wall_;
   weighted_time_ = fade * weighted_time_ + time_s - time_;
@@ -34,7 +34,7 @@ void TimeLeft::add(double wall_s, double time_s) {
 double TimeLeft::rate() const { return weighted_wall_ > 0 ? weighted_time_ / weighted_wall_ : 0; }
 
 std::optional<double> TimeLeft::until(double end_s) const {
-  if (wall_ - started_ < kBasis || rate() <= 0) return std::nullopt;
+  if (wall_ - started_ < kLeastWallTime || rate() <= 0) return std::nullopt;
   return std::max(0.0, end_s - time_) / rate();
 }
 

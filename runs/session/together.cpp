@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 #include <span>
 #include <vector>
@@ -17,14 +16,14 @@
 namespace acinus::runs {
 namespace {
 
-/// Where a process runs.
+/// Host, permitted processors and threads of a process.
 struct ProcessPlace {
   std::array<char, 64> host{};
   cpu_set_t processors{};
   int threads = 0;
 };
 
-ProcessPlace find_place() {
+ProcessPlace query_place() {
   ProcessPlace p;
   gethostname(p.host.data(), p.host.size() - 1);
   if (sched_getaffinity(0, sizeof p.processors, &p.processors) != 0)
@@ -32,12 +31,12 @@ ProcessPlace find_place() {
   return p;
 }
 
-bool share_all(const ProcessPlace& a, const ProcessPlace& b) {
+bool shares_all(const ProcessPlace& a, const ProcessPlace& b) {
   return a.host == b.host && CPU_EQUAL(&a.processors, &b.processors) != 0;
 }
 
-/// Names the machines on which threads outnumber processors.
-std::string find_crowded(const std::vector<ProcessPlace>& places) {
+/// Lists the machines with more threads than processors; empty if there are none.
+std::string list_oversubscribed(const std::vector<ProcessPlace>& places) {
   struct NodeLoad {
     cpu_set_t processors{};
     int threads = 0;
@@ -86,14 +85,14 @@ std::string first_text(const Ranks& ranks, const std::string& text) {
 
 ThreadShare share_processors(const Ranks& ranks, int wanted) {
   if (ranks.is_alone()) return {wanted > 0 ? wanted : processor_count(), {}};
-  ProcessPlace own = find_place();
+  ProcessPlace own = query_place();
   std::vector<ProcessPlace> places;
   ranks.gather<ProcessPlace>(std::span(&own, 1), places);
   const auto sharing = static_cast<int>(
-      std::ranges::count_if(places, [&](const ProcessPlace& p) { return share_all(p, own); }));
+      std::ranges::count_if(places, [&](const ProcessPlace& p) { return shares_all(p, own); }));
   own.threads = wanted > 0 ? wanted : std::max(1, CPU_COUNT(&own.processors) / sharing);
   ranks.gather<ProcessPlace>(std::span(&own, 1), places);
-  return {own.threads, find_crowded(places)};
+  return {own.threads, list_oversubscribed(places)};
 }
 
 }  // namespace acinus::runs

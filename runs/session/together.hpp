@@ -1,5 +1,5 @@
 #pragma once
-/// What several processes do before they step: where one of them fails, all end, and one says why.
+/// Agreement of several processes before they step: if one fails, all end and one reports why.
 
 #include <exception>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace acinus::runs {
 
-/// Another process failed and says why.
+/// Exception on the processes that did not fail; another one reports the cause.
 class FailedElsewhere : public std::exception {
  public:
   explicit FailedElsewhere(int code) : code_(code) {}
@@ -23,9 +23,9 @@ class FailedElsewhere : public std::exception {
   int code_;
 };
 
-/// Calls f on every process and comes back when all have done so.
-/// @return what f returns here
-/// @throws what f threw, on the first process where it did; FailedElsewhere on all others
+/// Calls f on every process and returns when all have finished.
+/// @return result of f on this process
+/// @throws exception of f on the first process where it failed; FailedElsewhere on all others
 template <class F>
 auto together(const Ranks& ranks, const F& f) {
   using Result = decltype(f());
@@ -64,15 +64,16 @@ auto together(const Ranks& ranks, const F& f) {
   }
 }
 
-/// Throws unless all processes have the same text, such as the scene they read.
-/// @param what  named in the message
+/// Checks that all processes have the same text, such as the scene they read.
+/// @param what  name of the text in messages
+/// @throws Error
 void check_alike(const Ranks& ranks, const std::string& text, const std::string& what);
 
-/// The text that the first process with one has; empty if none has.
+/// Text of the first process that has one; empty if none has.
 std::string first_text(const Ranks& ranks, const std::string& text);
 
-/// The threads of this process, if they are not given: its share of the processors that it may use
-/// with others. And what is wrong with how they are shared, or empty.
+/// Number of threads of this process, by default its share of the processors it may use, and a
+/// warning if threads outnumber processors.
 struct ThreadShare {
   int threads = 1;
   std::string warning;

@@ -12,10 +12,10 @@ namespace {
 
 double count_of(std::size_t k) { return std::pow(10.0, static_cast<double>(k) + 1); }
 
-/// Groups of the checkpoint.
+/// Prefixes of the names in the checkpoint.
 const std::string kTotals = "totals/", kLife = "life_totals/";
 
-/// Calls f(name, value) for every number of either kind of totals.
+/// Calls f(name, value) for every number of the totals.
 template <class Totals, class F>
 void visit(Totals& t, F f) requires std::same_as<std::remove_const_t<Totals>, RunTotals> {
   f("wall_s", t.wall_s);
@@ -67,9 +67,9 @@ void add_life(LifeTotals& t, const coupling::LifeReport& report, int n_cell, dou
     t.steps += f.steps;
   }
   for (const coupling::LifeEvent& e : report.events) {
-    if (e.code == "division_waits") t.waits += 1;
-    if (e.code == "remeshed") t.remeshed += 1;
-    if (e.code == "mesh_degenerate") t.degenerate += 1;
+    if (e.kind == coupling::EventKind::kDivisionWaits) t.waits += 1;
+    if (e.kind == coupling::EventKind::kRemeshed) t.remeshed += 1;
+    if (e.kind == coupling::EventKind::kMeshDegenerate) t.degenerate += 1;
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the processes of a run sent each other, for people to read.
+/// Communication between the processes of a run, as text.
 
 #include <cstdint>
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace acinus::runs {
 
-/// A line for each process, with what it sent per step; empty where there is one. To be called by
-/// all of them.
-/// @param steps   accepted by this process since its start
-/// @param wall_s  s, since then
+/// One line per process with its messages per step; empty for a single process. Collective: to be
+/// called by all processes.
+/// @param steps  steps accepted by this process since its start
+/// @param wall_s  wall time since then, s
 std::vector<std::string> describe_traffic(const Ranks& ranks, std::int64_t steps, double wall_s);
 
 }  // namespace acinus::runs

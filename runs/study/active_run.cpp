@@ -66,7 +66,7 @@ RunProgress parse_progress(const std::string& line) {
     return j[key].get<double>();
   };
   progress.wall_s = number("wall_s").value_or(0);
-  progress.said = number("wall_s").value_or(-1) >= 0;
+  progress.printed = number("wall_s").value_or(-1) >= 0;
   progress.time_s = number("time_s").value_or(0);
   progress.end_s = number("end_s").value_or(0);
   progress.left_s = number("eta_s");
@@ -78,11 +78,11 @@ RunProgress parse_progress(const std::string& line) {
 }
 
 std::string take_progress_line(const std::string& file) {
-  constexpr std::uintmax_t kLongest = 1 << 16;  // bytes
+  constexpr std::uintmax_t kMostProgressBytes = 1 << 16;  // bytes
   std::string line = last_line(file);
   std::error_code code;
   const std::uintmax_t size = fs::file_size(file, code);
-  if (!code && size > kLongest) fs::resize_file(file, 0, code);  // the run appends
+  if (!code && size > kMostProgressBytes) fs::resize_file(file, 0, code);  // the run appends
   return line;
 }
 
@@ -100,7 +100,7 @@ std::string last_line(const std::string& file) {
 }
 
 std::string printed_cause(const std::string& file) {
-  constexpr std::size_t kMost = 4000;  // bytes; what comes first is nearest to the cause
+  constexpr std::size_t kMostCauseBytes = 4000;  // bytes; what comes first is nearest to the cause
   std::error_code code;
   if (!fs::is_regular_file(file, code)) return {};
   std::istringstream text(io::read_text_file(file));
@@ -108,7 +108,8 @@ std::string printed_cause(const std::string& file) {
   for (std::string line; std::getline(text, line);)
     if (!line.starts_with("acinus: warning: "))
       cause += (cause.empty() || line.empty() ? "" : "\n") + line;
-  if (cause.size() > kMost) cause = cause.substr(0, kMost) + " ... (all of it: " + file + ")";
+  if (cause.size() > kMostCauseBytes)
+    cause = cause.substr(0, kMostCauseBytes) + " ... (all of it: " + file + ")";
   return cause;
 }
 

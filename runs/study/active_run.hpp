@@ -1,5 +1,5 @@
 #pragma once
-/// One run of a study while its process is alive.
+/// Run of a study in a child process.
 
 #include <optional>
 #include <string>
@@ -10,54 +10,56 @@
 
 namespace acinus::runs {
 
-/// What a running simulation last said about itself.
+/// Progress as last printed by a run.
 struct RunProgress {
-  double time_s = 0, end_s = 0;  ///< simulated
-  double wall_s = 0;             ///< since it was started or resumed
-  int dcm = 0, cbm = 0;          ///< cells
-  std::string phase;             ///< what it is busy with
-  std::optional<double> left_s;  ///< wall time, by its own estimate
-  bool starting = true;          ///< not yet at t = 0, or nothing said
-  bool said = false;             ///< whether there was such a line
+  double time_s = 0, end_s = 0;  ///< simulated time, s
+  double wall_s = 0;             ///< wall time since the start or resumption, s
+  int dcm = 0, cbm = 0;          ///< number of cells
+  std::string phase;             ///< phase of the simulation
+  std::optional<double> left_s;  ///< own estimate of the remaining wall time, s
+  bool starting = true;          ///< before t = 0, or before any progress
+  bool printed = false;          ///< a progress line was printed
 };
 
-/// What every process of a study is told.
+/// Options of every child process of a study.
 struct ChildRunOptions {
   int threads = 1;
-  double checkpoint_every_s = 120;  ///< wall time that a kill may cost
+  double checkpoint_every_s = 120;  ///< wall time between checkpoints, s
 };
 
+/// Run in progress with its claim and its child process.
 struct ActiveRun {
   std::size_t run = 0;  ///< index into the plan's runs
-  io::FileLock claim;   ///< of the run's folder
+  io::FileLock claim;   ///< lock on the claim file of the run's folder
   Child child;
   std::string folder;
 };
 
 /// Starts a run in its folder, anew or from its checkpoint.
-/// @param claim   held by the caller until now
-/// @param resume  go on from the checkpoint; false removes what an earlier attempt left
+/// @param claim   taken by the caller
+/// @param resume  continue from the checkpoint; false removes the files of an earlier attempt
 /// @throws Error(kFileError)
 ActiveRun start_run(const StudyPlan& plan, std::size_t run, const std::string& root,
                     io::FileLock claim, bool resume, const ChildRunOptions& options);
 
-/// One line of --progress json; what it does not say has the default.
+/// Parses one line of --progress json; missing members keep their defaults.
 RunProgress parse_progress(const std::string& line);
 
-/// The last line of a progress file, "" if none. Keeps the file that is read small.
+/// Last line of a progress file, "" if there is none. Truncates a file that has grown long.
 std::string take_progress_line(const std::string& file);
 
-/// Nothing said yet gives the default.
+/// Progress of a run; the default if it has printed none.
 RunProgress read_progress(const ActiveRun& run);
 
-/// The last line that a program printed, "" if none.
+/// Last line of a text file, "" if there is none.
 std::string last_line(const std::string& file);
 
-/// Cause of a program's end: all that it printed on stderr but warnings.
-/// @return "" if nothing
+/// Cause of a program's end: its stderr without warnings, at most 4000 bytes.
+/// @param file  output of the program
+/// @return "" if it printed nothing
 std::string printed_cause(const std::string& file);
 
-/// Removes everything that a run left in its folder but the claim.
+/// Removes all files of a run but its lock files.
 void clear_run(const std::string& folder);
 
 }  // namespace acinus::runs

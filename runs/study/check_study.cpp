@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
-#include "core/units/units.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/study_value.hpp"
 
@@ -77,7 +76,8 @@ class Checker {
     }
   }
 
-  /// @param claim  an expectation or a map
+  /// Checks that a claim has at least one bound.
+  /// @param claim  expectation or map
   void check_bound_given(const auto& claim, const std::string& pointer) {
     if (!claim.low && !claim.high)
       add(pointer + "/low", "is missing, and so is high: what is expected?");
@@ -113,7 +113,8 @@ class Checker {
                       plan_.units.at(plot.observable));
   }
 
-  /// @param names  of plots and of figures before this one, which is added
+  /// Checks a figure and adds its name.
+  /// @param names  names of the plots and of earlier figures
   void check_figure(const StudyFigure& figure, const std::string& pointer,
                     std::set<std::string>& names) {
     std::vector<std::string> plots;
@@ -158,7 +159,7 @@ class Checker {
       add(pointer + "/low", "low and high go together: give both or none");
   }
 
-  /// Runs do not go on after their end: no time looked at may be later.
+  /// Checks that a time is not after the end of the runs that the measure needs.
   void check_within_runs(double time, const StudyMeasure& m, const std::string& pointer) {
     for (const StudyRun& run : plan_.runs) {
       const std::string& name = plan_.variant_of(run).name;

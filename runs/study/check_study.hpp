@@ -1,12 +1,12 @@
 #pragma once
-/// Rules between the keys of a study: everything named must exist, every value have its unit.
+/// Consistency rules between the keys of a study: existing names, values with units.
 
 #include "runs/scene/fault_report.hpp"
 #include "runs/study/plan.hpp"
 
 namespace acinus::runs {
 
-/// Adds every broken rule to the report.
+/// Adds every violated rule to the report.
 void check_study(const StudyPlan& plan, Report& report);
 
 }  // namespace acinus::runs

@@ -25,14 +25,14 @@ std::set<std::size_t> wanted(const StudyPlan& plan, const std::vector<std::strin
   return runs;
 }
 
-/// How many runs must come before this one.
+/// Number of runs in the chain of starts before run k.
 int depth(const StudyPlan& plan, std::size_t k) {
   int n = 0;
   for (int s = plan.runs[k].source; s >= 0; s = plan.runs[s].source) ++n;
   return n;
 }
 
-/// The most expensive run goes to the task with the least to do so far.
+/// Runs of one task. Each run, most expensive first, goes to the task with the least cost so far.
 std::set<std::size_t> part_of(const std::set<std::size_t>& runs, const std::vector<double>& cost,
                               int task, int tasks) {
   std::vector<std::size_t> order(runs.begin(), runs.end());

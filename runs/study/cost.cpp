@@ -7,14 +7,14 @@
 namespace acinus::runs {
 namespace {
 
-/// CPU seconds of a cell-step [docs/benchmarks.md], packed tissue.
-constexpr double kSphereCost = 4e-6;
-/// Contacts that close within a step with size control ask for some solves.
-constexpr double kSolves = 3;
+/// CPU time per sphere and step in packed tissue, s (docs/benchmarks.md).
+constexpr double kSphereStepCost = 4e-6;
+/// Mean number of solves per step with step-size control, since contacts close within the step.
+constexpr double kSolvesPerStep = 3;
 double cell_step(const Scene& scene, int nodes) {
   const double at_162 =
       scene.contact.quadrature == contact::Quadrature::kThreePoint ? 4e-4 : 2.5e-4;
-  return at_162 * nodes / 162 * (scene.numerics.adaptive ? kSolves : 1);
+  return at_162 * nodes / 162 * (scene.numerics.adaptive ? kSolvesPerStep : 1);
 }
 
 double count_final_cells(const Scene& scene) {
@@ -23,7 +23,7 @@ double count_final_cells(const Scene& scene) {
   return count_wanted_cells(scene);
 }
 
-/// Share of deformable cells; of zoomed scenes half, where they lie is not looked at.
+/// Expected share of deformable cells: half for zoomed scenes, whose regions are not evaluated.
 double share_deformable(const Scene& scene) {
   if (scene.cells.model == CellModel::kZoom) return scene.zoom.empty() ? 0 : 0.5;
   return scene.cells.model == CellModel::kDcm ? 1 : 0;
@@ -38,7 +38,7 @@ double estimate_cost(const Scene& scene, bool shared_start) {
   if (scene.start_up.enabled && !shared_start)
     time += scene.start_up.growth_time + scene.start_up.adhesion_ramp + scene.start_up.max_settle;
   const double deformable = share_deformable(scene);
-  const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphereCost;
+  const double one = deformable * cell_step(scene, nodes) + (1 - deformable) * kSphereStepCost;
   return std::max(0.1, time / scene.numerics.max_step * count_final_cells(scene) * one);
 }
 

@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace acinus::runs {
 namespace {
 
 constexpr double kSameFrame = 1e-3;  // s: times of frames closer than this are the same moment
 
-/// Continued fraction of the incomplete beta function [Press et al., Numerical Recipes, 6.4], by
-/// the modified Lentz method; written for x < (a + 1) / (a + b + 2).
+/// Continued fraction of the incomplete beta function [Press et al., Numerical Recipes, 6.4] by the
+/// modified Lentz method, for x < (a + 1) / (a + b + 2).
 double beta_fraction(double a, double b, double x) {
-  constexpr double kTiny = 1e-300, kClose = 1e-15;
-  constexpr int kMost = 10000;
+  constexpr double kTiny = 1e-300, kConverged = 1e-15;
+  constexpr int kMostTerms = 10000;
   const auto guarded = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
   double c = 1, d = 1 / guarded(1 - (a + b) * x / (a + 1)), h = d;
-  for (int m = 1; m <= kMost; ++m) {
+  for (int m = 1; m <= kMostTerms; ++m) {
     const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
     d = 1 / guarded(1 + even * d);
     c = guarded(1 + even / c);
@@ -25,7 +24,7 @@ double beta_fraction(double a, double b, double x) {
     d = 1 / guarded(1 + odd * d);
     c = guarded(1 + odd / c);
     h *= d * c;
-    if (std::abs(d * c - 1) < kClose) break;
+    if (std::abs(d * c - 1) < kConverged) break;
   }
   return h;
 }
@@ -51,7 +50,9 @@ Moments moments(const std::vector<double>& v) {
   return m;
 }
 
-/// How often |t| of Student's distribution is larger by chance.
+/// Two-sided tail probability of Student's t distribution.
+/// @param t2       squared t statistic
+/// @param freedom  degrees of freedom
 double two_sided(double t2, double freedom) {
   return incomplete_beta(freedom / 2, 0.5, freedom / (freedom + t2));
 }

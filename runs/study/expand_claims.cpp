@@ -9,7 +9,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Endings such as "/W=1e-5 J/m^2" of the variants that sweeps with this label made of `base`.
+/// Suffixes such as "/W=1e-5 J/m^2" of the variants that sweeps with this label derive from `base`.
 std::vector<std::string> swept_endings(const Study& study, const std::vector<Variant>& variants,
                                        const std::string& base, const std::string& label) {
   std::vector<std::string> endings;
@@ -22,7 +22,7 @@ std::vector<std::string> swept_endings(const Study& study, const std::vector<Var
   return endings;
 }
 
-/// Calls a function with every name of a variant in a claim.
+/// Calls call(name) for every name of a variant in a claim.
 void for_each_variant(StudyExpectation& e, const std::function<void(std::string&)>& call) {
   for (StudyMeasure* m : {&e.measure, e.minus ? &*e.minus : nullptr, e.over ? &*e.over : nullptr})
     if (m != nullptr)

@@ -1,5 +1,5 @@
 #pragma once
-/// Claims that are judged for every value of a sweep.
+/// Expansion of claims over the values of a sweep.
 
 #include <vector>
 
@@ -9,9 +9,10 @@
 
 namespace acinus::runs {
 
-/// Adds, behind every expectation with `each`, its copies: one for each value of that sweep, with
-/// the variants made from those of the original and the value in id and claim. A label without a
-/// sweep, and variants that the sweep did not make, go into the report. @pre check_study
+/// Inserts after every expectation with `each` one copy per value of that sweep. A copy refers to
+/// the variants derived with that value, which is appended to id and claim. A label without a sweep
+/// and missing variants are added to the report.
+/// @pre check_study()
 void expand_claims(Study& study, const std::vector<Variant>& variants, Report& report);
 
 }  // namespace acinus::runs

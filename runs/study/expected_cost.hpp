@@ -1,6 +1,6 @@
 #pragma once
-/// What the runs of a study are expected to cost: what others of the same variant did; else the
-/// rough estimate times what the others with cells of the same model took of theirs.
+/// Expected cost of the runs of a study: measured on finished runs of the same variant, else
+/// estimated a priori and scaled by finished runs of the same model.
 
 #include <cstddef>
 #include <map>
@@ -12,14 +12,15 @@
 
 namespace acinus::runs {
 
+/// Expected CPU time of every run of a study.
 class ExpectedCosts {
  public:
-  /// Looks at the runs that are done in the study's folder.
+  /// Takes the costs of the runs that are complete in the study's folder.
   ExpectedCosts(const StudyPlan& plan, const std::string& root);
 
-  void add(const StudyRun& run, double cpu_s);  ///< one more that is done
+  void add(const StudyRun& run, double cpu_s);  ///< enters a completed run; CPU time in s
   bool is_measured(const StudyRun& run) const { return measured_.contains(run.variant); }
-  /// Whether any run that says something about this one is done.
+  /// True if a completed run of the same variant or model calibrates the estimate for this one.
   bool has_basis(const StudyRun& run) const {
     return is_measured(run) || ratio_.contains(run.scene.cells.model);
   }
@@ -32,19 +33,21 @@ class ExpectedCosts {
     void add(double v);
     double mean() const { return value / n; }
   };
-  std::map<std::size_t, Sum> measured_;  ///< by variant
-  std::map<CellModel, Sum> ratio_;       ///< measured over estimated, by model
+  std::map<std::size_t, Sum> measured_;  ///< CPU time of complete runs by variant, s
+  std::map<CellModel, Sum> ratio_;       ///< measured over estimated CPU time, by model
 };
 
-/// One that is running.
+/// Cost so far of a run in progress.
 struct RunningCost {
   std::size_t run = 0;           ///< index into the plan's runs
-  double wall_s = 0;             ///< so far
-  std::optional<double> left_s;  ///< by its own estimate
+  double wall_s = 0;             ///< wall time so far, s
+  std::optional<double> left_s;  ///< own estimate of the remaining wall time, s
 };
 
-/// Wall time until all these runs are done, s. Nothing while it would rest on rough estimates.
-/// @param jobs  runs at once
+/// Estimated wall time until all these runs are complete, s. Empty while only a-priori estimates
+/// exist.
+/// @param waiting  indices of runs not yet started
+/// @param jobs     concurrent runs
 std::optional<double> estimate_time_left(const StudyPlan& plan, const ExpectedCosts& costs,
                                          const std::vector<std::size_t>& waiting,
                                          const std::vector<RunningCost>& running, int jobs);

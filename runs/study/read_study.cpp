@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/spelling.hpp"
 #include "runs/assemble/build_boundary.hpp"
-#include "runs/assemble/build_world.hpp"
 #include "runs/assemble/start_state.hpp"
 #include "runs/experiments/observables.hpp"
 #include "runs/scene/differences.hpp"
@@ -27,7 +26,7 @@ namespace acinus::runs {
 namespace {
 namespace fs = std::filesystem;
 
-/// Lines of error messages, each once.
+/// Collection of distinct error messages.
 class Faults {
  public:
   void add(const Error& error) {
@@ -35,7 +34,7 @@ class Faults {
     for (std::string line; std::getline(lines, line);)
       if (std::ranges::find(lines_, line) == lines_.end()) lines_.push_back(line);
   }
-  /// Throws them all, those of the file `label` first and in its order.
+  /// Throws all messages as one Error, those of the file `label` first and by position.
   void finish(const std::string& label) {
     std::ranges::stable_sort(lines_, {}, [&](const std::string& l) { return place(l, label); });
     std::string text;
@@ -44,7 +43,7 @@ class Faults {
   }
 
  private:
-  /// Line and column after "label:"; lines of other files stand behind.
+  /// Line and column of a message about the file `label`; the largest line for other files.
   static std::pair<int, int> place(const std::string& text, const std::string& label) {
     int line = 0, column = 0;
     if (!text.starts_with(label + ":") ||
@@ -56,7 +55,7 @@ class Faults {
   std::vector<std::string> lines_;
 };
 
-/// The scene file that a study names: its own, or a shipped one.
+/// Path of the scene file of a study: a file beside it, or a shipped scene.
 std::string find_scene(const Study& study, const Document& document, Report& report) {
   const Node* node = report.find("/scene");
   if (node == nullptr || report.is_bad("/scene")) return {};
@@ -84,8 +83,8 @@ void shift_sources(Node& node, int by) {
   }
 }
 
-/// The scene of a variant, for its first seed.
-/// @throws Error with all that is wrong with it
+/// Resolved scene of a variant for its first seed.
+/// @throws Error listing all its faults
 Scene make_scene(const Document& base, const Document& study, const Variant& variant,
                  const std::string& label) {
   Document document = base;
@@ -193,7 +192,7 @@ class Planner {
     for (const std::string& name : boundary_names(scene)) add(wall_observables(name));
   }
 
-  /// Which run starts from which; that it can.
+  /// Links every run to the run it starts from, and checks that their scenes allow it.
   void link_starts() {
     for (StudyRun& run : plan_.runs) {
       const Variant& variant = plan_.variant_of(run);

@@ -1,5 +1,5 @@
 #pragma once
-/// From a study file to a plan: every scene resolved, everything that is named known.
+/// Reader of study files: from a file to a plan with resolved scenes and checked names.
 
 #include <string>
 
@@ -7,14 +7,16 @@
 
 namespace acinus::runs {
 
-/// Reads a study file, a shipped study's name among them.
-/// @throws Error: all faults of the study and of the scenes it makes, one a line with line and
-///         column; kFileError if a file cannot be read
+/// Reads a study file.
+/// @param path  file, or name of a shipped study
+/// @throws Error listing all faults of the study and its scenes, one a line with line and column;
+/// kFileError for an unreadable file
 StudyPlan read_study(const std::string& path);
 
-/// The same for a text in memory.
+/// Reads a study from a text.
 /// @param label   stands for the file name in messages; its stem is the default name
-/// @param folder  where relative file names start
+/// @param folder  base of relative file names
+/// @throws Error as read_study()
 StudyPlan parse_study(const std::string& text, const std::string& label,
                       const std::string& folder = ".");
 

@@ -15,6 +15,7 @@
 #include "io/file_lock.hpp"
 #include "runs/scene/bounded_json.hpp"
 #include "runs/scene/differences.hpp"
+#include "runs/scene/entries.hpp"
 #include "runs/session/read_summary.hpp"
 #include "runs/session/run_folder.hpp"
 
@@ -40,13 +41,14 @@ std::optional<OrderedJson> read_record(const std::string& root, const StudyRun& 
   return j;
 }
 
-/// Keys that say nothing about results; the start is compared by the scenes it came from.
+/// True for keys without effect on results. The start is compared by the scenes it came from.
 bool is_without_effect(const std::string& pointer) {
-  return pointer == "/name" || pointer == "/description" || pointer == "/start_up/from";
+  const Entry* key = find_innermost_entry(pointer);
+  return key != nullptr && key->affects == Affects::kNothing;
 }
 
-/// True if the folders of a run and of those it starts from hold these very scenes. Their hashes
-/// also differ by descriptions and by keys that are younger than a run.
+/// True if the folders of a run and of those it starts from hold these very scenes. Hashes alone
+/// would also differ by descriptions and by keys newer than a run.
 bool has_same_scenes(const std::string& root, const StudyRun& run) {
   const auto holds = [&](const std::string& folder, const std::string& scene) {
     const std::string file = root + "/" + folder + "/scene.json";
@@ -80,8 +82,8 @@ void take_summary(const std::string& folder, RunStatus& status) {
     status.start_hash = s.start_hash;
     status.version = s.version;
     status.git = s.git;
-    if (s.status == "completed") status.state = RunState::kDone;
-    if (s.status == "failed") status.state = RunState::kFailed;
+    if (s.status == RunOutcome::kCompleted) status.state = RunState::kDone;
+    if (s.status == RunOutcome::kFailed) status.state = RunState::kFailed;
     if (!s.cause.empty()) status.cause = s.cause;
   } catch (const Error& error) {
     status.cause = error.what();

@@ -1,5 +1,5 @@
 #pragma once
-/// `acinus study`.
+/// A study as a whole: its runs and its report (`acinus study`).
 
 #include <string>
 
@@ -8,21 +8,22 @@
 
 namespace acinus::runs {
 
+/// Options of `acinus study`.
 struct StudyOptions {
-  std::string file;  ///< study file, or the name of a shipped study
-  std::string out;   ///< "" = <study name>.study in this folder
-  int jobs = 0;      ///< processes at once; 0 = cores over threads
+  std::string file;  ///< study file, or name of a shipped study
+  std::string out;   ///< folder of the study; "" = <study name>.study in the working directory
+  int jobs = 0;      ///< concurrent processes; 0 = cores over threads
   ChildRunOptions child;
   RunChoice choice;
-  bool dry_run = false;      ///< list runs and their expected cost, run nothing
-  bool report_only = false;  ///< report from what is there, run nothing
-  bool overwrite = false;    ///< run again what failed or is of another scene or version
+  bool dry_run = false;      ///< list the runs and their expected cost only
+  bool report_only = false;  ///< report on existing results only
+  bool overwrite = false;    ///< repeat failed runs and runs of another scene or version
   bool quiet = false;
 };
 
-/// Runs a study, or the part of it that is asked for, and reports.
-/// @return exit code: 0 all chosen runs are done, 3 some could not go on, 75 stopped
-/// @throws Error for a bad study, a folder of something else, the disk
+/// Runs a study or the chosen part of it, and writes its report.
+/// @return exit code: 0 all chosen runs are complete, 3 some could not continue, 75 stopped
+/// @throws Error for a faulty study, a folder of something else, the disk
 int run_study(StudyOptions options);
 
 }  // namespace acinus::runs

@@ -1,5 +1,5 @@
 #pragma once
-/// One number of a resolved scene, for plots over a key.
+/// Numbers of a resolved scene by key, for plots over a key.
 
 #include <optional>
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace acinus::runs {
 
-/// Unit in which a resolved scene shows a key ("1" without); nothing if it is no key with one
-/// number as value. @param key  as in --set: "motility.leader_force"
+/// Unit of a key in a resolved scene, "1" if dimensionless; empty if the key does not exist or has
+/// no single number.
+/// @param key  as in --set: "motility.leader_force"
 std::optional<std::string> unit_of_key(const std::string& key);
 
-/// The value of such a key in that unit; nothing if this scene has none or "auto".
+/// Value of such a key in that unit; empty if the scene lacks it or has "auto".
 std::optional<double> value_of_key(const Scene& scene, const std::string& key);
 
 }  // namespace acinus::runs

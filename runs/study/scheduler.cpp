@@ -21,7 +21,7 @@
 namespace acinus::runs {
 namespace {
 
-constexpr double kLook = 1;  ///< s between looks at what others do
+constexpr double kPollInterval = 1;  ///< interval between checks of other processes, s
 
 class Scheduler {
  public:
@@ -54,17 +54,18 @@ class Scheduler {
   }
 
  private:
-  /// @return whether it was stopped
+  /// Provides the stiffness laws that the waiting runs need.
+  /// @return true if stopped by a signal
   bool calibrate() {
     std::vector<const StudyRun*> runs;
     for (const ChosenRun& c : waiting_) {
       if (is_left(inspect_run(options_.root, plan_.runs[c.run]).state))
         runs.push_back(&plan_.runs[c.run]);
     }
-    return find_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
+    return resolve_laws(runs, options_.jobs * options_.child.threads, options_.quiet, no_law_);
   }
 
-  /// What an earlier start of the study did, so that the time left is told right from the start.
+  /// Counts the runs completed earlier, so that the first estimate of the time left includes them.
   void count_done() {
     std::erase_if(waiting_, [&](const ChosenRun& c) {
       if (!c.own || inspect_run(options_.root, run_of(c)).state != RunState::kDone) return false;
@@ -87,7 +88,7 @@ class Scheduler {
   }
 
   void fail(const ChosenRun& c, const std::string& cause) {
-    progress_.tell(fmt::format("{} failed: {}", run_of(c).name, cause));
+    progress_.note(fmt::format("{} failed: {}", run_of(c).name, cause));
     count(c, false);
   }
 
@@ -101,6 +102,7 @@ class Scheduler {
     }
   }
 
+  /// Starts or settles a run if possible.
   /// @return false if the run must wait
   bool try_start(const ChosenRun& c) {
     const StudyRun& run = run_of(c);
@@ -129,7 +131,7 @@ class Scheduler {
     return true;
   }
 
-  /// A run that is in our hands: found to be done or failed, or started.
+  /// Settles a run whose claim is held: counts it as complete or failed, or starts it.
   void settle(const ChosenRun& c, io::FileLock claim) {
     const StudyRun& run = run_of(c);
     const RunStatus status = inspect_run(options_.root, run, true);
@@ -161,7 +163,7 @@ class Scheduler {
   void wait() {
     std::vector<const Child*> children;
     for (const ActiveRun& a : active_) children.push_back(&a.child);
-    if (const auto ended = wait_for_any(children, kLook)) finish(*ended);
+    if (const auto ended = wait_for_any(children, kPollInterval)) finish(*ended);
   }
 
   void finish(std::size_t k) {
@@ -195,10 +197,10 @@ class Scheduler {
     }
   }
 
-  /// Asks all children to stop and waits for them; a second signal kills them.
+  /// Stops all children with a checkpoint and waits for them; a second signal kills them.
   void stop() {
     result_.stopped = true;
-    progress_.tell("stopping: every run writes a checkpoint");
+    progress_.note("stopping: every run writes a checkpoint");
     for (const ActiveRun& a : active_) a.child.send(SIGTERM);
     const int first = count_stop_signals();
     while (!active_.empty()) {
@@ -215,10 +217,10 @@ class Scheduler {
   int n_own_ = 0;
   std::vector<ChosenRun> waiting_;
   std::vector<ActiveRun> active_;
-  std::map<std::size_t, ChosenRun> chosen_;  ///< of the active ones
+  std::map<std::size_t, ChosenRun> chosen_;  ///< of the active runs
   std::set<std::size_t> failed_;
-  std::set<std::size_t> again_;                ///< failed before, run again
-  std::map<std::string, std::string> no_law_;  ///< run name -> why it cannot have one
+  std::set<std::size_t> again_;                ///< failed runs that are repeated
+  std::map<std::string, std::string> no_law_;  ///< run name -> reason why its law is missing
 };
 
 void check_stale(const StudyPlan& plan, const std::vector<ChosenRun>& chosen,

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs the simulations of a study as processes of this program, several at once.
+/// Scheduler of the runs of a study as concurrent child processes.
 
 #include <map>
 #include <string>
@@ -11,27 +11,27 @@
 
 namespace acinus::runs {
 
+/// Options of the scheduler.
 struct ScheduleOptions {
-  std::string root;  ///< the study's folder
-  int jobs = 1;      ///< processes at once
+  std::string root;  ///< folder of the study
+  int jobs = 1;      ///< concurrent processes
   ChildRunOptions child;
-  bool overwrite =
-      false;  ///< run again what failed and what was made from another scene or version
+  bool overwrite = false;  ///< repeat failed runs and replace those of another scene or version
   bool quiet = false;
 };
 
-/// What came of the chosen runs.
+/// Numbers of completed, failed and remaining runs.
 struct ScheduleResult {
   int done = 0, failed = 0, left = 0;
   bool stopped = false;  ///< by a signal
 };
 
-/// Runs what is not done yet, resumes what was stopped. A run is never in two hands: the folder's
-/// claim is held here, its lock by the process that writes in it; what another process has is
-/// waited for. Children stop with a checkpoint when this process ends, however it ends. SIGTERM and
-/// SIGINT stop everything.
+/// Runs all incomplete runs; stopped ones are resumed. No run is in two hands: this process holds
+/// the claim of its folder and the child its run lock; runs of other processes are waited for. When
+/// this process ends in any way, its children stop with a checkpoint. SIGTERM and SIGINT stop
+/// everything.
 /// @throws Error(kBadInput) before anything runs if results of another scene or version are in the
-///         way and may not be replaced; Error(kFileError) for the disk
+/// way and may not be replaced; Error(kFileError) for the disk
 ScheduleResult run_all(const StudyPlan& plan, const std::vector<ChosenRun>& chosen,
                        const ScheduleOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The studies that come with the program.
+/// Studies that ship with the program.
 
 #include <string>
 #include <vector>
@@ -8,12 +8,11 @@
 
 namespace acinus::runs {
 
-/// All shipped studies by name, in runs/studies beside runs/scenes; none if there is no such
-/// folder.
+/// Shipped studies by name, from runs/studies beside runs/scenes; empty without that folder.
 std::vector<ShippedScene> shipped_studies();
 
-/// A study file, or that of a shipped study of this name.
-/// @throws Error with a hint if there is neither
+/// Path of a study file, or of the shipped study of that name.
+/// @throws Error with the nearest name if there is neither
 std::string find_study(const std::string& name);
 
 }  // namespace acinus::runs

@@ -1,6 +1,6 @@
 #pragma once
-/// A study as its file says it: plain data. A key's default is its initialiser here;
-/// study_registry.hpp adds unit, range and meaning.
+/// Keys of a study as plain data. Defaults are the initialisers here; study_registry.hpp adds unit,
+/// range and meaning.
 
 #include <cstdint>
 #include <map>
@@ -8,87 +8,115 @@
 #include <string>
 #include <vector>
 
+#include "runs/scene/choices.hpp"
 #include "runs/scene/json_text.hpp"
 
 namespace acinus::runs {
 
-/// A named set of changes to the scene.
+/// Named set of changes to the scene.
 struct StudyVariant {
   std::string title;
-  std::string extends;              ///< variant whose changes come first; "" = none
+  std::string extends;              ///< variant whose changes are applied first; "" = none
   std::vector<JsonMember> set;      ///< scene key -> value
   std::vector<std::int64_t> seeds;  ///< empty = those of the study
   std::string start;                ///< variant whose state at t = 0 is taken; "" = none
 };
 
-/// One more variant per value of a key.
+/// Sweep over a scene key: derives one variant per value.
 struct StudySweep {
-  std::vector<std::string> of;  ///< variants
-  std::string key;              ///< of the scene
-  std::string label;            ///< in the names; "" = the last part of the key
+  std::vector<std::string> of;  ///< variants to derive from
+  std::string key;              ///< scene key
+  std::string label;            ///< in derived names; "" = last part of the key
   std::vector<Node> values;
 };
 
-/// Points from elsewhere to plot beside the curves.
+/// Reference data from elsewhere, plotted beside the curves.
 struct StudyReference {
   std::string name;
   std::vector<Node> x, y;
-  std::vector<Node> low, high;  ///< bars; empty = none
+  std::vector<Node> low, high;  ///< error bars; empty = none
 };
 
+/// Plot of an observable over time or over a scene key.
 struct StudyPlot {
   std::string name, title, observable;
   std::vector<std::string> beside;    ///< observables of further panels, in the unit of the first
   std::vector<std::string> variants;  ///< empty = all
   std::string x_label, y_label;
   bool log_y = false;
-  std::string over;          ///< scene key on the x axis instead of time; "" = time
-  std::optional<double> at;  ///< s, with `over`: when; empty = the end
+  std::string over;          ///< scene key on the x axis; "" = time
+  std::optional<double> at;  ///< time of the values with `over`, s; empty = the end
   std::vector<StudyReference> reference;
 };
 
-/// Plots of the study in one file, side by side and below each other, numbered a, b, c ...
+/// Figure of several plots in a grid, with panels numbered a, b, c ...
 struct StudyFigure {
   std::string name;
   std::vector<std::string> plots;  ///< names; the first panel of each
   int columns = 2;
 };
 
+/// Kind of a measure of one variant up to kMax; kDistance to kPValue compare several runs or
+/// variants.
+enum class MeasureKind {
+  kValue,
+  kFirstBelow,
+  kFirstAbove,
+  kMean,
+  kMin,
+  kMax,
+  kDistance,
+  kOutside,
+  kBand,
+  kPValue
+};
+template <>
+inline constexpr const char* kChoices<MeasureKind> =
+    "value|first_below|first_above|mean|min|max|distance|outside|band|p_value";
+
+/// Measure: one number from the curves of an observable.
 struct StudyMeasure {
-  std::string kind = "value";
+  MeasureKind kind = MeasureKind::kValue;
   std::string observable, variant;
-  std::string other;                  ///< distance, outside, p_value: the second variant
-  std::string another;                ///< outside: the third
-  std::optional<double> at;           ///< s; empty = the end
-  std::optional<double> from, until;  ///< s, window; empty = the whole run
-  std::optional<Node> level;          ///< first_below, first_above
+  std::string other;         ///< second variant, for the kinds distance, outside and p_value
+  std::string another;       ///< third variant, for the kind outside
+  std::optional<double> at;  ///< s; empty = the end
+  std::optional<double> from, until;  ///< time window, s; empty = the whole run
+  std::optional<Node> level;          ///< for first_below and first_above
 };
 
+/// True if the measure compares two variants.
 inline bool needs_other(const StudyMeasure& m) {
-  return m.kind == "distance" || m.kind == "outside" || m.kind == "p_value";
+  return m.kind == MeasureKind::kDistance || m.kind == MeasureKind::kOutside ||
+         m.kind == MeasureKind::kPValue;
+}
+/// True if the measure is the time of a first passage.
+inline bool is_passage(const StudyMeasure& m) {
+  return m.kind == MeasureKind::kFirstBelow || m.kind == MeasureKind::kFirstAbove;
 }
 
-/// Heat map of a claim over two scene keys: share of the seeds for which a measure is within
+/// Heat map of a claim over two scene keys: share of the seeds whose measure lies within the
 /// bounds.
 struct StudyMap {
   std::string name, title;
   std::vector<std::string> variants;  ///< one field each
   std::string x, y;                   ///< scene keys
-  StudyMeasure measure;               ///< of every variant; kinds with a value per seed only
+  StudyMeasure measure;               ///< of every variant; only kinds with a value per seed
   std::optional<Node> low, high;
 };
 
-/// A claim: what is measured and what is expected of it.
+/// Claim of a study: a measure and its expected range.
 struct StudyExpectation {
   std::string id, claim;
-  std::string each;  ///< label of a sweep: judged for each of its values, too; "" = none
+  std::string each;  ///< label of a sweep over whose values the claim is repeated; "" = none
   StudyMeasure measure;
   std::optional<StudyMeasure> minus, over;
   std::optional<Node> low, high;
   bool every_seed = false;
-  int least_seeds = 0;  ///< so many seeds must lie within the bounds; 0 = their mean
+  int least_seeds = 0;  ///< least number of seeds within the bounds; 0 = their mean must be
 };
 
+/// All keys of a study file.
 struct Study {
   std::string file;  ///< path it was read from
   std::string name, description;

@@ -17,7 +17,7 @@
 namespace acinus::runs {
 namespace {
 
-/// A text as a field of a CSV file [RFC 4180], on one line: not every reader knows of more.
+/// Field of a CSV file [RFC 4180] on one line, since some readers do not accept line breaks.
 std::string field(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -26,7 +26,7 @@ std::string field(std::string text) {
   return out + "\"";
 }
 
-/// Factor from the unit in a file to that of the plan; 0 if they do not go together.
+/// Conversion factor from the unit of a file to that of the plan; 0 for different dimensions.
 double factor(const std::string& from, const std::string& to) {
   if (from == to) return 1;
   const UnitScale a = scale_of_unit(from), b = scale_of_unit(to);

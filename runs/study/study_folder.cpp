@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kFile = "/study.json";
 
-/// Whether the folder is a study's. Another task may be making it this moment: waits a little.
+/// True if the folder is that of a study. Waits up to 2 s, since another task may be creating it.
 bool has_study_file(const std::string& root) {
-  constexpr int kLooks = 40;
-  for (int look = 0; look < kLooks; ++look) {
+  constexpr int kMostPolls = 40;
+  for (int poll = 0; poll < kMostPolls; ++poll) {
     std::error_code code;
     if (fs::is_regular_file(root + kFile, code)) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -46,7 +46,7 @@ void check_study_folder(const std::string& root, const StudyPlan& plan) {
 void make_study_folder(const std::string& root, const StudyPlan& plan) {
   std::error_code code;
   fs::create_directories(root, code);
-  // First what tells whose folder it is: others may look into it already.
+  // First the file that names the study: other tasks may open it already.
   if (!code && !fs::exists(root + kFile, code)) {
     const nlohmann::ordered_json j{{"study", plan.study.name}};
     try {

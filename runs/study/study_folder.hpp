@@ -1,5 +1,5 @@
 #pragma once
-/// The folder of a study: whether it may be used.
+/// Folder of a study.
 
 #include <string>
 
@@ -7,11 +7,12 @@
 
 namespace acinus::runs {
 
-/// Refuses a folder with another study or something else in it.
+/// Refuses a folder that holds another study or something else.
 /// @throws Error(kBadInput)
 void check_study_folder(const std::string& root, const StudyPlan& plan);
 
-/// Makes the folder and writes into it whose it is.   @throws Error(kFileError)
+/// Creates the folder with the file that names its study.
+/// @throws Error(kFileError)
 void make_study_folder(const std::string& root, const StudyPlan& plan);
 
 }  // namespace acinus::runs

@@ -9,8 +9,8 @@
 
 namespace acinus::runs {
 
-bool find_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
-               std::map<std::string, std::string>& failed) {
+bool resolve_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
+                  std::map<std::string, std::string>& failed) {
   for (const StudyRun* run : runs) {
     const bool asks = std::ranges::any_of(run->scene.cell_types, [](const auto& type) {
       return type.second.cbm.stiffness_correction == "auto";

@@ -1,5 +1,5 @@
 #pragma once
-/// Laws of spheres that the runs of a study ask for, calibrated once before any of them starts.
+/// Stiffness laws of the spheres of a study, calibrated once before its runs start.
 
 #include <map>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace acinus::runs {
 
-/// Finds or makes the law of every cell type with stiffness_correction "auto"; the runs then find
-/// it in the cache.
-/// @param threads  for a calibration
-/// @param failed   out: run name -> why it cannot have its law
-/// @return whether a signal stopped a calibration
-bool find_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
-               std::map<std::string, std::string>& failed);
+/// Provides the law of every cell type with stiffness_correction "auto" in the cache, where the
+/// runs find it.
+/// @param threads  of a calibration
+/// @param failed   receives run name -> reason why its law is missing
+/// @return true if a signal stopped a calibration
+bool resolve_laws(const std::vector<const StudyRun*>& runs, int threads, bool quiet,
+                  std::map<std::string, std::string>& failed);
 
 }  // namespace acinus::runs

@@ -12,7 +12,7 @@
 namespace acinus::runs {
 namespace {
 
-/// Values of the two keys in the scene of a variant; nothing if it lacks one.
+/// Values of the two keys in the scene of a variant; empty if it lacks one.
 std::optional<std::pair<double, double>> place_of(const StudyPlan& plan, std::size_t variant,
                                                   const StudyMap& wanted) {
   for (const StudyRun& run : plan.runs) {
@@ -84,8 +84,7 @@ io::HeatMap make_map(const StudyPlan& plan, const StudyData& data, const StudyMa
   for (const MapPlace& f : fields) {
     const auto row = std::ranges::lower_bound(ys, f.y) - ys.begin();
     const auto column = std::ranges::lower_bound(xs, f.x) - xs.begin();
-    map.field[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
-        make_field(plan, data, wanted, f.variant);
+    map.field[row][column] = make_field(plan, data, wanted, f.variant);
   }
   return map;
 }

@@ -10,12 +10,12 @@
 
 namespace acinus::runs {
 
-/// A map of the study file: one field per variant, with the seeds that are within the bounds and
-/// the mean (median where some never get there). Fields without a variant, or whose runs are not
-/// done, are unknown.
+/// Heat map with one field per variant: number of seeds within the bounds and mean (median if the
+/// measure is infinite for some). Fields without a variant or with incomplete runs are unknown.
 io::HeatMap make_map(const StudyPlan& plan, const StudyData& data, const StudyMap& wanted);
 
-/// Writes plots/<name>.svg for every map of the file.   @return file names in plots/, in that order
+/// Writes plots/<name>.svg for every map of the study.
+/// @return file names in plots/, in the order of the file
 /// @throws Error(kFileError)
 std::vector<std::string> write_maps(const StudyPlan& plan, const StudyData& data,
                                     const std::string& root);

@@ -18,15 +18,16 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// One run's curve with what is known about its end.
+/// Curve of one run with its seed and end.
 struct RunCurve {
   std::int64_t seed = 0;
   const TimeCurve* curve = nullptr;
   bool complete = false;
-  double until = 0;  ///< s, end of what was recorded
+  double until = 0;  ///< end of the recording, s
 };
 
-/// The curves of a variant; `note` says which is missing.
+/// Curves of all runs of a variant.
+/// @param note  receives the reason if one is missing
 std::vector<RunCurve> find_curves(const StudyPlan& plan, const StudyData& data,
                                   const std::string& variant, const std::string& observable,
                                   std::string& note) {
@@ -54,13 +55,14 @@ std::vector<RunCurve> find_curves(const StudyPlan& plan, const StudyData& data,
 
 double first_time(const TimeCurve& curve) { return std::max(0.0, curve.time.front()); }
 
-/// Times that are the same in curves of this length.
+/// Tolerance for equal times on a curve, s: 1e-3 of its duration, at most 1 s.
 double same_time(const TimeCurve& curve) {
-  constexpr double kMost = 1, kShare = 1e-3;  // s; of the duration
-  return std::clamp(kShare * (curve.time.back() - curve.time.front()), kSameTime, kMost);
+  constexpr double kMostTolerance = 1, kToleranceShare = 1e-3;  // s; of the duration
+  return std::clamp(kToleranceShare * (curve.time.back() - curve.time.front()), kSameTime,
+                    kMostTolerance);
 }
 
-/// Time at which a measure is taken; the end only of runs that are done and have a value there.
+/// Time at which a value is taken, s. The end only for complete runs that have a value there.
 std::optional<double> time_of(const RunCurve& s, const std::optional<double>& asked) {
   if (asked) return asked;
   if (!s.complete || s.curve->time.back() < s.until - same_time(*s.curve)) return std::nullopt;
@@ -75,28 +77,29 @@ std::optional<TimeCurve> window_of(const RunCurve& s, const StudyMeasure& m) {
   return w;
 }
 
-/// The number that one run gives.
+/// Measure of one run; empty if its curve does not reach the times needed.
 std::optional<double> of_run(const RunCurve& s, const StudyMeasure& m, double level) {
-  if (m.kind == "value") {
+  if (m.kind == MeasureKind::kValue) {
     const std::optional<double> t = time_of(s, m.at);
     return t ? value_at(*s.curve, *t) : std::nullopt;
   }
-  if (m.kind == "first_below" || m.kind == "first_above") {
+  if (is_passage(m)) {
     const double from = m.from.value_or(first_time(*s.curve));
-    const auto passed = first_passage(*s.curve, level, m.kind == "first_below", from,
+    const auto passed = first_passage(*s.curve, level, m.kind == MeasureKind::kFirstBelow, from,
                                       m.until.value_or(s.curve->time.back()));
     if (passed) return passed;
     return window_of(s, m) ? std::optional(kNever) : std::nullopt;
   }
   const std::optional<TimeCurve> w = window_of(s, m);
   if (!w) return std::nullopt;
-  if (m.kind == "mean") return time_mean(*w);
-  return m.kind == "min" ? *std::ranges::min_element(w->value)
-                         : *std::ranges::max_element(w->value);
+  if (m.kind == MeasureKind::kMean) return time_mean(*w);
+  return m.kind == MeasureKind::kMin ? *std::ranges::min_element(w->value)
+                                     : *std::ranges::max_element(w->value);
 }
 
-/// The mean over the seeds, or the median if something never happened in some of them: one seed
-/// must not decide for all. @pre no value is NaN
+/// Sets the mean over the seeds, or the median if some are infinite, since one seed must not decide
+/// for all; and their range.
+/// @pre no value is NaN
 void summarise(Measured& out) {
   std::vector<double> sorted;
   for (const auto& [seed, v] : out.by_seed) sorted.push_back(v);
@@ -117,7 +120,7 @@ void summarise(Measured& out) {
   out.note = fmt::format("the median: {} of {} seeds never", n_never, n);
 }
 
-/// All windows of a variant; empty if one is missing.
+/// Windows of all runs of a variant; empty if one is missing.
 std::vector<TimeCurve> windows(const std::vector<RunCurve>& sources, const StudyMeasure& m) {
   std::vector<TimeCurve> out;
   for (const RunCurve& s : sources) {
@@ -128,8 +131,8 @@ std::vector<TimeCurve> windows(const std::vector<RunCurve>& sources, const Study
   return out;
 }
 
-/// Reason why curves cannot be compared over all of their length: they do not begin or end
-/// together. Empty: they do, or the claim has a window.
+/// Reason why curves cannot be compared over their whole length: different starts or ends without a
+/// window in the claim. Empty if they can.
 std::string find_unequal_ends(const StudyMeasure& m, const std::vector<RunCurve>& runs) {
   double low[2] = {kNever, kNever}, high[2] = {-kNever, -kNever}, same = kNever;
   for (const RunCurve& s : runs) {
@@ -154,7 +157,7 @@ std::set<double> times_of(const std::vector<TimeCurve>& curves) {
   return times;
 }
 
-/// Largest spread over seeds at one time.
+/// Largest range over the seeds at any time.
 std::optional<double> widest_band(const std::vector<TimeCurve>& curves) {
   double widest = 0;
   for (double t : times_of(curves)) {
@@ -192,7 +195,8 @@ std::optional<double> largest_distance(const std::vector<TimeCurve>& a,
   return largest;
 }
 
-/// Largest distance of one mean curve from the space between two others.
+/// Largest distance of a mean curve from the band between two other mean curves; empty without a
+/// common time.
 std::optional<double> largest_excess(const std::vector<TimeCurve>& a,
                                      const std::vector<TimeCurve>& b,
                                      const std::vector<TimeCurve>& c) {
@@ -233,13 +237,15 @@ Measured none(Measured out, const std::string& note) {
   return out;
 }
 
-/// NaN where there is none: never minus never, a ratio with what never happens.
+/// Difference or ratio of two values; NaN where it is undefined: infinite minus infinite, or a
+/// ratio to infinity.
 double combined(const StudyExpectation& e, double a, double b) {
   if (e.minus) return a - b;
   return std::isinf(b) ? std::numeric_limits<double>::quiet_NaN() : a / b;
 }
 
-/// How large a difference with what never happened is at least: known as far as the runs went.
+/// Lower bound of a difference with an event that never happened within a run, from the run's
+/// length.
 double known_difference(double a, double a_until, double b, double b_until) {
   if (std::isinf(a)) return a_until - b;
   return std::isinf(b) ? b_until - a : kNever;
@@ -254,21 +260,23 @@ Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyM
   const std::vector<RunCurve> a = find_curves(plan, data, m.variant, m.observable, missing);
   std::vector<RunCurve> b, c;
   if (needs_other(m)) b = find_curves(plan, data, m.other, m.observable, missing);
-  if (m.kind == "outside") c = find_curves(plan, data, m.another, m.observable, missing);
+  if (m.kind == MeasureKind::kOutside)
+    c = find_curves(plan, data, m.another, m.observable, missing);
   if (!missing.empty()) return none(out, missing);
   if (a.empty() || (needs_other(m) && b.empty())) return none(out, "no runs");
   std::string note = "the runs have not come so far, ended before, or have no value there";
-  if ((needs_other(m) || m.kind == "band") && m.kind != "p_value") {
+  if ((needs_other(m) || m.kind == MeasureKind::kBand) && m.kind != MeasureKind::kPValue) {
     std::vector<RunCurve> all = a;
     for (const auto* more : {&b, &c}) all.insert(all.end(), more->begin(), more->end());
     if (const std::string unequal = find_unequal_ends(m, all); !unequal.empty())
       return none(out, unequal);
   }
-  if (needs_other(m) || m.kind == "band") {
-    out.value = m.kind == "p_value"    ? p_value(a, b, m, note)
-                : m.kind == "outside"  ? largest_excess(windows(a, m), windows(b, m), windows(c, m))
-                : m.kind == "distance" ? largest_distance(windows(a, m), windows(b, m))
-                                       : widest_band(windows(a, m));
+  if (needs_other(m) || m.kind == MeasureKind::kBand) {
+    out.value = m.kind == MeasureKind::kPValue ? p_value(a, b, m, note)
+                : m.kind == MeasureKind::kOutside
+                    ? largest_excess(windows(a, m), windows(b, m), windows(c, m))
+                : m.kind == MeasureKind::kDistance ? largest_distance(windows(a, m), windows(b, m))
+                                                   : widest_band(windows(a, m));
     return out.value ? out : none(out, note);
   }
   const double level = m.level ? number_in(*m.level, plan.units.at(m.observable)) : 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// The measures of a study's claims, taken from what its runs recorded.
+/// Measures of the claims of a study.
 
 #include <cstdint>
 #include <map>
@@ -10,26 +10,27 @@
 
 namespace acinus::runs {
 
-/// A number, or why there is none.
+/// Measured value, or the reason why there is none.
 struct Measured {
-  std::optional<double> value;      ///< mean over seeds, the median if some never; infinite = never
-  std::optional<double> low, high;  ///< over seeds; empty for what has no value per seed
+  std::optional<double> value;      ///< mean over seeds, or median if some are infinite (= never)
+  std::optional<double> low, high;  ///< range over seeds; empty without values per seed
   std::string unit;
-  std::string note;  ///< why it is not measured, or what is to be known about it
-  /// s, of "never": it did not happen before; of a difference with it: its size is at least this
+  std::string note;  ///< reason for a missing value, or remark on the value
+  /// Time up to which an event is known not to have happened, s; for a difference with such an
+  /// event, a lower bound of its size.
   double known_until = 0;
-  std::map<std::int64_t, double> by_seed;  ///< empty for what has no value per seed
+  std::map<std::int64_t, double> by_seed;  ///< empty without values per seed
 };
 
-/// Takes one measure. Every run of its variants must have reached the times it needs and none may
-/// have failed; otherwise there is no value.
+/// Evaluates one measure. There is no value unless every run of its variants reached the times it
+/// needs and none failed.
 Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyMeasure& measure);
 
-/// The measure of a claim: one, or the difference or ratio of two, seed by seed where both variants
-/// have the same seeds, else of the means.
+/// Evaluates a claim: one measure, or the difference or ratio of two, by seed if both variants have
+/// the same seeds, else of the means.
 Measured take_measure(const StudyPlan& plan, const StudyData& data, const StudyExpectation& claim);
 
-/// Seeds whose value lies within the bounds, ends included.
+/// Number of seeds whose value lies within the bounds, ends included.
 int seeds_within(const Measured& measured, std::optional<double> low, std::optional<double> high);
 
 }  // namespace acinus::runs

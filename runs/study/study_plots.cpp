@@ -21,7 +21,7 @@ struct TimeAxis {
   double seconds = 3600;
 };
 
-/// Days for long runs, minutes and seconds for short ones.
+/// Unit of the time axis: days for long runs, minutes or seconds for short ones.
 TimeAxis time_axis(const StudyPlan& plan, const StudyData& data,
                    const std::vector<std::size_t>& variants) {
   double end = 0;
@@ -52,18 +52,19 @@ void add_point(io::PlotLine& line, double x, const Spread& s) {
   line.band.emplace_back(s.low, s.high);
 }
 
-/// What is there of a variant.
+/// Available curves of a variant.
 struct CurvesOfVariant {
   std::vector<const TimeCurve*> curve;
-  std::size_t n_run = 0;  ///< that there are to be
-  /// " (3 of 5 seeds)" if some are missing.
+  std::size_t n_run = 0;  ///< number of planned runs
+  /// Suffix " (3 of 5 seeds)" if runs are missing, else empty.
   std::string missing() const {
     if (curve.size() == n_run) return {};
     return fmt::format(" ({} of {} seeds)", curve.size(), n_run);
   }
 };
 
-/// Runs that failed are left out: what they would have come to is not known.
+/// Curves of a variant without failed runs, whose further course is unknown.
+/// @param to_the_end  only complete runs
 CurvesOfVariant curves_of(const StudyPlan& plan, const StudyData& data, std::size_t variant,
                           const std::string& observable, bool to_the_end) {
   CurvesOfVariant out;
@@ -79,7 +80,8 @@ CurvesOfVariant curves_of(const StudyPlan& plan, const StudyData& data, std::siz
   return out;
 }
 
-/// As far as all curves go: a mean over fewer would jump.
+/// Mean curve with its range, up to the end of the shortest curve: a mean over fewer runs would
+/// jump.
 io::PlotLine line_over_time(const std::vector<const TimeCurve*>& curves, double seconds) {
   std::set<double> times;
   for (const TimeCurve* c : curves) times.insert(c->time.begin(), c->time.end());
@@ -94,7 +96,7 @@ io::PlotLine line_over_time(const std::vector<const TimeCurve*>& curves, double 
   return line;
 }
 
-/// Variants that were made from the same one by sweeps share a line.
+/// Adds one line per base variant over a scene key, through the variants derived from it by sweeps.
 void add_lines_over_key(const StudyPlan& plan, const StudyData& data, const StudyPlot& wanted,
                         const std::vector<std::size_t>& variants, io::Plot& plot) {
   std::map<std::string, std::vector<std::pair<double, Spread>>> lines;
@@ -133,7 +135,7 @@ void add_reference(const StudyReference& r, const std::string& x_unit, double x_
   plot.line.push_back(line);
 }
 
-/// "lesion_radius_um" in "um" as "lesion_radius, um".
+/// Axis label of an observable: "lesion_radius_um" in "um" becomes "lesion_radius, um".
 std::string with_unit(std::string name, const std::string& unit) {
   if (unit == "1") return name;
   std::string end = "_";
@@ -180,7 +182,8 @@ io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot
 
 namespace {
 
-/// The plot, with further panels of the same variants at its side; titles name their observables.
+/// SVG text of a plot with further panels of the same variants beside it, titled by their
+/// observables.
 std::string draw_with_panels(const StudyPlan& plan, const StudyData& data,
                              const StudyPlot& wanted) {
   if (wanted.beside.empty()) return io::draw_plot(make_plot(plan, data, wanted));
@@ -203,7 +206,7 @@ std::string draw_figure(const StudyPlan& plan, const StudyData& data, const Stud
         make_plot(plan, data, *std::ranges::find(plan.study.plots, name, &StudyPlot::name)));
   for (std::size_t k = 0; k < plots.size() && plots.size() <= 26; ++k)
     plots[k].title = fmt::format("{}: {}", static_cast<char>('a' + k), plots[k].title);
-  return io::draw_grid(plots, static_cast<std::size_t>(figure.columns));
+  return io::draw_grid(plots, figure.columns);
 }
 
 }  // namespace

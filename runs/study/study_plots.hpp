@@ -1,5 +1,5 @@
 #pragma once
-/// The plots of a study.
+/// Plots of a study.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,13 @@
 
 namespace acinus::runs {
 
-/// A plot of the study file: one line per variant with the mean over the seeds that have a value,
-/// and the band between their smallest and largest; its reference points.
+/// Plot of the study file: one line per variant with mean and range over the seeds that have a
+/// value, and its reference data.
 io::Plot make_plot(const StudyPlan& plan, const StudyData& data, const StudyPlot& wanted);
 
-/// Writes plots/<name>.svg for every plot and figure of the file; one of each observable of the
-/// table if the file asks for no plot.   @return file names in plots/, in that order
+/// Writes plots/<name>.svg for every plot and figure of the study, or one for every observable of
+/// the table if there are none.
+/// @return file names in plots/, in that order
 /// @throws Error(kFileError)
 std::vector<std::string> write_plots(const StudyPlan& plan, const StudyData& data,
                                      const std::string& root);

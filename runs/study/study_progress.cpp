@@ -45,7 +45,7 @@ void StudyProgress::show(const StudyCounts& counts, const std::vector<ActiveRun>
   std::fflush(stdout);
 }
 
-void StudyProgress::tell(const std::string& text) {
+void StudyProgress::note(const std::string& text) {
   if (quiet_) return;
   finish();
   fmt::print("{}\n", text);

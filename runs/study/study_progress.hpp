@@ -1,5 +1,5 @@
 #pragma once
-/// What a study says while it runs: one line that is renewed on a terminal, one a minute otherwise.
+/// Progress of a study: one line renewed on a terminal, one line a minute otherwise.
 
 #include <cstddef>
 #include <string>
@@ -10,18 +10,20 @@
 
 namespace acinus::runs {
 
+/// Numbers of runs by state.
 struct StudyCounts {
   int all = 0, done = 0, failed = 0;
-  std::vector<std::size_t> waiting;  ///< runs, by index
+  std::vector<std::size_t> waiting;  ///< indices of runs
 };
 
+/// Printer of the progress of a study, with the estimated time left.
 class StudyProgress {
  public:
   StudyProgress(const StudyPlan& plan, const std::string& root, int jobs, bool quiet);
 
   void add(const StudyRun& run, double cpu_s) { costs_.add(run, cpu_s); }
   void show(const StudyCounts& counts, const std::vector<ActiveRun>& active);
-  void tell(const std::string& text);  ///< a line that stays
+  void note(const std::string& text);  ///< prints a permanent line
   void finish();
 
  private:
@@ -29,10 +31,10 @@ class StudyProgress {
   ExpectedCosts costs_;
   int jobs_;
   bool quiet_, terminal_, line_open_ = false;
-  double last_ = -1e300;  ///< wall_seconds()
+  double last_ = -1e300;  ///< time of the last line, wall_seconds()
 };
 
-/// "40 s", "12.5 min", "3.2 h", "2.5 d".
+/// Duration with a suitable unit: "40 s", "12.5 min", "3.2 h", "2.5 d".
 std::string short_duration(double seconds);
 
 }  // namespace acinus::runs

@@ -98,26 +98,26 @@ void describe_figure(Visitor& v, StudyFigure& b) {
             b.columns);
 }
 
-/// Level, moment and window of a measure, by its kind.
+/// Describes level, time and window of a measure, depending on its kind.
 void describe_moment(Visitor& v, StudyMeasure& b) {
-  v.when(b.kind == "first_below" || b.kind == "first_above", "kind = first_below or first_above",
-         [&b](Visitor& w) {
-           w.value({.name = "level",
-                    .meaning = "what the observable falls below or rises above",
-                    .required = true},
-                   b.level);
-         });
-  v.when(b.kind == "value" || b.kind == "p_value", "kind = value or p_value", [&b](Visitor& w) {
-    w.optional_real({.name = "at",
-                     .meaning = "time looked at",
-                     .dimension = kTime,
-                     .unit = "h",
-                     .range = kNotNegative,
-                     .automatic = "the end of the run"},
-                    b.at);
+  v.when(is_passage(b), "kind = first_below or first_above", [&b](Visitor& w) {
+    w.value({.name = "level",
+             .meaning = "what the observable falls below or rises above",
+             .required = true},
+            b.level);
   });
-  v.when(b.kind != "value" && b.kind != "p_value", "kind other than value and p_value",
+  v.when(b.kind == MeasureKind::kValue || b.kind == MeasureKind::kPValue, "kind = value or p_value",
          [&b](Visitor& w) {
+           w.optional_real({.name = "at",
+                            .meaning = "time looked at",
+                            .dimension = kTime,
+                            .unit = "h",
+                            .range = kNotNegative,
+                            .automatic = "the end of the run"},
+                           b.at);
+         });
+  v.when(b.kind != MeasureKind::kValue && b.kind != MeasureKind::kPValue,
+         "kind other than value and p_value", [&b](Visitor& w) {
            w.optional_real({.name = "from",
                             .meaning = "beginning of the window",
                             .dimension = kTime,
@@ -136,27 +136,27 @@ void describe_moment(Visitor& v, StudyMeasure& b) {
 }
 
 void describe_measure(Visitor& v, StudyMeasure& b) {
-  v.text({.name = "kind",
+  choice(v,
+         {.name = "kind",
           .meaning =
               "value at a time; first_below, first_above: when the level is first passed; mean, "
               "min, max over a window; distance: largest between the mean curves of two variants; "
               "outside: largest distance of the mean curve from the space between those of two "
               "others; band: widest spread over seeds; p_value: of the t-test between two "
-              "variants, paired where both have the same seeds",
-          .choices = "value|first_below|first_above|mean|min|max|distance|outside|band|p_value"},
+              "variants, paired where both have the same seeds"},
          b.kind);
   v.text({.name = "observable", .meaning = "what is looked at", .required = true}, b.observable);
   v.text({.name = "variant", .meaning = "whose runs", .required = true}, b.variant);
   v.when(needs_other(b), "kind = distance, outside or p_value", [&b](Visitor& w) {
     w.text({.name = "other", .meaning = "the second variant", .required = true}, b.other);
   });
-  v.when(b.kind == "outside", "kind = outside", [&b](Visitor& w) {
+  v.when(b.kind == MeasureKind::kOutside, "kind = outside", [&b](Visitor& w) {
     w.text({.name = "another", .meaning = "the third variant", .required = true}, b.another);
   });
   describe_moment(v, b);
 }
 
-/// Range of values for which a claim holds.
+/// Describes the range of values for which a claim holds.
 void describe_bounds(Visitor& v, std::optional<Node>& low, std::optional<Node>& high) {
   v.value({.name = "low", .meaning = "smallest value that bears the claim out", .automatic = "any"},
           low);
@@ -164,7 +164,8 @@ void describe_bounds(Visitor& v, std::optional<Node>& low, std::optional<Node>& 
 }
 
 void describe_map_measure(Visitor& v, StudyMeasure& b) {
-  v.text({.name = "kind",
+  choice(v,
+         {.name = "kind",
           .meaning = "value at a time; first_below, first_above: when the level is first passed; "
                      "mean, min, max over a window",
           .choices = "value|first_below|first_above|mean|min|max"},
@@ -263,15 +264,9 @@ void describe(Visitor& v, Study& s) {
 
 const std::vector<Entry>& study_entries() {
   static const std::vector<Entry> entries = [] {
-    Entry extends;
-    extends.path = extends.short_path = "extends";
-    extends.type = "path";
-    extends.initial = "none";
-    extends.meaning = kExtends;
-    std::vector<Entry> all{extends};
     Study study;
-    for (Entry& entry : collect_entries([&](Visitor& visitor) { describe(visitor, study); }))
-      all.push_back(std::move(entry));
+    std::vector<Entry> all =
+        collect_entries(kExtends, [&](Visitor& visitor) { describe(visitor, study); });
     for (Entry& entry : all) {
       entry.path = "study." + entry.path;
       entry.short_path = "study." + entry.short_path;

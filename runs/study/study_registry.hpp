@@ -1,5 +1,5 @@
 #pragma once
-/// The registry of study keys; reader, schema and `explain` visit it as they do that of scenes.
+/// Registry of study keys, visited by reader, schema and `explain` as that of scenes.
 
 #include <string>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace acinus::runs {
 
-/// Shows the visitor every key of the study, with the study's own fields as values.
+/// Visits every key of the study, with the study's own members as values.
 void describe(Visitor& visitor, Study& study);
 
-/// Every key, in canonical order; built once.
+/// All keys in canonical order; built once.
 const std::vector<Entry>& study_entries();
 
-/// JSON Schema of a study, as scene_schema().
+/// JSON Schema of a study, like scene_schema().
 std::string study_schema();
 
 }  // namespace acinus::runs

@@ -20,7 +20,7 @@
 namespace acinus::runs {
 namespace {
 
-/// A text inside a cell of a Markdown table.
+/// Escapes a text for a cell of a Markdown table.
 std::string cell(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
@@ -101,7 +101,7 @@ std::string unfinished(const StudyPlan& plan, const StudyData& data) {
          "refused or killed whenever the study is started.\n\n";
 }
 
-/// Where shared starts come from, run by run.
+/// Markdown list of the runs that take their start from another run.
 std::string start_list(const StudyPlan& plan, const StudyData& data) {
   std::string lines;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {

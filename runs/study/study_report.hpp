@@ -1,5 +1,5 @@
 #pragma once
-/// Everything a study says about its runs, written from what stands in its folder.
+/// Report on the runs of a study, from the files of its folder.
 
 #include <string>
 
@@ -7,6 +7,7 @@
 
 namespace acinus::runs {
 
+/// Numbers of claims by verdict and of runs by state.
 struct ReportCounts {
   int holds = 0, does_not_hold = 0, not_measured = 0;
   int done = 0, failed = 0, missing = 0;  ///< runs

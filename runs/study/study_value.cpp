@@ -23,8 +23,8 @@ double number_in(const Node& value, const std::string& unit) {
 }
 
 std::string unit_of(const StudyMeasure& measure, const std::map<std::string, std::string>& units) {
-  if (measure.kind == "p_value") return "1";
-  if (measure.kind == "first_below" || measure.kind == "first_above") return "s";
+  if (measure.kind == MeasureKind::kPValue) return "1";
+  if (is_passage(measure)) return "s";
   return units.at(measure.observable);
 }
 

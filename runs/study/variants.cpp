@@ -11,10 +11,10 @@
 namespace acinus::runs {
 namespace {
 
-constexpr std::size_t kMostVariants = 10000;  ///< of one study
-constexpr std::size_t kMostExtended = 64;     ///< one after the other
+constexpr std::size_t kMostVariants = 10000;   ///< in one study
+constexpr std::size_t kMostExtendsChain = 64;  ///< in one chain of extends
 
-/// Keys of a scene that a study sets in its own way.
+/// Advice for scene keys that a study sets in another way; null for other keys.
 const char* instead_of(const std::string& key) {
   if (key == "seed") return "Seeds are listed in the key seeds";
   if (key == "start_up.from" || key == "start_up/from") return "Name a variant in the key start";
@@ -33,7 +33,7 @@ void add_settings(const std::vector<JsonMember>& members, const std::string& poi
   }
 }
 
-/// The place of a variant's key, or of the variant.
+/// Position of a key of a variant in the file, or of the variant.
 TextPlace place_of(const Report& report, const std::string& pointer, const char* key) {
   const Node* node = report.find(pointer + "/" + key);
   if (node == nullptr) node = report.find(pointer);
@@ -46,8 +46,8 @@ std::string no_variant(const std::string& name, const std::vector<std::string>& 
       did_you_mean(nearest_name(name, names), fmt::format("Known: {}", fmt::join(names, ", "))));
 }
 
-/// Settings of a variant and of those it extends, oldest first.
-/// @param chain  names on the way, to notice circles
+/// Collects the settings of a variant and of those it extends, oldest first.
+/// @param chain  variants visited so far, to detect cycles
 void collect(const Study& study, const std::string& name, std::vector<std::string> chain,
              Report& report, std::vector<Setting>& out) {
   const StudyVariant& variant = study.variants.at(name);
@@ -59,9 +59,9 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
       std::vector<std::string> names;
       for (const auto& [other, unused] : study.variants) names.push_back(other);
       report.add(origin, pointer + "/extends", no_variant(variant.extends, names));
-    } else if (chain.size() > kMostExtended) {
+    } else if (chain.size() > kMostExtendsChain) {
       report.add(origin, pointer + "/extends",
-                 fmt::format("more than {} variants extend one another", kMostExtended));
+                 fmt::format("more than {} variants extend one another", kMostExtendsChain));
     } else if (std::ranges::find(chain, variant.extends) != chain.end()) {
       report.add(origin, pointer + "/extends",
                  fmt::format("variants extend each other in a circle: {}, {}",
@@ -73,19 +73,19 @@ void collect(const Study& study, const std::string& name, std::vector<std::strin
   add_settings(variant.set, pointer + "/set", report, out);
 }
 
-/// A folder's name, for anything a study may say: one component that stays where it is put.
+/// Name as a safe path component: replaces unsafe characters and limits the length.
 std::string safe_component(const std::string& name) {
-  constexpr std::size_t kLongest = 120;
-  constexpr const char* kSafe =
+  constexpr std::size_t kMostCharacters = 120;
+  constexpr const char* kSafeCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.=";
-  std::string safe = name.substr(0, kLongest);
+  std::string safe = name.substr(0, kMostCharacters);
   for (char& c : safe)
-    if (std::string_view(kSafe).find(c) == std::string_view::npos) c = '_';
+    if (std::string_view(kSafeCharacters).find(c) == std::string_view::npos) c = '_';
   if (safe.empty() || safe.front() == '.') safe.insert(safe.begin(), '_');
   return safe;
 }
 
-/// A value as it stands in a name: texts without quotes.
+/// Value as part of a name: texts without quotes.
 std::string plain(const Node& value) {
   return value.kind == Node::Kind::kText ? value.text : shown(value);
 }
@@ -131,7 +131,8 @@ class Maker {
   }
 
  private:
-  /// What is wrong with the study's own settings is told once, with the first variant.
+  /// Report for the settings common to all variants, whose faults are reported once, with the first
+  /// variant.
   Report& silent_or_report(const std::string& name) {
     return name == study_.variants.begin()->first ? report_ : silent_;
   }

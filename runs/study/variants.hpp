@@ -1,5 +1,5 @@
 #pragma once
-/// The variants of a study: those it names and those its sweeps make.
+/// Variants of a study: named ones and those derived by sweeps.
 
 #include <cstdint>
 #include <string>
@@ -10,35 +10,36 @@
 
 namespace acinus::runs {
 
-/// One change to the scene, with the place it was written.
+/// Change of one scene key, with its position in the study file.
 struct Setting {
   JsonMember value;     ///< name: the scene key
   std::string pointer;  ///< "/variants/III/set/time.end"
 };
 
+/// Variant with all its settings.
 struct Variant {
   std::string name;  ///< "III", or "III/leader_force=0.3 nN"
   std::string title;
-  std::string folder;        ///< the name with everything unsafe in it replaced
-  std::string pointer;       ///< where it was written
-  std::vector<Setting> set;  ///< in the order they are applied
+  std::string folder;        ///< name with unsafe characters replaced
+  std::string pointer;       ///< position in the study file
+  std::vector<Setting> set;  ///< in the order of application
   std::vector<std::int64_t> seeds;
-  std::string start;  ///< "" = a start of its own
+  std::string start;  ///< variant whose state at t = 0 is taken; "" = its own start
 };
 
 /// Part of a variant's name for a value of a sweep: "leader_force=0.3 nN".
 std::string name_of_value(const StudySweep& sweep, const Node& value);
 
-/// All variants in the order of their names, those of a sweep after the ones it is made of.
-/// Unknown names, circles, doubled names and seeds go into the report.
+/// Makes all variants, named ones by name, each sweep's after those it derives from. Unknown names,
+/// cycles, duplicate names and duplicate seeds are added to the report.
 std::vector<Variant> make_variants(const Study& study, Report& report);
 
-/// The variants a name stands for: itself, or with * at its end all whose name begins so.
+/// Variants that a name stands for: the variant itself, or with * at the end all with that prefix.
 /// @return indices into `variants`; none if there is no such variant
 std::vector<std::size_t> find_variants(const std::vector<Variant>& variants,
                                        const std::string& name);
 
-/// What to say about a name that stands for no variant.
+/// Message for a name without a variant.
 std::string unknown_variant(const std::vector<Variant>& variants, const std::string& name);
 
 }  // namespace acinus::runs

@@ -27,23 +27,24 @@ std::string describe_window(const StudyMeasure& m) {
 std::string describe_measure(const StudyMeasure& m) {
   const std::string at = m.at ? "at " + show_value(*m.at, "s") : "at the end";
   const std::string what = fmt::format("`{}` of {}", m.observable, m.variant);
-  if (m.kind == "value") return what + " " + at;
-  if (m.kind == "p_value")
+  if (m.kind == MeasureKind::kValue) return what + " " + at;
+  if (m.kind == MeasureKind::kPValue)
     return fmt::format("p value of the t-test, `{}` of {} and {} {}", m.observable, m.variant,
                        m.other, at);
   const std::string in = describe_window(m);
-  if (m.kind == "first_below" || m.kind == "first_above")
+  if (is_passage(m))
     return fmt::format("first time {} is {} {}{}", what,
-                       m.kind == "first_below" ? "at or below" : "at or above",
+                       m.kind == MeasureKind::kFirstBelow ? "at or below" : "at or above",
                        m.level ? shown(*m.level) : "", in);
-  if (m.kind == "distance")
+  if (m.kind == MeasureKind::kDistance)
     return fmt::format("largest distance of the mean curves of {} and {}{}", what, m.other, in);
-  if (m.kind == "outside")
+  if (m.kind == MeasureKind::kOutside)
     return fmt::format(
         "largest distance of the mean curve of {} from the space between {} and {}{}", what,
         m.other, m.another, in);
-  if (m.kind == "band") return fmt::format("widest spread of {} over seeds{}", what, in);
-  return fmt::format("{} of {}{}", m.kind, what, in);
+  if (m.kind == MeasureKind::kBand)
+    return fmt::format("widest spread of {} over seeds{}", what, in);
+  return fmt::format("{} of {}{}", name_of_choice(m.kind), what, in);
 }
 
 std::string describe_bounds(const Verdict& v) {
@@ -61,7 +62,8 @@ std::string describe_bounds(const Verdict& v) {
   return text + (v.every_seed ? ", every seed" : "");
 }
 
-/// What never happened is later than the end of the runs; about what comes after they say nothing.
+/// Evaluates a claim. An event that did not happen within the runs counts as later than their end;
+/// runs say nothing beyond it.
 ClaimStatus check_claim(Verdict& v) {
   Measured& m = v.measured;
   if (!m.value) return ClaimStatus::kNotMeasured;

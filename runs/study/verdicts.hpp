@@ -1,5 +1,5 @@
 #pragma once
-/// What became of a study's claims.
+/// Verdicts on the claims of a study.
 
 #include <string>
 #include <vector>
@@ -8,11 +8,13 @@
 
 namespace acinus::runs {
 
+/// Verdict on a claim.
 enum class ClaimStatus { kHolds, kDoesNotHold, kNotMeasured };
 
+/// Claim with its measure, expectation and verdict.
 struct Verdict {
   std::string id, claim;
-  std::string how;       ///< what was measured, in words
+  std::string how;       ///< description of the measure
   std::string expected;  ///< "from 0.1 to 0.3", "at most 6 d"
   std::optional<double> expected_low, expected_high;
   bool every_seed = false;
@@ -21,14 +23,15 @@ struct Verdict {
   ClaimStatus status = ClaimStatus::kNotMeasured;
 };
 
-/// Checks every expectation. What is not measured never holds.
+/// Evaluates every expectation. An unmeasured claim never holds.
 std::vector<Verdict> check_claims(const StudyPlan& plan, const StudyData& data);
 
-/// "holds", "does not hold", "not measured".
+/// Name in reports: "holds", "does not hold", "not measured".
 const char* name_of(ClaimStatus status);
 
-/// verdicts.json: [{id, claim, expected, measured, low, high, pass, ...}]; what has no value is
-/// null, pass too if nothing was measured.   @throws Error(kFileError)
+/// Writes verdicts.json: [{id, claim, expected, measured, low, high, pass, ...}]; missing values
+/// are null, and so is pass of an unmeasured claim.
+/// @throws Error(kFileError)
 void write_verdicts(const std::vector<Verdict>& verdicts, const std::string& root);
 
 }  // namespace acinus::runs

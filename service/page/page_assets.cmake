@@ -1,6 +1,6 @@
 # The pages for browsers as texts in the program: what bundle.sh made, so that building it needs no browser tools.
 set(page ${CMAKE_CURRENT_SOURCE_DIR}/page)
-set(assets "#include \"service/page/page_assets.hpp\"\nnamespace acinus::runs {\n")
+set(assets "#include \"service/page/page_assets.hpp\"\nnamespace acinus::service {\n")
 foreach(asset kPageScript=bundle/report.min.js kPageStyle=bundle/report.min.css kPageBody=report.html kPageLicences=bundle/licences.txt
         kServiceScript=bundle/service.min.js kServiceStyle=bundle/service.min.css kServicePage=service.html kLoginPage=login.html)
   string(REPLACE "=" ";" asset ${asset})

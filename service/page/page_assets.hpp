@@ -1,13 +1,13 @@
 #pragma once
-/// Scripts, styles and bodies of the pages for browsers, put into the program by page_assets.cmake.
+/// Scripts, styles and bodies of the browser pages, compiled in by page_assets.cmake.
 
 #include <string_view>
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Of reports, as bundle.sh made them.
+/// Assets of report pages, as bundled by bundle.sh.
 extern const std::string_view kPageScript, kPageStyle, kPageBody, kPageLicences;
-/// Of the service.
+/// Assets of the service's pages.
 extern const std::string_view kServiceScript, kServiceStyle, kServicePage, kLoginPage;
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

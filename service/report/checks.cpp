@@ -3,7 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -12,12 +12,13 @@ struct Check {
   const char* name;
   const char* path;
   const char* unit;
-  double limit;  ///< in the unit
+  double limit;  ///< in `unit`
   bool at_most = true;
 };
 
-/// Sums of internal forces cancel but for rounding. Contacts look 1.5 um deep unless the scene says
-/// otherwise and mend what is shallower (soundness.hpp). Quality 1: equilateral.
+/// Accuracy checks of a run. Internal forces sum to zero up to rounding. Contact searches 1.5 um
+/// deep by default and resolves shallower overlaps (soundness.hpp). Triangle quality 1 is
+/// equilateral.
 constexpr std::array kChecks{
     Check{"sum of internal forces, over the sum of their sizes", "/balance/momentum", "1", 1e-12},
     Check{"sum of their torques", "/balance/torque", "1", 1e-12},
@@ -44,4 +45,4 @@ OrderedJson list_checks(const OrderedJson& summary) {
   return list;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,12 +1,13 @@
 #pragma once
-/// What a run says of its own accuracy, beside what it should be.
+/// Accuracy figures of a run with their limits.
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// name, value, unit, limit, at_most (else at least), pass of each check that the summary has.
+/// Checks of the figures present in a summary: name, value, unit, limit, at_most (else at least),
+/// pass.
 /// @param summary  of summary.json
 nlohmann::ordered_json list_checks(const nlohmann::ordered_json& summary);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -5,16 +5,16 @@
 #include "service/report/other_parts.hpp"
 #include "service/report/run_part.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 nlohmann::ordered_json describe_comparison(const std::vector<std::string>& folders) {
   using OrderedJson = nlohmann::ordered_json;
   try {
-    const Comparison c = compare_runs(folders, {});
+    const runs::Comparison c = runs::compare_runs(folders, {});
     OrderedJson j{{"from", c.from}, {"to", c.to}, {"frames", c.frames}, {"notes", c.notes}};
-    for (const std::vector<Difference>& run : c.difference) {
+    for (const std::vector<runs::Difference>& run : c.difference) {
       OrderedJson rows = OrderedJson::array();
-      for (const Difference& d : run)
+      for (const runs::Difference& d : run)
         rows.push_back(
             {{"name", d.name},
              {"unit", d.unit},
@@ -30,4 +30,4 @@ nlohmann::ordered_json describe_comparison(const std::vector<std::string>& folde
   }
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -7,18 +7,19 @@
 #include "service/report/pack.hpp"
 #include "service/report/thin.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 constexpr std::uint8_t kBoundaryKind = 2;
 
-/// Part of a frame's surfaces with points of its own.
+/// Part of a frame's surfaces with its own nodes.
 struct Surfaces {
   std::vector<double> x, y, z;
   std::vector<std::int64_t> corner, cell, kind;
 };
 
-/// The triangles that are boundary, or those that are not.
+/// Extracts the boundary triangles of a frame, or all others.
+/// @param boundary  extract the boundary
 Surfaces take_surfaces(const io::Frame& f, bool boundary) {
   Surfaces s;
   std::vector<std::int64_t> place(f.n_mesh_node, -1);
@@ -40,11 +41,11 @@ Surfaces take_surfaces(const io::Frame& f, bool boundary) {
   return s;
 }
 
-/// The place of an item in a list, added if none has the same chunk.
+/// Index of the item with the same chunk in a list; adds the item if there is none.
 template <class Item>
 std::size_t place_of(std::vector<Item>& list, Item item) {
   const auto at = std::ranges::find(list, item.chunk, &Item::chunk);
-  const auto place = static_cast<std::size_t>(at - list.begin());
+  const std::size_t place = at - list.begin();
   if (at == list.end()) list.push_back(std::move(item));
   return place;
 }
@@ -142,4 +143,4 @@ PackedRun pack_frames(RunRecord& run, const FrameLimits& limits) {
   return {};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

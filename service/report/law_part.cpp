@@ -8,7 +8,7 @@
 #include "runs/scene/bounded_json.hpp"
 #include "service/report/other_parts.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace fs = std::filesystem;
 
 nlohmann::ordered_json describe_law(const std::string& file) {
@@ -25,8 +25,8 @@ nlohmann::ordered_json describe_law(const std::string& file) {
       is_folder ? fs::path(file) : law.parent_path() / (law.stem().string() + ".calibration");
   if (fs::exists(beside / "curves.json", code))
     j["curves"] =
-        parse_or_discard<OrderedJson>(io::read_text_inside(beside.string(), "curves.json"));
+        runs::parse_or_discard<OrderedJson>(io::read_text_inside(beside.string(), "curves.json"));
   return j;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

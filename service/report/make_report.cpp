@@ -15,7 +15,7 @@
 #include "service/report/picture.hpp"
 #include "service/report/run_part.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace fs = std::filesystem;
 namespace {
 
@@ -39,7 +39,7 @@ ItemKind kind_of(const std::string& path) {
                   path));
 }
 
-/// "lobule.run" -> "lobule.html", in this folder.
+/// Default name of the report, in the working directory: "lobule.html" for "lobule.run".
 std::string file_named_after(const std::string& first) {
   fs::path name = fs::path(first).lexically_normal();
   if (!name.has_filename()) name = name.parent_path();
@@ -83,11 +83,11 @@ std::string write_report(const ReportOptions& options) {
   std::string title = data["items"][0]["name"].get<std::string>();
   if (options.what.size() > 1) title += fmt::format(" and {} more", options.what.size() - 1);
   const std::string out = options.out.empty() ? file_named_after(options.what[0]) : options.out;
-  io::write_text_file(
-      out,
-      write_page(as_utf8(title), data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace)));
+  io::write_text_file(out,
+                      write_page(runs::as_utf8(title),
+                                 data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace)));
   if (!options.png.empty()) take_picture(out, options.png);
   return out;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

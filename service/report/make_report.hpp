@@ -1,25 +1,27 @@
 #pragma once
-/// `acinus report`: one page that shows runs, laws and studies without a network.
+/// Self-contained page about runs, laws and studies (`acinus report`).
 
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Options of `acinus report`.
 struct ReportOptions {
   std::vector<std::string> what;          ///< run folders, law files, study folders
   std::string out = "";                   ///< HTML file; "" = named after the first
-  std::string png = "";                   ///< picture of the page; "" = none
+  std::string png = "";                   ///< screenshot of the page; "" = none
   std::string title = "";                 ///< of the first; "" = its file name
-  std::optional<int> most_frames = {};    ///< of a run; empty = 50
-  std::optional<std::size_t> bytes = {};  ///< of the page; empty = 8 MB
+  std::optional<int> most_frames = {};    ///< most frames per run; empty = 50
+  std::optional<std::size_t> bytes = {};  ///< most bytes of the page; empty = 8 MB
 };
 
-/// @return the HTML file
-/// @throws Error: what is no run, law or study; kFileError where files cannot be read or written,
-/// or no browser is found for the picture
+/// Writes the report.
+/// @return path of the HTML file
+/// @throws Error for an input that is no run, law or study; kFileError for unreadable or unwritable
+/// files, or if no browser is found for the screenshot
 std::string write_report(const ReportOptions& options);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,23 +1,24 @@
 #pragma once
-/// What is no run, as the page's script reads it.
+/// Laws, studies and comparisons as JSON for the report page.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// A calibrated law, with the curves of force against overlap that it was fitted to where they
-/// stand beside it.
-/// @param file  a law, or the folder LAW.calibration
+/// Describes a calibrated law, with the force-overlap curves it was fitted to if they stand beside
+/// it.
+/// @param file  law file, or its folder LAW.calibration
 /// @throws Error as calibration::read_law()
 nlohmann::ordered_json describe_law(const std::string& file);
 
-/// A study: its claims with their verdicts, its runs, its plots.
+/// Describes a study: claims with verdicts, runs, plots.
 /// @throws Error(kFileError) if the folder has none of them yet
 nlohmann::ordered_json describe_study(const std::string& folder);
 
-/// How the second and further runs differ from the first, or why that cannot be said.
+/// Describes the differences of the second and further runs to the first, or the reason why they
+/// cannot be compared.
 nlohmann::ordered_json describe_comparison(const std::vector<std::string>& folders);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

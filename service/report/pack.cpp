@@ -9,10 +9,11 @@
 
 #include "core/error.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
-/// @param width  bytes of each
+/// Appends integers as byte planes.
+/// @param width  bytes per integer
 void append_planes(std::string& bytes, const std::vector<std::uint32_t>& value, int width) {
   for (int plane = width - 1; plane >= 0; --plane)
     for (const std::uint32_t v : value) bytes += static_cast<char>((v >> (8 * plane)) & 0xff);
@@ -77,14 +78,15 @@ void append_quantised(std::string& bytes, std::span<const double> value) {
 }
 
 std::string encode_chunk(std::string_view bytes) {
-  constexpr int kLevel = 6;
+  constexpr int kCompressionLevel = 6;
   uLongf size = compressBound(bytes.size());
   std::string packed(size, '\0');
-  const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), kLevel);
+  const int code =
+      compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), kCompressionLevel);
   check(code == Z_OK, "out of memory while packing the data of a page", Exit::kInternal);
   packed.resize(size);
   return encode_base64(packed);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -4,10 +4,10 @@
 
 #include "service/page/page_assets.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
-/// Nothing may be loaded from anywhere: the page is all there is.
+/// Head of the page. Its policy allows no external resource, so that the page is self-contained.
 constexpr std::string_view kHead = R"(<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -45,4 +45,4 @@ std::string write_page(std::string_view title, std::string_view data) {
       kPageLicences);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,16 +1,17 @@
 #pragma once
-/// The HTML page around the data.
+/// HTML page that carries the data of a report.
 
 #include <string>
 #include <string_view>
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Bytes of the page without data.
+/// Size of the page without data, bytes.
 std::size_t empty_page_size();
 
-/// @param title  as text
-/// @param data   JSON that page/main.js understands
+/// HTML text of a page.
+/// @param title  plain text
+/// @param data   JSON for page/src/report.js
 std::string write_page(std::string_view title, std::string_view data);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -11,13 +11,13 @@
 #include "io/disk.hpp"
 #include "runs/session/child.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kLimit = 120;  // s
+constexpr double kRenderTimeLimit = 120;  // s
 
-/// The first browser in PATH, "" if there is none.
+/// Name of the first known browser in PATH, "" if there is none.
 std::string find_browser() {
   const char* path = std::getenv("PATH");
   for (const char* name : {"chromium", "chromium-browser", "google-chrome", "chrome"}) {
@@ -49,10 +49,12 @@ void take_picture(const std::string& html, const std::string& png) {
                                  "--screenshot=" + fs::absolute(png).string(),
                                  "file://" + fs::absolute(html).string()};
   if (geteuid() == 0) words.insert(words.begin(), "--no-sandbox");  // it refuses root without
-  ChildEnd end;
+  runs::ChildEnd end;
   {
-    Child child(words, {.program = browser, .output = profile + "/output.txt", .limit_s = kLimit});
-    wait_for_any({&child}, kLimit + 1);
+    runs::Child child(
+        words,
+        {.program = browser, .output = profile + "/output.txt", .limit_s = kRenderTimeLimit});
+    runs::wait_for_any({&child}, kRenderTimeLimit + 1);
     end = child.collect();
   }
   fs::remove_all(profile, code);
@@ -62,4 +64,4 @@ void take_picture(const std::string& html, const std::string& png) {
         Exit::kFileError);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,13 +1,13 @@
 #pragma once
-/// A picture of a page, by a browser that is installed.
+/// Screenshots of a page by an installed browser.
 
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Draws the page with Chromium or Chrome, without a screen.
-/// @param png  replaced
-/// @throws Error(kFileError) if there is no browser, or it draws nothing
+/// Renders the page with headless Chromium or Chrome.
+/// @param png  file to write, replaced if it exists
+/// @throws Error(kFileError) if there is no browser, or it renders nothing
 void take_picture(const std::string& html, const std::string& png);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

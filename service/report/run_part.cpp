@@ -16,7 +16,7 @@
 #include "service/report/checks.hpp"
 #include "service/report/thin.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -28,11 +28,11 @@ OrderedJson numbers(const std::vector<double>& values) {
 }
 
 OrderedJson curve(const std::vector<double>& time, const std::vector<double>& value) {
-  const TimeCurve thin = thin_curve({time, value}, kMostSamples);
+  const runs::TimeCurve thin = thin_curve({time, value}, kMostSamples);
   return {{"time", numbers(thin.time)}, {"value", numbers(thin.value)}};
 }
 
-/// All columns but the time as curves of their own: thinning keeps each one's peaks.
+/// Converts every column but the time to a curve of its own, so that thinning keeps its extremes.
 OrderedJson curves(const std::map<std::string, std::vector<double>>& columns,
                    const std::map<std::string, std::string>& unit) {
   OrderedJson list = OrderedJson::object();
@@ -47,7 +47,7 @@ OrderedJson curves(const std::map<std::string, std::vector<double>>& columns,
   return list;
 }
 
-/// Quantiles over the cells of a frame: 5, 25, 50, 75, 95 %.
+/// Appends the quantiles of a cell property in one frame: 5, 25, 50, 75, 95 %.
 void add_quantiles(OrderedJson& band, double time_s, std::vector<double> values) {
   std::erase_if(values, [](double x) { return !std::isfinite(x); });  // they have no order
   if (values.empty()) return;
@@ -66,7 +66,7 @@ std::vector<double> relative_volumes(const io::Table& cells) {
   return volume;
 }
 
-/// Pressure and volume of the cells at up to so many frames: tables are read without the meshes.
+/// Describes pressure and volume of the cells over time, from the cell tables alone.
 OrderedJson describe_cells(RunRecord& run) {
   constexpr int kMostTables = 200;
   OrderedJson bands{{"pressure", OrderedJson::object()}, {"volume", OrderedJson::object()}};
@@ -125,21 +125,21 @@ OrderedJson describe_events(const std::vector<io::Event>& events) {
   return {{"counts", counts}, {"last", last}, {"all", events.size()}};
 }
 
-/// What of the scene is not as a scene that says nothing has it.
+/// Keys of a scene whose values differ from the defaults.
 std::vector<std::string> differences_from_defaults(const std::string& scene) {
-  Scene plain;
+  runs::Scene plain;
   const OrderedJson types =
-      parse_bounded<OrderedJson>(scene, "scene").value("cell_types", OrderedJson::object());
+      runs::parse_bounded<OrderedJson>(scene, "scene").value("cell_types", OrderedJson::object());
   check(types.is_object(), "its cell types are none.", Exit::kFileError);
   for (const auto& [name, type] : types.items()) plain.cell_types[name] = {};
-  set_canonical(plain);
-  return list_scene_differences(plain.resolved_json, scene,
-                                [](const std::string&) { return false; });
+  runs::set_canonical(plain);
+  return runs::list_scene_differences(plain.resolved_json, scene,
+                                      [](const std::string&) { return false; });
 }
 
-/// The scene that the run keeps; a line in `damage` where it is none.
+/// Adds the scene recorded in the run file, or a line to `damage` if it is invalid.
 void describe_scene(RunRecord& run, const std::string& text, OrderedJson& j) {
-  OrderedJson scene = parse_or_discard<OrderedJson>(text);
+  OrderedJson scene = runs::parse_or_discard<OrderedJson>(text);
   std::string fault;
   try {
     check(scene.is_object(), "is no JSON object.", Exit::kFileError);
@@ -161,8 +161,8 @@ OrderedJson short_number(double value) {
 }
 
 OrderedJson describe_run(RunRecord& run, const FrameLimits& limits) {
-  OrderedJson summary =
-      run.summary.empty() ? OrderedJson::object() : parse_or_discard<OrderedJson>(run.summary);
+  OrderedJson summary = run.summary.empty() ? OrderedJson::object()
+                                            : runs::parse_or_discard<OrderedJson>(run.summary);
   if (!summary.is_object()) {
     run.damage.push_back("summary.json: is no JSON object");
     summary = OrderedJson::object();
@@ -192,4 +192,4 @@ OrderedJson describe_run(RunRecord& run, const FrameLimits& limits) {
   return j;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

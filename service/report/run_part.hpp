@@ -1,5 +1,5 @@
 #pragma once
-/// One run as the page's script reads it.
+/// Run as JSON for the report page.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -7,16 +7,16 @@
 #include "service/report/frames.hpp"
 #include "service/report/run_record.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Most samples of a curve; more are thinned (thin.hpp).
+/// Most samples of a curve; longer curves are thinned (thin.hpp).
 inline constexpr int kMostSamples = 800;
 
-/// Status, facts, scene, checks, times of stages, curves and frames of a run.
-/// @param run  in: as read; what cannot be read of its frames is added to its damage
+/// Describes a run: status, facts, scene, checks, times of stages, curves and frames.
+/// @param run  read faults of its frames are added to its damage
 nlohmann::ordered_json describe_run(RunRecord& run, const FrameLimits& limits);
 
-/// A number with the digits a plot needs; null where there is none.
+/// Number rounded to six significant digits; null if it is not finite.
 nlohmann::ordered_json short_number(double value);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

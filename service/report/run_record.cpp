@@ -9,11 +9,12 @@
 #include "io/inside.hpp"
 #include "runs/session/run_folder.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 namespace fs = std::filesystem;
 
-/// Notes what fails and goes on.   @return whether it did not fail
+/// Runs a read operation and records its failure.
+/// @return true if it succeeded
 template <class Read>
 bool attempt(RunRecord& run, const std::string& what, Read read) {
   try {
@@ -41,7 +42,7 @@ RunRecord read_run_record(const std::string& folder) {
                     "`acinus run` wrote.",
                     folder),
         Exit::kFileError);
-  attempt(run, "lock of the folder", [&] { run.going_on = is_being_written(folder); });
+  attempt(run, "lock of the folder", [&] { run.going_on = runs::is_being_written(folder); });
   if (has_summary)
     attempt(run, "summary", [&] { run.summary = io::read_text_inside(folder, "summary.json"); });
   if (!has_file) {
@@ -85,4 +86,4 @@ std::vector<double> table_column(const io::Table& table, const std::string& name
   return {};
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

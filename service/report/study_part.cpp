@@ -11,13 +11,13 @@
 #include "runs/session/shell_quote.hpp"
 #include "service/report/other_parts.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace fs = std::filesystem;
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// One field of a line, and the rest of the line. Quotes as in RFC 4180.
+/// Removes and returns the first field of a CSV line, with quotes as in RFC 4180.
 std::string take_field(std::istringstream& line) {
   std::string field;
   if (line.peek() != '"') {
@@ -55,14 +55,15 @@ OrderedJson describe_study(const std::string& folder) {
   check(fs::exists(root / "runs.csv", code),
         fmt::format(
             "{}: is a study without results. `acinus study FILE --out {} --report` writes them.",
-            folder, quote_for_shell(folder)),
+            folder, runs::quote_for_shell(folder)),
         Exit::kFileError);
   OrderedJson j{
       {"type", "study"}, {"name", root.lexically_normal().filename().string()}, {"folder", folder}};
   j["runs"] = read_csv(folder, "runs.csv");
   j["verdicts"] = OrderedJson::array();
   if (fs::exists(root / "verdicts.json", code))
-    j["verdicts"] = parse_or_discard<OrderedJson>(io::read_text_inside(folder, "verdicts.json"));
+    j["verdicts"] =
+        runs::parse_or_discard<OrderedJson>(io::read_text_inside(folder, "verdicts.json"));
   std::vector<fs::path> plots;
   if (io::is_folder_inside(folder, "plots"))
     for (const fs::directory_entry& entry : fs::directory_iterator(root / "plots", code))
@@ -76,4 +77,4 @@ OrderedJson describe_study(const std::string& folder) {
   return j;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 std::vector<int> choose_evenly(int count, int n) {
   std::vector<int> chosen;
@@ -14,10 +14,10 @@ std::vector<int> choose_evenly(int count, int n) {
   return chosen;
 }
 
-TimeCurve thin_curve(const TimeCurve& curve, int n) {
+runs::TimeCurve thin_curve(const runs::TimeCurve& curve, int n) {
   const int count = static_cast<int>(curve.time.size());
   if (count <= n) return curve;
-  TimeCurve thin;
+  runs::TimeCurve thin;
   const int stretches = std::max(1, n / 2);
   for (int s = 0; s < stretches; ++s) {
     const auto begin = curve.value.begin() + 1L * s * count / stretches;
@@ -39,4 +39,4 @@ double quantile(const std::vector<double>& sorted, double share) {
   return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,21 +1,22 @@
 #pragma once
-/// Fewer of many, so that what is looked at stays the same.
+/// Decimation of frames and curves for display.
 
 #include <vector>
 
 #include "runs/study/curves.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Up to n of the numbers 0 to count - 1, evenly spaced, with the first and the last (n = 1: the
+/// Up to n evenly spaced integers from 0 to count - 1, including the first and the last (n = 1: the
 /// last).
 std::vector<int> choose_evenly(int count, int n);
 
-/// At most n samples that look alike when drawn: of every stretch its smallest and largest.
-TimeCurve thin_curve(const TimeCurve& curve, int n);
+/// Decimates a curve to at most n samples, keeping minimum and maximum of every stretch.
+runs::TimeCurve thin_curve(const runs::TimeCurve& curve, int n);
 
-/// Value below which this share of the values lies; between two of them it is joined by a straight
-/// line.   @pre sorted, not empty; share 0 to 1
+/// Quantile of sorted values, interpolated linearly.
+/// @param share  0 to 1
+/// @pre sorted, not empty
 double quantile(const std::vector<double>& sorted, double share);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

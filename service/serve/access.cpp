@@ -9,7 +9,7 @@
 #include "runs/scene/bounded_json.hpp"
 #include "service/serve/token.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 std::string decode_base64(const std::string& text) {
@@ -31,7 +31,7 @@ std::string session_of(const ServiceAccess& access, const HttpRequest& request) 
   return "";
 }
 
-/// The token of the Authorization header; "" = none.
+/// Token of the Authorization header; "" = none.
 std::string header_token(const HttpRequest& request) {
   const std::string value = request.header("authorization");
   if (value.starts_with("Bearer ")) return value.substr(7);
@@ -93,8 +93,8 @@ std::optional<HttpReply> refuse(const ServiceAccess& access, const HttpRequest& 
 
 HttpReply log_in(const ServiceAccess& access, const HttpRequest& request) {
   if (access.token.empty()) return error_reply(404, "NotFound", "this service asks for no token");
-  const auto form = parse_or_discard<nlohmann::json>(request.body);
-  if (!same_secret(text_at(form, "token"), access.token))
+  const auto form = runs::parse_or_discard<nlohmann::json>(request.body);
+  if (!same_secret(runs::text_at(form, "token"), access.token))
     return refused("the token is not that of this service");
   HttpReply reply;
   reply.status = 204;
@@ -103,4 +103,4 @@ HttpReply log_in(const ServiceAccess& access, const HttpRequest& request) {
   return reply;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

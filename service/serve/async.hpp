@@ -1,11 +1,11 @@
 #pragma once
-/// What waits without a thread: coroutines on the loop of the service.
+/// Coroutines on the event loop of the service, which wait without a thread.
 
 #include <boost/asio/awaitable.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 template <class T>
 using Task = boost::asio::awaitable<T>;
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

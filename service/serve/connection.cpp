@@ -26,24 +26,25 @@
 
 #include "io/inside.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 
-constexpr auto kPatience = std::chrono::seconds(30);  ///< with a client that sends or takes slowly
-constexpr auto kStrangerPatience = std::chrono::seconds(10);  ///< with one of whom nothing is known
+constexpr auto kClientTimeout = std::chrono::seconds(30);    ///< timeout of a slow client
+constexpr auto kStrangerTimeout = std::chrono::seconds(10);  ///< timeout before authentication
 constexpr auto kRoomPoll = std::chrono::milliseconds(20);
-constexpr auto kLinger = std::chrono::seconds(2);  ///< with what comes after the reply
+constexpr auto kDrainTime =
+    std::chrono::seconds(2);  ///< time to discard input after the last reply
 constexpr auto kEventPoll = std::chrono::milliseconds(500);
-constexpr std::uint32_t kMostHeader = 16384;      ///< bytes
-constexpr std::uint64_t kMostStrangeBody = 4096;  ///< bytes, of whom nothing is known
+constexpr std::uint32_t kMostHeaderBytes = 16384;  ///< bytes
+constexpr std::uint64_t kMostStrangerBody = 4096;  ///< before authentication, bytes
 
-constexpr std::array kSingle{"host",           "origin",        "authorization",
-                             "content-length", "content-type",  "transfer-encoding",
-                             "expect",         "sec-fetch-site"};
+constexpr std::array kSingleHeaders{"host",           "origin",        "authorization",
+                                    "content-length", "content-type",  "transfer-encoding",
+                                    "expect",         "sec-fetch-site"};
 
 HttpRequest take_head(const http::request_header<>& head) {
   HttpRequest request;
@@ -54,7 +55,7 @@ HttpRequest take_head(const http::request_header<>& head) {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
     const auto [known, fresh] = request.headers.emplace(name, field.value());
     // Servers that read the other one would see another request.
-    if (!fresh && std::ranges::count(kSingle, name) > 0)
+    if (!fresh && std::ranges::count(kSingleHeaders, name) > 0)
       request.fault = fmt::format("the head has {} twice", name);
   }
   const std::string coding = request.header("transfer-encoding");
@@ -108,11 +109,10 @@ class Connection {
  private:
   auto token() { return asio::redirect_error(asio::use_awaitable, failed_); }
 
-  /// Takes what is still on its way, else the client would see a broken connection in place of the
-  /// reply.
+  /// Discards remaining input before the socket is closed; a reset would otherwise lose the reply.
   Task<void> drain() {
     std::array<char, 65536> bytes;
-    stream_.expires_after(kLinger);
+    stream_.expires_after(kDrainTime);
     failed_ = {};
     while (!failed_) co_await stream_.async_read_some(asio::buffer(bytes), token());
   }
@@ -123,10 +123,11 @@ class Connection {
 
   void give_room() { connections_.give_room(std::exchange(room_, 0)); }
 
-  /// Waits until a body may be received.
+  /// Waits until the receive budget admits the body.
+  /// @return false on timeout
   Task<bool> take_room(double bytes) {
     asio::steady_timer timer(stream_.get_executor());
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kClientTimeout;
     while (!connections_.take_room(bytes)) {
       if (std::chrono::steady_clock::now() > end) co_return false;
       timer.expires_after(kRoomPoll);
@@ -136,11 +137,13 @@ class Connection {
     co_return true;
   }
 
-  /// Reads the body: of strangers, a few bytes.
+  /// Reads the body, of an unauthenticated client only a few bytes.
+  /// @return false if a refusal was sent or the client has gone
   Task<bool> take_body(http::request_parser<http::string_body>& parser, bool allowed) {
     if (!allowed) {
-      parser.body_limit(kMostStrangeBody);  // of chunks; the length was compared with the other one
-      if (parser.content_length().value_or(0) > kMostStrangeBody) {
+      parser.body_limit(
+          kMostStrangerBody);  // of chunks; the length was compared with the other one
+      if (parser.content_length().value_or(0) > kMostStrangerBody) {
         const HttpReply reply = too_large();
         co_await send(reply, false);
         co_return false;
@@ -157,7 +160,7 @@ class Connection {
         co_await send(busy, false);
         co_return false;
       }
-      stream_.expires_after(kPatience);
+      stream_.expires_after(kClientTimeout);
     }
     if (parser.get()[http::field::expect] == "100-continue") {
       http::response<http::empty_body> go_on{http::status::continue_, 11};
@@ -169,12 +172,13 @@ class Connection {
     co_return false;
   }
 
-  /// @return whether there may be another one
+  /// Serves one request.
+  /// @return true if the connection may carry another
   Task<bool> serve_one() {
     http::request_parser<http::string_body> parser;
-    parser.header_limit(kMostHeader);
+    parser.header_limit(kMostHeaderBytes);
     parser.body_limit(static_cast<std::uint64_t>(options_.max_body));
-    stream_.expires_after(stranger_ ? kStrangerPatience : kPatience);
+    stream_.expires_after(stranger_ ? kStrangerTimeout : kClientTimeout);
     co_await http::async_read_header(stream_, buffer_, parser, token());
     if (failed_) co_return co_await refuse_what_is_no_request();
     HttpRequest request = take_head(parser.get());
@@ -204,11 +208,11 @@ class Connection {
     const bool too_long = failed_ == http::error::body_limit;
     const HttpReply reply =
         too_long ? too_large() : error_reply(400, "BadRequest", failed_.message());
-    stream_.expires_after(kPatience);
+    stream_.expires_after(kClientTimeout);
     co_return co_await send(reply, false);
   }
 
-  /// What is our fault ends one request, not the service.
+  /// Computes the reply. An internal error becomes status 500 and does not end the service.
   Task<HttpReply> answer(HttpRequest request) {
     std::string fault;
     try {
@@ -253,7 +257,7 @@ class Connection {
     serializer.split(head_only_);
     failed_ = {};
     while (!failed_ && !(head_only_ ? serializer.is_header_done() : serializer.is_done())) {
-      stream_.expires_after(kPatience);  // for each piece: a file may be long
+      stream_.expires_after(kClientTimeout);  // for each piece: a file may be long
       co_await http::async_write_some(stream_, serializer, token());
     }
     co_return !failed_;
@@ -264,14 +268,14 @@ class Connection {
     head.type = "text/event-stream";
     auto response = make_head<http::empty_body>(head, false);
     http::response_serializer<http::empty_body> serializer(response);
-    stream_.expires_after(kPatience);
+    stream_.expires_after(kClientTimeout);
     co_await http::async_write_header(stream_, serializer, token());
     asio::steady_timer timer(stream_.get_executor());
     while (!failed_ && !head_only_) {
       const std::optional<std::string> text = reply.events();
       if (!text) break;
       if (!text->empty()) {
-        stream_.expires_after(kPatience);
+        stream_.expires_after(kClientTimeout);
         co_await asio::async_write(stream_, asio::buffer(*text), token());
       }
       if (failed_) break;
@@ -289,7 +293,7 @@ class Connection {
   bool head_only_ = false;
   Connections& connections_;
   std::optional<Connections::Stranger> stranger_;
-  double room_ = 0;  ///< bytes that the connections count for it
+  double room_ = 0;  ///< bytes charged to the receive budget
 };
 
 }  // namespace
@@ -300,4 +304,4 @@ Task<void> serve_connection(asio::ip::tcp::socket socket, Routes& routes,
   co_await connection.serve();
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,5 +1,5 @@
 #pragma once
-/// One connection: HTTP/1.1 to and from the socket.
+/// One HTTP/1.1 connection on a socket.
 
 #include <boost/asio/ip/tcp.hpp>
 
@@ -7,10 +7,10 @@
 #include "service/serve/connections.hpp"
 #include "service/serve/routes.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Answers requests until the client goes, is too slow or sends what is no HTTP.
+/// Serves requests until the client goes, is too slow or sends invalid HTTP.
 Task<void> serve_connection(boost::asio::ip::tcp::socket socket, Routes& routes,
                             const ServeOptions& options, Connections& connections);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -2,11 +2,11 @@
 
 #include <utility>
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 constexpr std::size_t kMostStrangers = 512;
-constexpr double kMostReceived = 64e6;  ///< bytes, together
+constexpr double kMostBytesReceived = 64e6;  ///< bytes in all connections together
 
 }  // namespace
 
@@ -21,9 +21,9 @@ Connections::Stranger Connections::add_stranger(Close close) {
 
 bool Connections::take_room(double bytes) {
   // One alone may be larger: --max-body bounds it.
-  if (receiving_ > 0 && receiving_ + bytes > kMostReceived) return false;
+  if (receiving_ > 0 && receiving_ + bytes > kMostBytesReceived) return false;
   receiving_ += bytes;
   return true;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

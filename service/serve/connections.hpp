@@ -1,27 +1,26 @@
 #pragma once
-/// All connections of a service: how many there are of whom nothing is known, and how much is being
-/// received. What anybody may make the service hold is bounded, and a flood of strangers does not
-/// keep out who comes next.
+/// Limits over all connections of a service: unauthenticated connections and bytes being received.
+/// Flooding therefore neither exhausts memory nor keeps out later clients.
 
 #include <cstddef>
 #include <functional>
 #include <list>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Counters of unauthenticated connections and of bytes being received.
 class Connections {
  public:
   using Close = std::function<void()>;
   using Stranger = std::list<Close>::iterator;
 
-  /// Counts a connection of whom nothing is known. The one that has been so for longest is closed
-  /// when there are too many.
+  /// Registers an unauthenticated connection. Beyond the limit the oldest one is closed.
   Stranger add_stranger(Close close);
-  /// It has shown the token, or it is gone.
+  /// Removes a connection that has authenticated or closed.
   void forget_stranger(Stranger stranger) { strangers_.erase(stranger); }
-  std::size_t n_stranger() const { return strangers_.size(); }
 
-  /// Makes room for a body, unless those that are being received take too much together already.
+  /// Charges a body to the receive budget.
+  /// @return false if the budget is exhausted
   bool take_room(double bytes);
   void give_room(double bytes) { receiving_ -= bytes; }
 
@@ -30,4 +29,4 @@ class Connections {
   double receiving_ = 0;        ///< bytes
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

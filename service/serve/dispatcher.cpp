@@ -10,7 +10,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -22,41 +21,41 @@
 #include "runs/study/active_run.hpp"
 #include "service/serve/run_end.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
 namespace fs = std::filesystem;
 
-constexpr auto kLook = std::chrono::seconds(1);
-constexpr int kMostKills = 5;      ///< in a row, without getting any further
-constexpr double kGrace = 60;      ///< s that a run may take to end beyond its limits
-constexpr int kLooksPerSize = 10;  ///< the size of a folder is looked at less often
-/// Address space of a run beyond the memory it may use: the program, stacks, pools of threads. Size
-/// of one file beyond the disk it may use. Its limits are kept otherwise; this is for a run that
-/// gets around them.
-constexpr double kRoom = 4e9, kRoomOfThread = 2e8;
+constexpr auto kDispatchInterval = std::chrono::seconds(1);
+constexpr int kMostKills = 5;           ///< consecutive kills without progress
+constexpr double kEndGracePeriod = 60;  ///< time for a run to end after exceeding a limit, s
+constexpr int kPollsPerSize = 10;       ///< folder sizes are measured every so many polls
+/// Hard resource limits beyond those of a run, bytes: address space for program, stacks and thread
+/// pools, and file size. They only catch runs that evade the ordinary limits.
+constexpr double kMemoryMargin = 4e9, kMemoryMarginPerThread = 2e8;
 
 std::string progress_file(const std::string& folder) { return folder + "/progress.txt"; }
 
 }  // namespace
 
 struct Dispatcher::Active {
-  Active(asio::io_context& io, Child process, double limit)
+  Active(asio::io_context& io, runs::Child process, double limit)
       : child(std::move(process)), ended(io, ::dup(child.descriptor())), limit_s(limit) {}
-  Child child;
-  asio::posix::stream_descriptor ended;  ///< readable when the child has ended
+  runs::Child child;
+  asio::posix::stream_descriptor ended;  ///< readable once the child has ended
   double started = wall_seconds();
-  /// Summaries before this are of earlier attempts. Clocks of file systems may be a little behind.
+  /// Summaries older than this belong to earlier attempts. One second of margin for the file
+  /// system's clock.
   FileTime began = FileTime::clock::now() - std::chrono::seconds(1);
-  double limit_s;  ///< wall time, of this attempt
-  int looks = 0;
-  bool to_stop = false;  ///< by a client
-  std::string too_much;  ///< the limit it has broken; "" = none
+  double limit_s;  ///< wall time of this attempt
+  int polls = 0;
+  bool to_stop = false;  ///< at a client's request
+  std::string too_much;  ///< exceeded limit; "" = none
 };
 
 struct Dispatcher::Timers {
-  asio::steady_timer look;
+  asio::steady_timer poll;
 };
 
 Dispatcher::Dispatcher(asio::io_context& io, const ServeOptions& options, JobStore& store)
@@ -69,7 +68,7 @@ Dispatcher::Dispatcher(asio::io_context& io, const ServeOptions& options, JobSto
   for (RunJob& job : store_.load(warnings_)) {
     const std::string folder = store_.run_folder(job.id);
     job.bytes = JobStore::size_of(folder);
-    // A run may have ended while no service looked.
+    // A run may have ended while no service ran.
     // A torn one: the run is resumed from its checkpoint.
     if (job.state != JobState::kStopped)
       if (const auto summary = find_summary(folder, FileTime::min())) {
@@ -141,7 +140,7 @@ RunJob& Dispatcher::submit(RunJob job) {
 
 void Dispatcher::begin() {
   start_what_can();
-  look_again();
+  schedule_poll();
 }
 
 void Dispatcher::start_what_can() {
@@ -149,7 +148,7 @@ void Dispatcher::start_what_can() {
     if (ending_ || static_cast<int>(active_.size()) >= options_.jobs) return;
     if (job->state != JobState::kWaiting) continue;
     // A run of a service that was killed may still be writing its checkpoint.
-    if (is_being_written(store_.run_folder(id))) continue;
+    if (runs::is_being_written(store_.run_folder(id))) continue;
     try {
       start(*job);
     } catch (const std::exception& error) {
@@ -161,10 +160,11 @@ void Dispatcher::start_what_can() {
 void Dispatcher::start(RunJob& job) {
   const std::string folder = store_.run_folder(job.id);
   std::error_code ignored;
-  // It may have ended while no service looked.
+  // It may have ended while no service ran.
   if (const auto summary = find_summary(folder, FileTime::min()))
-    if (summary->status == "completed" || summary->status == "failed")
-      return finish_as(job, summary->status == "completed" ? 0 : 3, FileTime::min());
+    if (summary->status != runs::RunOutcome::kStopped)
+      return finish_as(job, summary->status == runs::RunOutcome::kCompleted ? 0 : 3,
+                       FileTime::min());
   job.cause.clear();
   const double limit_s = options_.max_walltime_s - job.used_s;
   if (limit_s <= 0) {
@@ -191,11 +191,12 @@ void Dispatcher::start(RunJob& job) {
                                        "--max-cells",
                                        std::to_string(options_.max_cells),
                                        io::has_checkpoint(folder) ? "--resume" : "--overwrite"};
-  Child child(words, {.output = output_file(folder),
-                      .progress = progress_file(folder),
-                      .follows_parent = true,
-                      .most_memory = options_.max_memory + kRoom + kRoomOfThread * options_.threads,
-                      .largest_file = options_.max_run_bytes + kRoom});
+  runs::Child child(words, {.output = output_file(folder),
+                            .progress = progress_file(folder),
+                            .follows_parent = true,
+                            .most_memory = options_.max_memory + kMemoryMargin +
+                                           kMemoryMarginPerThread * options_.threads,
+                            .largest_file = options_.max_run_bytes + kMemoryMargin});
   auto active = std::make_unique<Active>(io_, std::move(child), limit_s);
   wait_for_end(job, *(active_[job.id] = std::move(active)));
 }
@@ -214,8 +215,8 @@ void Dispatcher::wait_for_end(RunJob& job, Active& active) {
 
 void Dispatcher::finish(RunJob& job) {
   const std::unique_ptr<Active> active = std::move(active_.extract(job.id).mapped());
-  look(job, *active);
-  const ChildEnd end = active->child.collect();
+  poll(job, *active);
+  const runs::ChildEnd end = active->child.collect();
   job.used_s += wall_seconds() - active->started;
   const std::string folder = store_.run_folder(job.id);
   measure(job);
@@ -229,11 +230,11 @@ void Dispatcher::finish(RunJob& job) {
     move(job, JobState::kWaiting);
   } else if (end.code == static_cast<int>(Exit::kStopped) ||
              (end.signal != 0 && (active->to_stop || !active->too_much.empty()))) {
-    if (job.cause.empty() && !active->to_stop) job.cause = why_stopped(folder, active->began);
+    if (job.cause.empty() && !active->to_stop) job.cause = find_stop_cause(folder, active->began);
     move(job, JobState::kStopped);
   } else if (end.signal != 0) {
     wait_again_after_kill(job);
-  } else if (end.code == static_cast<int>(Exit::kBadInput) && is_being_written(folder)) {
+  } else if (end.code == static_cast<int>(Exit::kBadInput) && runs::is_being_written(folder)) {
     move(job, JobState::kWaiting);
   } else {
     finish_as(job, end.code, active->began);
@@ -251,7 +252,7 @@ void Dispatcher::finish_as(RunJob& job, int code, FileTime since) {
     job.cbm = summary->cbm;
     if (code != 0) job.cause = summary->cause;
   }
-  if (job.failed && job.cause.empty()) job.cause = told(folder);
+  if (job.failed && job.cause.empty()) job.cause = printed_messages(folder);
   if (job.failed && job.cause.empty()) job.cause = fmt::format("exit code {}", code);
   if (!job.failed && job.dcm + job.cbm >= options_.max_cells)
     job.cause = fmt::format("ended at {} cells, the limit of this service", options_.max_cells);
@@ -273,35 +274,35 @@ void Dispatcher::wait_again_after_kill(RunJob& job) {
   move(job, job.failed ? JobState::kFailed : JobState::kWaiting);
 }
 
-void Dispatcher::look_again() {
-  timers_->look.expires_after(kLook);
-  timers_->look.async_wait([this](const boost::system::error_code& failed) {
+void Dispatcher::schedule_poll() {
+  timers_->poll.expires_after(kDispatchInterval);
+  timers_->poll.async_wait([this](const boost::system::error_code& failed) {
     if (failed) return;
-    // Whatever goes wrong with one run, the others are looked after.
-    for (const auto& [id, active] : active_) look(*jobs_.at(id), *active);
+    // Whatever goes wrong with one run, the others are still polled.
+    for (const auto& [id, active] : active_) poll(*jobs_.at(id), *active);
     try {
       start_what_can();
     } catch (const std::exception& error) {
       fmt::print(stderr, "acinus: warning: {}\n", error.what());
     }
-    look_again();
+    schedule_poll();
   });
 }
 
-void Dispatcher::look(RunJob& job, Active& active) {
+void Dispatcher::poll(RunJob& job, Active& active) {
   try {
-    read_news(job);
-    if (++active.looks % kLooksPerSize == 0) measure(job);
+    read_progress_of(job);
+    if (++active.polls % kPollsPerSize == 0) measure(job);
   } catch (const std::exception& error) {
     fmt::print(stderr, "acinus: warning: run {}: {}\n", job.id, error.what());
   }
   keep_limits(job, active);
 }
 
-void Dispatcher::read_news(RunJob& job) {
-  const RunProgress progress =
-      parse_progress(take_progress_line(progress_file(store_.run_folder(job.id))));
-  if (!progress.said) return;
+void Dispatcher::read_progress_of(RunJob& job) {
+  const runs::RunProgress progress =
+      runs::parse_progress(runs::take_progress_line(progress_file(store_.run_folder(job.id))));
+  if (!progress.printed) return;
   const bool news = progress.time_s != job.time_s || progress.phase != job.phase;
   job.time_s = progress.time_s;
   job.end_s = progress.end_s;
@@ -319,8 +320,8 @@ void Dispatcher::keep_limits(RunJob& job, Active& active) {
                     1e-9 * job.bytes);
     active.child.send(SIGTERM);
   }
-  // The run looks at its limit itself; this is for one that does not get there.
-  if (wall_seconds() > active.started + active.limit_s + kGrace) {
+  // A run checks its limits itself; this is for one that does not get there.
+  if (wall_seconds() > active.started + active.limit_s + kEndGracePeriod) {
     active.too_much = "the wall-time limit of this service (--max-walltime)";
     active.child.send(SIGKILL);
   }
@@ -367,11 +368,11 @@ void Dispatcher::end(std::function<void()> done) {
   all_ended_ = std::move(done);
   if (active_.empty()) return all_ended_();
   for (const auto& [id, active] : active_) active->child.send(SIGTERM);
-  timers_->look.expires_after(std::chrono::seconds(static_cast<int>(kGrace)));
-  timers_->look.async_wait([this](const boost::system::error_code& failed) {
+  timers_->poll.expires_after(std::chrono::seconds(static_cast<int>(kEndGracePeriod)));
+  timers_->poll.async_wait([this](const boost::system::error_code& failed) {
     if (failed) return;
     for (const auto& [id, active] : active_) active->child.send(SIGKILL);
   });
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

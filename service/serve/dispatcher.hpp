@@ -1,5 +1,6 @@
 #pragma once
-/// The queue at work: starts waiting runs as child processes, follows them, stops and resumes them.
+/// Dispatcher of the queue: starts waiting runs as child processes, supervises, stops and resumes
+/// them.
 
 #include <boost/asio/io_context.hpp>
 #include <filesystem>
@@ -13,45 +14,48 @@
 #include "service/serve/job_store.hpp"
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Supervisor of all jobs of the service.
 class Dispatcher {
  public:
-  /// Takes up what the store holds.
+  /// Takes over the jobs of the store.
   Dispatcher(boost::asio::io_context& io, const ServeOptions& options, JobStore& store);
   ~Dispatcher();
 
-  /// Starts what waits, now and from now on.
+  /// Starts waiting runs, now and whenever there is capacity.
   void begin();
-  /// Stops all runs with a checkpoint; they wait for the next service. Calls `done` when all have
-  /// ended, those that do not within a minute killed.
+  /// Stops all runs with a checkpoint; they stay queued for the next service. Calls `done` when all
+  /// have ended; after a minute the rest is killed.
   void end(std::function<void()> done);
 
-  /// @throws Error(kBadInput) when the queue or the disk is full, or the service ends
+  /// Checks that the queue and the disk have room and the service is not ending.
+  /// @throws Error(kBadInput)
   void check_room() const;
   /// Accepts a job whose folder is complete.
-  /// @throws Error(kBadInput) as check_room(), having removed the folder: others may have come
-  /// while
-  ///         it was prepared
+  /// @throws Error(kBadInput) as check_room(), after removing the folder: room may have run out
+  /// during preparation
   RunJob& submit(RunJob job);
-  /// @throws Error(kBadInput) where the state of the job does not allow it
+  /// Stops, resumes or removes a job.
+  /// @throws Error(kBadInput) if the state of the job does not allow it
   void stop(RunJob& job);
   void resume(RunJob& job);
   void remove(RunJob& job);
 
+  /// Job by id, null if there is none.
   RunJob* find(const std::string& id);
-  /// Updates the size of a job's folder.
+  /// Updates the recorded size of a job's folder.
   void measure(const std::string& id);
-  /// Counts what was written beside the runs.
+  /// Adds bytes written outside the run folders.
   void add_disk(double bytes) { disk_bytes_ += bytes; }
-  /// All jobs, oldest first.
+  /// All jobs by id, oldest first.
   const std::map<std::string, std::unique_ptr<RunJob>>& jobs() const { return jobs_; }
-  /// Counts every change of any job.
+  /// Counter of changes of any job.
   std::uint64_t revision() const { return revision_; }
   double disk_bytes() const { return disk_bytes_; }
-  /// What was found damaged at the start.
+  /// Damage found in the store at the start.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// Called when an evaluation is completed, before its folder goes.
+  /// Callback for a completed evaluation, before its folder is removed.
   std::function<void(const RunJob&, const std::string& folder)> on_evaluated;
 
  private:
@@ -60,12 +64,13 @@ class Dispatcher {
   void start(RunJob& job);
   void wait_for_end(RunJob& job, Active& active);
   void finish(RunJob& job);
-  /// @param since  summaries before are of earlier attempts
+  /// Finishes an attempt.
+  /// @param since  older summaries belong to earlier attempts
   void finish_as(RunJob& job, int code, std::filesystem::file_time_type since);
   void wait_again_after_kill(RunJob& job);
-  void look_again();
-  void look(RunJob& job, Active& active);
-  void read_news(RunJob& job);
+  void schedule_poll();
+  void poll(RunJob& job, Active& active);
+  void read_progress_of(RunJob& job);
   void keep_limits(RunJob& job, Active& active);
   void measure(RunJob& job);
   void fail(RunJob& job, const std::string& cause);
@@ -79,11 +84,11 @@ class Dispatcher {
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
   double disk_bytes_ = 0;
-  double cache_bytes_ = 0;  ///< of them, what runs calibrated
+  double cache_bytes_ = 0;  ///< bytes of calibrated laws, part of disk_bytes_
   bool ending_ = false;
   std::function<void()> all_ended_;
   struct Timers;
   std::unique_ptr<Timers> timers_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

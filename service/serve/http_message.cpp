@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace acinus::runs {
+namespace acinus::service {
 
 std::string json_line(const nlohmann::ordered_json& value) {
   return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -48,4 +48,4 @@ HttpReply text_reply(const std::string& type, std::string_view text) {
 
 std::string event_text(const std::string& data) { return fmt::format("data: {}\n\n", data); }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -12,7 +12,7 @@
 #include "io/disk.hpp"
 #include "runs/scene/bounded_json.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 std::string record_file(const std::string& folder) { return folder + "/job.json"; }
@@ -63,13 +63,13 @@ void write_job(const std::string& folder, const RunJob& job) {
       j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-/// A run may be killed within its start-up, whose times are negative, s.
+/// Smallest simulated time of a record: times of the start-up phase are negative.
 constexpr double kEarliest = -std::numeric_limits<double>::max();
 
 RunJob read_job(const std::string& folder) {
   RunJob job;
   try {
-    const auto j = parse_or_discard<nlohmann::json>(io::read_text_file(record_file(folder)));
+    const auto j = runs::parse_or_discard<nlohmann::json>(io::read_text_file(record_file(folder)));
     job.id = j.at("id");
     job.name = j.at("name");
     job.scene = j.at("scene");
@@ -77,9 +77,9 @@ RunJob read_job(const std::string& folder) {
     job.key = j.at("key");
     job.evaluation = j.at("evaluation");
     job.created = j.at("created");
-    job.kills = count_at(j, "kills", record_file(folder));
-    job.checkpoint_s = seconds_at(j, "checkpoint_s", record_file(folder), kEarliest);
-    job.used_s = seconds_at(j, "used_s", record_file(folder));
+    job.kills = runs::count_at(j, "kills", record_file(folder));
+    job.checkpoint_s = runs::seconds_at(j, "checkpoint_s", record_file(folder), kEarliest);
+    job.used_s = runs::seconds_at(j, "used_s", record_file(folder));
     job.failed = j.at("failed");
     job.cause = j.at("cause");
   } catch (const nlohmann::json::exception& e) {
@@ -89,4 +89,4 @@ RunJob read_job(const std::string& folder) {
   return job;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -4,36 +4,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/disk.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// How a job ended stands in its record: the queue need not know.
+/// Queue folder of a state. Failed jobs count as completed there; their record holds the outcome.
 const char* queue_of(JobState state) {
-  switch (state) {
-    case JobState::kWaiting:
-      return "waiting";
-    case JobState::kRunning:
-      return "running";
-    case JobState::kStopped:
-      return "stopped";
-    case JobState::kCompleted:
-    case JobState::kFailed:
-      break;
-  }
-  return "ended";
+  const bool ended = state == JobState::kCompleted || state == JobState::kFailed;
+  return ended ? "ended" : name_of(state);
 }
 constexpr const char* kQueues[] = {"waiting", "running", "stopped", "ended"};
 
@@ -52,8 +39,8 @@ void make_folder(const std::string& folder) {
         Exit::kFileError);
 }
 
-/// Makes the data folder, for this account only: others with the right to write could put a token
-/// or a run there, others with the right to read could keep its locks.
+/// Creates the data folder with access for this account only: other writers could plant a token or
+/// a run, other readers could hold its locks.
 void make_own_folder(const std::string& folder) {
   const fs::path parent = fs::path(folder).parent_path();
   if (!parent.empty()) make_folder(parent.string());
@@ -171,4 +158,4 @@ double JobStore::size_of(const std::string& folder) {
   return bytes;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

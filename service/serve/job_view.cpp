@@ -10,16 +10,16 @@
 #include "acinus_version.hpp"
 #include "service/serve/results.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kMostListed = 200;
-constexpr int kQuietLooks = 30;  ///< looks without news before a comment is sent
-/// Bounds of a run within a list; GET /runs/ID gives it whole.
+constexpr int kQuietPolls = 30;  ///< polls without news before a keep-alive comment
+/// Limits of a run's entry in a list; GET /runs/ID returns it in full.
 constexpr std::size_t kMostListedSet = 8, kMostListedText = 200;
-constexpr const char* kComment = ": still here\n\n";
+constexpr const char* kKeepAliveComment = ": still here\n\n";
 
 std::string shortened(const std::string& text) {
   return text.size() <= kMostListedText ? text : text.substr(0, kMostListedText) + "...";
@@ -87,7 +87,7 @@ EventSource watch_job(Dispatcher& dispatcher, const std::string& id) {
       quiet = 0;
       return event_text(json_line(view_job(*job)));
     }
-    return ++quiet % kQuietLooks == 0 ? kComment : "";
+    return ++quiet % kQuietPolls == 0 ? kKeepAliveComment : "";
   };
 }
 
@@ -99,7 +99,7 @@ EventSource watch_list(const Dispatcher& dispatcher, JobList& list) {
       quiet = 0;
       return event_text(list.text());
     }
-    return ++quiet % kQuietLooks == 0 ? kComment : "";
+    return ++quiet % kQuietPolls == 0 ? kKeepAliveComment : "";
   };
 }
 
@@ -109,4 +109,4 @@ std::string view_series(const std::string& run_folder) {
   return result_text(read_run_result(run_folder));
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,5 +1,5 @@
 #pragma once
-/// Jobs as clients see them.
+/// Jobs as JSON and event streams for clients.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -7,15 +7,16 @@
 #include "service/serve/dispatcher.hpp"
 #include "service/serve/http_message.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Job as JSON for GET /runs/ID.
 nlohmann::ordered_json view_job(const RunJob& job);
 
-/// Counts, and the newest runs without evaluations, newest first.
+/// Counts of jobs, and the newest runs without evaluations, newest first.
 class JobList {
  public:
   explicit JobList(const Dispatcher& dispatcher) : dispatcher_(dispatcher) {}
-  /// One line of JSON; made anew when something has changed.
+  /// JSON text on one line; cached until a job changes.
   const std::string& text();
 
  private:
@@ -24,13 +25,14 @@ class JobList {
   std::string text_;
 };
 
-/// Both tell the present state at once, then every change; a comment now and then keeps the
-/// connection. The first ends when the job is deleted.
+/// Event streams of one job and of all jobs: present state first, then every change, with comments
+/// that keep the connection open. That of a job ends when it is deleted.
 EventSource watch_job(Dispatcher& dispatcher, const std::string& id);
 EventSource watch_list(const Dispatcher& dispatcher, JobList& list);
 
-/// Observables of a run over time, {"NAME": {"unit", "time_s", "value"}}; none
-/// before the first frame.   @throws Error(kFileError)
+/// Observables of a run over time, {"NAME": {"unit", "time_s", "value"}}; empty before the first
+/// frame.
+/// @throws Error(kFileError)
 std::string view_series(const std::string& run_folder);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

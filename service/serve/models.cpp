@@ -4,35 +4,33 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/error.hpp"
-#include "core/spelling.hpp"
 #include "core/units/unit_scale.hpp"
 #include "core/units/units.hpp"
 #include "runs/study/read_study.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/shipped_studies.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 using Json = nlohmann::json;
 
-/// What a study sweeps; where it sweeps nothing, the numbers in which its variants differ.
-std::vector<std::string> default_parameters(const Study& study) {
+/// Default parameters of a study's models: the numeric keys it sweeps, else those its variants set.
+std::vector<std::string> default_parameters(const runs::Study& study) {
   std::vector<std::string> keys;
   const auto add = [&](const std::string& key) {
-    if (unit_of_key(key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+    if (runs::unit_of_key(key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
   };
-  for (const StudySweep& sweep : study.sweeps) add(sweep.key);
+  for (const runs::StudySweep& sweep : study.sweeps) add(sweep.key);
   if (!keys.empty()) return keys;
   for (const auto& [name, variant] : study.variants)
-    for (const JsonMember& member : variant.set) add(member.name);
+    for (const runs::JsonMember& member : variant.set) add(member.name);
   return keys;
 }
 
-std::vector<std::string> observables_of(const StudyPlan& plan) {
+std::vector<std::string> observables_of(const runs::StudyPlan& plan) {
   if (!plan.study.observables.empty()) return plan.study.observables;
   std::vector<std::string> names;
   for (const auto& [name, unit] : plan.units)
@@ -50,19 +48,21 @@ double time_in(const Json& j) {
   return parse_quantity(string_in(j, "\"at\": a time like \"2 days\", or a number of s,"), kTime);
 }
 
-const StudyRun& run_of(const StudyModel& model, const std::string& variant) {
-  const std::vector<Variant>& variants = model.plan->variants;
-  const auto found = std::ranges::find_if(
-      model.plan->runs, [&](const StudyRun& run) { return variants[run.variant].name == variant; });
+const runs::StudyRun& run_of(const StudyModel& model, const std::string& variant) {
+  const std::vector<runs::Variant>& variants = model.plan->variants;
+  const auto found = std::ranges::find_if(model.plan->runs, [&](const runs::StudyRun& run) {
+    return variants[run.variant].name == variant;
+  });
   if (found != model.plan->runs.end()) return *found;
-  throw Error("config: \"variant\": " + unknown_variant(variants, variant));
+  throw Error("config: \"variant\": " + runs::unknown_variant(variants, variant));
 }
 
 }  // namespace
 
 Models::Models() {
-  for (const ShippedScene& study : shipped_studies()) plans_.push_back(read_study(study.file));
-  for (const StudyPlan& plan : plans_) {
+  for (const runs::ShippedScene& study : runs::shipped_studies())
+    plans_.push_back(runs::read_study(study.file));
+  for (const runs::StudyPlan& plan : plans_) {
     const std::vector<std::string> parameters = default_parameters(plan.study);
     if (parameters.empty()) continue;
     for (const std::string& observable : observables_of(plan)) {
@@ -94,7 +94,7 @@ ModelConfig read_config(const StudyModel& model, const Json& j) {
       config.parameters.clear();
       for (const Json& one : value) {
         config.parameters.push_back(string_in(one, "one of \"parameters\""));
-        check(unit_of_key(config.parameters.back()).has_value(),
+        check(runs::unit_of_key(config.parameters.back()).has_value(),
               fmt::format("config: \"parameters\": {} is no scene key with a number. `acinus "
                           "explain` lists the keys.",
                           one.dump()));
@@ -112,7 +112,7 @@ ModelConfig read_config(const StudyModel& model, const Json& j) {
   return config;
 }
 
-const Scene& model_scene(const StudyModel& model, const ModelConfig& config) {
+const runs::Scene& model_scene(const StudyModel& model, const ModelConfig& config) {
   return run_of(model, config.variant).scene;
 }
 
@@ -120,7 +120,7 @@ std::vector<std::string> model_changes(const ModelConfig& config,
                                        const std::vector<double>& values) {
   std::vector<std::string> set = config.set;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::string key = config.parameters[k], unit = *unit_of_key(key);
+    const std::string key = config.parameters[k], unit = *runs::unit_of_key(key);
     set.push_back(unit == "1" ? fmt::format("{}={}", key, values[k])
                               : fmt::format("{}=\"{} {}\"", key, values[k], unit));
   }
@@ -139,7 +139,7 @@ std::vector<double> model_output(const StudyModel& model, const ModelConfig& con
   if (config.at_s.empty()) return {scale * curve->second.value.back()};
   std::vector<double> output;
   for (const double at : config.at_s) {
-    const std::optional<double> value = value_at(curve->second, at);
+    const std::optional<double> value = runs::value_at(curve->second, at);
     check(value.has_value(),
           fmt::format("the run has no value of {} at {} s; it has from {} to {} s",
                       model.observable, at, curve->second.time.front(), curve->second.time.back()));
@@ -148,4 +148,4 @@ std::vector<double> model_output(const StudyModel& model, const ModelConfig& con
   return output;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

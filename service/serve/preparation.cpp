@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/this_coro.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -18,20 +17,20 @@
 #include "runs/session/child.hpp"
 #include "service/serve/submission.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
 namespace fs = std::filesystem;
 
-constexpr int kMostAtOnce = 2;
-constexpr double kLimit = 60;                ///< s of wall and of processor time
-constexpr double kMostMemory = 4e9;          ///< bytes of address space
-constexpr std::size_t kMostWords = 200'000;  ///< bytes of the faults of a scene
+constexpr int kMostConcurrent = 2;
+constexpr double kPreparationTimeLimit = 60;        ///< wall time and processor time, s
+constexpr double kPreparationMemory = 4e9;          ///< address space, bytes
+constexpr std::size_t kMostMessageBytes = 200'000;  ///< bytes of the error messages
 constexpr auto kPreparationPoll = std::chrono::milliseconds(4);
-constexpr const char* kWordsFile = "prepare.txt";
+constexpr const char* kMessageFile = "prepare.txt";
 
-/// Removes the run folder of what is refused.
+/// Guard that removes the run folder of a refused submission.
 struct RemoveUnlessKept {
   std::string folder;
   bool keep = false;
@@ -41,7 +40,7 @@ struct RemoveUnlessKept {
   }
 };
 
-/// Counts one that is being prepared, also when its client goes.
+/// Counter of preparations in progress that also decrements when the client disconnects.
 struct Counted {
   explicit Counted(std::shared_ptr<int> count) : n(std::move(count)) { ++*n; }
   ~Counted() { --*n; }
@@ -50,11 +49,11 @@ struct Counted {
   std::shared_ptr<int> n;
 };
 
-/// Faults of a submission, without the path of its run folder.
-std::string told_in(const std::string& folder) {
+/// Faults of a submission as printed, without the path of its run folder.
+std::string read_faults(const std::string& folder) {
   std::string text;
   try {
-    text = io::read_text_inside(folder, kWordsFile, kMostWords);
+    text = io::read_text_inside(folder, kMessageFile, kMostMessageBytes);
   } catch (const Error&) {
     return "the submission is refused";
   }
@@ -65,17 +64,17 @@ std::string told_in(const std::string& folder) {
   return text;
 }
 
-[[noreturn]] void fail(const ChildEnd& end, const std::string& folder) {
+[[noreturn]] void fail(const runs::ChildEnd& end, const std::string& folder) {
   if (end.timed_out || end.signal == SIGXCPU)
     throw Error(
         fmt::format("to check this submission takes longer than {:.0f} s. Take fewer or "
                     "smaller files.",
-                    kLimit));
+                    kPreparationTimeLimit));
   if (end.signal != 0)
     throw Error(
         "a file of this submission cannot be read: it is damaged, or takes more memory "
         "than this service allows.");
-  throw Error(told_in(folder));
+  throw Error(read_faults(folder));
 }
 
 }  // namespace
@@ -90,7 +89,7 @@ Task<RunJob> Preparation::prepare_evaluation(const std::string& text) {
 
 Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text) {
   asio::steady_timer timer(co_await asio::this_coro::executor);
-  while (*n_running_ >= kMostAtOnce) {
+  while (*n_running_ >= kMostConcurrent) {
     timer.expires_after(kPreparationPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
@@ -98,28 +97,29 @@ Task<RunJob> Preparation::prepare_file(const char* name, const std::string& text
   const std::string folder = store_.run_folder(store_.make_run_folder());
   RemoveUnlessKept guard{folder};
   io::write_text_file(folder + "/" + name, text);
-  Child child({"serve", "--prepare", folder, "--max-cells", std::to_string(options_.max_cells),
-               "--max-memory", fmt::format("{} MB", 1e-6 * options_.max_memory)},
-              {.output = folder + "/" + kWordsFile,
-               .limit_s = kLimit,
-               .follows_parent = true,
-               .most_memory = kMostMemory,
-               .most_cpu_s = kLimit,
-               .largest_file = 4 * options_.max_body + 64e6});
+  runs::Child child(
+      {"serve", "--prepare", folder, "--max-cells", std::to_string(options_.max_cells),
+       "--max-memory", fmt::format("{} MB", 1e-6 * options_.max_memory)},
+      {.output = folder + "/" + kMessageFile,
+       .limit_s = kPreparationTimeLimit,
+       .follows_parent = true,
+       .most_memory = kPreparationMemory,
+       .most_cpu_s = kPreparationTimeLimit,
+       .largest_file = 4 * options_.max_body + 64e6});
   // Not the descriptor: the coroutine may go before the child does.
-  while (!wait_for_any({&child}, 0)) {
+  while (!runs::wait_for_any({&child}, 0)) {
     timer.expires_after(kPreparationPoll);
     co_await timer.async_wait(asio::use_awaitable);
   }
-  const ChildEnd end = child.collect();
+  const runs::ChildEnd end = child.collect();
   if (end.code != 0) fail(end, folder);
   RunJob job = read_job(folder);
   job.id = fs::path(folder).filename().string();
   std::error_code ignored;
-  for (const char* made : {name, kWordsFile}) fs::remove(folder + "/" + made, ignored);
+  for (const char* made : {name, kMessageFile}) fs::remove(folder + "/" + made, ignored);
   job.bytes = JobStore::size_of(folder);
   guard.keep = true;
   co_return job;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,6 +1,6 @@
 #pragma once
-/// Submissions on their way into the queue: each is prepared by a process of its own with limits,
-/// so that nothing a client sends can take the service along or make others wait.
+/// Preparation of submissions in child processes with resource limits, so that no client can crash
+/// or block the service.
 
 #include <memory>
 #include <string>
@@ -10,17 +10,21 @@
 #include "service/serve/job_store.hpp"
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Preparation of submissions, at most a few at a time.
 class Preparation {
  public:
   Preparation(const ServeOptions& options, JobStore& store) : options_(options), store_(store) {}
 
-  /// Makes the run folder of a submission.
+  /// Creates the run folder of a submission.
+  /// @param body  of the request
   /// @return the job, not yet accepted
-  /// @throws Error(kBadInput): what is wrong with it, or that it took too long or too much memory
+  /// @throws Error(kBadInput) listing the faults of the submission, or if it took too much time or
+  /// memory
   Task<RunJob> prepare(const std::string& body);
-  /// The same of an evaluation.   @param text  as evaluation_text() makes it
+  /// Creates the run folder of an evaluation.
+  /// @param text  as made by evaluation_text()
   Task<RunJob> prepare_evaluation(const std::string& text);
 
  private:
@@ -28,9 +32,9 @@ class Preparation {
 
   const ServeOptions& options_;
   JobStore& store_;
-  /// Submissions that are being prepared. Owned by those, too: when the service ends, their
-  /// coroutines go with the loop, after this object.
+  /// Number of preparations in progress. Shared with their coroutines, which outlive this object:
+  /// they are destroyed with the event loop.
   std::shared_ptr<int> n_running_ = std::make_shared<int>(0);
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

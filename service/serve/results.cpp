@@ -12,7 +12,7 @@
 #include "io/run_reader.hpp"
 #include "runs/scene/bounded_json.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 RunResult read_run_result(const std::string& run_folder) {
   RunResult result;
@@ -21,7 +21,7 @@ RunResult read_run_result(const std::string& run_folder) {
   result.unit = reader.observable_unit();
   const std::vector<double> time = std::exchange(column["time"], {});
   for (const auto& [name, value] : column) {
-    TimeCurve& curve = result.curve[name];
+    runs::TimeCurve& curve = result.curve[name];
     for (std::size_t k = 0; k < std::min(time.size(), value.size()); ++k) {
       if (!std::isfinite(value[k])) continue;
       curve.time.push_back(time[k]);
@@ -48,7 +48,7 @@ std::optional<RunResult> find_result(const std::string& file) {
   if (!std::filesystem::is_regular_file(file, code)) return std::nullopt;
   try {
     RunResult result;
-    const auto j = parse_or_discard<nlohmann::json>(io::read_text_file(file));
+    const auto j = runs::parse_or_discard<nlohmann::json>(io::read_text_file(file));
     for (const auto& [name, one] : j.items()) {
       result.unit[name] = one.at("unit");
       result.curve[name] = {one.at("time_s").get<std::vector<double>>(),
@@ -62,4 +62,4 @@ std::optional<RunResult> find_result(const std::string& file) {
   }
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

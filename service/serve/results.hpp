@@ -1,6 +1,5 @@
 #pragma once
-/// What a run has measured, kept by what it depends on: an evaluation that was made is not made
-/// again.
+/// Cache of evaluation results by everything they depend on.
 
 #include <map>
 #include <optional>
@@ -8,22 +7,25 @@
 
 #include "runs/study/curves.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Observables of a run over time.
 struct RunResult {
-  std::map<std::string, TimeCurve> curve;   ///< by observable
-  std::map<std::string, std::string> unit;  ///< of its values
+  std::map<std::string, runs::TimeCurve> curve;  ///< by observable
+  std::map<std::string, std::string> unit;       ///< of the values, by observable
 };
 
-/// The observables of a run folder, also of one that goes on.   @throws Error(kFileError)
+/// Observables of a run folder, also of a run in progress.
+/// @throws Error(kFileError)
 RunResult read_run_result(const std::string& run_folder);
 
-/// One line of JSON, {"NAME": {"unit", "time_s", "value"}}.
+/// JSON text on one line, {"NAME": {"unit", "time_s", "value"}}.
 std::string result_text(const RunResult& result);
 
+/// Writes a result to the cache.
 /// @throws Error(kFileError)
 void keep_result(const std::string& file, const RunResult& result);
-/// Nothing if there is none, or it cannot be read: it is made again then.
+/// Reads a result; empty if it is missing or unreadable, and then evaluated again.
 std::optional<RunResult> find_result(const std::string& file);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

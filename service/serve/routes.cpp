@@ -17,9 +17,8 @@
 #include "runs/session/child.hpp"
 #include "runs/study/active_run.hpp"
 #include "service/page/page_assets.hpp"
-#include "service/serve/submission.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
@@ -27,14 +26,14 @@ namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
 using Path = std::vector<std::string>;
 
-/// Files of a run folder that may be fetched.
+/// Downloadable files of a run folder.
 constexpr std::array kFiles{"scene.json", "summary.json", "run.vtkhdf", "run.vtkhdf.sums",
                             "run.xmf",    "run.log",      "output.txt", "checkpoint.h5",
                             "start.h5",   "report.html"};
-constexpr double kReportLimit = 120;   ///< s of wall time
-constexpr double kReportMemory = 8e9;  ///< bytes of address space
-constexpr int kMostReports = 2;        ///< made at a time
-/// The script is one line of others' work, too.
+constexpr double kReportLimit = 120;   ///< wall time, s
+constexpr double kReportMemory = 8e9;  ///< address space, bytes
+constexpr int kMostReports = 2;        ///< concurrent
+/// Licence notice before the bundled script, which contains third-party code.
 constexpr const char* kServiceNotice = "/*! Licences: /page/licences.txt */\n";
 constexpr auto kReportPoll = std::chrono::milliseconds(50);
 
@@ -49,16 +48,18 @@ HttpReply from_error(const Error& error) {
   return error_reply(clients ? 400 : 503, clients ? "InvalidInput" : "FileError", error.what());
 }
 
-/// Only what the service itself sends may run in its page; frames are its own reports.
+/// Content security policy of the service's page: only resources of the service; frames are its own
+/// reports.
 constexpr const char* kPagePolicy =
     "default-src 'self'; img-src 'self' data:; style-src 'self' 'unsafe-inline'; frame-ancestors "
     "'self'; "
     "base-uri 'none'; form-action 'self'";
-/// It has a script of its own, since whoever opens it may fetch nothing yet.
+/// Policy of the login page, which has an inline script, since unauthenticated clients may fetch
+/// nothing.
 constexpr const char* kLoginPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src "
     "'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
-/// A report is a page of a run, and knows nothing of the service: no cookie, no request.
+/// Policy of reports: isolated from the service, without cookies and requests.
 constexpr const char* kReportPolicy = "sandbox allow-scripts allow-downloads";
 
 HttpReply page(std::string_view text, const char* policy, int status = 200) {
@@ -68,9 +69,9 @@ HttpReply page(std::string_view text, const char* policy, int status = 200) {
   return reply;
 }
 
-OrderedJson library_of(const std::vector<ShippedScene>& documents) {
+OrderedJson library_of(const std::vector<runs::ShippedScene>& documents) {
   OrderedJson all = OrderedJson::array();
-  for (const ShippedScene& d : documents)
+  for (const runs::ShippedScene& d : documents)
     all.push_back({{"name", d.name}, {"description", d.description}});
   return all;
 }
@@ -105,7 +106,7 @@ Task<HttpReply> Routes::answer(const HttpRequest& request) {
     if (UmBridge::is_asked(request)) co_return co_await um_bridge_.answer(request);
     if (path.empty() || path[0] == "page" || path[0] == "login") co_return answer_page(request);
     if (path == Path{"scenes"})
-      co_return request.reads() ? json_reply(200, library_of(shipped_scenes()))
+      co_return request.reads() ? json_reply(200, library_of(runs::shipped_scenes()))
                                 : wrong_method("GET");
     if (path == Path{"events"}) {
       if (!request.reads()) co_return wrong_method("GET");
@@ -214,7 +215,7 @@ HttpReply Routes::send_file(const std::string& id, const std::string& name) {
   return reply;
 }
 
-/// By a process of its own: making it takes a while, and must not take the service along.
+/// Makes the report in a child process, since that takes time and may crash.
 Task<HttpReply> Routes::report(std::string id) {
   const std::string folder = store_.run_folder(id), file = folder + "/report.html";
   asio::steady_timer timer(co_await asio::this_coro::executor);
@@ -234,20 +235,20 @@ Task<HttpReply> Routes::report(std::string id) {
     fs::remove(words, ignored);
     const RunJob* job = dispatcher_.find(id);
     const std::string title = job != nullptr ? job->name : id;
-    Child child({"report", folder, "--out", fresh, "--title=" + title},
-                {.output = words,
-                 .limit_s = kReportLimit,
-                 .follows_parent = true,
-                 .most_memory = kReportMemory});
+    runs::Child child({"report", folder, "--out", fresh, "--title=" + title},
+                      {.output = words,
+                       .limit_s = kReportLimit,
+                       .follows_parent = true,
+                       .most_memory = kReportMemory});
     // Not the descriptor: the coroutine may go before the child does.
-    while (!wait_for_any({&child}, 0)) {
+    while (!runs::wait_for_any({&child}, 0)) {
       timer.expires_after(kReportPoll);
       co_await timer.async_wait(asio::use_awaitable);
     }
-    const ChildEnd end = child.collect();
+    const runs::ChildEnd end = child.collect();
     if (end.code != 0)
       co_return error_reply(503, "FileError",
-                            fmt::format("no report could be made: {}", printed_cause(words)));
+                            fmt::format("no report could be made: {}", runs::printed_cause(words)));
     fs::rename(fresh, file, ignored);
     fs::remove(words, ignored);
     dispatcher_.measure(id);
@@ -260,4 +261,4 @@ Task<HttpReply> Routes::report(std::string id) {
   co_return reply;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

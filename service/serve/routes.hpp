@@ -1,5 +1,5 @@
 #pragma once
-/// Which request does what. docs/service.md lists them.
+/// Dispatch of HTTP requests to their handlers (docs/service.md).
 
 #include <boost/asio/io_context.hpp>
 #include <memory>
@@ -14,18 +14,19 @@
 #include "service/serve/preparation.hpp"
 #include "service/serve/um_bridge.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Handlers of all requests of the service.
 class Routes {
  public:
   Routes(boost::asio::io_context& io, const ServeOptions& options, const ServiceAccess& access,
          JobStore& store, Dispatcher& dispatcher);
 
-  /// Authorisation by the head alone: bodies of requests without it are not read.
+  /// True if the head of a request grants access; bodies of other requests are not read.
   bool is_allowed(const HttpRequest& head) const {
     return !refuse(access_, head) && head.path != std::vector<std::string>{"login"};
   }
-  /// Never throws for what the request is to blame for.
+  /// Handles a request. Faults of the request become error replies, not exceptions.
   Task<HttpReply> answer(const HttpRequest& request);
 
  private:
@@ -46,9 +47,9 @@ class Routes {
   JobList list_;
   Preparation preparation_;
   UmBridge um_bridge_;
-  /// Reports that are being made. Owned by those that are, too: when the service ends, their
-  /// coroutines go with the loop, after this object.
+  /// Runs whose report is being made. Shared with the coroutines, which outlive this object: they
+  /// are destroyed with the event loop.
   std::shared_ptr<std::set<std::string>> making_ = std::make_shared<std::set<std::string>>();
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -1,5 +1,5 @@
 #pragma once
-/// End of a run of the service, from the files in its folder.
+/// Outcome of a run of the service, from the files in its folder.
 
 #include <filesystem>
 #include <optional>
@@ -7,20 +7,20 @@
 
 #include "runs/session/read_summary.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 using FileTime = std::filesystem::file_time_type;
 
-/// File that gets what a run prints.
+/// Path of the file that receives the output of a run.
 std::string output_file(const std::string& folder);
 
-/// All that a run printed on stderr but warnings, without the program's name.
-std::string told(const std::string& folder);
+/// Messages that a run printed on stderr, without warnings and the program's name.
+std::string printed_messages(const std::string& folder);
 
-/// Summary of a run folder; nothing if there is none, it is torn, or older than `since`.
-std::optional<RunSummary> find_summary(const std::string& folder, FileTime since);
+/// Summary of a run folder; empty if it is missing, incomplete or older than `since`.
+std::optional<runs::RunSummary> find_summary(const std::string& folder, FileTime since);
 
-/// Cause of a stop that no client asked for.
-std::string why_stopped(const std::string& folder, FileTime since);
+/// Cause of a stop that no client requested.
+std::string find_stop_cause(const std::string& folder, FileTime since);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -31,22 +31,23 @@
 #include "service/serve/routes.hpp"
 #include "service/serve/token.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
-/// Returns freed memory to the system, unlike a simulation: requests are large and gone soon.
+/// Configures the allocator to return freed memory to the system: requests are large and
+/// short-lived, unlike the arrays of a simulation.
 void return_freed_memory() {
 #if defined(__GLIBC__)
-  constexpr int kLarge = 1 << 17;  // bytes
-  mallopt(M_MMAP_THRESHOLD, kLarge);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLarge);
+  constexpr int kLargeAllocation = 1 << 17;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kLargeAllocation);
+  mallopt(M_TRIM_THRESHOLD, 2 * kLargeAllocation);
 #endif
 }
 
-/// Every listener of events holds a socket.
+/// Raises the limit of open files: every event stream holds a socket.
 void allow_many_files() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -57,8 +58,9 @@ void allow_many_files() {
 void fill_in(ServeOptions& options) {
   if (options.jobs == 0)
     options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  constexpr double kShare = 0.9;  // the rest is for the system and this service
-  if (options.max_memory == 0) options.max_memory = kShare * machine_memory() / options.jobs;
+  constexpr double kMostMemoryShare = 0.9;  // the rest is for the system and this service
+  if (options.max_memory == 0)
+    options.max_memory = kMostMemoryShare * machine_memory() / options.jobs;
 }
 
 tcp::acceptor listen(asio::io_context& io, const ServeOptions& options) {
@@ -121,7 +123,7 @@ void tell(const ServeOptions& options, const ServiceAccess& access, int port) {
   std::fflush(stdout);
 }
 
-/// Until the loop is stopped. A fault in one handler does not end the others.
+/// Runs the event loop until it is stopped. An exception in one handler does not end the others.
 void run(asio::io_context& io) {
   for (;;) {
     try {
@@ -170,4 +172,4 @@ void serve(ServeOptions options) {
   run(io);
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

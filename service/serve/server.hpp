@@ -1,14 +1,14 @@
 #pragma once
-/// `acinus serve`: simulations over HTTP.
+/// HTTP service for simulations (`acinus serve`).
 
 #include "service/serve/serve_options.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
-/// Serves until SIGTERM or SIGINT. Runs then end with a checkpoint, and go on when it is started
-/// again.
-/// @throws Error(kBadInput) for an address that cannot be listened to, or a data folder that
-///         another service holds; kFileError
+/// Serves until SIGTERM or SIGINT. Runs then end with a checkpoint and continue with the next
+/// service.
+/// @throws Error(kBadInput) for an address that cannot be bound, or a data folder that another
+/// service holds; kFileError
 void serve(ServeOptions options);
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

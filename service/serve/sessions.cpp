@@ -4,12 +4,12 @@
 
 #include "service/serve/token.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 std::string Sessions::open() {
-  constexpr std::size_t kMost = 256;
+  constexpr std::size_t kMostSessions = 256;
   id_.push_back(make_token());
-  if (id_.size() > kMost) id_.pop_front();
+  if (id_.size() > kMostSessions) id_.pop_front();
   return id_.back();
 }
 
@@ -18,4 +18,4 @@ bool Sessions::knows(const std::string& id) const {
              id_, [&](const std::string& known) { return same_secret(id, known); }) > 0;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

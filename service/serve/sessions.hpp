@@ -1,15 +1,16 @@
 #pragma once
-/// Browsers that have logged in. What a browser keeps is not the token: cookies go to every port of
-/// a machine.
+/// Login sessions of browsers. The cookie holds a session id instead of the token, since cookies
+/// are sent to all ports of a machine.
 
 #include <deque>
 #include <string>
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Set of open login sessions, bounded in number.
 class Sessions {
  public:
-  /// A new id. The oldest session ends when there are too many.
+  /// New session id. The oldest session ends beyond the limit.
   std::string open();
   bool knows(const std::string& id) const;
 
@@ -17,4 +18,4 @@ class Sessions {
   std::deque<std::string> id_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -14,11 +14,11 @@
 #include "io/disk.hpp"
 #include "io/inside.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
 namespace {
 
-constexpr std::size_t kMostToken = 4096;  ///< bytes
+constexpr std::size_t kMostTokenBytes = 4096;  ///< of the token file, bytes
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::string keep_token(const std::string& file) {
           fmt::format("{}: others made it or can read or write it, so it may be no secret. Remove "
                       "it, and a new one is made.",
                       file));
-    std::string token = io::read_text_beside(file, kMostToken);
+    std::string token = io::read_text_beside(file, kMostTokenBytes);
     while (!token.empty() && token.back() == '\n') token.pop_back();
     check(token.size() >= 16,
           fmt::format("{}: holds no token of 16 characters or more. Remove it, and a new one is "
@@ -65,4 +65,4 @@ bool same_secret(const std::string& a, const std::string& b) {
   return difference == 0;
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

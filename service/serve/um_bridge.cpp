@@ -16,7 +16,7 @@
 #include "runs/scene/bounded_json.hpp"
 #include "service/serve/submission.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 namespace asio = boost::asio;
@@ -25,14 +25,16 @@ using Json = nlohmann::json;
 constexpr std::array kPosts{"ModelInfo",     "InputSizes",   "OutputSizes", "Evaluate",
                             "ApplyJacobian", "ApplyHessian", "Gradient"};
 constexpr auto kResultPoll = std::chrono::milliseconds(20);
-constexpr std::size_t kMostTexts = 1000;    ///< evaluations whose keys are remembered
-constexpr std::size_t kMostBody = 256'000;  ///< bytes; parsed in the thread that answers all others
+constexpr std::size_t kMostRememberedKeys = 1000;  ///< remembered evaluation keys
+constexpr std::size_t kMostBodyBytes = 256'000;  ///< bytes; parsed on the thread of the event loop
 
 HttpReply invalid_input(const std::string& message) {
   return error_reply(400, "InvalidInput", message);
 }
 
-/// The one vector of inputs.   @throws Error where it has another form
+/// Input vector of an evaluation.
+/// @param n  number of parameters
+/// @throws Error for another form
 std::vector<double> read_input(const Json& body, std::size_t n) {
   check(body.contains("input") && body["input"].is_array() && body["input"].size() == 1 &&
             body["input"][0].is_array(),
@@ -94,12 +96,12 @@ Task<HttpReply> UmBridge::answer(const HttpRequest& request) {
     for (const auto& [name, model] : models().all()) names.push_back(name);
     co_return json_reply(200, {{"protocolVersion", 1.0}, {"models", names}});
   }
-  if (request.body.size() > kMostBody)
-    co_return invalid_input(fmt::format("the request has more than {} bytes", kMostBody));
-  const Json body = parse_or_discard<Json>(request.body);
+  if (request.body.size() > kMostBodyBytes)
+    co_return invalid_input(fmt::format("the request has more than {} bytes", kMostBodyBytes));
+  const Json body = runs::parse_or_discard<Json>(request.body);
   if (!body.is_object())
     co_return invalid_input("the request must be a JSON object of at most 100 levels");
-  const std::string name = text_at(body, "name");
+  const std::string name = runs::text_at(body, "name");
   const auto found = models().all().find(name);
   if (found == models().all().end())
     co_return error_reply(400, "ModelNotFound",
@@ -138,7 +140,7 @@ Task<std::string> UmBridge::submit(const std::string& text) {
   dispatcher_.check_room();
   RunJob job = co_await preparation_.prepare_evaluation(text);
   const std::string key = job.key;
-  if (key_by_text_.size() >= kMostTexts) key_by_text_.clear();
+  if (key_by_text_.size() >= kMostRememberedKeys) key_by_text_.clear();
   key_by_text_[text] = key;
   // Another text may have the same key.
   if (find_job(key) == nullptr && !find_result(result_file(key)))
@@ -150,7 +152,7 @@ Task<std::string> UmBridge::submit(const std::string& text) {
 
 Task<HttpReply> UmBridge::evaluate(const StudyModel& model, const ModelConfig& config,
                                    const std::vector<double>& values) {
-  const Scene& scene = model_scene(model, config);
+  const runs::Scene& scene = model_scene(model, config);
   const std::string text =
       evaluation_text(scene.name, scene.resolved_json, model_changes(config, values));
   asio::steady_timer timer(co_await asio::this_coro::executor);
@@ -175,4 +177,4 @@ Task<HttpReply> UmBridge::evaluate(const StudyModel& model, const ModelConfig& c
   }
 }
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

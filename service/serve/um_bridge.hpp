@@ -1,6 +1,5 @@
 #pragma once
-/// The protocol UM-Bridge 1.0: models evaluated over HTTP by clients in many languages.
-/// [Seelinger2023]
+/// UM-Bridge protocol 1.0: evaluation of models over HTTP [Seelinger2023].
 
 #include <boost/asio/io_context.hpp>
 #include <map>
@@ -12,16 +11,17 @@
 #include "service/serve/models.hpp"
 #include "service/serve/preparation.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 
+/// Handler of UM-Bridge requests.
 class UmBridge {
  public:
   UmBridge(boost::asio::io_context& io, const ServeOptions& options, JobStore& store,
            Dispatcher& dispatcher, Preparation& preparation);
 
-  /// Whether a request is one of the protocol's.
+  /// True for a request of the protocol.
   static bool is_asked(const HttpRequest& request);
-  /// Waits for the run where one is needed.
+  /// Handles a request; waits for a run if one is needed.
   Task<HttpReply> answer(const HttpRequest& request);
 
  private:
@@ -29,10 +29,11 @@ class UmBridge {
   Task<HttpReply> evaluate(const StudyModel& model, const ModelConfig& config,
                            const std::vector<double>& values);
   std::string result_file(const std::string& key) const;
-  /// The job that evaluates a key; nothing when there is none.
+  /// Job that evaluates a key; null if there is none.
   RunJob* find_job(const std::string& key);
-  /// Prepares an evaluation and submits it, unless its key is being evaluated or its result known.
-  /// @param text  as evaluation_text() makes it
+  /// Prepares an evaluation and submits it, unless its key is being evaluated or its result is
+  /// cached.
+  /// @param text  as made by evaluation_text()
   /// @return its key
   Task<std::string> submit(const std::string& text);
 
@@ -42,9 +43,9 @@ class UmBridge {
   Dispatcher& dispatcher_;
   Preparation& preparation_;
   std::optional<Models> models_;
-  std::map<std::string, std::string> job_by_key_;  ///< evaluations that are not yet done
-  /// Keys of evaluations by text: one that is asked for again needs no preparation.
+  std::map<std::string, std::string> job_by_key_;  ///< evaluations in progress
+  /// Keys of evaluations by text, which save the preparation of repeated ones.
   std::map<std::string, std::string> key_by_text_;
 };
 
-}  // namespace acinus::runs
+}  // namespace acinus::service

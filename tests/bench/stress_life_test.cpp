@@ -9,8 +9,8 @@
 #include "bench/stress/inspect.hpp"
 #include "coupling/life/life.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/integrator.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
+#include "coupling/step/step.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/session/make_frame.hpp"
@@ -70,7 +70,7 @@ class LifeInspection : public testing::Test {
         EXPECT_TRUE(coupling::take_step(world, work, limit).accepted);
         time = coupling::time_since_start(world);
         for (const coupling::LifeEvent& e : coupling::live(world, work).events)
-          record.events.push_back({time, e.code, e.cells, e.message});
+          record.events.push_back({time, name_of(e.kind), e.cells, e.message});
       }
       if (next != 750) write();
     }

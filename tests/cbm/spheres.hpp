@@ -37,9 +37,9 @@ struct Spheres {
     solve::set_blocks(system, make_blocks(state));
     find_overlaps(in, work);
     contacts.all.clear();
-    contacts.interface_end = 0;
+    contacts.close(contact::ContactKind::kInterface);
     find_contacts(in, work, contacts, system.point_links);
-    add_coupling(work, std::span(contacts.all).subspan(contacts.interface_end), system.point_links);
+    add_coupling(work, contacts.of(contact::ContactKind::kSphereObstacle), system.point_links);
     add_contact_loads(in, work, contacts, system);
     list_pairs(in, work, contacts);
   }

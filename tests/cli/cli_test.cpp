@@ -17,7 +17,7 @@
 #include "tests/messages.hpp"
 #include "tests/paths.hpp"
 
-namespace acinus::runs {
+namespace acinus::cli {
 namespace {
 
 struct Outcome {
@@ -148,8 +148,8 @@ TEST(Cli, WordsInQuotesAreTheSameWordsToAShell) {
            "na\xc3\xaf"
            "ve",
            "~", "-x", "#", "!", "a;b&c|d", "*?[x]{1,2}", "'\n\\\xff"}) {
-    EXPECT_EQ(quote_for_shell(word).find('\n'), std::string::npos) << "one line";
-    EXPECT_EQ(output_of_bash("printf %s " + quote_for_shell(word)), word);
+    EXPECT_EQ(runs::quote_for_shell(word).find('\n'), std::string::npos) << "one line";
+    EXPECT_EQ(output_of_bash("printf %s " + runs::quote_for_shell(word)), word);
   }
   EXPECT_EQ(without_flag("acinus calibrate --fresh --out a", "--fresh"),
             "acinus calibrate --out a");
@@ -181,4 +181,4 @@ TEST(Cli, CheckPrintsTheReportOfTheReader) {
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::cli

@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-
-#include "tests/reference/sample.hpp"
 
 namespace acinus::contact {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <tuple>
 
 #include "core/error.hpp"
 #include "tests/messages.hpp"

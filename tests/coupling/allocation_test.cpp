@@ -6,6 +6,11 @@
 #include <cstdlib>
 #include <new>
 
+#include "coupling/apparatus/contraction/contraction.hpp"
+#include "coupling/apparatus/pull/pull.hpp"
+#include "coupling/apparatus/stretcher/stretcher.hpp"
+#include "coupling/apparatus/suction/suction.hpp"
+#include "coupling/apparatus/temperature/temperature.hpp"
 #include "coupling/step/controller.hpp"
 #include "tests/coupling/worlds.hpp"
 
@@ -87,16 +92,37 @@ TEST(Allocation, NucleiAskForNoneEither) {
   EXPECT_EQ(c.held, 0) << "in " << c.steps << " steps";
 }
 
+/// One device of each kind.
+Apparatus make_apparatus() {
+  Temperature temperature;
+  temperature.course.entry = {{0, 290}, {1e4, 310}};
+  Contraction contraction;
+  contraction.course.resize(1);
+  contraction.course[0].entry = {{0, 1}, {1e4, 2}};
+  Stretcher stretcher;
+  stretcher.beams.power = 1e14;
+  stretcher.pulse = {{0, 1e6}};
+  Suction suction;
+  suction.mouth = Vec3(60, 0, 8);
+  suction.reach = 5;
+  suction.pressure.entry = {{0, 0}, {1e4, 1e-3}};
+  Pulls pulls;
+  pulls.pull.resize(2);
+  pulls.pull[0].force.entry = {{0, 0}, {1e4, 1e-3}};
+  pulls.pull[1].stiffness = 1e-3;
+  Apparatus all;
+  all.add(temperature);
+  all.add(contraction);
+  all.add(stretcher);
+  all.add(suction);
+  all.add(pulls);
+  return all;
+}
+
 TEST(Allocation, AStepOfAWorldThatWasSteppedBeforeAsksForNone) {
   for (const auto& [deformable, spheres] : {std::pair(true, false), {false, true}, {true, true}}) {
     World w = make_row(deformable, spheres);
-    w.params.stretcher.beams.power = 1e14;
-    w.params.stretcher.pulse = {{0, 1e6}};
-    w.params.temperature.course.entry = {{0, 290}, {1e4, 310}};
-    w.params.suction = {Vec3(60, 0, 8), Vec3::UnitZ(), 5, {{{0, 0}, {1e4, 1e-3}}}};
-    w.params.pulls.resize(2);
-    w.params.pulls[0].force.entry = {{0, 0}, {1e4, 1e-3}};
-    w.params.pulls[1].stiffness = 1e-3;
+    w.params.apparatus = make_apparatus();
     const Count c = count_allocations(w, 200, 60);
     EXPECT_GT(c.steps, 10);
     EXPECT_EQ(c.held, 0) << "in " << c.steps << " steps";

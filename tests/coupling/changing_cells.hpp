@@ -58,7 +58,7 @@ inline Region ball(const Vec3& center, double radius) {
 
 /// What a change of one cell did, at once.
 struct Jump {
-  std::string code;         ///< promotion | demotion | promotion_waits
+  EventKind kind{};         ///< kPromotion, kPromotionWaits or kDemotion
   double before = 0;        ///< kPa, its pressure
   double pressure = 0;      ///< kPa, change of it
   double force = 0;         ///< of a pair with a neighbour, largest change over the mean force
@@ -132,7 +132,7 @@ inline Jump change_one(World& w, Workspace& work, std::int64_t cell) {
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(report.changes.size(), 1u);
   if (report.changes.size() != 1) return jump;
-  jump.code = report.changes[0].code;
+  jump.kind = report.changes[0].kind;
   jump.volume_error = std::abs(volume() - rest);
   const auto after = measure(w, work);
   const auto now = pair_forces_of(w, work, cell);

@@ -1,13 +1,13 @@
 /// Contacts that close within a step are felt in that step.
 
-#include "coupling/step/closing.hpp"
+#include "coupling/step/active_set.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "coupling/step/controller.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <string>
 #include <utility>
 #include <vector>
 

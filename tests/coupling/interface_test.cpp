@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/parallel/threads.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/measure/pair_contacts.hpp"
+#include "coupling/step/sizing.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "tests/coupling/partitioned.hpp"
 #include "tests/coupling/worlds.hpp"
@@ -21,7 +23,6 @@ namespace {
 
 /// Force on every unknown, with and without the interface contacts.
 std::vector<double> forces(const World& world, Workspace& work, bool interface) {
-  find_all_contacts(world, 1.0, work);
   assemble(world, 1.0, work, {interface});
   return work.system.force;
 }
@@ -76,7 +77,6 @@ TEST(Interface, ForceListAddsUpToTheForces) {
 
 /// A linearly implicit step in which each model is solved alone.
 void step_partitioned(World& world, double step, Workspace& work) {
-  find_all_contacts(world, step, work);
   assemble(world, step, work);
   for (std::size_t k = 0; k < work.rhs.size(); ++k)
     work.rhs[k] = work.system.force[k] + work.system.external_force[k];
@@ -162,7 +162,7 @@ World indented_sphere(double depth) {
   World w = make_test_world({{Vec3::Zero()}, {Vec3(1, 2, 3).normalized() * 24, false}});
   w.params.dcm[0].adhesion = w.params.cbm[0].adhesion = 0;
   SizedWorkspace work(w);
-  find_all_contacts(w, 1.0, work);
+  assemble(w, 1.0, work);
   double gap = 1;
   for (const contact::Contact& k : work.contacts.interface()) gap = std::min(gap, k.gap);
   // The normal is that of the line of centres to first order, so two rounds come near enough.

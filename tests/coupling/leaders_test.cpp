@@ -164,13 +164,13 @@ TEST(Leaders, AreChosenOncePerIntervalOfTheirGrid) {
   Choice leader;
   std::int64_t interval = -1;
   const std::vector<double> one{12, 12, 12, 12, 12, 12, 12, 12};
-  EXPECT_TRUE(choose_leaders(w, one, one, leader, interval));
+  EXPECT_TRUE(choose_leaders(w.params, w.state, one, one, leader, interval));
   EXPECT_EQ(leader[0], 1);
   EXPECT_EQ(leader[8], 0) << "the sphere stands behind";
   w.state.clock.time = 599;
-  EXPECT_FALSE(choose_leaders(w, one, one, leader, interval));
+  EXPECT_FALSE(choose_leaders(w.params, w.state, one, one, leader, interval));
   w.state.clock.time = 600;
-  EXPECT_TRUE(choose_leaders(w, one, one, leader, interval));
+  EXPECT_TRUE(choose_leaders(w.params, w.state, one, one, leader, interval));
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(Division, OfARoundShellMakesTwoHalvesWithinHer) {
   EXPECT_EQ(w.state.next_lineage, 3);
   EXPECT_EQ(w.state.divisions, 1);
   ASSERT_EQ(report.events.size(), 1u);
-  EXPECT_EQ(report.events[0].code, "division");
+  EXPECT_EQ(report.events[0].kind, EventKind::kDivision);
   EXPECT_EQ(report.events[0].cells, (Ids{0, 1, 2}));
   double farthest = 0;
   for (std::int64_t id : {1, 2}) {
@@ -170,7 +170,7 @@ TEST(Division, OfManyNeighboursInOneStep) {
   World w = make_crowd();
   const double before = kBirthVolume * 2;
   const LifeReport report = look(w, 60);
-  EXPECT_EQ(count_events(report, "division"), 5);
+  EXPECT_EQ(count_events(report, EventKind::kDivision), 5);
   ASSERT_EQ(report.divisions.size(), 3u);
   for (const DivisionFigures& f : report.divisions) {
     std::printf(
@@ -181,7 +181,7 @@ TEST(Division, OfManyNeighboursInOneStep) {
     EXPECT_LT(f.settled_shift, 1.5);
   }
   EXPECT_EQ(w.state.divisions, 5);
-  EXPECT_EQ(count_events(report, "settling_failed"), 0);
+  EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
   // Numbers are given in the order of the mothers', spheres before shells.
   EXPECT_EQ(lineages(w.state), (Ids{3, 4, 5, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}));
   const auto index = index_cells(w.state);
@@ -231,7 +231,7 @@ TEST(Division, AtAMirrorWallAndOnAVesselStaysOnItsSide) {
   begin_with_mothers(w);
   const LifeReport report = look(w, 60);
   ASSERT_EQ(report.divisions.size(), 2u);
-  EXPECT_EQ(count_events(report, "settling_failed"), 0);
+  EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
   expect_to_go_on(w, 1800);
   double wall_depth = 0, vessel_depth = 0;
   for (std::int64_t id : lineages(w.state))
@@ -262,8 +262,8 @@ TEST(Division, ThatNoPlaneAllowsWaits) {
   }
   const LifeReport report = look(w, 60);
   ASSERT_EQ(report.events.size(), 1u);
-  if (report.events[0].code == "division") GTEST_SKIP() << "this shape divides after all";
-  EXPECT_EQ(report.events[0].code, "division_waits");
+  if (report.events[0].kind == EventKind::kDivision) GTEST_SKIP() << "this shape divides after all";
+  EXPECT_EQ(report.events[0].kind, EventKind::kDivisionWaits);
   EXPECT_EQ(lineages(w.state), Ids{0});
   EXPECT_EQ(w.state.next_lineage, 1);
   EXPECT_TRUE(look(w, 600).events.empty()) << "not tried again at once";

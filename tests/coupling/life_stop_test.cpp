@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "core/parallel/stop.hpp"
-#include "coupling/life/mesh_health.hpp"
 #include "coupling/simulation.hpp"
 #include "tests/coupling/lives.hpp"
 
@@ -24,7 +23,7 @@ World make_mothers() {
 
 TEST(LifeStop, DivisionBegunIsUndoneAndDoneAgainLater) {
   World through = make_mothers(), stopped = through;
-  EXPECT_EQ(count_events(look(through, 0), "division"), 3);
+  EXPECT_EQ(count_events(look(through, 0), EventKind::kDivision), 3);
   const std::uint64_t before = hash_state(stopped.state);
   {
     const WallTimeLimit passed(0);
@@ -34,7 +33,7 @@ TEST(LifeStop, DivisionBegunIsUndoneAndDoneAgainLater) {
   }
   EXPECT_EQ(hash_state(stopped.state), before);
   EXPECT_EQ(stopped.state.clock.due, EventsDue::kAll);
-  EXPECT_EQ(count_events(look(stopped, 0), "division"), 3);
+  EXPECT_EQ(count_events(look(stopped, 0), EventKind::kDivision), 3);
   EXPECT_EQ(stopped.state.clock.due, EventsDue::kNone);
   EXPECT_EQ(hash_state(stopped.state), hash_state(through.state));
 }
@@ -48,7 +47,7 @@ TEST(LifeStop, MeshBegunToBeMendedIsPutBack) {
   store_point(x, node, 0.02 * load_point(x, node) + 0.98 * load_point(x, next));
   through.state.clock.last_step = 60;
   World stopped = through;
-  EXPECT_EQ(count_events(look(through, 600), "remeshed"), 1);
+  EXPECT_EQ(count_events(look(through, 600), EventKind::kRemeshed), 1);
   stopped.state.clock.time = 600;
   const std::uint64_t before = hash_state(stopped.state);
   {
@@ -59,7 +58,7 @@ TEST(LifeStop, MeshBegunToBeMendedIsPutBack) {
   }
   EXPECT_EQ(hash_state(stopped.state), before);
   EXPECT_EQ(stopped.state.clock.due, EventsDue::kMeshes);
-  EXPECT_EQ(count_events(look(stopped, 600), "remeshed"), 1);
+  EXPECT_EQ(count_events(look(stopped, 600), EventKind::kRemeshed), 1);
   EXPECT_EQ(hash_state(stopped.state), hash_state(through.state));
 }
 
@@ -94,8 +93,8 @@ TEST(LifeStop, ManyStopsLeaveTheSameBits) {
   EXPECT_TRUE(through.run_until(kEnd).ok);
   int in_steps = 0, in_events = 0, divisions = 0;
   const Observer observer{.life = [&](const LifeReport& report) {
-    divisions += count_events(report, "division");
-    EXPECT_EQ(count_events(report, "settling_failed"), 0);
+    divisions += count_events(report, EventKind::kDivision);
+    EXPECT_EQ(count_events(report, EventKind::kSettlingFailed), 0);
   }};
   for (double wall = 2e-3;; wall *= 1.1) {
     const WallTimeLimit limit(wall);

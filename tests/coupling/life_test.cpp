@@ -10,7 +10,7 @@
 
 #include "coupling/measure/measure.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "geometry/measures.hpp"
 #include "tests/coupling/lives.hpp"
 #include "tests/messages.hpp"
@@ -193,7 +193,7 @@ TEST(Rules, DieInTheirRegionAndTimeOnly) {
   EXPECT_TRUE(look(w, 600).events.empty());
   EXPECT_TRUE(look(w, 1199).events.empty());
   const LifeReport report = look(w, 1200);
-  EXPECT_EQ(count_events(report, "death"), 4);
+  EXPECT_EQ(count_events(report, EventKind::kDeath), 4);
   EXPECT_EQ(lineages(w.state), (Ids{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(w.state.deaths, 4);
   store_point(w.state.cbm.position.data(), cbm::cell_address(0, 0), Vec3(400, 0, 0));
@@ -245,11 +245,11 @@ TEST(Rules, HoldForAShareOfTheCellsOnceAndForAll) {
   rule.share = 0.3;
   w.params.life.rule = {rule};
   begin_life(w);
-  const int died = count_events(look(w, 600), "death");
+  const int died = count_events(look(w, 600), EventKind::kDeath);
   EXPECT_NEAR(died, 300, 4 * std::sqrt(1000 * 0.3 * 0.7));
   EXPECT_TRUE(look(w, 1200).events.empty()) << "drawn anew";
   w.params.life.rule.push_back(rule);
-  EXPECT_NEAR(count_events(look(w, 1800), "death"), 0.3 * (1000 - died),
+  EXPECT_NEAR(count_events(look(w, 1800), EventKind::kDeath), 0.3 * (1000 - died),
               4 * std::sqrt(1000 * 0.3 * 0.7))
       << "another rule draws for itself";
 }
@@ -286,7 +286,7 @@ TEST(Death, RemovedCellsLeaveTheOthersAsTheyAre) {
   begin_life(w);
   const World before = w;
   const LifeReport report = look(w, 0);
-  EXPECT_EQ(count_events(report, "death"), 3);
+  EXPECT_EQ(count_events(report, EventKind::kDeath), 3);
   EXPECT_EQ(lineages(w.state), (Ids{1, 2, 5, 6, 7}));
   const auto old_index = index_cells(before.state);
   for (const auto& [id, c] : index_cells(w.state))
@@ -302,7 +302,7 @@ TEST(Death, AMotherThatARuleTakesDoesNotDivide) {
     w.params.life.type[0].death.lysis = lysis;
     begin_with_mothers(w);
     const LifeReport report = look(w, 600);
-    EXPECT_EQ(count_events(report, "division"), 0);
+    EXPECT_EQ(count_events(report, EventKind::kDivision), 0);
     EXPECT_EQ(lineages(w.state), lysis ? Ids{0} : Ids{});
   }
 }
@@ -332,7 +332,7 @@ TEST(Death, ByLysisShrinksToTheFinalVolumeThenRemoves) {
       const double t = w.state.clock.time;
       const auto index = index_cells(w.state);
       gone = !index.contains(0);
-      if (count_events(report, "lysis") > 0) {
+      if (count_events(report, EventKind::kLysis) > 0) {
         EXPECT_EQ(t, 1200);
         volume = volume_at(w, 0, t);
         EXPECT_EQ(type_of(w.state, index.at(0)), 1);
@@ -368,10 +368,10 @@ TEST(Death, TakesTheDyingAloneWhenAStepFailsAtThem) {
   const std::int64_t named[] = {0, 1};
   const LifeReport report = remove_dying(w, work, named, "a face would turn over");
   ASSERT_EQ(report.events.size(), 2u);
-  EXPECT_EQ(report.events[0].code, "death_early");
+  EXPECT_EQ(report.events[0].kind, EventKind::kDeathEarly);
   EXPECT_EQ(report.events[0].cells, Ids{1});
   EXPECT_CONTAINS(report.events[0].message, "a face would turn over");
-  EXPECT_EQ(report.events[1].code, "death");
+  EXPECT_EQ(report.events[1].kind, EventKind::kDeath);
   EXPECT_EQ(report.events[1].cells, Ids{1});
   EXPECT_EQ(lineages(w.state), (Ids{0, 2}));
   EXPECT_EQ(w.state.deaths, 1);

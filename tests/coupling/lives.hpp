@@ -48,8 +48,7 @@ inline void begin_with_mothers(World& w) {
 /// What happens to the cells at a later time, with nothing moved meanwhile.
 inline LifeReport look(World& w, double time) {
   w.state.clock.time = time;
-  Workspace work;
-  size_workspace(w, work);
+  SizedWorkspace work(w);
   return live(w, work);
 }
 
@@ -65,9 +64,9 @@ inline std::vector<std::int64_t> lineages(const State& s) {
   return all;
 }
 
-inline int count_events(const LifeReport& r, const std::string& code) {
+inline int count_events(const LifeReport& r, EventKind kind) {
   int n = 0;
-  for (const LifeEvent& e : r.events) n += e.code == code ? 1 : 0;
+  for (const LifeEvent& e : r.events) n += e.kind == kind ? 1 : 0;
   return n;
 }
 

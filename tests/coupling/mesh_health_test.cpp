@@ -179,8 +179,8 @@ TEST(MeshHealth, HopelessCellIsNamedAndNotTouched) {
   const std::uint64_t before = hash_state(world.state);
   const LifeReport report = look(world, work);
   ASSERT_EQ(report.events.size(), 1u);
-  std::printf("%s: %s\n", report.events[0].code.c_str(), report.events[0].message.c_str());
-  EXPECT_EQ(report.events[0].code, "mesh_degenerate");
+  std::printf("%s: %s\n", name_of(report.events[0].kind), report.events[0].message.c_str());
+  EXPECT_EQ(report.events[0].kind, EventKind::kMeshDegenerate);
   EXPECT_EQ(report.events[0].cells, std::vector<std::int64_t>{0});
   EXPECT_EQ(hash_state(world.state), before);
   world.params.life.remesh = false;
@@ -202,7 +202,7 @@ TEST(MeshHealth, LooksOnlyWhenAStepCrossesTheTimeGrid) {
   world.state.clock.time = 1230;
   mend_meshes(world, work, report);
   ASSERT_EQ(report.events.size(), 1u);
-  EXPECT_EQ(report.events[0].code, "remeshed");
+  EXPECT_EQ(report.events[0].kind, EventKind::kRemeshed);
 }
 
 /// Thirteen cells pressed together; nothing is damaged.
@@ -263,7 +263,7 @@ std::uint64_t mend_in_clump(const World& packed, double share, const char* name)
   }
   const LifeReport report = look(world, work);
   EXPECT_EQ(report.events.size(), 1u);
-  EXPECT_EQ(report.events[0].code, "remeshed") << report.events[0].message;
+  EXPECT_EQ(report.events[0].kind, EventKind::kRemeshed) << report.events[0].message;
   EXPECT_EQ(report.events[0].cells, std::vector<std::int64_t>{mended});
   const double overlap_mended = deepest_overlap(world);
   observe(world, work);
@@ -354,8 +354,8 @@ TEST(MeshHealth, GrowingClumpIsNeverTouched) {
   while (dcm::count_cells(world.state.dcm) < 8 || world.state.clock.time < 19.5 * 3600) {
     ASSERT_TRUE(take_step(world, work, 600).accepted);
     for (const LifeEvent& e : live(world, work).events) {
-      EXPECT_NE(e.code, "remeshed") << e.message;
-      EXPECT_NE(e.code, "mesh_degenerate") << e.message;
+      EXPECT_NE(e.kind, EventKind::kRemeshed) << e.message;
+      EXPECT_NE(e.kind, EventKind::kMeshDegenerate) << e.message;
     }
     std::vector<Vec3> node;
     for (std::size_t l = 0; l < world.state.dcm.n_lane(); ++l) {

@@ -6,8 +6,7 @@
 #include <cstdio>
 
 #include "coupling/migration/migration.hpp"
-#include "coupling/step/integrator.hpp"
-#include "dcm/terms/medium.hpp"
+#include "coupling/step/step.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::coupling {
@@ -50,7 +49,8 @@ double spread(bool deformable, double step, int reject_every, int n) {
   Vec3 last = center(w, deformable);
   for (int k = 1; k <= n; ++k) {
     if (reject_every > 0 && k % reject_every == 0) {
-      if (!attempt_step(w, step, true, work).status.ok) return -1;
+      Effort effort;
+      if (!attempt_step(w, step, true, work, effort).accepted) return -1;
       if (!run_until(w, work, 60.0 * k - step / 2)) return -1;
     }
     if (!run_until(w, work, 60.0 * k)) return -1;

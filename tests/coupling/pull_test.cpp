@@ -1,8 +1,10 @@
 /// Pulls over time on cells that are stepped.
 
-#include "coupling/apparatus/pull.hpp"
+#include "coupling/apparatus/pull/pull.hpp"
 
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include "coupling/simulation.hpp"
 #include "tests/coupling/worlds.hpp"
@@ -29,10 +31,18 @@ Pull rising(int cell) {
   return p;
 }
 
+Apparatus pulled_by(std::vector<Pull> pull) {
+  Pulls pulls;
+  pulls.pull = std::move(pull);
+  Apparatus all;
+  all.add(std::move(pulls));
+  return all;
+}
+
 // Motion without inertia sums the force: a ramp to 1 nN moves a cell as 0.5 nN does.
 TEST(Pull, ARampMovesACellAsItsMeanDoes) {
   World ramp = two_models(), mean = two_models();
-  ramp.params.pulls = {rising(0), rising(1)};
+  ramp.params.apparatus = pulled_by({rising(0), rising(1)});
   mean.state.dcm.pull[0] = mean.state.cbm.pull[0] = Vec3(0, 0.5, 0);
   Simulation a(ramp), b(mean);
   EXPECT_TRUE(a.run_until(20, {}).ok);
@@ -45,7 +55,7 @@ TEST(Pull, ARampMovesACellAsItsMeanDoes) {
 TEST(Pull, StepsEndWhereTheForceBends) {
   World w = two_models();
   w.params.numerics.max_step = 3;
-  w.params.pulls = {rising(0)};
+  w.params.apparatus = pulled_by({rising(0)});
   Simulation s(w);
   bool met = false;
   Observer watch;
@@ -63,7 +73,7 @@ TEST(Pull, ASpringTakesTheCellWhereItsEndIs) {
   p.direction = Vec3(0, 3, 4) / 5;
   p.stiffness = 1e4;
   p.displacement.entry = {{0, 0}, {10, 2}, {20, 2}};
-  w.params.pulls = {p};
+  w.params.apparatus = pulled_by({p});
   Simulation s(w);
   EXPECT_TRUE(s.run_until(20, {}).ok);
   EXPECT_NEAR(shell(s.world()).dot(p.direction), 2, 1e-3);
@@ -76,7 +86,7 @@ TEST(Pull, OfACellThatIsGoneDoesNothing) {
   World w = two_models(), alone = w;
   Pull p = rising(7), q = rising(8);
   q.stiffness = 1;
-  w.params.pulls = {p, q};
+  w.params.apparatus = pulled_by({p, q});
   Simulation a(w), b(alone);
   EXPECT_TRUE(a.run_until(10, {}).ok);
   EXPECT_TRUE(b.run_until(10, {}).ok);

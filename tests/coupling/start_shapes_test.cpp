@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/sphere.hpp"
 #include "coupling/measure/audit.hpp"
 #include "coupling/world/population.hpp"
 #include "geometry/measures.hpp"

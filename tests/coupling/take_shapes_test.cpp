@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/parallel/threads.hpp"
-#include "core/sphere.hpp"
 #include "geometry/audit_body.hpp"
 #include "geometry/measures.hpp"
 #include "tests/coupling/worlds.hpp"

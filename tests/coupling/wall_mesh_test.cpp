@@ -78,7 +78,6 @@ Vec3 force_on_cell(bool deformable, bool mesh, double depth) {
   World w = make_test_world({{Vec3(-25, 0, 12 + 5.6 - depth), deformable}});
   w.params.boundary.vessels = vessels_of(fork(), mesh);
   SizedWorkspace work(w);
-  find_all_contacts(w, 1, work);
   assemble(w, 1, work);
   Vec3 sum = Vec3::Zero();
   for (std::size_t row = 0; row < work.system.n_row; ++row)

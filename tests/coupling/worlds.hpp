@@ -9,7 +9,8 @@
 
 #include "coupling/measure/measure.hpp"
 #include "coupling/sleep/partial_step.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
+#include "coupling/step/step.hpp"
 #include "coupling/world/cell.hpp"
 #include "coupling/world/world.hpp"
 #include "geometry/topology.hpp"
@@ -26,7 +27,7 @@ struct TestCell {
 inline World make_test_world(const std::vector<TestCell>& cells, double step = 60,
                              int n_node = 162) {
   World w;
-  dcm::Params d;
+  dcm::Params d = dcm::params_without_terms();
   d.spring_stiffness = dcm::cortex_spring_stiffness(1, 0.5);
   d.bending_stiffness = dcm::cortex_bending_stiffness(1, 0.5, 0.5);
   d.area_modulus = 0.8;
@@ -36,6 +37,8 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
   d.diffusion = 1e-4;
   d.adhesion = 0.01;
   cbm::Params c;
+  c.young = 0.45;
+  c.young_spread = 0;
   c.medium_friction = c.vessel_friction = 0.5;
   c.diffusion = 1e-4;
   c.adhesion = 0.01;
@@ -44,6 +47,7 @@ inline World make_test_world(const std::vector<TestCell>& cells, double step = 6
   w.params.dcm_contact.cell_friction = 50;
   w.params.cbm_contact.cell_friction = 10;
   w.params.interface.friction = 2 * 50.0 * 10.0 / 60;
+  w.params.motility.random = false;
   w.params.numerics.max_step = step;
   w.params.numerics.adaptive = false;
   w.params.numerics.max_move = 0;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <string>
 
 #include "core/numbers/random.hpp"
 #include "tests/coupling/changing_cells.hpp"
@@ -57,17 +56,17 @@ struct Tally {
 
 void count(const Jump& jump, std::int64_t rejected, Tally& t) {
   EXPECT_EQ(jump.volume_error, 0);
-  if (jump.code == "promotion_waits") {
+  if (jump.kind == EventKind::kPromotionWaits) {
     ++t.waits;
     return;
   }
-  ++(jump.code == "promotion" ? t.promotions : t.demotions);
+  ++(jump.kind == EventKind::kPromotion ? t.promotions : t.demotions);
   t.pressure =
       std::max(t.pressure, std::abs(jump.pressure) / std::max(2e-3, 0.05 * std::abs(jump.before)));
   t.force = std::max(t.force, jump.force);
   t.contact = std::max(t.contact, jump.contact);
   t.shift = std::max(t.shift, jump.shift);
-  if (jump.code == "promotion") t.ms += jump.ms;
+  if (jump.kind == EventKind::kPromotion) t.ms += jump.ms;
   t.rejected = std::max(t.rejected, rejected);
 }
 

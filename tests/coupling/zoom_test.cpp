@@ -36,7 +36,7 @@ TEST(Zoom, ACellKeepsWhatItIsBesideItsModel) {
   w.params.zoom.region = {ball(center, 5)};
   const ZoomReport report = update_zoom(w, work);
   ASSERT_EQ(report.changes.size(), 1u);
-  EXPECT_EQ(report.changes[0].code, "promotion");
+  EXPECT_EQ(report.changes[0].kind, EventKind::kPromotion);
   EXPECT_EQ(report.changes[0].cell, 13);
   ASSERT_EQ(dcm::count_cells(w.state.dcm), 1);
   EXPECT_EQ(w.state.cbm.n_cell(), 26u);

@@ -16,6 +16,7 @@
 #include "dcm/terms/volume.hpp"
 #include "geometry/topology.hpp"
 #include "solve/operator.hpp"
+#include "tests/reference/net_force.hpp"
 #include "tests/reference/plain_cell.hpp"
 #include "tests/reference/sample.hpp"
 
@@ -23,7 +24,7 @@ namespace acinus::dcm {
 
 /// Table 1: cortex 1 kPa, 500 nm; K_A 0.8 mN/m; K_V 2500 Pa.
 inline Params table_one() {
-  Params p;
+  Params p = params_without_terms();
   p.spring_stiffness = cortex_spring_stiffness(1.0, 0.5);
   p.bending_stiffness = cortex_bending_stiffness(1.0, 0.5, 0.5);
   p.fold_repulsion = 5;
@@ -56,6 +57,16 @@ struct Cells {
     return load_point(system.force.data(), node_address(state, lane, i));
   }
   int n_node() const { return state.group[0].topology->n_node; }
+  double largest_force(std::size_t lane) const {
+    double f = 0;
+    for (int i = 0; i < n_node(); ++i) f = std::max(f, force(lane, i).norm());
+    return f;
+  }
+  reference::NetForce net_force(std::size_t lane) const {
+    reference::NetForce net;
+    for (int i = 0; i < n_node(); ++i) net.add(force(lane, i), node(lane, i));
+    return net;
+  }
   reference::PlainCell plain(std::size_t lane) const {
     reference::PlainCell c{state.group[0].topology, {}, lanes.radius[lane]};
     copy_nodes(state, lane, c.node);
@@ -63,21 +74,27 @@ struct Cells {
   }
 };
 
-inline double largest_force(const Cells& c, std::size_t lane) {
-  double f = 0;
-  for (int i = 0; i < c.n_node(); ++i) f = std::max(f, c.force(lane, i).norm());
-  return f;
-}
-
-inline reference::NetForce net_force(const Cells& c, std::size_t lane) {
-  reference::NetForce net;
-  for (int i = 0; i < c.n_node(); ++i) net.add(c.node(lane, i), c.force(lane, i));
-  return net;
-}
-
 /// Force of a device on a node.
 inline Vec3 load_of(const Cells& c, std::size_t lane, int i) {
   return load_point(c.system.external_force.data(), node_address(c.state, lane, i));
+}
+
+/// Largest difference of a force of the lane from minus the slope of `energy()`, nN.
+template <class Energy>
+double worst_slope_error(Cells& c, std::size_t lane, const Energy& energy) {
+  const double h = 1e-4;  // um: h^2 E''' and kEps E / h are both near 1e-8 of the force
+  double worst = 0;
+  for (int i = 0; i < c.n_node(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 x = c.node(lane, i);
+      c.move(lane, i, x + h * Vec3::Unit(k));
+      const double more = energy();
+      c.move(lane, i, x - h * Vec3::Unit(k));
+      const double less = energy();
+      c.move(lane, i, x);
+      worst = std::max(worst, std::abs(c.force(lane, i)[k] + (more - less) / (2 * h)));
+    }
+  return worst;
 }
 
 /// The lane of make_deformed_cells that holds no cell.

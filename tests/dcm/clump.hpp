@@ -9,6 +9,7 @@
 #include "dcm/contact/contact_loads.hpp"
 #include "dcm/contact/contact_workspace.hpp"
 #include "solve/system.hpp"
+#include "tests/reference/net_force.hpp"
 #include "tests/reference/sample.hpp"
 
 namespace acinus::dcm {
@@ -16,7 +17,7 @@ namespace acinus::dcm {
 struct Clump {
   State state;
   std::vector<Params> params;
-  ContactParams options;
+  ContactParams options{.cell_friction = 0};
   contact::Boundary boundary;
   double time = 0;
   LaneData lanes;
@@ -30,7 +31,7 @@ struct Clump {
 
   void add_cells(const std::vector<NewCell>& cells) {
     state = make_state(cells);
-    params.assign(1, {});
+    params.assign(1, params_without_terms());
     params[0].adhesion = 0.01;
     options.cell_friction = 50;
   }
@@ -51,6 +52,13 @@ struct Clump {
   }
   /// Force of a contact on its side a, nN.
   Vec3 force(std::size_t link) const { return links.load[link].force * links.load[link].normal; }
+  reference::NetForce net_force(std::span<const double> node_force) const {
+    reference::NetForce net;
+    for_each_node([&](Address a) {
+      net.add(load_point(node_force.data(), a), load_point(state.position.data(), a));
+    });
+    return net;
+  }
   /// [n_dof] the force of all links on the nodes.
   std::vector<double> node_force() const {
     std::vector<double> f(state.position.size());

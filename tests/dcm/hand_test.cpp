@@ -50,7 +50,7 @@ TEST(Topology, TetrahedronIsInflatedToTheUnitCell) {
 // Three springs meet at a corner, each sqrt(2/3) along the axis: F = 3 sqrt(2/3) k (s - 1) a.
 TEST(Cortex, ForceOfABlownTetrahedron) {
   BlownTetrahedron b(1.2);
-  Params p;
+  Params p = params_without_terms();
   p.spring_stiffness = 0.5;
   add_cortex(p, b.c.view(), b.c.system);
   b.expect_outward(-std::sqrt(6.0) * 0.5 * 0.2 * b.edge);
@@ -60,7 +60,7 @@ TEST(Cortex, ForceOfABlownTetrahedron) {
 // dV/dx_i is a third of the opposite face: sqrt(3)/4 a^2 / 3.
 TEST(Volume, ForceOfABlownTetrahedron) {
   BlownTetrahedron b(1.1);
-  Params p;
+  Params p = params_without_terms();
   p.bulk_modulus = 2.5;
   add_volume(p, b.c.view(), b.c.system, b.c.system.rank_one[0]);
   const double edge = 1.1 * b.edge, pressure = -2.5 * 3 * std::log(1.1);
@@ -72,7 +72,7 @@ TEST(Volume, ForceOfABlownTetrahedron) {
 // x . dA/dx summed over nodes is 2 A: outward dA/dx = 2 A / (4 circumradius).
 TEST(Area, ForceOfABlownTetrahedron) {
   const double s = 1.1;
-  Params p;
+  Params p = params_without_terms();
   p.area_modulus = p.local_area_modulus = 0.8;
   BlownTetrahedron global(s), local(s);
   add_area(p, global.c.view(), global.c.system, global.c.system.rank_one[1]);
@@ -90,7 +90,7 @@ TEST(Bending, EnergyOfACubeCorner) {
   const Vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
   for (int i = 0; i < 4; ++i) b.c.move(0, i, corner[i]);
   ASSERT_GT(compute_volumes(b.c.view())[0], 0) << "corners must be in outward order";
-  Params p;
+  Params p = params_without_terms();
   p.bending_stiffness = 0.02;
   const double root = std::sqrt(3.0), fold = (1 / root - 0.5) / (1 - 1 / root);
   const double expected = 3 * 0.02 * (2 - std::sqrt(8.0) / 3 - 5 / (3 * root) + fold * fold);
@@ -111,7 +111,7 @@ TEST(Bending, PushedInCornerIsPushedOut) {
   Vec3 turned = Eigen::AngleAxisd(angle, e) * arm;
   if (turned.dot(n) > arm.dot(n)) turned = Eigen::AngleAxisd(-angle, e) * arm;
   c.move(0, h[0], x1 - arm + turned);
-  Params p;
+  Params p = params_without_terms();
   p.bending_stiffness = 0.0139;
   const double own = p.bending_stiffness * (1 - std::cos(angle));
   double hinges = 0;
@@ -126,7 +126,7 @@ TEST(Bending, PushedInCornerIsPushedOut) {
 
 TEST(Cortex, IsotropicDashpotsResistAllRelativeMotion) {
   BlownTetrahedron b(1);
-  Params p;
+  Params p = params_without_terms();
   p.nodal_friction = 0.1;
   b.c.system.friction_scale = 0.25;
   add_cortex(p, b.c.view(), b.c.system);
@@ -141,7 +141,7 @@ TEST(Cortex, IsotropicDashpotsResistAllRelativeMotion) {
 
 TEST(Cortex, AxialDashpotsResistStretchOnly) {
   BlownTetrahedron b(1);
-  Params p;
+  Params p = params_without_terms();
   p.nodal_friction = 0.1;
   p.friction_across = 0;
   add_cortex(p, b.c.view(), b.c.system);
@@ -153,7 +153,7 @@ TEST(Cortex, AxialDashpotsResistStretchOnly) {
 
 TEST(Cortex, FrictionAcrossAnEdgeIsAShareOfThatAlongIt) {
   BlownTetrahedron b(1);
-  Params p;
+  Params p = params_without_terms();
   p.nodal_friction = 0.1;
   p.friction_across = 0.3;
   add_cortex(p, b.c.view(), b.c.system);
@@ -170,7 +170,7 @@ TEST(Cortex, OnlyIsotropicDashpotsResistRigidRotation) {
   const double radius = 12 / 1.01153;
   for (bool is_axial : {false, true}) {
     Cells c = make_rest_cells(geometry::shared_icosphere(162), {radius});
-    Params p;
+    Params p = params_without_terms();
     p.nodal_friction = 0.1;
     p.friction_across = is_axial ? 0 : 1;
     add_cortex(p, c.view(), c.system);
@@ -206,7 +206,7 @@ TEST(Volume, PressureMatchesReference) {
       const double ratio = number(row, 0), expected = number(row, column) * test::kPascal;
       Cells c = make_rest_cells(geometry::shared_icosphere(162), {12});
       for (int i = 0; i < c.n_node(); ++i) c.move(0, i, std::cbrt(ratio) * c.node(0, i));
-      Params p;
+      Params p = params_without_terms();
       p.bulk_modulus = modulus;
       add_volume(p, c.view(), c.system, c.system.rank_one[0]);
       double virial = 0;  // sum f . x = 3 p V
@@ -225,7 +225,7 @@ TEST(Volume, CollapsedOrInvertedCellsGiveFiniteNumbers) {
   for (double size : {0.05, 1e-3, 0.0, -0.01, -1.0}) {
     Cells c = make_rest_cells(geometry::shared_icosphere(42), {12, 12});
     for (int i = 0; i < c.n_node(); ++i) c.move(0, i, size * c.node(0, i));
-    Params p;
+    Params p = params_without_terms();
     p.bulk_modulus = 2.5;
     add_volume(p, c.view(), c.system, c.system.rank_one[0]);
     for (int i = 0; i < c.n_node(); ++i) ASSERT_TRUE(c.force(0, i).allFinite()) << size;
@@ -268,7 +268,7 @@ TEST(Medium, StokesDragMatchesReference) {
     const double viscosity = number(row, 2) * 1e-3;  // Pa s -> nN s/um^2
     const geometry::Topology& t = geometry::shared_icosphere(n);
     Cells c = make_rest_cells(t, {radius, 2 * radius});
-    Params p;
+    Params p = params_without_terms();
     p.viscosity = viscosity;
     p.medium_friction = 1e9;  // must not matter
     std::vector<double> free_area(c.state.n_row() * kLanes, 0.0);

@@ -25,13 +25,14 @@ inline Params with_nucleus(const Nucleus& nucleus = {}) {
 /// One group of cells with nuclei, and all that is inside them.
 struct NucleatedCells {
   Params params;
-  ContactParams options;
+  ContactParams options{.cell_friction = 0};
   contact::Boundary boundary;
   State state;
   LaneData lanes;
   solve::System system;
   ContactWorkspace cortices;
   NucleusWorkspace nuclei;
+  contact::ContactList contacts;
 
   ContactInput input() const { return {state, std::span(&params, 1), options, lanes, boundary}; }
   GroupView cortex_view() const { return view_group(state, lanes, system, 0); }
@@ -49,7 +50,8 @@ struct NucleatedCells {
   }
   void find_contacts() {
     refresh_bodies(state, cortices);
-    find_nucleus_contacts(input(), cortices, nuclei);
+    contacts.all.clear();
+    find_nucleus_contacts(input(), cortices, nuclei, contacts);
   }
   Vec3 point(std::size_t lane, int i) const {
     return load_point(state.position.data(), node_address(state, lane, i));
@@ -69,15 +71,15 @@ struct NucleatedCells {
   void add_links() { add_nucleus_links(state, std::span(&params, 1), lanes, system); }
   void add_contacts() {
     find_contacts();
-    add_nucleus_contacts(input(), cortices, nuclei, system.links);
+    add_nucleus_contacts(input(), cortices, contacts, system.links);
     solve::Operator op;
     op.add_link_forces(system);
   }
   double contact_energy() {
     find_contacts();
     double energy = 0;
-    for (const auto& found : nuclei.found)
-      for (const NucleusContact& c : found) energy += nucleus_contact_energy(*params.nucleus, c);
+    for (const contact::Contact& c : contacts.nucleus())
+      energy += nucleus_contact_energy(c, nucleus_contact_area(input(), cortices, c));
     return energy;
   }
 };

@@ -6,7 +6,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdio>
 
 #include "dcm/lane_data.hpp"
 #include "dcm/shape/place_nucleus.hpp"
@@ -81,11 +80,12 @@ TEST_P(Inside, NetForceAndTorqueVanish) {
   NucleatedCells c = example(GetParam());
   add(GetParam(), c);
   reference::NetForce net;
-  for (int i = 0; i < c.n_point(); ++i) net.add(c.point(1, i), c.force(1, i));
-  ASSERT_GT(net.sum_force, 0);
+  for (int i = 0; i < c.n_point(); ++i) net.add(c.force(1, i), c.point(1, i));
+  ASSERT_GT(net.force_sizes, 0);
+  EXPECT_LE(net.force.norm(), 64 * kEps * net.force_sizes);
   // The normal of a contact is that of the place its float weights name, to the place where the
   // other side's force acts: nothing else is lost.
-  EXPECT_LE(net.residual(), 64 * kEps);
+  EXPECT_LE(net.torque.norm(), 64 * kEps * net.torque_sizes);
 }
 
 TEST_P(Inside, TurnsWithTheCell) {
@@ -185,12 +185,12 @@ TEST(Nucleus, ContactPushesWithItsDepth) {
   c.find_contacts();
   double force = 0;
   int n = 0;
-  for (const NucleusContact& k : c.nuclei.found[0]) {
+  for (const contact::Contact& k : c.contacts.nucleus()) {
     if (k.point / 3 != 3) continue;
     ++n;
     EXPECT_NEAR(k.gap, -0.2, 1e-6) << "the place is a float";
     EXPECT_LT((k.normal - normal).norm(), 1e-5);
-    force += -c.params.nucleus->repulsion * k.area * k.gap;
+    force += -k.stiffness * nucleus_contact_area(c.input(), c.cortices, k) * k.gap;
   }
   EXPECT_EQ(n, 3);
   EXPECT_NEAR(force, 5 * cortex.rest_triangle_area[3] * 100 * 0.2, 1e-4);
@@ -199,7 +199,7 @@ TEST(Nucleus, ContactPushesWithItsDepth) {
 TEST(Nucleus, InTheMiddleTouchesNothing) {
   NucleatedCells c = make_nucleated(with_nucleus(), {10, 12});
   c.find_contacts();
-  for (const auto& found : c.nuclei.found) EXPECT_TRUE(found.empty());
+  EXPECT_TRUE(c.contacts.nucleus().empty());
 }
 
 TEST(Nucleus, WithoutAnyModulusDoesNotResist) {

@@ -46,7 +46,7 @@ TEST(NodeTension, AgreesWithLaplace) {
     double worst = 0;
     for (const auto& row : rows) {
       const double radius = number(row, 1) * test::kMetre, tension = number(row, 0) * 1e3;
-      Params p;
+      Params p = params_without_terms();
       p.spring_stiffness = 1;
       p.spring_stiffness = tension / blow_up(n, radius, 1.05, p).tension;  // linear in k_s
       const Blown b = blow_up(n, radius, 1.05, p);
@@ -67,7 +67,7 @@ TEST(NodeTension, AgreesWithLaplace) {
 // 2D modulus of the net: T = Y eps / (1 - nu) with Y = (2/sqrt 3) k_s, nu = 1/3, so T = sqrt 3 k_s
 // eps.
 TEST(NodeTension, MatchesTheNetsModulusForSmallStrain) {
-  Params p;
+  Params p = params_without_terms();
   p.spring_stiffness = 0.433;
   const double strain = 1e-3;
   const double expected = std::sqrt(3.0) * p.spring_stiffness * strain / (1 + strain);
@@ -75,7 +75,7 @@ TEST(NodeTension, MatchesTheNetsModulusForSmallStrain) {
 }
 
 TEST(NodeTension, IncludesTheMembrane) {
-  Params p;
+  Params p = params_without_terms();
   p.area_modulus = 0.8;
   const Blown b = blow_up(162, 12, 1.1, p);
   EXPECT_LT(relative(b.tension, 0.8 * 0.21), 1e-12);

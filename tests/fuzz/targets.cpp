@@ -201,10 +201,10 @@ void write_summaries(const std::string& folder) {
 }
 
 void read_submission(const std::string& path) {
-  runs::ServeOptions options;
+  service::ServeOptions options;
   options.max_cells = 50;
   options.max_memory = 1e9;
-  runs::prepare_submission(folder_with(path, runs::kRequestFile), options);
+  service::prepare_submission(folder_with(path, service::kRequestFile), options);
 }
 void write_submissions(const std::string& folder) {
   std::ofstream(folder + "/shipped.json")

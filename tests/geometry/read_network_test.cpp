@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <numeric>
 #include <random>
-#include <sstream>
 
 #include "tests/geometry/temp_folder.hpp"
 #include "tests/paths.hpp"

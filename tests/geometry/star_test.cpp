@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "geometry/inner_ball.hpp"
 #include "geometry/measures.hpp"
 #include "tests/geometry/shapes.hpp"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 namespace acinus::imaging {
@@ -29,7 +28,7 @@ TEST(SignedDistance, IsThatOfAllPairs) {
       Grid g = make_grid({9, 8, 7}, voxel);
       std::vector<std::uint8_t> inside(9 * 8 * 7);
       for (auto& i : inside) i = random() % share == 0;
-      find_signed_distance(inside, g);
+      compute_signed_distance(inside, g);
       for (std::size_t a = 0; a < inside.size(); ++a) {
         double nearest = 1e300;
         for (std::size_t b = 0; b < inside.size(); ++b)
@@ -47,7 +46,7 @@ TEST(Grid, IsExactForLinearFunctions) {
   for (const Vec3& x : {Vec3(1.2, 3.3, 7.7), Vec3(2.5, 6, 13), Vec3(1, 2, 3)})
     EXPECT_NEAR(g.at(x), f(x), 1e-12);
   EXPECT_NEAR(g.at(Vec3(-9, 3, 5)), f(Vec3(1, 3, 5)), 1e-12);
-  EXPECT_NEAR(find_steepest(g), Vec3(2, -1, 0.5).norm(), 1e-12);
+  EXPECT_NEAR(compute_largest_slope(g), Vec3(2, -1, 0.5).norm(), 1e-12);
   smooth(Vec3(0, 1, 0), g);  // keeps linear functions away from the ends
   EXPECT_NEAR(g.at(Vec3(1.2, 4, 7.7)), f(Vec3(1.2, 4, 7.7)), 0.1);
 }

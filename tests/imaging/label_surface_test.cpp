@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/sphere.hpp"
 #include "geometry/closed.hpp"
 #include "geometry/measures.hpp"

@@ -10,7 +10,6 @@
 
 #include "tests/geometry/temp_folder.hpp"
 #include "tests/imaging/hdf5_dataset.hpp"
-#include "tests/imaging/images.hpp"
 
 namespace acinus::imaging {
 namespace {

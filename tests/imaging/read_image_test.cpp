@@ -6,7 +6,6 @@
 
 #include <cstring>
 #include <string>
-#include <vector>
 
 #include "imaging/inflate.hpp"
 #include "imaging/tiff_text.hpp"

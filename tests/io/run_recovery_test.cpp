@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.hpp"
 #include "io/disk.hpp"
 #include "io/page_sums.hpp"
 #include "io/run_file.hpp"

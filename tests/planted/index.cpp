@@ -8,7 +8,6 @@ int main() {
   using namespace acinus::coupling;
   const World world = make_test_world({{{0, 0, 0}}, {{23, 0, 0}, false}});
   SizedWorkspace work(world);
-  find_all_contacts(world, 60, work);
   assemble(world, 60, work);
   work.system.force.shrink_to_fit();  // what lies behind must not belong to it
   const std::size_t past = work.system.force.size();

@@ -1,7 +1,6 @@
 /// Plants a force that is not a number: the step must not be accepted. Exit code 0 means that it
 /// was.
 
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <utility>

@@ -1,7 +1,6 @@
 #pragma once
 /// Small things that many tests need: rotations, random vectors, the unit of round-off.
 
-#include <algorithm>
 #include <limits>
 
 #include "core/numbers/random.hpp"
@@ -10,21 +9,6 @@
 namespace acinus::reference {
 
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-/// Forces on points added up, with the magnitudes that round-off is compared with.
-struct NetForce {
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  double sum_force = 0, sum_torque = 0;
-
-  void add(const Vec3& x, const Vec3& f) {
-    force += f;
-    torque += x.cross(f);
-    sum_force += f.norm();
-    sum_torque += x.norm() * f.norm();
-  }
-  /// Net force and torque, the larger of both, over the sums of their magnitudes.
-  double residual() const { return std::max(force.norm() / sum_force, torque.norm() / sum_torque); }
-};
 
 /// Random numbers of one test.
 inline UniformStream stream(std::uint64_t test) { return UniformStream(20, Purpose::kTest, test); }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coupling/step/integrator.hpp"
+#include "coupling/step/step.hpp"
 #include "dcm/contact/contact_params.hpp"
 #include "runs/scene/reader.hpp"
 #include "tests/runs/scene_texts.hpp"
@@ -40,8 +40,8 @@ TEST(Scene, ChoicesAreReadInTheOrderOfTheirValues) {
   EXPECT_TRUE(scene("friction.medium=liquid").friction.liquid);
   EXPECT_TRUE(scene("motility.directions=plane").motility.in_plane);
   EXPECT_FALSE(scene("output.compression=none").output.compress);
-  for (const Integrator i : {Integrator::kLinearlyImplicit, Integrator::kExplicitEuler,
-                             Integrator::kRos2, Integrator::kNewton})
+  for (const Integrator i :
+       {Integrator::kLinearlyImplicit, Integrator::kExplicitEuler, Integrator::kNewton})
     EXPECT_EQ(name_of_choice(i), coupling::name_of(i)) << "messages of a step say the same";
   EXPECT_EQ(choice_name("a|bc|d", 1), "bc");
   EXPECT_EQ(choice_name("a|bc|d", 3), "");

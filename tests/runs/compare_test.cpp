@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "io/disk.hpp"
 #include "tests/runs/program.hpp"
 
 namespace acinus::runs {
@@ -173,6 +174,11 @@ TEST_F(Compare, FoldersWithoutAFinishedRunSayWhatTheyAre) {
   fs::copy_file(path("old.json"), path("again") / "summary.json",
                 fs::copy_options::overwrite_existing);
   refused("again", 2, "its summary is of an earlier end");
+  std::string summary = io::read_text_file((path("again") / "summary.json").string());
+  const std::string status = "\"status\": \"";
+  summary.insert(summary.find(status) + status.size(), "almost ");
+  io::write_text_file((path("again") / "summary.json").string(), summary);
+  refused("again", 2, "completed, stopped and failed are possible");
 }
 
 TEST_F(Compare, OptionsWithoutEffectAreRefused) {

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/jkr.hpp"
 #include "coupling/step/controller.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "runs/assemble/build_world.hpp"
 #include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"
@@ -25,6 +25,16 @@ coupling::CellMeasure cell(const Vec3& center, double pressure_kPa, bool deforma
   c.cytosol_pressure = 2 * pressure_kPa;
   c.deformable = deformable;
   return c;
+}
+
+/// Adds a frame of the scene's experiment to the series.
+void sample(const Scene& scene, const coupling::World& world, const Snapshot& snapshot,
+            Measures& m) {
+  const coupling::Workspace work;
+  ObservedRun run;
+  run.measures = std::move(m);
+  sample_experiment({scene, world, work, snapshot, {}}, run);
+  m = std::move(run.measures);
 }
 
 Scene scene_of(Experiment experiment) {
@@ -49,7 +59,7 @@ Snapshot star() {
 
 TEST(Spheroid, SeriesOfKnownCells) {
   Measures m;
-  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, star(), m);
+  sample(scene_of(Experiment::kSpheroid), coupling::World{}, star(), m);
   EXPECT_EQ(last(m, "time_s"), 7200);
   EXPECT_EQ(last(m, "cells"), 9);
   EXPECT_NEAR(last(m, "radius_of_gyration_um"), std::sqrt((6 * 900 + 2 * 196) / 9.0),
@@ -68,7 +78,7 @@ TEST(Spheroid, SeriesOfKnownCells) {
 
 TEST(Spheroid, ProfileOfKnownCells) {
   Measures m;
-  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, star(), m);
+  sample(scene_of(Experiment::kSpheroid), coupling::World{}, star(), m);
   const std::vector<double>&radius = m.at("profile_radius_um"), &p = m.at("pressure_profile_Pa"),
         &density = m.at("density_profile");
   ASSERT_EQ(radius.size(), 10u);
@@ -91,10 +101,10 @@ TEST(Spheroid, ProfileOfKnownCells) {
 TEST(Spheroid, SeriesGrowAndProfilesAreOfTheLastFrame) {
   Measures m;
   const Scene scene = scene_of(Experiment::kSpheroid);
-  sample_experiment(scene, coupling::World{}, star(), m);
+  sample(scene, coupling::World{}, star(), m);
   Snapshot later = star();
   for (coupling::CellMeasure& c : later.cells) c.center *= 2;
-  sample_experiment(scene, coupling::World{}, later, m);
+  sample(scene, coupling::World{}, later, m);
   for (const char* name : {"time_s", "cells", "radius_of_gyration_um", "mean_pressure_Pa",
                            "inner_pressure_Pa", "outer_pressure_Pa", "inner_cytosol_pressure_Pa",
                            "outer_cytosol_pressure_Pa", "inner_density", "outer_density"})
@@ -109,12 +119,12 @@ TEST(Spheroid, OneCellHasNoDensityAndNoneHasNothing) {
   Measures m;
   Snapshot s;
   s.cells = {cell(Vec3(1, 2, 3), 0.05)};
-  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
+  sample(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_EQ(last(m, "radius_of_gyration_um"), 0);
   EXPECT_NEAR(last(m, "inner_pressure_Pa"), 50, 50 * kSumRoundOff);
   EXPECT_TRUE(std::isnan(last(m, "inner_density")));
   s.cells.clear();
-  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
+  sample(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_EQ(last(m, "cells"), 0);
   EXPECT_TRUE(std::isnan(last(m, "mean_pressure_Pa")));
   EXPECT_EQ(m.at("radius_of_gyration_um").size(), 2u);
@@ -131,7 +141,7 @@ TEST(Spheroid, SphericityIsThatOfTheDeformableCells) {
   s.cells[2].volume = 1;
   s.cells[2].area = 100;
   Measures m;
-  sample_experiment(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
+  sample(scene_of(Experiment::kSpheroid), coupling::World{}, s, m);
   EXPECT_NEAR(last(m, "sphericity"), 0.5 * (1 + std::cbrt(kPi / 6)), kSumRoundOff);
   EXPECT_FALSE(m.contains("height_um")) << "only a monolayer has a height";
 }
@@ -139,7 +149,7 @@ TEST(Spheroid, SphericityIsThatOfTheDeformableCells) {
 TEST(Monolayer, ProfilesAreOfRings) {
   Snapshot s = star();
   Measures m;
-  sample_experiment(scene_of(Experiment::kMonolayer), coupling::World{}, s, m);
+  sample(scene_of(Experiment::kMonolayer), coupling::World{}, s, m);
   // Two of the six outer cells stand above and below the middle one: r = 0.
   EXPECT_NEAR(last(m, "inner_pressure_Pa"), (400 + 200) / 3.0, 400 * kSumRoundOff);
   EXPECT_NEAR(last(m, "outer_pressure_Pa"), 100, 400 * kSumRoundOff);
@@ -191,7 +201,7 @@ OneCell simulate(Scene scene, double duration) {
   const Snapshot end = take_snapshot(world, work);
   out.end = end.cells.at(0).center;
   out.contact_area = end.cells.at(0).contact_area;
-  sample_experiment(scene, world, end, out.measures);
+  sample(scene, world, end, out.measures);
   return out;
 }
 

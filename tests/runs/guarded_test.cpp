@@ -4,8 +4,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <cstdlib>
-
 #include "core/error.hpp"
 #include "tests/messages.hpp"
 

@@ -47,12 +47,6 @@ TEST(NucleusScene, MustFitWithItsGap) {
                   R"(that share of /start_up/initial_radius = "3 um")");
 }
 
-TEST(NucleusScene, IsNotForRos2) {
-  const std::string text = changed(with_dcm(R"("nucleus": {})"), R"("end": "2 h")",
-                                   R"("end": "2 h", "integrator": "ros2", "with_contacts": true)");
-  EXPECT_CONTAINS(failure(text), "a nucleus meets its cortex");
-}
-
 TEST(NucleusScene, WithoutAnyStiffnessIsLeftOut) {
   const Scene limp = parse_scene(
       with_dcm(R"("nucleus": {"young": "0 kPa", "bulk_modulus": "0 Pa"})"), "scene.json");

@@ -11,9 +11,10 @@
 
 #include "core/parallel/threads.hpp"
 #include "coupling/measure/contact_forces.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/lobule_experiment.hpp"
 #include "runs/experiments/observe.hpp"
 #include "runs/experiments/observed_run.hpp"
-#include "runs/experiments/sample_lobule.hpp"
 #include "runs/experiments/sample_tissue.hpp"
 #include "runs/session/make_frame.hpp"
 #include "tests/coupling/worlds.hpp"
@@ -82,14 +83,25 @@ void move_inward(Snapshot& s, double by) {
   }
 }
 
-constexpr Experiment kExperiments[] = {
-    Experiment::kFree,       Experiment::kLobule,           Experiment::kPatch,
-    Experiment::kCapsule,    Experiment::kRelaxation,       Experiment::kSpheroid,
-    Experiment::kMonolayer,  Experiment::kOpticalStretcher, Experiment::kPlates,
-    Experiment::kAspiration, Experiment::kNarrowGap};
+std::vector<Experiment> all_experiments() {
+  std::vector<Experiment> all;
+  for (std::size_t k = 0; k < split_choices(kChoices<Experiment>).size(); ++k)
+    all.push_back(static_cast<Experiment>(k));
+  return all;
+}
+
+TEST(Experiments, HaveARowEach) {
+  std::set<std::string> meanings;
+  for (const Experiment experiment : all_experiments()) {
+    const std::string meaning = experiment_row(experiment).meaning;
+    EXPECT_FALSE(meaning.empty()) << name_of_choice(experiment);
+    EXPECT_TRUE(meanings.insert(meaning).second) << meaning;
+  }
+  EXPECT_GT(meanings.size(), 1U);
+}
 
 TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
-  for (const Experiment experiment : kExperiments) {
+  for (const Experiment experiment : all_experiments()) {
     std::set<std::string> seen{"time"};
     for (const Observable& o : known_observables(experiment)) {
       EXPECT_TRUE(seen.insert(o.name).second)
@@ -100,20 +112,12 @@ TEST(Observables, HaveUniqueNamesUnitsAndMeanings) {
   }
 }
 
-TEST(Observables, OfWallsAreFoundByTheirName) {
-  EXPECT_EQ(find_observable(Experiment::kFree, "wall_top_force_nN")->unit, "nN");
-  EXPECT_EQ(find_observable(Experiment::kFree, "wall_my_wall_net_z_nN")->name,
-            "wall_my_wall_net_z_nN");
-  EXPECT_EQ(find_observable(Experiment::kLobule, "lesion_area_open")->unit, "1");
-  for (const char* name : {"wall_force_nN", "wall__force_nN", "wall_top", "lesion_area_open", ""})
-    EXPECT_FALSE(find_observable(Experiment::kFree, name)) << name;
-}
-
 /// Every series of a frame is an observable, and every observable has a series.
 TEST(Observables, AreWhatTheExperimentsMeasure) {
-  for (const Experiment experiment : kExperiments) {
+  for (const Experiment experiment : all_experiments()) {
     Scene scene = lobule_scene();
     scene.experiment = experiment;
+    scene.cells.list.resize(2);
     Watched w(scene, coupling::make_test_world(
                          {{Vec3(60, 0, 20), true}, {Vec3(83.5, 0, 20), false}}, 60, 42));
     contact::Plane plane;
@@ -305,7 +309,9 @@ TEST(Lesion, BirthsCountInTheLayerTheyHappenIn) {
                                                        {Vec3(0, 90, 40), true},
                                                        {Vec3(0, 92, 40), true}}));
   coupling::LifeReport report;
-  report.events = {{"division", {7, 1, 2}, ""}, {"division", {8, 3, 4}, ""}, {"death", {5}, ""}};
+  report.events = {{coupling::EventKind::kDivision, {7, 1, 2}, ""},
+                   {coupling::EventKind::kDivision, {8, 3, 4}, ""},
+                   {coupling::EventKind::kDeath, {5}, ""}};
   observe_births(w.scene, w.world, report, w.observer);
   w.look();
   EXPECT_EQ(w["births"], 2);

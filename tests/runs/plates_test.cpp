@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include "coupling/simulation.hpp"
-#include "coupling/step/stages.hpp"
+#include "coupling/step/sizing.hpp"
 #include "runs/assemble/build_world.hpp"
-#include "runs/experiments/single_cell.hpp"
+#include "runs/experiments/experiment.hpp"
 #include "runs/scene/reader.hpp"
 #include "tests/paths.hpp"
 #include "tests/reference/pressed_membrane.hpp"
@@ -44,13 +43,14 @@ TEST(PlatesScene, ForceIsThatOfTheMembrane) {
                                    {"cell_types.suspended.dcm.nodes=" + std::to_string(nodes)});
     coupling::Simulation simulation(build_world(scene, Ranks::serial()).world);
     coupling::Workspace work;
-    Measures m;
+    ObservedRun run;
+    Measures& m = run.measures;
     for (const double time : {500.0, 600.0}) {
       ASSERT_TRUE(simulation.run_until(time, {}).ok);
       coupling::World world = simulation.world();
       coupling::size_workspace(world, work);
       const Snapshot snapshot = take_snapshot(world, work);
-      sample_plates({scene, world, work, snapshot, {}}, m);
+      sample_experiment({scene, world, work, snapshot, {}}, run);
       const dcm::Params& p = world.params.dcm[0];
       const double exact =
           exact_force({12, p.spring_stiffness, p.area_modulus, p.bulk_modulus}, m["gap_um"].back());

@@ -178,7 +178,7 @@ inline void expect_first_frames(const std::vector<io::Frame>& a, const std::vect
 
 inline void ProgramTest::expect_same(const std::string& a, const std::string& b) const {
   const Json p = summary(a), q = summary(b);
-  for (const char* key : {"state_hash", "steps", "cells", "balance", "measures"})
+  for (const char* key : {"state_hash", "steps", "cells", "balance", "penetration_um", "measures"})
     EXPECT_EQ(p.at(key), q.at(key)) << key << " " << a << " " << b;
   const io::RunReader x = reader(a), y = reader(b);
   EXPECT_EQ(x.n_frame(), y.n_frame());

@@ -33,8 +33,6 @@ CASES = {
     "maugis": [os.path.join(SCENES, "adhering_pair.json"), "--set", "contact.law=maugis-dugdale", "--until", "10 s"],
     "nucleus": [os.path.join(SCENES, "narrow_gap_nucleus.json"), "--until", "5 min"],
     "patch": [os.path.join(SCENES, "patch_box.json"), "--until", "10 min"],
-    "ros2": [os.path.join(SCENES, "clump13.json"), "--until", "2 min", "--set", "time.integrator=ros2", "--set",
-             "time.with_contacts=true"],
     "newton": [os.path.join(SCENES, "clump13.json"), "--until", "2 min", "--set", "time.integrator=newton"],
     # Slow: the sizes of docs/scaling.md.
     "lobule_hybrid": [os.path.join(SCENES, "lobule_hybrid.json"), "--until", "2 h"],

@@ -1,4 +1,3 @@
-#include "runs/session/run_scene.hpp"
 
 #include <sys/resource.h>
 

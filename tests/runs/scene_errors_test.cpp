@@ -19,18 +19,20 @@ namespace {
 using namespace scene_texts;
 
 TEST(SceneErrors, UnknownKeyHasPlaceAndHint) {
-  EXPECT_CONTAINS(
-      failure("{\n  \"time\": {\"end\": \"2 h\"},\n  \"cell_types\": {\"hepatocyte\": "
-              "{\n    \"raduis\": \"12 um\"}},\n  \"cells\": {\"model\": \"cbm\", \"list\": "
-              "[{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}]}\n}"),
-      "scene.json:4:5 /cell_types/hepatocyte/raduis: unknown key. Did you mean \"radius\"? (acinus "
-      "explain cell.radius)");
-  EXPECT_CONTAINS(failure(minimal("\"time\"", "\"contakt\": {}, \"time\"")),
-                  R"(/contakt: unknown key. Did you mean "contact"?)");
-  EXPECT_CONTAINS(failure(minimal("\"2 h\"", "\"2 h\", \"stp\": \"1 s\"")),
-                  R"(/time/stp: unknown key. Did you mean "step"?)");
-  EXPECT_CONTAINS(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
-                  "/time/quux: unknown key. Known here: end, step, min_step,");
+  EXPECT_EQ(failure("{\n  \"time\": {\"end\": \"2 h\"},\n  \"cell_types\": {\"hepatocyte\": "
+                    "{\n    \"raduis\": \"12 um\"}},\n  \"cells\": {\"model\": \"cbm\", \"list\": "
+                    "[{\"position\": [\"0 um\", \"0 um\", \"0 um\"]}]}\n}"),
+            "scene.json:4:5 /cell_types/hepatocyte/raduis: unknown key. Did you mean \"radius\"? "
+            "(acinus explain cell.radius)");
+  EXPECT_EQ(failure(minimal("\"time\"", "\"contakt\": {}, \"time\"")),
+            "scene.json:2:3 /contakt: unknown key. Did you mean \"contact\"? "
+            "(acinus explain contact)");
+  EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"stp\": \"1 s\"")),
+            "scene.json:2:26 /time/stp: unknown key. Did you mean \"step\"? "
+            "(acinus explain time.step)");
+  EXPECT_EQ(failure(minimal("\"2 h\"", "\"2 h\", \"quux\": 1")),
+            "scene.json:2:26 /time/quux: unknown key. Known here: end, step, min_step, adaptive, "
+            "tolerance, max_move, integrator, extrapolate, until_cells");
 }
 
 TEST(SceneErrors, QuantitiesThatNoTissueHasAreSlipsOfTheUnit) {
@@ -206,7 +208,7 @@ TEST(SceneErrors, RulesOfLife) {
 TEST(SceneErrors, OnlyOneIntegratorFollowsLife) {
   const std::string growing =
       minimal(R"({"hepatocyte": {}})", R"({"hepatocyte": {"cycle": {"time": "24 h"}}})");
-  for (const char* name : {"explicit-euler", "newton", "ros2"}) {
+  for (const char* name : {"explicit-euler", "newton"}) {
     const std::string integrator = std::string("time.integrator=") + name;
     EXPECT_EQ(failure(growing, {integrator}),
               "--set " + integrator + ": /time/integrator = \"" + name +

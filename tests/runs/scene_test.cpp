@@ -4,13 +4,11 @@
 
 #include "core/error.hpp"
 #include "core/units/units.hpp"
-#include "runs/scene/document.hpp"
 #include "runs/scene/entries.hpp"
 #include "runs/scene/explain.hpp"
 #include "runs/scene/reader.hpp"
 #include "runs/scene/schema.hpp"
 #include "runs/scene/shipped_scenes.hpp"
-#include "runs/scene/writer.hpp"
 #include "tests/paths.hpp"
 #include "tests/runs/scene_texts.hpp"
 

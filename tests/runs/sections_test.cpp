@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "geometry/topology.hpp"
@@ -34,12 +33,12 @@ struct Brick {
   std::span<const contact::SurfaceBody> bodies() const { return {&body, 1}; }
 };
 
-LobuleRoom pie(double height = 72) {
-  LobuleRoom room;
-  room.frame = {height, 10, 12};
-  room.from_angle = -kPi / 6;
-  room.to_angle = kPi / 6;
-  return room;
+LobuleDomain pie(double height = 72) {
+  LobuleDomain lobule;
+  lobule.frame = {height, 10, 12};
+  lobule.from_angle = -kPi / 6;
+  lobule.to_angle = kPi / 6;
+  return lobule;
 }
 
 TEST(Sections, ChordsOfABallAreThoseOfItsCircle) {
@@ -49,11 +48,12 @@ TEST(Sections, ChordsOfABallAreThoseOfItsCircle) {
   ASSERT_EQ(sections[0].outline.size(), 1U);
   EXPECT_TRUE(sections[1].outline.empty()) << "7 um above it";
   // Radius sqrt(169 - 25) = 12 at this height; the line passes 1 um beside its centre.
-  const std::vector<Chord> chords = find_chords(sections[0].outline[0], Vec2(0, 0), Vec2::UnitX());
+  const std::vector<Chord> chords =
+      compute_chords(sections[0].outline[0], Vec2(0, 0), Vec2::UnitX());
   ASSERT_EQ(chords.size(), 1U);
   EXPECT_NEAR(chords[0][0], 5 - std::sqrt(143), kCutRoundOff);
   EXPECT_NEAR(chords[0][1], 5 + std::sqrt(143), kCutRoundOff);
-  EXPECT_TRUE(find_chords(sections[0].outline[0], Vec2(0, 13.1), Vec2::UnitX()).empty());
+  EXPECT_TRUE(compute_chords(sections[0].outline[0], Vec2(0, 13.1), Vec2::UnitX()).empty());
 }
 
 TEST(Sections, ChordsOfACellMeshAddUpToItsVolume) {
@@ -69,7 +69,7 @@ TEST(Sections, ChordsOfACellMeshAddUpToItsVolume) {
   for (const Section& s : make_sections({&body, 1}, {}, height))
     for (double y = -16 + 0.5 * kStep; y < 12; y += kStep)
       for (const Outline& o : s.outline)
-        for (const Chord& c : find_chords(o, Vec2(-100, y), Vec2::UnitX()))
+        for (const Chord& c : compute_chords(o, Vec2(-100, y), Vec2::UnitX()))
           volume += (c[1] - c[0]) * kStep * kStep;
   // The midpoint rule of a round body: relative error of the order of (step / R)^2.
   EXPECT_NEAR(volume / (4.0 / 3 * kPi * 1728), 1, 2e-3);
@@ -82,7 +82,7 @@ TEST(Sections, LinesThroughNodesAndAlongEdgesStillCloseTheirChords) {
   for (const double y : {-5.0, 0.0, 5.0})
     for (const Section& section : s)
       for (const Outline& o : section.outline)
-        for (const Chord& c : find_chords(o, Vec2(0, y), Vec2::UnitX()))
+        for (const Chord& c : compute_chords(o, Vec2(0, y), Vec2::UnitX()))
           EXPECT_NEAR(c[1] - c[0], 20, kCutRoundOff) << y << " at " << section.z;
 }
 
@@ -99,8 +99,8 @@ TEST(Sections, PiecesThatTouchAreOne) {
 }
 
 TEST(OpenArea, OfACellInsideIsLessByItsVolumeOverTheHeight) {
-  const LobuleRoom room = pie();
-  const LesionGrid grid = make_lesion_grid(room, 120, {});
+  const LobuleDomain lobule = pie();
+  const LesionGrid grid = make_lesion_grid(lobule, 120, {});
   const double all = measure_opening(grid, make_sections({}, {}, grid.height)).area;
   // The midpoint rule is exact for an area that is linear in the radius.
   EXPECT_NEAR(all, kPi / 6 * (120 * 120 - 100), kCutRoundOff * all);

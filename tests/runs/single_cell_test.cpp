@@ -1,11 +1,15 @@
 /// What experiments on single cells measure, on worlds whose numbers are known.
 
-#include "runs/experiments/single_cell.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "coupling/apparatus/suction/suction.hpp"
+#include "runs/experiments/aspiration_experiment.hpp"
+#include "runs/experiments/experiment.hpp"
+#include "runs/experiments/narrow_gap_experiment.hpp"
+#include "runs/experiments/plates_experiment.hpp"
+#include "runs/experiments/pull_off_experiment.hpp"
 #include "tests/coupling/worlds.hpp"
 
 namespace acinus::runs {
@@ -16,12 +20,13 @@ struct WatchedCell {
   Scene scene{};
   coupling::World world = coupling::make_test_world({{Vec3::Zero(), true}}, 60, 642);
   coupling::Workspace work{};
-  Measures look(void (*sample)(const ObservedFrame&, Measures&)) {
+  Measures look(Experiment experiment) {
+    scene.experiment = experiment;
     coupling::size_workspace(world, work);
     const Snapshot snapshot = take_snapshot(world, work);
-    Measures m;
-    sample({scene, world, work, snapshot, {}}, m);
-    return m;
+    ObservedRun run;
+    sample_experiment({scene, world, work, snapshot, {}}, run);
+    return run.measures;
   }
 };
 
@@ -42,7 +47,7 @@ TEST(Plates, MeasureGapForceAndArea) {
   high.point = Vec3(0, 0, 11.5);
   high.normal = -Vec3::UnitZ();
   w.world.params.boundary.planes = {low, high};
-  Measures m = w.look(sample_plates);
+  Measures m = w.look(Experiment::kPlates);
   EXPECT_DOUBLE_EQ(m["gap_um"][0], 23);
   // A ball that was not deformed yet: k_rep pi R d^2 on each plate, d = 0.5 and the 0.3 % by which
   // the mesh stands out; contact points lie at most 0.07 um within the sphere.
@@ -55,7 +60,7 @@ TEST(Plates, MeasureGapForceAndArea) {
 }
 
 TEST(Plates, ShellForceByHand) {
-  dcm::Params p;
+  dcm::Params p = dcm::params_without_terms();
   p.spring_stiffness = 2 / std::sqrt(3.0);  // K = 1, Y = 4/3
   p.bending_stiffness = 2 / std::sqrt(3.0);
   p.area_modulus = 2;
@@ -75,12 +80,18 @@ TEST(Aspiration, ClosedFormHasItsLimits) {
 
 TEST(Aspiration, MeasuresTheLengthBeyondTheMouth) {
   WatchedCell w;
-  w.world.params.suction = {Vec3(0, 0, 9), Vec3::UnitZ(), 6, {{{0, 0.05}}}};
-  Measures m = w.look(sample_aspiration);
+  coupling::Suction suction;
+  suction.mouth = Vec3(0, 0, 9);
+  suction.reach = 6;
+  suction.pressure.entry = {{0, 0.05}};
+  w.world.params.apparatus.add(suction);
+  Measures m = w.look(Experiment::kAspiration);
   EXPECT_NEAR(m["aspirated_length_um"][0], 3, 0.05) << "the mesh stands 0.3 % out";
   EXPECT_DOUBLE_EQ(m["suction_Pa"][0], 50);
-  w.world.params.suction.mouth.z() = 20;
-  EXPECT_EQ(w.look(sample_aspiration)["aspirated_length_um"][0], 0);
+  suction.mouth.z() = 20;
+  w.world.params.apparatus = {};
+  w.world.params.apparatus.add(suction);
+  EXPECT_EQ(w.look(Experiment::kAspiration)["aspirated_length_um"][0], 0);
 }
 
 TEST(Aspiration, CriticalPressureIsWhereTheLengthIsRadiusAndLip) {
@@ -99,16 +110,16 @@ TEST(Aspiration, CriticalPressureIsWhereTheLengthIsRadiusAndLip) {
 TEST(NarrowGap, MeasuresWhereTheCellIs) {
   WatchedCell w;
   w.world.params.boundary.pipettes = {hole(-5, 10)};
-  Measures m = w.look(sample_narrow_gap);
+  Measures m = w.look(Experiment::kNarrowGap);
   EXPECT_NEAR(m["position_um"][0], 5, 1e-12);
   EXPECT_NEAR(m["length_um"][0], 24, 0.1);
   EXPECT_NEAR(m["width_um"][0], 24, 0.1);
   EXPECT_NEAR(m["waist_um"][0], 24, 0.1);
   EXPECT_EQ(m["passed"][0], 0);
   w.world.params.boundary.pipettes = {hole(1, 10)};
-  EXPECT_NEAR(w.look(sample_narrow_gap)["waist_um"][0], 2 * std::sqrt(144.0 - 36), 0.1);
+  EXPECT_NEAR(w.look(Experiment::kNarrowGap)["waist_um"][0], 2 * std::sqrt(144.0 - 36), 0.1);
   w.world.params.boundary.pipettes = {hole(-30, 10)};
-  m = w.look(sample_narrow_gap);
+  m = w.look(Experiment::kNarrowGap);
   EXPECT_EQ(m["passed"][0], 1);
   EXPECT_EQ(m["waist_um"][0], 0) << "nothing left of it in the hole";
 }

@@ -2,25 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/units/unit_scale.hpp"
 #include "io/disk.hpp"
-#include "runs/scene/explain.hpp"
 #include "runs/study/choose_runs.hpp"
 #include "runs/study/curves.hpp"
 #include "runs/study/plan.hpp"
-#include "runs/study/scene_value.hpp"
-#include "runs/study/shipped_studies.hpp"
 #include "runs/study/study_data.hpp"
 #include "runs/study/study_maps.hpp"
 #include "runs/study/study_plots.hpp"
-#include "runs/study/study_registry.hpp"
 #include "runs/study/verdicts.hpp"
 #include "tests/runs/scene_texts.hpp"
 #include "tests/runs/study_texts.hpp"

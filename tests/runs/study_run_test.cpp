@@ -1,7 +1,6 @@
 /// `acinus study` as a user calls it: on two spheres, killed, resumed, shared between processes.
 
 #include <algorithm>
-#include <map>
 #include <random>
 
 #include "tests/runs/program.hpp"

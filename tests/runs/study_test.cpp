@@ -3,10 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -18,9 +15,6 @@
 #include "runs/study/read_study.hpp"
 #include "runs/study/scene_value.hpp"
 #include "runs/study/shipped_studies.hpp"
-#include "runs/study/study_data.hpp"
-#include "runs/study/study_maps.hpp"
-#include "runs/study/study_plots.hpp"
 #include "runs/study/study_registry.hpp"
 #include "runs/study/verdicts.hpp"
 #include "tests/runs/study_texts.hpp"

@@ -8,7 +8,7 @@
 
 #include "io/disk.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 
 TEST(JobRecord, OfARunKilledWithinItsStartUpIsReadBack) {
@@ -26,4 +26,4 @@ TEST(JobRecord, OfARunKilledWithinItsStartUpIsReadBack) {
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::service

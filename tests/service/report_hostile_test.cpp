@@ -14,7 +14,7 @@
 #include "tests/io/sample.hpp"
 #include "tests/messages.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 namespace fs = std::filesystem;
 using io::test::Folder;
@@ -108,4 +108,4 @@ TEST(ReportHostile, DoesNotWaitForPipes) {
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::service

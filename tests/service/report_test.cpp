@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -22,7 +20,7 @@
 #include "tests/io/sample.hpp"
 #include "tests/messages.hpp"
 
-namespace acinus::runs {
+namespace acinus::service {
 namespace {
 namespace fs = std::filesystem;
 using io::test::Folder;
@@ -97,12 +95,12 @@ TEST(ReportThin, KeepsEndsAndPeaks) {
   EXPECT_EQ(choose_evenly(101, 5), (std::vector<int>{0, 25, 50, 75, 100}));
   EXPECT_EQ(choose_evenly(3, 5), (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(choose_evenly(7, 1), std::vector<int>{6});
-  TimeCurve curve;
+  runs::TimeCurve curve;
   for (int k = 0; k < 10000; ++k) {
     curve.time.push_back(k);
     curve.value.push_back(k == 4321 ? 100 : k == 4322 ? -100 : 0);
   }
-  const TimeCurve thin = thin_curve(curve, 100);
+  const runs::TimeCurve thin = thin_curve(curve, 100);
   EXPECT_LE(thin.time.size(), 100u);
   EXPECT_TRUE(std::ranges::is_sorted(thin.time));
   EXPECT_EQ(*std::ranges::max_element(thin.value), 100);
@@ -181,4 +179,4 @@ TEST(Report, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace acinus::runs
+}  // namespace acinus::service

@@ -23,7 +23,9 @@ struct Solved {
   Precision precision = Precision::kMixed;
   Solved() { op.prepare(system); }
   explicit Solved(Precision p) : precision(p) { op.prepare(system); }
-  void run(double tolerance) { result = solve_cg(op, rhs, x, {tolerance, 2000, precision}, work); }
+  void run(double tolerance) {
+    result = solve_cg({op, rhs}, x, {tolerance, 2000, precision}, work);
+  }
   Eigen::VectorXd exact() const {
     return reference::make_dense(system).ldlt().solve(as_eigen(rhs));
   }
@@ -265,7 +267,7 @@ TEST(Cg, SameBitsForAnyNumberOfThreads) {
       op.prepare(system);
       CgWorkspace work;
       x.emplace_back(rhs.size());
-      const CgResult result = solve_cg(op, rhs, x.back(), {1e-8, 2000, precision}, work);
+      const CgResult result = solve_cg({op, rhs}, x.back(), {1e-8, 2000, precision}, work);
       EXPECT_TRUE(result.status.ok) << result.status.cause;
       residual.push_back(work.residual);
       iterations.push_back(result.iterations);
@@ -286,7 +288,7 @@ TEST(Cg, AProductOfTheGuessThatIsKnownChangesNothing) {
     s.run(1e-8);
     std::vector<double> product(t.x.size());
     t.op.apply(t.x, product);
-    t.result = solve_cg(t.op, t.rhs, t.x, {1e-8, 2000, precision}, t.work, nullptr, product);
+    t.result = solve_cg({t.op, t.rhs, nullptr, product}, t.x, {1e-8, 2000, precision}, t.work);
     EXPECT_EQ(s.x, t.x);
     EXPECT_EQ(s.work.residual, t.work.residual);
     EXPECT_EQ(s.result.iterations, t.result.iterations);
@@ -294,7 +296,7 @@ TEST(Cg, AProductOfTheGuessThatIsKnownChangesNothing) {
     // What is not the product is not taken for the residual found at the end.
     std::ranges::fill(product, 0.0);
     t.x = random_vector_of(t.system, 14);
-    t.result = solve_cg(t.op, t.rhs, t.x, {1e-8, 2000, precision}, t.work, nullptr, product);
+    t.result = solve_cg({t.op, t.rhs, nullptr, product}, t.x, {1e-8, 2000, precision}, t.work);
     EXPECT_LT(t.true_residual(), 1e-7);
   }
 }
@@ -329,14 +331,14 @@ TEST(Cg, FailsOnAnIndefiniteMatrix) {
     b[5] = 1;
     b[kPointStride + 5] = -1;
     CgWorkspace work;
-    CgResult r = solve_cg(op, b, x, {1e-3, 2000, precision}, work);
+    CgResult r = solve_cg({op, b}, x, {1e-3, 2000, precision}, work);
     EXPECT_FALSE(r.status.ok);
     EXPECT_CONTAINS(r.status.cause, "definite");
     EXPECT_EQ(x, std::vector<double>(s.n_dof(), 0.0)) << "a failed pass moves nothing";
     // Found too when the load lies mostly in what is sound, and from a warm start.
     b = random_vector_of(s, 12);
     x = random_vector_of(s, 13);
-    r = solve_cg(op, b, x, {1e-6, 2000, precision}, work);
+    r = solve_cg({op, b}, x, {1e-6, 2000, precision}, work);
     EXPECT_FALSE(r.status.ok);
     EXPECT_CONTAINS(r.status.cause, "definite");
   }
@@ -346,7 +348,7 @@ TEST(Cg, FailsWhenIterationsRunOut) {
   for (const Precision precision : kBoth)
     for (int most : {3, 40}) {  // in the first pass; in a later one
       Solved s(precision);
-      s.result = solve_cg(s.op, s.rhs, s.x, {1e-10, most, precision}, s.work);
+      s.result = solve_cg({s.op, s.rhs}, s.x, {1e-10, most, precision}, s.work);
       EXPECT_FALSE(s.result.status.ok);
       EXPECT_EQ(s.result.iterations, most);
     }

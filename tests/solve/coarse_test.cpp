@@ -131,7 +131,7 @@ TEST(CoarseSpace, SavesIterationsOnALooseChain) {
   auto solve = [&](const CoarseSpace* coarse, std::vector<double>& x) {
     CgWorkspace work;
     x.assign(rhs.size(), 0.0);
-    const CgResult result = solve_cg(c.op, rhs, x, options, work, coarse);
+    const CgResult result = solve_cg({c.op, rhs, coarse}, x, options, work);
     EXPECT_TRUE(result.status.ok) << result.status.cause;
     EXPECT_LE(result.residual, 1e-6);
     return result.iterations;

@@ -422,7 +422,7 @@ struct SolvedTissue {
   SolvedTissue(double tolerance, Precision precision) {
     op.prepare(system);
     CgWorkspace work;
-    result = solve_cg(op, rhs, x, {tolerance, 2000, precision}, work);
+    result = solve_cg({op, rhs}, x, {tolerance, 2000, precision}, work);
   }
   bool is_merged() const {
     const auto probe = random_vector_of<float>(system, 90);

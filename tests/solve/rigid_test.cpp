@@ -115,7 +115,7 @@ double distance_from_rigid(const Clusters& c, const std::vector<double>& move, i
 
 TEST(RigidModes, LooseSolveIsCorrectedExactly) {
   Clusters c;
-  ASSERT_TRUE(solve_cg(c.op, c.rhs, c.x, {1e-2, 2000}, c.cg).status.ok);
+  ASSERT_TRUE(solve_cg({c.op, c.rhs}, c.x, {1e-2, 2000}, c.cg).status.ok);
   const std::vector<double> loose = c.x;
   const std::vector<double> before = c.residual();
   const RigidResult result = c.correct(1e-6);
@@ -145,7 +145,7 @@ TEST(RigidModes, LooseSolveIsCorrectedExactly) {
 
 TEST(RigidModes, ErrorBelowTheThresholdIsLeftAlone) {
   Clusters c;
-  ASSERT_TRUE(solve_cg(c.op, c.rhs, c.x, {1e-2, 2000}, c.cg).status.ok);
+  ASSERT_TRUE(solve_cg({c.op, c.rhs}, c.x, {1e-2, 2000}, c.cg).status.ok);
   const std::vector<double> loose = c.x;
   const RigidResult result = c.correct(1e6);
   EXPECT_EQ(result.corrected_groups, 0);
@@ -161,7 +161,7 @@ TEST(RigidModes, ErrorBelowTheThresholdIsLeftAlone) {
 // Only the cluster that drifted is touched.
 TEST(RigidModes, ClustersAreJudgedApart) {
   Clusters c;
-  ASSERT_TRUE(solve_cg(c.op, c.rhs, c.x, {1e-13, 20000}, c.cg).status.ok);
+  ASSERT_TRUE(solve_cg({c.op, c.rhs}, c.x, {1e-13, 20000}, c.cg).status.ok);
   c.correct(0);
   const std::vector<double> exact = c.x;
   for (int cell = 0; cell < 6; ++cell)
@@ -186,7 +186,7 @@ TEST(RigidModes, BoundaryHoldsACluster) {
     c.add_link(Clusters::point(cell), kNowhere, 3, 1e-3, Vec3::UnitZ());
   }
   c.op.prepare(c.system);
-  ASSERT_TRUE(solve_cg(c.op, c.rhs, c.x, {1e-2, 2000}, c.cg).status.ok);
+  ASSERT_TRUE(solve_cg({c.op, c.rhs}, c.x, {1e-2, 2000}, c.cg).status.ok);
   c.correct(0);
   const std::vector<double> after = c.residual();
   for (int k : {0, 1})
@@ -200,7 +200,7 @@ TEST(RigidModes, FrictionOfPairsIsSeen) {
   for (Link& l : c.system.links.link) l.friction = 0.5f;
   for (PointLink& l : c.system.point_links) l.friction = 0.5f;
   c.op.prepare(c.system);
-  ASSERT_TRUE(solve_cg(c.op, c.rhs, c.x, {1e-2, 2000}, c.cg).status.ok);
+  ASSERT_TRUE(solve_cg({c.op, c.rhs}, c.x, {1e-2, 2000}, c.cg).status.ok);
   c.correct(0);
   const std::vector<double> after = c.residual();
   for (int k : {0, 1}) {

@@ -12,19 +12,9 @@ using namespace acinus;
 int main() {
   coupling::World world;
 
-  dcm::Params shell;
-  shell.spring_stiffness = dcm::cortex_spring_stiffness(1, 0.5);
-  shell.bending_stiffness = dcm::cortex_bending_stiffness(1, 0.5, 0.5);
-  shell.area_modulus = 0.8;
-  shell.bulk_modulus = 2.5;
-  shell.nodal_friction = shell.medium_friction = 0.1;
-  shell.adhesion = 0.01;
-  cbm::Params sphere;
-  sphere.medium_friction = 0.1;
-  sphere.adhesion = 0.01;
-  world.params.dcm = {shell};
-  world.params.cbm = {sphere};
-  world.params.dcm_contact.cell_friction = 50;
+  world.params.dcm = {dcm::Params{}};  // the constants that scenes have by default
+  world.params.cbm = {cbm::Params{}};
+  world.params.motility.random = false;
 
   const geometry::Topology* mesh = &geometry::shared_icosphere(162);
   world.state.dcm =

@@ -68,15 +68,15 @@ TEST(ExtractZero, BisectsEdgesThatMissAGap) {
     const std::vector<Ball> two{{at, 1, 0.6}, {at + 2.05 * draw_direction(random), 1, 0.6}};
     const Shape shape = balls(two);
     const geometry::Surface plain = extract_zero(shape, kMost).surface;
-    const bool is_joined = geometry::find_connectivity(plain).parts == 1;
+    const bool is_joined = geometry::compute_connectivity(plain).parts == 1;
     joined += is_joined ? 1 : 0;
     const geometry::Surface apart = extract_zero(shape, kMost, [](ZeroSurface& z) {
                                       const geometry::Connectivity c =
-                                          geometry::find_connectivity(z.surface);
+                                          geometry::compute_connectivity(z.surface);
                                       return std::abs(c.parts - 2) + c.handles();
                                     }).surface;
-    EXPECT_EQ(geometry::find_connectivity(apart).parts, 2) << k;
-    EXPECT_EQ(geometry::find_connectivity(apart).euler_number, 4) << k;
+    EXPECT_EQ(geometry::compute_connectivity(apart).parts, 2) << k;
+    EXPECT_EQ(geometry::compute_connectivity(apart).euler_number, 4) << k;
     EXPECT_NO_THROW(geometry::check_manifold(apart, "two balls")) << k;
     EXPECT_LT(apart.triangle.size(), 6 * plain.triangle.size()) << k;
     if (!is_joined) {
@@ -116,9 +116,9 @@ TEST(LeaveOutCavities, KeepsWhatFacesOutward) {
     return k == 0 ? std::max(r - 2, 1 - r) : r - 1;
   });
   ZeroSurface z = extract_zero(shape, kMost);
-  EXPECT_EQ(geometry::find_connectivity(z.surface).parts, 3);
-  leave_out_cavities(z);
-  EXPECT_EQ(geometry::find_connectivity(z.surface).parts, 2);
+  EXPECT_EQ(geometry::compute_connectivity(z.surface).parts, 3);
+  remove_cavities(z);
+  EXPECT_EQ(geometry::compute_connectivity(z.surface).parts, 2);
   EXPECT_EQ(z.edge.size(), z.surface.node.size());
   EXPECT_NO_THROW(geometry::check_manifold(z.surface, "shell and ball"));
   const double volume = geometry::compute_volume(z.surface.node, z.surface.triangle);

@@ -1,0 +1,48 @@
+#include "coupling/measure/pair_contacts.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "cbm/pair_kernel.hpp"
+#include "coupling/world/contact_input.hpp"
+#include "dcm/contact/contact_sides.hpp"
+
+namespace acinus::coupling {
+
+void list_sphere_pairs(const World& world, Workspace& w) {
+  const PhaseParams phase = phase_params(world);
+  cbm::list_pairs(contact_input(world, world.state, phase, 0, w).cbm, w.cbm, w.contacts);
+}
+
+std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& w) {
+  const PhaseParams phase = phase_params(world);
+  std::vector<InterfaceForce> forces =
+      compute_interface_forces(contact_input(world, world.state, phase, 0, w), w.dcm, w.contacts);
+  const solve::Ownership& ownership = w.system.ownership;
+  if (ownership.is_whole()) return forces;
+  // Each by the owner of its deformable cell, in the order of these.
+  std::map<std::int64_t, std::size_t> lane;
+  for (const std::size_t l : w.dcm.lane_of_body) lane.emplace(world.state.dcm.lineage[l], l);
+  const auto lane_of = [&lane](const InterfaceForce& f) { return lane.at(f.dcm_id); };
+  std::erase_if(forces, [&](const InterfaceForce& f) { return w.dcm.is_foreign(lane_of(f)); });
+  std::vector<InterfaceForce> all;
+  ownership.ranks.gather<InterfaceForce>(forces, all);
+  std::ranges::stable_sort(all, {}, lane_of);
+  return all;
+}
+
+solve::Stencil stencil_of(const World& world, const Workspace& w, const contact::Contact& k) {
+  const PhaseParams phase = phase_params(world);
+  const InterfaceInput in = contact_input(world, world.state, phase, 0, w);
+  solve::Link link;
+  if (k.point == contact::kWhole) {
+    link.a = solve::Side::at(cbm::cell_point(in.cbm.first_row, k.a));
+  } else {
+    link.a = dcm::side_a(in.dcm, w.dcm, k);
+  }
+  link.b =
+      k.partner == contact::Partner::kSphere ? sphere_side(in, k) : dcm::side_b(in.dcm, w.dcm, k);
+  return solve::stencil_of(link);
+}
+
+}  // namespace acinus::coupling

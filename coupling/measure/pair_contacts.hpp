@@ -1,0 +1,23 @@
+#pragma once
+/// Contacts of pairs of cells in an assembled state.
+
+#include <vector>
+
+#include "coupling/world/workspace.hpp"
+#include "coupling/world/world.hpp"
+
+namespace acinus::coupling {
+
+/// Forces between deformable cells and spheres, per pair of cells, of all processes.
+/// @pre assemble
+std::vector<InterfaceForce> interface_forces(const World& world, const Workspace& work);
+
+/// Appends the contacts between spheres to the list of contacts; a step does not need them one by
+/// one.   @pre assemble
+void list_sphere_pairs(const World& world, Workspace& work);
+
+/// Stencil of the unknowns of both sides of a contact.   @pre assemble
+solve::Stencil stencil_of(const World& world, const Workspace& work,
+                          const contact::Contact& contact);
+
+}  // namespace acinus::coupling

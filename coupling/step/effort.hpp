@@ -1,0 +1,11 @@
+#pragma once
+/// Work of the attempts at a step.
+
+namespace acinus::coupling {
+
+struct Effort {
+  int cg_iterations = 0;
+  int solves = 0;  ///< linear systems
+};
+
+}  // namespace acinus::coupling

@@ -1,0 +1,87 @@
+#include "coupling/step/linearisation.hpp"
+
+#include <algorithm>
+
+#include "core/numbers/time_grid.hpp"
+#include "core/parallel/arrays.hpp"
+#include "core/parallel/threads.hpp"
+#include "coupling/step/constrained_points.hpp"
+#include "coupling/world/cell.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// True if the last step's velocity predicts the next displacement, and a better step is worth an
+/// assembly: that of spheres alone comes out the same without.
+bool is_steady(const World& world) {
+  const State& s = world.state;
+  if (!has_last_move(s) || s.dcm.n_lane() == 0) return false;
+  // Where spheres leave room, deformable cells under pressure bulge into it. What holds a bulge,
+  // pressure and stretched triangles, is not all in the matrix: extrapolated steps swing there
+  // where plain ones settle (docs/decisions/0035.md).
+  if (s.cbm.n_cell() > 0 && s.clock.step < world.params.numerics.max_step) return false;
+  const Motility& m = world.params.motility;
+  if (!m.random || !controls_at(s.clock, world.params.start_up).motility) return true;
+  const double now = s.clock.time - s.clock.origin;
+  return !crosses_grid(now - s.clock.last_step, now, m.grid);
+}
+
+/// Displacements with the velocity of the last step: of constrained cells, and of all others if
+/// wanted. The velocity of the others may end, so it is not stretched over a longer step.
+void extrapolate_moves(const World& world, double step, bool all, const Workspace& w,
+                       std::vector<double>& move) {
+  const State& s = world.state;
+  const double ratio = step / s.clock.last_step;
+  const double others = all ? std::min(1.0, ratio) : 0.0;
+  const double constrained = w.constraint.prescribed_velocity ? ratio : 0.0;
+  set_size(move, s.last_move.size());
+  for_each_number(move.size(), [&](std::size_t k) { move[k] = others * s.last_move[k]; });
+  if (!w.constraint.applies()) return;
+  for_each_cell(s, [&](const Cell& c) {
+    if (!w.constraint.holds(c.index)) return;
+    for_each_point(s, c, [&](Address a) {
+      store_point(move.data(), a, constrained * load_point(s.last_move.data(), a));
+    });
+  });
+}
+
+}  // namespace
+
+const State& choose_linearisation_point(const World& world, double step, bool first_try,
+                                        Workspace& w) {
+  const State& s = world.state;
+  const Numerics& n = world.params.numerics;
+  LinearisationPoint& point = w.linearisation;
+  point.move.clear();
+  point.moves_all = false;
+  if (n.integrator == Integrator::kExplicitEuler) return s;
+  point.moves_all = n.integrator == Integrator::kLinearlyImplicit && n.extrapolate && first_try &&
+                    is_steady(world);
+  if (!point.moves_all && !(w.constraint.prescribed_velocity && has_last_move(s))) return s;
+  extrapolate_moves(world, step, point.moves_all, w, point.move);
+  // If only constrained cells are extrapolated the system is that of the present positions: F and
+  // K belong to shapes that fit together.
+  if (!point.moves_all) return s;
+  point.state = s;
+  move_points(point.state, point.move);
+  return point.state;
+}
+
+void compute_point_products(Workspace& w) {
+  LinearisationPoint& point = w.linearisation;
+  for (auto* v : {&point.friction, &point.pair_friction, &point.product, &w.cg.product})
+    set_size(*v, w.move.size());
+  if (point.moves_all) {
+    w.op.apply_friction(point.move, point.friction);
+    w.op.apply_external_friction(point.move, w.cg.product);
+  } else {
+    w.op.apply(point.move, point.friction);
+    w.op.apply_external(point.move, w.cg.product);
+  }
+  for_each_own_number(w.system, [&](std::size_t k) {
+    point.pair_friction[k] = point.friction[k] - w.cg.product[k];
+  });
+  remove_constraint(w, point.move, point.friction);
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,54 @@
+#include "coupling/step/sizing.hpp"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/parallel/arrays.hpp"
+#include "coupling/step/foreign.hpp"
+#include "coupling/world/sharing.hpp"
+#include "dcm/loads/loads.hpp"
+
+namespace acinus::coupling {
+namespace {
+
+/// Rows of the nodes of the tree that are anchored, and of their rotations.
+std::vector<std::size_t> anchored_rows(const World& world) {
+  std::vector<std::size_t> rows;
+  if (world.state.tree.node.empty()) return rows;
+  const VesselTree& tree = world.params.tree;
+  for (std::size_t i = 0; i < 2 * tree.n_node(); ++i)
+    if (tree.anchored[i % tree.n_node()] != 0) rows.push_back(tree_first_row(world.state) + i);
+  return rows;
+}
+
+}  // namespace
+
+void size_workspace(const World& world, Workspace& w) {
+  const State& s = world.state;
+  std::span<const std::uint8_t> constrained = w.constraint.cell;
+  if (w.constraint.applies()) constrained = constrained.first(s.dcm.n_lane());
+  std::vector<solve::Block> blocks = dcm::make_blocks(s.dcm, world.params.dcm, constrained);
+  const std::vector<solve::Block> spheres = cbm::make_blocks(s.cbm);
+  blocks.insert(blocks.end(), spheres.begin(), spheres.end());
+  w.tree_block = blocks.size();
+  if (!s.tree.node.empty()) blocks.push_back({.pattern = &world.params.tree.pattern});
+  w.constraint.anchored_row = anchored_rows(world);
+  w.boundary.reset();
+  dcm::size_rank_one(s.dcm, world.params.dcm, w.system, world.params.apparatus.count_rank_one());
+  w.system.ownership = share_blocks(world, blocks, w.cost);
+  solve::set_blocks(w.system, std::move(blocks));
+  find_foreign_cells(world, w);
+  w.active = active_lanes(s);
+  assign_zeros(w.rhs, w.system.n_dof());
+  assign_zeros(w.move, w.system.n_dof());
+  ++w.sized;
+  w.dcm.lane_of_body.clear();
+  w.cbm.list_position.clear();
+  w.dcm.fixed.clear();
+  for (const contact::StaticMesh& m : world.params.boundary.meshes) w.dcm.fixed.push_back(m.body);
+  if (world.params.boundary.vessels.wall)
+    w.dcm.fixed.push_back(world.params.boundary.vessels.wall->surface.body);
+}
+
+}  // namespace acinus::coupling

@@ -1,0 +1,331 @@
+#include "imaging/import_image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel/threads.hpp"
+#include "core/sphere.hpp"
+#include "imaging/background.hpp"
+#include "imaging/label_surface.hpp"
+#include "imaging/pieces.hpp"
+
+namespace acinus::imaging {
+namespace {
+
+/// Edge length of the triangles relative to the radius of a ball of the label's volume: some 2500
+/// triangles a cell.
+constexpr double kEdgeOverRadius = 0.12;
+/// Least edge length, in voxel sides.
+constexpr double kLeastEdgeInVoxels = 0.7;
+
+double edge_for(const LabelImage& image, const Piece& piece) {
+  const double volume = static_cast<double>(piece.n_voxel) * image.voxel_volume();
+  return std::max(kEdgeOverRadius * sphere_radius(volume),
+                  kLeastEdgeInVoxels * image.voxel.minCoeff());
+}
+
+void check_uneven(const LabelImage& image, std::vector<std::string>& warnings) {
+  constexpr double kMostAspectRatio = 4;
+  const double ratio = image.voxel.maxCoeff() / image.voxel.minCoeff();
+  if (ratio <= kMostAspectRatio) return;
+  warnings.push_back(
+      fmt::format("voxels of {:.3g} x {:.3g} x {:.3g} um are {:.2g} times as long as wide: shapes "
+                  "along the long side are guesses between slices",
+                  image.voxel[0], image.voxel[1], image.voxel[2], ratio));
+}
+
+/// Moves the vessels from the image of the cells into an image of their own, with label 1.
+LabelImage take_vessels(const ImportOptions& o, LabelImage& cells,
+                        std::vector<std::string>& warnings) {
+  LabelImage vessels = cells;
+  std::ranges::fill(vessels.label, 0);
+  if (!o.vessels.empty()) {
+    ReadImage read = o.read;
+    read.voxel = cells.voxel;
+    read.unit = 0;
+    read.second = true;
+    const LabelImage other = read_image(o.vessels, read, &warnings);
+    check(other.size == cells.size,
+          fmt::format("{}: {} x {} x {} voxels, but {} has {} x {} x {}. Both must show the same.",
+                      o.vessels, other.size[0], other.size[1], other.size[2], o.image,
+                      cells.size[0], cells.size[1], cells.size[2]));
+    for (std::size_t k = 0; k < other.label.size(); ++k) vessels.label[k] = other.label[k] != 0;
+  }
+  std::size_t both = 0, any = 0;
+  for (std::size_t k = 0; k < cells.label.size(); ++k) {
+    const bool named = o.vessel_label != 0 && cells.label[k] == o.vessel_label;
+    if (named) vessels.label[k] = 1;
+    any += vessels.label[k];
+    if (vessels.label[k] == 0 || cells.label[k] == 0) continue;
+    both += named ? 0 : 1;
+    cells.label[k] = 0;
+  }
+  if (both > 0)
+    warnings.push_back(
+        fmt::format("{} voxels belong to a cell and to a vessel: vessels have them", both));
+  check(any > 0 || (o.vessels.empty() && o.vessel_label == 0),
+        fmt::format("{}: no voxel is {}.", o.vessels.empty() ? o.image : o.vessels,
+                    o.vessels.empty() ? fmt::format("labelled {}", o.vessel_label) : "not 0"));
+  return vessels;
+}
+
+/// Refuses images whose labels overflowed 8 bits: many labels then consist of several large pieces.
+void check_overflow(const ImportOptions& o, const LabelImage& image, const Pieces& pieces) {
+  constexpr double kLargePart = 0.3, kMostRepeated = 0.1;
+  std::size_t labels = 0, twice = 0;
+  Label first = 0;
+  for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+    const Piece& p = pieces.piece[k];
+    if (k > 0 && pieces.piece[k - 1].label == p.label) continue;
+    ++labels;
+    const bool large = k + 1 < pieces.piece.size() && pieces.piece[k + 1].label == p.label &&
+                       static_cast<double>(pieces.piece[k + 1].n_voxel) >
+                           kLargePart * static_cast<double>(p.n_voxel);
+    if (large && twice++ == 0) first = p.label;
+  }
+  const bool many = static_cast<double>(twice) > kMostRepeated * static_cast<double>(labels);
+  check(!many || o.split,
+        fmt::format(
+            "{}: {} of {} labels are in several large pieces, label {} first{}. Give --split to "
+            "make every piece a cell, or label the cells anew.",
+            o.image, twice, labels, first,
+            image.most_label <= 255
+                ? ": its type counts to 255 only, and there are probably more cells than that"
+                : ""));
+}
+
+/// Selection of the pieces that become cells; all others are erased from the image.
+class Sorting {
+ public:
+  Sorting(const ImportOptions& o, LabelImage& image, ImportedTissue& tissue)
+      : o_(o), image_(image), tissue_(tissue) {}
+
+  /// Selects pieces and erases the rest.
+  /// @return the pieces to keep, each the only one of its label
+  std::vector<Piece> run() {
+    Pieces pieces = find_pieces(image_);
+    check(!pieces.piece.empty(),
+          fmt::format("{}: all voxels are 0, the background. Is this the label image?", o_.image));
+    check_overflow(o_, image_, pieces);
+    const double smallest = o_.smallest > 0 ? o_.smallest : 0.1 * median_volume(pieces);
+    std::vector<Piece> kept;
+    std::vector<char> keep(pieces.piece.size(), 0);
+    for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+      Piece& p = pieces.piece[k];
+      const std::string why = reason(pieces, k, smallest);
+      if (!why.empty()) {
+        tissue_.left_out.push_back({p.label, p.n_voxel, p.center, why});
+        continue;
+      }
+      keep[k] = 1;
+      kept.push_back(p);
+    }
+    warn_of_giant(kept);
+    if (o_.split) number_anew(pieces, keep, kept);
+    for (const PieceRow& row : pieces.row)
+      if (keep[row.piece] == 0)
+        std::fill_n(&image_.label[image_.index(row.first)], row.length, Label{0});
+    return kept;
+  }
+
+ private:
+  double volume(const Piece& p) const {
+    return static_cast<double>(p.n_voxel) * image_.voxel_volume();
+  }
+  /// Median volume of the pieces by voxels, um^3. Weighting by voxels excludes specks; a piece
+  /// larger than all others together is left out.
+  double median_volume(const Pieces& pieces) const {
+    std::vector<double> all;
+    for (const Piece& p : pieces.piece) all.push_back(volume(p));
+    std::ranges::sort(all, std::greater());
+    double total = 0, sum = 0;
+    for (const double v : all) total += v;
+    if (all.size() > 2 && 2 * all.front() > total) {
+      total -= all.front();
+      all.erase(all.begin());
+    }
+    for (const double v : all)  // half of all voxels are in pieces at least as large
+      if ((sum += v) >= 0.5 * total) return v;
+    return all.back();
+  }
+  std::string reason(const Pieces& pieces, std::size_t k, double smallest) const {
+    constexpr std::size_t kLeastVoxels = 27;
+    const Piece& p = pieces.piece[k];
+    const bool main = k == 0 || pieces.piece[k - 1].label != p.label;
+    if (!main && !o_.split)
+      return "a part of its label that does not hang together with the largest";
+    if (p.n_voxel < kLeastVoxels) return fmt::format("a speck: fewer than {} voxels", kLeastVoxels);
+    if (volume(p) < smallest) return fmt::format("a speck: smaller than {:.3g} um^3", smallest);
+    if (p.at_border && !o_.keep_border) return "cut off by the border of the image";
+    return {};
+  }
+  /// Warns of a piece with many times the median volume: probably a background that does not
+  /// enclose the image.
+  void warn_of_giant(const std::vector<Piece>& kept) {
+    constexpr double kGiantRatio = 50;
+    std::vector<double> all;
+    for (const Piece& p : kept) all.push_back(volume(p));
+    if (all.size() < 3) return;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::ranges::nth_element(all, middle);
+    for (const Piece& p : kept)
+      if (volume(p) > kGiantRatio * *middle)
+        tissue_.warnings.push_back(
+            fmt::format("label {} has {:.0f} times the volume of the cell in the middle: if it is "
+                        "the background, give --background {}",
+                        p.label, volume(p) / *middle, p.label));
+  }
+  /// Gives every piece of a label but the largest a label of its own.
+  void number_anew(const Pieces& pieces, const std::vector<char>& keep, std::vector<Piece>& kept) {
+    Label next = pieces.piece.back().label;
+    std::vector<Label> label(pieces.piece.size());
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+      const bool main = k == 0 || pieces.piece[k - 1].label != pieces.piece[k].label;
+      label[k] = main ? pieces.piece[k].label : ++next;
+      if (keep[k] != 0) kept[at++].label = label[k];
+    }
+    for (const PieceRow& row : pieces.row)
+      std::fill_n(&image_.label[image_.index(row.first)], row.length, label[row.piece]);
+    std::ranges::sort(kept, {}, &Piece::label);
+  }
+
+  const ImportOptions& o_;
+  LabelImage& image_;
+  ImportedTissue& tissue_;
+};
+
+/// Triangulates the surface of a piece, with stronger smoothing where it has handles at first.
+/// @return cause of failure, empty on success
+std::string make_surface(const LabelImage& image, const Piece& piece, double smoothing,
+                         geometry::Surface& surface) {
+  constexpr std::array<double, 3> kSmoothingFactors{1, 1.6, 2.5};
+  constexpr double kMostLostVolume = 0.1;
+  std::string why;
+  for (const double more : kSmoothingFactors) {
+    try {
+      LabelSurface made =
+          make_label_surface(image, piece, edge_for(image, piece), more * smoothing);
+      if (made.handles > 0) {
+        why = "it has a hole through it";
+        continue;
+      }
+      if (made.left_out > kMostLostVolume * made.volume)
+        return "its parts hang together by a few voxels only";
+      surface = std::move(made.surface);
+      return {};
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+  return why;
+}
+
+void add_cells(const ImportOptions& o, const LabelImage& image, const std::vector<Piece>& pieces,
+               ImportedTissue& tissue) {
+  std::vector<ImportedCell> cell(pieces.size());
+  std::vector<std::string> why(pieces.size());
+  for_each_part(pieces.size(), [&](std::size_t k) {
+    const Piece& p = pieces[k];
+    cell[k].label = p.label;
+    cell[k].n_voxel = p.n_voxel;
+    cell[k].volume = static_cast<double>(p.n_voxel) * image.voxel_volume();
+    cell[k].center = p.center;
+    cell[k].at_border = p.at_border;
+    why[k] = make_surface(image, p, o.smoothing, cell[k].surface);
+  });
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (why[k].empty())
+      tissue.cell.push_back(std::move(cell[k]));
+    else
+      tissue.left_out.push_back({cell[k].label, cell[k].n_voxel, cell[k].center, why[k]});
+  }
+}
+
+/// Counts the neighbours of every cell in the image and marks the cells that touch vessels.
+void add_neighbours(const LabelImage& image, const LabelImage& vessels, ImportedTissue& tissue) {
+  constexpr int kLeastFaces = 4;  // of voxels: fewer are chance
+  const Label vessel = [&] {
+    Label most = 0;
+    for (const ImportedCell& c : tissue.cell) most = std::max(most, c.label);
+    return most + 1;
+  }();
+  LabelImage both = image;
+  for (std::size_t k = 0; k < both.label.size(); ++k)
+    if (vessels.label[k] != 0) both.label[k] = vessel;
+  std::map<Label, ImportedCell*> by_label;
+  for (ImportedCell& c : tissue.cell) by_label[c.label] = &c;
+  for (const auto& [a, b] : find_touching(both, kLeastFaces)) {
+    const auto p = by_label.find(a), q = by_label.find(b);
+    if (p == by_label.end()) continue;
+    if (b == vessel) p->second->at_vessel = true;
+    if (q == by_label.end()) continue;
+    ++p->second->neighbours;
+    ++q->second->neighbours;
+    tissue.touching.push_back({a, b});
+  }
+}
+
+void add_vessels(const ImportOptions& o, const LabelImage& vessels, ImportedTissue& tissue) {
+  Pieces pieces = find_pieces(vessels);
+  LabelImage numbered = vessels;
+  constexpr std::size_t kLeastVoxels = 27;
+  constexpr double kVesselSmoothing = 1.5, kVesselEdge = 1.5;
+  for (const PieceRow& row : pieces.row)
+    std::fill_n(&numbered.label[numbered.index(row.first)], row.length,
+                static_cast<Label>(row.piece) + 1);
+  std::size_t specks = 0;
+  for (std::size_t k = 0; k < pieces.piece.size(); ++k) {
+    Piece p = pieces.piece[k];
+    p.label = static_cast<Label>(k) + 1;
+    if (p.n_voxel < kLeastVoxels) {
+      ++specks;
+      continue;
+    }
+    // A network is thin where a cell of its volume is not; walls with the steps of voxels are
+    // rough.
+    const double edge = kVesselEdge * numbered.voxel.maxCoeff();
+    LabelSurface made = make_label_surface(numbered, p, edge, kVesselSmoothing * o.smoothing);
+    tissue.vessel.push_back(std::move(made.surface));
+  }
+  if (specks > 0)
+    tissue.warnings.push_back(fmt::format(
+        "{} specks of vessels with fewer than {} voxels are left out", specks, kLeastVoxels));
+}
+
+[[noreturn]] void fail_empty(const ImportOptions& o, const std::vector<LeftOut>& left_out) {
+  const LeftOut& first = left_out.front();  // there was a label, see Sorting
+  throw Error(fmt::format(
+      "{}: none of its {} labels can be kept; the first: label {}, {} voxels near ({:.4g}, {:.4g}, "
+      "{:.4g}) um: {}.{}",
+      o.image, left_out.size(), first.label, first.n_voxel, first.center[0], first.center[1],
+      first.center[2], first.why,
+      o.keep_border ? "" : " --border keep keeps cells that the border cuts off."));
+}
+
+}  // namespace
+
+ImportedTissue import_image(const ImportOptions& o) {
+  ImportedTissue tissue;
+  LabelImage image = read_image(o.image, o.read, &tissue.warnings);
+  clear_background(o, image);
+  tissue.size = image.size;
+  tissue.voxel = image.voxel;
+  check_uneven(image, tissue.warnings);
+  const LabelImage vessels = take_vessels(o, image, tissue.warnings);
+  const std::vector<Piece> pieces = Sorting(o, image, tissue).run();
+  add_cells(o, image, pieces, tissue);
+  std::ranges::stable_sort(tissue.left_out, [](const LeftOut& a, const LeftOut& b) {
+    return a.label != b.label ? a.label < b.label : a.n_voxel > b.n_voxel;
+  });
+  if (tissue.cell.empty()) fail_empty(o, tissue.left_out);
+  add_neighbours(image, vessels, tissue);
+  add_vessels(o, vessels, tissue);
+  return tissue;
+}
+
+}  // namespace acinus::imaging

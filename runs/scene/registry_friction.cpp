@@ -1,0 +1,85 @@
+#include "runs/scene/registry_blocks.hpp"
+
+namespace acinus::runs {
+namespace {
+
+void describe_friction_of_contacts(Visitor& v, Scene& s) {
+  FrictionBlock& b = s.friction;
+  v.real({.name = "dcm_dcm",
+          .meaning = "friction between two DCM cells, per contact area",
+          .dimension = kFrictionPerArea,
+          .unit = "N s/m^3",
+          .range = kNotNegative,
+          .symbol = "gamma_ext+"},
+         s.contact.cell_friction);
+  v.real({.name = "cbm_cbm",
+          .meaning = "friction between two CBM cells, per contact area",
+          .dimension = kFrictionPerArea,
+          .unit = "N s/m^3",
+          .range = kNotNegative,
+          .symbol = "gamma_ext+",
+          .compared = false},
+         b.cbm_cbm);
+  v.optional_real({.name = "dcm_cbm",
+                   .meaning = "friction between a DCM and a CBM cell",
+                   .dimension = kFrictionPerArea,
+                   .unit = "N s/m^3",
+                   .range = kNotNegative,
+                   .automatic = "harmonic mean of dcm_dcm and cbm_cbm",
+                   .compared = false},
+                  b.dcm_cbm);
+  v.optional_real({.name = "dcm_vessel",
+                   .meaning = "friction of a DCM cell with a vessel, or a wall that is no mirror",
+                   .dimension = kFrictionPerArea,
+                   .unit = "N s/m^3",
+                   .range = kNotNegative,
+                   .automatic = "the type's dcm.ecm_friction"},
+                  b.dcm_vessel);
+  v.optional_real({.name = "cbm_vessel",
+                   .meaning = "friction of a CBM cell with a vessel, or a wall that is no mirror",
+                   .dimension = kFrictionPerArea,
+                   .unit = "N s/m^3",
+                   .range = kNotNegative,
+                   .automatic = "the type's cbm.ecm_friction",
+                   .compared = false},
+                  b.cbm_vessel);
+}
+
+}  // namespace
+
+void describe_friction(Visitor& v, Scene& s) {
+  describe_friction_of_contacts(v, s);
+  choice(v,
+         {.name = "form",
+          .meaning = "between what dcm_dcm acts: facing points of two surfaces, or each node of a "
+                     "triangle with each node of the one it touches, which also holds back "
+                     "surfaces that stretch together, the more the coarser the mesh"},
+         s.contact.friction_form);
+  v.real({.name = "range",
+          .meaning = "gap over which friction between DCM surfaces fades out",
+          .dimension = kLength,
+          .unit = "um",
+          .range = kPositive},
+         s.contact.friction_range);
+  choice(v,
+         {.name = "medium",
+          .meaning = "what surrounds the cells: matrix, or liquid (Stokes drag)",
+          .choices = "ecm|liquid"},
+         s.friction.liquid);
+  v.real({.name = "viscosity",
+          .meaning = "viscosity of the liquid",
+          .dimension = kViscosity,
+          .unit = "Pa s",
+          .range = kPositive,
+          .symbol = "eta"},
+         s.friction.viscosity);
+  choice(v,
+         {.name = "medium_area",
+          .meaning = "part of a cell's surface that feels the medium. free: what touches no other "
+                     "cell or surface, so that areas add up to the surface; whole: all of it, as "
+                     "in the paper, for a matrix that pervades the tissue",
+          .choices = "free|whole"},
+         s.contact.whole_medium_area);
+}
+
+}  // namespace acinus::runs
