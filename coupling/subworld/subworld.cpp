@@ -25,7 +25,7 @@ Box box_of(const State& s, std::size_t lane) {
 
 Ramp frozen(const Ramp& r, double time) { return Ramp::constant(r.at(time)); }
 
-/// Whether a workspace made for one of two states serves the other.
+/// True if a workspace made for one of two states serves the other.
 bool have_same_cells(const State& a, const State& b) {
   return a.dcm.lineage == b.dcm.lineage && a.cbm.lineage == b.cbm.lineage &&
          std::ranges::equal(a.dcm.group, b.dcm.group, [](const dcm::Group& g, const dcm::Group& h) {

@@ -24,7 +24,7 @@
 
 namespace acinus::coupling {
 
-/// Where a run stands. Start-up brings small seeds to size and rest; then comes t = 0.
+/// Phase of a run. Start-up brings small seeds to size and rest; then comes t = 0.
 enum class Phase : std::int64_t { kGrow, kAdhere, kSettle, kRun };
 
 struct StartUp {
@@ -36,7 +36,7 @@ struct StartUp {
   double pressure_tolerance = 0.01 / 3600;  ///< 1/s, relative
 };
 
-/// Which cells lead; see leaders.hpp.
+/// Rules by which leaders are chosen; see leaders.hpp.
 enum class Leaders {
   kForemost,  ///< cells with no other nearer the vein within one diameter in arc and height
   kFront,     ///< cells with a clear straight way to the vein
@@ -163,12 +163,12 @@ inline std::size_t count_unknowns(const State& s) {
   return s.dcm.position.size() + s.cbm.position.size() + s.tree.n_row() * kPointStride;
 }
 
-/// Whether `last_move` is a step of the rows there are now: not before the first step.
+/// True if `last_move` is a step of the rows there are now: not before the first step.
 inline bool has_last_move(const State& s) {
   return s.clock.last_step > 0 && s.last_move.size() == count_unknowns(s);
 }
 
-/// How the work of a step is shared among processes (sharing.hpp).
+/// Partition of the work of a step among processes (sharing.hpp).
 enum class Sharing {
   kBalanced,
   kRandom  ///< any block to anyone, even few: to test that nothing depends on it
@@ -192,9 +192,9 @@ struct Controls {
 };
 Controls controls_at(const Clock& clock, const StartUp& start_up);
 
-/// Where the CBM rows start.
+/// First CBM row.
 inline std::size_t cbm_first_row(const State& s) { return s.dcm.n_row(); }
-/// Where those of the vessels start; kAtRest if they have none.
+/// First row of the vessels; kAtRest if they have none.
 inline std::size_t tree_first_row(const State& s) {
   return s.tree.node.empty() ? contact::kAtRest : s.dcm.n_row() + s.cbm.n_row();
 }
@@ -207,7 +207,7 @@ std::vector<std::uint8_t> active_lanes(const State& state);
 std::vector<double> gather_positions(const State& state);
 void gather_positions(const State& state, std::vector<double>& out);
 
-/// Where the coordinates of a point of a cell among all unknowns are kept, kLanes apart.
+/// Coordinates of a point of a cell among all unknowns, kLanes apart.
 double* position_of(State& state, Address point);
 const double* position_of(const State& state, Address point);
 

@@ -1,4 +1,4 @@
-/// What experiments on single cells measure, on worlds whose numbers are known.
+/// Measures of experiments on single cells, on worlds whose numbers are known.
 
 #include <gtest/gtest.h>
 
