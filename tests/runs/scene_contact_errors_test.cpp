@@ -44,8 +44,9 @@ TEST(SceneContactErrors, MaugisDugdaleIsForDeformableCellsAlone) {
             start +
                 "is for cells that do not divide. Remove /cell_types/hepatocyte/cycle, or "
                 "choose \"cohesive\"");
-  EXPECT_CONTAINS(failure(with_block(R"("contact": {"h0": "20 nm"})")),
-                  R"(/contact/h0 = "20 nm": is used only with law = maugis-dugdale. Remove it)");
+  EXPECT_EQ(failure(with_block(R"("contact": {"h0": "20 nm"})")),
+            R"(scene.json:1:21 /contact/h0 = "20 nm": is used only with law = maugis-dugdale. )"
+            "Remove it");
 }
 
 TEST(SceneVesselErrors, FlexibleVesselsNeedWhatTheyGoWith) {
